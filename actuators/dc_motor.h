@@ -1,4 +1,4 @@
-// Actuator `dc_motor`: core/laws/dc_motor.h by the constants of motor and gear.
+// Actuator `dc_motor`, which applies core/laws/dc_motor.h with the constants of motor and gear.
 #pragma once
 #include "actuators/motor_bank.h"
 #include "actuators/rating_keys.h"

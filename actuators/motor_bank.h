@@ -1,4 +1,4 @@
-// The law of core/laws/dc_motor.h for every joint and lane: the common part of actuators, which differ in their settings only.
+// Base class of actuators that apply core/laws/dc_motor.h to every joint and lane, and differ only in their settings.
 #pragma once
 #include "core/laws/dc_motor.h"
 #include "core/plugin/actuator.h"
@@ -17,7 +17,7 @@ class MotorBank : public Actuator {
   [[nodiscard]] const DcMotor* dc_motors() const override { return motors_.data(); }
 
  protected:
-  /// Adds the next motor, in the order joint * lanes + lane. `inertia`: of its rotor, kg m^2.
+  /// Adds the next motor, in the order joint * lanes + lane. `inertia` is that of the rotor before the gear, kg m^2.
   void add(const DcMotor& motor, double inertia, const DriveRatings& ratings);
 
  private:

@@ -1,10 +1,10 @@
-// Data-sheet ratings of a drive: settings common to all motors with a data sheet.
+// Data-sheet ratings of a drive, as settings that all motors with a data sheet have.
 #pragma once
 #include "core/plugin/actuator.h"
 
 namespace gaitlab::actuators {
 
-/// Part of a motor's Settings; 0: not stated.
+/// Part of a motor's Settings. A rating of 0 is not stated.
 struct RatingKeys {
   PerJoint i_continuous, gear_torque_peak, gear_torque_continuous, speed_max;
   void fields(Fields& f);

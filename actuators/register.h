@@ -1,4 +1,4 @@
-// The actuators built in.
+// Registration of the built-in actuators.
 #pragma once
 #include "core/plugin/registry.h"
 

@@ -8,13 +8,13 @@ namespace gaitlab::actuators {
 
 namespace {
 
-constexpr double kUsualEfficiency = 0.7;            // chosen: that of dc_motor
-constexpr double kLeastEfficiency = 0.01;           // chosen: far below any motor with its gear
-constexpr double kRounding = 1e-9;                  // for a data sheet whose numbers give an efficiency of exactly 1
-constexpr double kKgfCm = 0.0980665;                // N m
-constexpr double kRevPerMin = 0.10471975511965977;  // rad/s
+constexpr double kUsualEfficiency = 0.7;            // chosen, equal to that of dc_motor
+constexpr double kLeastEfficiency = 0.01;           // chosen, far below any motor with its gear
+constexpr double kRounding = 1e-9;                  // tolerance for a data sheet whose numbers give an efficiency of exactly 1
+constexpr double kKgfCm = 0.0980665;                // N m per kgf cm
+constexpr double kRevPerMin = 0.10471975511965977;  // rad/s per rev/min
 
-/// Calls `make(joint)` for every joint that differs from others in one of the values.
+/// Values of `make(joint)` for every joint; only one call if all given values are equal for all joints.
 template <class Make>
 PerJoint of_each(std::initializer_list<const PerJoint*> values, Make make) {
   PerJoint made;
@@ -117,7 +117,7 @@ DcMotor ServoActuator::Settings::motor(std::size_t joint) const {
                                              : T0 / ((efficiency[joint] > 0 ? efficiency[joint] : kUsualEfficiency) * k);
   const double R = V / I0;
   const double u = u_max[joint] > 0 ? u_max[joint] : V;
-  // At rest under u the current is u / R, the same bits: a joint at stall is not beyond its limit.
+  // At rest with voltage u, the current is u / R bit for bit, so that a joint at stall is not beyond its limit.
   const double i = i_max[joint] > 0 ? i_max[joint] : u / R;
   return {R, k, k, 1.0, std::min(1.0, T0 / (I0 * k)), u, i};
 }

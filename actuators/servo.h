@@ -1,4 +1,4 @@
-// Actuator `servo`: core/laws/dc_motor.h by the data sheet of a servo.
+// Actuator `servo`, which applies core/laws/dc_motor.h with the numbers of a servo's data sheet.
 #pragma once
 #include "actuators/motor_bank.h"
 #include "actuators/rating_keys.h"
@@ -9,16 +9,16 @@ namespace gaitlab::actuators {
 class ServoActuator final : public MotorBank {
  public:
   struct Settings : RatingKeys {
-    PerJoint voltage, stall_torque, no_load_speed;  ///< V, N m, rad/s; 0: not given
-    PerJoint stall_current, efficiency;             ///< A, 1; 0: not stated
-    PerJoint u_max, i_max;                          ///< V, A; 0: not stated, then motor() derives them
+    PerJoint voltage, stall_torque, no_load_speed;  ///< V, N m, rad/s; 0 if not given
+    PerJoint stall_current, efficiency;             ///< A, 1; 0 if not stated
+    PerJoint u_max, i_max;                          ///< V, A; 0 if not stated: motor() then derives the values
     PerJoint rotor_inertia;                         ///< kg m^2 at the joint
     void fields(Fields& f);
-    /// The motor of a joint; without torque if numbers are not given.
+    /// The motor of a joint. It has no torque if the necessary numbers are not given.
     [[nodiscard]] DcMotor motor(std::size_t joint) const;
 
    private:
-    /// Reports errors in the numbers of a joint, with the key; false: there is one.
+    /// Reports errors in the numbers of a joint at their keys. Returns false if there is an error.
     bool check(Fields& f, std::size_t joint, bool alone) const;
   };
   static const char* const kManual;

@@ -14,22 +14,22 @@
 
 namespace gaitlab::app {
 
-/// Catalog of everything built in and of these plugin libraries.
+/// Catalog of all built-in engines, actuators, controllers and CPGs, and of the given plugin libraries.
 Catalog standard_catalog(const std::vector<std::string>& plugins = {});
 
-/// Plugins allowed by the command line among those named by scenarios and recorded runs, for commands that may read files from
-/// unknown sources.
+/// Plugins that the command line allows a scenario or a recorded run to load. Used by commands that may read files from unknown
+/// sources.
 struct PluginArguments {
-  bool from_scenario = false;      ///< all plugins
-  std::vector<std::string> files;  ///< these plugins
+  bool from_scenario = false;      ///< true: all plugins that the scenario names are allowed
+  std::vector<std::string> files;  ///< plugin libraries that are allowed in any case
 };
-/// Catalog of everything built in, which loads only allowed libraries of a scenario. Throws InputError for a file that does not
-/// exist.
+/// Catalog of everything built in, which loads only the allowed plugin libraries of a scenario. Throws InputError if one of
+/// `allowed.files` does not exist.
 Catalog careful_catalog(const PluginArguments& allowed);
 /// The command line as typed, for messages.
 std::string& typed();
 
-/// Module types or robots (`kind`: module, robot) shipped with the program: name -> file.
+/// Module types (`kind`: module) or robots (`kind`: robot) that are shipped with the program, as a map from name to file.
 std::map<std::string, std::string> shipped_files(const std::string& kind);
 
 /// Arguments of every command that reads a scenario.
@@ -40,42 +40,43 @@ struct ScenarioArguments {
   bool quiet = false;
 };
 
-/// Reads the scenario with --set and --seed applied; prints its notes on stderr unless quiet.
+/// Reads the scenario and applies --set and --seed. Prints the notes of the reader on stderr unless quiet.
 Scenario read(const ScenarioArguments& arguments, Catalog& catalog);
-/// Prints on stderr the checks that do not pass and have a remedy, at the place of the setting, and numbers that are not
-/// finite.
+/// Prints on stderr each check that does not pass and has a remedy, at the place of the setting to change. Also prints the
+/// numbers of the run that are not finite.
 void warn_of_run(const Scenario& scenario, const Recording& recording, const report::Verdict& verdict);
 /// Prints a warning on stderr if part of the robot starts below the ground.
 void warn_of_start(const Scenario& scenario, bool quiet);
 
 /// Extent of a printed summary.
 struct SummaryOptions {
-  bool verbose = false;          ///< also the energy ledger and the step's limit
-  bool joints = false;           ///< a row per joint
+  bool verbose = false;          ///< also print the energy ledger and what limits the step
+  bool joints = false;           ///< also print a row for each joint
   bool fail_infeasible = false;  ///< exit code 3 for an infeasible verdict, 1 for a failed run
-  bool demand = false;           ///< also run the demand twin (report/verdict/demand.h)
+  bool demand = false;           ///< also run the demand twin, with 20 times the motor limits (report/verdict/demand.h)
 };
 
 struct RunArguments : ScenarioArguments {
   std::optional<std::string> out;
   std::string format = "h5";
-  bool no_page = false;  ///< without report.html
+  bool no_page = false;  ///< do not write report.html
   SummaryOptions shown;
-  std::vector<std::string> joints;  ///< names, in the figure; empty: those of the scenario
+  std::vector<std::string> joints;  ///< names of the joints in the figure; if empty, those that the scenario chooses
 };
-/// Runs a scenario: writes the run folder and prints the summary; returns the exit code.
+/// Runs a scenario, writes the run folder and prints the summary. Returns the exit code.
 int run(const Scenario& scenario, const RunArguments& arguments);
 
-/// Prints the summary of a run, the verdict first.
+/// Prints the summary of a run; the verdict is its first line.
 void print_summary(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
                    const report::Verdict& verdict, const SummaryOptions& shown);
-/// Verdict on a run, on request with the results of its demand twin, which is simulated.
+/// Verdict on a run. With `shown.demand` the demand twin is simulated too, and its results are added.
 report::Verdict judged(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
                        const report::Overlaps& overlaps, const SummaryOptions& shown);
-/// Exit code: on request 3 for an infeasible verdict and 1 for a failed run; else 0, also for a run that was not judged.
+/// Exit code of a run. With `shown.fail_infeasible` it is 3 for an infeasible verdict and 1 for a failed run; otherwise it is
+/// 0, also for a run that was not judged.
 int exit_code(const report::Verdict& verdict, const SummaryOptions& shown);
 
-/// `version, build id, Bullet version and precision`
+/// Text `version, build id, Bullet version and precision` of --version.
 std::string version();
 
 }  // namespace gaitlab::app

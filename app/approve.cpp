@@ -1,4 +1,4 @@
-// Approval of a scenario's present run: prints the changes, makes or keeps the bands, writes the golden.
+// `gaitlab approve`, which prints the changes of a run, makes or keeps the bands, and writes the golden.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -32,16 +32,16 @@ namespace {
 struct ApproveArguments {
   std::string file;
   std::optional<std::string> reason;
-  bool calibrate = false;  ///< make new bands; done anyway without a golden, and for a run outside its bands
-  bool replace = false;    ///< begin a new history, ignoring any existing golden
+  bool calibrate = false;  ///< true: make new bands; this is also done without a golden, and for a run outside its bands
+  bool replace = false;    ///< true: begin a new history and ignore an existing golden
   int jobs = 1;            ///< threads
 };
 
 namespace fs = std::filesystem;
 
-constexpr int kEnsemble = 4;  // runs
+constexpr int kEnsemble = 4;  // number of runs from which bands are made
 
-/// Reason of the approval; blank if there is none, or if it is an option that was meant to follow.
+/// Reason of the approval. Empty if there is none, or if the word is an option that was meant to follow --reason.
 std::string reason(const ApproveArguments& arguments) {
   std::string text = arguments.reason.value_or("");
   return text.starts_with("--") || text.find_first_not_of(" \t\r\n") == std::string::npos ? "" : text;
@@ -56,7 +56,7 @@ InputError no_reason(const ApproveArguments& arguments) {
                                                             : "empty")};
 }
 
-/// Checks before minutes of runs that the golden can be written to its place.
+/// Checks that the golden can be written at `folder`. It is called before the runs, which take minutes.
 void check_target(const fs::path& folder) {
   const fs::file_type kind = kind_of(folder);
   if (kind == fs::file_type::directory || kind == fs::file_type::not_found) {
@@ -68,7 +68,8 @@ void check_target(const fs::path& folder) {
   throw InputError(SourceLocation{folder.string()}, "is not a folder, and a golden is one; move it away");
 }
 
-/// The existing golden, unless it is to be replaced. (Remains of a killed first approval do not count.)
+/// The existing golden, or nothing if it is missing or is to be replaced. Files that a killed first approval has left are
+/// ignored.
 std::optional<Golden> golden_before(const fs::path& folder, bool replace) {
   const auto there = [&](const char* file) { return kind_of(folder / file) != fs::file_type::not_found; };
   if (replace || (!there("golden.json") && !there("trace.golden"))) return {};
@@ -81,10 +82,10 @@ std::optional<Golden> golden_before(const fs::path& folder, bool replace) {
   }
 }
 
-/// `m7/passive torque`
+/// Name of a column in messages, for example `m7/passive torque`.
 std::string label(const GoldenRun& run, const std::string& column) { return readable_column(column, {run.joints, {}}); }
 
-/// A golden holds finite numbers only.
+/// Throws if the trace of a run contains a number that is not finite, which a golden cannot store.
 void check_finite(const GoldenRun& run, const std::string& which) {
   const Trace& trace = run.trace;
   for (std::size_t at = 0; at < trace.values.size(); ++at) {
@@ -99,7 +100,7 @@ void check_finite(const GoldenRun& run, const std::string& which) {
   }
 }
 
-/// Runs the scenarios; nothing is written if one of them fails. `names` are for messages.
+/// Runs the scenarios. Throws if one of them fails, before anything is written. `names` are the names of the runs in messages.
 std::vector<GoldenRun> simulate(const std::vector<Scenario>& scenarios, const std::vector<std::string>& names, int jobs,
                                 bool judged = false) {
   std::vector<GoldenRun> runs;
@@ -130,7 +131,7 @@ struct Calibration {
   GoldenRun halved;
 };
 
-/// Bands from an ensemble of starts and from half the step.
+/// Bands made from runs with several initial states and from a run with half the step.
 Calibration bands_around(const GoldenRun& base, const Scenario& scenario, int jobs) {
   std::vector<Scenario> scenarios;
   std::vector<std::string> names;
@@ -146,7 +147,7 @@ Calibration bands_around(const GoldenRun& base, const Scenario& scenario, int jo
   return {std::move(bands), std::move(runs.back())};
 }
 
-/// Refuses bands so wide that they would not detect a changed motor.
+/// Throws if a band is so wide that it would not detect a changed motor.
 void check_widest(const Calibration& made, const Scenario& scenario, int jobs) {
   const std::vector<Band>& bands = made.bands.columns;
   const std::size_t widest = widest_of(bands);
@@ -159,7 +160,7 @@ void check_widest(const Calibration& made, const Scenario& scenario, int jobs) {
                                percent(kWidestColumn), parts(bands[widest]), remedy));
 }
 
-/// Prints the changes that a person should see before the run becomes the reference.
+/// Prints the changes that the user should see before the run becomes the reference.
 void show_change(const Golden& before, const GoldenProvenance& now, const GoldenRun& run, const GoldenDifference& change) {
   const std::string text =
       origin_changes(before.origin, now, kAllSettings) + verdict_change(before, run) + differences(change, Shown::changed);
@@ -167,7 +168,7 @@ void show_change(const Golden& before, const GoldenProvenance& now, const Golden
   fmt::print("{}", text.empty() ? "  nothing has changed\n" : text);
 }
 
-/// Whether the bands can be kept: a gait outside its bands needs new ones.
+/// True if the bands can be kept: the run is within its bands, and the golden contains equally many numbers.
 bool can_keep(const Golden& before, const GoldenDifference& change, const Golden& now) {
   return change.passed() && before.numbers.size() == now.numbers.size();
 }
@@ -199,7 +200,7 @@ void check_law(const Scenario& scenario) {
                                contact.text));
 }
 
-/// A golden of this run, without bands and history.
+/// Golden of this run, still without bands and history.
 Golden golden_of(const GoldenRun& base, const Scenario& scenario, const fs::path& folder) {
   Golden golden;
   golden.origin = golden_origin(scenario);

@@ -1,4 +1,4 @@
-// Summary of available modules, robots, plugins and engines: one line per kind.
+// Catalog of the program: engines, actuators, controllers, CPGs and plugin libraries.
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -24,7 +24,7 @@ Catalog standard_catalog(const std::vector<std::string>& plugins) {
 }
 
 Catalog careful_catalog(const PluginArguments& allowed) {
-  constexpr std::size_t kLongest = 200;  // bytes of a command line in a message
+  constexpr std::size_t kLongest = 200;  // bytes of the longest command line that a message repeats
   PluginTrust trust{.all = allowed.from_scenario};
   for (const std::string& file : allowed.files) {
     std::error_code failure;

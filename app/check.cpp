@@ -22,8 +22,8 @@ namespace {
 
 std::string_view plugin_name(const PluginSelection& choice) { return choice.entry == nullptr ? "none" : choice.entry->name; }
 
-/// Makes the simulation, which checks the columns, the step and the memory. The error for a long run also contains its
-/// duration.
+/// Makes the simulation, which checks the trace columns, the step and the memory. An error message about a long run also states
+/// its estimated duration.
 std::unique_ptr<Simulation> made(const Scenario& s, const RunTime& time) try {
   return std::make_unique<Simulation>(std::span<const Scenario>(&s, 1));
 } catch (const InputError& error) {
@@ -33,7 +33,7 @@ std::unique_ptr<Simulation> made(const Scenario& s, const RunTime& time) try {
 }
 
 struct CheckArguments : ScenarioArguments {
-  std::optional<std::string> page;  ///< file for a page of the robot in its initial pose
+  std::optional<std::string> page;  ///< file for a page that shows the robot in its initial pose
   PluginArguments plugins;
 };
 
@@ -44,12 +44,12 @@ void write_page(const Scenario& s, const std::string& file) {
   write_file(file, report::page(report::page_data(s, start, report::summarise(s, start, 0), verdict)), Existing::refused);
 }
 
-constexpr double kLittleCreep = 0.001;  // m/s (docs/modules.md, wheels)
+constexpr double kLittleCreep = 0.001;  // m/s, slip speed with little creep (docs/modules.md, wheels)
 
-/// Rounds to two decimals, without -0.
+/// Rounds to two decimals and turns -0 into 0.
 double rounded(double part) { return std::round(100 * part) / 100 + 0.0; }
 
-/// Prints the creep of wheels, caused by friction at low speed.
+/// Prints a note on robots with wheels: feet and wheels creep, because friction is a damper at low speed.
 void print_creep(const Scenario& s) {
   std::vector<std::string> names;
   for (const Joint& joint : s.robot->joints) {

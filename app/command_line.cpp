@@ -20,14 +20,14 @@ std::string full_name(const CLI::App& command) {
   throw InputError(SourceLocation{full_name(command)}, text);
 }
 
-/// The program, the chosen command, and the commands chosen within it.
+/// The program, the chosen command, and the chosen subcommands within it, from the outermost to the innermost.
 std::vector<const CLI::App*> levels(const CLI::App& app) {
   std::vector<const CLI::App*> all{&app};
   while (!all.back()->get_subcommands().empty()) all.push_back(all.back()->get_subcommands().front());
   return all;
 }
 
-/// The commands within a command that its help shows.
+/// Names of the subcommands that the help of a command shows.
 Words shown_commands(const CLI::App& command) {
   Words known;
   for (const CLI::App* within : command.get_subcommands({})) {
@@ -54,7 +54,7 @@ bool among(const Words& known, const std::string& name) { return std::find(known
 
 bool looks_like_option(const std::string& word) { return word.size() > 1 && word[0] == '-' && word != "--"; }
 
-/// `h5, csv` from the parser's `TEXT:{h5,csv}`; empty if any text is allowed.
+/// Allowed values of an option, `h5, csv` from the parser's text `TEXT:{h5,csv}`. Empty if any text is allowed.
 Words choices(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const std::size_t open = type.find('{');
@@ -62,7 +62,7 @@ Words choices(const CLI::Option& option) {
   return CLI::detail::split(type.substr(open + 1, type.find('}') - open - 1), ',');
 }
 
-/// `gaitlab swap SCENARIO --cpg ...`: required arguments, and optional ones in brackets.
+/// Usage of a command, `gaitlab swap SCENARIO --cpg ...`: required arguments, and optional ones in brackets.
 std::string usage(const CLI::App& command) {
   std::string text = full_name(command);
   for (const CLI::Option* option : command.get_options()) {
@@ -77,7 +77,7 @@ std::string usage(const CLI::App& command) {
   return text;
 }
 
-/// Description of an option's value.
+/// Description of the value that an option expects.
 std::string expected(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   if (const Words list = choices(option); !list.empty()) return fmt::format("{}", fmt::join(list, " or "));
@@ -99,7 +99,7 @@ void check_command(const CLI::App& app, const Words& words) {
   refuse(app, "unknown command " + in_quotes(words.front()) + offer(words.front(), known, "commands"));
 }
 
-/// Refuses words that begin with a dash and are not an option of their command.
+/// Throws InputError for words that begin with a dash and are not an option of their command.
 void check_options(const std::vector<const CLI::App*>& chosen) {
   for (const CLI::App* command : chosen) {
     for (const std::string& word : command->remaining()) {
@@ -114,7 +114,7 @@ void check_options(const std::vector<const CLI::App*>& chosen) {
   }
 }
 
-/// Checks that a command is followed by a required subcommand.
+/// Throws InputError if a command requires a subcommand and none follows.
 void check_within(const CLI::App& command) {
   if (command.get_require_subcommand_min() == 0 || !command.get_subcommands().empty()) return;
   const Words known = shown_commands(command);
@@ -162,7 +162,7 @@ void check_extras(const CLI::App& command) {
   }
 }
 
-/// The option in a message of the parser: the longest name contained in it.
+/// The option that a message of the parser names: the one with the longest name in the message, or nullptr.
 const CLI::Option* named_in(const CLI::App& command, const std::string& message) {
   const CLI::Option* found = nullptr;
   for (const CLI::Option* option : command.get_options()) {
@@ -173,7 +173,7 @@ const CLI::Option* named_in(const CLI::App& command, const std::string& message)
   return found;
 }
 
-/// -j, if that was typed for --jobs.
+/// Name of the option as the user typed it, for example -j for --jobs.
 std::string as_typed(const CLI::Option& option, const Words& words) {
   for (const std::string& name : option.get_snames()) {
     if (std::any_of(words.begin(), words.end(), [&](const std::string& word) { return word.starts_with("-" + name); }))
@@ -184,7 +184,7 @@ std::string as_typed(const CLI::Option& option, const Words& words) {
 
 constexpr const char* kNoValue = "{} has no value{}; expected one after it: {}";
 
-/// Reports a value that is missing, one too many, or of the wrong kind.
+/// Throws InputError for an option whose value is missing, superfluous or of the wrong kind.
 void check_value(const CLI::App& command, const Words& words, const CLI::ParseError& error) {
   const CLI::Option* option = named_in(command, error.what());
   if (option == nullptr) return;
@@ -200,7 +200,8 @@ void check_value(const CLI::App& command, const Words& words, const CLI::ParseEr
                               close.empty() ? "" : "; did you mean '" + close + "'?"));
 }
 
-/// Reports errors that the parser accepts: another option as a value, and a value of a flag.
+/// Throws InputError for words that the parser accepts by mistake: an option as the value of another option, and a value of a
+/// flag.
 void check_taken_values(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();

@@ -1,4 +1,4 @@
-// Registration of the subcommands with the parser; each is defined beside its command's code.
+// Registration of the subcommands with the parser. Each `add_COMMAND` function is defined in the file of its command.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -11,16 +11,16 @@
 
 namespace gaitlab::app {
 
-/// Adds the options of commands that print a summary.
+/// Adds the options that choose the extent of a printed summary.
 void add_shown(CLI::App& command, SummaryOptions& shown);
 
-/// The command line of the program, and the function of the chosen command.
+/// Parser of the command line, and the function that the chosen subcommand has set.
 struct Commands {
   CLI::App& app;
   std::function<int()> chosen = {};
 };
 
-/// Adds a subcommand: `options` declares its arguments, `run` receives them if the command line names the subcommand.
+/// Adds a subcommand: `options` declares its arguments. If the command line names this subcommand, `run` is called with them.
 template <class Arguments, class Options>
 void add_command(Commands& commands, const char* name, const char* about, int (*run)(const Arguments&), Options options,
                  CLI::App* parent = nullptr) {
@@ -40,17 +40,18 @@ void add_scenario(CLI::App& command, ScenarioArguments& arguments);
 /// Adds `--plugins-from-scenario` and `--plugin`.
 void add_trust(CLI::App& command, PluginArguments& allowed);
 
-/// For CLI::Option::check: a path from an empty shell variable would name the working folder.
+/// Validator for CLI::Option::check that rejects an empty path. An empty shell variable gives such a path, which would name the
+/// working folder.
 std::string not_empty(const std::string& text);
 
-/// Throws InputError if a file to be written exists, or its folder does not.
+/// Throws InputError if the file exists or its folder does not.
 void check_new(const std::string& name);
 
-inline constexpr const char* kPageFile = "report.html";  ///< in a run folder
-/// Checks that a page can be written; throws InputError as check_new, except for `own`, which may be replaced. Returns the mode
-/// of writing.
+inline constexpr const char* kPageFile = "report.html";  ///< name of the page in a run folder
+/// Checks that a page can be written and returns the mode of writing. Throws the InputError of check_new, except for `own`: an
+/// existing page of that name may be replaced.
 Existing check_page(const std::string& name, const std::filesystem::path& own = {});
-/// Prints the place of a page.
+/// Prints the path of a page.
 void print_page(const std::filesystem::path& file);
 
 }  // namespace gaitlab::app

@@ -23,15 +23,15 @@ namespace {
 
 struct CompareArguments {
   std::string a, b;                  ///< run folders or trace files
-  std::vector<std::string> columns;  ///< patterns; empty: all
-  bool all = false;                  ///< print all differing columns and settings
+  std::vector<std::string> columns;  ///< patterns of column names; empty for all columns
+  bool all = false;                  ///< print all differing columns and settings, not only the first ones
 };
 
 using Json = nlohmann::json;
 
 constexpr std::size_t kMostShown = 10;
 
-// A pattern that matches nothing would otherwise look like "no difference".
+// Throws InputError for a pattern that matches no column, because the output would look as if there were no difference.
 void check_patterns(const CompareOptions& options, const Trace& a, const Trace& b) {
   std::vector<std::string> names;
   for (const Trace* trace : {&a, &b}) {
@@ -52,7 +52,8 @@ void check_patterns(const CompareOptions& options, const Trace& a, const Trace& 
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
-/// Names of joints or contacts in either summary; empty if the two differ, because a column's name is then ambiguous.
+/// Names of joints or contacts (`key`) if both summaries list the same names. Empty otherwise, because column names contain
+/// numbers that are then ambiguous.
 std::vector<std::string> common_names(const Json& a, const Json& b, const char* key) {
   const auto of = [&](const Json& summary) {
     std::vector<std::string> names;
@@ -69,7 +70,8 @@ std::vector<std::string> common_names(const Json& a, const Json& b, const char* 
   return names;
 }
 
-/// Joints and contacts are compared by number: prints a warning if the numbers have different meanings.
+/// Prints a warning if the numbers of joints or contacts have different meanings in the two runs, because columns are compared
+/// by number.
 void print_robots(const Json& a, const Json& b) {
   for (const char* names : {"joints", "contacts"}) {
     if (a.contains(names) && b.contains(names) && a[names] != b[names]) {
@@ -79,7 +81,7 @@ void print_robots(const Json& a, const Json& b) {
   }
 }
 
-/// Prints changed settings of the two runs from their scenarios; for a CSV file alone they are not known.
+/// Prints the settings that differ between the scenarios of the two runs. They are not known if a run is a CSV file alone.
 void print_settings(const CompareArguments& arguments) {
   std::vector<std::string> changed;
   try {
@@ -94,7 +96,7 @@ void print_settings(const CompareArguments& arguments) {
   for (const std::string& setting : changed) fmt::print("  {}\n", setting);
 }
 
-/// Prints the columns with the largest differences, and the time of the first divergence.
+/// Prints the columns with the largest differences, and the time at which the first column diverges.
 void print_columns(const TraceDifference& difference, bool all) {
   std::vector<const ColumnDifference*> apart;
   const ColumnDifference* first = nullptr;
@@ -121,13 +123,13 @@ void print_columns(const TraceDifference& difference, bool all) {
   if (first != nullptr) fmt::print("first to part: {} at t = {:.6g} s\n", first->label, *first->first_divergence);
 }
 
-// Null if a summary does not contain it.
+// Value at a JSON pointer, or null if the summary does not contain it.
 Json at(const Json& summary, const std::string& pointer) {
   const Json::json_pointer where(pointer);
   return summary.contains(where) ? summary.at(where) : Json();
 }
 
-/// The most loaded joint; in a summary without a judged window the joint with the largest torque.
+/// Name of the most loaded joint or, in a summary without a judged window, of the joint with the largest torque.
 std::string most_loaded_joint(const Json& summary) {
   const Json judged = at(summary, "/judged/joint");
   if (judged.is_string()) return judged.get<std::string>();
@@ -149,19 +151,19 @@ std::string shown(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-// B - A relative to A, if both are numbers.
+// Text of the change from A to B, relative to A if both are numbers.
 std::string change(const Json& a, const Json& b) {
   if (a == b) return "equal";
   if (!a.is_number() || !b.is_number()) return "differs";
   const double from = a.get<double>();
   const double by = b.get<double>() - from;
-  // The change of a number near zero is not given as a percentage.
+  // A percentage of a number near zero would be meaningless: the difference is printed instead.
   return std::abs(from) < 0.01 * std::abs(by) || from == 0 ? fmt::format("{:+.3g}", by)
                                                            : fmt::format("{:+.3g} %", 100 * by / std::abs(from));
 }
 
 void print_summaries(const Json& a, const Json& b) {
-  const std::string joint = most_loaded_joint(a);  // a row is for one joint: that of A
+  const std::string joint = most_loaded_joint(a);  // the most loaded joint of A, for numbers of a joint
   std::vector<const report::SummaryNumber*> rows = report::placed(&report::SummaryNumber::compare);
   if (joint.empty()) std::erase_if(rows, [](const report::SummaryNumber* number) { return number->of_joint != nullptr; });
   std::erase_if(rows, [&](const report::SummaryNumber* number) {
@@ -179,7 +181,7 @@ void print_summaries(const Json& a, const Json& b) {
   }
 }
 
-/// Null for a trace file, because a summary beside it may belong to another run.
+/// Summary of a run folder. Null for a trace file, because a summary.json beside the file may belong to another run.
 Json summary_of(const std::string& run) { return std::filesystem::is_directory(run) ? read_summary(run) : Json(); }
 
 int compare(const CompareArguments& arguments) {

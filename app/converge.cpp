@@ -14,14 +14,15 @@ namespace {
 
 struct ConvergeArguments : ScenarioArguments {
   int halvings = 2;
-  std::vector<std::string> columns;  ///< patterns; empty: the torques, or without motors the angles
+  std::vector<std::string> columns;  ///< patterns of column names; empty for the torques, or without motors for the angles
   int jobs = 1;                      ///< threads
 };
 
-constexpr double kGood = 0.01;       // accuracy of a "good" step: 1 %
-constexpr double kLeastOrder = 0.5;  // below, halving a step hardly helps: a power law would offer absurd steps
+constexpr double kGood = 0.01;       // error of a "good" step: 1 %
+constexpr double kLeastOrder = 0.5;  // at a lower observed order, halving the step hardly helps, and the power law would
+                                     // suggest absurd steps
 
-/// Items of a YAML list.
+/// Patterns as items of a YAML list.
 std::string quoted(const std::vector<std::string>& patterns) {
   std::string text;
   for (const std::string& pattern : patterns) {
@@ -36,12 +37,12 @@ std::string quoted(const std::vector<std::string>& patterns) {
 }
 
 struct Runs {
-  std::vector<double> steps;  // s; for an integrator that chooses its steps, accuracies
+  std::vector<double> steps;  // s; accuracies if the integrator adapts its step
   const char* what = "step";
   const char* unit = " s";
   std::vector<Trace> traces;
-  std::vector<std::vector<double>> travel;  // x, y of the centre of mass, end minus start
-  double allowed = 0;                       // longest stable step; 0: any
+  std::vector<std::vector<double>> travel;  // displacement of the centre of mass in x and y over the run
+  double allowed = 0;                       // longest stable step; 0 if any step is stable
 };
 
 Runs all_runs(const Scenario& scenario, int halvings, int jobs) {
@@ -78,7 +79,7 @@ void print(const ConvergenceRow& row) {
   fmt::print(" {:>6}\n", row.order ? fmt::format("{:.1f}", *row.order) : "-");
 }
 
-/// Column with the largest error at step number `i`; the error includes that of the finest step.
+/// Column with the largest error at step number `i`, and this error plus that of the finest step.
 std::pair<const ConvergenceRow*, double> worst_at(const std::vector<ConvergenceRow>& rows, std::size_t i) {
   std::pair<const ConvergenceRow*, double> worst{nullptr, -1};
   for (const ConvergenceRow& row : rows) {
@@ -88,7 +89,7 @@ std::pair<const ConvergenceRow*, double> worst_at(const std::vector<ConvergenceR
   return worst;
 }
 
-/// Step with an error of 1 %, from those tried and by the observed order.
+/// Sentence on the step with an error of 1 %, found among the tried steps and by the observed order.
 std::string verdict(const std::vector<ConvergenceRow>& rows, const Runs& runs) {
   const double finest = runs.steps.back();
   const auto within_rule = [&](double step) { return !(runs.allowed > 0) || step <= runs.allowed; };
@@ -138,7 +139,8 @@ int converge(const ConvergeArguments& arguments) {
   const std::vector<ConvergenceRow> rows = convergence(runs.traces, wanted);
   for (const ConvergenceRow& row : rows) print(row);
   ConvergenceRow travel = convergence("displacement", runs.travel);
-  const bool moves = std::hypot(runs.travel.back()[0], runs.travel.back()[1]) > 1e-3;  // m: below, a share of noise
+  const bool moves = std::hypot(runs.travel.back()[0], runs.travel.back()[1]) > 1e-3;  // m; with a smaller displacement the
+                                                                                       // relative error is noise
   if (moves) print(travel);
   if (rows.empty()) {
     fmt::print("the only column requested is the time\n");

@@ -1,4 +1,5 @@
-// One evaluation of the dynamics: a state in, accelerations or torques out, as JSON.
+// `gaitlab dynamics`, which evaluates the equations of motion once: it reads a state and writes accelerations or torques as
+// JSON.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -28,11 +29,11 @@ constexpr const char* kHelp =
     "reactions: of the parent on the child at every hinge and dock (m3/dock), about its origin.";
 
 struct DynamicsArguments : ScenarioArguments {
-  std::string state;     ///< JSON file
-  bool inverse = false;  ///< torques and reactions of given accelerations
+  std::string state;     ///< file with the state in JSON
+  bool inverse = false;  ///< true: compute torques and reactions for given accelerations
 };
 
-/// Shortest text that is read back as the same double, as JSON: {fmt}'s default form.
+/// JSON array of numbers, each with the shortest text that is read back as the same double.
 std::string list(In values) { return fmt::format("[{}]", fmt::join(values, ", ")); }
 std::string list(const Eigen::VectorXd& v) { return list(In(v.data(), static_cast<std::size_t>(v.size()))); }
 std::string list(const Vec3& v) { return list(In(v.data(), 3)); }
@@ -43,7 +44,7 @@ void check_finite(const Eigen::VectorXd& result, const SourceLocation& place) {
   if (!result.allFinite()) throw InputError(place, "the dynamics give no finite number: the state is too far out");
 }
 
-/// Accelerations under the input's torques and wrenches, by the scenario's engine.
+/// Accelerations under the torques and wrenches of the input, computed by the scenario's engine.
 Acceleration forward(const Scenario& scenario, const DynamicsInput& input) {
   PlantSettings settings;
   settings.robot = scenario.robot;

@@ -1,4 +1,4 @@
-// Engines that the program is built with: with Bullet (engines.cpp) or without (engines_without_bullet.cpp).
+// Engines that the program is built with; engines.cpp includes Bullet, engines_without_bullet.cpp omits it.
 #pragma once
 #include <string>
 
@@ -8,7 +8,7 @@ namespace gaitlab::app {
 
 void register_engines(Catalog& catalog);
 
-/// `Bullet 3.24 float64`, or `without Bullet`.
+/// Text `Bullet 3.24 float64`, or `without Bullet`.
 std::string bullet_text();
 
 }  // namespace gaitlab::app

@@ -21,9 +21,9 @@ namespace gaitlab::app {
 namespace {
 
 struct ExportArguments {
-  ScenarioArguments source;  ///< file: run folder or trace file (csv, gltf), scenario (mjcf, urdf, gltf)
-  std::string format;        ///< csv, gltf, mjcf, urdf
-  std::string file;          ///< to write; must not exist
+  ScenarioArguments source;  ///< `file` is a run folder or trace file (csv, gltf) or a scenario (mjcf, urdf, gltf)
+  std::string format;        ///< csv, gltf, mjcf or urdf
+  std::string file;          ///< file to write, which must not exist
   PluginArguments plugins;
 };
 
@@ -55,7 +55,8 @@ void export_robot(const ExportArguments& arguments) {
              scenario.robot->joints.size());
 }
 
-/// The colours of the figures, and the version without the commit, so that the bytes depend only on the content.
+/// Appearance with the colours of the figures. The generator is the version without the commit, so that the bytes depend only
+/// on the content.
 interchange::GltfLook look() {
   const std::string build = build_id();
   return {.generator = "gaitlab " + build.substr(0, build.find('+')),

@@ -17,7 +17,7 @@ using namespace golden;
 
 namespace {
 
-/// Data for a page from a golden's trace alone.
+/// Page data from the trace of a golden, which is not a complete recording.
 report::PageData data_of(const Scenario& scenario, const Trace& trace, const std::string& build) {
   Recording record;
   record.trace = trace;
@@ -45,7 +45,8 @@ std::vector<report::Stray> strays(const GoldenCase& c) {
   std::vector<report::Stray> found;
   for (const ColumnCheck& check : c.difference.columns) {
     if (check.passed()) continue;
-    const double rounding = 0.5 * golden.precision[golden.trace.find(check.name)];  // rounding error of the golden's trace
+    const double rounding = 0.5 * golden.precision[golden.trace.find(check.name)];  // rounding error of the numbers in the
+                                                                                    // golden's trace
     found.push_back({check.name, check.unit, check.ratio(), kOutside * check.band * check.scale + rounding, check.outside,
                      less(c.run.trace, golden.trace, check.name)});
   }
@@ -56,7 +57,7 @@ std::vector<report::Stray> strays(const GoldenCase& c) {
   return found;
 }
 
-/// Lines without their indentation.
+/// Lines of a text without their indentation.
 std::vector<std::string> lines(const std::string& text) {
   std::vector<std::string> all;
   for (std::size_t at = 0; at < text.size();) {

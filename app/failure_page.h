@@ -1,4 +1,4 @@
-// Page of a run outside its golden's bands: the run over the golden.
+// HTML page of a run that left the bands of its golden; it draws the run over the golden.
 #pragma once
 #include <string>
 
@@ -6,8 +6,8 @@
 
 namespace gaitlab::app {
 
-/// The page of a case whose golden and run were compared (docs/report.md). Both runs have the rows and columns of a golden, and
-/// the robot of the scenario.
+/// HTML text of the page for a case whose golden and run were compared (docs/report.md). Run and golden have the rows and
+/// columns of the golden, and the robot of the scenario.
 std::string failure_page(const golden::GoldenCase& c);
 
 }  // namespace gaitlab::app

@@ -1,4 +1,4 @@
-// `gaitlab figure`: a figure for a paper from run folders and a recipe, with the numbers that it shows.
+// `gaitlab figure`, which draws a figure for a paper from run folders and a recipe, and writes the numbers that it shows.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,11 +27,11 @@ namespace fs = std::filesystem;
 struct FigureArguments {
   std::string recipe;
   std::optional<std::string> out;
-  std::vector<std::string> runs;  ///< NAME=FOLDER
+  std::vector<std::string> runs;  ///< texts NAME=FOLDER
   PluginArguments plugins;
 };
 
-/// FIG.csv, or for several panels FIG-a.csv, FIG-b.csv ...
+/// Path of the data of a panel: FIG.csv, or for several panels FIG-a.csv, FIG-b.csv etc.
 fs::path data_file(const fs::path& figure, std::size_t panel, std::size_t panels) {
   fs::path file = figure;
   file.replace_extension();
@@ -40,7 +40,7 @@ fs::path data_file(const fs::path& figure, std::size_t panel, std::size_t panels
   return file;
 }
 
-/// Folder of every run, from --run or else from the recipe.
+/// Name and folder of every run of the recipe. A folder from --run replaces that of the recipe.
 std::vector<Named> folders_of(const report::Recipe& recipe, const std::vector<std::string>& given) {
   std::vector<Named> folders = recipe.runs;
   std::vector<std::string> names;
@@ -104,8 +104,8 @@ std::vector<report::PaperRun> read_runs(const report::Recipe& recipe, const std:
   return runs;
 }
 
-/// Refuses to replace a file beside the figure, unless the figure exists already or the file has the same content: it may be
-/// someone else's.
+/// Throws InputError if a file beside the figure would be replaced, because it may belong to something else. The file may be
+/// replaced if the figure already exists, or if its content is equal.
 void check_free(const fs::path& figure, const fs::path& file, const std::string& bytes) {
   if (kind_of(figure) != fs::file_type::not_found || kind_of(file) == fs::file_type::not_found) return;
   if (kind_of(file) == fs::file_type::regular && read_file(file, kMostPage) == bytes) return;

@@ -21,8 +21,8 @@ namespace gaitlab::app {
 namespace {
 
 struct ManualArguments {
-  std::string kind, name;            ///< empty: all kinds; the scenario file
-  std::vector<std::string> plugins;  ///< libraries to load first
+  std::string kind, name;            ///< `kind` is empty for all kinds, `name` for all entries of the kind
+  std::vector<std::string> plugins;  ///< plugin libraries to load first
 };
 
 void add_plugins(CLI::App& command, ManualArguments& arguments) {
@@ -60,7 +60,7 @@ std::vector<std::string> names(const std::string& kind, const Catalog& catalog) 
   return found;
 }
 
-/// nullptr: unknown id.
+/// The kind of check with this id, or nullptr if there is none.
 const report::CheckKind* check_kind(const std::string& id) {
   const auto found = std::ranges::find_if(report::check_kinds(), [&](const report::CheckKind& kind) { return kind.id == id; });
   return found == report::check_kinds().end() ? nullptr : &*found;
@@ -93,7 +93,7 @@ int list(const ManualArguments& arguments) {
   return 0;
 }
 
-/// Explains a shipped type by its name, or a user's type by its file.
+/// Prints the manual of a module type: a shipped type by its name, or a user's type by its file.
 int explain_module(const std::string& name, Catalog& catalog) {
   const std::map<std::string, std::string> shipped = shipped_files("module");
   const auto known = shipped.find(name);
@@ -200,7 +200,7 @@ void add_manuals(Commands& commands) {
                                });
   add_command<ManualArguments>(commands, "reference", "Print a page of docs/reference.", reference,
                                [](CLI::App& command, ManualArguments& arguments) {
-                                 command.group("");  // not in the help
+                                 command.group("");  // hides the command in the help
                                  command.add_option("PAGE", arguments.kind, "scenario, plugins, figure, study or verdict")
                                      ->required()
                                      ->check(CLI::IsMember({"scenario", "plugins", "figure", "study", "verdict"}));

@@ -1,4 +1,4 @@
-// The program `gaitlab`: reads arguments, runs one subcommand, returns an exit code.
+// The program `gaitlab`, which reads arguments, runs one subcommand and returns an exit code.
 #include <csignal>
 
 #include "app/program.h"
@@ -6,7 +6,7 @@
 
 int main(int argc, char** argv) {
   using namespace gaitlab::app;
-  // A file size limit is a full disk, reported as such.
+  // SIGXFSZ is ignored, so that a write beyond the file size limit fails as on a full disk and is reported.
   std::signal(SIGXFSZ, SIG_IGN);
   constexpr void (*kCommands[])(Commands&) = {add_run,     add_report,   add_check,    add_manuals, add_converge, add_swap,
                                               add_sweep,   add_optimize, add_evaluate, add_study,   add_dynamics, add_figure,

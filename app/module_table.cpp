@@ -24,7 +24,7 @@ namespace {
 
 using Cells = std::vector<std::string>;
 
-/// Rows of columns as wide as their widest cell, indented and separated by two blanks; the first row is the header.
+/// Table text with columns as wide as their widest cell, indented and separated by two blanks. The first row is the header.
 std::string aligned(const std::vector<Cells>& rows) {
   std::vector<std::size_t> width(rows.front().size());
   for (const Cells& row : rows) {
@@ -40,7 +40,7 @@ std::string aligned(const std::vector<Cells>& rows) {
   return text;
 }
 
-/// Edges of the box around all shapes at zero angles, in the axes of the module frame, m; 0 without shapes.
+/// Edges of the box around all shapes at zero angles, in the axes of the module frame, m. 0 without shapes.
 Vec3 size_of(const Robot& robot) {
   const Kinematics zero = at_zero(robot);
   const double none = std::numeric_limits<double>::infinity();
@@ -57,7 +57,7 @@ Vec3 size_of(const Robot& robot) {
   return high.x() < low.x() ? Vec3(Vec3::Zero()) : Vec3(high - low);
 }
 
-/// `65 x 65 x 130 mm`
+/// Size as text: `65 x 65 x 130 mm`.
 std::string size_text(const Robot& robot) {
   Vec3 size = 1000 * size_of(robot);
   std::sort(size.begin(), size.end());
@@ -70,7 +70,7 @@ double mass_of(const ModuleType& type) {
   return mass;
 }
 
-/// `+y` for an axis of the frame, else its coordinates.
+/// Text of a direction: `+y` if it is an axis of the frame, else its coordinates.
 std::string direction(const Vec3& d) {
   for (int axis = 0; axis < 3; ++axis) {
     if (std::abs(std::abs(d[axis]) - 1) < 1e-9) return fmt::format("{}{}", d[axis] > 0 ? '+' : '-', "xyz"[axis]);
@@ -97,7 +97,8 @@ std::string spring_of(const Passive& p) {
   return text;
 }
 
-/// Motors of a type; not known if it names none, because the scenario's default is not the module's.
+/// Motors of a module type. Empty if the type names no actuator, because the scenario's default actuator is not that of the
+/// module.
 Motors motors_of(const Scenario& one) {
   for (const Node& document : *one.module_documents) {
     if (!preset_maps(document, Kind::actuator).empty()) return motors(one, 0);
@@ -152,7 +153,7 @@ std::string connectors(const ModuleType& type) {
   return rows.size() > 1 ? aligned(rows) : "";
 }
 
-/// Adds `WHERE: SOURCE` for every `source` of the document, with the keys that lead to it.
+/// Adds a line `WHERE: SOURCE` for every `source` in the document, where WHERE is the path of its keys.
 void add_sources(const Node& node, const std::string& where, std::string& text) {
   for (std::size_t i = 0; i < node.items.size(); ++i) {
     const Node& item = node.items[i];
@@ -160,7 +161,7 @@ void add_sources(const Node& node, const std::string& where, std::string& text) 
       std::string source = item.text;
       std::ranges::replace(source, '\n', ' ');
       text += "  " + wrapped(fmt::format("{}: {}", where.empty() ? "type" : where, one_line(source)), 4, 98)
-                         .substr(4);  // indents further lines more
+                         .substr(4);  // continuation lines have a larger indentation
       continue;
     }
     const Node* name = item.kind == Node::Kind::map ? item.find("name") : nullptr;

@@ -1,4 +1,4 @@
-// Properties of a module type, in the output of `gaitlab list module` and `explain module`.
+// Properties of a module type, as `gaitlab list module` and `gaitlab explain module` print them.
 #pragma once
 #include <string>
 
@@ -6,13 +6,13 @@
 
 namespace gaitlab::app {
 
-/// Key properties for choosing a module, from a robot of one module: `65 x 65 x 130 mm  0.400 kg  2 hinges  1.97 N m`. Torque:
-/// the largest of a hinge's motor at rest; `-` if no motor states it.
+/// One line for choosing a module: `65 x 65 x 130 mm  0.400 kg  2 hinges  1.97 N m`. The torque is the largest torque at rest
+/// of a hinge's motor, or `-` if no motor states its torque. `one` is a robot of one module.
 std::string module_row(const Scenario& one);
 
-/// Size (the box around all shapes at zero angles, the smallest edge first), mass, hinges with their motors' torque at rest and
-/// speed without load, faces with their connectors, the load limits of these, and the source of every part. Lines of at most
-/// 100 characters, in the units of the user; degrees for ranges. `one`: a robot of one module.
+/// Table of a module type: size (smallest edge first; box around all shapes at zero angles), mass, hinges with torque at rest
+/// and no-load speed of their motors, faces with their connectors and load limits, and the sources of these numbers. Lines have
+/// at most 100 characters. Units are those of the user, with degrees for ranges. `one` is a robot of one module.
 std::string module_table(const Scenario& one);
 
 }  // namespace gaitlab::app

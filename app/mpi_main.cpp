@@ -1,6 +1,6 @@
-// The program `gaitlab-mpi`: the studies of `gaitlab`, with the runs divided among the processes that mpirun started. Each
-// reads the same files. The first (rank 0) chooses the runs, writes the journal and also does runs; the others do the packs of
-// runs that it sends, and answer with rows. If a rank dies all end; ended runs are in the journal.
+// The program `gaitlab-mpi`, which runs the studies of `gaitlab` in several processes started by mpirun. All processes read the
+// same files. Process 0 (rank 0) chooses the runs, writes the journal and also simulates. The others simulate the packs of runs
+// that process 0 sends and return rows. If a process dies, all end; completed runs are in the journal.
 #include <mpi.h>
 #include <unistd.h>
 
@@ -34,8 +34,8 @@ enum Tag : int {
   kJobs,
   kOver,
   kBye
-};  // to the first: kHello, kRows (requests more jobs), kBye (with the reason of its end)
-constexpr std::chrono::microseconds kOften{200};  // between polls: MPI would wait at the cost of a processor
+};  // messages to rank 0: kHello, kRows (also requests more jobs), kBye (with the reason why the process ended)
+constexpr std::chrono::microseconds kOften{200};  // time between polls; a blocking MPI call would occupy a processor
 
 struct Message {
   int rank = 0, tag = 0;
@@ -61,18 +61,18 @@ std::optional<Message> received() {
   return message;
 }
 
-/// Host, study, scenario and build, a line each: the last three must be equal in all processes.
+/// Four lines: host, study, scenario and build. The last three must be equal in all processes.
 std::string hello(const Plan& plan) {
   const JournalHead head = journal_head(plan);
   return host() + "\n" + hash128(head.definition) + "\n" + hash128(head.scenario) + "\n" + build_id();
 }
 
 std::size_t pack_size(const BatchSettings& settings) {
-  constexpr std::size_t kLanes = 8;  // the most in any engine
+  constexpr std::size_t kLanes = 8;  // largest number of lanes of any engine
   return static_cast<std::size_t>(settings.threads) * (settings.lanes > 0 ? settings.lanes : kLanes);
 }
 
-/// Rows of jobs, ordered by number; nothing: `stop` was set.
+/// Simulates jobs and returns their rows in the order of their numbers. Nothing if `stop` was set.
 std::optional<std::vector<Row>> done(const Executor& local, std::vector<Job> jobs, std::atomic<bool>& stop) {
   std::vector<Row> all;
   std::mutex mutex;
@@ -89,12 +89,12 @@ std::optional<std::vector<Row>> done(const Executor& local, std::vector<Job> job
   return all;
 }
 
-/// The other processes, as handled by the first.
+/// The other processes, as seen by rank 0.
 class Others {
  public:
   explicit Others(int size) : left_(static_cast<std::size_t>(size), true) { left_[0] = false; }
 
-  /// Checks that all have read the same as the first; throws InputError if one has not.
+  /// Checks that all processes have read the same files and have the same build as rank 0. Throws InputError otherwise.
   void greet(const Plan& plan) {
     const std::vector<std::string> own = lines(hello(plan));
     for (auto waits = std::ranges::count(left_, true); waits > 0;) {
@@ -114,7 +114,7 @@ class Others {
     }
   }
 
-  /// Executes the call of an Executor.
+  /// Simulates all jobs of `work` in all processes. It has the effect of a call of an Executor.
   bool lead(const Executor& local, std::size_t pack, const Work& work, std::atomic<bool>& stop) {
     std::mutex asking;
     const auto take = [&] {
@@ -140,7 +140,7 @@ class Others {
         throw;
       }
     });
-    std::set<int> busy;  // ranks that do packs
+    std::set<int> busy;  // ranks that simulate a pack
     bool more = true;
     try {
       while (!stop && (more || !busy.empty() || own.wait_for(std::chrono::seconds(0)) != std::future_status::ready)) {
@@ -157,7 +157,7 @@ class Others {
         if (message->tag == kBye) stop = true;
         if (message->tag != kRows) continue;
         idle_.push_back(message->rank);
-        if (!message->bytes.empty()) work.end(rows_of(message->bytes));  // else it has just begun
+        if (!message->bytes.empty()) work.end(rows_of(message->bytes));  // otherwise the process has just started
       }
     } catch (...) {
       stop = true;
@@ -169,7 +169,7 @@ class Others {
     return !stop;
   }
 
-  /// Ends the remaining processes.
+  /// Tells the remaining processes to end.
   void dismiss() {
     for (std::size_t rank = 0; rank < left_.size(); ++rank) {
       if (left_[rank]) send(static_cast<int>(rank), kOver, {});
@@ -182,10 +182,10 @@ class Others {
   }
 
  private:
-  /// Stops the processes that do packs. Throws RunError if one does not answer: it has died, so that mpirun stops the others,
-  /// and the runs of its pack keep the count of their starts.
+  /// Stops the processes that simulate packs. Throws RunError if one does not answer because it has died, so that mpirun stops
+  /// the others. The runs of that process's pack keep their count of starts.
   void recall(std::set<int> busy) {
-    constexpr std::chrono::milliseconds kPatience{700};  // mpirun kills 1 s after its SIGTERM
+    constexpr std::chrono::milliseconds kPatience{700};  // mpirun kills the processes 1 s after its SIGTERM
     for (const int rank : busy) send(rank, kOver, {});
     const auto since = std::chrono::steady_clock::now();
     while (!busy.empty() && std::chrono::steady_clock::now() - since < kPatience) {
@@ -204,8 +204,8 @@ class Others {
     return all;
   }
 
-  /// The next message, if there is one; kBye: that process was stopped. Throws InputError or RunError, by its exit code, if it
-  /// ended by itself, with the reason.
+  /// The next message, or nothing. A message kBye means that its process was stopped. If a process ended because of an error,
+  /// throws InputError or RunError with its message, according to its exit code.
   std::optional<Message> next() {
     std::optional<Message> message = received();
     if (!message) std::this_thread::sleep_for(kOften);
@@ -217,18 +217,18 @@ class Others {
     why = why.substr(1, why.find_last_not_of('\n'));
     const std::string rank = "rank " + std::to_string(message->rank);
     if (bad_input) throw InputError(SourceLocation{rank}, why);
-    constexpr std::string_view kError = "gaitlab: error: ";  // printed again by this process
+    constexpr std::string_view kError = "gaitlab: error: ";  // prefix that is removed, because this process prints it again
     throw RunError(rank + ": " + (why.starts_with(kError) ? why.substr(kError.size()) : why));
   }
 
-  std::vector<bool> left_;  ///< by rank
-  std::vector<int> idle_;   ///< that have requested jobs
+  std::vector<bool> left_;  ///< true for each rank that has not ended
+  std::vector<int> idle_;   ///< ranks that have requested jobs
 };
 
-/// Thrown by a process that has done its part.
+/// Thrown in a process other than rank 0 when its work is complete.
 struct Served {};
 
-/// Does the jobs that the first process sends.
+/// Simulates the jobs that rank 0 sends, until there are none.
 [[noreturn]] void serve(const Plan& plan, const BatchSettings& settings, const Measure& measure) {
   const app::StopOnSignal signals(app::StopOnSignal::Second::ends_the_process);
   std::atomic<bool>& stop = app::stopped();
@@ -250,7 +250,7 @@ struct Served {};
   throw Served();
 }
 
-std::string said;  ///< message of another process, printed by the first
+std::string said;  ///< error message that is sent to rank 0, which prints it
 
 }  // namespace
 
@@ -286,7 +286,7 @@ int main(int argc, char** argv) {
     } catch (const Served&) {
     }
     send(0, kBye, bytes_of(std::to_string(code) + said));
-    code = 0;  // the first process has the exit code for all
+    code = 0;  // mpirun returns the exit code of rank 0
   }
   MPI_Finalize();
   return code;

@@ -18,8 +18,8 @@ namespace gaitlab::app {
 namespace {
 
 struct NewPluginArguments {
-  std::string kind, name;          ///< cpg, controller or actuator; its type in scenarios
-  std::optional<std::string> out;  ///< folder to make (default: the name)
+  std::string kind, name;          ///< cpg, controller or actuator; type name of the plugin in scenarios
+  std::optional<std::string> out;  ///< folder to create; the default is the name
 };
 
 namespace fs = std::filesystem;
@@ -32,9 +32,9 @@ const Skeleton& skeleton(const std::string& kind) {
                    "unknown kind " + in_quotes(kind) + offer(kind, {"cpg", "controller", "actuator"}, "kinds"));
 }
 
-/// Checks the name, which becomes a file, a CMake target and part of a class's name.
+/// Checks the name, which becomes a file name, a CMake target and part of a class name.
 void check_name(const Skeleton& skeleton, const std::string& name) {
-  constexpr std::array kTargets{"all", "clean", "depend", "help", "install", "package", "test"};  // targets of CMake
+  constexpr std::array kTargets{"all", "clean", "depend", "help", "install", "package", "test"};  // CMake's own targets
   const SourceLocation place{fmt::format("gaitlab new plugin {}", word(skeleton.kind))};
   if (!is_name(name, "_") || name[0] == '_' || std::isdigit(static_cast<unsigned char>(name[0])) != 0) {
     throw InputError(place, "name " + in_quotes(name) + " is not allowed; expected letters, digits and _, a letter first");
@@ -48,7 +48,7 @@ void check_name(const Skeleton& skeleton, const std::string& name) {
   }
 }
 
-/// `my_wave`, `cpg` -> `MyWaveCpg`.
+/// Class name of a plugin: `MyWaveCpg` for the name `my_wave` and the kind `cpg`.
 std::string class_name(const std::string& name, const std::string& kind) {
   std::string out;
   bool capital = true;
@@ -66,7 +66,7 @@ std::string filled(std::string text, const std::string& mark, const std::string&
   return text;
 }
 
-/// A folder that gets its name when it is complete, and is removed on failure.
+/// A folder that gets its name only when it is complete, and is removed on failure.
 class NewFolder {
  public:
   explicit NewFolder(const std::string& name) : name_(name), folder_(fs::path(name).lexically_normal()) {
@@ -89,7 +89,7 @@ class NewFolder {
   NewFolder(const NewFolder&) = delete;
   NewFolder& operator=(const NewFolder&) = delete;
 
-  /// Until commit().
+  /// Path of the folder before commit().
   [[nodiscard]] const fs::path& part() const { return part_; }
   fs::path commit() {
     if (const int error = rename_new(part_, folder_); error != 0) refuse(error);
@@ -107,7 +107,7 @@ class NewFolder {
   fs::path folder_, part_;
 };
 
-/// Prefix of the installed program, or empty.
+/// Installation prefix of the running program, or empty if it is not installed.
 std::string prefix() {
   std::error_code none;
   const fs::path prefix = fs::read_symlink("/proc/self/exe", none).parent_path().parent_path();

@@ -1,4 +1,4 @@
-// Checks of paths at which pages are written.
+// Checks of the paths to which pages are written.
 #include <fmt/format.h>
 
 #include "app/commands.h"
@@ -12,7 +12,7 @@ void check_new(const std::string& name) {
   if (name.empty()) throw InputError(SourceLocation{"FILE"}, "is an empty name");
   const fs::path file = name;
   const fs::file_type kind = kind_of(file);
-  if (kind == fs::file_type::character || kind == fs::file_type::fifo) return;  // written into, not replaced
+  if (kind == fs::file_type::character || kind == fs::file_type::fifo) return;  // written to, not replaced
   std::error_code error;
   if (fs::exists(fs::symlink_status(file, error))) throw InputError(SourceLocation{name}, "exists; nothing was written");
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
@@ -20,7 +20,7 @@ void check_new(const std::string& name) {
 }
 
 Existing check_page(const std::string& name, const std::filesystem::path& own) {
-  std::error_code none;  // a missing file is new
+  std::error_code none;  // a missing file counts as new
   if (std::filesystem::equivalent(name, own, none)) return Existing::replaced;
   check_new(name);
   return Existing::refused;

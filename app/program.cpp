@@ -19,21 +19,21 @@ namespace gaitlab::app {
 
 namespace {
 
-/// Opens closed standard streams for nothing: otherwise the next opened file would get the number of one, and output would be
-/// written into that file. Writing fails on them as on a closed one.
+/// Opens closed standard streams on /dev/null. Otherwise the next file to be opened would get the number of a standard stream,
+/// and output would be written into that file. Writing to the opened streams fails, as it does on closed ones.
 void hold_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF) (void)::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
   }
 }
 
-/// Keeps freed memory, up to 64 MB, in the process. A rollout allocates arrays of up to some MB and frees them again. By
-/// default glibc returns them to the system each time, and the next rollout waits for pages: 60 % of the time of short ones.
+/// Keeps up to 64 MB of freed memory in the process. A rollout allocates arrays of some MB and frees them again. By default
+/// glibc returns them to the system each time, and the page faults of the next rollout take 60 % of the time of short ones.
 void keep_freed_memory() {
 #ifdef __GLIBC__
   mallopt(M_TRIM_THRESHOLD, 64 << 20);
   mallopt(M_TOP_PAD, 1 << 20);
-  mallopt(M_MMAP_THRESHOLD, 4 << 20);  // longer blocks, those of traces, are returned nevertheless
+  mallopt(M_MMAP_THRESHOLD, 4 << 20);  // longer blocks, such as traces, are still returned
 #endif
 }
 
@@ -41,7 +41,7 @@ void keep_freed_memory() {
 
 int guarded(const std::function<int()>& command, void (*tell)(std::string_view)) {
   hold_streams();
-  // Pieces instead of fmt, because nothing may throw here.
+  // The text is passed in pieces and not formatted with fmt, because nothing may throw here.
   const auto say = [&](const char* before, const char* what, const char* after) {
     for (const char* text : {before, what, after}) tell(text);
   };
@@ -52,7 +52,7 @@ int guarded(const std::function<int()>& command, void (*tell)(std::string_view))
     return 2;
   } catch (const RunError& error) {
     say("gaitlab: error: ", error.what(), "\n");
-  } catch (const std::system_error& error) {  // from fmt: standard output
+  } catch (const std::system_error& error) {  // thrown by fmt when it cannot write to standard output
     say("gaitlab: error: ", error.what(), "\n");
   } catch (const std::bad_alloc&) {
     say("gaitlab: error: ", "out of memory", "\n");

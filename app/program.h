@@ -1,4 +1,4 @@
-// Common main function of the programs: reads arguments, runs one subcommand, returns an exit code.
+// Common main function of the programs, which reads the arguments, runs one subcommand and returns its exit code.
 #pragma once
 #include <functional>
 #include <span>
@@ -8,12 +8,12 @@
 
 namespace gaitlab::app {
 
-/// Returns exit code 2 for bad arguments and bad input, 1 for failed runs; no exception escapes. `tell` receives the message,
-/// piece by piece.
+/// Runs `command` and returns its exit code, or 2 for bad arguments and bad input, or 1 for a failed run. No exception escapes.
+/// `tell` receives the error message, piece by piece.
 int guarded(const std::function<int()>& command, void (*tell)(std::string_view text));
 
-/// Runs the command that the arguments name, among the given ones. Throws its exceptions, and RunError if standard output could
-/// not be written in full, for help as for any other command.
+/// Runs the command that the arguments name; `commands` lists the functions that register the known commands. Passes on
+/// exceptions of the command. Throws RunError if standard output cannot be written in full, also after --help.
 int program(std::span<void (*const)(Commands&)> commands, int argc, char** argv);
 
 }  // namespace gaitlab::app

@@ -1,4 +1,4 @@
-// A progress bar with the remaining time on a terminal, nothing elsewhere.
+// A progress bar with the remaining time on a terminal; it prints nothing to a file or a pipe.
 #pragma once
 #include <fmt/format.h>
 #include <unistd.h>

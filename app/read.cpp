@@ -10,7 +10,7 @@ namespace gaitlab::app {
 
 namespace {
 
-/// Reports an error of the seed at --seed, which was typed, and not at the equivalent --set.
+/// Rethrows an error of the seed with the place --seed, because the user did not type the equivalent --set.
 [[noreturn]] void raise_as_typed(const InputError& error, const std::string& seed) {
   std::vector<Problem> problems = error.problems();
   for (Problem& problem : problems) {

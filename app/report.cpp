@@ -1,4 +1,4 @@
-// `gaitlab report`: results of one run, or two, from their folders alone.
+// `gaitlab report`, which prints and writes the results of one or two runs from their folders alone.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,18 +30,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kPairFile = "compare.html";  ///< in the folder of the first of two runs
+constexpr const char* kPairFile = "compare.html";  ///< name of the page in the folder of the first of two runs
 
 struct ReportArguments {
-  std::vector<std::string> runs;    ///< one folder, or two
+  std::vector<std::string> runs;    ///< one run folder or two
   std::optional<std::string> out;   ///< folder for summary.json, verdict.json, figure.svg and report.html
-  std::optional<std::string> page;  ///< file for a page alone
+  std::optional<std::string> page;  ///< file for the page, if only a page is written
   SummaryOptions shown;
-  std::vector<std::string> joints;  ///< names, in the figure
+  std::vector<std::string> joints;  ///< names of the joints in the figure
   PluginArguments plugins;
 };
 
-/// A value of the run's summary; null if it is missing, or the summary cannot be read.
+/// A value of the run's summary.json. Null if the key is missing, or if the file cannot be read.
 nlohmann::json summarised(const fs::path& folder, const char* key) try {
   const nlohmann::json summary = read_summary(folder);
   const auto found = summary.find(key);
@@ -50,14 +50,14 @@ nlohmann::json summarised(const fs::path& folder, const char* key) try {
   return {};
 }
 
-/// Duration of the simulation, which only the summary contains; 0 if it is missing.
+/// Real time of the simulation, s, which only summary.json contains; 0 if it is missing.
 double wall_time(const fs::path& folder) {
   const nlohmann::json value = summarised(folder, "wall_time");
   const double seconds = value.is_number() ? value.get<double>() : 0;
   return std::isfinite(seconds) && seconds >= 0 ? seconds : 0;
 }
 
-/// Sentences for the missing parts of a folder, without its name.
+/// Sentences on the missing parts of a run folder, with the path of the folder removed.
 std::vector<std::string> told_missing(std::vector<std::string> missing, const fs::path& trace) {
   for (std::string& sentence : missing) {
     if (sentence.starts_with(trace.string())) sentence.replace(0, trace.string().size(), trace.filename().string());
@@ -65,7 +65,8 @@ std::vector<std::string> told_missing(std::vector<std::string> missing, const fs
   return missing;
 }
 
-/// Takes over the results of the run's `--demand`, which recordings do not contain.
+/// Adds the demand results of an earlier --demand to the verdict. They are read from verdict.json, because recordings do not
+/// contain them.
 void keep_demand(report::Verdict& verdict, const fs::path& file) {
   if (kind_of(file) != fs::file_type::regular || report::take_demand(verdict, read_file(file, kMostJson))) return;
   say(file.string(), "note", "belongs to another recording; its --demand results are not shown");
@@ -73,8 +74,8 @@ void keep_demand(report::Verdict& verdict, const fs::path& file) {
 
 /// A run folder, read and judged.
 struct JudgedRun {
-  std::string name;  ///< folder as given
-  fs::path trace;    ///< file
+  std::string name;  ///< folder as the user typed it
+  fs::path trace;    ///< path of the trace file
   StoredRun read;
   report::Summary summary = {};
   report::Overlaps overlaps = {};
@@ -86,7 +87,8 @@ struct JudgedRun {
   }
 };
 
-/// `catalog` outlives the result. `joints`: drawn in the figure. InputError: see read_run, draw_joints.
+/// Reads and judges a run. `joints` are the joints in the figure. `catalog` must outlive the result. Throws InputError as
+/// read_run and draw_joints do.
 JudgedRun judged_run(const std::string& name, Catalog& catalog, const std::vector<std::string>& joints,
                      const SummaryOptions& shown) {
   const fs::path trace = trace_file(name);
@@ -94,7 +96,7 @@ JudgedRun judged_run(const std::string& name, Catalog& catalog, const std::vecto
   Scenario& scenario = run.read.scenario;
   Recording& recording = run.read.stored.recording;
   draw_joints(scenario, joints);
-  // A CSV file alone does not contain it.
+  // A CSV file alone does not contain the outcome.
   if (run.read.stored.origin.outcome.empty()) {
     const nlohmann::json told = summarised(trace.parent_path(), "outcome");
     if (told.is_string()) recording.outcome = Outcome::of(told.get<std::string>());
@@ -107,7 +109,7 @@ JudgedRun judged_run(const std::string& name, Catalog& catalog, const std::vecto
   return run;
 }
 
-/// Prints warnings on stderr.
+/// Prints notes and warnings on a run on stderr.
 void warn(const JudgedRun& run) {
   const Recording& recording = run.recording();
   for (const std::string& missing : run.read.stored.missing) say(run.name, "note", missing);
@@ -151,7 +153,7 @@ int report_one(const ReportArguments& arguments) {
   return exit_code(run.verdict, arguments.shown);
 }
 
-/// Settings for a page.
+/// Text of the resolved scenario without folders, for a page.
 std::string settings(const Scenario& scenario) { return report::without_folders(resolved(scenario), scenario); }
 
 int report_two(const ReportArguments& arguments) {

@@ -1,4 +1,5 @@
-// Repetition of a run from its folder alone; with --verify it compares the traces and lists changes since.
+// `gaitlab rerun`, which repeats a run from its folder alone; with --verify it compares the traces and lists changes since the
+// run.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,26 +25,26 @@ namespace gaitlab::app {
 namespace {
 
 struct RerunArguments {
-  std::string run;                 ///< run folder, or trace.h5
-  bool verify = false;             ///< compare with the recorded trace instead of writing
-  std::optional<std::string> out;  ///< as for run
+  std::string run;                 ///< run folder, or trace.h5 file
+  bool verify = false;             ///< compare with the recorded trace and write nothing
+  std::optional<std::string> out;  ///< folder of the new run, as in RunArguments
   bool quiet = false;
   PluginArguments plugins;
 };
 
 namespace fs = std::filesystem;
 
-constexpr double kTolerance = 1e-9;  // RMS of a column relative to its range
+constexpr double kTolerance = 1e-9;  // RMS difference / range of the column
 constexpr std::size_t kColumnsShown = 10;
 
 /// Files and data of the recorded run.
 struct Past {
-  fs::path file;  ///< of the trace
+  fs::path file;  ///< path of the trace
   Trace trace;
-  std::string scenario;          ///< inside trace.h5, or ""
-  std::string build;             ///< "" if not recorded
-  std::optional<Outcome> ended;  ///< from summary.json; without one: nothing
-  std::string summary_hash;      ///< of the trace that belongs to summary.json, or ""
+  std::string scenario;          ///< text of the scenario inside trace.h5, or ""
+  std::string build;             ///< build id, or "" if it was not recorded
+  std::optional<Outcome> ended;  ///< outcome in summary.json; nothing without this file
+  std::string summary_hash;      ///< hash of the trace to which summary.json belongs, or ""
 };
 
 bool is_there(const fs::path& file) {
@@ -78,13 +79,14 @@ Past read_past(const fs::path& run) {
 
 double last_time(const Trace& trace) { return trace.at(trace.rows() - 1, 0); }
 
-/// Whether the run ended early. Without a summary, after a kill during writing or for a trace file alone, its last row decides.
+/// True if the run ended early. Without a summary (the program was killed while it wrote, or `run` is a trace file) the time of
+/// the last row decides.
 bool ended_early(const Past& past, const Scenario& scenario) {
   if (past.ended) return !past.ended->done();
   return last_time(past.trace) < scenario.duration - 0.5 * scenario.physics.step;
 }
 
-/// The repeated run: whole, or up to the last recorded row of one that ended early.
+/// Results of the repeated run. If the recorded run ended early, the repeated run ends at the last recorded row.
 struct Again {
   Trace trace;
   std::string failure;
@@ -107,7 +109,7 @@ Again run_again(const Scenario& scenario, const Past& past, bool early) {
   return again;
 }
 
-/// Changes since the run was recorded, a line each.
+/// Sentences on the changes since the run was recorded.
 std::vector<std::string> changes(const StoredScenario& stored, const Past& past, const Scenario& scenario, const Again& again) {
   std::vector<std::string> found;
   if (past.build.empty()) {
@@ -124,7 +126,7 @@ std::vector<std::string> changes(const StoredScenario& stored, const Past& past,
                                 fmt::join(changed_settings(past.scenario, stored.text), "\n    ")));
   }
   const std::string now = resolved(scenario);
-  if (plugins.empty() && now != stored.text) {  // it contains their hashes
+  if (plugins.empty() && now != stored.text) {  // the resolved scenario contains the plugins' hashes
     found.push_back(fmt::format("scenario: resolved again it is another:\n    {}",
                                 fmt::join(changed_settings(stored.text, now), "\n    ")));
   }
@@ -140,7 +142,7 @@ void print_worst_columns(const TraceDifference& difference) {
   for (const ColumnDifference& d : difference.columns) {
     if (!(d.relative_rms <= kTolerance)) worst.push_back(d);
   }
-  if (worst.empty()) return;  // the difference is among the findings
+  if (worst.empty()) return;  // the difference is already in the list of changes
   std::stable_sort(worst.begin(), worst.end(), [](const auto& a, const auto& b) { return a.relative_rms > b.relative_rms; });
   fmt::print("  {} of {} columns are beyond {} of their range:\n", worst.size(), difference.columns.size(), kTolerance);
   for (std::size_t i = 0; i < std::min(worst.size(), kColumnsShown); ++i) {
@@ -150,7 +152,7 @@ void print_worst_columns(const TraceDifference& difference) {
   if (worst.size() > kColumnsShown) fmt::print("    ... and {} more\n", worst.size() - kColumnsShown);
 }
 
-/// Compares and prints. True: bit-equal or within tolerance.
+/// Compares the traces and prints the result. Returns true if they are bit-equal or within the tolerance.
 bool judge(const std::string& run, const Scenario& scenario, const Trace& then, const Again& again) {
   const std::string size = fmt::format("{} rows of {} columns", then.rows(), then.columns.size());
   if (hash(then) == hash(again.trace)) {
@@ -203,7 +205,7 @@ int verify(const std::string& run, const PluginArguments& plugins) {
   return same && (!early || past.ended) ? 0 : 4;
 }
 
-/// The format of the recorded trace, or the default if there is none.
+/// Format of the recorded trace, or h5 if there is none.
 std::string format_of(const fs::path& run) { return is_there(run / "trace.csv") && !is_there(run / "trace.h5") ? "csv" : "h5"; }
 
 int rerun(const RerunArguments& arguments) {

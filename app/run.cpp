@@ -28,8 +28,8 @@ namespace gaitlab::app {
 
 namespace {
 
-/// Files of a run: each is written even if others failed, because hours of simulation must not be lost with one. A file that
-/// cannot be written is reported at once.
+/// Writer of the files of a run. A file is written even if others failed, so that one failure does not lose hours of
+/// simulation. A file that cannot be written is reported at once.
 class RunFiles {
  public:
   explicit RunFiles(const std::filesystem::path& folder) : folder_(folder) {}
@@ -74,18 +74,18 @@ void write_report(RunFiles& files, const Scenario& scenario, const Recording& re
   files.write_text("figure.svg", [&] { return report::run_figure(scenario, recording, summary); });
   files.write_text("verdict.json", [&] { return report::to_json(verdict); });
   if (page) files.write_text(kPageFile, [&] { return report::page(report::page_data(scenario, recording, summary, verdict)); });
-  // Last: a folder with a summary is complete, except files that failed.
+  // The summary is written last, so that a folder with a summary is complete except for files that failed.
   files.write_text("summary.json", [&] { return report::to_json(summary, scenario, recording); });
 }
 
-/// Prints the estimated duration, measured with the first steps of the run itself.
+/// Prints the estimated duration, measured during the first steps of the run.
 void note_time(const Scenario& scenario, Simulation& simulation) {
   const RunTime time = measure(simulation, scenario.duration);
   if (time.seconds > kLongRun) say(scenario.file, "note", to_string(time));
 }
 
-/// Adds equally valid rollouts of an unpredictable motion. If memory is short or a plugin throws, the run is written without
-/// them.
+/// Simulates the rollouts for Recording::spread if the motion is unpredictable. If memory is short or a plugin throws, the run
+/// is written without them.
 void take_spread(const Scenario& scenario, Recording& recording, const report::Summary& summary, bool quiet) try {
   const report::Predictability found = report::predictability(scenario, recording);
   if (found != report::Predictability::chaotic && found != report::Predictability::ill) return;
@@ -110,7 +110,7 @@ int run(const RunArguments& arguments) {
 
 namespace {
 
-/// Runs the simulation. The outcome, if it did not reach its end.
+/// Runs the simulation. Returns its outcome if the simulation did not reach the end of the run.
 std::optional<Outcome> simulate(const Scenario& scenario, Simulation& simulation, bool quiet) try {
   if (!quiet) note_time(scenario, simulation);
   const Progress progress(quiet);
@@ -141,7 +141,7 @@ void print_files(const RunArguments& arguments, const std::filesystem::path& fol
 }  // namespace
 
 int run(const Scenario& scenario, const RunArguments& arguments) {
-  warn_of_start(scenario, arguments.quiet);  // first: wrong units may be the reason why a step is refused
+  warn_of_start(scenario, arguments.quiet);  // printed first, because wrong units may be the reason why a step is refused
   Simulation simulation({&scenario, 1}, Loads::recorded);
   RunFolder folder(arguments.out, scenario.name);
   if (!arguments.quiet) note_rows(scenario, simulation);
@@ -156,10 +156,10 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
   if (early) recording.outcome = std::move(*early);
   RunFiles files(folder.path());
   const auto summarised = [&] { return report::summarise(scenario, recording, wall.count()); };
-  std::optional<report::Summary> made;  // the memory of a failed trace.h5 may not be freed
+  std::optional<report::Summary> made;  // kept, because the memory of a failed trace.h5 may not be freed
   try {
     made = summarised();
-  } catch (const std::bad_alloc&) {  // NOLINT(bugprone-empty-catch): the trace first, then again
+  } catch (const std::bad_alloc&) {  // the trace is written first, then the summary is computed again
   }
   if (made) take_spread(scenario, recording, *made, arguments.quiet);
   if (all) all->swap(recording);

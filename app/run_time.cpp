@@ -12,7 +12,7 @@ namespace gaitlab::app {
 
 namespace {
 
-/// Two digits: `14`, `1100`, `0.5`.
+/// Number with two digits: `14`, `1100`, `0.5`.
 std::string two_digits(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
   return fmt::format("{:g}", std::round(value / unit) * unit);
@@ -31,14 +31,15 @@ std::string duration_text(double seconds) {
 }  // namespace
 
 RunTime measure(Simulation& simulation, double duration) {
-  constexpr double kMeasured = 0.1;  // s: the steps are doubled until they have taken this time
+  constexpr double kMeasured = 0.1;  // s; the number of steps is doubled until the steps have taken this time
   struct Moment {
     double used = 0, time = 0, steps = 0;
   } before, now;
   const std::clock_t start = std::clock();
   const auto used_so_far = [&] { return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC; };
-  // Reading the clock can take longer than a step; and the later half of the steps is more typical. If steps suddenly become
-  // slow, as on a heap of boxes, the measurement ends early.
+  // The number of steps between two looks at the clock is doubled, because reading the clock can take longer than a step. The
+  // later half is used, because it is more typical. If steps suddenly become slow, as on a heap of boxes, the measurement ends
+  // early.
   for (std::int64_t look = 1; !simulation.done() && now.used < kMeasured; look *= 2) {
     before = now;
     while (!simulation.done() && simulation.step_number() < look) {

@@ -1,5 +1,5 @@
-// Estimate of the time that a run takes, printed before it starts. Measured by the clock: for the terminal only, never for a
-// result.
+// Estimate of the time that a run takes, printed before it starts. It is measured by the clock and therefore only printed: no
+// result depends on it.
 #pragma once
 #include <string>
 
@@ -8,21 +8,23 @@
 namespace gaitlab::app {
 
 struct RunTime {
-  double seconds = 0;        ///< estimate for the whole run from its first steps; 0: not known
+  double seconds = 0;        ///< estimated duration of the whole run, extrapolated from its first steps; 0 if not known
   double rate = 0;           ///< steps/s
-  std::string failure = {};  ///< failure of a run during these steps
+  std::string failure = {};  ///< error message if the run fails during these first steps
 };
 
-/// Duration of a long run, of which the estimate is printed.
+/// Least estimated duration for which the estimate is printed.
 inline constexpr double kLongRun = 10;  // s
 
-/// Measures the simulation's first steps, in about 0.2 s of processor time. Throws what step() throws.
+/// Measures the time of the first steps of the simulation, in about 0.2 s of processor time. Throws the exceptions of
+/// Simulation::step.
 RunTime measure(Simulation& simulation, double duration);
 
-/// The same with a separate simulation of at most a hundred control periods: also for a run whose rows do not fit into memory.
+/// Estimate from a separate simulation of at most a hundred control periods. It also works for a run whose rows do not fit into
+/// memory.
 RunTime measure(const Scenario& scenario);
 
-/// `takes about 14 s on this machine (28000 steps/s)`
+/// Text `takes about 14 s on this machine (28000 steps/s)`.
 std::string to_string(const RunTime& time);
 
 }  // namespace gaitlab::app

@@ -25,7 +25,7 @@ namespace gaitlab::app {
 
 namespace {
 
-/// Text without control characters: the outcome of a recorded run is from an unknown source.
+/// Text without control characters. They are removed because the outcome of a recorded run comes from an unknown source.
 std::string printed(const std::string& text) {
   std::string all;
   for (std::size_t at = 0; at < text.size();) {
@@ -36,7 +36,7 @@ std::string printed(const std::string& text) {
   return all;
 }
 
-/// The same for a table, with a dash for each unknown number.
+/// Text of a table without control characters, and with a dash for each unknown number.
 std::string printed_table(const std::string& text) { return report::texts::without_nan(printed(text)); }
 
 }  // namespace
@@ -52,7 +52,7 @@ void print_summary(const Scenario& scenario, const Recording& recording, const r
   };
   const report::RunData run{scenario, recording, summary};
   for (const std::string& line : report::texts::simulated(run)) fmt::print("{}\n", printed(line));
-  constexpr std::size_t kFew = 4;  // lines of one kind
+  constexpr std::size_t kFew = 4;  // largest number of lines for checks of one status
   for (const report::ScreenLine& line : report::first_screen(run, verdict, shown.verbose ? verdict.checks.size() : kFew))
     fmt::print("  {:<9} {}\n", line.title, painted(printed(line.text), line.tone));
   if (shown.verbose) fmt::print("{}", printed_table(report::to_text(summary, scenario, recording)));
@@ -63,7 +63,7 @@ report::Verdict judged(const Scenario& scenario, const Recording& recording, con
                        const report::Overlaps& overlaps, const SummaryOptions& shown) {
   report::Verdict verdict = report::verdict(scenario, recording, summary, overlaps);
   if (!shown.demand || Judged::limited(summary.judged.joints) == 0) return verdict;
-  Catalog catalog = standard_catalog();  // the run's plugins are loaded already
+  Catalog catalog = standard_catalog();  // the plugins of the run are already loaded
   const StoredScenario same{"", scenario.file + " (its demand twin)", resolved(scenario)};
   Scenario twin = read_stored(same, catalog, OtherPlugins::taken);
   if (!report::raise_limits(twin)) {
@@ -111,7 +111,7 @@ void draw_joints(Scenario& scenario, const std::vector<std::string>& joints) {
 void warn_of_run(const Scenario& scenario, const Recording& recording, const report::Verdict& verdict) {
   for (const report::Check& check : verdict.checks) {
     if (check.status == report::CheckStatus::pass || check.remedy.empty()) continue;
-    // Numbers of a run that ended early only reflect its failure.
+    // In a run that ended early, the checks of accuracy only show its failure.
     if (check.group == report::CheckGroup::trust && !recording.outcome.done()) continue;
     say(to_string(check.place), "warning", check.text + "; " + check.remedy);
   }

@@ -17,7 +17,7 @@ StopOnSignal::StopOnSignal(Second second) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before = {};
     sigaction(signal, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // a shell's background job ignores SIGINT
+    if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // a shell makes background jobs ignore SIGINT
   }
 }
 

@@ -1,10 +1,11 @@
-// Signals with which a user, a scheduler or a closed terminal stops a run.
+// Stopping a run by a signal of a user, a scheduler or a closed terminal.
 #pragma once
 #include <atomic>
 
 namespace gaitlab::app {
 
-/// Set by the first SIGINT, SIGTERM or SIGHUP after StopOnSignal was made; an ignored signal remains ignored.
+/// True after the first SIGINT, SIGTERM or SIGHUP that follows the construction of a StopOnSignal. A signal that the process
+/// already ignores remains ignored.
 std::atomic<bool>& stopped();
 
 struct StopOnSignal {

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A text under a path, for a reader of files; leaves no file on the disk, even after a crash.
+/// A file in memory with a path, for functions that read files. It leaves nothing on the disk, even after a crash.
 class MemoryFile {
  public:
   explicit MemoryFile(std::string_view text) : descriptor_(::memfd_create("scenario", MFD_CLOEXEC)) {
@@ -72,7 +72,8 @@ Scenario read_inside(const StoredScenario& stored, const std::vector<std::string
   }
 }
 
-/// `plugins:` of a resolved scenario: path and hash of each; nothing if it has another form, which its reader will report.
+/// Entries of `plugins:` in a resolved scenario, each with path and hash. Empty if the text has another form, which the reader
+/// of the scenario reports.
 std::vector<PluginFile> recorded_plugins(const StoredScenario& stored) {
   Problems ignored;
   const std::optional<Node> root = parse_yaml(stored.text, stored.shown, ignored);
@@ -108,7 +109,7 @@ std::vector<PluginChange> changed_plugins(const StoredScenario& stored) {
 
 Scenario read_stored(const StoredScenario& stored, Catalog& catalog, OtherPlugins others, std::vector<std::string> sets) {
   if (others == OtherPlugins::taken && !changed_plugins(stored).empty()) {
-    nlohmann::json paths = nlohmann::json::array();  // JSON is YAML: it quotes any character of a path
+    nlohmann::json paths = nlohmann::json::array();  // JSON, which is valid YAML and quotes any character of a path
     for (const PluginFile& file : recorded_plugins(stored)) paths.push_back(file.path);
     sets.push_back("plugins=" + paths.dump());
   }
@@ -117,7 +118,7 @@ Scenario read_stored(const StoredScenario& stored, Catalog& catalog, OtherPlugin
 
 namespace {
 
-/// The scenario in the recording or, if it has none, as a CSV file alone, the resolved one of the folder.
+/// Scenario stored in the recording or, if the recording is a CSV file alone, in the run folder.
 StoredScenario scenario_of(const std::string& run, const StoredRecording& read) {
   if (read.origin.scenario.empty()) return stored_scenario(run);
   const fs::path trace = trace_file(run);
@@ -125,7 +126,7 @@ StoredScenario scenario_of(const std::string& run, const StoredRecording& read) 
   return {"", holds.string() + " (its scenario)", read.origin.scenario};
 }
 
-/// Throws InputError if the recording does not fit the scenario: possible only for forged files.
+/// Throws InputError if the recording does not fit the scenario, which only happens for files that were exchanged or changed.
 void check_fit(const std::string& run, const Scenario& scenario, const Recording& recording) {
   const auto refuse = [&](const std::string& what) {
     throw InputError(SourceLocation{run}, "its recording does not fit its scenario: " + what +
@@ -149,7 +150,7 @@ void check_fit(const std::string& run, const Scenario& scenario, const Recording
   if (!whole && recording.rows() > 0) refuse("columns that every recording has are not there");
 }
 
-/// Adds units and definitions if the file has none: it is CSV.
+/// Adds units and definitions to the columns of a CSV file, which does not contain them.
 void name_units(const Scenario& scenario, Trace& trace) {
   const auto bare = [](const Column& column) { return column.definition.empty(); };
   if (std::ranges::none_of(trace.columns, bare)) return;

@@ -1,4 +1,4 @@
-// A run and its scenario, read back from its folder alone.
+// A recorded run and its scenario, read from the run folder alone.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,35 +9,36 @@
 namespace gaitlab::app {
 
 struct StoredScenario {
-  std::string file;   ///< scenario.resolved.yaml; empty: the text comes from inside trace.h5
-  std::string shown;  ///< its name in messages
+  std::string file;   ///< path of scenario.resolved.yaml; empty if the text comes from inside trace.h5
+  std::string shown;  ///< name of the file in messages
   std::string text;
 };
 
-/// scenario.resolved.yaml of a run folder, or else the text inside its trace.h5 (`run` may be such a file). Throws InputError
-/// if there is neither.
+/// Reads scenario.resolved.yaml of a run folder or, if it is missing, the text inside trace.h5. `run` is the folder or the
+/// trace.h5 file. Throws InputError if neither contains a scenario.
 StoredScenario stored_scenario(const std::string& run);
 
-/// A plugin library that has changed since the run.
+/// A plugin library whose file has changed since the run.
 struct PluginChange {
-  std::string path, then, now;  ///< hashes
+  std::string path, then, now;  ///< path, hash in the record, and present hash
 };
 std::vector<PluginChange> changed_plugins(const StoredScenario& stored);
 
-/// Treatment of such libraries: a run from the record refuses them, a comparison accepts and reports them.
+/// Treatment of changed plugins: a rerun refuses them; a comparison accepts the present libraries.
 enum class OtherPlugins { refused, taken };
 
-/// Reads it with additional settings in the form of --set. Throws InputError with places in `shown`.
+/// Reads the recorded scenario; `sets` are additional settings in the form of --set. Throws InputError whose places name the
+/// file as `stored.shown`.
 Scenario read_stored(const StoredScenario& stored, Catalog& catalog, OtherPlugins others, std::vector<std::string> sets = {});
 
 /// A run read from its folder.
 struct StoredRun {
   StoredRecording stored;
-  Scenario scenario;  ///< of the recording, or if it has none, as a CSV file alone, the resolved one of the folder
+  Scenario scenario;  ///< from the recording, or from scenario.resolved.yaml if the recording is a CSV file alone
 };
 
-/// Reads a run with the present plugins. Throws InputError: see read_recording and read_stored; also if a complete recording
-/// does not fit the scenario.
+/// Reads a run with the present plugin libraries. Throws InputError as read_recording and read_stored do, and if a complete
+/// recording does not fit the scenario.
 StoredRun read_run(const std::string& run, Catalog& catalog);
 
 }  // namespace gaitlab::app

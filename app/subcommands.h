@@ -1,11 +1,11 @@
-// Subcommands of the programs; separate from commands.h, so that main.cpp is compiled without CLI11.
+// Functions that register the subcommands; separate from commands.h, so that main.cpp is compiled without CLI11.
 #pragma once
 
 namespace gaitlab::app {
 
 struct Commands;
 
-/// Functions in the order of the help.
+/// Registration functions, in the order of the program's help.
 void add_run(Commands& commands);
 void add_report(Commands& commands);
 void add_check(Commands& commands);

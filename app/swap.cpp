@@ -1,4 +1,5 @@
-// Scenarios under several CPGs: one table, a figure for each scenario, and the numbers for other programs.
+// `gaitlab swap`, which runs scenarios under several CPGs: a table, a figure for each scenario, and the numbers as CSV and
+// JSON.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,11 +24,11 @@ namespace gaitlab::app {
 namespace {
 
 struct SwapArguments : ScenarioArguments {
-  std::vector<std::string> files;  ///< scenario files; `file` is the present one
-  std::string cpgs;                ///< types, separated by commas
-  std::optional<std::string> out;  ///< folder of figure and numbers
+  std::vector<std::string> files;  ///< scenario files; `file` is the one that is being read
+  std::string cpgs;                ///< CPG types, separated by commas
+  std::optional<std::string> out;  ///< folder for figures and numbers
   int jobs = 1;                    ///< threads
-  bool report = false;             ///< also a page for every run, and one for all
+  bool report = false;             ///< also write a page for every run, and one page for all runs
 };
 
 struct Swapped {
@@ -39,7 +40,7 @@ struct Swapped {
   report::Verdict verdict = {};
 };
 
-/// The scenario's CPG, which keeps the settings that --set gives its model.
+/// Type of the scenario's own CPG; "" if it has none. Only under this CPG does --set change settings of the CPG's model.
 std::string own_cpg(const SwapArguments& arguments, Catalog& catalog) {
   auto quiet = static_cast<const ScenarioArguments&>(arguments);
   quiet.quiet = true;
@@ -59,10 +60,11 @@ std::vector<std::string> split(const std::string& list) {
   return names;
 }
 
-/// Adds the problems of reading under a CPG that no other CPG has.
+/// Adds those problems of reading the scenario under a CPG that have not been added for another CPG.
 void add_new(const InputError& error, const std::string& cpg, std::vector<Problem>& problems) {
   for (Problem problem : error.problems()) {
-    if (problem.place.file == "--set cpg.type=" + cpg) problem.place = SourceLocation{"--cpg"};  // the option typed by the user
+    // The place names the option that the user typed.
+    if (problem.place.file == "--set cpg.type=" + cpg) problem.place = SourceLocation{"--cpg"};
     const auto alike = [&](const Problem& p) {
       return p.text == problem.text && to_string(p.place) == to_string(problem.place);
     };
@@ -70,7 +72,7 @@ void add_new(const InputError& error, const std::string& cpg, std::vector<Proble
   }
 }
 
-/// The scenario under another CPG than its own: settings of a model are of the own one, and dropped with a note.
+/// Sets a CPG other than the scenario's own. Settings `cpg.model...` belong to the own CPG; they are dropped with a note.
 void exchange(ScenarioArguments& with, Swapped& swapped) {
   const auto of_model = [](const std::string& set) { return set.starts_with("cpg.model"); };
   for (const std::string& set : with.sets) {
@@ -80,7 +82,7 @@ void exchange(ScenarioArguments& with, Swapped& swapped) {
   with.sets.push_back("cpg.type=" + swapped.cpg);
 }
 
-/// The scenario under each CPG; errors of all are reported together.
+/// The scenario under each CPG. Errors of all CPGs are reported together.
 std::vector<Swapped> read_all(const SwapArguments& arguments, Catalog& catalog) {
   std::vector<Swapped> all;
   std::vector<Problem> problems;
@@ -98,7 +100,7 @@ std::vector<Swapped> read_all(const SwapArguments& arguments, Catalog& catalog) 
     }
     Swapped swapped{cpg};
     auto with = static_cast<const ScenarioArguments&>(arguments);
-    with.quiet = true;  // notes are printed once all names are read
+    with.quiet = true;  // notes are printed after all names have been read
     if (cpg != own) exchange(with, swapped);
     try {
       swapped.scenario = read(with, catalog);
@@ -117,7 +119,7 @@ std::vector<Swapped> read_all(const SwapArguments& arguments, Catalog& catalog) 
   return all;
 }
 
-/// Runs all of them; false: stopped. Throws InputError for the first refused one.
+/// Runs all scenarios. Returns false if the program was stopped. Throws InputError for the first scenario that is refused.
 bool run_all(const std::vector<Swapped*>& all, int jobs) {
   std::size_t next = 0;
   std::vector<std::vector<Problem>> refused(all.size());
@@ -153,7 +155,7 @@ std::vector<report::NamedRun> named_runs(const std::vector<Swapped>& all) {
 
 // ---- the figure
 
-/// Set point and torque of the most loaded joint under the first CPG, if it has a motor; and the travel.
+/// Figure of the travel and, if the most loaded joint under the first CPG has a motor, of its set point and torque.
 report::CurvesInput figure(const std::vector<Swapped>& all) {
   const Scenario& first = *all.front().scenario;
   report::CurvesInput input;
@@ -198,7 +200,7 @@ void print_verdicts(const std::vector<Swapped>& all) {
   }
 }
 
-/// Writes a page of every run, CPG.html, and swap.html, which links to them.
+/// Writes a page CPG.html for every run, and swap.html with links to them.
 void write_pages(const std::vector<Swapped>& all, const std::filesystem::path& folder) {
   std::vector<report::SwapEntry> entries;
   for (const Swapped& one : all) {
@@ -218,7 +220,7 @@ void print_coinciding(const std::vector<Swapped>& all, const report::CurvesInput
   }
 }
 
-/// The command that repeats this one.
+/// Command line that repeats this command.
 std::string again(const SwapArguments& arguments) {
   std::string line = "gaitlab swap";
   const auto add = [&](const std::string& word) { line += " " + shell_word(word); };
@@ -232,7 +234,7 @@ std::string again(const SwapArguments& arguments) {
   return line;
 }
 
-/// Runs them as run_all does; false, with a message: stopped.
+/// Runs all scenarios as run_all does. If the program was stopped, prints a message and returns false.
 bool run_or_tell(const std::vector<Swapped*>& all, const SwapArguments& arguments) {
   if (run_all(all, arguments.jobs)) return true;
   say(fmt::format("{}: interrupted: nothing is written; run it again with\n{}\n", arguments.files.front(), again(arguments)));
@@ -243,7 +245,7 @@ bool any_broke_off(const std::vector<Swapped>& all) {
   return std::ranges::any_of(all, [](const Swapped& s) { return !s.summary.outcome.done(); });
 }
 
-/// Writes the files of one scenario.
+/// Writes the files of one scenario: figure, numbers and, with `pages`, the pages.
 void write_swap(const std::vector<Swapped>& all, const report::CurvesInput& shown, const std::filesystem::path& folder,
                 bool pages) {
   const std::vector<report::NamedRun> runs = named_runs(all);
@@ -275,11 +277,11 @@ int swap_one(const SwapArguments& arguments, Catalog& catalog) {
 
 // ---- several scenarios
 
-/// Each scenario under each CPG; errors of all are reported together.
+/// Each scenario under each CPG. Errors of all of them are reported together.
 std::vector<std::vector<Swapped>> read_matrix(const SwapArguments& arguments, Catalog& catalog) {
   std::vector<std::vector<Swapped>> all;
   std::vector<Problem> problems;
-  std::vector<std::pair<std::string, std::string>> names;  // names and files of scenarios
+  std::vector<std::pair<std::string, std::string>> names;  // name and file of each scenario
   for (const std::string& file : arguments.files) {
     SwapArguments one = arguments;
     one.file = file;
@@ -309,7 +311,7 @@ std::vector<std::vector<Swapped>> read_matrix(const SwapArguments& arguments, Ca
   return all;
 }
 
-/// Ordered by CPG, then by scenario.
+/// Runs in the order of the CPGs, then of the scenarios.
 std::vector<report::MatrixRun> matrix_runs(const std::vector<std::vector<Swapped>>& all) {
   std::vector<report::MatrixRun> runs;
   for (std::size_t c = 0; c < all.front().size(); ++c) {

@@ -1,5 +1,5 @@
-// Runs scenarios and compares them with their goldens: a table, the columns that strayed, a figure and a page of them, JUnit
-// XML.
+// `gaitlab test`, which runs scenarios and compares them with their goldens: a table, the columns outside their bands, a figure
+// and a page of them, JUnit XML.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostDrawn = 6;  // columns in a figure that can be read at a glance
+constexpr std::size_t kMostDrawn = 6;  // largest number of columns in a figure
 
 // ---- the table
 
@@ -80,8 +80,8 @@ std::string counts(const std::vector<GoldenCase>& cases) {
 
 // ---- what failed
 
-/// The worst of the columns outside their bands, the first to leave its band first; if only numbers are outside, the column
-/// nearest to its band.
+/// The at most kMostDrawn columns that exceed their bands most, in the order in which they leave their bands. If only numbers
+/// are outside their bands, the column that is nearest to the limit of its band.
 std::vector<const ColumnCheck*> strayed(const GoldenCase& c) {
   std::vector<const ColumnCheck*> found;
   for (const ColumnCheck& check : c.difference.columns) {
@@ -117,14 +117,14 @@ std::vector<report::OverlayPanel> panels(const GoldenCase& c) {
   return panels;
 }
 
-/// The folder of the figures, created with the first of them if --out does not name it.
+/// Folder of the figures. If --out does not name one, it is created with the first figure.
 class Figures {
  public:
   explicit Figures(const std::optional<std::string>& out) {
     if (out) folder_.emplace(*out, "");
   }
 
-  /// Writes both files and names them in the case; none if there is nothing to draw.
+  /// Writes figure and page of a case, and stores their names in the case. Does nothing if there is nothing to draw.
   void write(GoldenCase& c) {
     const std::vector<report::OverlayPanel> shown = panels(c);
     if (shown.empty()) return;
@@ -148,7 +148,7 @@ class Figures {
   std::optional<RunFolder> folder_;
 };
 
-/// Text of a failure: changes, largest deviations, and the files with the rest.
+/// Message about a failed case: changes, largest deviations, and the files with further data.
 std::string failure(const GoldenCase& c, bool all) {
   const GoldenProvenance now = golden_origin(*c.scenario);
   const std::string changes = origin_changes(c.golden->origin, now, all ? kAllSettings : kFewSettings);
@@ -164,7 +164,7 @@ std::string failure(const GoldenCase& c, bool all) {
   return text + (c.figure.empty() ? "" : "  figure: " + c.figure + "\n");
 }
 
-/// Prints notes that are not failures: numbers with wide bands; a changed verdict; and a text that differs from the approved
+/// Prints notes that are not failures: numbers with wide bands, a changed verdict, and a text that differs from the approved
 /// one, which explains a failure.
 void print_notes(const std::vector<GoldenCase>& cases) {
   for (const GoldenCase& c : cases) {
@@ -182,11 +182,11 @@ void print_notes(const std::vector<GoldenCase>& cases) {
   }
 }
 
-// ---- JUnit XML, as CI servers read it; without times, so that equal results are equal files
+// ---- JUnit XML, as CI servers read it, without times, so that equal results give equal files
 
 std::string junit(const std::vector<GoldenCase>& cases) {
   const std::size_t errors = count(cases, Verdict::bad_input) + count(cases, Verdict::run_failed);
-  double seconds = 0;  // sum over all runs, which may have run side by side
+  double seconds = 0;  // sum over all runs, some of which may have been simulated at the same time
   for (const GoldenCase& c : cases) seconds += c.seconds;
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
   text += fmt::format(
@@ -198,7 +198,7 @@ std::string junit(const std::vector<GoldenCase>& cases) {
     const auto element = [&](const char* name, const std::string& message, const std::string& content) {
       text += fmt::format("<{0} message=\"{1}\">{2}</{0}>", name, report::xml_escaped(message), content);
     };
-    // Line by line, because an escaped line break is a space.
+    // Written line by line, because XML readers turn an escaped line break into a space.
     const auto lines = [](const std::string& content) {
       std::string escaped;
       for (std::size_t at = 0; at < content.size();) {
@@ -218,7 +218,8 @@ std::string junit(const std::vector<GoldenCase>& cases) {
   return text + "</testsuite>\n</testsuites>\n";
 }
 
-/// Before the runs, so that a wrong path costs no time: no input is overwritten, and the folder exists.
+/// Checks the path of --junit before the runs, so that a wrong path costs no time. Throws InputError if the path is an existing
+/// file that is not XML, or if its folder is not writable.
 void check_report(const std::string& path) {
   const SourceLocation place{"--junit " + path};
   const fs::file_type kind = kind_of(path);
@@ -248,10 +249,11 @@ int test_goldens(const TestArguments& arguments) {
     run_cases(cases, arguments, std::cref(progress));
   }
   bool written = true;
-  const auto write = [&](const std::function<void()>& file) {  // the results matter more than a file that cannot be written
+  const auto write = [&](const std::function<void()>& file) {  // continues after a file that cannot be written, because the
+                                                               // results matter more
     try {
       file();
-    } catch (const std::runtime_error& error) {  // InputError: a folder that cannot be created
+    } catch (const std::runtime_error& error) {  // InputError: the folder cannot be created
       say("gaitlab", "error", error.what());
       written = false;
     }

@@ -1,4 +1,5 @@
-// Benchmarks of engine `articulated`: a step of the kernel, a control tick, a whole run; chains of 10 to 1000 modules.
+// Benchmarks of engine `articulated`: one step of the engine, a control tick, and a complete run; also chains of 10 to 1000
+// modules.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace {
 
 constexpr double kStep = 5e-4;  // s
 
-/// Outlives the scenarios made from it.
+/// Catalog of all engines and plugins. Static, because it must outlive the scenarios made from it.
 Catalog& catalog() {
   static Catalog all = app::standard_catalog();
   return all;
@@ -27,7 +28,7 @@ Scenario shipped(const std::string& name, std::vector<std::string> sets = {}) {
   return read_scenario(std::string(GAITLAB_SOURCE_DIR) + "/scenarios/" + name, sets, catalog());
 }
 
-/// The caterpillar with another number of modules.
+/// Scenario of a caterpillar with this number of modules.
 Scenario chain(std::size_t modules) {
   std::vector<Dock> docks;
   for (int k = 1; k < static_cast<int>(modules); ++k) docks.push_back({1, k, 4, k - 1, 0});
@@ -36,7 +37,8 @@ Scenario chain(std::size_t modules) {
   return s;
 }
 
-/// Steps of the implicit method alone, of `lanes` rollouts: standing on the ground, motors without a command. Time per pack.
+/// Measures one step of the implicit method for `lanes` rollouts side by side. The robot stands on the ground, and its motors
+/// have no command.
 void kernel(benchmark::State& state, const Scenario& s, std::size_t lanes) {
   const auto& widths = s.physics.engine->lanes;
   if (std::find(widths.begin(), widths.end(), lanes) == widths.end()) {
@@ -59,37 +61,39 @@ void kernel(benchmark::State& state, const Scenario& s, std::size_t lanes) {
   for (std::size_t l = 0; l < lanes; ++l) layout.write(start_state(s), l, x);
   std::vector<double> history(plant->history());
   plant->bind(x, history);
-  for (int i = 0; i < 200; ++i) plant->advance(command, kStep);  // until it stands
+  for (int i = 0; i < 200; ++i) plant->advance(command, kStep);  // until the robot stands
   const std::vector<double> standing = x;
   for ([[maybe_unused]] auto once : state) {
-    std::copy(standing.begin(), standing.end(), x.begin());  // so that every call computes the same
+    std::copy(standing.begin(), standing.end(), x.begin());  // every call computes the same step
     plant->advance(command, kStep);
     benchmark::DoNotOptimize(x.data());
     benchmark::ClobberMemory();
   }
 }
 
-/// Argument: lanes.
+/// Measures one step of a scenario. The argument of the benchmark is the number of lanes.
 void kernel_of(benchmark::State& state, const char* file) {
   kernel(state, shipped(file), static_cast<std::size_t>(state.range(0)));
 }
 
-/// Argument: modules. The cost per module is fitted; the exponent is log10(t(1000) / t(10)) / 2.
+/// Measures one step of a caterpillar. The argument of the benchmark is the number of modules. The cost per module is fitted;
+/// the exponent of the cost is log10(t(1000) / t(10)) / 2.
 void kernel_of_chain(benchmark::State& state) {
   kernel(state, chain(static_cast<std::size_t>(state.range(0))), 1);
   state.SetComplexityN(state.range(0));
 }
 
-/// Loop, CPG, controllers and one step with control and trace at every step; the cost of a tick is this minus that of a step.
+/// Measures a simulation step with CPG, controllers and trace at every step. The cost of a control tick is this time minus that
+/// of a step alone.
 void tick_of(benchmark::State& state, const char* file) {
-  const std::string period = "=0.0005";  // kStep
+  const std::string period = "=0.0005";  // equals kStep
   const Scenario s =
       shipped(file, {"controller.period" + period, "trace.period" + period, "physics.step" + period, "duration=1000"});
   Simulation simulation({&s, 1});
   for ([[maybe_unused]] auto once : state) simulation.step();
 }
 
-/// Two simulated seconds at the engine's default step; counter: simulated seconds per second.
+/// Measures two simulated seconds with the engine's default step. The counter shows simulated seconds per second.
 void run_of(benchmark::State& state, const char* file) {
   const Scenario s = shipped(file, {"duration=2"});
   for ([[maybe_unused]] auto once : state) {

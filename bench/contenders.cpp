@@ -8,7 +8,8 @@ namespace gaitlab::versus {
 
 namespace {
 
-/// The estimate's companion rollouts are a separate contender.
+/// Settings of an engine and an integrator. The estimate is off, because its additional rollouts are measured as a separate
+/// contender.
 std::vector<std::string> sets(const std::string& engine, const std::string& integrator) {
   return {"physics.engine=" + engine, "physics.integrator=" + integrator, "physics.estimate=off"};
 }
@@ -17,14 +18,14 @@ bool has(const Engine* engine, const std::string& integrator) {
   return engine != nullptr && engine->integrator(integrator) != nullptr;
 }
 
-// Steps divide the trace's 5 ms and the controller's 15 ms.
+// All steps divide the trace period of 5 ms and the control period of 15 ms.
 const std::vector<double> kShort{2.5e-5, 5e-5};
 const std::vector<double> kUser{2.5e-5, 5e-5, 1e-4, 1e-3};
-const std::vector<double> kImplicit{1e-4, 1e-3};  // 2.5 times the cost, no smaller error
+const std::vector<double> kImplicit{1e-4, 1e-3};  // the method costs 2.5 times as much without a smaller error
 const std::vector<double> kLong{2.5e-4, 5e-4, 6.25e-4, 1e-3, 1.25e-3, 5e-3 / 3, 2.5e-3, 5e-3};
 const std::vector<double> kLonger{5e-4, 1e-3, 1.25e-3, 5e-3 / 3, 2.5e-3, 5e-3};
 
-// For steps of 5 ms, which the integrator divides.
+// Accuracies for steps of 5 ms, which the integrator divides.
 const std::vector<double> kAccuracies{0.05, 0.02, 0.01, 0.003, 0.001};
 
 void add_bullet(Field& field) {
@@ -37,14 +38,15 @@ void add_bullet(Field& field) {
 }
 
 void add_mujoco(Field& field, const Engine* engine) {
-  // One limit for the users' set-ups: they differ by the method only.
+  // The settings that a user would choose have one common reference, because they differ only in the integration method.
   field.references.push_back({"mujoco user", sets("mujoco", "euler"), {1e-5, 5e-6}});
   for (const char* integrator : {"euler", "implicit", "implicitfast"}) {
     if (!has(engine, integrator)) continue;
     field.contenders.push_back({fmt::format("mujoco {}", integrator), Group::mujoco_user, "mujoco user",
                                 sets("mujoco", integrator), std::string(integrator) == "implicit" ? kImplicit : kUser});
   }
-  if (has(engine, "dcmotor")) {  // limits the current, not the torque at rest, and so has another limit
+  // Set-up dcmotor limits the current instead of the torque at rest, and therefore converges to another limit.
+  if (has(engine, "dcmotor")) {
     const auto motors = sets("mujoco", "dcmotor");
     field.references.push_back({"mujoco dcmotor", motors, {1e-5, 5e-6}});
     field.contenders.push_back({"mujoco dcmotor", Group::mujoco_user, "mujoco dcmotor", motors, kUser});

@@ -1,4 +1,4 @@
-// Contenders of a benchmark: engines, their set-ups and steps.
+// Contenders of a benchmark, which are engines with settings and steps.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,11 +7,12 @@
 
 namespace gaitlab::versus {
 
-/// Reference for an engine's errors: the last of its steps; the one before shows its convergence.
+/// Reference run for the errors of an engine. The run with the last step is the reference; the run with the step before shows
+/// its convergence.
 struct Reference {
   std::string name;
-  std::vector<std::string> sets;  ///< texts of --set
-  std::vector<double> steps;      ///< s, falling, at least two
+  std::vector<std::string> sets;  ///< arguments of --set
+  std::vector<double> steps;      ///< s, decreasing, at least two
 };
 
 enum class Group { bullet, bullet_solver, mujoco_user, mujoco_best, ours };
@@ -19,10 +20,10 @@ enum class Group { bullet, bullet_solver, mujoco_user, mujoco_best, ours };
 struct Contender {
   std::string name;
   Group group = Group::ours;
-  std::string reference;          ///< Reference::name
-  std::vector<std::string> sets;  ///< texts of --set
+  std::string reference;          ///< name of the Reference for the errors
+  std::vector<std::string> sets;  ///< arguments of --set
   std::vector<double> steps;      ///< s
-  std::size_t lanes = 1;          ///< rollouts side by side
+  std::size_t lanes = 1;          ///< number of rollouts that are simulated side by side
 };
 
 struct Field {
@@ -30,10 +31,10 @@ struct Field {
   std::vector<Contender> contenders;
 };
 
-/// All contenders possible with the catalog's engines; `left_out` lists the impossible ones.
+/// All contenders that are possible with the engines in the catalog. `left_out` receives sentences about those that are not.
 Field field(const Catalog& catalog, std::vector<std::string>& left_out);
 
-/// Name of the reference for the errors of `ours`, besides their own.
+/// Name of a second reference, against which the errors of Group::ours are measured too.
 inline constexpr const char* kOther = "bullet";
 
 }  // namespace gaitlab::versus

@@ -1,4 +1,4 @@
-// Benchmarks of a CPG's derivative and output at a control tick: the native phase oscillator and the same model as equations.
+// Benchmarks of a CPG at a control tick: the built-in phase oscillator, and the same model written as equations.
 #include <benchmark/benchmark.h>
 
 #include "cpg/equations.h"
@@ -20,7 +20,8 @@ RobotInfo chain(std::size_t joints) {
   return robot;
 }
 
-/// One derivative and one output; arguments: joints, coupling rule. The states are not advanced: every call computes the same.
+/// Measures one derivative and one output. The arguments of the benchmark are the number of joints and the coupling rule. The
+/// state is not advanced, so that every call computes the same.
 template <class Model>
 void cpg(benchmark::State& state) {
   const auto joints = static_cast<std::size_t>(state.range(0));
@@ -29,7 +30,8 @@ void cpg(benchmark::State& state) {
   const Model model(chain(joints), settings);
   std::vector<double> x(model.states()), rate(x.size()), setpoint(joints);
   model.start(x);
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] += 0.1 + 0.01 * static_cast<double>(i);  // avoids special values
+  // Avoids special values such as sin(0).
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += 0.1 + 0.01 * static_cast<double>(i);
   for ([[maybe_unused]] auto once : state) {
     model.derivative({}, x, rate);
     model.output(0, x, setpoint);

@@ -22,13 +22,14 @@ namespace gaitlab {
 namespace {
 
 constexpr double kPointRadius = 1e-6;  // m; MuJoCo has no points
-// Contacts of set-up armature: solref's time constant, s, and solimp's initial share of the force when a contact begins and
-// depth over which the whole is reached, m. MuJoCo has 0.02, 0.9 and 0.001: then the torques converge slowly, whatever the
-// solver does (hexapod: 4 % off at 1.25 ms, with these 0.9 %). Chosen among values with about the same depth as gaitlab's law.
+// Contact parameters of set-up armature: the time constant of solref, s; the share of the force at the start of a contact
+// (solimp); the depth at which the full force is reached, m. MuJoCo's defaults are 0.02, 0.9 and 0.001. With the defaults the
+// torques converge slowly, whatever the solver does: in the hexapod at 1.25 ms the error is 4 %, with the values here 0.9 %.
+// The values are chosen among those with about the penetration of gaitlab's contact law.
 constexpr double kTime = 0.01, kOnset = 0.001, kDepth = 0.002;
 
-// Set-up armature: Newton's method starts from the last step's solution, so that this number is sufficient (default: 100, until
-// the tolerance).
+// Iterations of the solver in set-up armature. Newton's method starts from the solution of the last step, so that three are
+// sufficient (default: 100, or until the tolerance is reached).
 constexpr int kIterations = 3;
 
 struct Delete {
@@ -37,7 +38,7 @@ struct Delete {
 };
 using Model = std::unique_ptr<mjModel, Delete>;
 
-/// Part of the scenario for the export: without motors (they are forces on the joints here) and without shapes.
+/// Part of the scenario that is exported: without shapes, and without motors, which are applied as forces on the joints.
 Scenario bare(const PlantSettings& s) {
   Scenario scenario;
   scenario.name = "versus";
@@ -48,7 +49,7 @@ Scenario bare(const PlantSettings& s) {
   scenario.robot = robot;
   scenario.base = s.base;
   scenario.physics.gravity = s.gravity;
-  scenario.physics.step = 1e-3;  // advance() sets it
+  scenario.physics.step = 1e-3;  // replaced in advance()
   scenario.ground = s.ground;
   scenario.on_ground = false;
   const ContactSet all =
@@ -57,7 +58,7 @@ Scenario bare(const PlantSettings& s) {
   return scenario;
 }
 
-/// The export without its sites, and with docked bodies fused, as a user in need of speed would do.
+/// The exported MJCF without sites and with docked bodies fused, as a user who needs speed would write it.
 std::string lean(const std::string& mjcf) {
   std::string out;
   for (std::size_t at = 0; at < mjcf.size();) {
@@ -71,10 +72,9 @@ std::string lean(const std::string& mjcf) {
   return out;
 }
 
-/// The motors as MuJoCo's DC motors, one per joint, in the order of the joints. MuJoCo's has one constant K for torque and
-/// back-EMF, and no efficiency:
-///     T = n K (u - K n w) / R', |T| <= n T_max.
-/// It equals gaitlab's, T = eta Kt n (u - Ks n w) / R and |T| <= eta Kt n i_max, for K = Ks, R' = R Ks / (eta Kt) and
+/// MJCF of MuJoCo's DC motors, one per joint, in the order of the joints. MuJoCo's motor has one constant K for torque and
+/// back-EMF, and no efficiency: T = n K (u - K n w) / R', |T| <= n T_max.
+/// It equals gaitlab's motor, T = eta Kt n (u - Ks n w) / R with |T| <= eta Kt n i_max, for K = Ks, R' = R Ks / (eta Kt) and
 /// T_max = eta Kt i_max.
 std::string dc_motors(const PlantSettings& s) {
   const DcMotor* motor = s.actuator == nullptr ? nullptr : s.actuator->dc_motors();
@@ -92,7 +92,7 @@ std::string dc_motors(const PlantSettings& s) {
   return out + "</actuator>\n";
 }
 
-/// MuJoCo reads models from files.
+/// Compiles a model. MuJoCo reads models from files, so a temporary file is written.
 Model load(const std::string& mjcf) {
   std::string path = std::filesystem::temp_directory_path() / "gaitlab-XXXXXX.xml";
   const int file = mkstemps(path.data(), 4);
@@ -167,7 +167,7 @@ class MujocoPlant final : public Plant {
     }
     write();
     part_.set(torque_, speed_, In(numbers_).subspan(layout_.angles(), joints_), h);
-    // MuJoCo restarts after what it takes for divergence: a run must not continue from there.
+    // MuJoCo restarts a simulation that it considers diverged. The run must not continue from the restart.
     for (const int bad : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC}) {
       if (data_->warning[bad].number > 0) numbers_[0] = std::numeric_limits<double>::quiet_NaN();
     }
@@ -211,7 +211,7 @@ class MujocoPlant final : public Plant {
     return mjINT_EULER;
   }
 
-  /// A single robot is one island, and searching for islands costs time.
+  /// Sets options that save time. Searching for islands is disabled, because a single robot is one island.
   void set_fast_options() {
     model_->opt.iterations = kIterations;
 #if mjVERSION_HEADER >= 336
@@ -219,8 +219,8 @@ class MujocoPlant final : public Plant {
 #endif
   }
 
-  /// Enables contact: the exported geoms are without contact, and elements shall touch only the ground. MuJoCo 3 first compares
-  /// masks of the bodies, which it computed from those of their geoms when it compiled the model.
+  /// Enables contacts of the contact elements with the ground only; the exported geoms do not collide. MuJoCo 3 first compares
+  /// masks of the bodies, which it computed from the masks of their geoms when it compiled the model.
   void touch_with_contacts() {
     mjModel& m = *model_;
     element_.assign(static_cast<std::size_t>(m.ngeom), 0);
@@ -241,7 +241,7 @@ class MujocoPlant final : public Plant {
       if (!(element.radius > 0)) m.geom_size[3 * geom] = m.geom_rbound[geom] = kPointRadius;
     }
     for (std::ptrdiff_t g = 0; g < m.ngeom; ++g) {
-      m.geom_friction[3 * g] = settings_.ground.friction;  // of two geoms MuJoCo takes the larger
+      m.geom_friction[3 * g] = settings_.ground.friction;  // MuJoCo uses the larger friction of two geoms
       if (set_up_ != SetUp::armature) continue;
       m.geom_solref[mjNREF * g] = kTime;
       m.geom_solimp[mjNIMP * g] = kOnset;
@@ -266,7 +266,8 @@ class MujocoPlant final : public Plant {
     for (std::size_t j = 0; j < joints_; ++j) data_->qfrc_applied[dof_[j]] = torque_[j];
   }
 
-  /// MuJoCo's free joint: position, quaternion, velocity in world axes, angular velocity in the body's.
+  /// Copies the state into MuJoCo's. A free joint has position, quaternion, velocity in world axes, and angular velocity in
+  /// body axes.
   void read() {
     std::copy_n(numbers_.begin(), 7, data_->qpos);
     std::copy_n(numbers_.begin() + StateLayout::kVelocity, 3, data_->qvel);
@@ -297,8 +298,8 @@ class MujocoPlant final : public Plant {
   Out numbers_;
   Model model_;
   std::unique_ptr<mjData, Delete> data_;
-  std::vector<int> dof_, q_;          // of each joint
-  std::vector<std::size_t> element_;  // of each geom
+  std::vector<int> dof_, q_;          // index for each joint
+  std::vector<std::size_t> element_;  // contact element of each geom
   std::vector<double> slope_, torque_, speed_, zero_;
   std::array<double, 4> works_ = {};
   OnePart part_;

@@ -21,7 +21,7 @@ constexpr report::Style kFine{.stroke = report::colour::kPale, .width = 0.4};
 constexpr report::Style kFrame{.stroke = report::colour::kInk, .width = 1.2};
 constexpr report::Style kGoodLine{.stroke = report::colour::kInk, .width = 1.2, .dash = "6 4"};
 
-// Seven colours, then again with dashes.
+// Seven colours, then the same colours with dashes.
 report::Style style_of(std::size_t contender) {
   constexpr std::array kColours{report::colour::kBlue,   report::colour::kVermillion, report::colour::kGreen,
                                 report::colour::kPurple, report::colour::kSky,        report::colour::kOrange,
@@ -32,7 +32,7 @@ report::Style style_of(std::size_t contender) {
           .dash = kDashes[contender / kColours.size() % kDashes.size()]};
 }
 
-/// Whole decades that include the added values, which are above 0.
+/// Range of whole decades that contains all added values, which must be above 0.
 struct Decades {
   int lo = 100, hi = -100;
   void add(double value) {
@@ -116,7 +116,7 @@ class ScenarioPanel {
 std::string plot(const Results& results) {
   const std::vector<std::string> scenarios = unique(results, &Point::scenario);
   const std::vector<std::string> contenders = unique(results, &Point::contender);
-  const std::size_t lines = (contenders.size() + 2) / 3;  // three per line
+  const std::size_t lines = (contenders.size() + 2) / 3;  // three entries per line
   double top = kTitleHeight + kLegendLine * static_cast<double>(lines) + kHead;
   report::Svg svg(kWidth, top + (kHeight + kFoot + kHead) * static_cast<double>(scenarios.size()) - kHead);
   svg.text({kWidth / 2, 28}, "Cost of a simulated second, and error of its torques",

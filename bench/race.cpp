@@ -11,7 +11,7 @@ namespace gaitlab::versus {
 
 namespace {
 
-/// A point with its simulation settings.
+/// A contender at one step, with the scenarios of its lanes and its references.
 struct Runner {
   Point point;
   std::vector<Scenario> lanes;
@@ -31,12 +31,12 @@ class Race {
 
  private:
   void run(const std::string& file, const Field& all) {
-    const std::string name = scenario(file, {}, 0).name;  // throws errors of the file
+    const std::string name = scenario(file, {}, 0).name;  // throws the errors of the scenario file
     std::vector<const Contender*> contenders;
     for (const Contender& c : all.contenders) {
       if (glob(settings_.only, c.name)) contenders.push_back(&c);
     }
-    // Reserves memory, so that pointers to the elements stay valid.
+    // The memory is reserved, so that pointers to the elements remain valid.
     std::vector<Converged> references;
     references.reserve(all.references.size());
     for (const Reference& r : all.references) {
@@ -53,7 +53,8 @@ class Race {
     for (int round = 0; round < settings_.rounds; ++round) {
       settings_.say(fmt::format("{}: round {} of {}", name, round + 1, settings_.rounds));
       for (std::size_t i = 0; i < runners.size(); ++i) {
-        // Neighbours change from round to round also: a stride that divides no likely number.
+        // The order is rotated by a stride that divides no likely number of runners, so that the neighbours of a runner change
+        // from round to round.
         step(runners[(i + static_cast<std::size_t>(round) * 7) % runners.size()]);
       }
     }
@@ -95,11 +96,11 @@ class Race {
     return at == references.end() ? nullptr : &*at;
   }
 
-  /// Every lane has other motors, so that lanes differ as they do in a study.
+  /// Adds a runner for each step of a contender. Every lane has other motor values, because rollouts also differ in a study.
   void enter(const std::string& file, const std::string& name, const Contender& c, const std::vector<Converged>& references,
              std::vector<Runner>& runners) {
     const Converged* reference = find(references, c.reference);
-    if (reference == nullptr) return;  // the reason was reported
+    if (reference == nullptr) return;  // the reason has been reported
     for (const double step : c.steps) {
       Runner runner;
       runner.point = {name, c.name, c.group, step, c.lanes, settings_.seconds * static_cast<double>(c.lanes), {}, {},
@@ -129,13 +130,13 @@ class Race {
       if (!p.note.empty()) return;
       p.wall.push_back(measured.timing.wall);
       p.cpu.push_back(measured.timing.cpu);
-      if (p.wall.size() > 1) return;  // a repetition of the run
+      if (p.wall.size() > 1) return;  // repetitions of a run have equal torques
       p.error = torque_error(measured.torques, r.reference->torques, settings_.seconds / 2);
       p.worst_joint = r.lanes[0].robot->joints[p.error.joint].name;
       if (p.group == Group::ours && r.bullet != nullptr) {
         p.other = torque_error(measured.torques, r.bullet->torques, settings_.seconds / 2);
       }
-    } catch (const std::runtime_error& error) {  // refused for its step, or diverged
+    } catch (const std::runtime_error& error) {  // the step is refused, or the run diverged
       p.note = error.what();
     }
   }

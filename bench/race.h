@@ -1,4 +1,4 @@
-// Runs of a race: references, then every contender once per round, in a rotating order.
+// A race of engines: reference runs, then every contender once per round, in a rotating order.
 #pragma once
 #include <functional>
 #include <map>
@@ -12,39 +12,40 @@
 namespace gaitlab::versus {
 
 struct RaceSettings {
-  std::vector<std::string> scenarios;  ///< files
-  std::string only = "*";              ///< pattern of the contenders' names
-  double seconds = 8;                  ///< simulated; errors are of the second half
+  std::vector<std::string> scenarios;  ///< names of scenario files
+  std::string only = "*";              ///< pattern of the names of the contenders that take part
+  double seconds = 8;                  ///< s, simulated time; errors are over its second half
   int rounds = 5;
-  double least = 0.2;  ///< s; shorter runs of a point are repeated within a round until this time has passed
+  double least = 0.2;  ///< s of real time; within a round, a shorter run is repeated until this time has passed
   std::function<void(const std::string&)> say = [](const std::string&) {};
 };
 
-/// A reference in a scenario.
+/// A reference run of a scenario.
 struct Converged {
   std::string scenario, name;
   double step = 0;  ///< s
   Torques torques;
-  TorqueError left;  ///< of the run before, with a longer step
+  TorqueError left;  ///< error of the run with the next longer step against this run
   Course course;
 };
 
-/// A contender at one step.
+/// Results of a contender with one step.
 struct Point {
   std::string scenario, contender;
   Group group = Group::ours;
   double step = 0;  ///< s
   std::size_t lanes = 1;
-  double seconds = 0;  ///< simulated by a run, all lanes
-  std::string note;    ///< reason not to count it: refused, diverged, another walk than bullet's
-  TorqueError error;   ///< against the engine's reference
+  double seconds = 0;  ///< s, simulated time of a run, summed over the lanes
+  std::string note;    ///< reason not to count the result: the step was refused, the run diverged, or the walk differs from
+                       ///< bullet's
+  TorqueError error;   ///< against the reference of the engine
   std::string worst_joint;
-  std::optional<TorqueError> other;  ///< for gaitlab's engines: against kOther
+  std::optional<TorqueError> other;  ///< against kOther, for Group::ours
   Course course;
-  std::vector<double> wall, cpu;  ///< s per run; one per round
+  std::vector<double> wall, cpu;  ///< s per run; one value per round
 
   [[nodiscard]] bool ran() const { return note.empty() && !wall.empty(); }
-  /// Simulated seconds per second.
+  /// Simulated seconds per second of real time, the median over the rounds.
   [[nodiscard]] double speed() const { return seconds / median(wall); }
   [[nodiscard]] double slowest() const;
   [[nodiscard]] double fastest() const;
@@ -54,15 +55,15 @@ struct Point {
 struct Results {
   std::vector<Converged> references;
   std::vector<Point> points;
-  std::vector<std::string> left_out;  ///< sentences
+  std::vector<std::string> left_out;  ///< sentences on contenders and references that could not run
 
-  /// The fastest point of `group` in `scenario` whose worst error is at most `error`; nullptr: none.
+  /// Fastest result of `group` in `scenario` whose error of the worst joint is at most `error`; nullptr if there is none.
   [[nodiscard]] const Point* fastest(const std::string& scenario, Group group, double error) const;
 };
 
-/// Runs the race. A point whose walk differs from that of reference kOther (strays(), bench/measure.h) gets a note and does not
-/// count; such a reference is left out with all contenders measured against it. Throws InputError for a scenario that no engine
-/// can read.
+/// Runs the race. A result whose walk differs from that of reference kOther (strays(), bench/measure.h) gets a note and does
+/// not count. A reference whose walk differs is left out, with all contenders that are measured against it. Throws InputError
+/// for a scenario that cannot be read.
 Results race(const RaceSettings& settings, Catalog& catalog);
 
 }  // namespace gaitlab::versus

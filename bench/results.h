@@ -1,4 +1,4 @@
-// The results of a race as a table, as JSON and as a plot.
+// Results of a race as a table, as JSON and as a plot.
 #pragma once
 #include <string>
 
@@ -6,26 +6,26 @@
 
 namespace gaitlab::versus {
 
-inline constexpr double kGood = 0.01;  ///< worst joint's error at which engines are compared
+inline constexpr double kGood = 0.01;  ///< error of the worst joint at which the speeds of engines are compared
 
-/// A line per point that counts, the fastest of each kind at kGood in comparison with MuJoCo's best set-up and bullet, and the
-/// reasons why other points do not count.
+/// Table with a line for each result that counts. Below it are the fastest result of each group at error kGood, compared with
+/// MuJoCo's best set-up and with bullet, and the reasons why other results do not count.
 std::string table(const Results& results, bool markdown);
 
-/// Only the fastest points of the table above, as Markdown for a page.
+/// The fastest results of that comparison alone, as Markdown for a documentation page.
 std::string digest(const Results& results);
 
-/// `page` with `part` between its lines `<!-- versus: written by --renew -->` and `<!-- end of versus -->`. Throws RunError if
-/// it does not have them.
+/// The text `page` in which `part` replaces the lines between `<!-- versus: written by --renew -->` and `<!-- end of versus
+/// -->`. Throws RunError if these lines are missing.
 std::string renewed(const std::string& page, const std::string& part);
 
-/// All results as JSON: machine, versions, settings, references, every point with the times of every round.
+/// All results as JSON: machine, versions, settings, references, and every point with its times in every round.
 std::string json(const Results& results, const RaceSettings& settings);
 
 std::string processor();  ///< name of the machine's processor
 
-/// SVG: error of the worst joint over simulated seconds per second, both logarithmic; one panel per scenario, one curve per
-/// contender.
+/// SVG plot of the error of the worst joint over the simulated seconds per second, both logarithmic, with one panel per
+/// scenario and one curve per contender.
 std::string plot(const Results& results);
 
 }  // namespace gaitlab::versus

@@ -1,4 +1,4 @@
-// Benchmarks of a rollout's set-up: reading its scenario from a file, or from a template.
+// Benchmarks of the preparation of a rollout: its scenario is read from a file or made from a template.
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 #include <sys/resource.h>
@@ -13,7 +13,7 @@ namespace {
 
 const std::string kScenarios = std::string(GAITLAB_SOURCE_DIR) + "/scenarios/";
 
-/// Reading a scenario with one number changed.
+/// Measures reading a scenario with one changed number.
 void read(benchmark::State& state, const char* name) {
   Catalog catalog = app::standard_catalog();
   double frequency = 0.3;
@@ -24,7 +24,7 @@ void read(benchmark::State& state, const char* name) {
   }
   state.counters["bytes"] = static_cast<double>(mallinfo2().uordblks - before) / static_cast<double>(kept.size());
 }
-/// The same as a rollout of a template.
+/// Measures making the same scenario as a rollout of a template.
 void rollout(benchmark::State& state, const char* name) {
   Catalog catalog = app::standard_catalog();
   const ScenarioTemplate from(kScenarios + name, {}, catalog);
@@ -37,7 +37,7 @@ void rollout(benchmark::State& state, const char* name) {
       static_cast<double>(mallinfo2().uordblks - before) / static_cast<double>(kept.size()) + sizeof(Scenario);
 }
 
-/// The checks that need the assembled robot, and the plants: making the simulation.
+/// Measures making a simulation, which checks the assembled robot and makes the plant.
 void simulation(benchmark::State& state, const char* name) {
   Catalog catalog = app::standard_catalog();
   const ScenarioTemplate from(kScenarios + name, {"physics.engine=articulated"}, catalog);
@@ -45,7 +45,7 @@ void simulation(benchmark::State& state, const char* name) {
   for ([[maybe_unused]] auto once : state) benchmark::DoNotOptimize(Simulation({&one, 1}).step_number());
 }
 
-/// Largest memory of the process during ten thousand rollouts of 0.5 s, one after the other.
+/// Shows the largest memory of the process during a stream of ten thousand rollouts of 0.5 s.
 void stream(benchmark::State& state) {
   Catalog catalog = app::standard_catalog();
   const ScenarioTemplate from(kScenarios + "hexapod.yaml", {"physics.engine=articulated", "duration=0.5"}, catalog);

@@ -1,4 +1,4 @@
-// Benchmarks of a study without its rollouts: the quantities of a run, its row in the journal, reading many rows.
+// Benchmarks of a study: the quantities of a run, its row in the journal, reading many rows, and rollouts as in a sweep.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@
 namespace gaitlab {
 namespace {
 
-/// A scenario and its recording over 12 s, at a row every 15 ms.
+/// A scenario and its recording over 12 s, with a row every 15 ms.
 struct Recorded {
   explicit Recorded(const char* name) {
     scenarios.push_back(read_scenario(std::string(GAITLAB_SOURCE_DIR) + "/scenarios/" + name,
@@ -41,14 +41,14 @@ void overlaps(benchmark::State& state, const char* name) {
   for ([[maybe_unused]] auto once : state) benchmark::DoNotOptimize(report::overlaps(run.scenarios[0], run.recording));
 }
 
-/// Complete evaluation: summary, overlaps, verdict and the columns of the journal.
+/// Measures the evaluation of a run: summary, overlaps, verdict and the columns of the journal.
 void measure(benchmark::State& state, const char* name) {
   const Recorded run(name);
   const studies::Measure of = app::quantity_measure(app::quantity_offer().common, run.scenarios[0]);
   for ([[maybe_unused]] auto once : state) benchmark::DoNotOptimize(of(run.scenarios[0], run.recording).quantities.data());
 }
 
-/// Four rollouts of 20 s side by side, as in a sweep: run and judged, with all quantities.
+/// Measures four rollouts of 20 s side by side, as in a sweep: simulated and judged, with all quantities.
 void rollouts(benchmark::State& state, const char* name) {
   Catalog catalog = app::standard_catalog();
   const ScenarioTemplate from(std::string(GAITLAB_SOURCE_DIR) + "/scenarios/" + name,
@@ -78,7 +78,7 @@ void rollouts(benchmark::State& state, const char* name) {
   state.counters["simulated s/s"] = benchmark::Counter(simulated, benchmark::Counter::kIsRate);
 }
 
-/// A study of 6 parameters and 30 quantities.
+/// Head of the journal of a study with 6 parameters and 30 quantities.
 studies::JournalHead head() {
   studies::JournalHead head;
   head.name = "bench";
@@ -110,7 +110,7 @@ void write_rows(studies::Journal& journal, std::uint64_t first, std::uint64_t co
   }
 }
 
-/// Rows in packs of eight, each pack on the disk before the next.
+/// Measures writing rows in packs of eight. Each pack is on the disk before the next one is written.
 void journal_write(benchmark::State& state) {
   const test::Folder folder;
   studies::Journal journal(folder.path() / studies::kJournalFile, head(), studies::Journal::Build::same);
@@ -126,7 +126,7 @@ void journal_write(benchmark::State& state) {
   state.counters["bytes/row"] = bytes / static_cast<double>(rows);
 }
 
-/// Reading for `study show`.
+/// Measures reading a journal for `study show`.
 void journal_results(benchmark::State& state) {
   const test::Folder folder;
   studies::Journal journal(folder.path() / studies::kJournalFile, head(), studies::Journal::Build::same);

@@ -18,7 +18,8 @@ Row head() {
           "sim s/s",   "min .. max", "per CPU s", "x MuJoCo", "x bullet"};
 }
 
-/// Columns as wide as their widest entry; the first is aligned to the left. Markdown: with a rule under the head.
+/// Table text with columns as wide as their widest cell; the first column is aligned left. With `markdown` a rule follows the
+/// head.
 std::string lay_out(const std::vector<Row>& rows, bool markdown) {
   std::vector<std::size_t> widths(rows.front().size());
   for (const Row& row : rows) {
@@ -65,7 +66,7 @@ std::vector<std::string> scenarios(const Results& results) {
   return names;
 }
 
-/// The fastest points that count: one per group, for gaitlab's engines one per number of lanes.
+/// The fastest results that count at error kGood: one per group, and for gaitlab's engines one per number of lanes.
 std::vector<const Point*> fastest(const Results& results, const std::string& scenario) {
   std::vector<const Point*> best;
   for (const Point& p : results.points) {
@@ -88,7 +89,7 @@ std::string best_table(const Results& results, const std::string& scenario, bool
   return lay_out(rows, markdown);
 }
 
-/// Reasons why points do not count.
+/// Reasons why results do not count, one line each.
 std::string reasons(const Results& results, const std::string& scenario) {
   std::string out;
   for (const Point& p : results.points) {

@@ -1,4 +1,4 @@
-// `./lab bench --versus`: gaitlab's engines, Bullet and MuJoCo side by side, in time and in torques.
+// `./lab bench --versus`, which compares gaitlab's engines, Bullet and MuJoCo in time and in torques.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

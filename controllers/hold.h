@@ -1,4 +1,4 @@
-// Controller `hold`: a constant command, in the actuator's unit.
+// Controller `hold`, which gives a constant command in the actuator's unit.
 #pragma once
 #include "core/plugin/registry.h"
 

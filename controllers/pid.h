@@ -1,4 +1,4 @@
-// Controller `pid`: the sampled PID of the paper with a filtered derivative.
+// Controller `pid`, the sampled PID of the paper with a filtered derivative.
 #pragma once
 #include "core/plugin/registry.h"
 
@@ -6,7 +6,7 @@ namespace gaitlab::controllers {
 
 class Pid final : public Controller {
  public:
-  enum class Unit { volt, newton_metre };  ///< of the command
+  enum class Unit { volt, newton_metre };  ///< unit of the command
   struct Settings {
     PerJoint Kp{100}, Ki{0}, Kd{0.6}, N{10};
     bool anti_windup = true;
@@ -17,7 +17,7 @@ class Pid final : public Controller {
 
   Pid(const RobotInfo& robot, Settings settings) : joints_(robot.joints.size()), s_(std::move(settings)) {}
   [[nodiscard]] std::string_view command_unit() const override { return s_.unit == Unit::volt ? "V" : "N m"; }
-  /// A flag set by the first tick, then I, D, e and u of the last tick for every joint.
+  /// Number of states: a flag that the first tick sets, then I, D, e and u of the last tick for every joint.
   [[nodiscard]] std::size_t states() const override { return 1 + 4 * joints_; }
   void start(Out x) const override;
   void update(const Measured& measured, In setpoint, In command_limit, Out x, Out command) const override;

@@ -1,4 +1,4 @@
-// The controllers built in.
+// Registration of the built-in controllers.
 #pragma once
 #include "core/plugin/registry.h"
 

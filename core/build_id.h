@@ -1,8 +1,8 @@
-// Identity of this build: version, commit, compiler, and the libraries on which numbers depend.
+// Identity of this build: version, commit, compiler, and the libraries that influence the numbers.
 #pragma once
 #include <string>
 
 namespace gaitlab {
-/// `0.1.0+1a2b3c4 (GNU 12.2.0; Bullet 3.24, SLEEF 3.5.1)`; `.dirty` follows the commit if the tree had changes.
+/// Text such as `0.1.0+1a2b3c4 (GNU 12.2.0; Bullet 3.24, SLEEF 3.5.1)`. The commit ends with `.dirty` if the tree had changes.
 std::string build_id();
 }  // namespace gaitlab

@@ -14,12 +14,12 @@ std::string to_string(const SourceLocation& place) {
 
 namespace {
 
-constexpr std::size_t kMostProblems = 200;  // largest number printed
+constexpr std::size_t kMostProblems = 200;  // largest number of problems in a message
 constexpr std::size_t kMostBytes =
-    500;  // largest length of one; a user's texts are clipped where they are inserted, this limit is for any that are not
+    500;  // largest length of a problem; texts of users are clipped earlier, so that this limit is a second safeguard
 
-/// Number of bytes of the control character that begins at `i`, in UTF-8: ASCII, the second set, or a bidirectional mark, which
-/// shows a text in another order than its bytes; else 0.
+/// Number of bytes of the control character in UTF-8 that begins at `i`, or 0 if none does. Control characters are those of
+/// ASCII, the second set (U+0080 to U+009F), and bidirectional marks, which display a text in another order than its bytes.
 std::size_t control_at(std::string_view text, std::size_t i) noexcept {
   const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
   const unsigned second = byte(i + 1);
@@ -34,7 +34,7 @@ std::size_t control_at(std::string_view text, std::size_t i) noexcept {
   return marks || isolates ? 3 : 0;
 }
 
-/// Passes the text to `put` piece by piece, each control character except `kept` as \xHH.
+/// Passes the text to `put` in pieces. Each control character except `kept` becomes \xHH.
 template <class Put>
 void escape(std::string_view text, char kept, const Put& put) {
   constexpr std::string_view kHex = "0123456789abcdef";
@@ -55,7 +55,7 @@ std::string escaped_but(char kept, const std::string& text) {
   return out;
 }
 
-/// Clips a text, between two characters.
+/// Clips a text to kMostBytes, between two characters.
 std::string cut(const std::string& text) {
   if (text.size() <= kMostBytes) return text;
   std::size_t end = kMostBytes;
@@ -81,8 +81,8 @@ std::string report(const std::vector<Problem>& problems) {
   return text;
 }
 
-// Levenshtein distance; a swap of neighbours, the commonest typing error, counts one. For a distance of `enough` or more the
-// result is any number from `enough` on: a name that is not nearer than another need not be read to its end.
+// Levenshtein distance, in which a swap of neighbours, the most common typing error, counts as one. A distance of `enough` or
+// more may be any number from `enough` on, because a name that is not nearer than another need not be read to its end.
 std::size_t distance(const std::string& a, const std::string& b, std::size_t enough) {
   std::vector<std::size_t> before(b.size() + 1);
   std::vector<std::size_t> row(b.size() + 1);
@@ -132,12 +132,12 @@ InputError::InputError(SourceLocation place, std::string text)
     : InputError(std::vector<Problem>{{std::move(place), std::move(text), {}}}) {}
 
 std::string nearest(const std::string& found, const std::vector<std::string>& known) {
-  constexpr std::size_t kLongest = 200;  // longer texts are not near any name, and their distances would take seconds
+  constexpr std::size_t kLongest = 200;  // a longer text is not similar to any name, and its distances would take seconds
   if (found.size() > kLongest) return {};
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(1, found.size() / 3) + 1;
   for (const std::string& name : known) {
-    // Each letter more or less adds one to the distance.
+    // Each additional or missing letter adds one to the distance.
     if (std::max(name.size(), found.size()) - std::min(name.size(), found.size()) >= best_distance) continue;
     const std::size_t d = distance(found, name, best_distance);
     if (d < best_distance) {
@@ -146,7 +146,7 @@ std::string nearest(const std::string& found, const std::vector<std::string>& kn
     }
   }
   if (!best.empty() || found.size() < 3) return best;
-  // An abbreviation: the only name that begins with it.
+  // `found` may be an abbreviation: the only name that begins with it is the result.
   for (const std::string& name : known) {
     if (!name.starts_with(found)) continue;
     if (!best.empty()) return {};

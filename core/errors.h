@@ -1,4 +1,4 @@
-// Errors, each with its location: bad input (exit code 2) and a failed run (exit code 1).
+// Errors with their locations: bad input (exit code 2) and a failed run (exit code 1).
 #pragma once
 #include <cstddef>
 #include <stdexcept>
@@ -9,7 +9,7 @@
 
 namespace gaitlab {
 
-/// A position in a text that the user wrote; line and column count from 1, 0 means "the whole file".
+/// A position in a text that the user wrote. Line and column are counted from 1; line 0 means the whole file.
 struct SourceLocation {
   std::string file = {};
   int line = 0;
@@ -17,17 +17,18 @@ struct SourceLocation {
   bool operator==(const SourceLocation&) const = default;
 };
 
-/// `FILE:LINE:COL`, or `FILE` alone without a line.
+/// Text `FILE:LINE:COL`, or `FILE` if the line is 0.
 std::string to_string(const SourceLocation& place);
 
-/// One finding: its place, the value found and the value expected, and notes with other places or a remedy.
+/// A problem of the input: its place, a text with the value found and the value expected, and notes with other places or a
+/// remedy.
 struct Problem {
   SourceLocation place;
   std::string text;
   std::vector<std::pair<SourceLocation, std::string>> notes = {};
 };
 
-/// Collects findings, so that a user sees all of them at once.
+/// Collection of problems, so that a user sees all of them at once.
 class Problems {
  public:
   Problem& add(SourceLocation place, std::string text) {
@@ -36,25 +37,25 @@ class Problems {
   [[nodiscard]] bool empty() const { return list_.empty(); }
   [[nodiscard]] std::size_t size() const { return list_.size(); }
   [[nodiscard]] const std::vector<Problem>& list() const { return list_; }
-  /// Throws InputError with all findings so far; does nothing without findings.
+  /// Throws InputError with all problems so far. Has no effect if there are none.
   void raise() const;
 
  private:
   std::vector<Problem> list_;
 };
 
-/// A name in one line, its control characters as \x1b.
+/// A name on one line, with control characters as \x1b.
 std::string one_line(const std::string& name);
 
-/// Prints a text on stderr, by its length and without allocating. Control characters (also NUL, but not newlines) are printed
-/// as \x1b, because messages contain names of files and texts from unknown sources. Every message of the program is printed
-/// here. If stderr cannot be written, the message is lost.
+/// Prints a text on stderr without allocating memory. Control characters (also NUL, but not newlines) are printed as \x1b,
+/// because messages contain file names and texts from unknown sources. All messages of the program are printed by this
+/// function. If stderr cannot be written, the message is lost.
 void say(std::string_view text) noexcept;
-/// `NAME: KIND: TEXT` on a line; KIND is error, warning or note.
+/// Prints `NAME: KIND: TEXT` on a line. KIND is error, warning or note.
 void say(const std::string& name, const char* kind, const std::string& text);
 
-/// Bad input: exit code 2. what() is the whole text for stderr, one `FILE:LINE:COL: error: TEXT` per finding: at most 200, each
-/// of at most 500 bytes behind its place, and the number of further ones; without control characters.
+/// Bad input, with exit code 2. what() is the whole text for stderr, with a line `FILE:LINE:COL: error: TEXT` for each of at
+/// most 200 problems, and the number of further ones. A text has at most 500 bytes and no control characters.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<Problem> problems);
@@ -65,14 +66,14 @@ class InputError : public std::runtime_error {
   std::vector<Problem> problems_;
 };
 
-/// A run that failed (diverged, disk full): exit code 1.
+/// A run that failed, for example because it diverged or the disk is full. The exit code is 1.
 class RunError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The known name nearest to `found` (edit distance, at most a third of its length), or the only one that begins with it, or
-/// empty.
+/// The known name most similar to `found`, by edit distance, or the only name that begins with `found`. Empty if neither
+/// exists.
 std::string nearest(const std::string& found, const std::vector<std::string>& known);
 
 }  // namespace gaitlab

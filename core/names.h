@@ -1,4 +1,4 @@
-// Names of the values of an enum class: one table beside the enum, for messages, files and screens.
+// Names of the values of an enum class, in one table next to the enum, for messages, files and screens.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -9,9 +9,9 @@
 
 namespace gaitlab {
 
-/// Specialised beside the enum, whose values count from 0: `static constexpr EnumName<Enum> kTable[]` with a row for each
-/// value, in their order. A row may be of any type that has `value` and `text`, so that a table has room for further columns.
-/// A value without a row does not compile where the table is used.
+/// Table of an enum's names, specialised next to the enum, whose values count from 0. It contains `static constexpr
+/// EnumName<Enum> kTable[]` with a row for each value, in the order of the values. A row may be of any type with `value` and
+/// `text`, so that a table may have further columns. A value without a row is a compiler error where the table is used.
 template <class Enum>
 struct EnumNames;
 
@@ -26,7 +26,8 @@ concept NamedEnum = requires {
   EnumNames<Enum>::kTable;
 };
 
-/// True if an enum has the value. The compiler prints a value of the enum by its name, any other as a cast: `(gaitlab::Word)4`.
+/// True if an enum has this value. The compiler prints an enumerator by its name, and any other value as a cast:
+/// `(gaitlab::Word)4`.
 template <auto kValue>
 constexpr bool is_enumerator() {
   constexpr std::string_view kShown = __PRETTY_FUNCTION__;  // `... kValue = gaitlab::Word::feasible]`
@@ -49,7 +50,7 @@ constexpr const auto& enum_table() {
   return EnumNames<Enum>::kTable;
 }
 
-/// The row of a value.
+/// The table row of a value.
 template <NamedEnum Enum>
 constexpr const auto& enum_row(Enum value) {
   return enum_table<Enum>()[static_cast<std::size_t>(value)];
@@ -60,7 +61,7 @@ constexpr const char* name_of(Enum value) {
   return enum_row(value).text;
 }
 
-/// The value with a name; none: unknown name.
+/// The value with this name; nothing if the name is unknown.
 template <NamedEnum Enum>
 constexpr std::optional<Enum> named(std::string_view text) {
   for (const auto& row : enum_table<Enum>()) {
@@ -80,7 +81,7 @@ inline constexpr auto kTexts = [] {
 
 }  // namespace detail
 
-/// All names, in the order of the values: for `Fields::choice`, and for messages that offer the nearest one.
+/// All names in the order of the values, for `Fields::choice`, and for messages that suggest the nearest name.
 template <NamedEnum Enum>
 constexpr std::span<const char* const> enum_names() {
   return detail::kTexts<Enum>;

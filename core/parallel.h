@@ -1,4 +1,4 @@
-// Independent pieces of work side by side in threads.
+// Execution of independent pieces of work in several threads.
 #pragma once
 #include <algorithm>
 #include <atomic>
@@ -13,7 +13,7 @@
 
 namespace gaitlab {
 
-/// Prints once per process that fewer threads run than requested, with the same results.
+/// Prints, once per process, that fewer threads run than requested. The results are the same.
 inline void say_no_room(std::size_t started, std::size_t wanted, const std::error_code& why) {
   static std::atomic<bool> said = false;
   if (said.exchange(true)) return;
@@ -23,9 +23,9 @@ inline void say_no_room(std::size_t started, std::size_t wanted, const std::erro
           "; -j asks for fewer, and limits of memory or processes (ulimit -v, ulimit -u, a container's) leave room for more");
 }
 
-/// Calls work(i) once for every i < count, up to `jobs` at once. Each call writes to separate data, so that the result does not
-/// depend on `jobs`; if the system refuses threads, fewer are used. All calls have returned before the first exception, in the
-/// order of i, is thrown.
+/// Calls work(i) once for every i < count, with up to `jobs` calls at a time. Each call must write to separate data, so that
+/// the result does not depend on `jobs`. If the system refuses threads, fewer are used. If calls throw, the exception with the
+/// least i is thrown after all calls have returned.
 template <class Work>
 void parallel(std::size_t count, int jobs, Work&& work) {
   std::vector<std::exception_ptr> errors(count);

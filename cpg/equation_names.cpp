@@ -19,7 +19,7 @@ double depth(const RobotInfo& robot, std::size_t joint) {
 }
 
 double side(const RobotInfo& robot, std::size_t joint) {
-  constexpr double kMiddle = 1e-3;  // m: far above rounding, far below a module
+  constexpr double kMiddle = 1e-3;  // m; far above rounding errors, far below the size of a module
   const double y = robot.joints[joint].origin[1];
   return y > kMiddle ? 1 : y < -kMiddle ? -1 : 0;
 }
@@ -59,7 +59,7 @@ const char* text_of(Where where) {
 }  // namespace
 
 std::string offer_name(const std::string& found, const std::vector<std::string>& known, const std::string& kind) {
-  // Every single letter is near to one letter; a very long name is near to none, and its edit distance takes time.
+  // Every single letter is similar to one letter. A very long name is similar to none, and its edit distance would take time.
   const std::string near = found.size() < 2 || found.size() > 200 ? std::string() : nearest(found, known);
   if (!near.empty()) return "; did you mean '" + near + "'?";
   std::string all;

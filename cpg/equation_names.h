@@ -1,4 +1,4 @@
-// Names that each text of `equations` may use.
+// Names that the texts of `equations` may contain.
 #pragma once
 #include <string>
 #include <vector>
@@ -12,10 +12,10 @@ namespace gaitlab::cpg {
 using expression::Function;
 using expression::Term;
 
-/// End of a message on an unknown name: the nearest name, or all.
+/// End of a message about an unknown name, with the nearest known name or with all known names.
 std::string offer_name(const std::string& found, const std::vector<std::string>& known, const std::string& kind);
 
-/// Predeclared values per joint: the common keys and the joint's place in the robot's tree.
+/// Predefined values per joint: the common keys, and the joint's place in the robot's tree.
 struct GivenValue {
   const char* name;
   double (*value)(const RobotInfo&, const OscillatorKeys&, const std::vector<double>& phases, std::size_t joint);
@@ -24,21 +24,21 @@ std::span<const GivenValue> given_values();
 
 class EquationNames {
  public:
-  /// Kind of a text. parameter: it may contain parameters declared above it.
+  /// Kind of a text. A text of the kind `parameter` may contain the parameters that are declared before it.
   enum class Where { parameter, initial, derivative, output };
   enum class Kind { pi, time, given, parameter, state, angle, speed, torque, touching, weight, lag };
   struct Entry {
     std::string name;
     Kind kind;
-    std::size_t slot = 0;  ///< given, parameter, state: index among its kind
+    std::size_t slot = 0;  ///< index among the names of the kind given, parameter or state
   };
 
   EquationNames();
-  /// Declares a name; returns the error of an invalid one (its offset: npos), or nothing.
+  /// Declares a name. Returns an error message for an invalid name, or "".
   [[nodiscard]] std::string declare(const std::string& name, Kind kind, std::size_t slot);
 
   [[nodiscard]] const Entry* find(const std::string& name) const;
-  /// Adds the faults of a tree that belongs to `where`. `slot`: of the parameter itself.
+  /// Adds the faults of a tree that belongs to `where`. For a parameter, `slot` is its own index.
   void check(const Term& term, Where where, std::size_t slot, std::vector<expression::Fault>& faults) const;
 
  private:

@@ -45,10 +45,10 @@ EquationProgram::Block EquationProgram::take_scratch() {
 void EquationProgram::give_back(const Block& block) {
   if (block.base != Base::scratch) return;
   const std::size_t number = block.offset / width_;
-  if (std::ranges::find(free_, number) == free_.end()) free_.push_back(number);  // both operands of x^2 are one number
+  if (std::ranges::find(free_, number) == free_.end()) free_.push_back(number);  // both operands of x * x are the same number
 }
 
-/// Adds an instruction, or evaluates it if its operands are constant.
+/// Adds an instruction. If its operands are constant, computes its result instead.
 EquationProgram::Block EquationProgram::emit(Instruction instruction, Over over) {
   instruction.count = count(over);
   bool fixed = instruction.move != Move::time;
@@ -60,7 +60,7 @@ EquationProgram::Block EquationProgram::emit(Instruction instruction, Over over)
     execute(instruction, bases, 0, values.data());
     return keep(values);
   }
-  instruction.out = take_scratch();  // before its operands are free: no instruction works in place
+  instruction.out = take_scratch();  // precedes the release of the operands, so that no instruction works in place
   for (const Block& in : instruction.in) give_back(in);
   instructions_.push_back(instruction);
   return instruction.out;
@@ -131,7 +131,7 @@ EquationProgram::Block EquationProgram::compile_call(const Term& term, Over over
   Instruction call;
   call.op = expression::find_function(term.name)->op;
   const std::vector<Term>& arguments = term.arguments;
-  // A square is a product: cheaper, and right for every sign.
+  // A square is computed as a product, which is cheaper and correct for every sign.
   const bool square = call.op == Op::pow && arguments[1].kind == Term::Kind::number && arguments[1].number == 2;
   call.in[0] = compile(arguments[0], over);
   if (square) {
@@ -145,7 +145,7 @@ EquationProgram::Block EquationProgram::compile_call(const Term& term, Over over
 
 void EquationProgram::put_out(const Block& value, std::size_t text) {
   const Block out{Base::result, text * joints_};
-  if (value.base == Base::scratch) {  // the result of the last instruction
+  if (value.base == Base::scratch) {  // the value is the result of the last instruction
     instructions_.back().out = out;
   } else {
     Instruction copy{Move::copy};

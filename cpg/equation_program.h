@@ -1,4 +1,4 @@
-// Checked trees of `equations` as one compact program over all joints at once.
+// Compact program that evaluates checked trees of `equations` for all joints at once.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -7,42 +7,43 @@
 
 namespace gaitlab::cpg {
 
-/// Values known when a program is made; one per joint unless stated otherwise.
+/// Values that are known when a program is made, one per joint unless stated otherwise.
 struct EquationTables {
   std::size_t joints = 0;
-  std::vector<std::vector<double>> given, parameters;  ///< by slot
+  std::vector<std::vector<double>> given, parameters;  ///< values by slot, then by joint
   std::vector<Coupling> couplings;
   std::vector<std::size_t> module;  ///< module of each joint
 };
 
-/// Inputs of a run. Spans that no text uses may be empty.
+/// Inputs of a run. A span that no text uses may be empty.
 struct EquationInputs {
   double t = 0;
-  In state, angle, speed, torque;  ///< state: slot * joints + joint
-  In touching;                     ///< one per module
+  In state, angle, speed, torque;  ///< index of state: slot * joints + joint; index of the other spans: joint
+  In touching;                     ///< index: number of the module
 };
 
-/// Every instruction is a loop over all joints or, within a neighbour sum, over all couplings (then added up by their target).
-/// Values that depend on no input are computed once, when the program is made. One object serves one rollout: run() writes to
-/// its scratch memory and does not allocate. Cost: about a nanosecond per instruction and joint, plus its functions.
+/// Program of instructions. Each instruction is a loop over all joints or, within a neighbour sum, over all couplings, whose
+/// values are then added by target joint. Values that depend on no input are computed once, when the program is made. One
+/// object serves one rollout: run() writes to its scratch memory and does not allocate. An instruction costs about a nanosecond
+/// per joint, plus its functions.
 class EquationProgram {
  public:
   EquationProgram() = default;
-  /// The trees must have passed EquationNames::check.
+  /// Compiles trees that have passed EquationNames::check.
   EquationProgram(const EquationNames& names, const EquationTables& tables, std::span<const Term> texts);
-  /// result: text * joints + joint.
+  /// Evaluates all texts. The index of `result` is text * joints + joint.
   void run(const EquationInputs& inputs, Out result) const;
 
  private:
   enum class Base : std::uint8_t { fixed, scratch, state, angle, speed, torque, touching, result };
-  /// A block of numbers, one per joint or one per coupling.
+  /// A block of numbers with one number per joint or per coupling.
   struct Block {
     Base base = Base::fixed;
     std::size_t offset = 0;
   };
   enum class Move : std::uint8_t { none, copy, time, gather_from, gather_to, gather_module, sum };
   struct Instruction {
-    Move move = Move::none;  ///< none: `op`
+    Move move = Move::none;  ///< `none` means that the instruction computes `op`
     Function::Op op = {};
     std::array<Block, 3> in = {};
     Block out = {};
@@ -50,7 +51,7 @@ class EquationProgram {
   };
   using Bases = std::array<const double*, 8>;
 
-  /// A place in a text: over joints, or over couplings within a sum.
+  /// Index set of a place in a text: joints, or couplings within a sum.
   enum class Over { joints, couplings };
   Block compile(const Term& term, Over over);
   Block compile_name(const Term& term, Over over);
@@ -69,7 +70,7 @@ class EquationProgram {
   std::vector<Instruction> instructions_;
   std::vector<double> fixed_;
   mutable std::vector<double> scratch_;
-  // Used only during construction:
+  // The following members are used only during construction.
   const EquationNames* names_ = nullptr;
   const EquationTables* tables_ = nullptr;
   std::vector<std::size_t> free_;

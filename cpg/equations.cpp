@@ -55,7 +55,7 @@ namespace {
 using Kind = EquationNames::Kind;
 using Where = EquationNames::Where;
 
-/// A fault of the model, with its place: at a byte of the text under `key` (and `name`), npos: at the name itself.
+/// A fault of the model, at a byte of the text under `key` (and `name`), or at the name if the offset is npos.
 struct Fault {
   const char* key;
   std::string name;
@@ -63,10 +63,10 @@ struct Fault {
   std::string what;
 };
 
-/// The texts as checked trees.
+/// The texts of the model as checked trees.
 struct Parsed {
   EquationNames names;
-  std::vector<Term> parameters;  ///< 0 for a parameter given as numbers
+  std::vector<Term> parameters;  ///< 0 for a parameter that is given as a number
   std::vector<Term> states;
   std::vector<Term> initial;  ///< one per state
   Term output;
@@ -106,7 +106,7 @@ struct Parsed {
     }
   }
 
-  /// Tree of a text. An empty text has a reported fault already; its tree is 0.
+  /// Tree of a text. An empty text has been reported as a fault; its tree is 0.
   Term tree(const char* key, const std::string& name, const std::string& text, Where where, std::size_t slot) {
     if (text.empty()) return {};
     std::vector<expression::Fault> wrong;
@@ -157,7 +157,7 @@ void EquationsModel::fields(Fields& f) {
   const std::vector<Named> before = states;
   f.number("coupling", coupling, {"1/s", 0, 1000, "Weight w of the couplings made by a rule."});
   f.named("states", states, NamedValues::texts, "States and their derivatives.");
-  if (states != before) {  // the other defaults go with the default states
+  if (states != before) {  // the other defaults belong to the default states
     initial.clear();
     output.clear();
   }

@@ -1,11 +1,11 @@
-// CPG `equations`: a model given by its equations in the scenario file.
+// CPG `equations`, a model whose equations are in the scenario file.
 #pragma once
 #include "core/plugin/registry.h"
 #include "cpg/equation_program.h"
 
 namespace gaitlab::cpg {
 
-/// Settings of the model: texts by the grammar of core/expression/expression.h. The defaults are the model of
+/// Settings of the model. The texts follow the grammar of core/expression/expression.h. The defaults are the model of
 /// `phase_oscillator`.
 struct EquationsModel {
   double coupling = 1;
@@ -24,9 +24,9 @@ class Equations final : public Cpg {
   static const char* const kManual;
   static constexpr std::size_t kMostStates = 32, kMostParameters = 64;
 
-  /// Throws std::invalid_argument if a text has a fault, or a parameter or initial value is not finite for this robot.
+  /// Throws std::invalid_argument if a text has a fault, or if a parameter or initial value is not finite for this robot.
   Equations(const RobotInfo& robot, const Settings& settings);
-  /// One block per state, in their order.
+  /// Number of states. Each state of the model is a block with one number per joint.
   [[nodiscard]] std::size_t states() const override { return states_.size() * joints_; }
   [[nodiscard]] std::string state_name(std::size_t index) const override;
   void start(Out state) const override;

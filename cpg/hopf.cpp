@@ -40,12 +40,12 @@ void HopfModel::fields(Fields& f) {
 }
 
 Hopf::Hopf(const RobotInfo& robot, const Settings& settings) : OscillatorCpg(robot, settings, kBlocks) {
-  if (s_.model.duty_factor == 0.5) return;  // the pace is constant
-  // The period in units of 1 / f is the mean of 1 / pace; equal steps are optimal for a smooth periodic function.
+  if (s_.model.duty_factor == 0.5) return;  // the pace is constant, so that no table is necessary
+  // The mean of 1 / pace is the period in units of 1 / f. Equal steps are optimal for a smooth periodic function.
   double sum = 0;
   for (std::size_t k = 0; k < kTableSteps; ++k) sum += 1 / pace(-math::cos(kTurn * static_cast<double>(k) / kTableSteps));
   scale_ = sum / kTableSteps;
-  // d(angle)/d(phase) = pace, by RK4.
+  // Integrates d(angle)/d(phase) = pace by RK4.
   std::vector<double> angles(kTableSteps + 1, 0.0);
   const double h = kTurn / kTableSteps;
   math::RungeKutta method(1);

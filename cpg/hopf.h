@@ -1,4 +1,4 @@
-// CPG `hopf`: Hopf oscillators with diffusive coupling, with separate durations of swing and stance.
+// CPG `hopf`, Hopf oscillators with diffusive coupling and separate durations of swing and stance.
 #pragma once
 #include "core/plugin/oscillators.h"
 #include "core/plugin/registry.h"
@@ -14,19 +14,19 @@ struct HopfModel {
 class Hopf final : public OscillatorCpg<HopfModel> {
  public:
   static const char* const kManual;
-  static constexpr const char* kBlocks[] = {"x", "y"};  ///< of the states
+  static constexpr const char* kBlocks[] = {"x", "y"};  ///< names of the states
 
   Hopf(const RobotInfo& robot, const Settings& settings);
   void start(Out state) const override;
   void derivative(const Measured&, In state, Out rate) const override;
   void output(double t, In state, Out setpoint) const override;
 
-  /// omega / (2 pi f) at y: the pace of stance where b y >> 1, of swing where b y << -1.
+  /// Angular speed at y divided by 2 pi f. It is the pace of stance if b y >> 1, and that of swing if b y << -1.
   [[nodiscard]] double pace(double y) const;
 
  private:
-  double scale_ = 1;  ///< for a mean frequency of f
-  PhaseTable angle_;  ///< angle on the circle at a phase, and back
+  double scale_ = 1;  ///< factor by which the mean frequency becomes f
+  PhaseTable angle_;  ///< angle on the circle as a function of the phase, and the inverse
 };
 
 }  // namespace gaitlab::cpg

@@ -30,7 +30,7 @@ Reference: C. de Boor, A Practical Guide to Splines, Springer 1978, chapter IV.
 
 namespace {
 
-// Error in the times, or "".
+// Error message about the times of frames, or "".
 std::string wrong_times(const std::vector<Keyframes::Frame>& frames) {
   if (frames.size() < 2) return "at least two frames are needed; found " + std::to_string(frames.size());
   if (frames[0].time != 0) return "the first frame's time must be 0";
@@ -47,7 +47,7 @@ struct Tridiagonal {
   explicit Tridiagonal(std::size_t size) : lower(size, 0.0), diagonal(size, 0.0), upper(size, 0.0) {}
   std::vector<double> lower, diagonal, upper;
 
-  // Thomas: elimination without pivots, which these diagonally dominant matrices do not need.
+  // Solves the system by Thomas' algorithm: elimination without pivots, which these diagonally dominant matrices do not need.
   [[nodiscard]] std::vector<double> solve(std::vector<double> right) const {
     const std::size_t n = diagonal.size();
     std::vector<double> scaled(n);
@@ -60,7 +60,8 @@ struct Tridiagonal {
     return right;
   }
 
-  // The same with `corner` in the first row's last and the last row's first place: Sherman and Morrison's update of rank one.
+  // Solves the system with `corner` in the last column of the first row and in the first column of the last row, by Sherman and
+  // Morrison's update of rank one.
   [[nodiscard]] std::vector<double> solve_cyclic(std::vector<double> right, double corner) const {
     const std::size_t n = diagonal.size();
     const double gamma = -diagonal[0];
@@ -78,9 +79,9 @@ struct Tridiagonal {
   }
 };
 
-// Second derivatives of the C2 spline through y at t whose end meets its beginning (y.front() == y.back()).
+// Second derivatives of the periodic C2 spline through y at t, for which y.front() == y.back().
 std::vector<double> periodic_spline(const std::vector<double>& t, const std::vector<double>& y) {
-  const std::size_t n = t.size() - 1;  // the last frame is the first one
+  const std::size_t n = t.size() - 1;  // number of frames without the last frame, which equals the first
   if (n == 1) return {0, 0};
   Tridiagonal system(n);
   std::vector<double> right(n);
@@ -98,7 +99,7 @@ std::vector<double> periodic_spline(const std::vector<double>& t, const std::vec
   return curvature;
 }
 
-// The same with zero speed at both ends.
+// Second derivatives of the C2 spline through y at t with zero speed at both ends.
 std::vector<double> clamped_spline(const std::vector<double>& t, const std::vector<double>& y) {
   const std::size_t n = t.size();
   Tridiagonal system(n);
@@ -152,7 +153,7 @@ Keyframes::Keyframes(const RobotInfo& robot, const Settings& settings)
 }
 
 void Keyframes::check_closed(const RobotInfo& robot) {
-  constexpr double kSame = 1e-9;  // rad: rounding of a program that wrote the frames
+  constexpr double kSame = 1e-9;  // rad; rounding error of a program that wrote the frames
   const std::size_t last = angle_.size() - joints_;
   for (std::size_t j = 0; j < joints_; ++j) {
     if (!(std::abs(angle_[last + j] - angle_[j]) <= kSame)) {

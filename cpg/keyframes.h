@@ -1,4 +1,4 @@
-// Gait `keyframes`: joint angles at given times, joined by splines or straight lines.
+// Gait `keyframes`, joint angles at given times, joined by splines or straight lines.
 #pragma once
 #include "core/plugin/registry.h"
 
@@ -25,8 +25,8 @@ class Keyframes final : public Cpg {
   };
   static const char* const kManual;
 
-  /// Throws std::invalid_argument: fewer than two frames, times that do not rise from 0, or frames to repeat that do not end as
-  /// they begin, naming the joint.
+  /// Throws std::invalid_argument for fewer than two frames, for times that do not increase from 0, and for repeated frames
+  /// whose last angles differ from the first (the message names the joint).
   Keyframes(const RobotInfo& robot, const Settings& settings);
   void output(double t, In, Out setpoint) const override;
 
@@ -37,8 +37,8 @@ class Keyframes final : public Cpg {
   std::size_t joints_;
   bool repeat_;
   double ramp_;
-  std::vector<double> time_;               ///< s, of every frame
-  std::vector<double> angle_, curvature_;  ///< rad, and its second derivative, rad/s^2; frame * joints + joint
+  std::vector<double> time_;               ///< time of every frame, s
+  std::vector<double> angle_, curvature_;  ///< angle, rad, and its second derivative, rad/s^2; index frame * joints + joint
 };
 
 }  // namespace gaitlab::cpg

@@ -1,4 +1,4 @@
-// CPG `kuramoto_amplitude`: phase oscillators whose amplitude and offset obey critically damped second-order equations.
+// CPG `kuramoto_amplitude`, phase oscillators whose amplitude and offset obey critically damped second-order equations.
 #pragma once
 #include "core/plugin/oscillators.h"
 #include "core/plugin/registry.h"
@@ -13,7 +13,7 @@ struct KuramotoAmplitudeModel {
 class KuramotoAmplitude final : public OscillatorCpg<KuramotoAmplitudeModel> {
  public:
   static const char* const kManual;
-  static constexpr const char* kBlocks[] = {"phi", "r", "dr", "x", "dx"};  ///< of the states
+  static constexpr const char* kBlocks[] = {"phi", "r", "dr", "x", "dx"};  ///< names of the states
 
   KuramotoAmplitude(const RobotInfo& robot, const Settings& settings);
   void start(Out state) const override;

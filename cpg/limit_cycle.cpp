@@ -6,7 +6,8 @@
 namespace gaitlab::cpg {
 namespace {
 
-constexpr std::size_t kPhases = 2048;  // of the table: linear between them, 1e-6 of the amplitude
+// Number of phases in the table; linear interpolation between them has an error of 1e-6 of the amplitude.
+constexpr std::size_t kPhases = 2048;
 
 using State = std::array<double, Oscillator::kMost>;
 
@@ -28,7 +29,7 @@ class Steps {
 
 double sine(const Oscillator& oscillator, const State& x) { return oscillator.point({x.data(), oscillator.states()}).sine; }
 
-/// Time from x, within one step, at which the sine is 0.
+/// Time from state x, within one step, at which the sine becomes 0.
 double crossing(const Oscillator& oscillator, Steps& step, const State& x, double h) {
   double lo = 0;
   double hi = h;
@@ -53,7 +54,7 @@ Turn settled_turn(const Oscillator& oscillator) {
   Steps step(oscillator);
   State x{};
   oscillator.start({x.data(), n});
-  double since = 0;  // the last crossing
+  double since = 0;  // time since the last crossing
   for (std::size_t k = 0; k < kMostSteps; ++k) {
     const State next = step(x, h);
     if (!(sine(oscillator, x) < 0 && sine(oscillator, next) >= 0)) {
@@ -144,7 +145,8 @@ void CycleNetwork::start(Out state) const {
 
 void CycleNetwork::derivative(const Measured&, In state, Out rate) const {
   const std::size_t n = oscillator_->states();
-  // Until both have been read, the first block of `rate` contains the phases and the last one the paces.
+  // The first block of `rate` contains the phases, and the last block the paces, until both have been read. Then the rates
+  // overwrite them.
   const Out phase = rate.subspan(0, joints_);
   const Out pace = rate.subspan(n * joints_, joints_);
   for (std::size_t i = 0; i < joints_; ++i) {
@@ -162,7 +164,7 @@ void CycleNetwork::derivative(const Measured&, In state, Out rate) const {
     const Local x = local(state, i);
     Local dx{};
     oscillator_->derivative({x.data(), n}, {dx.data(), n});
-    // The limit cycle is unstable backwards in time.
+    // The pace must not be negative, because the limit cycle is unstable backwards in time.
     const double forward = std::max(0.0, pace[i]) * cycle_.period / kTurn;
     for (std::size_t k = 0; k < n; ++k) rate[k * joints_ + i] = forward * dx[k];
     rate[n * joints_ + i] = model_.amplitude_rate * (keys_.amplitude[i] - state[n * joints_ + i]);

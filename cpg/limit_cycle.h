@@ -1,4 +1,4 @@
-// The limit cycle of one oscillator, found by integration, and networks of oscillators that run along it.
+// The limit cycle of one oscillator, found by integration, and networks of oscillators that move along it.
 #pragma once
 #include <array>
 #include <memory>
@@ -10,39 +10,39 @@
 
 namespace gaitlab::cpg {
 
-/// An autonomous oscillator in its unit of time, whose orbit turns about a centre in a plane.
+/// An autonomous oscillator in its own unit of time, whose orbit turns about a centre in a plane.
 class Oscillator {
  public:
-  static constexpr std::size_t kMost = 4;  ///< states
+  static constexpr std::size_t kMost = 4;  ///< largest number of states
 
   virtual ~Oscillator() = default;
   [[nodiscard]] virtual std::size_t states() const = 0;
   [[nodiscard]] virtual const char* state_name(std::size_t index) const = 0;
-  virtual void start(Out x) const = 0;  ///< a state that converges to the limit cycle
+  virtual void start(Out x) const = 0;  ///< gives a state that converges to the limit cycle
   virtual void derivative(In x, Out rate) const = 0;
   [[nodiscard]] virtual double output(In x) const = 0;
   struct Point {
     double sine, cosine;
   };
-  /// The point in the plane; its angle atan2(sine, cosine) rises along the orbit and is 0 where the output rises through its
-  /// mean.
+  /// The point of a state in the plane. Its angle atan2(sine, cosine) increases along the orbit and is 0 when the output rises
+  /// through its mean.
   [[nodiscard]] virtual Point point(In x) const = 0;
   [[nodiscard]] virtual double step() const = 0;  ///< step of RK4 in the search for the limit cycle
 };
 
 struct LimitCycle {
-  double period = 0;     ///< in the oscillator's unit of time
-  double amplitude = 0;  ///< peak of the output
+  double period = 0;     ///< period in the oscillator's unit of time
+  double amplitude = 0;  ///< peak of the output's magnitude
   PhaseTable angle;
-  std::vector<double> orbit;  ///< states at even phases from 0 to 2 pi; phase * states + state
+  std::vector<double> orbit;  ///< states at even phases from 0 to 2 pi; index phase * states + state
 
-  /// Integrates from Oscillator::start until one turn ends at its beginning, to 1e-11. Throws std::invalid_argument if it never
-  /// does.
+  /// Integrates from Oscillator::start until the start and the end of a turn agree to 1e-11. Throws std::invalid_argument if
+  /// they never do.
   explicit LimitCycle(const Oscillator& oscillator);
 };
 
-/// The oscillators of a robot's joints, coupled by their pace: state z_i' = pace_i F(z_i). Output: X_i + r_i y(z_i) / (peak of
-/// y).
+/// The oscillators of a robot's joints, coupled by their pace. The state obeys z_i' = pace_i F(z_i), and the output is X_i +
+/// r_i y(z_i) / (peak of y).
 class CycleNetwork : public Cpg {
  public:
   struct Model {
@@ -50,7 +50,7 @@ class CycleNetwork : public Cpg {
     void fields(Fields& f);
   };
 
-  /// The oscillator's states, then r: one block of each.
+  /// Number of states: a block with one number per joint for each state of the oscillator, then a block for r.
   [[nodiscard]] std::size_t states() const override { return (oscillator_->states() + 1) * joints_; }
   [[nodiscard]] std::string state_name(std::size_t index) const override;
   void start(Out state) const override;

@@ -28,7 +28,7 @@ class MatsuokaPair final : public Oscillator {
     rate[3] = y2 - x[3];
   }
   [[nodiscard]] double output(In x) const override { return fired(x[0]) - fired(x[1]); }
-  // Fatigue follows the neuron's output, so its difference falls while the potentials' rises through 0.
+  // Fatigue follows the neuron's output, so that the difference of fatigues falls while that of the potentials rises through 0.
   [[nodiscard]] Point point(In x) const override { return {x[0] - x[1], x[3] - x[2]}; }
   [[nodiscard]] double step() const override { return 2e-3 * std::min(1.0, m_.time_ratio); }
 

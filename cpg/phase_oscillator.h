@@ -1,4 +1,4 @@
-// CPG `phase_oscillator`: the paper's network of phase oscillators.
+// CPG `phase_oscillator`, the paper's network of phase oscillators.
 #pragma once
 #include "core/plugin/oscillators.h"
 #include "core/plugin/registry.h"
@@ -14,7 +14,7 @@ struct PhaseOscillatorModel {
 class PhaseOscillator final : public OscillatorCpg<PhaseOscillatorModel> {
  public:
   static const char* const kManual;
-  static constexpr const char* kBlocks[] = {"phi", "r", "x"};  ///< of the states
+  static constexpr const char* kBlocks[] = {"phi", "r", "x"};  ///< names of the states
 
   PhaseOscillator(const RobotInfo& robot, const Settings& settings);
   void start(Out state) const override;

@@ -24,7 +24,7 @@ PhaseTable::PhaseTable(std::vector<double> angles) : angles_(std::move(angles)),
 }
 
 double PhaseTable::look_up(const std::vector<double>& table, double at) {
-  if (!std::isfinite(at)) return at;  // the caller names the state that diverged
+  if (!std::isfinite(at)) return at;  // the caller reports the state that diverged
   const double turns = std::floor(at / kTurn);
   const double where = (at / kTurn - turns) * static_cast<double>(table.size() - 1);
   const auto k = std::min(static_cast<std::size_t>(where), table.size() - 2);

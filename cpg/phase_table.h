@@ -1,4 +1,4 @@
-// Phase on a closed orbit against the angle about its centre: a table for both directions.
+// Table of the phase on a closed orbit against the angle about its centre, for both directions.
 #pragma once
 #include <cstddef>
 #include <numbers>
@@ -8,15 +8,17 @@ namespace gaitlab::cpg {
 
 inline constexpr double kTurn = 2 * std::numbers::pi;  ///< one revolution, rad
 
-/// One turn of a closed orbit in a plane. Phase: time since the orbit's start as a share of the period, 2 pi a turn. Angle:
-/// that of the point of the orbit, which must rise with the phase. Both start at 0 and are 2 pi after one turn.
+/// One turn of a closed orbit in a plane. The phase is the time since the orbit's start, as 2 pi times its share of the period.
+/// The angle is that of the orbit's point about the centre, which must increase with the phase. Both are 0 at the start and 2
+/// pi after one turn.
 class PhaseTable {
  public:
   PhaseTable() = default;
-  /// angles[k]: angle at phase 2 pi k / (size - 1), from 0 to 2 pi. Throws std::invalid_argument if they do not rise.
+  /// Makes a table from angles[k], the angle at phase 2 pi k / (size - 1), from 0 to 2 pi. Throws std::invalid_argument if the
+  /// angles do not increase.
   explicit PhaseTable(std::vector<double> angles);
 
-  /// Phase and angle of any turn, linear between entries, with the error of the table.
+  /// Angle at a phase, and phase at an angle, of any turn. They are linear between the entries of the table.
   [[nodiscard]] double angle(double phase) const { return look_up(angles_, phase); }
   [[nodiscard]] double phase(double angle) const { return look_up(phases_, angle); }
 

@@ -1,4 +1,4 @@
-// The CPGs and gaits built in.
+// Registration of the built-in CPGs and gaits.
 #pragma once
 #include "core/plugin/registry.h"
 

@@ -1,4 +1,4 @@
-// CPG `sine`: prescribed sines without states.
+// CPG `sine`, prescribed sines without states.
 #pragma once
 #include <stdexcept>
 

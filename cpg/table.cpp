@@ -39,7 +39,7 @@ std::string in_marks(std::string_view text) { return "'" + std::string(text.subs
 
 struct Cell {
   std::string_view text;
-  std::size_t column;  ///< of its first character, from 1
+  std::size_t column;  ///< column of the first character, from 1
 };
 
 std::vector<Cell> cells_of(std::string_view line) {
@@ -128,7 +128,7 @@ class TableText {
 
   const RobotInfo& robot_;
   bool headed_ = false;
-  std::vector<std::size_t> columns_;  ///< of the joints
+  std::vector<std::size_t> columns_;  ///< column in the text of each joint
   std::vector<Keyframes::Frame> frames_;
 };
 

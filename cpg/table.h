@@ -1,4 +1,4 @@
-// Gait `table`: set points from a CSV text, joined like keyframes.
+// Gait `table`, set points from a CSV text, joined like keyframes.
 #pragma once
 #include <string>
 
@@ -21,8 +21,9 @@ class Table final : public Cpg {
   };
   static const char* const kManual;
 
-  /// Throws std::invalid_argument with line and column of the text: no time column, a column that is not a joint or is
-  /// repeated, a row with another number of cells, a cell that is not a finite number; and as Keyframes.
+  /// Throws std::invalid_argument with line and column of the text for a missing time column, a column that is repeated or no
+  /// joint, a row with another number of cells, or a cell that is not a finite number. Throws also as the constructor of
+  /// Keyframes.
   Table(const RobotInfo& robot, const Settings& settings);
   void output(double t, In state, Out setpoint) const override { frames_.output(t, state, setpoint); }
 

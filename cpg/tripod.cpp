@@ -8,8 +8,9 @@
 namespace gaitlab::cpg {
 
 namespace {
-constexpr double kFade = 0.2;       // of the swing
-constexpr double kSteepest = 0.65;  // rad: towards pi / 4 the sole stands on its edge, and depth hardly grows with the tilt
+constexpr double kFade = 0.2;  // share of the swing in which the tilt fades
+// Rad; near pi / 4 the sole stands on its edge, so that a larger tilt hardly increases the depth.
+constexpr double kSteepest = 0.65;
 }  // namespace
 
 const char* const Tripod::kManual =
@@ -58,7 +59,7 @@ Tripod::Tripod(const RobotInfo& robot, const Settings& settings) : joints_(robot
                                 std::to_string(legs.size() - left) +
                                 " on the right (a leg is a chain docked sideways, with two hinges about y and feet below)");
   }
-  std::size_t rank[2] = {0, 0};  // number from the front, right and left
+  std::size_t rank[2] = {0, 0};  // numbers of the next leg from the front, right and left
   for (const Leg& leg : legs) {
     const std::size_t at = rank[leg.left ? 1 : 0]++;
     const bool other = (at + (leg.left ? 1 : 0)) % 2 == 1;
@@ -77,15 +78,15 @@ Tripod::Motion Tripod::motion(const Step& step, double cycles, double amplitude)
   return {false, s, -amplitude * math::cos(std::numbers::pi * s)};
 }
 
-/// Tilt of the foot at which its lowest point is `height` below its ankle: z cos(tilt) + x sin(tilt) = height.
+/// Tilt of the foot at which its lowest point is `height` below the ankle, from z cos(tilt) + x sin(tilt) = height.
 double Tripod::tilt_to_reach(const Leg& leg, double height) {
   const double longest = std::sqrt(leg.sole_depth * leg.sole_depth + leg.sole_reach * leg.sole_reach);
   const double flat = math::atan2(leg.sole_depth, leg.sole_reach);
   return std::clamp(math::asin(std::min(1.0, height / longest)) - flat, 0.0, kSteepest);
 }
 
-/// D of the manual without the foot's part, which differs between legs: the depth that flat, unlifted feet would reach, and the
-/// lift.
+/// D of the manual without the foot's part, which differs from leg to leg: the depth that flat feet without lift would reach,
+/// and the lift.
 Tripod::Depth Tripod::depth(double cycles, double grown) const {
   Depth d;
   for (const Step& step : steps_) {
@@ -115,14 +116,14 @@ void Tripod::output(double t, In, Out setpoint) const {
     if (m.stands) {
       tilted = tilt(step.leg, now, m.forward);
     } else if (m.progress < kFade) {
-      // Fades from its value at the end of the stance, because an ankle cannot jump.
+      // The tilt fades from its value at the end of the stance, because an ankle cannot jump.
       const Depth then = depth(cycles - m.progress * swing, grown);
       tilted = (1 - m.progress / kFade) * tilt(step.leg, then, amplitude);
     } else if (m.progress > 1 - kFade) {
       const Depth then = depth(cycles + (1 - m.progress) * swing, grown);
       tilted = (1 - (1 - m.progress) / kFade) * tilt(step.leg, then, amplitude);
     }
-    // Towards +x is a left-hand turn about +y for a leg that hangs down.
+    // For a leg that hangs down, a motion towards +x is a left-hand turn about +y.
     setpoint[static_cast<std::size_t>(step.leg.hip)] = -step.leg.hip_sign * m.forward;
     setpoint[static_cast<std::size_t>(step.leg.ankle)] = step.leg.ankle_sign * (m.forward - tilted);
   }

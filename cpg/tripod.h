@@ -1,4 +1,4 @@
-// Gait `tripod`: alternating groups of legs that stand while the others swing; for any even number of legs.
+// Gait `tripod`, in which groups of legs alternate between stance and swing, for any even number of legs.
 #pragma once
 #include "core/plugin/legs.h"
 #include "core/plugin/registry.h"
@@ -21,26 +21,26 @@ class Tripod final : public Cpg {
   };
   static const char* const kManual;
 
-  /// Throws std::invalid_argument: fewer than four legs, or not as many on the left as on the right.
+  /// Throws std::invalid_argument for fewer than four legs, or if the numbers of left and right legs differ.
   Tripod(const RobotInfo& robot, const Settings& settings);
   void output(double t, In, Out setpoint) const override;
   [[nodiscard]] std::string note() const override;
 
  private:
-  /// A leg with its place in the cycle.
+  /// A leg with its phase in the cycle.
   struct Step {
     Leg leg;
     double phase = 0;  ///< phase lead as a share of the period
   };
   struct Motion {
     bool stands = true;
-    double progress = 0;  ///< of the stance or the swing, 0 to 1
+    double progress = 0;  ///< share of the stance or of the swing that has passed, 0 to 1
     double forward = 0;   ///< angle of the leg towards +x, rad
   };
   [[nodiscard]] Motion motion(const Step& step, double cycles, double amplitude) const;
   struct Depth {
-    double reach = 0;  ///< largest hip to ankle depth of the legs that stand, m
-    double lift = 0;   ///< d', rad
+    double reach = 0;  ///< largest depth of the ankle below the hip among the standing legs, m
+    double lift = 0;   ///< d' of the manual, rad
   };
   [[nodiscard]] Depth depth(double cycles, double grown) const;
   [[nodiscard]] static double tilt(const Leg& leg, const Depth& depth, double forward);

@@ -18,7 +18,7 @@ class VanDerPolOscillator final : public Oscillator {
   }
   [[nodiscard]] double output(In x) const override { return x[0]; }
   [[nodiscard]] Point point(In x) const override { return {x[0], x[1]}; }
-  [[nodiscard]] double step() const override { return 2e-3; }  // the period of mu = 1 to 1e-10
+  [[nodiscard]] double step() const override { return 2e-3; }  // gives the period for mu = 1 to 1e-10
 
  private:
   double mu_;

@@ -17,8 +17,8 @@ namespace gaitlab::golden {
 
 namespace {
 
-constexpr double kMargin = 0.9;       // of the limit: the order measured at these steps may differ from the order at others
-constexpr double kLeastOrder = 0.25;  // below this a finer step hardly helps
+constexpr double kMargin = 0.9;       // factor below 1, because the measured order may differ at other steps
+constexpr double kLeastOrder = 0.25;  // below this order, a finer step hardly helps
 constexpr std::size_t kMostExplained = 3;
 
 double widest(const std::vector<Band>& bands, double Band::*part) {
@@ -27,7 +27,7 @@ double widest(const std::vector<Band>& bands, double Band::*part) {
   return most;
 }
 
-/// The largest of 1, 2, 2.5 and 5 times a power of ten that is at most `limit`.
+/// Largest number 1, 2, 2.5 or 5 times a power of ten that is at most `limit`.
 double round_below(double limit) {
   const double decade = std::pow(10, std::floor(std::log10(limit)));
   for (const double mantissa : {5.0, 2.5, 2.0}) {
@@ -36,15 +36,15 @@ double round_below(double limit) {
   return decade;
 }
 
-/// Width of the widest band, caused by half the step.
+/// Width of the widest band that results from halving the step.
 double halving_band(const GoldenRun& base, const GoldenRun& halved) {
   return widest(calibrate(base, {}, halved).columns, &Band::halving);
 }
 
 std::string setting_text(double setting) { return fmt::format("{:.12g}", setting); }
 
-/// `physics.step: 5e-05 (...)`: the setting that should pass, computed from the bands at the scenario's setting and at a finer
-/// one.
+/// Text such as `physics.step: 5e-05 (...)` with the setting that should pass. It is computed from the bands at the scenario's
+/// setting and at a finer setting.
 std::string finer_setting(const Scenario& scenario, double band, double finer_band) {
   const Physics& physics = scenario.physics;
   const bool adapts = physics.adapts();
@@ -63,7 +63,8 @@ std::string finer_setting(const Scenario& scenario, double band, double finer_ba
   return fmt::format("{}: {} ({}, so its order is {:.2g})", key, setting_text(nice), seen, order);
 }
 
-/// The same scenario with given steps and an integrator of order 2; nothing if the engine has none, or the scenario uses it.
+/// The scenario with given steps and the integrator `extrapolated`. Nothing if the engine lacks this integrator, or if the
+/// scenario's integrator has the same order.
 std::optional<Scenario> extrapolated(const Scenario& scenario) {
   const Integrator* other = scenario.physics.engine->integrator("extrapolated");
   if (other == nullptr || scenario.physics.integrator->order >= other->order) return {};
@@ -86,7 +87,7 @@ std::vector<std::size_t> wide(const Golden& golden) {
   return found;
 }
 
-/// Reason for the band's width, and the remedy.
+/// Reason for the width of a number's band, and the remedy.
 std::string explanation(const Number& number, const Band& band, const Scenario& scenario) {
   if (band.ensemble > band.halving) {
     return fmt::format(
@@ -106,10 +107,10 @@ std::string explanation(const Number& number, const Band& band, const Scenario& 
                     *number.at_start);
 }
 
-/// The same for integrator `extrapolated`, from its band at `step`; "" if no step suffices.
+/// Text with the step at which integrator `extrapolated` should pass, computed from its band at `step`. "" if no step suffices.
 std::string extrapolated_setting(const Scenario& scenario, double step, double band) {
   const bool passes = band <= kWidestColumn;
-  // Its order is 2, but intermittent contacts reduce it.
+  // The order of this integrator is 2, but intermittent contacts reduce it.
   const double smaller = passes ? step : usable_step(scenario, kMargin * kWidestColumn / band * step);
   if (smaller == 0) return "";
   return fmt::format("physics.integrator: extrapolated with physics.step: {} ({} the band is {})", setting_text(smaller),
@@ -136,7 +137,7 @@ std::string narrower_columns(const std::vector<Band>& columns, const Scenario& s
   if (runs.size() == 1 || runs[1].error || runs[2].error) return "take " + own;
   const std::string other = extrapolated_setting(scenario, scenarios[1].physics.step, halving_band(runs[1].run, runs[2].run));
   if (other.empty()) return "take " + own;
-  // With given steps order 2 is the cheaper remedy.
+  // With given steps, order 2 is the cheaper remedy.
   return "take " + (scenario.physics.adapts() ? own + ", or " + other : other + ", or " + own);
 }
 

@@ -1,4 +1,4 @@
-// Advice on bands of a golden that are too wide: settings that narrow them, and changes that wide bands do not detect.
+// Advice on bands of a golden that are too wide: settings that narrow them, and changes that they would not detect.
 #pragma once
 #include <functional>
 #include <string>
@@ -9,25 +9,26 @@
 
 namespace gaitlab::golden {
 
-/// Share: approve refuses a column with a wider band, because a mutant that has to be detected changes a torque by 0.4 %.
+/// Widest band of a column that `gaitlab approve` accepts, as a share of the column's scale. Deliberate errors of the code that
+/// the goldens must detect change a torque by 0.4 %.
 inline constexpr double kWidestColumn = 0.002;
-/// Share: a number with a wider band is explained.
+/// Band of a number, as a share of its scale, above which the width is explained.
 inline constexpr double kWideNumber = 0.05;
 
-/// Divisor of the step for `halved` in calibrate, or of the accuracy if the integrator chooses its steps.
+/// Divisor for the run `halved` of calibrate(): of the step, or of the accuracy if the integrator chooses its steps.
 double finer_by(const Physics& physics);
 
-/// Setting that brings the widest band of `columns` below kWidestColumn, in the words of a message: a finer step or accuracy,
-/// from the difference of `halved` (the run for the bands) and a still finer one; integrator `extrapolated` if the engine has
-/// it; or a shorter run, if starts that differ by rounding diverge too far. Makes up to three runs.
+/// Setting that should reduce the widest band of `columns` to less than kWidestColumn, as text for a message. It is a finer
+/// step or accuracy, computed from the run `halved` and a still finer run; or integrator `extrapolated` if the engine has it.
+/// It is a shorter run if starts that differ by rounding diverge too far. Makes up to three runs.
 std::string narrower_columns(const std::vector<Band>& columns, const Scenario& scenario, const GoldenRun& halved, int jobs,
                              const std::function<void(double)>& progress = {});
 
-/// One line per number with a band wider than kWideNumber, the widest first (of more than three the first three, with the
-/// number of others): the change that would not be detected, the reason, and the remedy. "" if there is none.
+/// One line per number with a band wider than kWideNumber, widest first: the change that would not be detected, the reason, and
+/// the remedy. After three lines, a last line contains the number of the omitted ones. "" if there is no such number.
 std::string wide_numbers(const Golden& golden, const Scenario& scenario);
 
-/// `m3/active torque peak 42.2 %, ...`: the same numbers by name alone; "" if there is none.
+/// Names of the numbers in wide_numbers(), as in `m3/active torque peak 42.2 %, ...`. "" if there is none.
 std::string wide_number_names(const Golden& golden);
 
 }  // namespace gaitlab::golden

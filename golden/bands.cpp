@@ -10,9 +10,10 @@ namespace gaitlab::golden {
 
 namespace {
 
-constexpr double kOfTheLargest = 1e-3;  // range, among columns of one unit
-constexpr double kOfTheUnit = 1e-6;     // um, urad, uN m, uA: below any meaning in the model
-constexpr double kLeastOfRange = 1e-6;  // above the rounding of other compilers, grown over a run
+constexpr double kOfTheLargest = 1e-3;  // share of the largest range among columns of one unit
+// Least scale in the unit of the column: 1 um, urad, uN m or uA is without significance in the model.
+constexpr double kOfTheUnit = 1e-6;
+constexpr double kLeastOfRange = 1e-6;  // share of the range; above the rounding of other compilers, as it grows over a run
 
 struct Extent {
   std::string unit;

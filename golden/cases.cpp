@@ -20,19 +20,19 @@ namespace fs = std::filesystem;
 
 bool is_scenario(const fs::path& file) { return file.extension() == ".yaml" || file.extension() == ".yml"; }
 
-/// Whether something exists at a path, also a broken link; if it cannot be determined false, and reading it then reports the
-/// reason.
+/// True if a file exists at a path, also a broken link. If this cannot be determined the result is false, and a later attempt
+/// to read reports the reason.
 bool is_there(const fs::path& path) {
   std::error_code error;
   return fs::exists(fs::symlink_status(path, error));
 }
 
-/// Scenarios, and goldens without one, whose scenario may have been lost unnoticed.
+/// Scenarios in folders, and orphans: goldens without a scenario, which may have been lost unnoticed.
 struct Found {
   std::vector<fs::path> scenarios, orphans;
 };
 
-/// Scenario of a golden, or nothing.
+/// Path of a golden's scenario, or an empty path.
 fs::path scenario_of(const fs::path& golden) {
   for (const char* extension : {".yaml", ".yml"}) {
     fs::path file = fs::path(golden).replace_extension(extension);
@@ -41,12 +41,13 @@ fs::path scenario_of(const fs::path& golden) {
   return {};
 }
 
-/// Finds all scenarios of the folder, and in its subfolders those with a golden (other YAML files there may be anything).
+/// Finds all scenarios of a folder and, in its subfolders, only scenarios with a golden, because other YAML files may be
+/// anything.
 void find_in(const fs::path& folder, bool top, Found& found) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const fs::path& path = entry.path();
-    std::error_code unknown;  // a loop of links is not a folder: its case reports that
+    std::error_code unknown;  // a loop of links is not a folder; its case reports that
     const bool is_folder = fs::is_directory(path, unknown);
     if (top && is_scenario(path) && !is_folder) found.scenarios.push_back(path);
     if (!is_folder) continue;
@@ -99,8 +100,8 @@ GoldenCase orphan(const fs::path& golden) {
   return c;
 }
 
-// With another engine the run has the golden's step, for which the bands were measured, and an integrator of second order if
-// the engine has one: its error is then far below the bands.
+// Scenario with another engine. The step is that of the golden, for which the bands were measured. The integrator has order 2
+// if the engine has one, so that its error is far below the bands.
 Scenario with_engine(const std::string& file, const Scenario& scenario, const std::string& name, double step,
                      Catalog& catalog) {
   if (scenario.physics.engine->name == name) return scenario;
@@ -126,7 +127,7 @@ void read_case(GoldenCase& c, const std::optional<std::string>& engine, Catalog&
     c.other_engine = scenario.physics.engine->name != c.golden->origin.engine;
     c.scenario = std::move(scenario);
   } catch (const InputError& error) {
-    if (error.problems().front().place.file == "--engine") throw;  // not an error of the scenario
+    if (error.problems().front().place.file == "--engine") throw;  // the error is not in the scenario
     c.fail(Verdict::bad_input, error.what());
   }
 }
@@ -146,7 +147,8 @@ void judge(GoldenCase& c, Attempt& outcome) {
   c.difference = compare(*c.golden, c.run, c.other_engine);
   if (!c.difference.passed()) c.verdict = Verdict::regression;
   try {
-    // With the same columns it may also be a renamed and changed scenario: a regression, whose message names both.
+    // With equal columns the golden may also belong to a scenario that was renamed and changed. This is a regression, whose
+    // message contains both names.
     const std::size_t columns = c.golden->run.trace.columns.size();
     if (!c.given_golden && (c.run.trace.columns.size() != columns || c.difference.columns.size() + 1 != columns))
       check_own(*c.golden, c.folder, *c.scenario, c.difference);
@@ -188,11 +190,11 @@ std::vector<GoldenCase> golden_cases(const TestArguments& arguments, Catalog& ca
   std::vector<GoldenCase> cases;
   std::set<std::string> seen;
   const auto add = [&](const fs::path& file, bool must) {
-    // A link is a separate scenario with a separate golden; so only its folder is made canonical.
+    // A link is a separate scenario with a separate golden. Only its folder is therefore made canonical.
     const fs::path name = fs::weakly_canonical(fs::absolute(file).parent_path()) / file.filename();
     if (seen.insert(name.string()).second) cases.push_back(case_of(file, arguments.golden, must));
   };
-  for (const std::string& path : given) {  // scenarios named by file first: they must have a golden
+  for (const std::string& path : given) {  // scenarios named as files are first, because they must have a golden
     const fs::file_type kind = kind_of(path);
     if (kind == fs::file_type::not_found) throw InputError(SourceLocation{path}, "there is no such scenario or folder");
     if (kind != fs::file_type::directory) add(path, true);

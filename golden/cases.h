@@ -1,4 +1,4 @@
-// Test cases of `gaitlab test`: scenarios, their goldens and results.
+// Test cases of `gaitlab test`, with their scenarios, goldens and results.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -12,58 +12,62 @@
 namespace gaitlab::golden {
 
 struct TestArguments {
-  std::vector<std::string> scenarios;     ///< files and folders; empty: `scenarios`
-  std::optional<std::string> golden;      ///< folder of another scenario's golden
-  std::optional<std::string> engine;      ///< replaces the scenario's, with the engine's default step and integrator
-  std::optional<std::string> junit, out;  ///< file; folder for figures
-  bool fail_infeasible = false;           ///< an infeasible run is a failure also
-  bool strict = false;                    ///< every scenario in a folder must have a golden also
-  bool all = false;                       ///< show all columns, numbers and settings, not only the worst and first
-  int jobs = 1;                           ///< threads
+  std::vector<std::string> scenarios;     ///< files and folders; empty for the folder `scenarios`
+  std::optional<std::string> golden;      ///< folder of the golden to compare with, instead of the scenario's own
+  std::optional<std::string> engine;      ///< engine in place of the scenario's, with its default step and integrator
+  std::optional<std::string> junit, out;  ///< junit: file for results as XML; out: folder for figures
+  bool fail_infeasible = false;           ///< true if an infeasible run is a failure
+  bool strict = false;                    ///< true if every scenario in a folder must have a golden
+  /// True to show all columns, numbers and settings. Otherwise only the worst columns and numbers and the first settings are
+  /// shown.
+  bool all = false;
+  int jobs = 1;  ///< number of threads
 };
 
-/// From best to worst. The program's exit code is that of the first of these that occurs: bad_input 2, run_failed 1, regression
-/// 4, infeasible 3.
+/// Result of a case, in the order from best to worst. The exit code of the program is that of the first of these results that
+/// any case has: bad_input 2, run_failed 1, regression 4, infeasible 3.
 enum class Verdict { passed, skipped, infeasible, bad_input, run_failed, regression };
 
 struct GoldenCase {
-  std::string file;                       ///< of the scenario, as given or found
-  std::filesystem::path folder = {};      ///< of the golden
-  bool given_golden = false;              ///< by --golden: may belong to another scenario
-  std::optional<Golden> golden = {};      ///< read
-  std::optional<Scenario> scenario = {};  ///< read
-  bool other_engine = false;              ///< the run uses another engine than the golden
+  std::string file;                       ///< path of the scenario, as given or found
+  std::filesystem::path folder = {};      ///< folder of the golden
+  bool given_golden = false;              ///< true if given by --golden: the golden may belong to another scenario
+  std::optional<Golden> golden = {};      ///< empty until it has been read
+  std::optional<Scenario> scenario = {};  ///< empty until it has been read
+  bool other_engine = false;              ///< true if the run uses another engine than the golden
   GoldenRun run = {};
   GoldenDifference difference = {};
   Verdict verdict = Verdict::passed;
-  std::string problem = {};  ///< reason why the comparison was not possible: a whole text for stderr
-  std::string figure = {};   ///< file with the columns outside their bands
-  std::string page = {};     ///< file with both runs
-  double seconds = 0;        ///< duration of the run: for reports alone
+  std::string problem = {};  ///< text for stderr with the reason why no comparison was possible
+  std::string figure = {};   ///< path of a file with the columns outside their bands
+  std::string page = {};     ///< path of a file with both runs
+  double seconds = 0;        ///< duration of the run, for reports only, s
 
   void fail(Verdict as, std::string text);
 };
 
-/// Path of the golden beside a scenario. Throws InputError if another scenario there (walk.yml for walk.yaml) would share it.
+/// Path of the golden of a scenario. Throws InputError if another scenario in the same folder (walk.yml for walk.yaml) would
+/// share it.
 std::filesystem::path own_golden(const std::filesystem::path& scenario);
 
-/// Throws InputError if `golden` belongs to another scenario: another name, and a run outside its bands. (A scenario that was
-/// only renamed keeps its golden.)
+/// Throws InputError if `golden` belongs to another scenario, which has another name and whose run is outside the bands. A
+/// scenario that was only renamed keeps its golden.
 void check_own(const Golden& golden, const std::filesystem::path& folder, const Scenario& scenario,
                const GoldenDifference& difference);
 
-/// Collects one case per scenario, in the order of the arguments, those of a folder by name; each scenario once. For a folder:
-/// its scenarios, and those with a golden in the folders below it. A scenario without a golden is skipped, or with --strict a
-/// failing case, as is always a golden there without a scenario. Goldens and scenarios are read; an unreadable one is a verdict
-/// of its case. Throws InputError for an argument that is neither scenario nor folder, a folder without scenarios, two
-/// scenarios with one golden, or --golden with anything but one scenario.
+/// Collects one case per scenario, in the order of the arguments, with the scenarios of a folder sorted by name. Each scenario
+/// occurs once. A folder stands for its scenarios, and for the scenarios with a golden in the folders below it. A scenario
+/// without a golden is skipped, or is a failing case with --strict. A golden without a scenario is always a failing case.
+/// Goldens and scenarios are read here; an error in either is the result of its case. Throws InputError for an argument that is
+/// neither scenario nor folder, for a folder without scenarios, for two scenarios with one golden, and for --golden unless
+/// there is exactly one scenario.
 std::vector<GoldenCase> golden_cases(const TestArguments& arguments, Catalog& catalog);
 
-/// Runs the cases that can run and compares them; `progress(share)` as in golden_runs.
+/// Runs all cases that can run and compares the results with the goldens. `progress(share)` is as in golden_runs().
 void run_cases(std::vector<GoldenCase>& cases, const TestArguments& arguments,
                const std::function<void(double)>& progress = {});
 
-/// `passed`, `FAILED`, `skipped: no golden` ...
+/// Text such as `passed`, `FAILED` or `skipped: no golden`.
 std::string to_string(Verdict verdict);
 
 }  // namespace gaitlab::golden

@@ -12,7 +12,7 @@ namespace gaitlab::golden {
 
 namespace {
 
-constexpr double kSameTime = 1e-6;  // of the spacing
+constexpr double kSameTime = 1e-6;  // share of the row spacing
 constexpr std::size_t kNamesShown = 8;
 
 std::string enumerate(const std::vector<std::string>& names) {
@@ -66,7 +66,8 @@ class Comparison {
     tell(missing(b_, a_), "this run");
   }
 
-  // Rows at other times are not compared: every column would fail without a usable reason.
+  // Compares the number and times of rows. Rows at other times are not compared, because every column would fail without a
+  // useful reason.
   void match_rows() {
     const double golden = spacing(a_);
     const double now = spacing(b_);
@@ -99,7 +100,7 @@ class Comparison {
       now.push_back(b_.at(k, j));
       const double d = now[k] - golden[k];
       sum += d * d;
-      const double apart = (std::abs(d) - 0.5 * golden_.run.precision[i]) / scale;  // a lower bound for any rounding
+      const double apart = (std::abs(d) - 0.5 * golden_.run.precision[i]) / scale;  // lower bound for any rounding
       check.maximum = std::max(check.maximum, apart);
       if (!check.outside && apart > kOutside * check.band) check.outside = a_.at(k, 0);
     }
@@ -139,7 +140,7 @@ class Comparison {
   GoldenDifference found_;
 };
 
-// The largest ratio; NaN counts as the largest.
+// The check with the largest ratio. NaN counts as the largest.
 template <class Check>
 const Check* worst(const std::vector<Check>& checks) {
   const auto better = [](const Check& a, const Check& b) {

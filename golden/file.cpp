@@ -21,10 +21,10 @@ constexpr std::string_view kName = "gaitlab-golden-";
 constexpr std::string_view kVersion = "1";
 constexpr std::string_view kSize = "bytes in all: ";
 constexpr std::string_view kHash = "; FNV-1a of what follows: ";
-constexpr double kSteps = 65534;              // of the grid; the largest integer
-constexpr double kEven = 1e-6;                // of the spacing; rounding of k h is some 1e-16 of t
-constexpr std::size_t kMostInflation = 1032;  // largest factor by which deflate expands
-constexpr std::size_t kSizeDigits = 20;       // digits of a size in the header, padded for a header of fixed length
+constexpr double kSteps = 65534;              // number of grid steps, which is the largest integer
+constexpr double kEven = 1e-6;                // share of the row spacing; rounding of k h is about 1e-16 of t
+constexpr std::size_t kMostInflation = 1032;  // largest factor by which deflate can expand
+constexpr std::size_t kSizeDigits = 20;       // digits of a size in the header, padded so that the header has a fixed length
 
 std::string header(std::size_t body_size, std::string_view body) {
   const auto text = [&](std::size_t size) {
@@ -46,7 +46,7 @@ void put(std::string& bytes, const std::string& text) {
   bytes += text;
 }
 
-/// Error for bytes without a valid meaning.
+/// Error for bytes that have no valid meaning.
 struct Damage : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -112,7 +112,8 @@ Grid grid_of(const Trace& trace, std::size_t column) {
   return grid;
 }
 
-// Low bytes of all rows, then high bytes: the high ones are nearly all 0 or 255, which deflates well.
+// Adds the low bytes of all rows to `low` and the high bytes to `high`. Nearly all high bytes are 0 or 255, which deflate
+// compresses well.
 void add_differences(const Trace& trace, std::size_t column, Grid grid, std::string& low, std::string& high) {
   std::uint16_t before = 0;
   for (std::size_t k = 0; k < trace.rows(); ++k) {
@@ -130,7 +131,7 @@ std::string deflated(const std::string& raw) {
   std::string packed(size, '\0');
   const int code = compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(raw.data()),
                              raw.size(), Z_BEST_COMPRESSION);
-  if (code != Z_OK) throw std::bad_alloc();  // the only reason of a failure
+  if (code != Z_OK) throw std::bad_alloc();  // the only possible reason
   packed.resize(size);
   return packed;
 }
@@ -163,7 +164,7 @@ RoundedTrace from_body(std::string_view body) {
     rounded.precision.push_back(at.real());
   }
   const std::size_t values = std::size_t{columns} * rows;
-  if (rows > kMostInflation * body.size()) throw Damage("more rows than it can hold");  // also without columns
+  if (rows > kMostInflation * body.size()) throw Damage("more rows than it can hold");  // also tested without columns
   const std::string raw = inflated(at.rest(), 2 * values);
   rounded.trace.values.resize((std::size_t{columns} + 1) * rows);
   for (std::size_t k = 0; k < rows; ++k) rounded.trace.values[k * (columns + 1U)] = static_cast<double>(k) * spacing;
@@ -179,7 +180,7 @@ RoundedTrace from_body(std::string_view body) {
   return rounded;
 }
 
-// Error of the header, or "" with the body.
+// Error message about the header, or "" with the bytes after it in `body`.
 std::string complaint(std::string_view bytes, std::string_view& body) {
   std::string truncated = fmt::format("is truncated: {} bytes", bytes.size());
   const std::size_t expected = header(0, {}).size();

@@ -1,4 +1,4 @@
-// The trace of a golden as a small file: 16 bits per value, deflated.
+// The trace of a golden as a small file, with 16 bits per value in compressed form (deflate).
 #pragma once
 #include <filesystem>
 #include <string>
@@ -9,20 +9,23 @@
 
 namespace gaitlab::golden {
 
-/// A trace rounded to a separate grid per column: value = lowest value + integer * precision.
+/// A trace with values rounded to a separate grid for each column: value = lowest value + integer * precision.
 struct RoundedTrace {
-  Trace trace;                    ///< `t` first; names and units, no definitions
-  std::vector<double> precision;  ///< one per column, in its unit: its range / 65534; 0: exact (`t`, constant columns)
+  Trace trace;  ///< trace with `t` as the first column, and with names and units, but without definitions
+  /// Grid spacing by column, in the column's unit: range / 65534, or 0 if exact (`t`, constant columns).
+  std::vector<double> precision;
 };
 
-/// The bytes of format gaitlab-golden-1: two lines of text (format; size and FNV-1a of the rest), then columns, rows, spacing,
-/// per column name, unit, lowest value and precision, and the integers as differences from row to row, deflated (zlib). The
-/// same trace gives the same bytes with the same zlib. Throws std::invalid_argument for rows not evenly spaced from t = 0 on, a
-/// value that is not finite, a range beyond a double.
+/// Bytes of a trace in the format gaitlab-golden-1. Two lines of text contain the format, and the size and FNV-1a hash of all
+/// further bytes. Then follow the numbers of columns and rows, the spacing of rows, and per column its name, unit, lowest value
+/// and precision. Last are the integers as differences from row to row, compressed (zlib). Equal traces give equal bytes with
+/// the same zlib. Throws std::invalid_argument for rows that are not evenly spaced from t = 0 on, for a value that is not
+/// finite, and for a range beyond a double.
 std::string pack(const Trace& trace);
 
-/// Reads the bytes of pack; `path` is for messages only. Throws InputError `PATH: error: ...`, one message each: is truncated,
-/// is not a golden trace, has another format version, is corrupt. Bytes with a wrong checksum are not interpreted.
+/// Reads the bytes of pack(). `path` is used only in messages. Throws InputError `PATH: error: ...` with a separate message for
+/// bytes that are truncated, are not a golden trace, have another format version, or are corrupt. Bytes with a wrong checksum
+/// are not interpreted.
 RoundedTrace unpack(std::string_view bytes, const std::filesystem::path& path);
 
 }  // namespace gaitlab::golden

@@ -23,10 +23,10 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kJsonVersion = 1;
 constexpr const char* kVersionKey = "gaitlab_golden";
-constexpr std::string_view kChecksum = ",\n  \"checksum\": \"";  // the last key, of the text before this
+constexpr std::string_view kChecksum = ",\n  \"checksum\": \"";  // the last key, with the checksum of the preceding text
 constexpr const char* kJsonFile = "golden.json";
 constexpr const char* kTraceFile = "trace.golden";
-// Name of a new trace until golden.json, which contains its hash, has replaced the old one.
+// Name of a new trace until golden.json, which contains the hash of the trace, has replaced the old golden.json.
 constexpr const char* kNextTraceFile = "trace.golden.next";
 
 std::string checksum_line(std::string_view content) { return fmt::format("{}{}\"\n}}\n", kChecksum, hash(content)); }
@@ -106,7 +106,7 @@ std::string json_text(const Golden& golden, std::string_view trace_bytes) {
   add("trace", text_of(hash(trace_bytes)));
   add("columns", columns_text(golden));
   add("numbers", numbers_text(golden));
-  // Left out if JSON cannot hold it: a path that is not UTF-8.
+  // The text is omitted if JSON cannot represent it, as with a path that is not UTF-8.
   if (!o.resolved.empty() && Json::parse(text_of(o.resolved)) == o.resolved) add("resolved", resolved_text(o));
   return text + checksum_line(text);
 }
@@ -115,7 +115,8 @@ std::string json_text(const Golden& golden, std::string_view trace_bytes) {
 
 InputError wrong(const fs::path& file, std::string text) { return {SourceLocation{file.string()}, std::move(text)}; }
 
-/// Discarded if it is not JSON, or deeper than a golden: copying endlessly nested data would overflow the stack.
+/// Parses JSON. The result is discarded if the text is not JSON, or nested deeper than a golden, because copies of deeply
+/// nested data would overflow the stack.
 Json parsed(const std::string& text) {
   constexpr int kDeepest = 8;
   bool deep = false;
@@ -124,7 +125,7 @@ Json parsed(const std::string& text) {
   return deep ? Json(Json::value_t::discarded) : json;
 }
 
-// The document, with version and checksum checked.
+// Parses the document and checks version and checksum.
 Json checked(const fs::path& file, const std::string& text) {
   if (text.empty()) throw wrong(file, "is truncated: 0 bytes");
   const std::string start = fmt::format("{{\n  \"{}\": ", kVersionKey);
@@ -175,7 +176,7 @@ Golden from_json(const Json& json) {
   return golden;
 }
 
-// The trace that belongs to golden.json: under its name, or where an interrupted process left it.
+// The trace that belongs to golden.json, under its final name, or under the name from an interrupted process.
 RoundedTrace matching_trace(const fs::path& folder, const std::string& wanted) {
   std::error_code error;
   const bool missing = !fs::exists(folder / kTraceFile, error);
@@ -203,7 +204,7 @@ void take_bands(const Json& columns, Golden& golden) {
   if (golden.bands.size() != in_trace.size()) throw std::runtime_error("its columns are not those of the trace");
 }
 
-/// Finishes write_golden after it was killed between its two renames: the trace that golden.json names still has the other
+/// Completes a write_golden() that was killed between its two renames, so that the trace of golden.json still has its temporary
 /// name.
 void finish_rename(const fs::path& folder) {
   std::error_code error;
@@ -230,7 +231,7 @@ void write_golden(const Golden& golden, const fs::path& folder) {
   const std::string bytes = pack(golden.run.trace);
   write_file(folder / kNextTraceFile, bytes);
   try {
-    write_file(folder / kJsonFile, json_text(golden, bytes));  // from here on the new one is valid
+    write_file(folder / kJsonFile, json_text(golden, bytes));  // from here on, the new golden is valid
   } catch (...) {
     fs::remove(folder / kNextTraceFile, error);
     throw;
@@ -253,7 +254,7 @@ Golden read_golden(const fs::path& folder) {
     return golden;
   } catch (const InputError&) {
     throw;
-  } catch (const Json::exception&) {  // its message does not name a place
+  } catch (const Json::exception&) {  // the message of this exception contains no place
     throw wrong(file, "is corrupt: an entry is missing or of another type");
   } catch (const std::runtime_error& damage) {
     throw wrong(file, fmt::format("is corrupt: {}", damage.what()));

@@ -16,12 +16,12 @@ namespace {
 
 constexpr std::size_t kMostShown = 10;
 constexpr std::size_t kMostFindings = 5;
-constexpr double kBandChange = 1.2;  // factor: smaller changes are not reported
+constexpr double kBandChange = 1.2;  // factor; smaller changes are not reported
 
 template <class Check>
 using Checks = std::vector<const Check*>;
 
-/// Sorts by the deviation in bands, largest first; NaN is larger than any.
+/// Sorts by the deviation in bands, largest first. NaN is the largest.
 template <class Check>
 Checks<Check> ordered(Checks<Check> checks) {
   const auto size = [](const Check* check) { return std::isnan(check->ratio()) ? INFINITY : check->ratio(); };
@@ -79,8 +79,8 @@ std::string table(const Checks<NumberCheck>& numbers) {
   return aligned(rows, 2);
 }
 
-/// The number shown beside a table of columns to represent the others: the distance, or else the worst; nullptr: all are within
-/// their bands.
+/// Number that represents all numbers beside a table of columns: the distance, or else the worst. Null if all numbers are
+/// within their bands.
 const NumberCheck* first_number(const Checks<NumberCheck>& numbers) {
   const auto distance = std::find_if(numbers.begin(), numbers.end(), [](const auto* n) { return n->name == "distance"; });
   if (distance != numbers.end()) return *distance;
@@ -99,7 +99,7 @@ std::string brief(const GoldenDifference& difference) {
   return text;
 }
 
-/// `0.1.0+abc`, from `0.1.0+abc (GNU 12.2.0; Bullet 3.24)`, if the rest is the same in both.
+/// Text such as `0.1.0+abc` from `0.1.0+abc (GNU 12.2.0; Bullet 3.24)`, if the text after it is the same in both builds.
 std::string build_change(const std::string& then, const std::string& now) {
   const auto rest = [](const std::string& build) { return build.substr(std::min(build.find(" ("), build.size())); };
   const std::string same = rest(then) == rest(now) ? rest(then) : "";

@@ -20,9 +20,9 @@ namespace gaitlab::golden {
 
 namespace {
 
-constexpr double kRowEvery = 0.02;      // s; a gait has 0.5 Hz, and spikes of contacts do not drift
-constexpr double kLeastTravel = 0.01;   // m: for a robot that does not travel the cost of transport is noise
-constexpr double kPerturbation = 1e-7;  // rad: above the rounding of another compiler, far below a visible change of a torque
+constexpr double kRowEvery = 0.02;      // s; a gait has about 0.5 Hz, and spikes of contacts do not drift
+constexpr double kLeastTravel = 0.01;   // m; for a robot that travels less, the cost of transport is noise
+constexpr double kPerturbation = 1e-7;  // rad; above the rounding of another compiler, far below a visible change of a torque
 
 std::vector<std::string> columns(const Scenario& scenario) {
   std::vector<std::string> names;
@@ -32,7 +32,7 @@ std::vector<std::string> columns(const Scenario& scenario) {
   return names;
 }
 
-// Every stride-th row; the last one is left out if it is not a trace tick.
+// Every stride-th row of a trace. The last row is omitted if it is not a trace tick.
 Trace thinned(const Trace& trace, double period) {
   const auto stride = std::max<std::int64_t>(1, static_cast<std::int64_t>(kRowEvery / period * (1 + 1e-9)));
   Trace thin{trace.columns, {}};
@@ -43,7 +43,7 @@ Trace thinned(const Trace& trace, double period) {
   return thin;
 }
 
-/// The time of the peak that is `number`; nullptr: it is not a peak, or its time is not recorded.
+/// Time of the peak `number`. Null if it is not a peak, or if its time is not recorded.
 const report::SummaryNumber* time_of(const report::SummaryNumber& number) {
   const std::string key = std::string(number.key) + "_time";
   for (const report::SummaryNumber& other : report::summary_numbers()) {
@@ -91,7 +91,7 @@ GoldenRun golden_run(const Scenario& scenario, const std::function<void(double)>
 
 double steps(const Scenario& scenario) { return scenario.duration / scenario.physics.step; }
 
-// Progress bar for all runs, in steps.
+// Progress of all runs, measured in steps.
 class Bar {
  public:
   Bar(const std::vector<Scenario>& scenarios, const std::function<void(double)>& progress) : progress_(progress) {
@@ -149,7 +149,7 @@ std::vector<Number> golden_numbers(const GoldenRun& run) {
 GoldenProvenance golden_origin(const Scenario& scenario) {
   const Engine& engine = *scenario.physics.engine;
   const std::string build = build_id();
-  // `VERSION (COMPILER; LIBRARIES)`
+  // Format of the build id: `VERSION (COMPILER; LIBRARIES)`.
   const std::size_t from = std::min(build.find('('), build.size() - 1) + 1;
   std::string text = resolved(scenario);
   std::string text_hash = hash(text);

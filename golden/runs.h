@@ -1,4 +1,4 @@
-// Runs with the torques for a golden, side by side in threads.
+// Simulation of the runs for a golden, with their torques, side by side in threads.
 #pragma once
 #include <exception>
 #include <functional>
@@ -10,30 +10,31 @@
 
 namespace gaitlab::golden {
 
-/// Result of one of several runs.
+/// Result of one of the runs of golden_runs().
 struct Attempt {
-  /// Torque, current and angle of every joint (without a motor: the angle) and the base pose, for any `trace.columns`, a row
-  /// every 20 ms (the largest whole multiple of the trace period up to that, at least one of it); and the numbers of a golden.
-  /// The verdict on request.
+  /// Trace, numbers and, on request, the verdict. The trace has torque, current and angle of every joint (only the angle for a
+  /// joint without a motor) and the pose of the base, for any `trace.columns`. It has a row every 20 ms, or at the largest
+  /// multiple of the trace period below that, at least one period.
   GoldenRun run;
-  double seconds = 0;        ///< duration of the run, for reports alone
-  std::exception_ptr error;  ///< InputError: the step is too long; RunError: it diverged
+  double seconds = 0;        ///< duration of the run, for reports only, s
+  std::exception_ptr error;  ///< InputError if the step is too long, RunError if the run diverged
 };
 
-/// Runs the scenarios; results in their order, up to `jobs` at once. `progress(share)` is called often, one call at a time.
-/// Every run is a separate object: the same bits for any `jobs`. judged: each run also has its verdict.
+/// Runs the scenarios, up to `jobs` at once, and returns results in the order of the scenarios. `progress(share)` is called
+/// often; calls do not overlap. Results are equal bit for bit for any `jobs`. If `judged`, each run has a verdict.
 std::vector<Attempt> golden_runs(const std::vector<Scenario>& scenarios, int jobs,
                                  const std::function<void(double)>& progress = {}, bool judged = false);
 
-/// Numbers that a golden of this run contains: all, except the costs of transport of a robot that does not travel (less than 10
-/// mm): they are shares of noise. The golden decides, so that a run on the other side of that limit is still compared.
+/// Numbers that a golden of this run contains. These are all numbers, without the costs of transport if the robot travels less
+/// than 10 mm, because they are then noise. In a comparison the golden selects the numbers, so that a run on the other side of
+/// that limit is still compared.
 std::vector<Number> golden_numbers(const GoldenRun& run);
 
 /// Origin of a golden's run, for Golden::origin.
 GoldenProvenance golden_origin(const Scenario& scenario);
 
-/// `scenario` with its initial joint angles moved by up to 1e-7 rad each: number `member` of the ensemble. Depends on
-/// scenario.seed alone, by splitmix64 of a counter.
+/// Scenario for member number `member` of the ensemble: `scenario` with each initial joint angle changed by up to 1e-7 rad. The
+/// changes depend only on scenario.seed, `member` and the joint, by splitmix64 of a counter.
 Scenario perturbed(const Scenario& scenario, int member);
 
 }  // namespace gaitlab::golden

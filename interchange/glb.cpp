@@ -11,7 +11,7 @@ namespace gaitlab::interchange {
 
 namespace {
 
-// Constants of the specification (glTF 2.0, 4.4 and 3.6).
+// Constants of the glTF 2.0 specification (sections 4.4 and 3.6).
 constexpr std::uint32_t kMagic = 0x46546C67, kVersion = 2, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 constexpr int kFloat = 5126, kUnsignedInt = 5125, kVertices = 34962, kIndices = 34963;
 
@@ -75,7 +75,7 @@ std::string Glb::finish(std::string_view generator) {
   json_["scene"] = 0;
   json_["asset"] = {{"version", "2.0"}, {"generator", generator}};
   if (!buffer_.empty()) json_["buffers"] = nlohmann::json::array({{{"byteLength", buffer_.size()}}});
-  // Names may come from a file of any encoding.
+  // Names may come from a file with any encoding, and invalid UTF-8 is replaced.
   std::string json = json_.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   json.append((4 - json.size() % 4) % 4, ' ');
   const std::size_t chunks = 8 + json.size() + (buffer_.empty() ? 0 : 8 + buffer_.size());
@@ -95,7 +95,8 @@ nlohmann::json material(const std::string& name, std::string_view colour) {
     int byte = 0;
     std::from_chars(colour.data() + at, colour.data() + at + 2, byte, 16);
     const double srgb = byte / 255.0;
-    factor.push_back(srgb <= 0.04045 ? srgb / 12.92 : math::pow((srgb + 0.055) / 1.055, 2.4));  // linear (IEC 61966-2-1)
+    // Conversion from sRGB to linear (IEC 61966-2-1).
+    factor.push_back(srgb <= 0.04045 ? srgb / 12.92 : math::pow((srgb + 0.055) / 1.055, 2.4));
   }
   factor.push_back(1);
   return {{"name", name},

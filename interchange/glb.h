@@ -1,4 +1,4 @@
-// A glTF 2.0 file under construction: its objects, and their numbers.
+// Writer of a binary glTF 2.0 file (.glb): its objects and its buffer of numbers.
 #pragma once
 #include <cstddef>
 #include <nlohmann/json.hpp>
@@ -10,8 +10,8 @@
 
 namespace gaitlab::interchange {
 
-/// Objects (nodes, meshes ...) refer to one another by index. All numbers of the buffer are float32, rounded to nearest, or
-/// uint32, little-endian, each accessor in a separate view.
+/// A glTF file under construction. Objects (nodes, meshes, ...) refer to one another by index. Numbers in the buffer are
+/// float32, rounded to nearest, or uint32, little-endian. Each accessor has its own buffer view.
 class Glb {
  public:
   Glb() = default;
@@ -19,30 +19,31 @@ class Glb {
   Glb(const Glb&) = delete;
   Glb& operator=(const Glb&) = delete;
 
-  /// Adds an object to one of the file's lists (`nodes`, `materials` ...); returns its index.
+  /// Adds an object to one of the file's lists (`nodes`, `materials`, ...). Returns its index in the list.
   std::size_t add(const char* list, nlohmann::json object);
-  /// An object that was added.
+  /// An object that was added before, for changes.
   nlohmann::json& at(const char* list, std::size_t index) { return json_[list][index]; }
 
-  /// Adds an accessor with `width` numbers per element (1, 3 or 4), with their least and largest; `drawn`: for vertices.
+  /// Adds an accessor of elements with `width` numbers each (1, 3 or 4) and stores their least and largest values. `drawn` is
+  /// true for vertex data. Returns the accessor's index.
   std::size_t floats(const std::vector<float>& numbers, std::size_t width, bool drawn = false);
   std::size_t vectors(const std::vector<Vec3>& vectors);
   std::size_t indices(const Triangles& triangles);
 
-  [[nodiscard]] std::size_t size() const { return buffer_.size(); }  ///< bytes of numbers
+  [[nodiscard]] std::size_t size() const { return buffer_.size(); }  ///< bytes in the buffer of numbers
 
-  /// The whole file: header, JSON with `generator`, numbers. The same calls give the same bytes.
+  /// Content of the file: header, JSON with `generator`, and buffer. The same calls produce the same bytes.
   [[nodiscard]] std::string finish(std::string_view generator);
 
  private:
-  /// Accessor of the numbers added to the buffer since its size was `from`, in bytes.
+  /// Adds an accessor for the numbers in the buffer from byte `from` on.
   std::size_t accessor(std::size_t from, int component, const char* type, std::size_t count, int target);
 
   nlohmann::json json_;
   std::string buffer_;
 };
 
-/// `#RRGGBB` (sRGB) as a matt material.
+/// Matt material of a colour `#RRGGBB` (sRGB).
 nlohmann::json material(const std::string& name, std::string_view colour);
 
 }  // namespace gaitlab::interchange

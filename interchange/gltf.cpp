@@ -20,11 +20,11 @@ namespace {
 using namespace interchange;
 using nlohmann::json;
 
-constexpr double kFullFile = 4e9;  // bytes of numbers; sizes in the file have 32 bits
+constexpr double kFullFile = 4e9;  // bytes in the buffer; sizes in the file are 32 bit numbers
 
 json list(std::initializer_list<double> numbers) {
   json made = json::array();
-  for (const double x : numbers) made.push_back(x + 0.0);  // no -0
+  for (const double x : numbers) made.push_back(x + 0.0);  // adding 0 turns -0 into 0
   return made;
 }
 
@@ -49,7 +49,7 @@ const char* role_name(Role role) {
   return "body";
 }
 
-/// Largest distance of a body's shapes from its origin, m.
+/// Largest distance of any point of a body's shapes from the body's origin, m (upper bound).
 double reach(const BodyType& type) {
   double most = 0;
   for (const Shape& shape : type.shapes) most = std::max(most, shape.in_body.p.norm() + shape.size.norm());
@@ -96,7 +96,7 @@ class GltfScene {
     return {{"attributes", vertices}, {"indices", file_.indices(triangles)}, {"material", material}};
   }
 
-  /// Area under the robot's path, extended on each side by the robot's size.
+  /// Area under the robot's path, extended by the robot's size on each side.
   [[nodiscard]] Area walked() const {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     Area area{kInfinity, -kInfinity, kInfinity, -kInfinity};
@@ -132,7 +132,7 @@ class GltfScene {
     return file_.add("nodes", drawn);
   }
 
-  /// All boxes share one cube mesh, scaled.
+  /// Adds the node of a box. All boxes use one cube mesh, which is scaled.
   std::size_t write_box(std::size_t number) {
     const Box& box = s_.ground.boxes()[number];
     const bool moves = box.mass > 0;
@@ -153,7 +153,7 @@ class GltfScene {
     return made;
   }
 
-  /// Writes the links; returns the node of the base.
+  /// Adds the nodes of the links. Returns the node of the base.
   std::size_t write_links() {
     std::vector<std::size_t> nodes;
     for (std::size_t l = 0; l < robot_.links.size(); ++l) nodes.push_back(l == 0 ? write_base() : write_joint(robot_.links[l]));
@@ -209,7 +209,7 @@ class GltfScene {
     }
     animate(node, "translation", numbers, 3);
   }
-  /// Eigen's order of coefficients is glTF's: x y z w.
+  /// Animates the rotation of a node. Eigen and glTF store quaternions in the same order, x y z w.
   void turn_by(std::size_t node, const std::vector<Quat>& turns) {
     std::vector<float> numbers;
     for (const Quat& q : turns) {
@@ -218,7 +218,7 @@ class GltfScene {
     animate(node, "rotation", numbers, 4);
   }
 
-  /// Adds a channel. A value that never changes has none; it is stored in the node.
+  /// Adds an animation channel. A value that never changes has no channel, because the node already contains it.
   void animate(std::size_t node, const char* path, const std::vector<float>& numbers, std::size_t width) {
     const auto moved = [&](std::size_t i) { return numbers[i] != numbers[i % width]; };
     bool any = false;
@@ -234,10 +234,10 @@ class GltfScene {
   Motion motion_;
   const GltfLook& look_;
   Glb file_;
-  std::map<std::string, std::size_t> materials_;                       ///< by name
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> meshes_;  ///< by module type and body type
-  std::array<std::size_t, 2> cubes_{};                                 ///< meshes of boxes, counted from 1: at rest, moving
-  std::size_t times_ = 0;                                              ///< accessor
+  std::map<std::string, std::size_t> materials_;                       ///< index of each material, by its name
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> meshes_;  ///< index of each mesh, by module type and body type
+  std::array<std::size_t, 2> cubes_{};                                 ///< mesh index + 1 of fixed and moving boxes; 0 if none
+  std::size_t times_ = 0;                                              ///< accessor of the times of the keyframes
   json channels_ = json::array(), samplers_ = json::array();
 };
 

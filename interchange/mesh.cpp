@@ -10,10 +10,10 @@ namespace gaitlab::interchange {
 
 namespace {
 
-constexpr std::uint32_t kSides = 32;  // of a full circle; even, so that half of them go around half a cylinder
+constexpr std::uint32_t kSides = 32;  // sides of a full circle; even, so that half of them surround half a cylinder
 constexpr std::uint32_t kRings = kSides / 2;
 
-/// Adds vertices in the frame of a shape.
+/// Adds vertices and triangles to a mesh, in the frame of a shape.
 class Surface {
  public:
   Surface(Mesh& mesh, const Pose& pose) : mesh_(mesh), pose_(pose) {}
@@ -24,7 +24,7 @@ class Surface {
     return static_cast<std::uint32_t>(mesh_.places.size() - 1);
   }
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { mesh_.triangles.insert(mesh_.triangles.end(), {a, b, c}); }
-  /// Adds a quad with these corners, in order around it.
+  /// Adds a quadrilateral whose corners are given in order around it.
   void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
     triangle(a, b, c);
     triangle(a, c, d);
@@ -50,13 +50,13 @@ void add_box(Surface& to, const Vec3& size) {
     for (const double side : {1.0, -1.0}) {
       const Vec3 n = side * Vec3::Unit(axis);
       const Vec3 middle = n.cwiseProduct(half);
-      const Vec3 along = side * v;  // so that u, along, n are right-handed
+      const Vec3 along = side * v;  // sign so that u, along, n are right-handed
       to.flat({middle - u - along, middle + u - along, middle + u + along, middle - u + along}, n);
     }
   }
 }
 
-/// Unit vectors across axis y, from -z through +x on: to +z, or around.
+/// Unit vector perpendicular to axis y with number k. The directions turn from -z through +x, with kSides per turn.
 Vec3 direction(std::uint32_t k) {
   const auto [s, c] = math::sincos(2 * std::numbers::pi * k / kSides - std::numbers::pi / 2);
   return {c, 0, s};
@@ -105,7 +105,7 @@ void add_sphere(Surface& to, double radius) {
   }
 }
 
-/// The smallest edge with which `length` has at most 40 tiles.
+/// The shortest tile edge for which `length` has at most 40 tiles.
 double tile_edge(double length) {
   for (const double power : {1e-4, 1e-3, 1e-2, 1e-1, 1e0, 1e1, 1e2, 1e3, 1e4}) {
     for (const double times : {1.0, 2.0, 5.0}) {
@@ -115,7 +115,7 @@ double tile_edge(double length) {
   return length / 40;
 }
 
-/// Whole tiles that cover [lo, hi].
+/// Coordinates of the edges of whole tiles that cover [lo, hi].
 std::vector<double> tile_lines(double edge, double lo, double hi) {
   std::vector<double> at;
   const double first = std::floor(lo / edge);
@@ -124,14 +124,15 @@ std::vector<double> tile_lines(double edge, double lo, double hi) {
   return at;
 }
 
-/// Nodes of a heightfield along an axis: each is drawn with `parts` - 1 lines behind it, or only every `stride`-th.
+/// Nodes of a height field along an axis. `parts` - 1 lines are drawn between two nodes; if `stride` exceeds 1, only every
+/// `stride`th line is drawn.
 struct FieldAxis {
   double origin, spacing;
   std::size_t nodes, parts, stride;
 };
 
-/// Lines that divide an axis of a heightfield: its cells into parts, tiles, and the ends of the drawn area. Lines that nearly
-/// coincide are merged: float32 might not distinguish them.
+/// Coordinates of the lines that divide a height field along an axis: parts of its cells, edges of tiles, and the ends of the
+/// drawn area. Lines that nearly coincide are merged, because float32 might not distinguish them.
 std::vector<double> field_lines(const FieldAxis& axis, double edge, double lo, double hi) {
   const double part = axis.spacing / static_cast<double>(axis.parts);
   std::vector<double> all{lo, hi};
@@ -150,7 +151,7 @@ std::vector<double> field_lines(const FieldAxis& axis, double edge, double lo, d
   return at;
 }
 
-/// Vertices where the lines cross, two triangles in each of their cells.
+/// Tiles with a vertex at each crossing of the lines, and two triangles in each cell between the lines.
 template <class Vertex>
 Tiles grid(double edge, const std::vector<double>& xs, const std::vector<double>& ys, const Vertex& vertex) {
   Tiles made;

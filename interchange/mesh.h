@@ -1,4 +1,4 @@
-// Triangle meshes of shapes of bodies and of the ground.
+// Triangle meshes of the shapes of bodies and of the ground.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -8,42 +8,43 @@
 
 namespace gaitlab::interchange {
 
-/// Triangles, counter-clockwise as seen from outside; three corners each.
+/// Vertex indices of triangles, three per triangle, counter-clockwise as seen from outside.
 using Triangles = std::vector<std::uint32_t>;
 
-/// Vertices with their normals (unit vectors, outwards), and triangles over them. A vertex of a sharp edge is repeated for each
-/// side, so that boxes have flat sides and cylinders round ones. m.
+/// Vertices (m) with their outward unit normals, and triangles. A vertex on a sharp edge is repeated for each side, so that
+/// boxes look flat and cylinders round.
 struct Mesh {
   std::vector<Vec3> places, normals;
   Triangles triangles;
 };
 
-/// Adds a shape, in the frame in which its pose is given. Round ones are inscribed prisms of 32 sides, spheres 32 by 16: up to
-/// 0.5 % of the radius inside the shape (chosen).
+/// Adds a shape, in the frame in which the shape's pose is given. A cylinder becomes an inscribed prism of 32 sides, a sphere
+/// 32 x 16 faces. The surface is up to 0.5 % of the radius inside the shape (chosen).
 void add(Mesh& mesh, const Shape& shape);
 
-/// A rectangle of the world's x and y, m.
+/// A rectangle in the world's x and y, m.
 struct Area {
   double x_lo = 0, x_hi = 0, y_lo = 0, y_hi = 0;
 };
 
-/// A ground as square tiles with an edge of 1, 2 or 5 times a power of ten, at most 40 (and two partial ones) along either side
-/// of the drawn area; a corner of four tiles is at the world's x = y = 0. Tiles of both kinds alternate as on a chessboard and
-/// share the vertices.
+/// A ground of square tiles whose edge is 1, 2 or 5 times a power of ten. At most 40 whole and two partial tiles are along
+/// either side of the drawn area, and a corner of four tiles is at the world's origin. Light and dark tiles alternate as on a
+/// chessboard and use common vertices.
 struct Tiles {
   double edge = 0;  ///< m
-  Mesh light;       ///< with all vertices
+  Mesh light;       ///< contains all vertices
   Triangles dark;
 };
 
-/// The plane z = 0, in whole tiles that cover the area.
+/// Tiles of the plane z = 0 that cover the area completely.
 Tiles tiles(const Area& area);
 
-/// Stride of the heights that are drawn in x and in y, so that there are at most about 512 x 512.
+/// Stride in x and y of the heights that are drawn, so that they are at most about 512 x 512.
 std::size_t drawn_stride(const Heightfield& field);
 
-/// The surface over its grid and the area. Each cell is cut into 4 by 4 (2 by 2 above 16 000 cells, not at all above 64 000),
-/// because it is curved, and at the edges of tiles; the normals are those of the field.
+/// Tiles of a height field, over its grid and the area. Because the surface within a cell is curved, each cell is divided into
+/// 4 x 4 parts (2 x 2 above 16 000 cells, none above 64 000). Cells are also divided at the edges of tiles. Normals are those
+/// of the height field.
 Tiles tiles(const Heightfield& field, const Area& area);
 
 }  // namespace gaitlab::interchange

@@ -18,9 +18,9 @@ namespace {
 
 using namespace interchange;
 
-// MuJoCo requires mass and inertia above 1e-15 for every moved body.
+// Least mass and moment of inertia, kg and kg m^2. MuJoCo requires more than 1e-15 for every body that moves.
 constexpr double kMassless = 2e-15;
-constexpr double kPointSize = 0.001;  // m, drawn
+constexpr double kPointSize = 0.001;  // m, radius with which a point is drawn
 
 std::string quaternion(const Quat& q) { return text({q.w(), q.x(), q.y(), q.z()}); }
 
@@ -109,7 +109,8 @@ class Mjcf {
     return element;
   }
 
-  /// The base's joints turn and shift a body that has its initial pose: world axes are R^T e there.
+  /// Writes the joints of the base, which turn and shift the base from its initial pose. In the base's axes, the world axis e
+  /// is R^T e.
   void write_base_joints(Xml& element) {
     if (s_.base == Base::floating) set(add(element, "freejoint"), "name", "base");
     if (s_.base != Base::planar) return;
@@ -127,7 +128,7 @@ class Mjcf {
 
   void write_hinge(Xml& element, const Body& body, std::size_t j) {
     const Joint& joint = robot_.joints[j];
-    const Pose hinge = body.in_link.inverse();  // the link's frame is the hinge's
+    const Pose hinge = body.in_link.inverse();  // the frame of the link is that of the hinge
     Xml& e = add(element, "joint");
     set(e, "name", joint.name);
     set(e, "type", "hinge");
@@ -145,15 +146,17 @@ class Mjcf {
   }
 
   const BodyType& type(const Body& body) const { return robot_.types[robot_.modules[body.module].type].bodies[body.type]; }
-  /// Masses and moments below MuJoCo's minimum (a moment of a rod about its axis, say) are raised to it.
+  /// True if the body's mass or a moment of inertia is below MuJoCo's minimum and raised to it, for example the moment of a rod
+  /// about its axis.
   static bool raised(const BodyType& t) {
     Vec3 moments;
     principal_axes(t.inertia, moments);
     return t.mass < kMassless || moments.minCoeff() < kMassless;
   }
-  /// If the integrator divides its steps, MuJoCo gets a step that is short enough for its integrator.
+  /// Step for MuJoCo. If the scenario's integrator adapts its step, it is the default step of the engine, which is short enough
+  /// for RK4.
   [[nodiscard]] double step() const { return s_.physics.adapts() ? s_.physics.engine->step : s_.physics.step; }
-  /// MuJoCo's method: RK4, whose error is small, for any integrator.
+  /// Sentence of the comment on the integrator: MuJoCo uses RK4, whose error is small, instead of the scenario's integrator.
   std::string method() const {
     if (s_.physics.integrator == nullptr || s_.physics.integrator->name == "rk4") return "";
     const Integrator& own = *s_.physics.integrator;
@@ -178,7 +181,7 @@ class Mjcf {
     Xml& e = add(element, "inertial");
     set(e, "pos", text(t.com));
     set(e, "mass", text({std::max(t.mass, kMassless)}));
-    // MuJoCo also takes whole tensors, but diagonalises them with errors of 1e-12 kg m^2: principal axes are exact.
+    // MuJoCo also accepts full tensors, but diagonalises them with errors of 1e-12 kg m^2. Principal axes are exact.
     Vec3 moments;
     const Mat3 axes = principal_axes(t.inertia, moments);
     set(e, "quat", quaternion(Quat(axes)));
@@ -200,7 +203,7 @@ class Mjcf {
         set_pose(geom(element, "", "box", text(Vec3(shape.size / 2))), pose);
       } else if (shape.kind == Shape::Kind::sphere) {
         set_pose(geom(element, "", "sphere", text({shape.size.x()})), pose);
-      } else {  // MuJoCo has no half cylinder: a whole one, whose other half is inside the body
+      } else {  // MuJoCo has no half cylinder: a whole one is drawn, whose other half is inside the body
         pose.R = pose.R * y_from_z();
         set_pose(geom(element, "", "cylinder", text({shape.size.x(), shape.size.y() / 2})), pose);
       }
@@ -220,7 +223,7 @@ class Mjcf {
     set(site, "group", "3");
   }
 
-  /// The controls are torques on the joints.
+  /// Writes the motors. Their controls are torques on the joints.
   void write_motors(Xml& root) {
     if (limits_.empty()) return;
     Xml& actuator = add(root, "actuator");
@@ -235,7 +238,7 @@ class Mjcf {
     }
   }
 
-  /// A free joint's angular velocity is in the body's axes.
+  /// Writes the initial state as a keyframe. The angular velocity of a free joint is in the axes of the body.
   void write_start(Xml& root, const Xml& world) {
     std::vector<double> q;
     std::vector<double> v;
@@ -250,7 +253,7 @@ class Mjcf {
       q = {0, 0, 0};
       v = {velocity.x(), velocity.z(), start_.angular_velocity.y()};
     }
-    // MuJoCo numbers joints in the order of the bodies, depth first.
+    // MuJoCo numbers the joints in the order of the bodies, depth first.
     std::map<std::string_view, std::size_t> numbers;
     for (std::size_t j = 0; j < robot_.joints.size(); ++j) numbers.emplace(robot_.joints[j].name, j);
     append_joints(world, numbers, q, v);
@@ -278,7 +281,7 @@ class Mjcf {
   RobotState start_;
   BodyTree tree_;
   std::vector<MotorLimits> limits_;
-  std::vector<std::vector<ContactElement>> elements_;  ///< per body
+  std::vector<std::vector<ContactElement>> elements_;  ///< contact elements of each body
 };
 
 }  // namespace

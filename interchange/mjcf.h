@@ -1,4 +1,4 @@
-// A scenario's robot for MuJoCo.
+// Export of a scenario's robot as MJCF, the format of MuJoCo.
 #pragma once
 #include <string>
 
@@ -6,11 +6,15 @@
 
 namespace gaitlab::interchange {
 
-/// MJCF (MuJoCo 2.2 and later) of the robot in its initial state: one MuJoCo body for each of the robot's, docked ones without
-/// a joint between them; whole inertia tensors (by their principal axes); hinges with their ranges; a free, planar (slide x,
-/// slide z, hinge y) or fixed base; the start as keyframe `start`; gravity, step and RK4; shapes, contact elements, the plane
-/// and its boxes as geoms without contact; motors as torques. Throws InputError for a heightfield. A comment at the top lists
-/// the parts of the scenario that MJCF cannot hold. Numbers are read back as the same doubles.
+/// MJCF text (MuJoCo 2.2 and later) of the robot in its initial state. It contains:
+/// - One MuJoCo body for each body of the robot, with its full inertia tensor as principal axes and moments. Docked bodies have
+/// no joint between them.
+/// - Hinges with their ranges, and a free, planar (slide x, slide z, hinge y) or fixed base.
+/// - The initial state as keyframe `start`, gravity, step and integrator RK4.
+/// - Shapes, contact elements, the plane and its boxes as geoms that do not collide.
+/// - Motors that apply the control as a torque.
+/// A comment at the top lists the parts of the scenario that MJCF cannot represent. Numbers are read back as the same doubles.
+/// Throws InputError for a height field.
 std::string to_mjcf(const Scenario& scenario);
 
 }  // namespace gaitlab::interchange

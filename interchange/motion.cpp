@@ -21,17 +21,18 @@ std::vector<Way> fixed_boxes(const Ground& ground) {
 
 std::string box_name(std::size_t number) { return fmt::format("box.{}.", number); }
 
-/// Rows of a recording as frames.
+/// Rows of a recording that become frames of an animation.
 class Frames {
  public:
   Frames(const Scenario& scenario, const Recording& recording, double rate) : scenario_(scenario), recording_(recording) {
-    const double least = (1 - 1e-9) / rate;  // accepts rows that are 1/rate apart up to rounding
+    const double least = (1 - 1e-9) / rate;  // accepts rows that are 1/rate apart except for rounding
     const std::vector<double> t = recording.series("t").values();
     for (std::size_t row = 0; row < t.size(); ++row) {
       const bool last = row + 1 == t.size();
       if (!rows_.empty() && !last && t[row] - t[rows_.back()] < least) continue;
       const auto time = static_cast<float>(t[row]);
-      if (!times_.empty() && !(time > times_.back())) continue;  // possible after days of simulated time
+      // Equal float32 times are possible after days of simulated time.
+      if (!times_.empty() && !(time > times_.back())) continue;
       rows_.push_back(row);
       times_.push_back(time);
     }

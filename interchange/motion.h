@@ -1,4 +1,4 @@
-// Motion of a robot and of the boxes that it pushes, frame by frame, for animations.
+// Motion of a robot and of the boxes that it pushes, as frames of an animation.
 #pragma once
 #include <vector>
 
@@ -7,30 +7,31 @@
 
 namespace gaitlab::interchange {
 
-/// Poses of one object, one per frame; a single pose: it does not move. Quaternions have length 1 and continuous signs.
+/// Poses of one object, one pose per frame, or a single pose if it does not move. Quaternions have unit length and continuous
+/// signs.
 struct Way {
-  std::vector<Vec3> places;  ///< m, world
-  std::vector<Quat> turns;   ///< its axes -> world
+  std::vector<Vec3> places;  ///< m, position in the world
+  std::vector<Quat> turns;   ///< rotation from the object's axes to the world's axes
 };
 
 struct Motion {
-  std::vector<float> times;                 ///< of the frames, s, strictly rising
-  Way base;                                 ///< of the base frame
-  std::vector<std::vector<double>> angles;  ///< by joint, rad, one per frame
-  std::vector<Way> boxes;                   ///< of `ground.boxes`
+  std::vector<float> times;                 ///< s, times of the frames, strictly rising
+  Way base;                                 ///< poses of the base frame
+  std::vector<std::vector<double>> angles;  ///< rad; one list per joint with one angle per frame
+  std::vector<Way> boxes;                   ///< poses of the boxes in `ground.boxes`
 
   [[nodiscard]] std::size_t frames() const { return times.size(); }
-  [[nodiscard]] RobotState state(std::size_t frame) const;  ///< speeds 0
+  [[nodiscard]] RobotState state(std::size_t frame) const;  ///< pose and angles; the speeds are 0
 };
 
-/// Motion of one frame: the robot's initial state.
+/// Motion with a single frame, the robot's initial state.
 Motion standing(const Scenario& scenario);
 
-/// Motion at trace rows that are at least 1/rate s apart, and at the last one. Requires recording.has_states(robot). Throws
-/// InputError for a number that is not finite.
+/// Motion at the last trace row and at trace rows that are at least 1/rate s apart. Requires recording.has_states(robot).
+/// Throws InputError for a number that is not finite.
 Motion motion(const Scenario& scenario, const Recording& recording, double rate);
 
-/// Whether the recording contains the motion of box `number` of `ground.boxes`.
+/// True if the recording contains the motion of box `number` in `ground.boxes`.
 bool has_way(const Recording& recording, std::size_t number);
 
 }  // namespace gaitlab::interchange

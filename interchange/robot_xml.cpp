@@ -16,14 +16,14 @@ namespace {
 template <class Numbers>
 std::string joined_numbers(const Numbers& numbers) {
   std::string out;
-  for (const double x : numbers) out += (out.empty() ? "" : " ") + number_text(x + 0.0);  // no -0
+  for (const double x : numbers) out += (out.empty() ? "" : " ") + number_text(x + 0.0);  // adding 0 turns -0 into 0
   return out;
 }
 
-/// Speeds at which the torques of the joints under `command` become zero, rad/s; 0 if one never does. One bisection for all
-/// joints at once, because the actuator computes all joints at once.
+/// No-load speed of each joint, at which the torque under `command` becomes zero, rad/s; 0 if the torque never becomes zero.
+/// One bisection finds all speeds, because the actuator computes all joints at once.
 std::vector<double> no_load_speeds(const Actuator& actuator, const std::vector<double>& command) {
-  constexpr double kFastest = 1e6;  // rad/s on a joint: above any speed
+  constexpr double kFastest = 1e6;  // rad/s; no joint turns faster
   constexpr int kMostHalvings = 200;
   const std::size_t joints = command.size();
   std::vector<double> lo(joints, 0.0);
@@ -35,7 +35,7 @@ std::vector<double> no_load_speeds(const Actuator& actuator, const std::vector<d
   for (std::size_t j = 0; j < joints; ++j) {
     if (torque[j] > 0) hi[j] = 0;
   }
-  bool between = joints > 0;  // a double between the bounds of any joint
+  bool between = joints > 0;  // true as long as a double is between the bounds of any joint
   for (int i = 0; i < kMostHalvings && between; ++i) {
     between = false;
     for (std::size_t j = 0; j < joints; ++j) {

@@ -1,4 +1,4 @@
-// Common parts of the robot formats: numbers that are read back as the same double, poses at zero angles, motors as limits.
+// Common parts of the writers of URDF and MJCF: numbers, cylinder axes, and limits of motors.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,25 +9,24 @@
 
 namespace gaitlab::interchange {
 
-/// Numbers separated by spaces, each the shortest text that is read back as the same double, in any locale.
+/// Numbers separated by spaces. Each is the shortest text that is read back as the same double, in any locale.
 std::string text(std::initializer_list<double> numbers);
 std::string text(const std::vector<double>& numbers);
 inline std::string text(const Vec3& v) { return text({v.x(), v.y(), v.z()}); }
 
-/// Rotation from axis z, a cylinder's in the other formats, to y, its axis here.
+/// Rotation of a cylinder: its axis is z in URDF and MJCF, and y in gaitlab.
 Mat3 y_from_z();
 
-/// Limits of a joint's motor in the terms of other formats: torque at rest under the largest command, speed without load, and
-/// inertia of its rotor on the joint.
+/// Limits of a joint's motor in the terms of URDF and MJCF, on the side of the joint.
 struct MotorLimits {
-  double effort = 0;    ///< N m; infinity: no limit
-  double speed = 0;     ///< rad/s; 0: the torque does not depend on speed
-  double armature = 0;  ///< kg m^2
+  double effort = 0;    ///< N m, torque at rest under the largest command; infinity if not limited
+  double speed = 0;     ///< rad/s, no-load speed under the largest command; 0 if there is none
+  double armature = 0;  ///< kg m^2, inertia of the rotor
 };
-/// One per joint; empty without actuator.
+/// Motor limits of each joint; empty without an actuator.
 std::vector<MotorLimits> motor_limits(const Scenario& scenario);
 
-/// Parts of the scenario that no robot format holds, as a comment.
+/// Text of a comment on the parts of the scenario that neither URDF nor MJCF can represent.
 std::string left_out(const Scenario& scenario);
 
 }  // namespace gaitlab::interchange

@@ -13,8 +13,8 @@ namespace {
 
 using namespace interchange;
 
-constexpr double kPointRadius = 0.001;  // m
-constexpr double kUnlimited = 1e6;      // N m, rad/s: the format requires a limit
+constexpr double kPointRadius = 0.001;  // m, radius with which a point is written
+constexpr double kUnlimited = 1e6;      // N m and rad/s; written for no limit, because the format requires a number
 
 void add_origin(Xml& element, const Pose& pose) {
   Xml& e = add(element, "origin");
@@ -55,7 +55,7 @@ class Urdf {
     return robot_.types[robot_.modules[body.module].type].bodies[body.type];
   }
 
-  /// The body's URDF frame in its link: the hinge's, or the body's own.
+  /// Pose of a body's URDF frame in its link: the frame of the hinge for a body with a hinge, else that of the body.
   [[nodiscard]] Pose frame(std::size_t b) const {
     return tree_.attachments[b].kind == Attachment::Kind::hinge ? Pose{} : robot_.bodies[b].in_link;
   }
@@ -90,7 +90,8 @@ class Urdf {
     return e;
   }
 
-  /// The pose at the start; a planar joint's axis is the plane's normal, world y, in the base frame.
+  /// Writes the link `world` and the joint of a fixed or planar base with its initial pose. The axis of a planar joint is the
+  /// normal of the plane (world y) in the base frame.
   void write_world(Xml& root, const Pose& pose) {
     set(add(root, "link"), "name", "world");
     const bool planar = s_.base == Base::planar;
@@ -161,7 +162,7 @@ class Urdf {
     }
   }
 
-  /// URDF has no half cylinder: a whole one, whose other half is inside the body.
+  /// Writes a shape. URDF has no half cylinder: a whole one is written, whose other half is inside the body.
   static void draw(Xml& geometry, const Shape& shape) {
     if (shape.kind == Shape::Kind::box) {
       set(add(geometry, "box"), "size", text(shape.size));

@@ -1,4 +1,4 @@
-// A scenario's robot as URDF.
+// Export of a scenario's robot as URDF.
 #pragma once
 #include <string>
 
@@ -6,11 +6,11 @@
 
 namespace gaitlab::interchange {
 
-/// One URDF link per body of the robot, with its name; revolute joints with range, torque (of the motor at rest) and speed
-/// (without load) as limits, fixed joints `m3/dock` between docked bodies. The frame of a link is that of its joint, which for
-/// a body behind a reversed hinge differs from the body's. Base: a link without parent (floating), or a link `world` with a
-/// fixed or planar joint. A comment at the top lists the parts of the scenario that URDF cannot hold. Numbers are read back as
-/// the same doubles, angles (rpy) up to rounding.
+/// URDF text of the robot, with one link of the same name for each body. A hinge is a revolute joint whose limits are its
+/// range, the motor's torque at rest and its no-load speed. Docked bodies are connected by fixed joints such as `m3/dock`. The
+/// frame of a link is that of its joint, which differs from the frame of a body behind a reversed hinge. A floating base is a
+/// link without parent; otherwise a link `world` has a fixed or planar joint. A comment at the top lists the parts of the
+/// scenario that URDF cannot represent. Numbers are read back as the same doubles, angles (rpy) up to rounding.
 std::string to_urdf(const Scenario& scenario);
 
 }  // namespace gaitlab::interchange

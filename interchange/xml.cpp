@@ -7,7 +7,7 @@ namespace gaitlab::interchange {
 namespace {
 
 constexpr std::size_t kMostLevels =
-    40;  // largest indentation: without a limit it would dominate the text of a long chain of nested bodies
+    40;  // largest number of indented levels: otherwise indentation would dominate a long chain of nested bodies
 
 std::string escaped(const std::string& value) {
   std::string out;

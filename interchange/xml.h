@@ -1,4 +1,4 @@
-// Writer of XML: elements with attributes and comments, which suffice for the robot formats.
+// Writer of XML with elements, attributes and comments, which suffice for the robot formats.
 #pragma once
 #include <list>
 #include <string>
@@ -7,25 +7,26 @@
 
 namespace gaitlab::interchange {
 
-/// An element or a comment. Not from a library: a program that reads the robot in the same process may use another version of
-/// that library, and the dynamic linker gives both the first one (MuJoCo 3 exports its tinyxml2, and crashed so).
+/// An element or a comment. No XML library is used, because a program that reads the robot in the same process may contain
+/// another version of that library. The dynamic linker then gives both the version that was loaded first (MuJoCo 3 exports its
+/// tinyxml2 and crashed in this way).
 struct Xml {
-  std::string name;   ///< empty: a comment
-  std::string words;  ///< of a comment
+  std::string name;   ///< name of the element; empty for a comment
+  std::string words;  ///< text of the comment
   std::vector<std::pair<std::string, std::string>> attributes;
-  std::list<Xml> children;  ///< references to them remain valid
+  std::list<Xml> children;  ///< a list, so that references to children remain valid
 
-  /// nullptr: no such attribute.
+  /// Value of the attribute, or nullptr if there is none of this name.
   [[nodiscard]] const std::string* attribute(const std::string& wanted) const;
 };
 
-/// Adds a child element behind the others.
+/// Adds a child element after the existing children.
 Xml& add(Xml& parent, std::string name);
-/// Adds a comment; two hyphens in a row, which XML forbids there, become one.
+/// Adds a comment. Two consecutive hyphens, which XML forbids in a comment, become one.
 void comment(Xml& parent, std::string words);
-/// Sets an attribute, replacing one of that name. Any text is allowed as a value.
+/// Sets an attribute or replaces its value. Any text is allowed as a value.
 void set(Xml& element, const std::string& name, std::string value);
-/// Text with a line per element, indented by four spaces per level, at most 160; UTF-8 unchanged.
+/// XML text with one element per line, indented by four spaces per level but at most 160. UTF-8 is not changed.
 std::string print(const Xml& root);
 
 }  // namespace gaitlab::interchange

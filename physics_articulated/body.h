@@ -1,4 +1,4 @@
-// The articulated-body recursion over a scalar T, a double or lanes, with resistances of joints and points inside it.
+// Articulated-body recursion with resistances of joints and points, for a scalar type T (double or lanes).
 #pragma once
 #include <span>
 #include <vector>
@@ -11,19 +11,21 @@
 
 namespace gaitlab::articulated {
 
-/// Solves (M + K) v' = f - c for v' = (acceleration of the base frame's origin, angular acceleration, joint accelerations),
-/// with K = diagonal + sum J^T G J, in O(links): a resistance acts on one joint or on one body against the world, so that each
-/// fits into the recursion (Featherstone, Rigid Body Dynamics Algorithms, 2008, 7.3, here in world axes about the origin of the
-/// base frame: a child's inertia and force are added to the parent's unchanged). Forces are those at the start; weight is a
-/// force on each link and not an acceleration of the base, so that dampers act on true velocities.
-///     forward_kinematics, then solve any number of times; respond uses the last solve's matrix.
-/// State: entries as in StateLayout, SI; the quaternion may have any length but 0. Only the constructor allocates.
+/// Solves (M + K) v' = f - c in O(links), with the resistance K = diagonal + sum J^T G J. The vector v' contains the
+/// acceleration of the origin of the base frame, the angular acceleration of the base, and the joint accelerations. A
+/// resistance acts on one joint, or on one body against the world, so that it fits into the recursion. The algorithm is from
+/// Featherstone, Rigid Body Dynamics Algorithms, 2008, 7.3. It is in world axes about the origin of the base frame, in which
+/// inertia and force of a child are added to the parent unchanged. Forces are those at the start of the step. Weight is a force
+/// on each link and not an acceleration of the base, so that dampers act on true velocities.
+///
+/// forward_kinematics() is called first, then solve() any number of times. respond() uses the matrix of the last solve(). The
+/// state has the entries of StateLayout, SI; the quaternion may have any length except 0. Only the constructor allocates.
 template <class T>
 class Body {
  public:
   Body(const Tree<T>& tree, const Vec<T>& gravity) : tree_(tree), gravity_(gravity), links_(tree.links.size()) {}
 
-  /// Computes poses and velocities from the state; inertias, weight, centrifugal and gyroscopic forces.
+  /// Computes poses, velocities, inertias, weight, and centrifugal and gyroscopic forces from the state.
   void forward_kinematics(std::span<const T> state) {
     place_base(state);
     weigh(0);
@@ -33,16 +35,16 @@ class Body {
     }
   }
 
-  /// Collects forces and resistances on one link while solve passes it.
+  /// Receiver of the forces and resistances on one link, while solve() processes the link.
   class Load {
    public:
-    /// Adds a force at a point relative to the base frame's origin, world axes; N.
+    /// Adds a force (N, world axes) at the point x relative to the origin of the base frame.
     void add_force(const Vec<T>& x, const Vec<T>& force) { p_ -= force_at(x, force); }
     void add_moment(const Vec<T>& moment) { p_.n -= moment; }
-    /// Adds a force -G J v' on the point: G has the unit of a mass.
+    /// Adds a force -G J v' on the point x. G has the unit of a mass.
     void add_resistance(const Vec<T>& x, const Sym<T>& G) {
       I_ += resistance(x, G);
-      // J v' is the part of the point's acceleration that v' causes; the remaining part, `bias`, is known beforehand.
+      // J v' is the part of the acceleration of the point that v' causes. The remaining part, `bias`, is known beforehand.
       add_force(x, G * bias_.at(x));
     }
 
@@ -54,8 +56,8 @@ class Body {
     const Motion<T>& bias_;
   };
 
-  /// `torque` and `diagonal`: per joint, N m and kg m^2. loads(link, Load) is called once per link, the last link first. out: 6
-  /// + joints.
+  /// Computes v' in `out` (6 + joints entries). `torque` (N m) and `diagonal` (kg m^2) have one entry per joint. loads(link,
+  /// Load) is called once per link, from the last link to the first.
   template <class Loads>
   void solve(std::span<const T> torque, std::span<const T> diagonal, std::span<T> out, Loads loads) {
     for (std::size_t i = links_.size(); i-- > 1;) {
@@ -71,7 +73,7 @@ class Body {
       p += I * l.c;
       add_scaled(p, l.inverse * l.u, l.U);
       Link& parent = links_[constant.parent];
-      if (constant.last_child) {  // the first child that this pass meets
+      if (constant.last_child) {  // first child in this pass
         parent.I = rigid(tree_.links[constant.parent].mass, parent.moment, parent.about_origin);
         parent.p = parent.at_rest;
       }
@@ -86,14 +88,15 @@ class Body {
     loads(0, Load(base.I, base.p, base.bias));
     factor_base();
     spread(base_acceleration(), true, out);
-    // A spatial acceleration differs from d/dt of the origin's velocity by this.
+    // Difference between d/dt of the velocity of the origin and the spatial acceleration.
     const Vec<T> turning = cross(links_[0].V.w, links_[0].V.v);
     out[0] = out[0] + turning.x;
     out[1] = out[1] + turning.y;
     out[2] = out[2] + turning.z;
   }
 
-  /// v' = (M + K)^-1 f with the last solve's matrix; f and out: 6 + joints, force on the base frame's origin first.
+  /// Computes v' = (M + K)^-1 f with the matrix of the last solve(). f and out have 6 + joints entries, beginning with the
+  /// force at the origin of the base frame.
   void respond(std::span<const T> f, std::span<T> out) {
     for (Link& l : links_) l.p = {};
     links_[0].p = {{-f[3], -f[4], -f[5]}, {-f[0], -f[1], -f[2]}};
@@ -116,19 +119,19 @@ class Body {
     }
     return origin_ + (T(1.0) / mass) * moment;
   }
-  [[nodiscard]] const Vec<T>& origin() const { return origin_; }  ///< of the base frame, world, m
-  /// Position of a point fixed to a link, relative to the base frame's origin.
+  [[nodiscard]] const Vec<T>& origin() const { return origin_; }  ///< origin of the base frame, world, m
+  /// Position of a point fixed to a link, relative to the origin of the base frame.
   [[nodiscard]] Vec<T> point(std::size_t link, const Vec<T>& in_link) const {
     return links_[link].r + links_[link].R * in_link;
   }
-  /// z of point().
+  /// z coordinate of point().
   [[nodiscard]] T height(std::size_t link, const Vec<T>& in_link) const {
     const Mat<T>& R = links_[link].R;
     return links_[link].r.z + (R.x.z * in_link.x + R.y.z * in_link.y + R.z.z * in_link.z);
   }
-  [[nodiscard]] const Vec<T>& turning(std::size_t link) const { return links_[link].V.w; }  ///< rad/s
+  [[nodiscard]] const Vec<T>& turning(std::size_t link) const { return links_[link].V.w; }  ///< angular velocity, rad/s
   [[nodiscard]] Vec<T> velocity(std::size_t link, const Vec<T>& x) const { return links_[link].V.at(x); }
-  /// J v' of a point after solve: its change of acceleration.
+  /// J v' of a point after solve(): the part of the acceleration of the point that v' causes.
   [[nodiscard]] Vec<T> change(std::size_t link, const Vec<T>& x) const {
     return links_[link].A.at(x) - links_[link].bias.at(x);
   }
@@ -136,16 +139,16 @@ class Body {
  private:
   struct Link {
     Mat<T> R;             ///< axes of the link in the world
-    Vec<T> r;             ///< origin of the link, relative to the base frame's
+    Vec<T> r;             ///< origin of the link, relative to the origin of the base frame
     Motion<T> S;          ///< motion for unit speed of the joint
     Motion<T> V;          ///< velocity
     Motion<T> c;          ///< velocity-dependent acceleration of the joint
     Motion<T> bias;       ///< acceleration for v' = 0
     Vec<T> moment;        ///< mass times COM
     Sym<T> about_origin;  ///< inertia about the origin
-    Force<T> at_rest;     ///< initial p: weight, centrifugal and gyroscopic forces
-    Inertia<T> I;         ///< articulated inertia: rigid, with the parts of its children
-    Force<T> p;           ///< bias force, with the parts of its children
+    Force<T> at_rest;     ///< initial value of p: weight, centrifugal and gyroscopic forces
+    Inertia<T> I;         ///< articulated inertia: rigid inertia plus the parts of the children
+    Force<T> p;           ///< bias force, including the parts of the children
     Force<T> U;           ///< I S
     T inverse, u;         ///< 1 / (S^T I S + diagonal); net torque on the joint
     Motion<T> A;          ///< acceleration
@@ -197,7 +200,7 @@ class Body {
     l.at_rest.f = cross(l.V.w, momentum) - weight;
   }
 
-  /// Computes accelerations from the base outwards. `moving`: velocity-dependent terms included.
+  /// Computes accelerations from the base outwards. If `moving`, they include velocity-dependent terms.
   void spread(const Motion<T>& base, bool moving, std::span<T> out) {
     links_[0].A = base;
     const Motion<T>& a = base;
@@ -252,8 +255,8 @@ class Body {
   Vec<T> gravity_;
   Vec<T> origin_;
   std::vector<Link> links_;
-  Cholesky<T, 6> free_;    // factor of the base's articulated inertia: angular, then linear
-  Cholesky<T, 3> planar_;  // the same for a planar base: turn about y, x, z
+  Cholesky<T, 6> free_;    // factor of the articulated inertia of the base: angular, then linear
+  Cholesky<T, 3> planar_;  // factor for a planar base: rotation about y, x, z
 };
 
 }  // namespace gaitlab::articulated

@@ -1,14 +1,14 @@
-// Small symmetric positive definite systems over a scalar T: L D L^T, all loops of constant length.
+// Small symmetric positive definite systems, solved by L D L^T for a scalar type T, with all loops of constant length.
 #pragma once
 #include <array>
 #include <cstddef>
 
 namespace gaitlab::articulated {
 
-/// Factor of the N x N matrix whose lower triangle is in `m`; solve: b <- m^-1 b.
+/// Factor of the N x N matrix whose lower triangle is in `m`. solve() replaces b by m^-1 b.
 template <class T, std::size_t N>
 struct Cholesky {
-  std::array<std::array<T, N>, N> m;  ///< L below the diagonal, 1 / D on it
+  std::array<std::array<T, N>, N> m;  ///< after factor(): L below the diagonal, 1 / D on the diagonal
 
   void factor() {
     for (std::size_t j = 0; j < N; ++j) {

@@ -15,57 +15,58 @@ namespace gaitlab::articulated {
 /// Contact geometry of an element on the ground of its lane.
 template <class T>
 struct Touch {
-  T penetration;    ///< m; negative: gap
+  T penetration;    ///< m; negative if there is a gap
   Vec<T> n, point;  ///< normal; point of action, world, m
   T friction;       ///< Coulomb coefficient
 };
 
-/// Ground around the robot, one per lane. A ground that is not a plane is evaluated lane by lane: `query`, over Ground::query.
+/// Gravity, contact law and ground of the lanes. If a ground is not a plane, `query` evaluates it lane by lane with
+/// Ground::query.
 template <class T>
 struct Environment {
   Vec<T> gravity;
   BasicPenaltyContact<T> law;
-  bool plane = true;  ///< all lanes have planes
-  T friction = 0.0;   ///< of the planes
+  bool plane = true;  ///< true if all lanes have planes
+  T friction = 0.0;   ///< friction coefficients of the planes
   std::vector<const Ground*> ground;
   Touch<double> (*query)(const Ground&, const Vec<double>& centre, double radius) = nullptr;
 };
 
-/// One element that touches, or may before the step ends: its forces at the velocity (vn+, vt+) at the end of a step of h,
-/// where the depth is p+ = depth - h vn+:
+/// An element that touches the ground, or may touch it before the step ends. Its forces depend on the velocity (vn+, vt+) at
+/// the end of a step h, at which the depth is p+ = depth - h vn+:
 ///     normal:   Kn p+^k - D vn+ >= 0, while p+ > 0
 ///     friction: -f Fn vt+ / max(|vt+|, v_lim)
-/// D = Cd p^d, with p at the body's present place, for elements that touch at the start; Cd p+^d for elements that land.
-/// Friction uses the normal force at the present place and the velocity at the start of the step. All forces fall with the
-/// velocity, so that the step has one solution. A solve takes tangents, with s the direction of slip:
+/// For elements that touch at the start, D = Cd p^d with p at the present place of the body. For elements that land, D = Cd
+/// p+^d. Friction uses the normal force at the present place and the velocity at the start of the step. All forces fall with
+/// the velocity, so that the step has one solution. A solve uses the following tangents, in which s is the direction of slip:
 ///     fn - normal_damping (vn - vn_start), -sliding_force s - tangential_damping (1 - s s^T) vt
 template <class T>
 struct Contact {
   std::size_t element = 0, link = 0;
   Touch<T> touch;
-  Vec<T> x, n, vt;                              ///< point of action, from the base frame's origin; normal; tangential velocity
-  T vn, slip;                                   ///< normal velocity, > 0 separating; magnitude of vt
-  typename BasicPenaltyContact<T>::Normal law;  ///< at the present place
-  T depth;                                      ///< m, at the start of the step
+  Vec<T> x, n, vt;  ///< point of action, from the origin of the base frame; normal; tangential velocity
+  T vn, slip;       ///< normal velocity, > 0 if separating; magnitude of vt
+  typename BasicPenaltyContact<T>::Normal law;  ///< normal force at the present place
+  T depth;                                      ///< depth at the start of the step, m
   T damping;                                    ///< D, N s/m
   T fn, normal_damping;                         ///< tangent of the normal force, N, N s/m
   T friction_limit;                             ///< f Fn, N
-  T sliding_force, tangential_damping;          ///< f Fn while the element slides, else 0; slope
-  Vec<T> slip_direction;                        ///< s; 0 while the element sticks
-  Vec<T> change, held;                          ///< at the iterate: change of velocity, m/s; force that the solve took, N
-  Vec<T> next_change, next_held;                ///< the same of the last solve
+  T sliding_force, tangential_damping;          ///< f Fn if the element slides, else 0; slope of friction
+  Vec<T> slip_direction;                        ///< s; 0 if the element sticks
+  Vec<T> change, held;                          ///< at the iterate: change of velocity, m/s; force in the solve, N
+  Vec<T> next_change, next_held;                ///< change and force of the last solve
 
   [[nodiscard]] Vec<T> across(const Vec<T>& v) const { return v - dot(slip_direction, v) * slip_direction; }
   [[nodiscard]] Vec<T> friction(const Vec<T>& v) const {
     return -(sliding_force * slip_direction + tangential_damping * across(v));
   }
   [[nodiscard]] Vec<T> force() const { return fn * n + friction(vt); }
-  /// Tangent force of the solve, for a change of velocity.
+  /// Tangent force in a solve for a change dv of the velocity, N.
   [[nodiscard]] Vec<T> force(const Vec<T>& dv) const {
     const T normal = dot(n, dv);
     return (fn - normal_damping * normal) * n + friction(vt + (dv - normal * n));
   }
-  /// h times the slope: the resistance for Body.
+  /// Resistance for Body: h times the slope of the force.
   [[nodiscard]] Sym<T> slope(double h) const {
     const T zero = 0.0;
     Sym<T> G{h * tangential_damping, h * tangential_damping, h * tangential_damping, zero, zero, zero};
@@ -92,8 +93,8 @@ class Contacts {
     }
   }
 
-  /// Fills touching() at the body's present place, to which it has moved for `ahead` seconds at its velocities. With `reach` >
-  /// 0 s it also finds elements that may touch within that time.
+  /// Fills touching() at the present place of the body, which the body has reached after `ahead` seconds at its velocities.
+  /// With `reach` > 0 (s), elements that may touch within this time are included.
   void find(const Body<T>& body, double ahead, double reach) {
     touching_.clear();
     std::size_t e = 0;
@@ -112,13 +113,13 @@ class Contacts {
         const auto near = found.penetration > -gap;
         if (!math::any_lane(near)) continue;
         Contact<T>& c = touching_.emplace_back(contact(order_[e], link, found, x, v, ahead));
-        c.depth = math::select(near, c.depth, T(kFar));  // present because of other lanes
+        c.depth = math::select(near, c.depth, T(kFar));  // included because of other lanes
       }
     }
     first_.back() = touching_.size();
   }
 
-  /// Sets the tangents at the start's velocity, for a step of h; 0: the law itself.
+  /// Sets the tangents at the velocity at the start, for a step h. With h = 0, sets the forces of the law itself.
   void begin(double h) {
     for (Contact<T>& c : touching_) {
       const Normal end = h > 0 ? normal(c, c.vn, h) : Normal{c.law.fn, c.law.normal_slope};
@@ -131,18 +132,18 @@ class Contacts {
     }
   }
 
-  /// Loads of a link for Body::solve.
+  /// Adds the contact forces and resistances on a link in Body::solve.
   void load(std::size_t link, typename Body<T>::Load load, double h) const {
     for (std::size_t i = first_[link]; i < first_[link + 1]; ++i) {
       const Contact<T>& c = touching_[i];
       if (!math::any_lane(math::mask_or(c.friction_limit > T(0.0), math::mask_or(c.fn > T(0.0), c.normal_damping > T(0.0)))))
-        continue;  // in the air
+        continue;  // element in the air in all lanes
       load.add_force(c.x, c.force());
       if (h > 0) load.add_resistance(c.x, c.slope(h));
     }
   }
 
-  /// Takes the result of Body::solve.
+  /// Stores the result of Body::solve.
   void solved(const Body<T>& body, double h) {
     for (Contact<T>& c : touching_) {
       c.next_change = T(h) * body.change(c.link, c.x);
@@ -156,14 +157,14 @@ class Contacts {
       c.held = between(which, share, c.held, c.next_held);
     }
   }
-  /// The same for the whole way.
+  /// Moves the iterate to the last solve, in the lanes `which`.
   void move(const math::Mask<T>& which) {
     for (Contact<T>& c : touching_) {
       c.change = select(which, c.next_change, c.change);
       c.held = select(which, c.next_held, c.held);
     }
   }
-  /// Power along the way to the last solve, at `share` of it, of the solve's forces minus the laws' forces.
+  /// Power of the forces of the solve minus the forces of the laws, at `share` of the way from the iterate to the last solve.
   [[nodiscard]] T excess(const T& share, double h) const {
     T sum = 0.0;
     for (const Contact<T>& c : touching_) {
@@ -172,8 +173,9 @@ class Contacts {
     }
     return sum;
   }
-  /// Lanes whose iterate misses a law by more than the tolerance: normal force 0.1 % and 1e-5 N, friction a tenth of f Fn in
-  /// direction and size, or 1e-6 of it across the corner at v_lim (a tighter tolerance costs solves and changes no error).
+  /// Lanes in which a force at the iterate differs from its law by more than the tolerance. The tolerance of the normal force
+  /// is 0.1 % and 1e-5 N. The tolerance of the friction vector is a tenth of f Fn. If an element changes between sticking and
+  /// sliding, the tolerance of friction is 1e-6 of f Fn. Tighter tolerances cost solves and change no error.
   [[nodiscard]] math::Mask<T> off(double h) const {
     using math::mask_or;
     math::Mask<T> all{};
@@ -182,7 +184,7 @@ class Contacts {
       const auto down = c.depth - T(h) * (c.vn + dn) > T(0.0);
       const auto held_before = dot(c.held, c.held) > T(0.0);
       if (!math::any_lane(mask_or(down, mask_or(held_before, mask_or(c.friction_limit > T(0.0), c.normal_damping > T(0.0))))))
-        continue;  // in the air
+        continue;  // element in the air in all lanes
       const T fn = normal(c, c.vn + dn, h).fn;
       const T held = dot(c.n, c.held);
       all = mask_or(all, math::abs(fn - held) > kNormalTolerance * math::select(fn > held, fn, held) + kNormalFloor);
@@ -196,8 +198,8 @@ class Contacts {
     }
     return all;
   }
-  /// Lanes in which the last solve had more than half of the load on sliding elements, whose friction does not damp the motion
-  /// along it.
+  /// Lanes in which sliding elements carry more than half of the load in the last solve. Friction of sliding elements does not
+  /// damp motion along the direction of slip.
   [[nodiscard]] math::Mask<T> mostly_slide() const {
     T load = 0.0, sliding = 0.0;
     for (const Contact<T>& c : touching_) {
@@ -225,19 +227,19 @@ class Contacts {
 
  private:
   static constexpr double kRoom = 1 + 1e-9;
-  static constexpr double kFar = -1e9;  ///< m: depth that no step closes
-  static constexpr double kPull = 100;  ///< m/s^2: largest acceleration of an element in the air, by weight and motors
+  static constexpr double kFar = -1e9;  ///< m; depth that no step closes
+  static constexpr double kPull = 100;  ///< m/s^2; largest acceleration of an element in the air, by weight and motors
   static constexpr double kNormalTolerance = 1e-3, kNormalFloor = 1e-5, kFrictionTolerance = 0.1, kCornerTolerance = 1e-6;
   static constexpr double kFrictionFloor = 1e-9;  // N
 
-  /// Largest gap of an element of the link that find() takes, m; with a margin for rounding.
+  /// Largest gap at which find() includes an element of the link, m, with a margin for rounding.
   [[nodiscard]] T reach_of(const Body<T>& body, std::size_t link, double reach) const {
     const Vec<T> v = body.velocity(link, body.point(link, {}));
     const Vec<T>& w = body.turning(link);
     const T speed = math::sqrt(dot(v, v)) + math::sqrt(dot(w, w)) * extent_[link];
     return T(kRoom * reach) * speed + T(kRoom * kPull * reach * reach + kRoom - 1);
   }
-  /// Height of an element's centre, m: the same bits as in find().
+  /// Height of the centre of an element, m, with the same bits as in find().
   [[nodiscard]] T height(const Body<T>& body, std::size_t link, const TreePoint<T>& point) const {
     return body.height(link, point.centre) + body.origin().z;
   }
@@ -245,7 +247,7 @@ class Contacts {
   struct Normal {
     T fn, slope;
   };
-  /// Normal force if a step of h ends with vn.
+  /// Normal force and its slope if a step h ends with the normal velocity vn.
   [[nodiscard]] Normal normal(const Contact<T>& c, const T& vn, double h) const {
     using math::select;
     const T zero = 0.0;
@@ -318,9 +320,9 @@ class Contacts {
   const Environment<T>& environment_;
   T per_v_lim_;
   std::vector<std::size_t> order_;    // elements by link
-  std::vector<Contact<T>> touching_;  // in that order
-  std::vector<std::size_t> first_;    // index in touching_ of each link's first element, and the end
-  std::vector<T> extent_;             // m: largest distance of a link's points from its origin
+  std::vector<Contact<T>> touching_;  // contacts found, sorted by link
+  std::vector<std::size_t> first_;    // index in touching_ of the first element of each link, and the end
+  std::vector<T> extent_;             // largest distance of the points of a link from its origin, m
 };
 
 }  // namespace gaitlab::articulated

@@ -1,4 +1,4 @@
-// Conversions between Eigen's vectors and those of the recursion; not for code that runs in lanes.
+// Conversions between vectors of Eigen and vectors of the recursion; not for code that runs in lanes.
 #pragma once
 #include "core/model/frames.h"
 #include "physics_articulated/vector.h"

@@ -23,7 +23,7 @@ using articulated::vec3;
 struct Width {
   std::size_t lanes;
   std::unique_ptr<Kernel> (*make)(const KernelSettings&);
-  bool (*runs)();  ///< whether this processor can run it
+  bool (*runs)();  ///< true if this processor can run the kernel
 };
 const std::array kWidths{
     Width{1, articulated::make_kernel_1, [] { return true; }},
@@ -43,7 +43,7 @@ std::vector<std::size_t> widths() {
 struct Offer {
   articulated::Method method;
   const char* name;
-  int order;  ///< 0: it divides its steps
+  int order;  ///< 0 for an integrator that divides its steps
 };
 constexpr std::array kOffers{
     Offer{articulated::Method::adaptive, "adaptive", 0}, Offer{articulated::Method::implicit, "implicit", 1},
@@ -116,7 +116,7 @@ class ArticulatedPlant final : public Plant {
     }
   }
 
-  /// The stability rule applies to the explicit method; the others treat damping implicitly and have no limit.
+  /// The stability rule applies to the explicit method. The other methods treat damping implicitly and have no limit.
   [[nodiscard]] Stability stability(std::size_t lane, In command, bool standing) override {
     if (!explicit_) return {};
     layout_.read(numbers_, lane, state_);

@@ -4,7 +4,7 @@
 
 namespace gaitlab {
 
-/// Our own articulated-body algorithm with implicit integration (adaptive, implicit, extrapolated) and rk4.
+/// Registers the articulated-body algorithm of gaitlab with implicit integration (adaptive, implicit, extrapolated) and rk4.
 void register_articulated(Catalog& catalog);
 
 }  // namespace gaitlab

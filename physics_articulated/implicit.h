@@ -1,4 +1,4 @@
-// One implicit step over a scalar T, a double or lanes: every motor, stop and contact ends on its law.
+// Implicit step for a scalar type T (double or lanes), after which every motor, stop and contact satisfies its law.
 #pragma once
 #include "core/laws/hinge_stop.h"
 #include "physics_articulated/contacts.h"
@@ -10,28 +10,28 @@ namespace gaitlab::articulated {
 /// Result of one implicit step.
 template <class T>
 struct StepResult {
-  std::vector<T> torque, speed, angle;           ///< motor torques, N m; joint speeds and angles at the step's end
-  T contact = 0.0, friction = 0.0, stops = 0.0;  ///< work of the robot on them, J
+  std::vector<T> torque, speed, angle;           ///< motor torques, N m; joint speeds and angles at the end of the step
+  T contact = 0.0, friction = 0.0, stops = 0.0;  ///< work of the robot on the ground and on stops, J
   T hinges = 0.0;                                ///< work on dampers and friction of passive hinges, J
   explicit StepResult(std::size_t joints) : torque(joints), speed(joints), angle(joints) {}
 };
 
-/// Integrates one step. State: entries as in StateLayout, SI. Only the constructor allocates. The step from (q, v) to (q+, v+)
-/// solves
+/// Integrates one step. The state has the entries of StateLayout, SI. Only the constructor allocates. The step from (q, v) to
+/// (q+, v+) solves
 ///     M (v+ - v) = h (weight - c + tau(v+) + sum J^T f(v+))        q+ = q (+) h v+
-/// with M, c, J and the set of elements near the ground at q (+) h v. If motors, stops and contacts fall with their speed, v+
-/// minimises the strictly convex
-///     phi(v+) = (v+ - v_free)^T M (v+ - v_free) / 2 + h sum of the laws' potentials
-/// and exists and is unique for any h. Newton's method: every law is replaced by its tangent at the iterate and the recursion
-/// solves (Body); if phi rises at the end of the whole way to that solution, only the part is taken on which phi falls
-/// (decision 17).
+/// with M, c, J and the set of elements near the ground at q (+) h v. If the forces of motors, stops and contacts fall with
+/// their speed, v+ minimises the strictly convex function
+///     phi(v+) = (v+ - v_free)^T M (v+ - v_free) / 2 + h sum of the potentials of the laws
+/// and therefore exists and is unique for any h. Newton's method replaces every law by its tangent at the iterate, and the
+/// recursion solves the resulting linear system (Body). If phi rises at the end of the way to that solution, only the part of
+/// the way on which phi falls is taken (decision 17).
 template <class T>
 class Implicit {
  public:
-  static constexpr int kSolves = 100;               ///< largest number in one step; most steps need 1
-  static constexpr double kTorqueTolerance = 1e-9;  ///< of a motor's largest torque at rest
+  static constexpr int kSolves = 100;               ///< largest number of solves in one step; most steps need 1
+  static constexpr double kTorqueTolerance = 1e-9;  ///< share of the largest torque of a motor at rest
   static constexpr double kStopTolerance = 1e-9;    ///< N m
-  static constexpr double kRounding = 1e-11;  ///< relative rounding of a passive hinge's torque: that of q, times the stiffness
+  static constexpr double kRounding = 1e-11;        ///< relative rounding error of the torque of a passive hinge, due to q
 
   Implicit(const Tree<T>& tree, const Environment<T>& environment, const Actuator* actuator)
       : body(tree, environment.gravity),
@@ -50,7 +50,8 @@ class Implicit {
     std::copy(inertia.begin(), inertia.end(), math::numbers(std::span<T>(rotor)).begin());
   }
 
-  /// Advances the lanes `which` of x by a step and fills done, solves and off. Held commands: joint * lanes + lane.
+  /// Advances the lanes `which` of x by a step and fills done, solves and off. `command` is constant, with index joint * lanes
+  /// + lane.
   void step(std::span<T> x, In command, double h, const math::Mask<T>& which) {
     std::copy(x.begin(), x.end(), place_.begin());
     drift<T>(place_, h);
@@ -60,7 +61,7 @@ class Implicit {
     solves = T(0.0);
     off = T(0.0);
     unfinished = {};
-    math::Mask<T> open = which;  // lanes in which a law is missed
+    math::Mask<T> open = which;  // lanes in which a law is not satisfied
     for (int solve = 0; math::any_lane(open); ++solve) {
       if (solve == kSolves) {
         unfinished = open;
@@ -95,9 +96,9 @@ class Implicit {
     }
     accelerate(0);
   }
-  [[nodiscard]] std::span<const T> accelerations() const { return next_.a; }  ///< of evaluate
-  /// After evaluate: power given to the ground along its normal, along its surface, to the stops, and to dampers and friction
-  /// of passive hinges, W.
+  [[nodiscard]] std::span<const T> accelerations() const { return next_.a; }  ///< result of evaluate()
+  /// Power that the robot gives to the ground along its normal, to the ground along its surface, to stops, and to dampers and
+  /// friction of passive hinges, W. Called after evaluate().
   std::array<T, 4> powers(std::span<const T> x) const {
     std::array<T, 4> sum{T(0.0), T(0.0), T(0.0), T(0.0)};
     for (const Contact<T>& c : contacts.touching()) {
@@ -113,7 +114,7 @@ class Implicit {
     return sum;
   }
 
-  /// Computes next_.a from motors, stops and contacts with their tangents for a step of h.
+  /// Computes next_.a from motors, stops and contacts with their tangents for a step h.
   void accelerate(double h) {
     for (std::size_t j = 0; j < joints_; ++j) {
       force_[j] = motors.torque[j] + stop_[j];
@@ -132,13 +133,13 @@ class Implicit {
   Contacts<T> contacts;
   Motors<T> motors;
   std::vector<T> rotor;        ///< reflected inertia of each joint, kg m^2
-  StepResult<T> done;          ///< of the last step
+  StepResult<T> done;          ///< result of the last step
   T solves = 0.0;              ///< number of solves of the last step
-  math::Mask<T> unfinished{};  ///< lanes whose search did not converge
-  T off = 0.0;                 ///< number of motors and stops that the last step left off their law
+  math::Mask<T> unfinished{};  ///< lanes in which Newton's method did not converge
+  T off = 0.0;                 ///< number of motors and stops off their law after the last step
 
  private:
-  /// Iterate of the search: accelerations, and the torques that the solve took there.
+  /// Iterate of Newton's method: accelerations, and the torques in the solve at these accelerations.
   struct Iterate {
     explicit Iterate(std::size_t joints) : a(6 + joints), torque(joints), stop(joints) {}
     std::vector<T> a, torque, stop;
@@ -147,7 +148,7 @@ class Implicit {
     T torque, slope;
   };
 
-  /// Sets the tangents at the speeds at which the last step ended, so that every law begins on the branch of that step.
+  /// Sets the tangents at the speeds at the end of the last step, so that every law begins on the branch of that step.
   void start(std::span<const T> x, In command, double h) {
     const math::Mask<T> all = T(0.0) <= T(0.0);
     motors.linearise(command, speeds(x));
@@ -169,7 +170,7 @@ class Implicit {
     }
   }
 
-  /// The last solve becomes the iterate.
+  /// Replaces the iterate by the last solve.
   void move(const math::Mask<T>& which) {
     contacts.move(which);
     const auto go = [&](std::vector<T>& from, const std::vector<T>& to) {
@@ -189,9 +190,9 @@ class Implicit {
     go(now_.stop, next_.stop);
   }
 
-  /// d phi / d share on the way from the iterate to the last solve. The solve's forces are linear on this way and balance M (v+
-  /// - v) at both its ends, so that M itself is not needed: the derivative is the power of the solve's forces minus the laws'
-  /// forces.
+  /// Derivative of phi with respect to `share` on the way from the iterate to the last solve. The forces of the solve are
+  /// linear on this way and balance M (v+ - v) at both ends of the way. The derivative is therefore the power of the forces of
+  /// the solve minus the forces of the laws, and M itself is not needed.
   T climb(std::span<const T> x, In command, double h, const T& share) {
     for (std::size_t j = 0; j < joints_; ++j) {
       end_[j] = speeds(x)[j] + T(h) * (now_.a[6 + j] + share * (next_.a[6 + j] - now_.a[6 + j]));
@@ -206,8 +207,8 @@ class Implicit {
     return sum;
   }
 
-  /// Share of the way to the last solve to take: all of it unless phi rises at its end, else up to where phi is level, to 1 %
-  /// of the slope at its start (regula falsi, every third time a bisection).
+  /// Share of the way from the iterate to the last solve. It is 1 unless phi rises at the end of the way. Otherwise it is the
+  /// share at which phi is level, to 1 % of the slope at the start of the way (regula falsi, every third time a bisection).
   T share(const math::Mask<T>& which, std::span<const T> x, In command, double h) {
     using math::select;
     const T zero = 0.0, one = 1.0;
@@ -231,7 +232,8 @@ class Implicit {
     return result;
   }
 
-  /// Lanes in which a law at the iterate's end differs from the solve's force; missed_: number of such motors and stops.
+  /// Lanes in which a law at the end speeds of the iterate differs from the force in the solve. Counts such motors and stops in
+  /// missed_.
   math::Mask<T> misses(std::span<const T> x, In command, double h) {
     for (std::size_t j = 0; j < joints_; ++j) end_[j] = speeds(x)[j] + T(h) * now_.a[6 + j];
     motors.linearise(command, end_);
@@ -239,7 +241,7 @@ class Implicit {
     missed_ = T(0.0);
     for (std::size_t j = 0; j < joints_; ++j) {
       const auto motor = math::abs(motors.law[j] - now_.torque[j]) > kTorqueTolerance * motors.scale[j];
-      // The rounding of a passive spring's torque may exceed the tolerance of a stop.
+      // The rounding error of the torque of a passive spring may exceed the tolerance of a stop.
       const T allowed = tree_.passive.empty() ? T(kStopTolerance) : T(kStopTolerance) + T(kRounding) * math::abs(now_.stop[j]);
       const auto stop = math::abs(stopped(x, j, end_[j], h).torque - now_.stop[j]) > allowed;
       const auto joint = math::mask_or(motor, stop);
@@ -249,8 +251,8 @@ class Implicit {
     return any;
   }
 
-  /// Sets the tangents at the iterate in the lanes `which`, after misses: of all laws, also of those within their tolerance,
-  /// because climb is the slope of phi only then.
+  /// Sets the tangents of all laws at the iterate in the lanes `which`, after misses(). Laws within their tolerance are
+  /// included, because otherwise climb() would not be the slope of phi.
   void touch(const math::Mask<T>& which, std::span<const T> x, double h) {
     using math::select;
     for (std::size_t j = 0; j < joints_; ++j) {
@@ -262,7 +264,7 @@ class Implicit {
     contacts.touch(which, h);
   }
 
-  /// Torque of stop and passive hinge together if a step of h ends with the speed qd.
+  /// Torque of stop and passive hinge together if a step h ends with the speed qd.
   Stop stopped(std::span<const T> x, std::size_t j, const T& qd, double h) const {
     Stop both = stop_at_end(x, j, qd, h);
     for (std::size_t k = 0; k < tree_.passive.size(); ++k) {
@@ -275,9 +277,9 @@ class Implicit {
     return both;
   }
 
-  /// Torque of a stop if a step of h ends with the speed qd: -ks (q + h qd - q_lim) - cs qd, cut off if it would pull. If the
-  /// joint starts within the range, the damping is its mean over the step, -cs (q + h qd - q_lim) / h; the damping at the end
-  /// alone would jump.
+  /// Torque of a stop if a step h ends with the speed qd: -ks (q + h qd - q_lim) - cs qd, or 0 if the stop would pull. If the
+  /// joint starts within its range, the damping torque is -cs (q + h qd - q_lim) / h, the mean over the step. The damping
+  /// torque at the end of the step would jump.
   Stop stop_at_end(std::span<const T> x, std::size_t j, const T& qd, double h) const {
     using math::select;
     const T& q = x[StateLayout::kAngles + j];
@@ -297,7 +299,7 @@ class Implicit {
     return BasicHingeStop<T>::at(x[StateLayout::kAngles + j], speeds(x)[j], tree_.lo[j], tree_.hi[j]);
   }
 
-  /// Writes the iterate into the state; works use the mean of the velocities at start and end of the step.
+  /// Writes the iterate into the state. Works use the mean of the velocities at start and end of the step.
   void finish(std::span<T> x, double h, const math::Mask<T>& which) {
     done.contact = done.friction = done.stops = done.hinges = T(0.0);
     for (const Contact<T>& c : contacts.touching()) {
@@ -324,7 +326,7 @@ class Implicit {
     std::copy_n(x.begin() + StateLayout::kAngles, joints_, done.angle.begin());
   }
 
-  /// Splits the torque of stop and passive hinge that the solve took into the stop's torque and the work on the hinge.
+  /// Splits the joint torque of stop and passive hinge in the solve into the torque of the stop and the work on the hinge.
   void finish_hinge(std::size_t k, std::span<const T> x, double h) {
     const std::size_t j = tree_.passive[k];
     const T end = speeds(x)[j] + T(h) * now_.a[6 + j];
@@ -336,7 +338,7 @@ class Implicit {
 
   const Tree<T>& tree_;
   std::size_t joints_;
-  std::vector<T> passive_;  ///< torques of passive hinges, from evaluate
+  std::vector<T> passive_;  ///< torques of passive hinges, set by evaluate()
   std::vector<T> place_, stop_, stop_slope_, force_, diagonal_, end_;
   Iterate now_, next_;
   T missed_ = 0.0;

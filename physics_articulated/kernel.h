@@ -1,4 +1,4 @@
-// Steps of rollouts side by side; one implementation per width and instruction set.
+// Steps of rollouts side by side, with one implementation per width and instruction set.
 #pragma once
 #include <memory>
 #include <span>
@@ -8,13 +8,13 @@
 
 namespace gaitlab::articulated {
 
-/// Constants of one rollout; `ground` outlives the kernel.
+/// Constants of one rollout. `ground` must outlive the kernel.
 struct Rollout {
   Tree<double> tree;
   Vec<double> gravity;
   PenaltyContact law;
   bool plane = true;
-  double friction = 0;  ///< of the plane
+  double friction = 0;  ///< friction coefficient of the plane
   double accuracy = 0;  ///< relative accuracy of torques
   const Ground* ground = nullptr;
 };
@@ -30,18 +30,19 @@ struct ContactForce {
 class Kernel : public MotorLaws {
  public:
   virtual ~Kernel() = default;
-  /// As Plant::advance; history: as Plant::history.
+  /// See Plant::advance for the step, and Plant::history for `history`.
   virtual void step(Out state, Out history, In command, double h) = 0;
-  [[nodiscard]] virtual History history() const = 0;  ///< of a rollout
+  [[nodiscard]] virtual History history() const = 0;  ///< layout of the history of one rollout
   [[nodiscard]] virtual StepEffort applied() const = 0;
-  /// Takes the state for what follows, all lanes at once.
+  /// Computes contacts and centre of mass of all lanes at `state`, for contact_forces() and com().
   virtual void update_contacts(In state) = 0;
-  /// Forces of the touching elements, in the order of the elements; valid until the next call.
+  /// Forces on the touching elements, in the order of the elements. The result is valid until the next call.
   virtual std::span<const ContactForce> contact_forces(std::size_t lane) = 0;
-  virtual Vec<double> com(std::size_t lane) = 0;  ///< world, m
+  virtual Vec<double> com(std::size_t lane) = 0;  ///< centre of mass, world, m
 };
 
-/// Input of a kernel: rollouts of the same structure, as many as its width; actuator: joint * lanes + lane.
+/// Input of a kernel. All rollouts have the same structure, and their number is the width of the kernel. Joints of the actuator
+/// have the index joint * lanes + lane.
 struct KernelSettings {
   std::span<const Rollout> rollouts;
   const Actuator* actuator = nullptr;
@@ -50,7 +51,7 @@ struct KernelSettings {
 };
 
 std::unique_ptr<Kernel> make_kernel_1(const KernelSettings&);
-std::unique_ptr<Kernel> make_kernel_4(const KernelSettings&);  ///< AVX2
-std::unique_ptr<Kernel> make_kernel_8(const KernelSettings&);  ///< AVX-512
+std::unique_ptr<Kernel> make_kernel_4(const KernelSettings&);  ///< four rollouts, with AVX2
+std::unique_ptr<Kernel> make_kernel_8(const KernelSettings&);  ///< eight rollouts, with AVX-512
 
 }  // namespace gaitlab::articulated

@@ -1,5 +1,5 @@
-// Four rollouts per step, for processors with AVX2. No function that another file compiles also may be compiled here: the
-// linker would take either.
+// Kernel of four rollouts for processors with AVX2. Functions compiled here must not also be compiled in another file, because
+// the linker could keep either copy.
 #include <immintrin.h>
 
 #include "core/math/doubles.h"

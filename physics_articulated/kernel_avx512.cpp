@@ -1,5 +1,5 @@
-// Eight rollouts per step, for processors with AVX-512. No function that another file compiles also may be compiled here: the
-// linker would take either.
+// Kernel of eight rollouts for processors with AVX-512. Functions compiled here must not also be compiled in another file,
+// because the linker could keep either copy.
 #include <immintrin.h>
 
 #include "core/math/doubles.h"

@@ -1,4 +1,4 @@
-// The kernel over a scalar T. Included by one translation unit per width, compiled for its processor.
+// Kernel for a scalar type T, included by one source file per width, which is compiled for a processor with that width.
 #pragma once
 #include <algorithm>
 
@@ -112,7 +112,7 @@ class LaneKernel final : public Kernel {
   Environment<T> environment_;
   Stepper<T> stepper_;
   std::vector<T> x_;
-  std::vector<Vec<T>> forces_;  // of the contacts that look found
+  std::vector<Vec<T>> forces_;  // contact forces that update_contacts() computed
   std::vector<ContactForce> contact_forces_;
   mutable std::vector<StepEffort::Part> parts_;
   Vec<T> com_;

@@ -1,27 +1,27 @@
-// One rollout of several by itself: its queries apart from steps.
+// Model of one lane for queries that are not part of a step.
 #pragma once
 #include "core/simulation/stability.h"
 #include "physics_articulated/kernel.h"
 
 namespace gaitlab::articulated {
 
-/// Ground::query, for the kernels.
+/// Ground::query with the types of the kernels.
 Touch<double> query(const Ground& ground, const Vec<double>& centre, double radius);
 
-/// Constants of a lane for the kernel; the settings outlive it.
+/// Constants of a lane for the kernel. The settings must outlive the result.
 Rollout rollout(const LaneSettings& lane, Base base);
 
 class LaneModel final : private InverseMass {
  public:
   LaneModel(const PlantSettings& settings, const LaneSettings& own, std::size_t lane, std::size_t lanes);
 
-  /// As in Plant; x: the lane's numbers alone.
+  /// See Plant. x is the state of this lane only.
   void accelerate(In x, const RobotState& state, In torque, std::span<const BodyWrench> wrenches, Acceleration& out);
   [[nodiscard]] Stability stability(In x, const RobotState& state, In command, bool standing);
 
  private:
   void apply(In force, Out acceleration) override { body_.respond(force, acceleration); }
-  /// Evaluates the actuator for all lanes and takes this lane's part.
+  /// Evaluates the actuator for all lanes, with commands and speeds of this lane.
   void ask(In command, In speed);
 
   const PlantSettings& settings_;

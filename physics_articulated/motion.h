@@ -1,4 +1,4 @@
-// Integration of positions from velocities, over a scalar T. State: entries as in StateLayout, SI.
+// Integration of positions from velocities for a scalar type T. The state has the entries of StateLayout, SI.
 #pragma once
 #include <span>
 
@@ -8,11 +8,11 @@
 
 namespace gaitlab::articulated {
 
-/// Orientation of `out` = (w, v) times that of x; out may be x.
+/// Sets the orientation of `out` to the quaternion (w, v) times the orientation of x. `out` may be x.
 template <class T>
 void turn(std::span<const T> x, const T& w, const Vec<T>& v, std::span<T> out) {
   constexpr std::size_t o = StateLayout::kOrientation;
-  const T& qw = x[o];  // out may be x: each entry is read for the last time where it is overwritten
+  const T& qw = x[o];  // `out` may be x: no entry is read after it is overwritten
   const Vec<T> q{x[o + 1], x[o + 2], x[o + 3]};
   const Vec<T> turned = w * q + qw * v + cross(v, q);
   out[o] = w * qw - dot(v, q);

@@ -1,4 +1,4 @@
-// The motors of a step, over a scalar T: their law at any speed, and its tangent for a solve.
+// Motors of a step for a scalar type T: their law at any speed, and the tangent of the law for a solve.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -12,12 +12,12 @@
 
 namespace gaitlab::articulated {
 
-/// Evaluates motors. DC motors (Actuator::dc_motors) are computed here, all lanes at once; others by their plugin. Commands:
-/// joint * lanes + lane. Torques N m, slopes -dT/dw, N m s/rad.
+/// Evaluates motors. DC motors (Actuator::dc_motors) are evaluated here for all lanes at once, other motors by their plugin.
+/// Commands have the index joint * lanes + lane. Torques are in N m, slopes -dT/dw in N m s/rad.
 template <class T>
 class Motors {
  public:
-  /// passive: joints without a motor, which are DC motors with neither voltage nor torque here.
+  /// `passive` lists the joints without a motor, which are treated as DC motors without voltage and torque.
   Motors(const Actuator* actuator, std::size_t joints, std::span<const std::size_t> passive)
       : law(joints),
         law_slope(joints),
@@ -54,7 +54,7 @@ class Motors {
 
   [[nodiscard]] bool any() const { return actuator_ != nullptr; }
 
-  /// Computes law and law_slope at these speeds.
+  /// Computes law and law_slope at the speeds `speed`.
   void linearise(In command, std::span<const T> speed) {
     if (actuator_ != nullptr && dc_.empty()) actuator_->effort(command, math::numbers(speed), numbers(law), numbers(law_slope));
     for (std::size_t j = 0; j < dc_.size(); ++j) {
@@ -64,20 +64,20 @@ class Motors {
     }
   }
 
-  /// Sets the tangent at `end`, after linearise there, as a solve from the speed `start` takes it; in the lanes `which`. A
-  /// slope below 0, which no actuator should have, counts as 0: the solve keeps a solution, and the deviation from the law at
-  /// its end is counted.
+  /// Sets the tangent at the speed `end`, in the lanes `which`, for a solve that starts from the speed `start`. linearise()
+  /// must have been called for `end`. A slope below 0, which no actuator should have, counts as 0. The solve then still has a
+  /// solution, and the deviation from the law at its end is counted.
   void touch(std::size_t j, const math::Mask<T>& which, const T& start, const T& end) {
     const T falls = math::select(law_slope[j] > T(0.0), law_slope[j], T(0.0));
     slope[j] = math::select(which, falls, slope[j]);
     torque[j] = math::select(which, law[j] + falls * (end - start), torque[j]);
   }
 
-  /// Lanes in which the tangent of the last solve is that of a motor at its limit, which damps no speed: its slope is below a
-  /// tenth of the slope at rest. False for a passive joint and an actuator without a slope.
+  /// Lanes in which the motor was at its limit in the last solve and did not damp the speed: the slope of its tangent is below
+  /// a tenth of the slope at rest. False for a passive joint and for an actuator without a slope.
   [[nodiscard]] math::Mask<T> at_limit(std::size_t j) const { return slope[j] < least_slope_[j]; }
 
-  /// Actuator::electrical of DC motors; false: the motors are not DC motors.
+  /// Computes Actuator::electrical of DC motors. Returns false if the motors are not DC motors.
   bool evaluate(In command, In speed, const Actuator::Electrical& out) const {
     for (std::size_t j = 0; j < dc_.size(); ++j) {
       const auto e = dc_[j](of_joint(command, j), of_joint(speed, j));
@@ -91,8 +91,8 @@ class Motors {
     return !dc_.empty();
   }
 
-  /// Largest torque of DC motors at these speeds in the direction of these torques, N m; infinity for motors without a largest
-  /// voltage; false: the motors are not DC motors.
+  /// Computes the largest torque of DC motors at the speeds `speed` in the direction of `torque_now`, N m. The result is
+  /// infinity for motors without a largest voltage. Returns false if the motors are not DC motors.
   bool available(In speed, In torque_now, Out most) const {
     const T infinity = std::numeric_limits<double>::infinity();
     for (std::size_t j = 0; j < dc_.size(); ++j) {
@@ -105,15 +105,15 @@ class Motors {
     return !dc_.empty();
   }
 
-  std::vector<T> law, law_slope;  ///< results of linearise
+  std::vector<T> law, law_slope;  ///< results of linearise()
   std::vector<T> torque, slope;   ///< linear torque model of a solve: torque - slope (w - w_start)
-  std::vector<T> scale;           ///< largest torque at rest; 1 if it has no limit
-  std::vector<T> per_speed;       ///< torque per speed error: the slope at rest, else scale / kSpeed
+  std::vector<T> scale;           ///< largest torque at rest; 1 if there is no limit
+  std::vector<T> per_speed;       ///< torque per speed error: the slope at rest; scale / kSpeed if the slope is 0
 
  private:
-  static constexpr double kSpeed = 3;  ///< rad/s: typical speed of modules' motors
+  static constexpr double kSpeed = 3;  ///< rad/s; typical speed of the motors of modules
   static constexpr double kSlope =
-      0.1;  ///< share of the slope at rest: a directional gear changes the slope by less, a limit by all of it
+      0.1;  ///< share of the slope at rest; a directional gear changes the slope by less, a limit by all of it
 
   void find_scale() {
     const In limit = actuator_->command_limit();
@@ -140,9 +140,9 @@ class Motors {
     std::copy_n(math::numbers(std::span<const T>(&value, 1)).begin(), math::kLanes<T>, to.data() + j * math::kLanes<T>);
   }
 
-  std::vector<T> least_slope_;  // least slope of a motor that is not at its limit; 0: it has no slope
+  std::vector<T> least_slope_;  // least slope of a motor that is not at its limit; 0 for a motor without a slope
   const Actuator* actuator_;
-  std::vector<BasicDcMotor<T>> dc_;  // empty: the actuator plugin is called
+  std::vector<BasicDcMotor<T>> dc_;  // empty if the actuator plugin is called
 };
 
 }  // namespace gaitlab::articulated

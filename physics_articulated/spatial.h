@@ -4,7 +4,7 @@
 
 namespace gaitlab::articulated {
 
-/// Angular velocity; velocity (or acceleration) of the body's point at the origin.
+/// Angular velocity w, and velocity v of the body at the origin; or the corresponding accelerations.
 template <class T>
 struct Motion {
   Vec<T> w, v;
@@ -14,7 +14,7 @@ struct Motion {
   [[nodiscard]] Vec<T> at(const Vec<T>& x) const { return v + cross(w, x); }
 };
 
-/// Moment about the origin; force.
+/// Moment n about the origin, and force f.
 template <class T>
 struct Force {
   Vec<T> n, f;
@@ -35,7 +35,7 @@ template <class T>
 T dot(const Motion<T>& m, const Force<T>& f) {
   return dot(m.w, f.n) + dot(m.v, f.f);
 }
-/// d/dt of a motion that moves with V.
+/// Time derivative of a motion m that moves with the velocity V.
 template <class T>
 Motion<T> cross(const Motion<T>& V, const Motion<T>& m) {
   return {cross(V.w, m.w), cross(V.w, m.v) + cross(V.v, m.w)};
@@ -45,7 +45,7 @@ Force<T> force_at(const Vec<T>& x, const Vec<T>& f) {
   return {cross(x, f), f};
 }
 
-/// Symmetric 6 x 6: n = A w + B v, f = B^T w + C v.
+/// Symmetric 6 x 6 inertia: n = A w + B v, f = B^T w + C v.
 template <class T>
 struct Inertia {
   Sym<T> A;
@@ -63,7 +63,7 @@ struct Inertia {
     C += b.C;
     return *this;
   }
-  /// += s U U^T
+  /// Adds s U U^T.
   void add_square(const T& s, const Force<T>& U) {
     A.add_square(s, U.n);
     const Vec<T> n = s * U.n;
@@ -74,7 +74,7 @@ struct Inertia {
   }
 };
 
-/// Inertia about the origin, of a body with COM c, first moment h = m c and the given inertia about its COM.
+/// Inertia about the origin of a body with COM c, first moment h = m c and the inertia `about_com` about its COM.
 template <class T>
 Sym<T> about(const Vec<T>& c, const Vec<T>& h, Sym<T> about_com) {
   const T hc = dot(h, c);
@@ -87,7 +87,7 @@ Inertia<T> rigid(const T& mass, const Vec<T>& h, const Sym<T>& about_origin) {
   return {about_origin, {{zero, h.z, -h.y}, {-h.z, zero, h.x}, {h.y, -h.x, zero}}, {mass, mass, mass, zero, zero, zero}};
 }
 
-/// Inertia with the effect of a slope G of a force against the velocity of the point x: the force is -G v(x).
+/// Inertia that has the effect of a force -G v(x) at the point x, where v(x) is the velocity of the point.
 template <class T>
 Inertia<T> resistance(const Vec<T>& x, const Sym<T>& G) {
   const Mat<T> W{cross(x, Vec<T>{G.xx, G.xy, G.xz}), cross(x, Vec<T>{G.xy, G.yy, G.yz}), cross(x, Vec<T>{G.xz, G.yz, G.zz})};

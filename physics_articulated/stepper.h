@@ -1,4 +1,4 @@
-// One step of time over a scalar T, a double or lanes: implicit, extrapolated, adaptive, rk4.
+// Time step for a scalar type T (double or lanes) by the integrators implicit, extrapolated, adaptive and rk4.
 #pragma once
 #include <algorithm>
 
@@ -9,36 +9,40 @@ namespace gaitlab::articulated {
 
 enum class Method { adaptive, implicit, extrapolated, rk4 };
 
-/// Motors and works at one moment within a step, with the moment's weights.
+/// Motors and works at one time within a step, with the weights of this time.
 template <class T>
 struct Part : StepResult<T> {
   using StepResult<T>::StepResult;
-  math::Mask<T> lanes{};  ///< lanes with this moment
-  double h = 0;           ///< length of the part that it represents, s; 0: the start, under the new command
-  T sum = 0.0;            ///< weight in integrals, s: from Richardson's extrapolation, may be negative
+  math::Mask<T> lanes{};  ///< lanes to which the part belongs
+  double h = 0;           ///< duration of the part, s; 0 for the start of the step under the new command
+  T sum = 0.0;            ///< weight in integrals, s; from Richardson's extrapolation, may be negative
   T share = 0.0;          ///< weight in shares of time, s
-  T off = 0.0;            ///< number of motors and stops off their law
+  T off = 0.0;            ///< number of motors and stops that do not satisfy their law
 };
 
-/// Layout of the numbers that a rollout keeps between steps beside its state: an entry per joint, then single ones.
+/// Layout of the numbers that a rollout keeps between steps in addition to its state: one entry per joint, then single entries.
 struct History {
   std::size_t joints = 0;
   [[nodiscard]] std::size_t peak() const { return 0; }  ///< per joint: largest motor torque at the end of a step so far, N m
   [[nodiscard]] std::size_t solves() const { return joints; }
-  [[nodiscard]] std::size_t off() const { return joints + 1; }     ///< motors and stops that a step left off their law
-  [[nodiscard]] std::size_t coarse() const { return joints + 2; }  ///< s in which the shortest steps exceeded the accuracy
+  [[nodiscard]] std::size_t off() const { return joints + 1; }     ///< number of motors and stops off their law after a step
+  [[nodiscard]] std::size_t coarse() const { return joints + 2; }  ///< time in which the shortest steps missed the accuracy, s
   [[nodiscard]] std::size_t size() const { return joints + 3; }
 };
 
-/// Advances the state by one step. State: entries as in StateLayout, SI. Only the constructor allocates, except if a search
-/// does not converge, and if a step of a robot of more than about 1000 joints (300 in four lanes) is divided further than any
-/// before.
+/// Advances the state by one step. The state has the entries of StateLayout, SI. The constructor allocates. Further memory is
+/// needed only if a search does not converge, or if a step is divided further than any before and the robot has more than about
+/// 1000 joints (300 in four lanes).
 ///
-/// implicit (order 1): one implicit step (implicit.h). extrapolated (order 2): 2 x(two steps of h / 2) - x(one step of h),
-/// Richardson. adaptive: the same if its error estimate is within the accuracy, else x(h)/3 - 2 x(h/2) + 8/3 x(h/4) (order 3),
-/// else two such steps of half the length. rk4 (order 4, explicit): the classical method on the whole state, for h lambda <= 1.
-/// If a search does not converge, the step is taken in two halves, in those lanes alone, down to h / 64; joints still off their
-/// law are counted.
+/// - implicit (order 1): one implicit step (implicit.h).
+/// - extrapolated (order 2): 2 x(two steps of h / 2) - x(one step of h), Richardson.
+/// - adaptive: the result of `extrapolated` if its estimated error is within the accuracy. Otherwise the result of order 3,
+/// x(h)/3 - 2 x(h/2) + 8/3 x(h/4), if the estimated error of this result is within the accuracy. Otherwise two such steps of
+/// half the length.
+/// - rk4 (order 4, explicit): the classical method on the whole state, for h lambda <= 1.
+///
+/// If the search of an implicit step does not converge, the step is taken in two halves, only in the affected lanes, down to h
+/// / 64. Joints that are then still off their law are counted.
 template <class T>
 class Stepper {
  public:
@@ -57,7 +61,7 @@ class Stepper {
                   Part<T>(joints_));
   }
 
-  /// Held commands: joint * lanes + lane.
+  /// Advances x by a step h. `command` is constant, with index joint * lanes + lane.
   void step(std::span<T> x, In command, double h) {
     used_ = 0;
     contact = friction = stops = hinges = T(0.0);
@@ -73,7 +77,7 @@ class Stepper {
     close();
   }
 
-  /// Numbers kept from step to step; entries as in History.
+  /// Numbers kept from step to step, with the entries of History.
   std::span<T> history() { return history_; }
   [[nodiscard]] std::size_t most_parts() const { return parts_.size(); }  ///< largest number of parts if every search converges
   [[nodiscard]] std::span<const Part<T>> parts() const { return {parts_.data(), used_}; }
@@ -83,18 +87,17 @@ class Stepper {
   History layout;
 
  private:
-  static constexpr std::size_t kLevels = 7;    ///< lengths of an adaptive step: h to h / 64
+  static constexpr std::size_t kLevels = 7;    ///< number of lengths of an adaptive step, h to h / 64
   static constexpr std::size_t kHalvings = 6;  ///< depth of halving a step whose search does not converge
-  // Largest allowed difference of two orders, in units of the accuracy: with the base's speeds the least strict values that
-  // bring the gaits and limits of docs/validation.md within the accuracy.
+  // Largest allowed difference between the results of two orders, in units of the accuracy. Together with the scales of the
+  // base below, these are the least strict values that bring the gaits and limits of docs/validation.md within the accuracy.
   static constexpr double kSecondOrder = 1, kThirdOrder = 2;
-  static constexpr double kBaseSpeed = 0.02, kBaseTurn = 0.2;  ///< m/s, rad/s: scales of the base's differences
-  // An undamped error of speed becomes an error of position, and shows in a torque long after the step that
-  // caused it.
+  static constexpr double kBaseSpeed = 0.02, kBaseTurn = 0.2;  ///< m/s, rad/s; scales of differences of the base speeds
+  // An undamped speed error becomes a position error, which changes a torque long after the step that caused the error.
   static constexpr double kAtLimit = 0.25;  ///< factor on the tolerance of a joint whose motor is at its limit
   static constexpr double kLoose =
-      0.5;  ///< factor on the base's tolerance if a motor is at its limit or most of the load slides
-  static constexpr double kFloor = 0.01;  ///< share of the largest torque at rest: least scale of the accuracy
+      0.5;  ///< factor on the tolerance of the base if a motor is at its limit or most of the load slides
+  static constexpr double kFloor = 0.01;  ///< least scale of the accuracy, as a share of the largest torque at rest
 
   static constexpr std::size_t kMostParts = 1 + 7 * ((std::size_t{1} << kLevels) - 1);
   static constexpr std::size_t kRoom = 32 << 20;  ///< bytes of parts that the constructor allocates
@@ -104,7 +107,7 @@ class Stepper {
     std::vector<T> start, whole, quarters;
   };
 
-  /// Adds the motors' torques at the start under the possibly new command, which may be peaks.
+  /// Adds a part for the start of the step under the new command, because the motor torques there may be peaks.
   void take_start(std::span<const T> x, In command) {
     implicit.motors.linearise(command, implicit.speeds(x));
     Part<T>& part = add_part();
@@ -140,8 +143,8 @@ class Stepper {
     for (int half = 0; half < 2; ++half) settle(x, command, h / 2, again, halvings + 1);
   }
 
-  /// Adds Richardson's weight to the parts from `from` up to `to` in the lanes `which`; `finest`: these parts represent the
-  /// motion.
+  /// Sets the weights of Richardson's extrapolation for the parts from `from` up to `to` in the lanes `which`. If `finest`,
+  /// these parts represent the motion.
   void weigh(std::size_t from, std::size_t to, const math::Mask<T>& which, double weight, bool finest) {
     for (std::size_t i = from; i < to; ++i) {
       Part<T>& part = parts_[i];
@@ -156,9 +159,10 @@ class Stepper {
     weigh(1, used_, which, 1, true);
   }
 
-  /// Lanes in which no speed differs by more than `share` of the accuracy: for a joint as a torque, relative to its largest
-  /// torque so far; for the base relative to kBaseSpeed and kBaseTurn, because its errors show in the torques only later. Both
-  /// use the state in which the last solve left the lane.
+  /// Lanes in which no speed differs by more than `share` of the accuracy. The difference of a joint speed is converted to a
+  /// torque, relative to the largest torque of the joint so far. The difference of the base speeds is relative to kBaseSpeed
+  /// and kBaseTurn, because errors of the base change the torques only later. Motor limits and sliding contacts refer to the
+  /// last solve of each lane.
   template <class Difference>
   math::Mask<T> within(double share, const math::Mask<T>& which, Difference difference) {
     math::Mask<T> within = which;
@@ -183,14 +187,14 @@ class Stepper {
     return within;
   }
 
-  /// Lanes whose state is finite: no shorter step brings the others back.
+  /// Lanes whose state is finite. Shorter steps cannot repair the other lanes.
   static math::Mask<T> finite(std::span<const T> x) {
     T sum = 0.0;
     for (const T& one : x) sum = sum + T(0.0) * one;
     return sum <= T(0.0);
   }
 
-  /// Takes a step of h of the lanes `which`. Level kLevels: second order, whatever its error.
+  /// Advances the lanes `which` by a step h. At level kLevels the step has second order, regardless of its error.
   void adapt(std::span<T> x, In command, double h, const math::Mask<T>& which, std::size_t level) {
     using math::select;
     const bool fixed = level == kLevels;
@@ -257,7 +261,7 @@ class Stepper {
     }
   }
 
-  /// d/dt of the whole state, the orientation as a quaternion: q' = (0, omega) q / 2.
+  /// Time derivative of the whole state. The orientation is a quaternion: q' = (0, omega) q / 2.
   void derive(std::span<T> x, In command, std::span<T> rate) {
     implicit.evaluate(x, command);
     constexpr std::size_t w = StateLayout::kAngularVelocity;

@@ -8,7 +8,7 @@ namespace gaitlab::articulated {
 Tree<double> tree(const Robot& robot, Base base, const std::vector<ContactElement>& contacts) {
   Tree<double> all;
   all.base = base;
-  // Turns a link's frame so that its z is the joint axis; the base frame is unchanged, because the state describes it.
+  // Each link frame is turned so that z is the joint axis. The base frame is unchanged, because the state describes it.
   std::vector<Mat3> frames{Mat3::Identity()};
   for (std::size_t i = 0; i < robot.links.size(); ++i) {
     const Link& link = robot.links[i];

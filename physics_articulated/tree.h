@@ -1,4 +1,4 @@
-// Robots of the lanes in the form of the recursion: each link's frame has its joint axis as z.
+// Robots of the lanes in the form of the recursion, in which the joint axis is z of the link frame.
 #pragma once
 #include <span>
 #include <vector>
@@ -16,11 +16,11 @@ namespace gaitlab::articulated {
 
 template <class T>
 struct TreeLink {
-  std::size_t parent = 0, joint = 0;  ///< links 1.. have them
-  bool leaf = true;                   ///< has no children
-  bool last_child = false;            ///< the last child of its parent
-  Mat<T> at_zero;                     ///< link axes in the parent's at joint angle 0
-  Vec<T> origin;                      ///< origin of the link's frame in the parent's, m
+  std::size_t parent = 0, joint = 0;  ///< not used for link 0
+  bool leaf = true;                   ///< true if the link has no children
+  bool last_child = false;            ///< true for the last child of a parent
+  Mat<T> at_zero;                     ///< link axes in the parent link, at joint angle 0
+  Vec<T> origin;                      ///< origin of the link frame in the parent link, m
   T mass = 0.0;
   Vec<T> com;      ///< link frame, m
   Sym<T> inertia;  ///< about the COM, link axes, kg m^2
@@ -33,15 +33,15 @@ struct TreePoint {
   T radius = 0.0;
 };
 
-/// Constants of the lanes' robots; all lanes have the same links, joints and points, with possibly different numbers.
+/// Constants of the robots of all lanes. All lanes have the same links, joints and points, but may have different numbers.
 template <class T>
 struct Tree {
   Base base = Base::floating;
   std::vector<TreeLink<T>> links;            ///< a parent before its children
   std::vector<TreePoint<T>> points;          ///< one per contact element
-  std::vector<T> lo, hi;                     ///< range of each joint, rad; infinite: no stop
+  std::vector<T> lo, hi;                     ///< range of each joint, rad; infinite without a stop
   std::vector<std::size_t> passive;          ///< joints without a motor
-  std::vector<BasicPassiveHinge<T>> hinges;  ///< of these joints
+  std::vector<BasicPassiveHinge<T>> hinges;  ///< laws of these joints
 };
 
 Tree<double> tree(const Robot& robot, Base base, const std::vector<ContactElement>& contacts);

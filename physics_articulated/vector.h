@@ -1,5 +1,5 @@
-// Vectors and matrices of three over a scalar T, a double or lanes. Not Eigen's, which add up in another order where they can
-// use packets: a rollout must give the same bits alone and beside seven others.
+// Vectors of 3 and 3 x 3 matrices for a scalar type T (double or lanes). Eigen is not used, because it adds in another order if
+// it can use packets, and a rollout must have the same bits alone and beside seven others.
 #pragma once
 #include "core/math/lanes.h"
 
@@ -31,7 +31,7 @@ Vec<T> select(const math::Mask<T>& mask, const Vec<T>& yes, const Vec<T>& no) {
   return {math::select(mask, yes.x, no.x), math::select(mask, yes.y, no.y), math::select(mask, yes.z, no.z)};
 }
 
-/// Moves from one to the other by `share` of the way, exactly to the other if the share is 1; in the lanes `which`.
+/// Returns from + share * (to - from) in the lanes `which`, exactly `to` if the share is 1, and `from` in the other lanes.
 template <class V, class T>
 V between(const math::Mask<T>& which, const T& share, const V& from, const V& to) {
   return select(which, select(share == T(1.0), to, from + share * (to - from)), from);
@@ -58,14 +58,14 @@ struct Sym {
     return {s.xx * v.x + s.xy * v.y + s.xz * v.z, s.xy * v.x + s.yy * v.y + s.yz * v.z, s.xz * v.x + s.yz * v.y + s.zz * v.z};
   }
   Sym& operator+=(const Sym& b) { return *this = {xx + b.xx, yy + b.yy, zz + b.zz, xy + b.xy, xz + b.xz, yz + b.yz}; }
-  /// += s a a^T
+  /// Adds s a a^T.
   void add_square(const T& s, const Vec<T>& a) {
     const Vec<T> b = s * a;
     *this += Sym{b.x * a.x, b.y * a.y, b.z * a.z, b.x * a.y, b.x * a.z, b.y * a.z};
   }
 };
 
-/// R s R^T
+/// Returns R s R^T.
 template <class T>
 Sym<T> turned(const Mat<T>& R, const Sym<T>& s) {
   const Vec<T> x = R * Vec<T>{s.xx, s.xy, s.xz};

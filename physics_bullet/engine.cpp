@@ -23,7 +23,7 @@ namespace gaitlab {
 namespace {
 
 constexpr const char* kRk4 = "rk4";
-constexpr double kLongestBulletStep = 5e-5;  // s: a longer step costs a fast gait more than 1 % error of its torques
+constexpr double kLongestBulletStep = 5e-5;  // s; with a longer step, the torque error of a fast gait exceeds 1 %
 
 bool has_rotors(const Actuator* actuator) {
   const In inertia = actuator == nullptr ? In() : actuator->reflected_inertia();
@@ -106,7 +106,7 @@ class BulletPlant final : public Plant, private InverseMass {
   [[nodiscard]] Stability stability(std::size_t, In command, bool standing) override {
     layout_.read(numbers_, 0, state_);
     evaluate(state_, command);
-    accelerate(state_, acceleration_);  // factorises the mass matrix, which apply needs
+    accelerate(state_, acceleration_);  // factorises the mass matrix for apply()
     if (standing && settings_.actuator != nullptr) settings_.actuator->effort(at_rest_, at_rest_, torque_, slope_);
     std::copy(slope_.begin(), slope_.end(), monitor_.motor.begin());
     return monitor_.rule(settings_, settings_.base, kinematics_, state_, standing, settings_.step, *this, [&] {
@@ -127,7 +127,7 @@ class BulletPlant final : public Plant, private InverseMass {
     }
   }
 
-  /// Accelerations under all forces gathered so far.
+  /// Computes accelerations under all forces added so far.
   void accelerate(const RobotState& state, Acceleration& out) {
     body_.accelerate(state, out);
     if (!rotors_) return;
@@ -165,7 +165,7 @@ class BulletPlant final : public Plant, private InverseMass {
     });
   }
 
-  /// Sets the body's state and gathers all forces except the joints': weight, contacts; evaluates the actuator.
+  /// Sets the state of the body, adds weight and contact forces, and evaluates the actuator. Joint torques are not added.
   void evaluate(const RobotState& state, In command) {
     kinematics_.update(robot_, state);
     body_.set(state, kinematics_);
@@ -184,24 +184,24 @@ class BulletPlant final : public Plant, private InverseMass {
   StateLayout layout_;
   Out numbers_;
   bullet::MultiBody body_;
-  mutable Kinematics kinematics_;  // caches: every public function refills them from numbers_
+  mutable Kinematics kinematics_;  // these two are caches, which every public function refills from numbers_
   mutable RobotState state_;
-  std::optional<RotorInertia> rotors_;  ///< Bullet's algorithm has no rotor inertia
+  std::optional<RotorInertia> rotors_;  ///< needed because the algorithm of Bullet has no rotor inertia
   ExplicitIntegrator integrator_;
   Acceleration acceleration_;
   std::vector<double> torque_, slope_, applied_, at_rest_, start_speed_, start_angle_;
   OnePart part_;
-  std::array<double, 2> power_ = {};  ///< given to the ground along its normal and along its surface, W
-  std::array<double, 4> work_ = {};   ///< of the last step: contact, friction, stops, hinges
+  std::array<double, 2> power_ = {};  ///< power given to the ground along its normal and along its surface, W
+  std::array<double, 4> work_ = {};   ///< works of the last step, J: contact, friction, stops, hinges
   std::vector<std::size_t> passive_;  ///< joints without a motor
   RateMonitor monitor_;
 };
 
-/// Throws before Bullet allocates a number for every pair of joints (btMultiBody::finalizeMultiDof), whose count is an int;
-/// rotors need three matrices more, and a Cholesky factor at every step.
+/// Throws TooManyJoints. Bullet allocates a number for every pair of joints (btMultiBody::finalizeMultiDof), whose count is an
+/// int. Rotors need three more matrices, and a Cholesky factor at every step.
 void check_joints(const PlantSettings& s) {
-  constexpr std::size_t kMost = 10000;           // 0.8 GB
-  constexpr std::size_t kMostWithRotors = 2000;  // a second per step, which grows with the third power
+  constexpr std::size_t kMost = 10000;           // needs 0.8 GB
+  constexpr std::size_t kMostWithRotors = 2000;  // needs a second per step, and more with the third power
   const std::size_t joints = s.robot->joints.size();
   if (joints > kMost) {
     throw TooManyJoints(
@@ -218,7 +218,7 @@ void check_joints(const PlantSettings& s) {
   }
 }
 
-/// Bullet does not check the result of malloc.
+/// Allocates memory for Bullet, which does not check the result of malloc.
 void* allocate(std::size_t size) {
   void* block = std::malloc(size);
   if (block == nullptr) throw std::bad_alloc();

@@ -6,10 +6,11 @@
 
 namespace gaitlab {
 
-/// Explicit integration (semi_implicit, rk4) over btMultiBody's articulated-body algorithm with the penalty contact law.
+/// Registers the engine: the articulated-body algorithm of btMultiBody, with explicit integration (semi_implicit, rk4) and the
+/// penalty contact law, or with the solver of Bullet (contact.law: bullet).
 void register_bullet(Catalog& catalog);
 
-/// Version and precision of the library, for --version and the build id.
+/// Version and precision of the Bullet library, for --version and the build id.
 std::string bullet_version();
 
 }  // namespace gaitlab

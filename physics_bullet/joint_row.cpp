@@ -25,7 +25,7 @@ void JointRow::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBod
   const int dofs = m_bodyA->getNumDofs() + 6;
   btMultiBodySolverConstraint& row = rows.expandNonInitializing();
   row = btMultiBodySolverConstraint();
-  // Index of the solver's array for this body's change of velocity; shared by all rows of a step.
+  // Index of the change of velocity of this body in the array of the solver. All rows of a step share this index.
   row.m_deltaVelAindex = m_bodyA->getCompanionId();
   if (row.m_deltaVelAindex < 0) {
     row.m_deltaVelAindex = data.m_deltaVelocities.size();
@@ -57,7 +57,7 @@ void JointRow::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBod
   row.m_friction = row.m_rhsPenetration = 0;
   row.m_originalContactPoint = nullptr;
   row.m_overrideNumSolverIterations = row.m_frictionIndex = -1;
-  // Needed only for Bullet's joint feedback, which is not used.
+  // These vectors are needed only for joint feedback of Bullet, which is not used.
   for (btVector3* none : {&row.m_relpos1CrossNormal, &row.m_contactNormal1, &row.m_relpos2CrossNormal, &row.m_contactNormal2,
                           &row.m_angularComponentA, &row.m_angularComponentB}) {
     none->setZero();

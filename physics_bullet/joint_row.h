@@ -1,19 +1,21 @@
-// One joint's soft, limited row in Bullet's constraint solver: the motor, or a hinge stop. Inside physics_bullet only.
+// Soft, limited row of one joint in the constraint solver of Bullet, for a motor or a hinge stop; used inside physics_bullet
+// only.
 #pragma once
 #include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
 
 namespace gaitlab::bullet {
 
-/// Torque = slope * (target - v+), v+ the joint's speed at the END of the step, within [least, most]: a damper that pulls
-/// towards a speed. As an impulse p = h * torque this is the row
+/// Damper that pulls towards a speed: torque = slope * (target - v+) within [least, most], where v+ is the joint speed at the
+/// END of the step. For the impulse p = h * torque this is the row
 ///     A p + p / (h slope) = target - v        least h <= p <= most h
-/// (A: the joint's response to a unit impulse), a constraint with cfm = 1 / (h slope): implicit, so that no slope is too steep
-/// for any step. Bullet's own joint motor is hard up to its limit and would have to be fitted with gains instead.
+/// where A is the response of the joint to a unit impulse. The row is a constraint with cfm = 1 / (h slope). It is implicit, so
+/// that no slope is too steep for any step. The joint motor of Bullet is hard up to its limit, and would need fitted gains
+/// instead.
 class JointRow final : public btMultiBodyConstraint {
  public:
   JointRow(btMultiBody& body, int link);
 
-  /// N m s/rad (0: no row in this step), rad/s, N m, N m.
+  /// Sets `slope` in N m s/rad (0: no row in this step), `target` in rad/s, `least` and `most` in N m.
   void set(double slope, double target, double least, double most);
   /// Torque in the last step, N m.
   [[nodiscard]] double torque(double h) { return slope_ > 0 ? getAppliedImpulse(0) / h : 0; }
@@ -21,7 +23,7 @@ class JointRow final : public btMultiBodyConstraint {
   void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
                             const btContactSolverInfo& info) override;
   void finalizeMultiDof() override { allocateJacobiansMultiDof(); }
-  [[nodiscard]] int getIslandIdA() const override { return -1; }  // the world does not split islands
+  [[nodiscard]] int getIslandIdA() const override { return -1; }  // not used, because the world does not split islands
   [[nodiscard]] int getIslandIdB() const override { return -1; }
   void debugDraw(btIDebugDraw*) override {}
 

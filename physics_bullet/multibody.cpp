@@ -22,7 +22,7 @@ MultiBody::MultiBody(const Robot& robot, Base base, const std::vector<ContactEle
             btVector3(0, 0, 0), base != Base::floating, /*canSleep=*/false),
       force_(6 + static_cast<std::size_t>(links_of(robot, base))),
       output_(force_.size()) {
-  // Bullet's links move about their COM with a diagonal inertia: the principal frame.
+  // The links of Bullet move about their COM with a diagonal inertia, that is, in the principal frame.
   for (std::size_t i = 0; i < robot.links.size(); ++i) principal_[i] = principal_axes(robot.links[i].inertia, moments_[i]);
   set_up_root();
   for (std::size_t i = 1; i < robot.links.size(); ++i) set_up_link(i);
@@ -34,7 +34,7 @@ MultiBody::MultiBody(const Robot& robot, Base base, const std::vector<ContactEle
   body_.setUseGyroTerm(true);
   body_.setCanSleep(false);
   body_.setHasSelfCollision(false);
-  body_.useRK4Integration(false);  // first order for a floating base; we integrate ourselves
+  body_.useRK4Integration(false);  // the RK4 of Bullet has order 1 for a floating base
   body_.useGlobalVelocities(false);
   set_up_shapes(elements);
 }
@@ -44,7 +44,7 @@ void MultiBody::set_up_root() {
     body_.setBaseInertia(bt(moments_[0]));
     return;
   }
-  // A planar base is a chain of links for x, z and the turn about y that carries the root link.
+  // A planar base is a chain of links for x, z and the rotation about y. The last of these is the root link.
   const btVector3 none(0, 0, 0);
   body_.setBaseInertia(none);
   body_.setupPrismatic(0, 0, none, -1, btQuaternion::getIdentity(), btVector3(1, 0, 0), none, none, true);
@@ -123,7 +123,7 @@ void MultiBody::set(const RobotState& s, const Kinematics& k) {
   for (std::size_t i = 1; i < robot_.links.size(); ++i) {
     const auto joint = static_cast<std::size_t>(robot_.links[i].joint);
     btMultibodyLink& link = body_.getLink(index_of(i));
-    // As updateCacheMultiDof, except that the rotation is that of Kinematics, with our sine and cosine.
+    // The same as updateCacheMultiDof, except that the rotation is taken from Kinematics, with the sine and cosine of gaitlab.
     const Quat& t = k.turns[i];
     const Vec3 v = principal_[i].transpose() * t.vec();
     link.m_jointPos[0] = s.q[joint];
@@ -166,7 +166,7 @@ void MultiBody::read_velocities(RobotState& s, double h) const {
     s.velocity = Vec3(body_.getJointVel(0), 0, body_.getJointVel(1));
     s.angular_velocity = Vec3(0, body_.getJointVel(2), 0);
   } else if (base_ == Base::floating) {
-    // v + h v' of the base frame's origin. Bullet's v' is that of the COM, without the last term.
+    // v + h v' of the origin of the base frame. Bullet computes v' of the COM, without the last term.
     const Vec3 before = s.angular_velocity;
     s.angular_velocity = vec(body_.getBaseOmega());
     s.velocity = vec(body_.getBaseVel()) - s.angular_velocity.cross(base_com_) - h * before.cross(before.cross(base_com_));
@@ -176,7 +176,7 @@ void MultiBody::read_velocities(RobotState& s, double h) const {
 
 void MultiBody::accelerate(const RobotState& s, Acceleration& out) {
   body_.computeAccelerationsArticulatedBodyAlgorithmMultiDof(0, scratch_r_, scratch_v_, scratch_m_, false, false, false);
-  const btScalar* result = &scratch_r_[body_.getNumDofs()];  // base: omega', COM's v' in world axes; then the joints
+  const btScalar* result = &scratch_r_[body_.getNumDofs()];  // base omega' and COM v' in world axes, then joints
   const int shift = base_ == Base::planar ? 3 : 0;
   if (base_ == Base::planar) {
     out.angular = Vec3(0, result[8], 0);

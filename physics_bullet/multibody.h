@@ -1,5 +1,5 @@
-// The robot as ONE btMultiBody with compound point and sphere shapes. Inside physics_bullet only: no Bullet type leaves the
-// room.
+// Robot as ONE btMultiBody with compound point and sphere shapes, inside physics_bullet only, because no other room may use
+// types of Bullet.
 #pragma once
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
@@ -18,8 +18,8 @@ inline btVector3 bt(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 inline btQuaternion bt(const Quat& q) { return {q.x(), q.y(), q.z(), q.w()}; }
 inline Vec3 vec(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
-/// Computes generalised accelerations by Bullet's articulated-body algorithm; positions and velocities are integrated by
-/// gaitlab, and rotations come from gaitlab's sine and cosine, not libm's. The constructor sets every option of btMultiBody
+/// Computes generalised accelerations by the articulated-body algorithm of Bullet. gaitlab integrates positions and velocities.
+/// Rotations are computed with the sine and cosine of gaitlab, not of libm. The constructor sets every option of btMultiBody
 /// that would have an effect.
 class MultiBody {
  public:
@@ -27,17 +27,17 @@ class MultiBody {
 
   /// Sets poses and velocities in Bullet; clears forces.
   void set(const RobotState& state, const Kinematics& kinematics);
-  /// Adds forces for the next accelerate: world axes; joints N m.
+  /// Adds forces for the next accelerate(), in world axes. Joint torques are in N m.
   void add_force(std::size_t link, const Vec3& arm_from_com, const Vec3& force, const Vec3& torque = Vec3::Zero());
   void add_weight(const Vec3& gravity);
   void add_torque(std::size_t joint, double torque) { body_.addJointTorque(index_of_joint_[joint], torque); }
-  /// Calls set and adds all forces of a Plant::accelerate.
+  /// Calls set() and adds all forces of a Plant::accelerate.
   void load(const RobotState& state, const Kinematics& kinematics, const Vec3& gravity, In torque,
             std::span<const BodyWrench> wrenches);
   void accelerate(const RobotState& state, Acceleration& out);
-  /// Reads Bullet's velocities h seconds after set(s); the rest of s still holds the earlier state.
+  /// Reads the velocities of Bullet into s, h seconds after set(s). The rest of s is unchanged since set(s).
   void read_velocities(RobotState& s, double h) const;
-  /// y = M^-1 f at the state of the last accelerate (generalised vectors as in stability.h).
+  /// Computes y = M^-1 f at the state of the last accelerate() (generalised vectors as in stability.h).
   void inverse_mass(In force, Out acceleration);
 
   /// Calls visit(element index, link, world centre, radius) for every child of every compound shape.
@@ -54,15 +54,15 @@ class MultiBody {
     }
   }
 
-  /// Shapes of one link: children in Bullet's link frame.
+  /// Shapes of one link, with child shapes in the link frame of Bullet.
   struct Compound {
     std::size_t link;
     std::unique_ptr<btCompoundShape> shape;
     std::unique_ptr<btMultiBodyLinkCollider> collider;
   };
-  /// Shapes of the contact elements: spheres (radius 0: points) whose user index is the element's.
+  /// Shapes of the contact elements: spheres whose user index is the index of the element. The radius of a point is 0.
   [[nodiscard]] const std::vector<Compound>& compounds() const { return compounds_; }
-  /// Bullet's link frame (principal axes at the COM) in the link frame, and in the world.
+  /// Link frame of Bullet (principal axes at the COM) in the link frame of gaitlab, and in the world.
   [[nodiscard]] Pose frame(std::size_t link) const { return {principal_[link], robot_.links[link].com}; }
   [[nodiscard]] Pose frame(std::size_t link, const Kinematics& k) const {
     return {k.R[link] * principal_[link], k.point(link, robot_.links[link].com)};
@@ -78,10 +78,10 @@ class MultiBody {
 
   const Robot& robot_;
   Base base_;
-  std::vector<Mat3> principal_;  ///< axes of Bullet's link frame (principal, at the COM) in the link frame
+  std::vector<Mat3> principal_;  ///< axes of the link frame of Bullet (principal, at the COM) in the link frame
   std::vector<Vec3> moments_;    ///< principal moments
   std::vector<Quat>
-      at_zero_;  ///< rotation from the parent's principal frame to the link's, at joint angle 0, transposed as Bullet takes it
+      at_zero_;  ///< rotation from the principal frame of the parent to the one of the link at angle 0, transposed for Bullet
   std::vector<int> index_of_joint_;
   btMultiBody body_;
   std::vector<std::unique_ptr<btSphereShape>> spheres_;
@@ -90,7 +90,7 @@ class MultiBody {
   btAlignedObjectArray<btVector3> scratch_v_, delta_v_;
   btAlignedObjectArray<btMatrix3x3> scratch_m_;
   std::vector<btScalar> force_, output_;
-  Vec3 base_com_ = Vec3::Zero();  ///< base frame's origin -> COM of link 0, world axes, at the last set
+  Vec3 base_com_ = Vec3::Zero();  ///< from the origin of the base frame to the COM of link 0, world axes, at the last set()
 };
 
 }  // namespace gaitlab::bullet

@@ -11,8 +11,8 @@ namespace gaitlab::bullet {
 
 namespace {
 
-// Margin: Bullet's shapes are a core with a rounding of this radius, both inside the outline. Its default, 40 mm, is meant for
-// crates.
+// Margin of a shape, m. A shape of Bullet is a core with a rounding of this radius, both inside the outline. The default of
+// Bullet, 40 mm, is meant for crates.
 double margin_of(double half_size) { return std::min(1e-3, 0.1 * half_size); }
 
 }  // namespace
@@ -26,10 +26,10 @@ HalfCylinderShape::HalfCylinderShape(double radius, double length) {
 }
 
 btVector3 HalfCylinderShape::localGetSupportingVertexWithoutMargin(const btVector3& d) const {
-  const double flat = getMargin();  // flat side of the core, so that the rounded one is at x = 0
+  const double flat = getMargin();  // x of the flat side of the core, so that its rounding ends at x = 0
   const double y = d.y() < 0 ? -half_length_ : half_length_;
   const double size = std::sqrt(d.x() * d.x() + d.z() * d.z());
-  // The round side is the arc of radius_ with x >= flat; beyond its ends the corners are farthest.
+  // The round side is the arc of radius_ with x >= flat. Beyond the ends of the arc, the corners are farthest.
   const double corner = std::sqrt(radius_ * radius_ - flat * flat);
   if (size > 0 && d.x() * radius_ >= flat * size) return {radius_ * d.x() / size, y, radius_ * d.z() / size};
   return {flat, y, d.z() < 0 ? -corner : corner};
@@ -40,7 +40,7 @@ void HalfCylinderShape::batchedUnitVectorGetSupportingVertexWithoutMargin(const 
   for (int i = 0; i < count; ++i) vertices[i] = localGetSupportingVertexWithoutMargin(directions[i]);
 }
 
-/// The inertia of a shape is not used: links have their own.
+/// The inertia of a shape is not used, because links have a separate inertia.
 void HalfCylinderShape::calculateLocalInertia(btScalar /*mass*/, btVector3& inertia) const { inertia.setZero(); }
 
 std::unique_ptr<btConvexInternalShape> make_box(const Vec3& size) {

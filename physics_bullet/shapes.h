@@ -1,4 +1,4 @@
-// A body's outline as Bullet's collision shapes. Inside physics_bullet only.
+// Collision shapes of Bullet for the outline of a body, used inside physics_bullet only.
 #pragma once
 #include <BulletCollision/CollisionShapes/btConvexInternalShape.h>
 
@@ -8,8 +8,8 @@
 
 namespace gaitlab::bullet {
 
-/// Half a cylinder about y, bulging towards +x, which Bullet lacks. Exact except for its edges, which are rounded by the
-/// margin, inside the outline. Convex, so that any collision algorithm for convex shapes accepts it.
+/// Half cylinder about y that bulges towards +x, which Bullet lacks. It is exact except for its edges, which are rounded by the
+/// margin, inside the outline. It is convex, so that any collision algorithm for convex shapes accepts it.
 class HalfCylinderShape final : public btConvexInternalShape {
  public:
   HalfCylinderShape(double radius, double length);
@@ -23,9 +23,9 @@ class HalfCylinderShape final : public btConvexInternalShape {
   double radius_, half_length_;  ///< reduced by the margin, m
 };
 
-/// Box with edges in m, along its own axes.
+/// Box with edges of length `size`, m, along its own axes.
 std::unique_ptr<btConvexInternalShape> make_box(const Vec3& size);
-/// Axes as in Shape: y is the axis of cylinders, as in Bullet.
+/// Collision shape for `shape`, with the axes of Shape. y is the axis of cylinders, as in Bullet.
 std::unique_ptr<btConvexInternalShape> make_shape(const Shape& shape);
 
 }  // namespace gaitlab::bullet

@@ -13,10 +13,10 @@ namespace gaitlab {
 
 namespace {
 
-constexpr double kUnlimited = 1e30;  // N m: no limit of a row
-constexpr double kFast = 1e5;  // rad/s: above any joint speed (a run stops there); a motor with a limit is at its limit there
+constexpr double kUnlimited = 1e30;  // N m; for a row without a limit
+constexpr double kFast = 1e5;  // rad/s; largest joint speed of a run, at which a motor with a torque limit is at this limit
 
-/// All that damps is implicit: no rule limits the step.
+/// Plant without a rule that limits the step, because all damping is implicit.
 class SolverPlant final : public Plant {
  public:
   explicit SolverPlant(const PlantSettings& s)
@@ -72,8 +72,8 @@ class SolverPlant final : public Plant {
   void boxes(std::span<BoxMotion> out) const override { world_.boxes(out); }
 
  private:
-  /// Fills `limit` with the largest torque in this direction that a motor with a limit gives at any speed: its torque when
-  /// driven backwards fast.
+  /// Fills `limit` with the torque of limited motors that are driven fast in the direction `sign`. This is the largest torque
+  /// against that direction at any speed.
   void find_limits(double sign, std::vector<double>& limit) {
     if (settings_.actuator == nullptr) return;
     const std::vector<double> off(limit.size(), 0.0);
@@ -85,7 +85,7 @@ class SolverPlant final : public Plant {
     }
   }
 
-  /// Sets motors and stops as rows of the solver; a torque that does not depend on speed is applied directly.
+  /// Sets motors and stops as rows of the solver. A torque that does not depend on speed is applied directly.
   void drive(In command, double h) {
     if (settings_.actuator != nullptr) {
       settings_.actuator->unlimited(command, state_.qd, torque_, slope_);
@@ -98,7 +98,7 @@ class SolverPlant final : public Plant {
       }
       const bool damps = slope_[j] > 0;
       if (damps) {
-        // The limit in force at this speed, if it binds; else the limit over all speeds.
+        // The limit at this speed if it is active, else the limit over all speeds.
         const bool above = torque_[j] > limited_[j];
         const bool below = torque_[j] < limited_[j];
         world_.motor(j).set(slope_[j], state_.qd[j] + torque_[j] / slope_[j], below ? limited_[j] : least_[j],
@@ -112,7 +112,8 @@ class SolverPlant final : public Plant {
     }
   }
 
-  /// Sets the tangent at the start's speed of a passive hinge's torque at the step's end, in the row of the missing motor.
+  /// Sets the row of the missing motor to the torque of a passive hinge at the end of the step, linearised at the speed at the
+  /// start.
   void hang(std::size_t j, double h) {
     const PassiveHinge hinge = law(*robot_.joints[j].passive);
     const double qd = state_.qd[j];
@@ -122,14 +123,15 @@ class SolverPlant final : public Plant {
     if (slope > 0) {
       world_.motor(j).set(slope, qd + torque / slope, -kUnlimited, kUnlimited);
     } else {
-      // At speed tanh is flat and only dry friction is left: a row at its limit F, which stops the hinge but never drives it.
+      // At high speed tanh is flat, and only dry friction is left. The row has the limit F, and stops the hinge but never
+      // drives it.
       world_.motor(j).set(hinge.friction / hinge.friction_speed, 0, -hinge.friction, hinge.friction);
     }
     applied_[j] = 0;
     stop(j, h);
   }
 
-  /// Sets the row of a stop: -ks (q + h qd+ - q_lim) - cs qd+, opposing only.
+  /// Sets the row of a stop: -ks (q + h qd+ - q_lim) - cs qd+, with torques that oppose the excess only.
   void stop(std::size_t j, double h) {
     const Joint& joint = robot_.joints[j];
     const double excess = state_.q[j] - std::clamp(state_.q[j], joint.lo, joint.hi);
@@ -139,7 +141,7 @@ class SolverPlant final : public Plant {
   }
 
   /// Computes torques, works and contact forces after a step, from state_ with its new velocities. The work of an impulse uses
-  /// the mean of the velocities before and after it, which gives the change of kinetic energy.
+  /// the mean of the velocities before and after the impulse, which gives the change of kinetic energy.
   void settle(double h) {
     after_.update(robot_, state_);
     work_ = {};
@@ -165,7 +167,7 @@ class SolverPlant final : public Plant {
     const Vec3 v = (kinematics_.velocity(link, side.point) + after_.velocity(link, side.point)) / 2;
     work_[0] -= sign * touch.push * touch.normal.dot(v);
     work_[1] -= sign * touch.friction.dot(v);
-    const bool alone = touch.a.link < 0 || touch.b.link < 0;  // false: both are parts of the robot
+    const bool alone = touch.a.link < 0 || touch.b.link < 0;  // false if both sides are parts of the robot
     if (!alone || !(touch.push > 0)) return;
     const int element = side.element >= 0 ? side.element : nearest(side);
     if (element < 0) return;
@@ -176,7 +178,7 @@ class SolverPlant final : public Plant {
     sample.penetration = std::max(sample.penetration, -touch.distance);
   }
 
-  /// The element of a body whose surface is nearest to the point of contact of its outline; -1: the body has no element.
+  /// Element of the body whose surface is nearest to the contact point of the outline. -1 if the body has no element.
   [[nodiscard]] int nearest(const bullet::WorldTouch::Side& side) const {
     int best = -1;
     double least = std::numeric_limits<double>::infinity();
@@ -202,7 +204,7 @@ class SolverPlant final : public Plant {
   std::vector<double> torque_, slope_, limited_, limited_slope_, applied_, start_speed_, least_, most_;
   std::vector<ContactSample> samples_;
   std::vector<std::vector<std::size_t>> elements_of_body_;
-  std::array<double, 4> work_ = {};  ///< of the last step: contact, friction, stops, hinges
+  std::array<double, 4> work_ = {};  ///< works of the last step, J: contact, friction, stops, hinges
   OnePart part_;
 };
 

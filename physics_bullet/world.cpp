@@ -6,7 +6,7 @@ namespace gaitlab::bullet {
 
 namespace {
 
-// Bullet's collision groups.
+// Collision groups of Bullet.
 enum Group : int { kPlane = 1, kElements = 2, kOutlines = 4, kFixed = 8, kMoving = 16 };
 
 bool robots(const btCollisionObject& object) { return object.getUserIndex() >= 0; }
@@ -17,8 +17,9 @@ double friction_between(const btCollisionObject& a, const btCollisionObject& b) 
   return std::min(a.getFriction(), b.getFriction());
 }
 
-// Limits of the sequential impulses: iterations, and the change of a velocity below which they end. Sixteen motors in a row are
-// exact to 1e-6 after 50 iterations; contacts of stiff feet converge no further with 1000 (docs/equations.md, 7).
+// Limits of the sequential impulse solver: number of iterations, and change of velocity below which they end. Sixteen motors in
+// a chain are exact to 1e-6 after 50 iterations. Contacts of stiff feet do not converge further with 1000 iterations
+// (docs/equations.md, 7).
 constexpr int kIterations = 50;
 constexpr double kSettled = 1e-9;  // m/s, rad/s
 
@@ -50,7 +51,8 @@ World::Neighbours::Neighbours(const Robot& robot) {
   for (const Link& link : robot.links) parents_.push_back(link.parent);
 }
 
-/// Links with at most two joints between them: the same link, parents and grandparents, children and grandchildren, siblings.
+/// True for links with at most two joints between them: the same link, parents and grandparents, children and grandchildren,
+/// siblings.
 bool World::Neighbours::near(int i, int j) const {
   const auto parent = [&](int link) { return link < 0 ? -1 : parents_[static_cast<std::size_t>(link)]; };
   const bool siblings = parent(i) == parent(j) && parent(i) >= 0;
@@ -74,7 +76,7 @@ World::World(const PlantSettings& s, MultiBody& body)
       world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
   world_.getPairCache()->setOverlapFilterCallback(&neighbours_);
   world_.setGravity(bullet::bt(s.gravity));
-  btContactSolverInfo& info = world_.getSolverInfo();  // two friction directions and their cone: the multibody world's default
+  btContactSolverInfo& info = world_.getSolverInfo();  // default of the multibody world: two friction directions and their cone
   info.m_numIterations = kIterations;
   info.m_leastSquaresResidualThreshold = kSettled * kSettled;
   body.bullet().setHasSelfCollision(true);
@@ -90,7 +92,7 @@ World::World(const PlantSettings& s, MultiBody& body)
 }
 
 World::~World() {
-  // In the opposite order of creation: the broadphase's pairs refer to the objects.
+  // Objects are removed in the opposite order of creation, because pairs of the broadphase refer to them.
   for (auto* rows : {&motors_, &stops_}) {
     for (const auto& row : *rows) world_.removeMultiBodyConstraint(row.get());
   }
@@ -119,7 +121,7 @@ void World::add_robot(const Robot& robot, double friction) {
     btMultiBodyLinkCollider& collider = *compound.collider;
     collider.setCollisionShape(compound.shape.get());
     collider.setUserIndex(static_cast<int>(compound.link));
-    collider.setFriction(friction);  // between parts of the robot
+    collider.setFriction(friction);  // friction between parts of the robot
     collider.setActivationState(DISABLE_DEACTIVATION);
     world_.addCollisionObject(&collider, group, mask);
   };
@@ -170,7 +172,7 @@ void World::step(const Kinematics& k, double h) {
       compound.collider->setInterpolationWorldTransform(compound.collider->getWorldTransform());
     }
   }
-  world_.stepSimulation(h, 0);  // 0: one step of exactly h
+  world_.stepSimulation(h, 0);  // with 0 there is one step of exactly h
 }
 
 WorldTouch World::touch(const btPersistentManifold& manifold, const btManifoldPoint& p) {

@@ -1,4 +1,4 @@
-// Bullet's own collision world and contact solver around one robot: contact.law bullet. Inside physics_bullet only.
+// Collision world and contact solver of Bullet around one robot (contact.law bullet), used inside physics_bullet only.
 #pragma once
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
@@ -16,10 +16,10 @@
 
 namespace gaitlab::bullet {
 
-/// A btMultiBodyDynamicsWorld that solves everything as one island. (Bullet's option not to split islands passes the wrong
-/// number of multibody constraints to the solver, usually none; splitting them would need a collider for every link.) The
-/// friction of a contact with the robot is that of the touched object, not Bullet's product of both; between two other objects
-/// it is the smaller one.
+/// A btMultiBodyDynamicsWorld that solves everything as one island. (The option of Bullet not to split islands passes the wrong
+/// number of multibody constraints to the solver, usually none. Splitting islands would need a collider for every link.) The
+/// friction coefficient of a contact with the robot is the coefficient of the touched object, not the product of both
+/// coefficients as in Bullet. Between two other objects, it is the smaller coefficient.
 class OneIslandWorld final : public btMultiBodyDynamicsWorld {
  public:
   using btMultiBodyDynamicsWorld::btMultiBodyDynamicsWorld;
@@ -29,25 +29,25 @@ class OneIslandWorld final : public btMultiBodyDynamicsWorld {
 /// One point of a contact after a step.
 struct WorldTouch {
   struct Side {
-    int link = -1;     ///< -1: not a link of the robot
-    int element = -1;  ///< contact element, or
-    int body = -1;     ///< body whose outline touches
+    int link = -1;     ///< link of the robot, or -1
+    int element = -1;  ///< contact element, or -1
+    int body = -1;     ///< body whose outline touches, or -1
     Vec3 point = Vec3::Zero();
   };
   Side a, b;
-  Vec3 normal = Vec3::Zero();    ///< from b to a
+  Vec3 normal = Vec3::Zero();    ///< unit vector from b to a
   double push = 0;               ///< impulse on a along the normal, N s
-  Vec3 friction = Vec3::Zero();  ///< impulse on a along the surface, N s
-  double distance = 0;           ///< m, negative: penetration
+  Vec3 friction = Vec3::Zero();  ///< impulse on a tangential to the surface, N s
+  double distance = 0;           ///< m; negative if there is penetration
 };
 
-/// Bullet's world around one robot, with these contacts:
-/// - the contact elements (points and spheres, as `on` chooses) touch the plane z = 0, as with the penalty law;
-/// - the outlines of the bodies touch the ground's boxes, and one another if at least three joints lie between them (docked
-/// bodies and bodies of one module overlap at their hinges by construction);
-/// - boxes that have a mass move, and touch one another, fixed boxes and the plane. They exist in Bullet alone.
-/// The caller owns position and velocity of the robot: step() takes them from the MultiBody as it was set, and leaves the new
-/// velocities in it.
+/// World of Bullet around one robot, with these contacts:
+/// - The contact elements (points and spheres, as selected by `contact.on`) touch the plane z = 0, as with the penalty law.
+/// - The outlines of the bodies touch the boxes of the ground. They touch one another if at least three joints are between
+/// them, because docked bodies and bodies of one module overlap at their hinges by construction.
+/// - Boxes that have a mass move, and touch one another, fixed boxes and the plane. They exist only in Bullet.
+/// The caller owns position and velocity of the robot. step() reads them from the MultiBody, and leaves the new velocities
+/// there.
 class World {
  public:
   World(const PlantSettings& settings, MultiBody& body);
@@ -57,11 +57,11 @@ class World {
 
   [[nodiscard]] JointRow& motor(std::size_t joint) { return *motors_[joint]; }
   [[nodiscard]] JointRow& stop(std::size_t joint) { return *stops_[joint]; }
-  /// Advances by h seconds from the state to which `body` was set, whose kinematics these are.
+  /// Advances by h seconds from the state of the MultiBody. `kinematics` must belong to that state.
   void step(const Kinematics& kinematics, double h);
   /// Motion of the boxes that have a mass.
   void boxes(std::span<BoxMotion> out) const;
-  /// Contacts of the last step: visit(const WorldTouch&).
+  /// Calls visit(const WorldTouch&) for every contact of the last step.
   template <class Visit>
   void for_each_touch(Visit&& visit) const {
     for (int m = 0; m < dispatcher_.getNumManifolds(); ++m) {
@@ -71,7 +71,7 @@ class World {
   }
 
  private:
-  /// Filter of pairs of the robot's bodies that have too few joints between them to touch.
+  /// Filter that excludes pairs of robot bodies with too few joints between them.
   class Neighbours final : public btOverlapFilterCallback {
    public:
     explicit Neighbours(const Robot& robot);
@@ -79,7 +79,7 @@ class World {
 
    private:
     [[nodiscard]] bool near(int i, int j) const;
-    std::vector<int> parents_;  ///< one per link; -1 for the root
+    std::vector<int> parents_;  ///< parent of each link; -1 for the root
   };
 
   void add_robot(const Robot& robot, double friction);
@@ -97,7 +97,7 @@ class World {
   std::vector<MultiBody::Compound> outlines_;
   btStaticPlaneShape plane_;
   std::vector<std::unique_ptr<btRigidBody>> ground_;
-  std::vector<std::pair<std::size_t, const btRigidBody*>> moving_;  ///< with their indices in Ground::boxes
+  std::vector<std::pair<std::size_t, const btRigidBody*>> moving_;  ///< moving boxes with their indices in Ground::boxes
   OneIslandWorld world_;
   std::vector<std::unique_ptr<JointRow>> motors_, stops_;
 };

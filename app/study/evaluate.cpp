@@ -1,4 +1,4 @@
-// Runs requested by another program: points and results as a line of JSON each.
+// `gaitlab evaluate`, which runs points that another program requests. Requests and results are lines of JSON.
 #include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
@@ -31,7 +31,7 @@ struct EvaluateArguments : StudyRunArguments {
   bool as_completed = false, quiet = false;
 };
 
-/// Sets the flag that stops a study when standard output is closed at the other end: the requesting program has ended.
+/// Stops the study when the reader of standard output closes it, because the requesting program has then ended.
 class WatchReader {
  public:
   ~WatchReader() {
@@ -45,7 +45,7 @@ class WatchReader {
 
  private:
   void watch() {
-    constexpr int kOften = 100;  // ms
+    constexpr int kOften = 100;  // ms between checks of the flags
     while (!over_ && !gone_) {
       pollfd output{STDOUT_FILENO, 0, 0};
       if (::poll(&output, 1, kOften) <= 0) continue;
@@ -57,19 +57,19 @@ class WatchReader {
   std::thread thread_{[this] { watch(); }};
 };
 
-/// Questions of a batch, and their answers.
+/// The requests of a batch that are not answered yet, and the runs that answer them.
 class Replies {
  public:
   Replies(Journal& journal, bool as_completed) : journal_(journal), as_completed_(as_completed) {}
 
-  /// Takes a run with a row in the journal.
+  /// Adds a run whose row is in the journal.
   void take(const Brief& run) {
     runs_[run.run / journal_.head().replicates].push_back(run);
     if (!open_.empty()) give();
   }
   void ask(Question&& question, std::uint64_t point) { open_.emplace_back(std::move(question), point); }
   [[nodiscard]] bool asked() const { return !open_.empty(); }
-  /// Writes the answers that are complete, in the order of the questions or as they come.
+  /// Writes the answers that are complete: in the order of the requests or, with --as-completed, immediately.
   void give() {
     for (auto one = open_.begin(); one != open_.end();) {
       const auto runs = runs_.find(one->second);
@@ -97,11 +97,11 @@ class Replies {
 
   Journal& journal_;
   bool as_completed_;
-  std::map<std::uint64_t, std::vector<Brief>> runs_;  ///< by point
+  std::map<std::uint64_t, std::vector<Brief>> runs_;  ///< completed runs of each point
   std::deque<std::pair<Question, std::uint64_t>> open_;
 };
 
-/// Reads the questions of the next batch, up to an empty line or the end of the input. False: the input has ended.
+/// Reads the requests of the next batch, up to an empty line or the end of the input. Returns false if the input has ended.
 bool read_batch(Lines& lines, const std::vector<studies::Parameter>& parameters, studies::Asked& asked, Replies& replies) {
   while (const std::optional<std::string> line = lines.next(stopped())) {
     if (line->find_first_not_of(" \t\r") == std::string::npos) return true;
@@ -112,7 +112,7 @@ bool read_batch(Lines& lines, const std::vector<studies::Parameter>& parameters,
   return false;
 }
 
-/// Runs the points of each batch of questions, and gives their answers, until the input ends or the program is stopped.
+/// Runs the points of each batch of requests and writes the answers, until the input ends or the program is stopped.
 void answer(Lines& lines, studies::Plan& plan, Journal& journal, const studies::Executor& executor, Replies& replies,
             int jobs) {
   studies::Asked asked(plan, journal);
@@ -132,7 +132,7 @@ void answer(Lines& lines, studies::Plan& plan, Journal& journal, const studies::
 
 int evaluate_study(const EvaluateArguments& a) {
   refuse_copies("gaitlab evaluate");
-  std::signal(SIGPIPE, SIG_IGN);  // reported as a closed output instead
+  std::signal(SIGPIPE, SIG_IGN);  // the failed write reports the closed output instead
   Catalog catalog = standard_catalog();
   studies::Study study = studies::read_study(a.file, studies::Purpose::evaluate);
   study.runs = studies::kMostAsked;
@@ -142,8 +142,8 @@ int evaluate_study(const EvaluateArguments& a) {
     for (const Problem& note : plan.study().notes) say(to_string(note.place), "note", note.text);
   studies::JournalHead head = study_head(plan);
   std::vector<studies::Answers> answers = other_answers(plan, a, head.build);
-  head.runs = 0;  // grows with the requests
-  // Before the folder is created.
+  head.runs = 0;  // increases with the requests
+  // Installed before the folder is created, so that a signal cannot interrupt the creation.
   const StopOnSignal stop(StopOnSignal::Second::ends_the_process);
   const fs::path folder = studies::study_folder(a.out, "evaluate-" + plan.study().name, holds_study(head));
   head.command = "gaitlab evaluate " + shell_word(a.file);
@@ -157,7 +157,7 @@ int evaluate_study(const EvaluateArguments& a) {
   Lines lines;
   answer(lines, plan, journal, remembering(executor, answers), replies, a.jobs);
   const std::uint64_t rows = journal.rows();
-  const bool finished = lines.ended() && !replies.asked();  // then a closed output does not matter
+  const bool finished = lines.ended() && !replies.asked();  // if all requests are answered, a closed output does not matter
   if (!finished && reader.gone())
     throw RunError(fmt::format("{}: nobody reads the answers; {} runs are in the journal", folder.string(), rows));
   if (!finished && stopped()) {

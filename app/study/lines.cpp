@@ -27,7 +27,7 @@ std::optional<std::string> Lines::next(const std::atomic<bool>& stop) {
   return line;
 }
 
-/// False: the input has ended, or `stop` is set.
+/// Waits for more input. Returns false if the input has ended or `stop` is set.
 bool Lines::read_more(const std::atomic<bool>& stop) {
   constexpr int kOften = 100;  // ms between checks of `stop`, which a signal may set just before the call
   text_.erase(0, std::exchange(at_, 0));

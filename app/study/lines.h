@@ -1,4 +1,4 @@
-// Reader of lines of standard input as they arrive, until a flag is set.
+// Reader of lines of standard input as they arrive, which a flag can stop.
 #pragma once
 #include <atomic>
 #include <optional>
@@ -9,10 +9,10 @@ namespace gaitlab::app {
 class Lines {
  public:
   static constexpr std::size_t kLongest = 1 << 20;  ///< bytes of a line
-  /// The next line without its end; nothing: there is none, or `stop` was set. Throws InputError if it is too long, or cannot
-  /// be read.
+  /// Returns the next line without its line end, or nothing at the end of the input or if `stop` is set. Throws InputError if
+  /// the line is too long or cannot be read.
   std::optional<std::string> next(const std::atomic<bool>& stop);
-  /// Whether the input has ended and all of its lines were returned.
+  /// True if the input has ended and all of its lines were returned.
   [[nodiscard]] bool ended() const { return ended_ && at_ == text_.size(); }
   /// Number of the line that was returned last, from 1.
   [[nodiscard]] int number() const { return number_; }

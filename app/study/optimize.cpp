@@ -1,4 +1,4 @@
-// Search for the best point of a study, with verification by half the step and another engine.
+// `gaitlab optimize`, which searches the best point of a study and verifies it with half the step and with another engine.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -46,7 +46,7 @@ Study searched_study(const OptimizeArguments& a) {
   return study;
 }
 
-/// All methods except grids and designs of sensitivity studies.
+/// Names of all methods except grids and designs of sensitivity studies.
 std::vector<std::string> known_methods() {
   using studies::Method;
   std::vector<std::string> names;
@@ -65,7 +65,7 @@ std::string search_goes_on(const OptimizeArguments& a, const fs::path& folder) {
   return line + " --out " + shell_word(folder.string());
 }
 
-/// Does the runs of the study: those of its search or, if the method is not a search, those of its points.
+/// Executes the runs of the study: those that the search requests or, if the method is not a search, those of all points.
 SearchEnd run_study(Plan& plan, Journal& journal, const studies::Executor& executor, const OptimizeArguments& a) {
   StudyProgress progress(a.quiet, objective_unit(journal.head()));
   studies::RunnerSettings settings{
@@ -76,7 +76,7 @@ SearchEnd run_study(Plan& plan, Journal& journal, const studies::Executor& execu
   return runner.run(plan.points().runs(), stopped()) ? SearchEnd::budget : SearchEnd::stopped;
 }
 
-/// Writes the run folder of the best verified point, replacing an earlier one.
+/// Writes the run folder of the best verified point and replaces an earlier one.
 void write_best(const Plan& plan, std::uint64_t run_number, const fs::path& folder, bool quiet) {
   std::error_code none;
   fs::remove_all(folder, none);
@@ -91,7 +91,7 @@ void say_verification(const fs::path& folder, std::size_t points) {
                   points == 1 ? "point is" : fmt::format("{} points are", points)));
 }
 
-/// Prints the end of a search, and simulates its best verified point again. Returns the exit code.
+/// Prints the result of a search, and simulates the best verified point again for its run folder. Returns the exit code.
 int finish_search(const Plan& plan, Journal& journal, const studies::Results& results,
                   const std::vector<studies::Verification>& tried, const fs::path& folder, bool converged, bool quiet) {
   const std::vector<std::uint64_t> stood = studies::verified(tried);
@@ -129,12 +129,12 @@ int optimize_study(const OptimizeArguments& a) {
     print_plan(plan, a);
     return 0;
   }
-  // Before the folder is locked, which belongs to one process.
+  // The executor is made before the folder is locked, because only one process may lock the folder.
   const studies::Executor executor = study_executor(plan, a);
-  print_notes(plan, a.quiet);  // only one process of a team reaches this
+  print_notes(plan, a.quiet);  // only one process of a team reaches this line
   studies::JournalHead head = study_head(plan);
   std::vector<studies::Answers> answers = other_answers(plan, a, head.build);
-  const StopOnSignal stop(StopOnSignal::Second::ends_the_process);  // before the folder is created
+  const StopOnSignal stop(StopOnSignal::Second::ends_the_process);  // installed before the folder is created
   const fs::path folder = studies::study_folder(a.out, "optimize-" + plan.study().name, holds_study(head));
   head.command = search_goes_on(a, folder);
   const studies::Lock lock(folder / "lock");

@@ -1,4 +1,4 @@
-// Trial of the scenario's gait before a study: error caused by the study's step.
+// Trial run of a scenario's own settings before a study, which shows the error caused by the step.
 #include "app/study/own_gait.h"
 
 #include <fmt/format.h>
@@ -19,15 +19,16 @@ namespace gaitlab::app {
 
 namespace {
 
-constexpr double kMuch = 0.005;  // of the objective: above, a note with a remedy is printed
+constexpr double kMuch = 0.005;  // relative error of the objective above which a remedy is printed
 
 struct Way {
   std::vector<std::string> sets;
-  std::optional<double> objective = {};  ///< first objective of the study; nothing: refused, failed, or not known
+  std::optional<double> objective = {};  ///< first objective of the study; nothing if the run was refused or failed, or the
+                                         ///< objective is not known
   report::TorqueError error = {};
 };
 
-/// Ways to run: as in the study; with half the step; with steps that the integrator chooses.
+/// The ways in which the scenario is run: with the step of the study, with half of it, and with an adaptive step.
 std::vector<Way> ways(const Scenario& own) {
   std::vector<Way> all{{{}}};
   if (own.physics.adapts()) return all;
@@ -37,7 +38,7 @@ std::vector<Way> ways(const Scenario& own) {
   return all;
 }
 
-/// Runs all; false: stopped.
+/// Simulates all ways. Returns false if the program was stopped.
 bool try_all(const studies::Plan& plan, std::size_t scenario, std::vector<Way>& all) {
   const studies::Measure measure = quantity_measure(plan.columns(), plan.scenario());
   std::vector<Scenario> tried;
@@ -46,7 +47,7 @@ bool try_all(const studies::Plan& plan, std::size_t scenario, std::vector<Way>& 
     try {
       tried.push_back(plan.with(way.sets, scenario));
       of.push_back(&way);
-    } catch (const InputError&) {  // a step that the engine refuses
+    } catch (const InputError&) {  // the engine refuses this step
     }
   }
   return run_all(tried, {}, measure.reads, stopped(), [&](std::size_t k, RolloutEnd&& end) {
@@ -58,7 +59,7 @@ bool try_all(const studies::Plan& plan, std::size_t scenario, std::vector<Way>& 
   });
 }
 
-/// Relative error of a value against the limit of ever smaller steps (Richardson).
+/// Relative error of a value against the limit of vanishing steps (Richardson extrapolation).
 struct Cost {
   double limit;
   [[nodiscard]] double of(double value) const { return std::abs(value - limit) / std::abs(limit); }

@@ -1,4 +1,4 @@
-// Figures of a search: its convergence, and its front.
+// Figures of a search: its convergence and its Pareto front.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,8 +24,8 @@ report::StudyAxis objective_axis(const JournalHead& head, std::size_t number) {
   return {clipped(expression), figure == head.quantities.end() ? "" : clipped(figure->unit)};
 }
 
-/// Adds the generation that the budget cut: runs beyond the last whole one. Only for a single search; with several, the runs
-/// cannot be assigned.
+/// Adds the incomplete last generation, whose runs follow those of the complete generations. Only for a single search, because
+/// with several searches these runs cannot be assigned.
 void add_cut(report::ConvergenceFigure& figure, const studies::Results& results, std::uint64_t whole) {
   if (figure.searches.size() != 1) return;
   std::vector<double> kept;

@@ -1,4 +1,4 @@
-// Commands on the folder of a study: show, best, export, merge, rerun.
+// `gaitlab study`, commands on the folder of a study: show, best, export, merge, rerun.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,11 +23,11 @@ using studies::Journal;
 
 struct StudyArguments {
   std::string folder;
-  std::int64_t most = 10;          ///< best
-  std::string format, file;        ///< export
-  std::int64_t run = 0;            ///< rerun
-  std::optional<std::string> out;  ///< rerun
-  PluginArguments plugins;         ///< rerun
+  std::int64_t most = 10;          ///< number of points that `best` lists
+  std::string format, file;        ///< arguments of `export`
+  std::int64_t run = 0;            ///< number of the run that `rerun` repeats
+  std::optional<std::string> out;  ///< folder that `rerun` writes
+  PluginArguments plugins;         ///< plugins that `rerun` may load
 };
 
 /// Opens the journal of a folder for reading.
@@ -91,7 +91,7 @@ int export_study(const StudyArguments& a) {
 /// A set of very many numbers, added in ascending order.
 class Ranges {
  public:
-  /// Adds the numbers `first` to `last`, above all earlier ones.
+  /// Adds the numbers `first` to `last`, which must be above all numbers added before.
   void add(std::uint64_t first, std::uint64_t last) {
     count_ += last - first + 1;
     if (!ranges_.empty() && ranges_.back().second + 1 == first) {
@@ -101,7 +101,7 @@ class Ranges {
     }
   }
   [[nodiscard]] std::uint64_t count() const { return count_; }
-  /// In the form of Slurm's --array: 3,17,20-99; at most 200 items.
+  /// Text in the form of Slurm's option --array: 3,17,20-99. At most 200 items.
   [[nodiscard]] std::string text() const {
     constexpr std::size_t kMost = 200;
     std::string all;
@@ -119,19 +119,20 @@ class Ranges {
   std::uint64_t count_ = 0;
 };
 
-/// Takes the rows of all shards that are there. Returns which are missing or not whole.
+/// Copies the rows of all shards in the folder into a common journal. Returns the numbers of the shards that are missing or
+/// incomplete.
 Ranges take_shards(std::optional<Journal>& all, const fs::path& folder, const studies::Shards& shards) {
   std::vector<std::uint64_t> rows;
   for (const std::uint64_t index : shards.indices) {
     Journal part(studies::shard_file(folder, {index, shards.count}));
     if (!all) all.emplace(folder / studies::kJournalFile, part.head(), Journal::Build::same);
     all->take(part);
-    all->expect(part.head().runs);  // a budget may have grown since
+    all->expect(part.head().runs);  // the budget of a study may have grown
     rows.push_back(part.rows());
   }
   const std::uint64_t runs = all->head().runs;
   Ranges missing;
-  std::uint64_t next = 0;  // the first that has not been looked at
+  std::uint64_t next = 0;  // number of the next shard to look at
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const std::uint64_t index = shards.indices[k];
     if (next < index) missing.add(next, index - 1);
@@ -157,7 +158,7 @@ int merge_study(const StudyArguments& a) {
   if (shards.count > 0) {
     missing = take_shards(all, folder, shards);
   } else {
-    all.emplace(file);  // an array with one task
+    all.emplace(file);  // a study without shards, such as an array with one task
   }
   const std::uint64_t rows = all->rows();
   fmt::print("{}: {} of {} runs\n", file.string(), rows, all->head().runs);
@@ -175,7 +176,7 @@ int merge_study(const StudyArguments& a) {
   return missing.count() > 0 || lacking > 0 ? 1 : 0;
 }
 
-/// Differences between a row and the repeated run, a line each.
+/// Sentences on the differences between a row and the repeated run.
 std::vector<std::string> differences(const std::vector<std::string>& names, const std::vector<std::string>& row,
                                      const studies::RunColumns& columns, const std::vector<double>& quantities,
                                      const Outcome& outcome) {
@@ -202,7 +203,7 @@ std::vector<std::string> differences(const std::vector<std::string>& names, cons
   return found;
 }
 
-/// The resolved scenario of a row: the only one, or the one of its name.
+/// Resolved scenario of a row: the only one of the study, or the one whose name is in the row.
 std::string scenario_of_row(const studies::JournalHead& head, const std::vector<std::string>& names,
                             const std::vector<std::string>& row) {
   if (head.scenarios.empty()) return head.scenario;
@@ -214,7 +215,7 @@ std::string scenario_of_row(const studies::JournalHead& head, const std::vector<
                    "is not a journal that this program wrote: it lacks the scenario " + in_quotes(name) + " of a run");
 }
 
-/// The settings of a row relative to the scenario in the journal: the folder is sufficient.
+/// Settings of a row relative to the scenario in the journal, so that the folder is sufficient to repeat a run.
 std::vector<std::string> settings_of_row(const Journal& journal, const std::vector<std::string>& names,
                                          const std::vector<std::string>& row) {
   const studies::JournalHead& head = journal.head();
@@ -269,7 +270,7 @@ int rerun_study(const StudyArguments& a) {
     written = read_run(*run_arguments.out, catalog);
   } catch (const InputError&) {
     if (code != 1) throw;
-    return 1;  // the run could not be written, which was reported
+    return 1;  // the error has been reported: the run could not be written
   }
   const StoredRun& again = *written;
   if (const auto cell =
@@ -283,7 +284,7 @@ int rerun_study(const StudyArguments& a) {
       differences(names, row, journal.columns(), judged.quantities, again.stored.recording.outcome);
   if (found.empty()) {
     fmt::print("the quantities are those of the journal\n");
-    const bool lost = code == 1 && again.stored.recording.outcome.done();  // some of its files
+    const bool lost = code == 1 && again.stored.recording.outcome.done();  // true if some files of the run could not be written
     return code == 2 ? 2 : lost ? 1 : 0;
   }
   for (const std::string& difference : found) say(a.folder, "error", difference);

@@ -1,4 +1,4 @@
-// Files beside a journal: its table, and its figures.
+// Files beside the journal of a study: its table and its figures.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ using studies::JournalHead;
 using studies::JournalParameter;
 using studies::Results;
 
-/// Indices of the parameters that are not drawn.
+/// Indices of the parameters that the study chooses, not of those that are drawn at random.
 std::vector<std::size_t> chosen_parameters(const JournalHead& head) {
   std::vector<std::size_t> chosen;
   for (std::size_t k = 0; k < head.parameters.size(); ++k) {
@@ -34,7 +34,7 @@ std::vector<std::size_t> chosen_parameters(const JournalHead& head) {
   return chosen;
 }
 
-/// Whether a line or a map can show all parameters: one or two numbers.
+/// True if a line or a map can show all parameters, because they are one or two numbers.
 bool is_map(const JournalHead& head, const std::vector<std::size_t>& parameters) {
   const auto word = [&](std::size_t k) { return head.parameters[k].words; };
   return parameters.size() <= 2 && std::ranges::none_of(parameters, word);
@@ -46,7 +46,7 @@ report::PointState state_of(const studies::PointResult& point) {
   return point.infeasible_runs > 0 ? report::PointState::infeasible : report::PointState::broken;
 }
 
-/// Index of the best kept point, among verified points if any were verified; the number of points if there is none.
+/// Index of the best kept point, among the verified points if there are any. The number of points if there is none.
 std::size_t best_of(Journal& journal, const Results& results) {
   const std::vector<studies::Verification> tried = journal.verifications();
   const std::vector<std::uint64_t> stood = studies::verified(tried);
@@ -59,7 +59,7 @@ std::size_t best_of(Journal& journal, const Results& results) {
 
 report::StudyAxis axis_of(const JournalParameter& p) { return {clipped(p.key), "", p.log}; }
 
-/// Values of all runs, in order; for words their numbers.
+/// Values of all runs, in the order of the runs. A word is represented by its index.
 struct Values {
   std::vector<std::uint64_t> run;
   std::vector<std::vector<double>> parameters, figures;
@@ -85,7 +85,7 @@ Values values_of(Journal& journal, const std::vector<std::size_t>& parameters, c
   return values;
 }
 
-/// Least, mean and largest of a quantity over the replicates that have it.
+/// Sets `point` to least, mean and largest of a quantity over the replicates in which it is known.
 void gather(report::StudyPoint& point, const Values& values, std::size_t first, std::size_t count, std::size_t figure) {
   std::vector<double> known;
   for (std::size_t r = first; r < first + count; ++r) {
@@ -99,7 +99,7 @@ void gather(report::StudyPoint& point, const Values& values, std::size_t first, 
       known.size() == 1 ? known[0] : std::accumulate(known.begin(), known.end(), 0.0) / static_cast<double>(known.size());
 }
 
-/// First row of each point; fewer if the journal has grown since.
+/// Index of the first row of each point. Fewer if the journal has grown since the results were read.
 std::vector<std::size_t> rows_of(const Results& results, const Values& values) {
   std::vector<std::size_t> rows;
   std::size_t row = 0;
@@ -118,7 +118,7 @@ report::StudyPoint point_of(const studies::PointResult& result, const Values& va
   return point;
 }
 
-/// A study's values, and the common texts of its figures.
+/// Values of a study, and the common texts of its figures.
 struct Drawn {
   const JournalHead& head;
   const Results& results;
@@ -126,7 +126,7 @@ struct Drawn {
   const std::vector<std::size_t>& parameters;
   std::vector<std::size_t> rows;
   std::string note;
-  std::size_t best_point;  ///< number of points: none
+  std::size_t best_point;  ///< index of the best point; the number of points if there is none
 
   [[nodiscard]] std::string title(const studies::Quantity& name) const {
     return clipped(head.name) + ": " + clipped(name.name);
@@ -172,7 +172,7 @@ report::ManyFigure many_of(const Drawn& drawn, std::size_t number, const studies
   return figure;
 }
 
-/// Writes the replicates of the best points, side by side: replicates.svg and .csv.
+/// Writes replicates.svg and replicates.csv, which show the replicates of the best points side by side.
 void write_replicates(const Drawn& drawn, const studies::Quantity& name, const std::filesystem::path& folder) {
   constexpr std::size_t kShown = 6;
   std::vector<std::size_t> order = studies::ranked(drawn.results.points, drawn.head.objectives.front().maximize);
@@ -180,7 +180,7 @@ void write_replicates(const Drawn& drawn, const studies::Quantity& name, const s
   order.resize(std::min(order.size(), kShown));
   report::BoxFigure figure;
   const std::vector<std::string>& scenarios = drawn.head.scenarios;
-  const std::uint64_t each = drawn.head.replicates / std::max<std::size_t>(1, scenarios.size());  // per scenario
+  const std::uint64_t each = drawn.head.replicates / std::max<std::size_t>(1, scenarios.size());  // replicates in each scenario
   figure.title = drawn.title(name) + (scenarios.empty() ? " of the replicates" : " in the scenarios");
   figure.note = drawn.note;
   figure.axis = report::StudyAxis{clipped(name.name), clipped(name.unit)}.title();

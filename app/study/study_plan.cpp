@@ -1,4 +1,4 @@
-// Output of --dry-run: the runs of a study and their estimated duration.
+// Output of option --dry-run: the runs of a study and their estimated duration.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace gaitlab::app {
 
 namespace {
 
-/// Duration of a run on one thread, s, by the clock: of one pack of runs, from all scenarios if there are several. For the
-/// terminal alone.
+/// Real time of a run on one thread, s, measured with one pack of runs, from all scenarios if there are several. It is only
+/// printed, because it depends on the clock.
 double seconds_of_run(const studies::Plan& plan, const StudyRunArguments& a, bool searched) {
   const studies::Points& points = plan.points();
   std::uint64_t next = 0;
@@ -33,7 +33,7 @@ double seconds_of_run(const studies::Plan& plan, const StudyRunArguments& a, boo
                                const std::uint64_t run = next++;
                                try {
                                  return Rollout{run, timed(run)};
-                               } catch (const InputError&) {  // it will be a row of the study
+                               } catch (const InputError&) {  // the refused run will be a row of the study
                                }
                              }
                              return {};
@@ -54,7 +54,7 @@ double seconds_of_run(const studies::Plan& plan, const StudyRunArguments& a, boo
 
 void print_plan(const studies::Plan& plan, const StudyRunArguments& a) {
   const studies::Points& points = plan.points();
-  const bool searched = studies::is_search(plan.study().method);  // then its points are not known yet
+  const bool searched = studies::is_search(plan.study().method);  // the points of a search are not known yet
   const auto shown = [&](std::uint64_t run) {
     const std::string& name = plan.scenarios()[points.scenario(run)].name;
     return fmt::format("{}{}", name.empty() ? "" : "scenario " + name + ": ", fmt::join(plan.sets(run), " "));
@@ -77,7 +77,7 @@ void print_plan(const studies::Plan& plan, const StudyRunArguments& a) {
   fmt::print("takes about {:.3g} s on {} ({:.3g} s a run on one)\n", all / study_threads(a.jobs),
              counted(static_cast<std::size_t>(study_threads(a.jobs)), "thread"), each);
   fmt::print("journal about {:.3g} MB\n", bytes / 1e6);
-  if (searched) return;            // each generation waits for the previous one
+  if (searched) return;            // shards are not suggested for a search: each generation waits for the previous one
   constexpr double kShard = 1800;  // s
   fmt::print("shards of 30 min on one thread: {}\n", static_cast<std::uint64_t>(std::max(1.0, std::ceil(all / kShard))));
 }

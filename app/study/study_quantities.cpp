@@ -17,15 +17,15 @@ namespace {
 
 constexpr std::string_view kMargin = "margin.";
 
-/// Checks without a number that could have another limit.
+/// Checks that have no number, or whose number cannot have another limit.
 constexpr std::array kUnlimited{"outcome", "battery", "evidence", "field"};
 
 bool limited(const report::CheckKind& kind) {
   return std::ranges::find(kUnlimited, std::string_view(kind.id)) == kUnlimited.end();
 }
 
-/// Margin of a check. Without a number: -1 if it fails, or if it warns and can only warn, and for missing evidence; NaN: the
-/// run does not have it.
+/// Margin of a check as a quantity. A check without a margin has -1 if it fails, if it warns and cannot fail, or if evidence is
+/// missing; otherwise NaN, because it does not apply to the run.
 double margin(const report::Check& check) {
   if (!std::isnan(check.margin)) return check.status == report::CheckStatus::pass ? std::max(0.0, check.margin) : check.margin;
   const auto kind =
@@ -40,7 +40,7 @@ double margin_against(const report::Check& check, double limit) {
   return report::Criterion{check.value, limit, check.unit, check.least}.margin();
 }
 
-/// A quantity of the verdict: `feasible`, `margin`, `margin.ID`, `margin.ID[LIMIT]`.
+/// A quantity that is computed from the verdict: `feasible`, `margin`, `margin.ID`, `margin.ID[LIMIT]`.
 class OfVerdict {
  public:
   static std::optional<OfVerdict> find(const std::string& name) {
@@ -59,7 +59,7 @@ class OfVerdict {
     if (std::ranges::none_of(report::check_kinds(), known)) return {};
     return found;
   }
-  /// Whether it needs more than Loads::judged.
+  /// True if the quantity needs more than Loads::judged.
   [[nodiscard]] bool of_all_loads() const {
     const auto kind = std::ranges::find_if(report::check_kinds(), [&](const report::CheckKind& k) { return check_ == k.id; });
     return limit_ && kind->of_all_loads;
@@ -128,7 +128,8 @@ studies::QuantityOffer quantity_offer() {
   for (const report::SummaryNumber& number : report::summary_numbers()) {
     const std::string name = number.of_joint != nullptr ? report::short_name(number) : "";
     const auto known = [&](const report::Quantity& quantity) { return quantity.name == name; };
-    const bool own = std::ranges::none_of(report::quantities(), known);  // energy.electrical of a joint
+    // False for a name like energy.electrical, which the whole run has too.
+    const bool own = std::ranges::none_of(report::quantities(), known);
     if (!name.empty() && own && report::known_so_far({name, &number, report::Quantity::Of::joint}))
       offer.so_far.push_back(name);
   }
@@ -143,7 +144,7 @@ studies::QuantityOffer quantity_offer() {
 
 namespace {
 
-/// Quantities of a robot, by column; none: of the verdict, or of a joint that it does not have.
+/// Quantity of each column for a robot. Nothing for a column of the verdict, and for a joint that the robot does not have.
 using QuantityColumns = std::vector<std::optional<report::Quantity>>;
 
 QuantityColumns quantity_columns(const std::vector<studies::Quantity>& columns, const Robot& robot) {
@@ -170,7 +171,7 @@ studies::Measure quantity_measure(const std::vector<studies::Quantity>& columns,
   problems.raise();
   std::vector<std::optional<OfVerdict>> of_verdict;
   for (const studies::Quantity& column : columns) of_verdict.push_back(OfVerdict::find(column.name));
-  // Another robot, in another scenario of the study, may have the same joints under other numbers.
+  // The robot of another scenario of the study may have the same joints with other numbers.
   const auto judged = [columns, usual, of_verdict, joints = names_of_joints(*scenario.robot)](const Scenario& of,
                                                                                               const Recording& recording) {
     const QuantityColumns quantities = names_of_joints(*of.robot) == joints ? usual : quantity_columns(columns, *of.robot);

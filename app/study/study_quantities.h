@@ -6,14 +6,14 @@ namespace gaitlab::app {
 
 studies::QuantityOffer quantity_offer();
 
-/// Whether a column of older journals is no longer computed.
+/// True if a journal column of an older program is no longer computed.
 bool is_gone(const std::string& quantity);
 
-/// Whether a quantity has another value without an estimate of the torque error.
+/// True if the value of a quantity depends on the estimate of the torque error.
 bool depends_on_estimate(const std::string& quantity);
 
-/// Function that computes these columns and the verdict's word. Throws InputError for an unknown column (in a journal of
-/// another program).
+/// Function that computes these columns and the verdict of a run. Throws InputError for an unknown column (of a journal that
+/// another program wrote).
 studies::Measure quantity_measure(const std::vector<studies::Quantity>& columns, const Scenario& scenario);
 
 }  // namespace gaitlab::app

@@ -1,4 +1,4 @@
-// Common part of the commands that run studies: the executor of the runs, stopping, continuing an earlier study.
+// Common part of the commands that run studies: execution of the runs, stopping, and continuation of an earlier study.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -12,7 +12,7 @@
 
 namespace gaitlab::app {
 
-/// Arguments of every command that does runs of a study.
+/// Arguments of every command that executes runs of a study.
 struct StudyRunArguments {
   std::optional<std::string> out;
   std::vector<std::string> answers;
@@ -21,44 +21,46 @@ struct StudyRunArguments {
 };
 void add_study_run(CLI::App& command, StudyRunArguments& arguments, const char* folder);
 
-/// Makes the executor of a team from that of this process.
+/// Function that returns an executor for a team of processes.
 using Team =
     std::function<studies::Executor(const studies::Plan& plan, const BatchSettings& settings, studies::Measure measure)>;
-/// Set by a program whose processes cooperate (gaitlab-mpi); empty: this process works alone.
+/// Executor function of a program whose processes cooperate (gaitlab-mpi). Empty if this process works alone.
 Team& team();
 
-/// Executor of a study's runs: every command calls this before it opens the study's folder, which belongs to one process.
-/// Throws InputError if other processes of the team read another study.
+/// Executor of a study's runs. Every command calls this before it opens the study's folder, because only one process may own
+/// the folder. Throws InputError if other processes of the team read another study.
 studies::Executor study_executor(const studies::Plan& plan, const StudyRunArguments& arguments);
 
-/// Head of a journal for the plan and this program.
+/// Head of the journal for this plan and this build of the program.
 studies::JournalHead study_head(const studies::Plan& plan);
 
-/// The journals of --answers. `build`: of this program. Throws InputError if one cannot answer this study.
+/// Journals given by --answers, whose runs are not simulated again. `build` is the build id of this program. Throws InputError
+/// if a journal belongs to a different study.
 std::vector<studies::Answers> other_answers(const studies::Plan& plan, const StudyRunArguments& arguments,
                                             const std::string& build);
 
-/// Prints the runs of the plan and their duration, estimated by timing a few of them.
+/// Prints the number of runs of the plan and their duration, estimated by timing a few of them.
 void print_plan(const studies::Plan& plan, const StudyRunArguments& arguments);
 
-/// Prints old names with the new ones, parameters whose slowest gait does not fit the duration, and limits of parameters that
-/// the scenario refuses.
+/// Prints notes on a plan: old names with their new ones, parameters whose slowest gait does not fit the duration, and limits
+/// of parameters that the scenario refuses.
 void print_notes(const studies::Plan& plan, bool quiet);
 
-/// Builds whose rows are accepted.
+/// Builds of the program whose journal rows are accepted.
 studies::Journal::Build taken_build(const StudyRunArguments& arguments);
 
-/// Raises the budget to the runs in the journal, if it is smaller, with a note on `folder` unless `quiet`.
+/// Raises the budget to the number of runs in the journal if the budget is smaller. Prints a note with the place `folder`
+/// unless `quiet`.
 void keep_runs(studies::Plan& plan, studies::Journal& journal, const std::filesystem::path& folder, bool quiet);
 
-/// Throws InputError if several independent copies of the program, as mpirun starts them, would write one journal, unless they
-/// are a team. `command`: `gaitlab sweep`.
+/// Throws InputError if mpirun or a scheduler started several independent copies of the program, which would write one journal;
+/// processes of a team are allowed. `command` is for example `gaitlab sweep`.
 void refuse_copies(const char* command);
 
-/// Number of threads from -j; 0: one per processor, in a team one.
+/// Number of threads. If `jobs` (option -j) is 0, it is one per processor, or one in a team.
 int study_threads(int jobs);
 
-/// Whether a folder contains the study of this head.
+/// Predicate that is true for a folder with the study of this head.
 std::function<bool(const std::filesystem::path&)> holds_study(const studies::JournalHead& head);
 
 }  // namespace gaitlab::app

@@ -18,7 +18,8 @@ namespace {
 using studies::Estimate;
 using studies::Sensitivity;
 
-/// Parameters by influence, the largest first; equal or unknown ones in the order of the study.
+/// Indices of the parameters in order of influence, the largest first. Parameters with equal or unknown influence stay in the
+/// order of the study.
 std::vector<std::size_t> by_weight(const Sensitivity& s) {
   std::vector<std::size_t> order(s.parameters.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -32,7 +33,7 @@ std::vector<std::size_t> by_weight(const Sensitivity& s) {
 
 bool of_trajectories(const Sensitivity& s) { return s.measures.front().name == "mu_star"; }
 
-/// `12 of 20 trajectories (8 hold points that failed ...)`.
+/// Text on the number of samples that were used, for example `12 of 20 trajectories; left out for 8 points without a value`.
 std::string basis(const Sensitivity& s) {
   std::string text = fmt::format("{} of {} {}", s.used, s.blocks, of_trajectories(s) ? "trajectories" : "samples");
   if (s.unusable > 0) text += fmt::format("; left out for {} without a value", counted(s.unusable, "point"));

@@ -20,7 +20,7 @@ namespace {
 using studies::Journal;
 using studies::JournalHead;
 
-/// A number of the journal, for a table.
+/// Number of the journal with four digits, for a table.
 std::string short_number(const std::string& text) {
   if (text.empty()) return "-";
   double number = 0;
@@ -53,12 +53,12 @@ std::size_t place_in(const std::vector<std::string>& names, const std::string& n
   return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
 }
 
-/// A point in one of the study's scenarios: its first objective there, or the failure of a run.
+/// First objective of a point in one scenario of the study, or the outcome of a failed run.
 std::string in_one_scenario(Journal& journal, const studies::PointResult& point, std::size_t scenario) {
   const JournalHead& head = journal.head();
   const std::vector<std::string> names = journal.columns().all();
   const std::uint64_t runs = point.runs / head.scenarios.size();
-  std::vector<double> bad;  // larger is worse
+  std::vector<double> bad;  // larger values are worse
   for (std::uint64_t r = 0; r < runs; ++r) {
     const std::vector<std::string> row = journal.row(point.first_run + scenario * runs + r);
     if (row.size() != names.size()) return "-";
@@ -73,8 +73,8 @@ std::string in_one_scenario(Journal& journal, const studies::PointResult& point,
   return fmt::format("{:.4g}", head.objectives.front().maximize ? -worse : worse);
 }
 
-/// The word of the verdict on a point: of its first run, which is in the table; with several scenarios of the first run that
-/// fails.
+/// Word of the verdict on a point. It is that of the first run of the point or, with several scenarios, that of the first run
+/// that is infeasible or failed.
 std::string verdict_on(Journal& journal, const studies::PointResult& point, std::size_t place) {
   const std::string first = journal.row(point.first_run)[place];
   for (std::uint64_t r = 0; !journal.head().scenarios.empty() && r < point.runs; ++r) {
@@ -84,7 +84,7 @@ std::string verdict_on(Journal& journal, const studies::PointResult& point, std:
   return first;
 }
 
-/// ` in rubble` for a run of a study with several scenarios.
+/// Text ` in rubble` with the name of the run's scenario, in a study with several scenarios.
 std::string in_which_scenario(const JournalHead& head, std::uint64_t run) {
   if (head.scenarios.empty()) return "";
   const std::uint64_t runs = std::max<std::uint64_t>(1, head.replicates / head.scenarios.size());
@@ -92,7 +92,8 @@ std::string in_which_scenario(const JournalHead& head, std::uint64_t run) {
   return scenario < head.scenarios.size() ? " in " + clipped(head.scenarios[scenario]) : "";
 }
 
-/// `check stops` for `margin.stops >= 0`, `the verdict` for `feasible >= 1`; others unchanged.
+/// Text for a condition: `check stops` for `margin.stops >= 0`, `the verdict` for `feasible >= 1`. Other conditions are not
+/// changed.
 std::string limit_text(const std::string& relation) {
   constexpr std::string_view kMargin = "margin.";
   constexpr std::string_view kKept = " >= 0";
@@ -101,7 +102,7 @@ std::string limit_text(const std::string& relation) {
   return "check " + clipped(relation.substr(kMargin.size(), relation.size() - kMargin.size() - kKept.size()));
 }
 
-/// Sentences after the verdicts of the best points that are not kept, if the best of all is one of them.
+/// Sentences on the best points that are not kept, with the reason.
 std::string rejected_text(Journal& journal, const studies::Results& results) {
   constexpr std::size_t kMost = 3;
   const std::vector<std::size_t> order = studies::ranked(results.points, journal.head().objectives.front().maximize);
@@ -120,7 +121,7 @@ std::string rejected_text(Journal& journal, const studies::Results& results) {
   return text;
 }
 
-/// Torque errors caused by the steps, for the points with an estimate.
+/// Sentences on the torque errors of the runs with an estimate.
 std::string estimated_text(Journal& journal, const studies::Results& results) {
   const studies::Estimated found = studies::estimated(journal);
   if (results.runs == 0) return "";
@@ -164,7 +165,7 @@ std::string file_name(const std::string& figure) {
         (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '_' || c == '-';
     name += plain ? c : '-';
   }
-  constexpr std::size_t kLongest = 100;  // of an expression
+  constexpr std::size_t kLongest = 100;  // longest file name, for quantities that are expressions
   return name.substr(0, kLongest);
 }
 
@@ -357,7 +358,7 @@ void StudyProgress::operator()(const studies::Standing& s) {
   constexpr double kOften = 0.1;  // s between updates, on a terminal
   constexpr double kSeldom = 30;  // s between updates, elsewhere
   const bool first = last_ == Time{};
-  if (first && !terminal_) last_ = now;  // the first line after 30 s
+  if (first && !terminal_) last_ = now;  // the first line is printed after 30 s
   if ((first && !terminal_) || (!first && last.count() < (terminal_ ? kOften : kSeldom))) return;
   last_ = now;
   std::string text = fmt::format("{}/{} runs", s.ended, s.wanted) + place_;

@@ -1,4 +1,4 @@
-// Texts and files of a study, during its runs and at its end.
+// Texts and files of a study, printed and written during its runs and at its end.
 #pragma once
 #include <chrono>
 #include <deque>
@@ -12,39 +12,40 @@
 
 namespace gaitlab::app {
 
-/// `speed` in m/s and so on: the objective, with the unit if it is a single quantity.
+/// First objective with its unit, if it is a single quantity: `speed, m/s`.
 std::string objective_text(const studies::JournalHead& head);
-/// ` m/s`, or nothing.
+/// Unit of the first objective after a space: ` m/s`. Empty if it has none.
 std::string objective_unit(const studies::JournalHead& head);
 
-/// State, best and worst points, failures, and the command that repeats a run. `folder`: as the user would type it. `most`
-/// points at either end.
+/// Summary of a study: counts of runs, best and worst points, failures, and the command that repeats a run. `folder` is the
+/// path as the user would type it. `most` is the number of best points and of worst points.
 std::string study_summary(studies::Journal& journal, const studies::Results& results, const std::filesystem::path& folder,
                           std::size_t most);
 
-/// A table of these points.
+/// A table of the first `most` points in `order`.
 std::string points_table(studies::Journal& journal, const studies::Results& results, const std::vector<std::size_t>& order,
                          std::size_t most);
 
-/// Writes all runs, a line each, in order: the columns of table `run`. The file appears whole or not at all.
+/// Writes all columns of table `run` as CSV, with one line per run, in the order of the runs. The file appears complete or not
+/// at all.
 void write_table(studies::Journal& journal, const std::filesystem::path& file, Existing existing = Existing::replaced);
 
-/// Writes table.csv, and the figures with their data. Returns the names of the files.
+/// Writes table.csv, and the figures with their data. Returns the file names.
 std::vector<std::string> write_study_files(studies::Journal& journal, const studies::Results& results,
                                            const std::filesystem::path& folder);
 
-/// Writes convergence.svg of a search and front.svg of several objectives, each with its data. Returns the names of the
-/// figures.
+/// Writes convergence.svg for a search and front.svg for several objectives, each with a file of its data. Returns the names of
+/// the figures.
 std::vector<std::string> write_search_files(studies::Journal& journal, const studies::Results& results,
                                             const std::filesystem::path& folder);
 
-/// A line below a figure: number of runs, guards, build.
+/// Text below a figure: number of runs, guards, build.
 std::string study_note(const studies::JournalHead& head, std::uint64_t runs);
 
-/// The verified ones among the best points, and the reasons against the others; empty: nothing was verified.
+/// Text with the result of the verification of each best point, and the reasons if it failed. Empty if no point was verified.
 std::string verification_text(studies::Journal& journal);
 
-/// A bar on a terminal, a line every 30 s elsewhere.
+/// Progress of a study: a bar on a terminal, otherwise a line every 30 s.
 class StudyProgress {
  public:
   StudyProgress(bool quiet, std::string unit);
@@ -57,16 +58,16 @@ class StudyProgress {
 
  private:
   using Time = std::chrono::steady_clock::time_point;
-  /// Runs per s over the last minute, 0: not known yet.
+  /// Rate in runs per s over the last minute. 0 if not known yet.
   double rate(Time now, std::uint64_t ended);
 
   bool shown_, terminal_;
   std::string unit_, place_;
-  std::deque<std::pair<Time, std::uint64_t>> minute_;  ///< number of ended runs at these times
+  std::deque<std::pair<Time, std::uint64_t>> minute_;  ///< number of completed runs at these times
   Time last_{};
 };
 
-/// Progress of repeated runs, in a line of a terminal.
+/// Progress of repeated runs, shown as one line on a terminal.
 class AgainProgress {
  public:
   explicit AgainProgress(bool quiet);
@@ -76,13 +77,13 @@ class AgainProgress {
   bool shown_;
 };
 
-/// Cell of a table: in quotes if it contains commas, quotes or line ends.
+/// Text as a cell of a CSV table, in quotes if it contains commas, quotes or line ends.
 std::string csv_cell(const std::string& text);
 
-/// File name from the name of a quantity: letters, digits, `.`, `_` and `-`.
+/// Name of a quantity as a file name: characters other than letters, digits, `.`, `_` and `-` become `-`.
 std::string file_name(const std::string& figure);
 
-/// One argument of a command line, in quotes if a shell needs them.
+/// A word as one argument of a command line, in quotes if the shell requires them.
 std::string shell_word(const std::string& word);
 
 }  // namespace gaitlab::app

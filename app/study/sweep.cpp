@@ -1,4 +1,4 @@
-// Many runs of a scenario: a map of its parameters, in a journal that survives any end of the program.
+// `gaitlab sweep`, which runs a scenario at many points of its parameters. The journal survives any end of the program.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +23,8 @@ using studies::Journal;
 using studies::Plan;
 using studies::Study;
 
-/// Estimates all other points also, if the drawn ones are not accurate. False: stopped.
+/// If the torque errors of the drawn runs are not small enough, repeats all other runs with an estimate. Returns false if the
+/// program was stopped.
 bool estimate_others(const Plan& plan, Journal& journal, const studies::Executor& executor, const SweepArguments& a) {
   const std::vector<std::uint64_t> runs = runs_in_doubt(plan, journal);
   if (runs.empty()) return true;
@@ -38,7 +39,7 @@ bool estimate_others(const Plan& plan, Journal& journal, const studies::Executor
   return estimate_again(plan, journal, runs, executor, AgainProgress(a.quiet), stopped());
 }
 
-/// Runs the points of the shard that the journal lacks, and prints how many other studies answered.
+/// Runs those points of the shard that are not in the journal. Prints the number of runs that were taken from other studies.
 studies::Standing run_points(const Plan& plan, Journal& journal, const studies::Executor& executor,
                              std::vector<studies::Answers>& answers, const studies::Shard& shard, const SweepArguments& a) {
   std::uint64_t answered = 0;
@@ -58,7 +59,7 @@ studies::Standing run_points(const Plan& plan, Journal& journal, const studies::
   return standing;
 }
 
-/// Writes and prints the results of a whole sweep.
+/// Writes and prints the results of a complete sweep.
 void write_results(Journal& journal, const fs::path& folder, bool quiet) {
   const studies::Results results = studies::results(journal);
   const std::vector<std::string> files = write_study_files(journal, results, folder);
@@ -80,12 +81,12 @@ int sweep_study(const SweepArguments& a) {
     print_plan(plan, a);
     return 0;
   }
-  // Before the folder is locked, which belongs to one process.
+  // The executor is made before the folder is locked, because only one process may lock the folder.
   const studies::Executor executor = study_executor(plan, a);
-  print_notes(plan, a.quiet);  // only one process of a team reaches this
+  print_notes(plan, a.quiet);  // only one process of a team reaches this line
   studies::JournalHead head = study_head(plan);
   std::vector<studies::Answers> answers = other_answers(plan, a, head.build);
-  const StopOnSignal stop(StopOnSignal::Second::ends_the_process);  // before the folder is created
+  const StopOnSignal stop(StopOnSignal::Second::ends_the_process);  // installed before the folder is created
   const fs::path folder = studies::study_folder(a.out, "sweep-" + plan.study().name, holds_study(head));
   head.command = goes_on(a, folder);
   const fs::path file = journal_file(folder, shard);
@@ -93,7 +94,8 @@ int sweep_study(const SweepArguments& a) {
   if (!shard.whole()) fs::create_directory(folder / "shards", none);
   fs::path lock_file = file;
   const studies::Lock lock(shard.whole() ? folder / "lock" : lock_file.replace_extension("lock"));
-  const bool begins = !fs::exists(file, none);  // a plugin that crashes in the scenario's gait ends only the first start
+  // The trial run is made only at the first start, so that a plugin that crashes in it does not prevent a continuation.
+  const bool begins = !fs::exists(file, none);
   Journal journal(file, head, taken_build(a));
   keep_runs(plan, journal, folder, a.quiet);
   if (begins && shard.index == 0) print_own_gait(plan, a.quiet);

@@ -28,7 +28,7 @@ void refuse_beside_a_study(const SweepArguments& a, Problems& problems) {
   refuse(a.seed.has_value(), "--seed", "seed: N");
 }
 
-/// The study that the options describe.
+/// Study that the options of the command line describe.
 Study typed_study(const SweepArguments& a, Problems& problems) {
   Study study;
   study.scenario = a.file;
@@ -95,7 +95,7 @@ Study wanted_study(const SweepArguments& a) {
 
 namespace {
 
-/// A variable that Slurm sets in an array; `otherwise`: default, if it may be missing.
+/// Value of an environment variable that Slurm sets in a job array. `otherwise` is the default if the variable may be missing.
 std::uint64_t array_number(const char* name, Problems& problems, std::optional<std::uint64_t> otherwise = {}) {
   const char* text = std::getenv(name);
   if (text == nullptr && otherwise) return *otherwise;
@@ -107,8 +107,8 @@ std::uint64_t array_number(const char* name, Problems& problems, std::optional<s
   return whole ? std::strtoull(text, nullptr, 10) : 0;
 }
 
-/// Shard of a Slurm array's task. If the folder already has shards of another count, tasks are numbered as these, because some
-/// of them are run again.
+/// Shard of a task of a Slurm job array. If the folder contains shards of another count, the array repeats some of them, and
+/// the task number is the number of the shard.
 studies::Shard array_shard(const std::optional<std::string>& out, Problems& problems) {
   const std::uint64_t id = array_number("SLURM_ARRAY_TASK_ID", problems);
   const std::uint64_t first = array_number("SLURM_ARRAY_TASK_MIN", problems);

@@ -1,4 +1,4 @@
-// The command line of `gaitlab sweep`, and the study that it describes.
+// Arguments of `gaitlab sweep`, and the study that they describe.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -18,11 +18,12 @@ struct SweepArguments : ScenarioArguments, StudyRunArguments {
   bool dry_run = false;
 };
 
-/// The study: from its file, or from the options (then without a name). Throws InputError with every problem found.
+/// The study that the arguments describe: read from its file, or built from the options and then without a name. Throws
+/// InputError with every problem found.
 studies::Study wanted_study(const SweepArguments& arguments);
-/// Shard of the study for this process. Throws InputError.
+/// Shard of the study that this process simulates. Throws InputError for a bad --shard.
 studies::Shard wanted_shard(const SweepArguments& arguments);
-/// Command that continues the study in a folder.
+/// Command line that continues the study in a folder.
 std::string goes_on(const SweepArguments& arguments, const std::filesystem::path& folder);
 
 }  // namespace gaitlab::app

@@ -1,4 +1,4 @@
-// Tree of bodies, each attached to its parent by a hinge or by the dock of its module. Docked bodies are not fused here.
+// Tree of bodies, each attached to its parent by a hinge or by the dock of its module; docked bodies are not fused in it.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -10,8 +10,8 @@ namespace gaitlab {
 
 struct Attachment {
   enum class Kind { base, hinge, dock } kind = Kind::base;
-  std::size_t parent = 0;      ///< body; the base body is its own parent
-  std::size_t index = 0;       ///< joint, or the docked (child's) module
+  std::size_t parent = 0;      ///< index of the parent body; the base body is its own parent
+  std::size_t index = 0;       ///< index of the joint (hinge), or of the child module (dock)
   Vec3 origin = Vec3::Zero();  ///< origin of the hinge or of the docked faces, m, frame of the body's link
 };
 
@@ -21,7 +21,7 @@ struct BodyTree {
   std::vector<std::size_t> order;       ///< all bodies, a parent before its children
 };
 
-/// `m3/dock`: a module's dock on its parent. No hinge is called dock (core/robot_files/module_file).
+/// Name of the dock of a module on its parent, `m3/dock`. No hinge may be called dock (core/robot_files/module_file).
 std::string dock_name(std::size_t module);
 
 }  // namespace gaitlab

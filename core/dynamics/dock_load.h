@@ -1,4 +1,4 @@
-// Load of a dock, normal to its faces and along them.
+// Load of a dock, with components normal to the docked faces and in their plane.
 #pragma once
 #include <cmath>
 
@@ -11,12 +11,12 @@ namespace gaitlab {
 struct DockLoad {
   double tension = 0;  ///< N, positive: pulls the modules apart
   double shear = 0;    ///< N, in the plane of the faces
-  double bending = 0;  ///< N m, about an axis in that plane
-  double torsion = 0;  ///< N m, of the parent on the child, right-hand about the parent face's outward normal
+  double bending = 0;  ///< N m, about an axis in the plane of the faces
+  double torsion = 0;  ///< N m, of the parent on the child, right-hand about the outward normal of the parent face
 };
 
-/// on_child: wrench of the parent on the child (InverseDynamics::dock); normal: of the parent's face, outward, unit vector;
-/// both in the same axes.
+/// Load of a dock. `on_child` is the wrench of the parent on the child (InverseDynamics::dock). `normal` is the outward unit
+/// normal of the face of the parent, in the same axes as the wrench.
 inline DockLoad dock_load(const Wrench& on_child, const Vec3& normal) {
   const auto across = [&](const Vec3& v) { return std::sqrt((v - v.dot(normal) * normal).squaredNorm()); };
   return {-on_child.force.dot(normal), across(on_child.force), across(on_child.moment), on_child.moment.dot(normal)};

@@ -1,4 +1,4 @@
-// The generalised inertia of a robot, by the composite-rigid-body algorithm.
+// Generalised inertia of a robot, by the composite-rigid-body algorithm.
 #pragma once
 #include <Eigen/Core>
 #include <span>
@@ -9,13 +9,15 @@
 
 namespace gaitlab {
 
-/// Entries of (velocity of the base frame's origin x y z, angular velocity x y z; world axes) in which the base can move: all,
-/// none, or x, z and the turn about y. They precede the joints in every generalised vector.
+/// Indices of the base entries in which the base can move: all six, none, or x, z and the rotation about y. The six entries are
+/// the velocity x y z of the origin of the base frame and the angular velocity x y z, world axes. They precede the joints in
+/// every generalised vector.
 std::span<const std::size_t> base_entries(Base base);
 
-/// M(q) with M v' + c = f, v = (base entries, joint speeds), kg, kg m, kg m^2; symmetric, positive definite if every joint
-/// carries some inertia. Featherstone, Rigid Body Dynamics Algorithms (2008), 6.2, in world axes about the origin of the base
-/// frame, where composite inertias are added unchanged. Cost O(links * depth); update does not allocate.
+/// Mass matrix M(q) in M v' + c = f, with v = (base entries, joint speeds); units kg, kg m, kg m^2. The matrix is symmetric,
+/// and positive definite if every joint carries some inertia. The algorithm is from Featherstone, Rigid Body Dynamics
+/// Algorithms (2008), 6.2, in world axes about the origin of the base frame, in which composite inertias are added unchanged.
+/// The cost is O(links * depth). update() does not allocate.
 class MassMatrix {
  public:
   MassMatrix(const Robot& robot, Base base);
@@ -23,7 +25,7 @@ class MassMatrix {
   [[nodiscard]] const Eigen::MatrixXd& matrix() const { return matrix_; }
 
  private:
-  /// Inertia of a link with all links beyond it, about the origin of the base frame, world axes.
+  /// Inertia of a link and all links beyond it, about the origin of the base frame, world axes.
   struct Composite {
     double mass = 0;
     Vec3 first = Vec3::Zero();   ///< mass times COM, kg m
@@ -39,8 +41,8 @@ class MassMatrix {
   Eigen::MatrixXd matrix_;
 };
 
-/// Generalised force of an inverse dynamics, (base entries of the base wrench, joint torques): the f of a motion or, at zero
-/// accelerations, the bias c: centrifugal and Coriolis terms, weight and external wrenches.
+/// Generalised force of an inverse dynamics: base entries of the base wrench, then joint torques. For a motion, it is f. At
+/// zero accelerations it is the bias c: centrifugal and Coriolis terms, weight and external wrenches.
 Eigen::VectorXd generalised_force(const InverseDynamics& dynamics, Base base);
 
 }  // namespace gaitlab

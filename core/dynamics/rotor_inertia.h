@@ -1,4 +1,4 @@
-// Reflected rotor inertias, for a dynamics algorithm without them.
+// Reflected rotor inertias, added to the results of a dynamics algorithm that lacks them.
 #pragma once
 #include <Eigen/Cholesky>
 
@@ -7,19 +7,19 @@
 
 namespace gaitlab {
 
-/// Rotors behind gears add n^2 J to the diagonal of the mass matrix (their gyroscopic moments and the motion of their axes are
-/// neglected, as usual for n >> 1): (M + J) a = f. From a_0 = M^-1 f, by any algorithm,
+/// Rotors behind gears add n^2 J to the diagonal of the mass matrix: (M + J) a = f. Their gyroscopic moments and the motion of
+/// their axes are neglected, as usual for n >> 1. Accelerations a_0 = M^-1 f, computed by any algorithm, are corrected to
 ///     a = a_0 - (M + J)^-1 J a_0
 /// by a Cholesky factor of M + J, which is positive definite even if joints carry no inertia. Each update costs O((6 +
-/// joints)^3); only the constructor allocates.
+/// joints)^3). Only the constructor allocates.
 class RotorInertia {
  public:
-  /// `inertia`: n^2 J per joint, kg m^2.
+  /// `inertia` is n^2 J per joint, kg m^2.
   RotorInertia(const Robot& robot, Base base, In inertia);
   void update(const Kinematics& kinematics);
-  /// a_0 in, a out.
+  /// Replaces a_0 by a.
   void add_to(Acceleration& acceleration);
-  /// y = (M + J)^-1 f; 6 base entries (0 where the base cannot move), then the joints.
+  /// Computes y = (M + J)^-1 f. Both vectors have 6 base entries (in y 0 if the base cannot move), then the joints.
   void inverse_mass(In f, Out y);
 
  private:

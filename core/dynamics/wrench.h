@@ -6,7 +6,7 @@
 
 namespace gaitlab {
 
-/// Force and moment about a point that its holder defines.
+/// Force and moment about a point. The owner of the wrench defines the point.
 struct Wrench {
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
 };

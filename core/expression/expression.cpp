@@ -29,7 +29,7 @@ class Lexer {
  public:
   Lexer(std::string_view text, Names names) : text_(text), names_(names) {}
 
-  /// The text up to a `]`, without blanks at both ends; the position moves past the `]`.
+  /// The text up to the next `]`, without blanks at both ends. The position advances past the `]`.
   Token bracketed() {
     const std::size_t end = text_.find(']', at_);
     if (end == std::string_view::npos) throw Fault{text_.size(), "found the end of the text; expected ']'"};
@@ -69,13 +69,13 @@ class Lexer {
       const bool sign = end + 1 < text_.size() && (text_[end + 1] == '+' || text_[end + 1] == '-');
       const std::size_t exponent = end + (sign ? 2 : 1);
       if (digits(exponent) > exponent)
-        end = digits(exponent);  // else a name follows the number directly, which is refused next
+        end = digits(exponent);  // otherwise a name follows the number directly, which is refused later
     }
     at_ = end;
     Token token{Token::Kind::number, begin, text_.substr(begin, end - begin)};
     const auto [last, failure] = std::from_chars(token.text.data(), token.text.data() + token.text.size(), token.number);
     const bool zero = token.text.find_first_of("123456789") >= std::min(token.text.find_first_of("eE"), token.text.size());
-    // Overflow and underflow are checked here: whether from_chars reports an underflow differs between library versions.
+    // Overflow and underflow are checked here, because versions of from_chars differ in their report of an underflow.
     if (failure != std::errc() || !std::isfinite(token.number) || (token.number == 0 && !zero)) {
       throw Fault{begin, "found " + quoted(token.text) + "; expected a number that fits a double"};
     }
@@ -108,7 +108,8 @@ class Lexer {
     if (at_ > begin) return {Token::Kind::sign, begin, text_.substr(begin, at_ - begin)};
     if (text_[begin] == '=') throw Fault{begin, "found '='; compare with '=='"};
     do ++at_;
-    while (at_ < text_.size() && (static_cast<unsigned char>(text_[at_]) & 0xC0U) == 0x80);  // the rest of a UTF-8 character
+    // Remaining bytes of a UTF-8 character.
+    while (at_ < text_.size() && (static_cast<unsigned char>(text_[at_]) & 0xC0U) == 0x80);
     throw Fault{begin, "found " + quoted(text_.substr(begin, at_ - begin)) + ", which has no meaning here"};
   }
 
@@ -128,7 +129,7 @@ class Parser {
   }
 
  private:
-  /// One level of nesting, during its lifetime.
+  /// Counts one level of nesting during the lifetime of this object.
   class Level {
    public:
     explicit Level(Parser& parser) : parser_(parser) {
@@ -173,7 +174,7 @@ class Parser {
     return term;
   }
 
-  /// A chain of operators of one precedence, from the left.
+  /// Parses a chain of operators of equal precedence, which associate from the left.
   template <class Operand>
   Term chain(std::initializer_list<std::string_view> signs, Operand operand) {
     Term left = operand();

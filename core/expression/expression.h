@@ -1,4 +1,4 @@
-// The grammar of expressions, in the equations of a CPG and in a study: a text to a tree. The parser does not interpret names.
+// Parser of expressions, in the equations of a CPG and in a study: it turns a text into a tree, without interpreting names.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -6,17 +6,17 @@
 
 namespace gaitlab::expression {
 
-/// A node of the tree. An operator is a call with its sign as the name ("+" ... "!=", "and", "or", "not", "^", and "~" for a
-/// minus before its operand).
+/// A node of the tree. An operator is a call whose name is its sign: "+" ... "!=", "and", "or", "not", "^", and "~" for a minus
+/// before its operand.
 struct Term {
   enum class Kind { number, name, call, sum } kind = Kind::number;
   enum class Index { none, i, j, ij };
-  std::size_t offset = 0;  ///< in the text, bytes
-  std::string name = {};   ///< name, call
+  std::size_t offset = 0;  ///< position in the text, bytes
+  std::string name = {};   ///< name of a value, function or operator
   Index index = Index::none;
-  std::string joint = {};  ///< Names::figures: text within [ ]; empty: no brackets
+  std::string joint = {};  ///< for Names::figures: text within [ ]; empty without brackets
   double number = 0;
-  std::vector<Term> arguments = {};  ///< of a call; of a sum: the summed term
+  std::vector<Term> arguments = {};  ///< arguments of a call, or the summed term of a sum
 };
 
 /// Error in a text, with its position.
@@ -31,11 +31,11 @@ inline constexpr std::size_t kMostLevels = 64;  ///< nesting depth of brackets, 
 
 /// Syntax of names.
 enum class Names {
-  joints,  ///< `phi[i]`, `w[i,j]`: values per joint, and sums over neighbours
-  figures  ///< `torque.peak[m3/active]`: dots within, and the name of a joint
+  joints,  ///< `phi[i]`, `w[i,j]`: values per joint, with sums over neighbours
+  figures  ///< `torque.peak[m3/active]`: names with dots, and the name of a joint in brackets
 };
 
-/// Parses a whole text into a tree. Throws Fault.
+/// Parses a whole text into a tree. Throws Fault for an invalid text.
 ///
 ///     expression := conjunction { "or" conjunction }
 ///     conjunction := negation { "and" negation }
@@ -45,10 +45,10 @@ enum class Names {
 ///     product := factor { ("*" | "/") factor }
 ///     factor := ("-" | "+") factor | primary [ "^" factor ]
 ///     primary := NUMBER | name | NAME "(" expression { "," expression } ")" | "(" expression ")"
-/// and with Names::joints
+/// Names::joints adds the rules
 ///     name := NAME [ "[" ("i" | "j" | "i" "," "j") "]" ]
 ///     primary := "sum" "(" "j" "in" "neighbours" "," expression ")"
-/// or with Names::figures
+/// and Names::figures the rule
 ///     name := NAME { "." NAME } [ "[" JOINT "]" ]
 Term parse(const std::string& text, Names names = Names::joints);
 

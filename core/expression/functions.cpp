@@ -18,7 +18,7 @@ constexpr Function kFunctions[] = {{"~", 1, Op::neg},   {"not", 1, Op::no},    {
                                    {"cos", 1, Op::cos}, {"tan", 1, Op::tan},   {"tanh", 1, Op::tanh},   {"exp", 1, Op::exp},
                                    {"log", 1, Op::log}, {"sqrt", 1, Op::sqrt}, {"abs", 1, Op::abs},     {"sign", 1, Op::sign},
                                    {"min", 2, Op::min}, {"max", 2, Op::max},   {"clamp", 3, Op::clamp}, {"if", 3, Op::choose}};
-constexpr std::size_t kOperators = 15;  // operators of the grammar: not written as calls
+constexpr std::size_t kOperators = 15;  // number of operators of the grammar, which are not written as calls
 
 template <class F>
 void each(std::size_t n, double* out, const double* a, F f) {
@@ -32,7 +32,7 @@ void each(std::size_t n, double* out, const double* a, const double* b, F f) {
 
 double truth(bool value) { return value ? 1 : 0; }
 
-// min, max and sign of NaN are NaN, so that a model that has diverged does not look finite.
+// The results of min, max and sign for NaN are NaN, so that a diverged model does not seem finite.
 double smaller(double x, double y) { return y < x || std::isnan(y) ? y : x; }
 double larger(double x, double y) { return y > x || std::isnan(y) ? y : x; }
 double sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : x; }

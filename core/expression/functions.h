@@ -1,4 +1,4 @@
-// Operators and functions of expressions, over many values at once.
+// Operators and functions of expressions, applied to many values at once.
 #pragma once
 #include <cstddef>
 #include <span>
@@ -6,7 +6,7 @@
 
 namespace gaitlab::expression {
 
-/// A function or operator by its name in the tree.
+/// A function or operator, with its name in the tree.
 struct Function {
   enum class Op {
     neg,
@@ -42,13 +42,13 @@ struct Function {
   std::size_t arguments;
   Op op;
 };
-/// nullptr: unknown name.
+/// Function or operator with this name, or null if the name is unknown.
 const Function* find_function(const std::string& name);
-/// Functions that are written as calls: without the operators.
+/// Functions that are written as calls, without operators.
 std::span<const Function> functions();
 
-/// out[k] = op(a[k], b[k], c[k]) for k < n; operands that the function does not have are not read. Comparisons give 1 or 0, and
-/// any number other than 0 is true.
+/// Computes out[k] = op(a[k], b[k], c[k]) for k < n. Operands that the function lacks are not read. Comparisons give 1 or 0.
+/// Any number other than 0 counts as true.
 void calculate(Function::Op op, std::size_t n, double* out, const double* a, const double* b, const double* c);
 
 }  // namespace gaitlab::expression

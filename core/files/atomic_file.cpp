@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kReadPiece = std::size_t{1} << 20;  // bytes; keeps the number of system calls small
 
-// Returns 0 or errno; an interruption by a signal is not a failure.
+// Syncs a file. Returns 0 or errno. An interruption by a signal is not a failure.
 int sync(int descriptor) {
   while (::fsync(descriptor) != 0) {
     if (errno != EINTR) return errno;
@@ -29,17 +29,17 @@ int sync(int descriptor) {
   return 0;
 }
 
-// Makes a rename in `folder` survive a power cut.
+// Syncs a folder, so that a rename in it survives a power cut. Returns 0 or errno.
 int sync_folder(const std::filesystem::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return errno;
   int error = sync(descriptor);
-  if (error == EINVAL || error == ENOTSUP) error = 0;  // errors of file systems that cannot sync a folder
+  if (error == EINVAL || error == ENOTSUP) error = 0;  // file systems that cannot sync a folder give these errors
   if (::close(descriptor) != 0 && error == 0 && errno != EINTR) error = errno;
   return error;
 }
 
-/// Whether a link leads through /proc to an open file, such as /dev/stdout, of any kind.
+/// True if a link leads through /proc to an open file of any kind, as does /dev/stdout.
 bool names_what_is_open(std::filesystem::path path) {
   constexpr int kMostLinks = 40;  // the limit of Linux
   constexpr long kProc = 0x9FA0;
@@ -67,7 +67,7 @@ class Regular {
   }
   [[nodiscard]] std::uintmax_t size() const { return size_; }
 
-  /// Reads at most `most` bytes, also of a file that has grown.
+  /// Reads at most `most` bytes, even if the file has grown.
   [[nodiscard]] std::string read(std::uintmax_t most) const {
     std::string text;
     while (text.size() < most) {
@@ -84,7 +84,7 @@ class Regular {
   }
 
  private:
-  /// Member that closes the file even if the constructor throws.
+  /// Member that closes the file, even if the constructor throws.
   struct Open {
     int descriptor;
     explicit Open(int from) : descriptor(from) {}
@@ -118,7 +118,7 @@ AtomicFile::AtomicFile(std::filesystem::path path, Existing existing) : path_(st
   stream_ ? open_stream() : open_part();
 }
 
-/// O_NONBLOCK: a FIFO without a reader is an error, not a wait.
+/// With O_NONBLOCK, a FIFO without a reader is an error instead of a wait.
 void AtomicFile::open_stream() {
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor_ < 0 && errno == ENXIO) fail("nobody reads this FIFO");
@@ -128,7 +128,7 @@ void AtomicFile::open_stream() {
 
 void AtomicFile::open_part() {
   constexpr int kPatience = 100;      // number of names tried
-  constexpr std::size_t kName = 200;  // bytes of the name, so that the suffix fits also
+  constexpr std::size_t kName = 200;  // most bytes of the name, so that the suffix fits as well
   for (int k = 0; descriptor_ < 0; ++k) {
     std::uint64_t random = 0;
     if (::getrandom(&random, sizeof random, 0) < 0) fail(errno);
@@ -155,7 +155,7 @@ void AtomicFile::write(std::string_view bytes) {
 void AtomicFile::commit() {
   int error = stream_ ? 0 : sync(descriptor_);
   if (error != 0) fail(error);
-  // On Linux the descriptor is closed even if close fails; EINTR does not concern the data, which is synced.
+  // On Linux, close() closes the descriptor even if it fails. EINTR does not affect the data, which are already synced.
   if (::close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR) fail(errno);
   if (stream_) return;
   if ((error = give_name()) != 0) fail(error);
@@ -164,7 +164,7 @@ void AtomicFile::commit() {
   if ((error = sync_folder(folder.empty() ? "." : folder)) != 0) fail(error);
 }
 
-/// Returns 0 or errno.
+/// Renames the part file to the final name. Returns 0 or errno.
 int AtomicFile::give_name() {
   if (existing_ == Existing::refused) return rename_new(part_, path_);
   return ::rename(part_.c_str(), path_.c_str()) == 0 ? 0 : errno;
@@ -191,7 +191,7 @@ void AtomicFile::discard() {
 int rename_new(const std::filesystem::path& from, const std::filesystem::path& to) {
   if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
   if (errno != EINVAL && errno != ENOSYS && errno != ENOTSUP) return errno;
-  // The file system has no such rename: an empty file or folder reserves the name and is then replaced.
+  // The file system lacks this kind of rename. An empty file or folder therefore reserves the name and is then replaced.
   if (std::filesystem::is_directory(from)) {
     if (::mkdir(to.c_str(), 0777) != 0) return errno;
   } else {

@@ -1,4 +1,4 @@
-// A file that appears whole or not at all, and is read whole.
+// Files that are written completely or not at all, and read completely.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -7,17 +7,20 @@
 
 namespace gaitlab {
 
-/// Treatment of an existing file of the same name.
+/// Treatment of an existing file with the same name.
 enum class Existing { replaced, refused };
 
-/// Writes to a separate file beside PATH, `.NAME.XXXXXXXX.part`, which only this process has open, and renames it at commit():
-/// write, fsync, close, rename, fsync of the folder, every return value checked. Without commit, or after a failure, the
-/// destructor removes that file and PATH is unchanged; only kill -9 leaves the file. If several writers have one path, the last
-/// one's bytes remain, whole; with Existing::refused the first one's, and the others throw. A device or a FIFO, also behind a
-/// link (/dev/stdout), is written into and never replaced; a FIFO needs a reader. Any other link is refused: in a folder that
-/// others may write to it could lead anywhere. Every failure is a RunError `PATH: cannot be written: REASON`, except an
-/// existing name that is refused: InputError. Exceeding a file size limit (RLIMIT_FSIZE) is such a failure only in a program
-/// that ignores SIGXFSZ: the signal's default ends the process.
+/// Writer of a file PATH. Its bytes are written to a separate file `.NAME.XXXXXXXX.part` in the folder of PATH, which commit()
+/// renames. The steps are write, fsync, close, rename, fsync of the folder, with every return value checked.
+/// - Without commit(), or after a failure, the destructor removes the part file, and PATH is unchanged. Only kill -9 leaves the
+///   part file.
+/// - If several writers have the same path, the complete bytes of the last writer remain. With Existing::refused those of the
+///   first writer remain, and all other writers throw.
+/// - A device or a FIFO, also behind a link (/dev/stdout), is written into and never replaced. A FIFO needs a reader.
+/// - Any other link is refused, because in a folder that others may write to, the link could lead anywhere.
+/// Every failure is a RunError `PATH: cannot be written: REASON`, except that an existing name that is refused is an
+/// InputError. An excess of the file size limit (RLIMIT_FSIZE) is such a failure only in a program that ignores SIGXFSZ,
+/// because this signal ends the process by default.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path, Existing existing = Existing::replaced);
@@ -25,9 +28,9 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Appends; unbuffered, so pass large pieces.
+  /// Appends bytes without a buffer, so that large pieces are efficient.
   void write(std::string_view bytes);
-  /// Call once, after the last write.
+  /// Completes the file. Call this once, after the last write.
   void commit();
 
  private:
@@ -41,18 +44,19 @@ class AtomicFile {
   std::filesystem::path path_, part_;
   Existing existing_;
   int descriptor_ = -1;
-  bool stream_ = false;   // path_ itself is open
-  bool pending_ = false;  // part_ exists and has to be removed
+  bool stream_ = false;   // true if path_ is open for writing, as a device or FIFO
+  bool pending_ = false;  // true if part_ exists and must be removed
 };
 
-/// Writes the file `path` with the content `bytes`; RunError without a change.
+/// Writes the file `path` with the content `bytes`. Throws RunError and leaves the file unchanged if it cannot be written.
 void write_file(const std::filesystem::path& path, std::string_view bytes, Existing existing = Existing::replaced);
 
-/// Renames a file or a folder to an unused name. Returns 0 or errno, mostly EEXIST.
+/// Renames a file or folder to an unused name. Returns 0 or errno, which is EEXIST if the name is used.
 int rename_new(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Type of the file, links followed; not_found for a missing file (and for a link to one). Throws InputError `PATH: error:
-/// cannot be read: REASON` if the type cannot be determined: no permission, a loop of links, too long a name.
+/// Type of a file after links are followed. The type is not_found for a missing file, and for a link to a missing file. Throws
+/// InputError `PATH: error: cannot be read: REASON` if the type cannot be determined, because of permissions, a loop of links
+/// or a too long name.
 std::filesystem::file_type kind_of(const std::filesystem::path& path);
 
 // Upper limits of the sizes of files by kind, bytes.
@@ -61,12 +65,12 @@ inline constexpr std::uintmax_t kMostJson = std::uintmax_t{1} << 24;      ///< s
 inline constexpr std::uintmax_t kMostPage = std::uintmax_t{1} << 28;      ///< pages, figures, plugins
 inline constexpr std::uintmax_t kMostTrace = std::uintmax_t{1} << 34;     ///< traces; their header states their size
 
-/// All bytes of a regular file; opening never blocks. Throws InputError `PATH: error: cannot be read: REASON`, also if it is a
-/// device, a FIFO or a folder, or has more than `most` bytes, and then reads nothing.
+/// All bytes of a regular file. Opening never blocks. Throws InputError `PATH: error: cannot be read: REASON` for a device, a
+/// FIFO, a folder, or more than `most` bytes, without reading anything.
 std::string read_file(const std::filesystem::path& path, std::uintmax_t most);
-/// Its first bytes, at most `bytes`, of a file of any size.
+/// The first bytes, at most `bytes`, of a regular file of any size. Throws InputError as read_file().
 std::string read_start(const std::filesystem::path& path, std::size_t bytes);
-/// Size in bytes. InputError as above.
+/// Size of a regular file in bytes. Throws InputError as read_file().
 std::uintmax_t size_of(const std::filesystem::path& path);
 
 }  // namespace gaitlab

@@ -1,4 +1,4 @@
-// Child processes, for work that may crash.
+// Start of child processes for work that may crash.
 #pragma once
 #include <sys/types.h>
 
@@ -6,8 +6,8 @@
 
 namespace gaitlab {
 
-/// Forks a process that ends with the return value of `work` as its code, and does not outlive the thread that began it. It
-/// inherits the three standard streams only; with other files a lock of a killed process would persist in its child. Exceptions
+/// Forks a process whose exit code is the return value of `work`. The process ends with the thread that began it. It inherits
+/// only the three standard streams; with other open files, a lock of a killed process would persist in its child. Exceptions
 /// must not leave `work`. Returns -1, with the reason in errno, if no process can be created.
 pid_t begin_child(const std::function<int()>& work);
 

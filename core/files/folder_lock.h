@@ -1,24 +1,24 @@
-// Lock of a folder, so that one process at a time writes to it.
+// Lock of a folder, so that only one process at a time writes to it.
 #pragma once
 #include <filesystem>
 
 namespace gaitlab {
 
-/// Locks an open file or folder by flock(2), without waiting, until it is closed. False: another process holds the lock. On a
-/// file system without locks it prints a note on stderr that names `folder`, once, and returns true.
+/// Locks an open file or folder by flock(2) until it is closed. Does not wait: returns false if another process has the lock.
+/// On a file system without locks, prints one note on stderr with the name of `folder`, and returns true.
 [[nodiscard]] bool take_lock(int descriptor, const std::filesystem::path& folder);
 
-/// Holds the lock of a folder during its lifetime: flock(2) of the folder itself, which leaves no file and ends with the
-/// process.
+/// Keeps a folder locked during the lifetime of this object, by flock(2) of the folder. The lock leaves no file and ends with
+/// the process.
 class FolderLock {
  public:
-  /// Not locked until take().
+  /// Makes an object without a lock; take() locks a folder.
   FolderLock() = default;
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
-  /// False: another process holds the lock. File systems without locks: see take_lock().
+  /// Locks a folder. Returns false if another process has the lock. take_lock() describes file systems without locks.
   [[nodiscard]] bool take(const std::filesystem::path& folder);
 
  private:

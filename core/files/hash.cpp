@@ -12,7 +12,8 @@ constexpr std::uint64_t kPrime = 1099511628211ULL;
 
 std::uint64_t absorbed(std::uint64_t state, std::uint64_t word) {
   state = (state ^ word) * kPrime;
-  return state ^ state >> 32U;  // without this a flip of the highest bit is not spread, and two of them cancel
+  // Without this shift, a change of the highest bit would not spread, and two such changes would cancel.
+  return state ^ state >> 32U;
 }
 
 }  // namespace
@@ -31,7 +32,8 @@ void WordHash::add_length(std::size_t bytes) { state_ = absorbed(state_, bytes);
 
 void WordHash::add_words(std::string_view bytes) {
   constexpr std::size_t kWord = sizeof(std::uint64_t);
-  std::uint64_t state = state_;  // kept in a register: the bytes may alias any object, also this one
+  // A copy that the compiler can keep in a register, because `bytes` may alias any object, also this one.
+  std::uint64_t state = state_;
   const auto absorb = [&](const char* from, std::size_t size) {
     std::uint64_t word = 0;
     std::memcpy(&word, from, size);

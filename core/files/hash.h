@@ -1,4 +1,4 @@
-// Hashes of bytes, against accidental changes, not against attacks.
+// Hashes of bytes, for protection against accidental changes, not against attacks.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -7,26 +7,27 @@
 namespace gaitlab {
 
 inline constexpr std::uint64_t kFnvOffset = 14695981039346656037ULL;
-/// FNV-1a, 64 bit (Fowler, Noll, Vo), continued from `state`.
+/// FNV-1a hash with 64 bits (Fowler, Noll, Vo), continued from `state`.
 std::uint64_t fnv1a(std::string_view bytes, std::uint64_t state = kFnvOffset);
 
-/// FNV-1a (64 bit) of the bytes. 16 hex digits.
+/// FNV-1a hash of the bytes with 64 bits, as 16 hex digits.
 std::string hash(std::string_view bytes);
 
-/// FNV-1a, 128 bit. 32 hex digits: names of contents that must not meet by chance.
+/// FNV-1a hash with 128 bits, as 32 hex digits. It serves as a name of the content, because equal hashes of different contents
+/// are improbable.
 std::string hash128(std::string_view bytes);
 
-/// Eight bytes at a time and so several times as fast: h = (h ^ word) * prime, h ^= h >> 32, words little-endian; prime and
-/// start are those of FNV-1a (64 bit).
+/// Hash of eight bytes at a time, several times as fast as FNV-1a: h = (h ^ word) * prime, h ^= h >> 32, with little-endian
+/// words. Prime and start value are those of FNV-1a (64 bit).
 class WordHash {
  public:
-  /// Adds the length of `bytes`, then their words, the last one filled up with zeros.
+  /// Adds the length of `bytes`, then their words. The last word is padded with zeros.
   void add(std::string_view bytes);
-  /// The same in parts: first the length of all, then each part, of which only the last may be other than a multiple of 8
-  /// bytes.
+  /// The same in parts: the length of all parts, then each part. Only the last part may have a length that is not a multiple of
+  /// 8 bytes.
   void add_length(std::size_t bytes);
   void add_words(std::string_view bytes);
-  /// 16 hex digits.
+  /// The hash as 16 hex digits.
   [[nodiscard]] std::string text() const;
 
  private:

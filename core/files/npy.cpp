@@ -18,7 +18,7 @@ constexpr const char* kAsked = "expected a matrix of float32, float64 or integer
 
 [[noreturn]] void refuse_npy(const std::string& found) { throw TableError(fmt::format("{}; {}", found, kAsked)); }
 
-/// The text with printable characters only, shortened.
+/// The printable characters of a text, shortened.
 std::string printable(std::string_view text) {
   constexpr std::size_t kMost = 24;
   std::string all;
@@ -27,12 +27,12 @@ std::string printable(std::string_view text) {
 }
 
 struct NpyHeader {
-  std::string type;  ///< '<f4'
+  std::string type;  ///< such as '<f4'
   bool fortran = false;
   std::vector<std::size_t> shape;
 };
 
-/// The header is a dict of Python: {'descr': '<f4', 'fortran_order': False, 'shape': (3, 4), }.
+/// Reader of the header, which is a dict of Python: {'descr': '<f4', 'fortran_order': False, 'shape': (3, 4), }.
 class HeaderReader {
  public:
   explicit HeaderReader(std::string_view text) : rest_(text) {}
@@ -94,7 +94,7 @@ class HeaderReader {
     return found;
   }
   std::vector<std::size_t> numbers() {
-    constexpr std::size_t kMostSides = 32;  // limit of NumPy
+    constexpr std::size_t kMostSides = 32;  // largest number of dimensions in NumPy
     std::vector<std::size_t> all;
     need('(');
     while (!take(')')) {
@@ -108,7 +108,7 @@ class HeaderReader {
     }
     return all;
   }
-  /// The text from `begin` to `end`; the reader moves `behind` bytes past it.
+  /// The text from `begin` to `end`. The reader advances to `behind` bytes past the end.
   std::string_view cut(std::size_t begin, std::size_t end, std::size_t behind = 1) {
     const std::string_view text = rest_.substr(begin, end - begin);
     rest_.remove_prefix(end + behind);
@@ -161,7 +161,7 @@ std::string shape_text(const std::vector<std::size_t>& shape) {
 
 NumberTable read_npy(std::string_view bytes, std::size_t most) {
   const auto byte = [&](std::size_t i) { return static_cast<std::size_t>(static_cast<unsigned char>(bytes[i])); };
-  constexpr std::size_t kStart = 8;  // the magic and two bytes of its version
+  constexpr std::size_t kStart = 8;  // size of the magic text and of the two bytes of its version
   if (!bytes.starts_with(kNpyMagic)) refuse_npy("it does not begin as a file of NumPy");
   if (bytes.size() < kStart + 4) refuse_npy("it ends within its header");
   const std::size_t version = byte(6);

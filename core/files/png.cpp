@@ -22,7 +22,7 @@ std::uint32_t big_endian(std::string_view bytes) {
   return number;
 }
 
-/// The chunks of the file in their order, each with its checksum.
+/// The chunks of a file in their order. Each checksum is verified.
 class Chunks {
  public:
   explicit Chunks(std::string_view bytes) : rest_(bytes) {
@@ -33,7 +33,7 @@ class Chunks {
     std::string_view name, data;
   };
   Chunk next() {
-    constexpr std::size_t kAround = 12;  // length, name and checksum
+    constexpr std::size_t kAround = 12;  // bytes of length, name and checksum
     if (rest_.size() < kAround) refuse_png("it ends too early");
     const std::size_t size = big_endian(rest_);
     if (size > rest_.size() - kAround) refuse_png("it ends too early");
@@ -52,7 +52,7 @@ struct FreeDecompressor {
   void operator()(libdeflate_decompressor* one) const { libdeflate_free_decompressor(one); }
 };
 
-/// Exactly `size` bytes.
+/// Decompressed data of exactly `size` bytes.
 std::vector<unsigned char> inflated(const std::string& packed, std::size_t size) {
   const std::unique_ptr<libdeflate_decompressor, FreeDecompressor> decompressor(libdeflate_alloc_decompressor());
   if (!decompressor) throw std::bad_alloc();
@@ -63,7 +63,7 @@ std::vector<unsigned char> inflated(const std::string& packed, std::size_t size)
   return bytes;
 }
 
-/// Paeth's predictor: whichever of left, above and above left is nearest to left + above - above left.
+/// Paeth's predictor: the value among left, above and above left that is nearest to left + above - above left.
 int nearest(int left, int above, int corner) {
   const int to_left = std::abs(above - corner);
   const int to_above = std::abs(left - corner);
@@ -72,7 +72,7 @@ int nearest(int left, int above, int corner) {
   return to_above <= to_corner ? above : corner;
 }
 
-/// Computes a row from its filtered bytes: the differences from a prediction by neighbours, two bytes each.
+/// Computes a row from its filtered bytes, which are differences from a prediction by neighbours. Each pixel has two bytes.
 void unfilter(unsigned kind, unsigned char* row, const unsigned char* above, std::size_t size) {
   if (kind > 4) refuse_png("its picture is damaged");
   for (std::size_t i = 0; i < size; ++i) {

@@ -1,4 +1,4 @@
-// Touch of an element among boxes: all solids in reach as one touch.
+// Touch of a contact element among boxes, with all solids in reach combined into one touch.
 
 #include <algorithm>
 #include <array>
@@ -11,19 +11,19 @@ namespace gaitlab {
 
 namespace {
 
-constexpr double kSame = 1e-9;    // m: closer than this is the same place
-constexpr double kBack = -0.5;    // cosine: a face that looks back at the one an element left by is not a way out of there
-constexpr std::size_t kMost = 4;  // touches of one element at once: a corner has three
-constexpr int kSweeps = 8;        // of the shares: exact at right angles after one, and bounded always
+constexpr double kSame = 1e-9;    // m; closer positions count as equal
+constexpr double kBack = -0.5;    // cosine; a face whose normal points back along the path so far is not an exit
+constexpr std::size_t kMost = 4;  // largest number of touches of one element; a corner has three
+constexpr int kSweeps = 8;        // iterations of shares(); one is exact for normals at right angles
 
-/// One solid that an element touches, or is near.
+/// Push of one solid that an element touches or is near.
 struct Push {
   double penetration;
   Vec3 normal;
   double friction;
 };
 
-/// Axis k of a box, upwards or downwards, and how deep below that face a place (in the box's axes) lies.
+/// Face of a box, given by axis and sign. depth() is the depth of a position (in box axes) below the face, m.
 struct Face {
   Eigen::Index axis;
   double sign;
@@ -33,7 +33,7 @@ struct Face {
 
 constexpr std::array<Face, 6> kFaces{{{2, 1}, {2, -1}, {1, 1}, {1, -1}, {0, 1}, {0, -1}}};
 
-/// The ways by which an element left one box after another: a seam, a corner of four tiles.
+/// Normals of the faces through which an element left one box after another, as at a seam or a corner of four tiles.
 struct ExitPath {
   std::array<Vec3, 3> normals;
   std::size_t count = 0;
@@ -42,15 +42,15 @@ struct ExitPath {
   }
 };
 
-/// Limit of the searches of one query: a whole search of n boxes in one place needs n^4 looks at a box. The corner of a floor
-/// of tiles needs 276 searches, steps of 200 boxes on top of one another 50.
+/// Limit of the number of searches in a query, because a complete search of n boxes in one place looks at n^4 boxes. The corner
+/// of a tiled floor needs 276 searches; stairs of 200 boxes on top of one another need 50.
 struct Searches {
   static constexpr std::size_t kFewest = 300, kLooks = 4'000'000;
   std::size_t left;
 };
 
-/// The distance that is left into the open from a place where an element left box `left`; at least `bound` is enough. 0 after
-/// the last search.
+/// Distance to the open, m, that remains at a position where an element left box `left`. The search ends if the distance
+/// reaches `bound`. The result is 0 after the last search.
 double remaining_exit_depth(const Boxes& boxes, const Box& left, const Vec3& place, const ExitPath& ways, double bound,
                             Searches& searches) {
   if (searches.left == 0) return 0;
@@ -80,7 +80,7 @@ double remaining_exit_depth(const Boxes& boxes, const Box& left, const Vec3& pla
   return most;
 }
 
-/// A sphere whose centre is in the box leaves by the face of least depth that leads out.
+/// Push on a sphere whose centre is in the box, through the face of least depth that leads into the open.
 Push inside(const Boxes& boxes, const Box& box, const Vec3& centre, const Vec3& local, double radius, Searches& searches) {
   double least = 2 * box.size.sum();
   Push push{0, Vec3::UnitZ(), box.friction};
@@ -90,7 +90,7 @@ Push inside(const Boxes& boxes, const Box& box, const Vec3& centre, const Vec3& 
     const Vec3 normal = face.normal(box);
     const Vec3 place = centre + depth * normal;
     if (normal.z() < kBack && place.z() < 2 * kSame) continue;
-    // Twice: at a seam, where the way to the next box is short, up is still the shorter one.
+    // The remaining distance counts twice, so that the way up is still the shorter way at the seam to a near box.
     const double cost = depth + 2 * remaining_exit_depth(boxes, box, place, {{normal}, 1}, least - depth, searches);
     if (cost >= least) continue;
     least = cost;
@@ -108,11 +108,11 @@ Push against(const Boxes& boxes, const Box& box, const Vec3& centre, double radi
   return {radius - distance, box.R * ((local - nearest) / distance), box.friction};
 }
 
-/// At least the distance from a place to what counts there, m: to all that a sphere touches, else to the nearest. `most`: a
-/// known bound.
+/// Radius of the search around a position, m. It includes all solids that the sphere touches or, if there are none, the nearest
+/// solid. `most` is a known bound.
 double nearest_distance(const Boxes& boxes, const Vec3& place, double radius, double most) {
   if (most <= boxes.margin()) return most;
-  // High above the plane, but perhaps not above the boxes beneath.
+  // The sphere is high above the plane, but perhaps close to a box below it.
   double least = most;
   for (const std::uint32_t i : boxes.near(place, 0)) {
     const Vec3 local = boxes[i].R.transpose() * (place - boxes[i].center);
@@ -121,10 +121,10 @@ double nearest_distance(const Boxes& boxes, const Vec3& place, double radius, do
   return std::max(least, radius);
 }
 
-/// All that an element touches as one.
+/// Combination of all touches of an element into one.
 class Sum {
  public:
-  /// Keeps them from the deepest on.
+  /// Keeps the deepest touches, sorted by penetration.
   void add(const Push& push) {
     if (count_ > 0 && !(push.penetration > std::min(0.0, pushes_[0].penetration))) return;
     if (count_ == kMost && pushes_[kMost - 1].penetration >= push.penetration) return;
@@ -154,7 +154,8 @@ class Sum {
  private:
   [[nodiscard]] std::array<double, kMost> shares() const {
     std::array<double, kMost> share{pushes_[0].penetration};
-    // The two deepest are solved exactly: the iteration converges slowly if two normals are almost equal.
+    // The shares of the two deepest touches are solved exactly, because the iteration converges slowly if their normals are
+    // almost equal.
     const double c = pushes_[0].normal.dot(pushes_[1].normal);
     const double rest = pushes_[1].penetration - c * pushes_[0].penetration;
     if (c > 0 && rest > 0) {
@@ -173,11 +174,11 @@ class Sum {
     return share;
   }
 
-  std::array<Push, kMost> pushes_{};  ///< falling penetration
+  std::array<Push, kMost> pushes_{};  ///< sorted by falling penetration
   std::size_t count_ = 0;
 };
 
-/// m: height at which the vertical through a place leaves the box upwards; minus infinity where it misses the box.
+/// Height at which the vertical through a position leaves the box upwards, m. Minus infinity if the vertical misses the box.
 double top_at(const Box& box, const Vec3& place) {
   const Vec3 at = box.R.transpose() * (Vec3(place.x(), place.y(), 0) - box.center);
   const Vec3 up = box.R.row(2);
@@ -203,11 +204,11 @@ double top_at(const Box& box, const Vec3& place) {
 GroundTouch Boxes::touch(const Vec3& centre, double radius, double friction) const {
   Sum sum;
   sum.add({radius - centre.z(), Vec3::UnitZ(), friction});
-  // An element that has sunk into the plane counts as beside a box on the plane, not beneath it.
+  // An element that has sunk into the plane counts as beside a box on the plane, not as beneath the box.
   const Vec3 lifted(centre.x(), centre.y(), std::max(centre.z(), radius + kSame));
   Searches searches{std::max(Searches::kFewest, Searches::kLooks / std::max<std::size_t>(1, size()))};
   for (const std::uint32_t i : near(lifted, nearest_distance(*this, lifted, radius, radius - std::min(0.0, sum.deepest())))) {
-    // Beyond this distance it neither touches nor is the nearest.
+    // A farther box neither touches the element nor is the nearest solid.
     const Ball& ball = this->ball(i);
     const double reach = ball.radius + radius - std::min(0.0, sum.deepest());
     if ((lifted - ball.center).squaredNorm() < reach * reach) sum.add(against(*this, (*this)[i], lifted, radius, searches));

@@ -10,15 +10,15 @@ namespace gaitlab {
 
 namespace {
 
-constexpr std::size_t kFewBoxes = 16;    // up to this number, testing all is as fast as finding a cell
-constexpr double kCellMargin = 0.5;      // of the edge: margin around a cell
+constexpr std::size_t kFewBoxes = 16;    // up to this number of boxes, testing all is as fast as finding a cell
+constexpr double kCellMargin = 0.5;      // margin around a cell, as a share of its edge
 constexpr double kLeastEdge = 1e-2;      // m
-constexpr double kCellRounding = 1e-9;   // of coordinates: above their rounding error
-constexpr double kCellSlack = 1e-3;      // of the edge, which is at least kCellRounding of all coordinates
-constexpr double kMostCells = 16;        // largest average per box
-constexpr std::size_t kMostListed = 32;  // largest average per box, in all cells of one size
+constexpr double kCellRounding = 1e-9;   // share of coordinates, above their rounding error
+constexpr double kCellSlack = 1e-3;      // share of the edge, which is at least kCellRounding of all coordinates
+constexpr double kMostCells = 16;        // largest number of cells per box
+constexpr std::size_t kMostListed = 32;  // largest number of list entries per box, in cells of one size
 constexpr double kLarge =
-    16;  // times the median radius: larger boxes, such as a floor under all others, which need smaller cells
+    16;  // multiple of the median radius; larger boxes, such as a floor below the others, have separate cells
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// Cells of one size along x or y.
@@ -34,7 +34,7 @@ class CellAxis {
   }
   [[nodiscard]] double begin() const { return begin_; }
   [[nodiscard]] double count() const { return std::ceil((end_ - begin_) / edge_); }
-  /// Cells that list a box: the first, and the one past the last.
+  /// Range of cells that list a box: first cell, and the cell after the last.
   [[nodiscard]] std::array<std::size_t, 2> range(const Boxes::Ball& ball) const {
     const auto cell = [&](double at) {
       return static_cast<std::size_t>(std::clamp(std::floor((at - begin_) / edge_), -1.0, count()) + 1);
@@ -79,7 +79,7 @@ std::span<const std::uint32_t> Boxes::near(const Vec3& place, double distance) c
     if (!(distance <= cells.margin)) continue;
     const double u = (place.x() - cells.x) / cells.edge;
     const double v = (place.y() - cells.y) / cells.edge;
-    // False also for NaN, after a run has diverged.
+    // The inner condition is false also for NaN, after a run has diverged.
     if (!(u >= 0 && v >= 0 && u < static_cast<double>(cells.columns) && v < static_cast<double>(cells.rows))) {
       if (cells.whole) return {};
       continue;

@@ -1,4 +1,4 @@
-// The solid blocks of a ground, and a grid of cells for finding the near ones.
+// Solid blocks of a ground, with grids of cells for finding near blocks.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -17,19 +17,20 @@ namespace gaitlab {
 /// A solid block fixed in the world, or movable if it has a mass.
 struct Box {
   Vec3 center = Vec3::Zero();  ///< m
-  Vec3 size = Vec3::Zero();    ///< edges along its own axes, m
-  Vec3 rpy = Vec3::Zero();     ///< its axes in the world: roll pitch yaw, rad
+  Vec3 size = Vec3::Zero();    ///< lengths of the edges along the axes of the box, m
+  Vec3 rpy = Vec3::Zero();     ///< orientation of the box in the world: roll pitch yaw, rad
   double friction = 0.8;       ///< Coulomb coefficient f
-  double mass = 0;             ///< kg; 0: fixed
+  double mass = 0;             ///< kg; 0 if the box is fixed
   Mat3 R = Mat3::Identity();   ///< rotation of rpy, for queries
 };
 
-/// A list of boxes with an index for queries. Reads like a vector. Copies share their immutable content.
+/// A list of boxes that reads like a vector, with an index for queries. Copies share their immutable content.
 ///
-/// Seen from above, grids of cells of several sizes cover the boxes, each size twice the one before; the first grids cover the
-/// area of all except the large boxes, the last ones that of all. A cell lists the boxes that come within `margin` of it, half
-/// its edge, in their order, so that a search within some distance reads one cell of the size for that distance. Memory grows
-/// with the number of boxes: cells are enlarged until their number and their lists are small.
+/// Grids of cells of several sizes cover the boxes, seen from above. Each size is twice the previous one. The first grids cover
+/// the area of all boxes except large ones, the last grids the area of all boxes. A cell lists, in their order, the boxes that
+/// come within `margin` (half of the edge) of the cell. A search within some distance therefore reads one cell of the size for
+/// that distance. Memory grows with the number of boxes, because cells are enlarged until their number and their lists are
+/// small.
 class Boxes {
  public:
   static constexpr GroundType kType{
@@ -45,7 +46,7 @@ class Boxes {
   [[nodiscard]] auto begin() const { return list().begin(); }
   [[nodiscard]] auto end() const { return list().end(); }
   [[nodiscard]] const std::vector<Box>& list() const;
-  /// Changes the list: `change` receives the vector.
+  /// Changes the list. `change` receives the vector.
   template <class Change>
   void change(const Change& change) {
     std::vector<Box> boxes = list();
@@ -53,12 +54,12 @@ class Boxes {
     *this = Boxes(std::move(boxes));
   }
 
-  /// friction: of the plane below the boxes. (Ground::query)
+  /// Touch as in Ground::query. `friction` is the coefficient of the plane below the boxes.
   [[nodiscard]] GroundTouch touch(const Vec3& centre, double radius, double friction) const;
   [[nodiscard]] double surface_below(const Vec3& point, double give) const;
   [[nodiscard]] double highest() const;
 
-  /// Rising numbers of boxes: all that come within `distance` (m, at least 0) of a place, and some others.
+  /// Numbers of all boxes that come within `distance` (m, at least 0) of a position, and of some others, in rising order.
   [[nodiscard]] std::span<const std::uint32_t> near(const Vec3& place, double distance) const;
   /// Largest distance for which `near` uses the smallest cells, m.
   [[nodiscard]] double margin() const;
@@ -66,7 +67,7 @@ class Boxes {
     Vec3 center;    ///< m
     double radius;  ///< m
   };
-  /// Ball around the corners of a box.
+  /// Smallest sphere that contains all corners of a box.
   [[nodiscard]] const Ball& ball(std::size_t index) const { return held_->balls[index]; }
 
  private:
@@ -74,22 +75,22 @@ class Boxes {
     double edge, margin;  ///< m
     double x, y;          ///< corner of the first cell, world
     std::size_t columns = 0, rows = 0;
-    bool whole = false;                     ///< all boxes are near the cells: none beyond them
-    std::vector<std::uint32_t> first = {};  ///< start of each cell's list in `listed`, and the end
+    bool whole = false;                     ///< true if no box is beyond the cells
+    std::vector<std::uint32_t> first = {};  ///< start of the list of each cell in `listed`, and the end
     std::vector<std::uint32_t> listed = {};
   };
   struct Held {
     std::vector<Box> list;
     std::vector<Ball> balls;
     std::vector<std::uint32_t> all;
-    std::vector<Cells> cells;  ///< none if there are few boxes
+    std::vector<Cells> cells;  ///< empty if there are few boxes
   };
   static std::vector<Cells> all_cells(const Held& held);
-  /// Cells of one size, over boxes whose balls have a radius of at most `largest`; nothing if the cells or their lists would be
-  /// too many.
+  /// Cells of one size for boxes whose balls have a radius of at most `largest`. Nothing if there would be too many cells or
+  /// list entries.
   static std::optional<Cells> cells_of(const Held& held, double largest, double edge);
 
-  std::shared_ptr<const Held> held_;  ///< nullptr: no boxes
+  std::shared_ptr<const Held> held_;  ///< nullptr if there are no boxes
 };
 
 }  // namespace gaitlab

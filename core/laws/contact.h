@@ -1,4 +1,4 @@
-// The penalty contact law: a value and pure functions with their slopes, for one lane (double) or many.
+// Penalty contact law: a value and pure functions with their slopes, for one lane (double) or many.
 #pragma once
 #include <cstddef>
 
@@ -16,16 +16,16 @@ struct BasicPenaltyContact {
 
   struct Normal {
     T fn;                ///< normal force, N, >= 0
-    T normal_slope;      ///< -d(fn)/d(vn) >= 0, N s/m; 0 where fn is cut off at 0
+    T normal_slope;      ///< -d(fn)/d(vn) >= 0, N s/m; 0 if fn is cut off at 0
     T stiffness;         ///< d(fn)/d(p) of the spring alone, Kn k p^(k-1) >= 0, N/m
-    math::Mask<T> acts;  ///< fn > 0
+    math::Mask<T> acts;  ///< true if fn > 0
   };
   struct Force : Normal {
-    T friction_slope;       ///< gt: tangential force = -gt v, N s/m
-    math::Mask<T> sliding;  ///< |v| > v_lim: the slope of the friction is gt across the slip and 0 along it
+    T friction_slope;       ///< gt in: tangential force = -gt v, N s/m
+    math::Mask<T> sliding;  ///< true if |v| > v_lim; the slope of the friction is then gt across the slip and 0 along it
   };
 
-  /// Normal force. vn: separating velocity (> 0 leaves the ground).
+  /// Normal force. `vn` is the separating velocity (> 0 if the element leaves the ground).
   [[nodiscard]] Normal normal(const T& p, const T& vn) const {
     using math::select;
     const T zero = 0.0;
@@ -34,13 +34,14 @@ struct BasicPenaltyContact {
     const math::Mask<T> acts = math::mask_and(p > 0.0, fn > 0.0);
     return {select(acts, fn, zero), select(acts, damper, zero), select(acts, stiffness(p), zero), acts};
   }
-  // Kn p^k, N; its slope, N/m; Cd p^d, N s/m; its slope, N s/m^2. For p > 0 only: may be NaN in the air.
+  // Terms of the normal force: Kn p^k, N, and its slope, N/m; Cd p^d, N s/m, and its slope, N s/m^2. The terms may be NaN for p
+  // <= 0 (in the air).
   [[nodiscard]] T spring(const T& p) const { return kn * power(p, k); }
   [[nodiscard]] T stiffness(const T& p) const { return kn * k * power(p, k - 1.0); }
   [[nodiscard]] T damping(const T& p) const { return cd * power(p, d); }
   [[nodiscard]] T damping_slope(const T& p) const { return cd * d * power(p, d - 1.0); }
   [[nodiscard]] math::Mask<T> slides(const Normal& n, const T& slip) const { return math::mask_and(n.acts, slip > v_lim); }
-  /// slip: |v|; friction: f of the ground.
+  /// Normal force and friction. `slip` is |v|, and `friction` is f of the ground.
   [[nodiscard]] Force operator()(const T& p, const T& vn, const T& slip, const T& friction) const {
     using math::select;
     const Normal n = normal(p, vn);

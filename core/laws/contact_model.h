@@ -1,24 +1,24 @@
-// The contact laws of a scenario and their properties, so that nothing else tests for a law by its name.
+// Contact laws of a scenario and their properties, which other code tests instead of the name of a law.
 #pragma once
 #include "core/names.h"
 
 namespace gaitlab {
 
-enum class ContactLaw { penalty, solver };  ///< forces of penetration and velocity, or constraints of the engine's own solver
+enum class ContactLaw { penalty, solver };  ///< forces from penetration and speed, or constraints in the engine's solver
 
 /// Properties of a contact law.
 struct ContactModel {
   ContactLaw value;
-  const char* text;          ///< `contact.law`
-  bool penalty_settings;     ///< forces by PenaltyContact: stiffness, damping, friction that is viscous at low speed
-  bool element_forces;       ///< the ground acts at contact elements alone, by forces, from which reactions and loads follow
+  const char* text;          ///< value of `contact.law`
+  bool penalty_settings;     ///< forces of PenaltyContact, with stiffness, damping, and friction that is viscous at low speed
+  bool element_forces;       ///< the ground acts only on contact elements, with forces that determine reactions and loads
   bool moves_boxes;          ///< boxes of the ground may have a mass
-  bool keeps_bodies_apart;   ///< bodies touch one another and the ground by their shapes
-  bool any_ground;           ///< else plane and boxes alone
+  bool keeps_bodies_apart;   ///< bodies touch one another and the ground with their shapes
+  bool any_ground;           ///< all types of ground are possible; if false, only plane and boxes
   bool rotor_inertia;        ///< joints may have the reflected inertia of rotors
-  bool complete_state;       ///< forces follow from the state, so that a copy of it is a snapshot
+  bool complete_state;       ///< the state determines the forces, so that a copy of the state is a snapshot
   bool converges;            ///< torques converge as the step becomes shorter
-  bool has_step_of_its_own;  ///< the engine's `solver_step`, with its default integrator
+  bool has_step_of_its_own;  ///< the default step is `solver_step` of the engine, for its default integrator
 };
 
 template <>

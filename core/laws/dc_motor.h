@@ -1,4 +1,4 @@
-// The DC motor behind its gear: pure functions with their slopes, elementwise over joints and lanes.
+// DC motor with gear: pure functions with their slopes, elementwise over joints and lanes.
 #pragma once
 #include <limits>
 
@@ -7,36 +7,37 @@
 
 namespace gaitlab {
 
-/// i = (u - Ks n w) / R, |u| <= u_max, |i| <= i_max; T = eta Kt i n.  (eq. 1, 2; limits: the paper's text)
-/// u V, w joint speed rad/s, i A, T N m on the joint. Inductance neglected, as in the paper. V: double or lanes.
+/// i = (u - Ks n w) / R, |u| <= u_max, |i| <= i_max; T = eta Kt i n.  (eq. 1, 2; limits: text of the paper)
+/// u: voltage, V; w: joint speed, rad/s; i: current, A; T: torque on the joint, N m; n: gear ratio; eta: efficiency. Inductance
+/// is neglected, as in the paper. V: double or lanes.
 ///
-/// As printed, eq. 2 multiplies the torque by eta in both directions: a joint that drives its motor then needs only eta T
-/// instead of T / eta, and the gear creates energy. `reversal_speed` > 0 makes it directional: T = eta^s Kt i n, s = w sign(i)
-/// /
-/// reversal_speed within [-1, 1], so that eta acts while driving, 1 / eta while back-driven, and the gear's loss (1 - eta^s) Kt
-/// i n w is never negative. The steps of torque at w = 0 would make any explicit method chatter; `reversal_speed` spreads it,
-/// as v_lim does for friction.
+/// As printed, eq. 2 multiplies the torque by eta in both directions. A joint that drives its motor then needs only eta T
+/// instead of T / eta, and the gear creates energy. `reversal_speed` > 0 makes the efficiency directional:
+///     T = eta^s Kt i n, s = w sign(i) / reversal_speed within [-1, 1]
+/// The efficiency is then eta while the motor drives and 1 / eta while it is back-driven, and the loss in the gear (1 - eta^s)
+/// Kt i n w is never negative. A torque that jumps at w = 0 would make any explicit method chatter. `reversal_speed` smooths
+/// the jump, as v_lim does for friction.
 template <class V>
 struct BasicDcMotor {
   V R = 1.0, Kt = 0.0, Ks = 0.0, gear = 1.0, efficiency = 1.0, u_max = 0.0, i_max = 0.0;
-  V reversal_speed = 0.0;  ///< rad/s on the joint; 0: eq. 2 as printed
+  V reversal_speed = 0.0;  ///< joint speed, rad/s; 0 for eq. 2 as printed
   V back_emf_damping = Kt * Ks * gear * gear / R;
 
   struct Effort {
-    V torque;   ///< N m
-    V slope;    ///< -dT/dw >= 0, N m s/rad: eta Kt Ks n^2 / R, 0 while limited; more within `reversal_speed`
-    V current;  ///< A
-    V voltage;  ///< at the terminals: R i + Ks n w, V
-    math::Mask<V> limited, clamped;  ///< the current is limited; the command is clamped
+    V torque;                        ///< N m
+    V slope;                         ///< -dT/dw >= 0, N m s/rad: eta Kt Ks n^2 / R, 0 if limited; more within `reversal_speed`
+    V current;                       ///< A
+    V voltage;                       ///< terminal voltage R i + Ks n w, V
+    math::Mask<V> limited, clamped;  ///< true if the current is limited, or the command is clamped
     V drawn;                         ///< electrical power, W
     V copper, gear;                  ///< power lost in the winding and in the gear, W
 
-    /// 0 none, 1 voltage, 2 current
+    /// Limit as a number: 0 none, 1 voltage, 2 current.
     [[nodiscard]] V saturation() const { return math::select(limited, V(2.0), math::select(clamped, V(1.0), V(0.0))); }
   };
 
   [[nodiscard]] Effort operator()(const V& command, const V& speed) const { return at(command, speed, i_max); }
-  /// Torque at any current that it takes: without the current limit.
+  /// Effort without the current limit.
   [[nodiscard]] Effort unlimited(const V& command, const V& speed) const {
     return at(command, speed, std::numeric_limits<double>::infinity());
   }

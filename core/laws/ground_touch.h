@@ -1,27 +1,27 @@
-// The touch of a contact element with the ground, and the constant parts of a type of ground.
+// Touch of a contact element with the ground, and constant properties of a type of ground.
 #pragma once
 #include "core/model/frames.h"
 
 namespace gaitlab {
 
 struct GroundTouch {
-  double penetration;  ///< m; negative: the gap
+  double penetration;  ///< m; negative if there is a gap
   Vec3 normal;
-  Vec3 point;  ///< where the force acts: the deepest point of the element
+  Vec3 point;  ///< point of action of the force: the deepest point of the element
   double friction;
 };
 
-/// The touch of a sphere of `radius` (0: a point) centred at `centre`.
+/// Touch of a sphere of `radius` (0 for a point) centred at `centre`.
 inline GroundTouch sphere_touch(double penetration, const Vec3& normal, double friction, const Vec3& centre, double radius) {
   return {penetration, normal, centre - radius * normal, friction};
 }
 
-/// Constant parts of a type of ground.
+/// Constant properties of a type of ground.
 struct GroundType {
-  const char* name;              ///< `ground.type`; also the key of its settings, if it has any
-  const char* about;             ///< for the manual of `ground.type`; "": nothing
-  bool has_settings = false;     ///< key `ground.NAME`
-  bool plane_and_boxes = false;  ///< only the plane z = 0 and boxes, which other engines and formats have, too
+  const char* name;              ///< value of `ground.type`, and key of the settings of this type
+  const char* about;             ///< text for the manual of `ground.type`, or ""
+  bool has_settings = false;     ///< true if there is a key `ground.NAME`
+  bool plane_and_boxes = false;  ///< true if it is the plane z = 0 and boxes, which other engines and formats also have
 };
 
 }  // namespace gaitlab

@@ -9,15 +9,15 @@ namespace gaitlab {
 
 namespace {
 
-constexpr int kPerpendiculars = 3;  // steps to the foot of the perpendicular: each gains as much as the field is flat
+constexpr int kPerpendiculars = 3;  // steps to the foot of the perpendicular; they converge fast if the field is flat
 
-/// Place of a coordinate on its axis of the grid: the four nodes around it and their weights.
+/// Interpolation of a coordinate on its axis of the grid: the four nodes around it and their weights.
 struct Stencil {
   std::array<std::size_t, 4> node{};
   std::array<double, 4> value{}, slope{};  ///< slope: d(value)/d(t)
 };
 
-/// u: in units of the spacing; n nodes.
+/// Interpolation at u, in units of the spacing, on an axis of n nodes.
 Stencil stencil(double u, std::size_t n) {
   const double last = static_cast<double>(n - 1);
   const double inside = u > 0 ? std::min(u, last) : 0.0;  // 0 also for NaN, after a run has diverged
@@ -93,7 +93,7 @@ bool Heightfield::covers(double x, double y) const {
 GroundTouch Heightfield::touch(const Vec3& centre, double radius, double friction) const {
   SurfacePoint spot = at(centre.x(), centre.y());
   double distance = (centre.z() - spot.z) * spot.normal.z();
-  const bool near = std::abs(distance) < radius + spacing;  // else any measure of the gap will do
+  const bool near = std::abs(distance) < radius + spacing;  // else a rough measure of the gap is enough
   for (int step = 0; near && step < kPerpendiculars; ++step) {
     const Vec3 foot = centre - distance * spot.normal;
     spot = at(foot.x(), foot.y());

@@ -1,4 +1,4 @@
-// A surface z(x, y) through heights on a square grid.
+// Surface z(x, y) through heights on a square grid.
 #pragma once
 #include <cstddef>
 #include <initializer_list>
@@ -11,7 +11,7 @@
 
 namespace gaitlab {
 
-/// A list of heights. Reads like a vector. Copies share their immutable content: a large field has 134 MB.
+/// A list of heights that reads like a vector. Copies share their immutable content, because a large field has 134 MB.
 class Heights {
  public:
   Heights() = default;
@@ -33,24 +33,24 @@ class Heights {
     std::vector<double> list;
     double lowest, highest;
   };
-  std::shared_ptr<const Held> held_;  ///< nullptr: empty
+  std::shared_ptr<const Held> held_;  ///< nullptr if the list is empty
 };
 
-/// Surface that is cubic in each cell (Catmull and Rom 1974, in x and in y): through the given heights, with a continuous
-/// normal. Triangles or bilinear cells would turn the normal at every edge, and a foot that slides over one would get an
-/// impact. A plane is reproduced exactly up to the border; beside a step the surface overshoots by up to 7 % of it. Beyond the
-/// border the heights of the border continue outwards.
+/// Surface through the given heights, with a continuous normal. It is cubic in each cell (Catmull and Rom 1974, in x and in y).
+/// With triangles or bilinear cells, the normal would turn at every edge, and a foot that slides over an edge would get an
+/// impact. A plane is reproduced exactly up to the border. Beside a step, the surface overshoots by up to 7 % of the step.
+/// Beyond the border, the heights at the border continue outwards.
 struct Heightfield {
   static constexpr GroundType kType{.name = "heightfield", .about = "a surface through heights", .has_settings = true};
 
-  Vec3 origin = Vec3::Zero();  ///< of values[0], m, world
-  double spacing = 0.1;        ///< m, in x and in y
-  std::size_t columns = 0;     ///< along x; at least 2, as there are at least 2 rows, along y
-  Heights values = {};         ///< above the origin, m, row by row
-  /// File with the heights, if they are too many to be written out with a scenario; an empty file: they are written out.
+  Vec3 origin = Vec3::Zero();  ///< position of values[0], m, world
+  double spacing = 0.1;        ///< distance of heights in x and in y, m
+  std::size_t columns = 0;     ///< number of columns, along x; at least 2 (so are the rows, along y)
+  Heights values = {};         ///< heights above the origin, m, row by row
+  /// File with the heights, if there are too many to write them out with a scenario. `file` is empty if they are written out.
   struct Source {
-    std::string file, hash;  ///< canonical path; hash of its bytes
-    double scale = 1;        ///< m per unit of the file's numbers
+    std::string file, hash;  ///< canonical path; hash of the bytes of the file
+    double scale = 1;        ///< m per unit of the numbers in the file
   } source = {};
 
   struct SurfacePoint {
@@ -59,10 +59,10 @@ struct Heightfield {
   };
   [[nodiscard]] SurfacePoint at(double x, double y) const;
   [[nodiscard]] std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
-  /// Whether a height stands on every side of (x, y), m, world.
+  /// True if (x, y), m, world, is within the border.
   [[nodiscard]] bool covers(double x, double y) const;
 
-  [[nodiscard]] GroundTouch touch(const Vec3& centre, double radius, double friction) const;  ///< Ground::query
+  [[nodiscard]] GroundTouch touch(const Vec3& centre, double radius, double friction) const;  ///< see Ground::query
   [[nodiscard]] double surface_below(const Vec3& point, double) const { return at(point.x(), point.y()).z; }
   [[nodiscard]] double highest() const;
 };

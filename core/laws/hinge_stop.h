@@ -1,11 +1,11 @@
-// The stop of a hinge outside its range: a spring and damper that only ever opposes, with its slopes.
+// Stop of a hinge outside its range: a spring and damper that only pushes back, with its slopes.
 #pragma once
 #include "core/math/lanes.h"
 
 namespace gaitlab {
 
-/// torque = -ks (q - q_lim) - cs qd outside [lo, hi], cut off where it would pull back into the stop.  (chosen:
-/// docs/equations.md, 2) q rad, qd rad/s, torque N m on the joint. T: double or lanes.
+/// torque = -ks (q - q_lim) - cs qd outside [lo, hi], and 0 if that would pull towards the stop. (chosen: docs/equations.md, 2)
+/// q: angle, rad; qd: speed, rad/s; torque on the joint, N m. T: double or lanes.
 template <class T>
 struct BasicHingeStop {
   static constexpr double kStiffness = 50;  ///< ks, N m/rad

@@ -1,4 +1,4 @@
-// A hinge without a motor: spring, damper and dry friction, with their slopes.
+// Torque law of a hinge without a motor: spring, damper and dry friction, with their slopes.
 #pragma once
 #include "core/math/functions.h"
 #include "core/math/lanes.h"
@@ -6,13 +6,14 @@
 
 namespace gaitlab {
 
-/// T = -K (q - rest) - D w - F tanh(w / w_s)  (chosen: docs/equations.md, 2) q rad, w rad/s, N m on the joint. Friction is
-/// viscous below w_s, so that it has a slope; a torque below F makes the hinge creep. T: double or lanes.
+/// torque = -K (q - rest) - D w - F tanh(w / w_s)  (chosen: docs/equations.md, 2)
+/// q: angle, rad; w: speed, rad/s; torque on the joint, N m. Friction is viscous below w_s, so that it has a slope. A torque
+/// below F therefore makes the hinge creep. T: double or lanes.
 template <class T>
 struct BasicPassiveHinge {
   T stiffness = 0.0, rest = 0.0, damping = 0.0, friction = 0.0, friction_speed = 1.0;
 
-  /// Torque of damper and friction, N m, and its -d/dw, N m s/rad.
+  /// Torque of damper and friction, N m, and its slope -d(torque)/dw, N m s/rad.
   struct Loss {
     T torque, slope;
   };
@@ -22,7 +23,7 @@ struct BasicPassiveHinge {
     return {-(damping * w + friction * t), damping + friction / friction_speed * (T(1.0) - t * t)};
   }
   [[nodiscard]] T spring(const T& q) const { return -(stiffness * (q - rest)); }                     ///< N m
-  [[nodiscard]] T energy(const T& q) const { return T(0.5) * stiffness * (q - rest) * (q - rest); }  ///< J, of the spring
+  [[nodiscard]] T energy(const T& q) const { return T(0.5) * stiffness * (q - rest) * (q - rest); }  ///< spring, J
 };
 
 using PassiveHinge = BasicPassiveHinge<double>;

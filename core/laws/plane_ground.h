@@ -1,11 +1,11 @@
-// The plane as a ground, and no ground.
+// Plane as a type of ground, and the type without a ground.
 #pragma once
 #include "core/laws/ground_touch.h"
 #include "core/laws/plane.h"
 
 namespace gaitlab {
 
-/// World z = 0, solid below.
+/// Plane z = 0 of the world, solid below.
 struct Plane {
   static constexpr GroundType kType{.name = "plane", .about = "world z = 0, solid below", .plane_and_boxes = true};
 
@@ -17,7 +17,7 @@ struct Plane {
   [[nodiscard]] double highest() const { return 0; }
 };
 
-/// Nothing touches the robot. A query finds the plane: callers that need forces ask Ground::exists first.
+/// No ground. Queries return the plane, so that callers that need forces must test Ground::exists first.
 struct NoGround : Plane {
   static constexpr GroundType kType{.name = "none", .about = "", .plane_and_boxes = true};
 };

@@ -1,4 +1,4 @@
-// The convex hull of points in a plane.
+// Convex hull of points in a plane.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -7,8 +7,9 @@
 
 namespace gaitlab::math {
 
-/// Convex hull, counter-clockwise, without points on its edges; for points on one line the two ends. P has members x and y.
-/// (Andrew's monotone chain, Inf. Proc. Letters 9, 1979: the lower hull from left to right, then the upper one back.)
+/// Convex hull, counter-clockwise, without points on its edges. For points on one line, the hull is the two ends of the line. P
+/// has members x and y. (Andrew's monotone chain, Inf. Proc. Letters 9, 1979: the lower hull from left to right, then the upper
+/// hull from right to left.)
 template <class P>
 std::vector<P> convex_hull(std::vector<P> points) {
   const auto cross = [](P o, P a, P b) { return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x); };

@@ -1,12 +1,12 @@
-// N doubles in one register: a scalar for code that is written once for one rollout and for N (core/math/lanes.h). Only for
-// translation units that are compiled for a processor with such registers; those add sqrt, any and the functions
-// (physics_articulated/kernel_avx2.cpp).
+// Scalar type of N doubles in one register, for code that is written once for one rollout and for N (core/math/lanes.h). Only
+// files that are compiled for a processor with such registers may include this header. They add sqrt, any and the functions of
+// core/math/functions.h (physics_articulated/kernel_avx2.cpp).
 #pragma once
 #include "core/math/lanes.h"
 
 namespace gaitlab::math {
 
-/// The compiler's vector types of N doubles and of the masks that result from comparing them.
+/// Vector types of the compiler for N doubles and for the masks that result from comparing them.
 template <std::size_t N>
 struct Register;
 
@@ -23,7 +23,7 @@ struct Doubles {
   Doubles() = default;
   Doubles(double all) : v(all - Vector{}) {}  // NOLINT(google-explicit-constructor): a constant is the same in all lanes
   explicit Doubles(Vector values) : v(values) {}
-  // Not trivial, so that a struct of them is copied register by register, not by a call or `rep movs`.
+  // Copying is not trivial, so that a struct of Doubles is copied register by register, not by a call or `rep movs`.
   Doubles(const Doubles& other) : v(other.v) {}  // NOLINT(modernize-use-equals-default)
   Doubles& operator=(const Doubles& other) {     // NOLINT(modernize-use-equals-default)
     v = other.v;

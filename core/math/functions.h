@@ -1,5 +1,5 @@
-// The transcendental functions of the simulation path: SLEEF's deterministic (cinz_) versions, 1 ulp, the same bits on every
-// x86-64 and in every lane width. std::sin and its kin differ between C libraries and are banned from results.
+// Transcendental functions of the simulation path: the deterministic (cinz_) versions of SLEEF, 1 ulp, with the same bits on
+// every x86-64 and in every lane width. std::sin and similar functions differ between C libraries and must not affect results.
 #pragma once
 #include <sleef.h>
 

@@ -1,5 +1,5 @@
-// Operations of a scalar in code that is written once for a double and for a vector of doubles (a lane per rollout): selection
-// by mask in place of branches. A lane type defines overloads of these (core/math/doubles.h).
+// Operations of the scalar in code that is written once for a double and for a vector of doubles (a lane per rollout), with
+// masks instead of branches. Vector types define overloads of these functions (core/math/doubles.h).
 #pragma once
 #include <cmath>
 #include <cstddef>
@@ -17,9 +17,9 @@ inline constexpr std::size_t kLanes = sizeof(T) / sizeof(double);
 inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
 inline bool mask_and(bool a, bool b) { return a && b; }
 inline bool mask_or(bool a, bool b) { return a || b; }
-/// yes and not already
+/// Returns `yes` and not `already`.
 inline bool fresh(bool yes, bool already) { return yes && !already; }
-/// Whether work is needed in any lane.
+/// True if the mask is set in any lane, or in all lanes.
 inline bool any_lane(bool mask) { return mask; }
 inline bool all_lanes(bool mask) { return mask; }
 inline double sqrt(double x) {
@@ -31,7 +31,7 @@ T clamp(const T& x, const T& lo, const T& hi) {
   return select(x < lo, lo, select(hi < x, hi, x));
 }
 
-/// The lanes' values as plain numbers, entry * lanes + lane.
+/// View of the values of all lanes as plain numbers, with index entry * lanes + lane.
 template <class T>
 std::span<double> numbers(std::span<T> x) {
   return {reinterpret_cast<double*>(x.data()), x.size() * kLanes<T>};

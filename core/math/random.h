@@ -1,4 +1,4 @@
-// Random numbers by counter: a draw depends on its words alone, never on earlier draws.
+// Counter-based random numbers: a draw depends only on its words, never on earlier draws.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace gaitlab::math {
 
-/// SplitMix64 (Steele, Lea, Flood 2014): its increment and its output function.
+/// Increment and output function of SplitMix64 (Steele, Lea, Flood 2014).
 inline constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15ULL;
 constexpr std::uint64_t mixed(std::uint64_t z) {
   z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
@@ -17,25 +17,25 @@ constexpr std::uint64_t mixed(std::uint64_t z) {
   return z ^ (z >> 31U);
 }
 
-/// The number of that counter in the stream of seed 0.
+/// Number `counter` in the stream of seed 0.
 constexpr std::uint64_t splitmix64(std::uint64_t counter) { return mixed(counter * kGolden); }
 
-/// SplitMix64 over the words, one after the other.
+/// Hash of the words: SplitMix64 over one word after the other.
 constexpr std::uint64_t hash64(std::initializer_list<std::uint64_t> words) {
   std::uint64_t hash = 0;
   for (const std::uint64_t word : words) hash = mixed((hash ^ word) + kGolden);
   return hash;
 }
 
-/// In [0, 1), from the upper 53 bits.
+/// Number in [0, 1) from the upper 53 bits.
 constexpr double unit(std::uint64_t bits) { return static_cast<double>(bits >> 11U) * 0x1p-53; }
-/// In [-1, 1), from the same bits.
+/// Number in [-1, 1) from the upper 53 bits.
 constexpr double symmetric(std::uint64_t bits) { return static_cast<double>(bits >> 11U) * 0x1p-52 - 1; }
 
-/// In [0, 1), of the hash of the words.
+/// Number in [0, 1) from the hash of the words.
 constexpr double uniform(std::initializer_list<std::uint64_t> words) { return unit(hash64(words)); }
 
-/// A normal number with mean 0 and deviation 1, from the same (Box and Muller).
+/// Normally distributed number with mean 0 and deviation 1, from the hash of the words (Box and Muller).
 inline double normal(std::initializer_list<std::uint64_t> words) {
   const std::uint64_t first = hash64(words);
   const double radius = std::sqrt(-2 * log(1 - unit(first)));

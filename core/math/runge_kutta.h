@@ -1,4 +1,4 @@
-// The classical Runge-Kutta method of order 4: its constants, and its step for x' = f(t, x).
+// Classical Runge-Kutta method of order 4: its constants, and its step for x' = f(t, x).
 #pragma once
 #include <array>
 #include <cstddef>
@@ -7,21 +7,21 @@
 
 namespace gaitlab::math {
 
-/// x+ = x + h sum_i weight_i k_i; k_1 = f(t, x), and k_(i+1) is taken at t + reach_i h, x + reach_i h k_i. Stable as far as
-/// h |lambda| < 2.8.
+/// Computes x+ = x + h sum_i weight_i k_i, where k_1 = f(t, x) and k_(i+1) = f(t + reach_i h, x + reach_i h k_i). The method is
+/// stable for h |lambda| < 2.8.
 class RungeKutta {
  public:
   static constexpr std::array<double, 4> kWeight{1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
   static constexpr std::array<double, 4> kReach{0.5, 0.5, 1.0, 0.0};
 
-  /// Allocates here alone.
+  /// Only the constructor allocates.
   explicit RungeKutta(std::size_t numbers) : k_(4, std::vector<double>(numbers)), at_(numbers) {}
 
-  /// Six times the weighted sum, in two orders of addition, which differ in the last bit.
+  /// Six times the weighted sum, in two orders of addition, whose results differ in the last bit.
   static double paired(double k1, double k2, double k3, double k4) { return k1 + 2 * (k2 + k3) + k4; }
   static double in_order(double k1, double k2, double k3, double k4) { return k1 + 2 * k2 + 2 * k3 + k4; }
 
-  /// Takes x over a step of h. slope(reach, at, out): f at t + reach h and the numbers `at`. sum: paired or in_order.
+  /// Advances x by a step h. slope(reach, at, out) computes f at time t + reach h and state `at`. `sum` is paired or in_order.
   template <class Slope, class Sum>
   void step(std::span<double> x, double h, const Slope& slope, const Sum& sum) {
     for (std::size_t i = 0; i < 4; ++i) {

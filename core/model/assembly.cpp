@@ -13,7 +13,7 @@ namespace gaitlab {
 
 namespace {
 
-/// The frame of a face: x = outward normal, y = reference direction.
+/// Axes of a face: x = outward normal, y = reference direction.
 Mat3 axes(const FaceType& face) {
   Mat3 R;
   R.col(0) = face.normal;
@@ -22,12 +22,12 @@ Mat3 axes(const FaceType& face) {
   return R;
 }
 
-/// Pose of the child's body in the parent's body when the faces are docked: origins coincide, normals are opposite, references
-/// aligned, then the child is turned by orientation * pi/2 about its own outward normal.
+/// Pose of the body of the child in the body of the parent when their faces are docked. The origins coincide, the normals are
+/// opposite, and the references are aligned. Then the child is turned by orientation * pi/2 about its own outward normal.
 Pose docked(const FaceType& child, const FaceType& parent, int orientation) {
-  // Quarter turns of (reference, normal x reference) are exact: no sine of pi/2 in the geometry.
+  // Quarter turns of (reference, normal x reference) are exact, because they need no sine of pi/2.
   constexpr std::array<std::array<double, 2>, 4> kQuarter{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-  const Vec3 normal = -parent.normal;  // the child's outward normal, in the parent's body
+  const Vec3 normal = -parent.normal;  // outward normal of the child, in the body of the parent
   const auto [c, s] = kQuarter[static_cast<std::size_t>(orientation)];
   const Vec3 reference = c * parent.reference + s * normal.cross(parent.reference);
   Mat3 target;
@@ -38,8 +38,8 @@ Pose docked(const FaceType& child, const FaceType& parent, int orientation) {
   return {R, parent.origin - R * child.origin};
 }
 
-/// Places modules parents first, siblings in the order of their numbers; bodies and joints are numbered module by module,
-/// independent of the docking.
+/// Builds a robot. Modules are placed parents first, siblings in the order of their numbers. Bodies and joints are numbered
+/// module by module, independent of the docking.
 class Builder {
  public:
   Builder(std::vector<ModuleType> types, const std::vector<std::size_t>& type_of) {
@@ -63,7 +63,7 @@ class Builder {
     for (auto& [parent, list] : children_) std::sort(list.begin(), list.end());
     robot_.links.push_back({});
     place_module(0, robot_.types[module(0).type].root, 0, {});
-    // Breadth-first over modules, so that a parent link always comes before its children.
+    // Modules are visited breadth-first, so that a parent link always comes before its children.
     std::queue<int> queue({0});
     while (!queue.empty()) {
       const int parent = queue.front();
@@ -97,7 +97,7 @@ class Builder {
     place_module(index, child_face.body, on.link, on.in_link * docked(child_face, parent_face, dock.orientation));
   }
 
-  /// Walks the module's hinges breadth-first from its reference body, which is part of `link`.
+  /// Places the bodies of a module breadth-first over its hinges, starting at its reference body, which is part of `link`.
   void place_module(int index, std::size_t reference, std::size_t link, const Pose& in_link) {
     Module& m = module(index);
     const ModuleType& t = type(m);
@@ -135,7 +135,7 @@ class Builder {
     const Body& from = robot_.bodies[m.first_body + near];
     const std::size_t number = first_joint_[static_cast<std::size_t>(index)] + m.joints.size();
     m.joints.push_back(number);
-    // The link frame is the hinge frame: in the parent body `in_parent`, in the child body the identity.
+    // The link frame is the hinge frame, whose pose is `in_parent` in the parent body and the identity in the child body.
     const Pose in_near = reversed ? Pose{} : hinge.in_parent;
     const Pose far_in_link = reversed ? hinge.in_parent.inverse() : Pose{};
     const std::size_t link = robot_.links.size();
@@ -232,7 +232,7 @@ RobotInfo info(const Robot& robot) {
     result.modules.push_back(std::move(one));
   }
   for (std::size_t m = 0; m < robot.modules.size();
-       ++m) {  // now all modules exist: a parent may have a higher number than its child
+       ++m) {  // in a second loop, because a parent may have a higher number than its child
     const int parent = robot.modules[m].parent;
     if (parent >= 0) result.modules[static_cast<std::size_t>(parent)].children.push_back(static_cast<std::int64_t>(m));
   }

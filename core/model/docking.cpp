@@ -19,7 +19,7 @@ const FaceType* find_face(const ModuleType& type, int id) {
 }
 
 bool at_one_place(const FaceType& a, const FaceType& b) {
-  constexpr double kSame = 1e-9;  // m, and for unit vectors: far above the rounding of written numbers
+  constexpr double kSame = 1e-9;  // m, or of unit vectors; far above the rounding of written numbers
   return a.body == b.body && (a.origin - b.origin).squaredNorm() < kSame * kSame &&
          (a.normal - b.normal).squaredNorm() < kSame * kSame;
 }
@@ -48,7 +48,7 @@ std::string face_list(const ModuleType& type, const Gender* only = nullptr) {
   return text;
 }
 
-/// Faces that dock with that gender.
+/// Faces of a type that dock with a face of gender `gender`.
 std::string partners(const ModuleType& type, Gender gender) {
   const Gender other = gender == Gender::active ? Gender::passive : gender == Gender::passive ? Gender::active : Gender::none;
   return face_list(type, &other);
@@ -56,7 +56,7 @@ std::string partners(const ModuleType& type, Gender gender) {
 
 std::string in_marks(const std::string& name) { return name.empty() ? "none" : "'" + name + "'"; }
 
-/// `0, 2`
+/// Allowed quarter turns of a face, as `0, 2`.
 std::string turn_list(const FaceType& face) {
   std::string text;
   for (std::size_t turn = 0; turn < face.turns.size(); ++turn) {
@@ -65,7 +65,7 @@ std::string turn_list(const FaceType& face) {
   return text;
 }
 
-/// Checks the rows, one problem each.
+/// Checks the rows of a build file, and reports one problem per row.
 class DockRows {
  public:
   DockRows(const std::vector<ModuleType>& types, const std::vector<std::size_t>& type_of, const std::vector<Dock>& docks)
@@ -76,7 +76,7 @@ class DockRows {
   void check() {
     for (const Dock& dock : docks_) check_row(dock);
     check_gaps();
-    // A failed row would look like a missing module or a loop: one mistake, one message.
+    // Loops are checked only without other problems, because a failed row would look like a missing module or a loop.
     if (problems_.empty()) check_loops();
     problems_.raise();
   }
@@ -102,7 +102,7 @@ class DockRows {
   void take_face(const Dock& dock, int module, int face) {
     const std::vector<FaceType>& faces = type(module).faces;
     const FaceType& taken = *find_face(type(module), face);
-    // Format 1 gives a connector that is neither active nor passive two numbers.
+    // In format 1, a connector that is neither active nor passive has two face numbers.
     const auto place = std::find_if(faces.begin(), faces.end(), [&](const FaceType& one) { return at_one_place(one, taken); });
     const auto [at, fresh] = faces_.try_emplace({module, place->id}, Taken{&dock, face});
     if (fresh) return;
@@ -186,8 +186,8 @@ class DockRows {
         dock.child_module, dock.parent_module);
   }
 
-  /// Whether docks between other pairs of modules, wherever they are in the list, connect the two modules of this one. Tested
-  /// for the first few candidates only: a list that is wrong throughout is not a ring.
+  /// True if docks between other pairs of modules, anywhere in the list, connect the two modules of `dock`. Only the first few
+  /// rows are tested, because a list that is wrong throughout is not a ring.
   [[nodiscard]] bool closes_ring(const Dock& dock) {
     constexpr int kAsked = 8;
     if (rings_asked_++ >= kAsked) return false;
@@ -229,7 +229,7 @@ class DockRows {
       int at = module;
       for (; seen.insert(at).second; at = parent_.at(at)->parent_module) path.push_back(at);
       const auto loop = std::find(path.begin(), path.end(), at);
-      if (loop == path.end()) continue;  // the walk ended at module 0, or at modules seen before
+      if (loop == path.end()) continue;  // the path ended at module 0, or at modules seen before
       path.push_back(at);
       problems_.add(parent_.at(at)->place,
                     fmt::format("loop: modules {} hang on one another and none on module 0",
@@ -245,13 +245,14 @@ class DockRows {
     const Dock* dock;
     int face;
   };
-  std::map<std::pair<int, int>, Taken> faces_;  ///< by module and the first face at the place
+  std::map<std::pair<int, int>, Taken> faces_;  ///< by module and the first face at the same place
   std::map<int, const Dock*> parent_;
   std::set<int> children_;
   Problems problems_;
 };
 
-/// Half the cell size of a lattice type, from two faces of one body with different normals, both half a cell from its centre.
+/// Half of the cell size of a lattice type, from two faces of one body with different normals, which are half a cell from the
+/// centre of the body.
 double half_cell(const ModuleType& type) {
   for (const FaceType& a : type.faces) {
     for (const FaceType& b : type.faces) {
@@ -262,14 +263,15 @@ double half_cell(const ModuleType& type) {
   return 0;
 }
 
-/// Half the cell size of each type; 0 without a lattice.
+/// Half of the cell size of each type; 0 without a lattice.
 std::vector<double> half_cells(const Robot& robot) {
   std::vector<double> half;
   for (const ModuleType& type : robot.types) half.push_back(type.lattice ? half_cell(type) : 0);
   return half;
 }
 
-/// The lattice of every module, named by its first module: the farthest one up the tree with docks of equal cell size between.
+/// Lattice of every module, identified by the first module of the lattice. This is the farthest module towards the root with
+/// docks of equal cell size between.
 std::vector<std::size_t> lattices(const Robot& robot, const std::vector<double>& half) {
   const std::size_t unknown = robot.modules.size();
   std::vector<std::size_t> first(robot.modules.size(), unknown);
@@ -309,7 +311,7 @@ void check_cells(const Robot& robot) {
     const auto face =
         std::find_if(type.faces.begin(), type.faces.end(), [&](const FaceType& f) { return f.body == body.type; });
     if (face == type.faces.end() || !(half > 0)) continue;
-    // Cells are counted from a block of the lattice's first module, along the block's axes.
+    // Cells are counted from a block of the first module of the lattice, along the axes of the block.
     const std::size_t lattice = lattice_of[body.module];
     const FaceType& zero = robot.types[robot.modules[lattice].type].faces.front();
     const Body& origin = robot.bodies[robot.modules[lattice].first_body + zero.body];
@@ -322,7 +324,7 @@ void check_cells(const Robot& robot) {
     if (fresh) continue;
     problems.add(module.dock.place, fmt::format("overlapping cells: {} and {} are in the same lattice cell at zero angles",
                                                 at->second->name, body.name));
-    break;  // a wrong row displaces all modules behind it also
+    break;  // a wrong row also displaces all modules after it
   }
   problems.raise();
 }

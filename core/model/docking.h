@@ -1,19 +1,20 @@
-// Rules of docking: conditions for rows of a build file to form a robot.
+// Rules of docking, which the rows of a build file must satisfy.
 #pragma once
 #include "core/model/robot.h"
 
 namespace gaitlab {
 
-/// Face with that id, or nullptr.
+/// Face with the id `id`, or nullptr.
 const FaceType* find_face(const ModuleType& type, int id);
 
-/// Whether two faces of a type are one connector.
+/// True if two faces of a type are the same connector: one body, origin and normal.
 bool at_one_place(const FaceType& a, const FaceType& b);
 
-/// Connectors of both faces by which a module is docked, first the module's; empty: the face's type has no connector data.
+/// Connectors of the two faces at the dock of a module, first the face of the module. A connector is empty if the type of the
+/// module has no data for it.
 std::array<Connector, 2> connectors_at(const Robot& robot, std::size_t module);
 
-/// Throws InputError with every row that breaks a rule (assemble lists them), overlapping cells excepted.
+/// Throws InputError with every row that breaks a rule. assemble() lists the rules; check_cells() checks for overlapping cells.
 void check_docks(const std::vector<ModuleType>& types, const std::vector<std::size_t>& type_of, const std::vector<Dock>& docks);
 
 /// Throws InputError if two blocks of lattice types share a cell at zero angles.

@@ -10,9 +10,9 @@ namespace gaitlab {
 
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
-using Quat = Eigen::Quaterniond;  ///< turns body coordinates into world coordinates
+using Quat = Eigen::Quaterniond;  ///< transforms body coordinates to world coordinates
 
-/// The three numbers of v, for functions that take lists.
+/// View of the three numbers of v, for functions that take lists.
 inline std::span<double> span_of(Vec3& v) { return {v.data(), 3}; }
 
 /// Pose of a frame B in a frame A: p_A = R p_B + p.
@@ -37,15 +37,15 @@ inline Quat turn(const Vec3& w) {
   return angle > 0 ? turn(w / angle, angle) : Quat::Identity();
 }
 
-/// Rz(yaw) Ry(pitch) Rx(roll): axes of the child written in the parent.
+/// Rotation matrix Rz(yaw) Ry(pitch) Rx(roll). Its columns are the axes of the child in the parent frame.
 inline Mat3 rpy(const Vec3& roll_pitch_yaw) {
   return (turn(Vec3::UnitZ(), roll_pitch_yaw.z()) * turn(Vec3::UnitY(), roll_pitch_yaw.y()) *
           turn(Vec3::UnitX(), roll_pitch_yaw.x()))
       .toRotationMatrix();
 }
 
-/// The inverse of rpy; pitch in [-pi/2, pi/2]. Exact to rounding also at a pitch of +-pi/2, where roll and yaw are one turn:
-/// there yaw is arbitrary, and roll is the remaining rotation.
+/// Inverse of rpy(), with pitch in [-pi/2, pi/2]. The result is exact to rounding also at a pitch of +-pi/2. There, roll and
+/// yaw turn about the same axis, so that yaw is arbitrary and roll is the remaining rotation.
 inline Vec3 to_rpy(const Mat3& R) {
   const double yaw = math::atan2(R(1, 0), R(0, 0));
   const auto [s, c] = math::sincos(yaw);

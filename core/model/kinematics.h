@@ -1,4 +1,4 @@
-// Poses and velocities of all links: the outward recursion over a Robot.
+// Poses and velocities of all links, by recursion from the base outwards.
 #pragma once
 #include <span>
 #include <vector>
@@ -11,22 +11,22 @@ namespace gaitlab {
 struct RobotState {
   Vec3 position = Vec3::Zero();          ///< origin of the base frame, m
   Quat orientation = Quat::Identity();   ///< base frame -> world
-  Vec3 velocity = Vec3::Zero();          ///< of the origin of the base frame, m/s
+  Vec3 velocity = Vec3::Zero();          ///< velocity of the origin of the base frame, m/s
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
-  std::vector<double> q, qd;             ///< joints, rad, rad/s
+  std::vector<double> q, qd;             ///< joint angles, rad, and speeds, rad/s
 };
 
-/// Time derivative of a RobotState's velocities, world axes, SI.
+/// Time derivative of the velocities of a RobotState, world axes, SI.
 struct Acceleration {
-  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();  ///< linear: base frame's origin; angular: base frame
+  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();  ///< linear: of the origin of the base frame; angular: of the base frame
   std::vector<double> joints;
 };
 
-/// World pose and velocity of every link frame. Sized once; update allocates nothing.
+/// World pose and velocity of every link frame. Only the constructor allocates.
 struct Kinematics {
   explicit Kinematics(const Robot& robot);
   void update(const Robot& robot, const RobotState& state);
-  /// Computes the poses alone: omega and v are unchanged.
+  /// Computes the poses only; omega and v are unchanged.
   void place(const Robot& robot, const RobotState& state);
 
   [[nodiscard]] Vec3 point(std::size_t link, const Vec3& in_link) const { return R[link] * in_link + p[link]; }
@@ -36,24 +36,24 @@ struct Kinematics {
   std::vector<Mat3> R;      ///< link axes in the world
   std::vector<Vec3> p;      ///< origin of the link frame, m
   std::vector<Vec3> omega;  ///< rad/s
-  std::vector<Vec3> v;      ///< of the link frame's origin, m/s
-  std::vector<Quat> turns;  ///< rotation of each joint at its angle (links 1..), link frame at angle 0 <- link frame
+  std::vector<Vec3> v;      ///< velocity of the origin of the link frame, m/s
+  std::vector<Quat> turns;  ///< per link (1..): rotation of the link frame by its joint, relative to angle 0
 };
 
-/// All angles and speeds 0, base frame = world.
+/// Kinematics with all angles and speeds 0 and the base frame equal to the world frame.
 Kinematics at_zero(const Robot& robot);
 
 /// Mechanical sums over all links.
 struct Sums {
   Vec3 com = Vec3::Zero(), momentum = Vec3::Zero();
-  Vec3 angular_momentum = Vec3::Zero();  ///< about the world origin
+  Vec3 angular_momentum = Vec3::Zero();  ///< angular momentum about the world origin
   double kinetic = 0, potential = 0;     ///< J
 };
 /// Centre of mass as in Sums, m.
 Vec3 centre_of_mass(const Robot& robot, const Kinematics& kinematics);
 Sums sums(const Robot& robot, const Kinematics& kinematics, const Vec3& gravity);
 
-/// Height (along -gravity's z: world z) of the lowest point of the robot's contact elements or, without any, of its outline.
+/// Height (world z, m) of the lowest point of the contact elements or, without elements, of the outline of the robot.
 double lowest_point(const Robot& robot, const Kinematics& kinematics, std::span<const ContactElement> elements);
 
 }  // namespace gaitlab

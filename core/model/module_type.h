@@ -1,4 +1,4 @@
-// Description of a type of module: any tree of bodies and revolute hinges, its faces, contact elements and default motor.
+// Type of module: any tree of bodies and revolute hinges, with faces, contact elements and a default motor.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -14,8 +14,8 @@
 
 namespace gaitlab {
 
-/// A piece of a body's outline, for drawing: a box (full sizes), a cylinder or half cylinder (axis y of its frame; the half one
-/// bulges towards +x), or a sphere. m, body frame.
+/// Piece of the outline of a body, for drawing, m, body frame: a box (full sizes), a cylinder, a half cylinder, or a sphere.
+/// The axis of a cylinder is y of its frame; a half cylinder bulges towards +x.
 struct Shape {
   enum class Kind { box, cylinder, half_cylinder, sphere } kind = Kind::box;
   Pose in_body = {};
@@ -30,20 +30,20 @@ struct BodyType {
   std::vector<Shape> shapes = {};
 };
 
-inline constexpr double kNoStop = std::numeric_limits<double>::infinity();  ///< hi, and -lo, of a hinge that turns freely
+inline constexpr double kNoStop = std::numeric_limits<double>::infinity();  ///< value of hi and -lo if a hinge turns freely
 
-/// A hinge. The child's frame is the hinge frame at angle 0; a positive angle is a right-hand turn of the child relative to the
-/// parent.
+/// A hinge. At angle 0 the frame of the child is the hinge frame. A positive angle is a right-hand turn of the child relative
+/// to the parent.
 struct HingeType {
   std::string name;
   std::size_t parent = 0, child = 0;  ///< indices of bodies
   Pose in_parent = {};
   Vec3 axis = Vec3::UnitY();            ///< unit vector, hinge frame
-  double lo = 0, hi = 0;                ///< rad; -kNoStop and kNoStop: turns freely
-  std::optional<Passive> passive = {};  ///< `drive: none`; empty: a motor drives it
+  double lo = 0, hi = 0;                ///< rad; -kNoStop and kNoStop if the hinge turns freely
+  std::optional<Passive> passive = {};  ///< set for `drive: none`; empty if a motor drives the hinge
 };
 
-/// Gender of a face: active docks on passive, none on none.
+/// Gender of a face. An active face docks on a passive face, and a face without gender (none) on another one without gender.
 enum class Gender { active, passive, none };
 
 template <>
@@ -52,7 +52,7 @@ struct EnumNames<Gender> {
   static constexpr EnumName<Gender> kTable[] = {{active, "active"}, {passive, "passive"}, {none, "none"}};
 };
 
-/// Loads that the connector of a face bears, N and N m; 0: not stated. `source`: origin of the values.
+/// Rated loads of the connector of a face, N and N m; 0 if not stated. `source` is the origin of the values.
 struct Connector {
   double tension = 0, shear = 0, bending = 0, torsion = 0;
   std::string source = {};
@@ -62,9 +62,9 @@ struct FaceType {
   int id = 0;
   std::size_t body = 0;
   Gender gender = Gender::active;
-  Vec3 origin = Vec3::Zero(), normal = Vec3::UnitX(), reference = Vec3::UnitY();  ///< body frame; unit, at right angles
-  std::string connector = {};                         ///< faces dock if their connectors have the same name; ""
-  std::array<bool, 4> turns{true, true, true, true};  ///< allowed orientations
+  Vec3 origin = Vec3::Zero(), normal = Vec3::UnitX(), reference = Vec3::UnitY();  ///< body frame; unit vectors at right angles
+  std::string connector = {};                         ///< name, may be ""; faces dock only if the names are equal
+  std::array<bool, 4> turns{true, true, true, true};  ///< allowed quarter turns
 };
 
 /// A point (radius 0) or sphere fixed to a body.
@@ -78,13 +78,13 @@ struct ContactType {
 /// ids.
 struct ModuleType {
   std::string name;
-  bool lattice = false;  ///< bodies with faces fill cells of a cubic lattice: two in one cell at zero angles is an error
+  bool lattice = false;  ///< bodies with faces fill cells of a cubic lattice; two in one cell at zero angles are an error
   std::vector<BodyType> bodies;
   std::vector<HingeType> hinges;
   std::vector<FaceType> faces;
   std::map<std::string, Connector> connectors = {};  ///< connectors of the faces with known loads, by name
-  std::vector<ContactType> feet, all;                ///< feet: those used for `on: feet`, on whichever body is free
-  std::size_t root = 0;                              ///< the body that is not a hinge's child; its frame is the module frame
+  std::vector<ContactType> feet, all;                ///< used for `on: feet` (those on free bodies) and `on: all`
+  std::size_t root = 0;                              ///< body that is not the child of a hinge; its frame is the module frame
 };
 
 }  // namespace gaitlab

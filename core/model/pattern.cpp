@@ -8,7 +8,7 @@ bool glob(const std::string& pattern, const std::string& text) {
   constexpr std::size_t kNone = std::string::npos;
   std::size_t p = 0;
   std::size_t t = 0;
-  std::size_t star = kNone;  // the last `*` met, and the end of the text that it has to match at least
+  std::size_t star = kNone;  // index of the last `*`, and end of the text that this `*` matches so far
   std::size_t swallowed = 0;
   while (t < text.size()) {
     if (p < pattern.size() && pattern[p] == '*') {

@@ -1,13 +1,13 @@
-// Patterns of names, of joints and of columns: the one matcher of the project.
+// Patterns for names of joints and columns, with the only matcher of the project.
 #pragma once
 #include <string>
 
 namespace gaitlab {
 
-/// Whether a user's text is a pattern and not a name: it contains `*` or `?`, which names never do.
+/// True if a text is a pattern and not a name. A pattern contains `*` or `?`, which names never contain.
 bool is_pattern(const std::string& text);
 
-/// `*` stands for any run of characters, `?` for one.
+/// True if `text` matches `pattern`. `*` matches any run of characters, `?` a single character.
 bool glob(const std::string& pattern, const std::string& text);
 
 }  // namespace gaitlab

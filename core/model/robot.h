@@ -1,4 +1,4 @@
-// The assembled robot: docked bodies fused into links, every body with its name and pose. Engine-free.
+// Assembled robot, independent of engines: docked bodies fused into links, and every body with its name and pose.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -13,11 +13,12 @@
 
 namespace gaitlab {
 
-/// Bodies that move as one. Its frame is the frame of its joint (link 0: the base frame); a parent comes before its children.
+/// Bodies that move as one. The link frame is the frame of the joint that moves the link; for link 0 it is the base frame. A
+/// parent comes before its children.
 struct Link {
   int parent = -1;              ///< link towards the base, -1 for link 0
-  int joint = -1;               ///< joint that moves it, -1 for link 0
-  Pose in_parent = {};          ///< frame in the parent link's at joint angle 0
+  int joint = -1;               ///< joint that moves the link, -1 for link 0
+  Pose in_parent = {};          ///< link frame in the frame of the parent link, at joint angle 0
   Vec3 axis = Vec3::UnitY();    ///< joint axis, link frame, unit vector
   double mass = 0;              ///< kg
   Vec3 com = Vec3::Zero();      ///< m, link frame
@@ -25,27 +26,27 @@ struct Link {
 };
 
 struct Joint {
-  std::string name;  ///< `m3/passive`
+  std::string name;  ///< for example `m3/passive`
   std::size_t module = 0;
-  std::size_t link = 0;   ///< the link it moves
-  double lo = 0, hi = 0;  ///< rad; positive = right-hand turn of the farther body relative to the nearer one; +-kNoStop
-  std::optional<Passive> passive = {};  ///< present if it has no motor
+  std::size_t link = 0;   ///< link that the joint moves
+  double lo = 0, hi = 0;  ///< rad or +-kNoStop; positive: right-hand turn of the outer body relative to the inner body
+  std::optional<Passive> passive = {};  ///< set if the joint has no motor
   [[nodiscard]] bool driven() const { return !passive; }
   [[nodiscard]] bool turns_freely() const { return hi == kNoStop; }
 };
 
 struct Body {
-  std::string name;  ///< `m3/link`
+  std::string name;  ///< for example `m3/link`
   std::size_t module = 0;
-  std::size_t type = 0;  ///< index in the module type's bodies
+  std::size_t type = 0;  ///< index in the bodies of the module type
   std::size_t link = 0;
   Pose in_link = {};
-  bool free = false;  ///< carries no dock and is last in its module's chain: feet are there
+  bool free = false;  ///< true at the end of the hinge chain of a module; feet are on such bodies
 };
 
 /// A point (radius 0) or sphere that may touch the ground.
 struct ContactElement {
-  std::string name;  ///< `m3/passive/p0`, spheres `s0`
+  std::string name;  ///< `m3/passive/p0` for a point, `m3/passive/s0` for a sphere
   std::size_t body = 0;
   std::size_t link = 0;
   Vec3 centre = Vec3::Zero();  ///< m, link frame
@@ -59,11 +60,11 @@ struct Dock {
 
 struct Module {
   std::size_t type = 0;  ///< index in Robot::types
-  int parent = -1;       ///< module that it is docked to, -1 for module 0
+  int parent = -1;       ///< module to which this module is docked, -1 for module 0
   Dock dock = {};        ///< row of the build file (parent >= 0)
   std::size_t first_body = 0;
   std::vector<std::size_t> joints = {};  ///< breadth-first from the reference body
-  std::size_t reference = 0;             ///< body (index in Robot::bodies) by which it is docked; for module 0 its type's root
+  std::size_t reference = 0;             ///< docked body (index in Robot::bodies); for module 0 the root of the type
 };
 
 struct Robot {
@@ -87,14 +88,14 @@ struct EnumNames<ContactSet> {
   static constexpr EnumName<ContactSet> kTable[] = {{none, "none"}, {feet, "feet"}, {all, "all"}};
 };
 
-/// Builds the robot from `type_of_module` (index into types, one per module) and the docks. Errors (InputError, all at once,
-/// each at its row): wrong gender, connectors that differ, face used twice, unknown module or face, two parents, loop, gap in
-/// the numbering, an orientation that does not exist or that a face does not allow, and for lattice types two blocks in one
-/// cell at zero angles.
+/// Builds the robot from `type_of_module` (index into types, one per module) and the docks. Throws one InputError with all
+/// problems, each at its row. Problems of a dock are a wrong gender, connectors that differ, a face used twice, an unknown
+/// module or face, and an orientation that does not exist or that a face does not allow. Problems of the tree are two parents,
+/// a loop, a gap in the numbering, and, in lattice types, two blocks in one cell at zero angles.
 Robot assemble(std::vector<ModuleType> types, const std::vector<std::size_t>& type_of_module, const std::vector<Dock>& docks);
 
-/// Contact elements of the set `on`, by body, then in file order. feet: the feet of the free body of every module without
-/// children.
+/// Contact elements of the set `on`, by body, then in file order. The set `feet` contains the feet of the free body of every
+/// module without children.
 std::vector<ContactElement> contact_elements(const Robot& robot, ContactSet on);
 
 /// Description of the robot for plugins.

@@ -5,7 +5,8 @@
 
 namespace gaitlab {
 
-/// The block that carries the active or the passive faces, the link between them, or a body whose faces have no gender.
+/// Roles: active or passive for a block with faces of that gender, link for a body without faces, other for a block whose faces
+/// have no gender.
 enum class Role { active, link, passive, other };
 
 template <>
@@ -14,7 +15,7 @@ struct EnumNames<Role> {
   static constexpr EnumName<Role> kTable[] = {{active, "active"}, {link, "link"}, {passive, "passive"}, {other, "other"}};
 };
 
-/// Role of a body of a module type, by the gender of the body's first face; link without faces.
+/// Role of a body of a module type, by the gender of its first face; link if it has no faces.
 inline Role role_of(const ModuleType& type, std::size_t body) {
   for (const FaceType& face : type.faces) {
     if (face.body != body) continue;

@@ -1,4 +1,4 @@
-// Actuators: command and joint speed -> torque and its slope. Standard library only.
+// Interface of actuators, which compute torque and its slope from command and joint speed. Standard library only.
 #pragma once
 #include "core/plugin/fields.h"
 
@@ -8,37 +8,42 @@ template <class T>
 struct BasicDcMotor;
 using DcMotor = BasicDcMotor<double>;
 
-/// Ratings of a joint's drive, as its maker states them; 0: not stated. Only verdicts use them, not the simulation.
+/// Ratings of a joint's drive, as its maker states them. 0 means that the rating is not stated. Only verdicts use ratings, not
+/// the simulation.
 struct DriveRatings {
-  double current_continuous = 0;                  ///< A, continuous RMS
-  double torque_peak = 0, torque_continuous = 0;  ///< N m at the joint, of the gear: largest; continuous RMS
-  double speed = 0;                               ///< rad/s at the joint, largest
+  double current_continuous = 0;                  ///< largest continuous RMS current, A
+  double torque_peak = 0, torque_continuous = 0;  ///< largest and continuous RMS torque of the gear at the joint, N m
+  double speed = 0;                               ///< largest speed at the joint, rad/s
 };
 
-/// Computes torque from command and joint speed. Without memory and elementwise over joint*lanes + lane, so that one plain loop
-/// serves one lane or eight. Does not allocate.
+/// Function from command and joint speed to torque. It has no memory and does not allocate. Inputs and outputs have an element
+/// joint * lanes + lane for each joint and lane. An output element depends only on the input elements with its index, so that
+/// one loop serves one lane or eight.
 class Actuator {
  public:
   virtual ~Actuator() = default;
   [[nodiscard]] virtual std::string_view command_unit() const = 0;  ///< "V" or "N m"
-  [[nodiscard]] virtual In command_limit() const = 0;               ///< largest useful |command|; infinity: no limit
-  /// Reflected rotor inertia n^2 J, kg m^2 on the joint, added to the joint's inertia; empty: none.
+  [[nodiscard]] virtual In command_limit() const = 0;               ///< largest useful |command|; infinity for no limit
+  /// Reflected rotor inertia n^2 J, kg m^2, which is added to the joint's inertia. Empty for no rotor inertia.
   [[nodiscard]] virtual In reflected_inertia() const { return {}; }
-  /// torque: N m on the joint, positive along its axis; slope = -d(torque)/d(speed) >= 0, N m s/rad, 0 while limited.
+  /// Computes torque (N m, positive along the joint's axis) and slope = -d(torque)/d(speed) >= 0 (N m s/rad). The slope is 0
+  /// while the torque is limited.
   virtual void effort(In command, In speed, Out torque, Out slope) const = 0;
-  /// voltage V, current A, saturation (0 none, 1 voltage, 2 current), power drawn, power lost in copper and in the gear, W.
+  /// Electrical quantities: voltage V, current A, saturation (0 none, 1 voltage, 2 current), and power drawn, lost in copper
+  /// and lost in the gear, W.
   struct Electrical {
     Out voltage, current, saturation, power_in, copper, gear;
   };
-  virtual void electrical(In command, In speed, Electrical) const = 0;  ///< for trace and ledger only
-  /// effort without the limit that depends on the speed (a motor's largest current); the same bits where that limit does not
-  /// bind. Used by contact.law: bullet, whose rows contain the limit separately. Without such a limit: effort.
+  virtual void electrical(In command, In speed, Electrical) const = 0;  ///< used for trace and ledger only
+  /// Computes the effort without the limit that depends on the speed (a motor's largest current). If that limit is not
+  /// active, the result equals effort() bit for bit. The contact law `bullet` uses this function, because the rows of its
+  /// solver contain the limit separately. An actuator without such a limit calls effort().
   virtual void unlimited(In command, In speed, Out torque, Out slope) const { effort(command, speed, torque, slope); }
-  /// Ratings, one per joint * lanes + lane; empty: not stated.
+  /// Ratings by joint * lanes + lane. Empty if no rating is stated.
   [[nodiscard]] virtual std::span<const DriveRatings> ratings() const { return {}; }
-  /// DC motors (core/laws/dc_motor.h), one per joint * lanes + lane, if effort is exactly their law: an engine may then
-  /// evaluate it itself, several lanes at once. Entries of joints without a motor (JointInfo::driven) are not used. Else
-  /// nullptr.
+  /// DC motors (core/laws/dc_motor.h) by joint * lanes + lane, if effort() is exactly the law of these motors; otherwise null.
+  /// An engine may then evaluate that law directly, several lanes at once. Entries of joints without a motor
+  /// (JointInfo::driven) are not used.
   [[nodiscard]] virtual const DcMotor* dc_motors() const { return nullptr; }
 };
 

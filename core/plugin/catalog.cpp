@@ -20,8 +20,8 @@ std::string last_dl_error() {
   return text == nullptr ? "unknown reason" : text;
 }
 
-/// Saves the processor's rounding and flushing modes and restores them at the end: a library's code may change them (if linked
-/// with -ffast-math).
+/// Saves the processor's rounding and flushing modes and restores them at the end, because the code of a library that is linked
+/// with -ffast-math may change them.
 class FloatingPointEnvironment {
  public:
   FloatingPointEnvironment() { std::fegetenv(&environment_); }
@@ -33,7 +33,8 @@ class FloatingPointEnvironment {
   std::fenv_t environment_ = {};
 };
 
-/// During its lifetime an exception of a library's static object ends the program with a message: none passes through dlopen.
+/// During the lifetime of this object, an exception of a library's static object ends the program with a message, because such
+/// an exception cannot pass through dlopen.
 class NamedTermination {
  public:
   explicit NamedTermination(const std::string& path) { path_ = path.c_str(); }
@@ -45,14 +46,14 @@ class NamedTermination {
   [[noreturn]] static void end() {
     for (const char* text : {path_, ": error: a static object of this plugin threw an exception when it was loaded\n"})
       say(text);
-    std::_Exit(2);  // bad input; no output was written yet
+    std::_Exit(2);  // exit code for bad input; no output has been written yet
   }
 
   static inline const char* path_ = "";
   std::terminate_handler before_ = std::set_terminate(end);
 };
 
-/// Characters that scenarios, --set and lists with commas can contain.
+/// True for a text of characters that scenarios, --set and lists with commas can contain.
 bool is_plugin_name(const std::string& text) {
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   const auto inside = [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-'; };
@@ -157,7 +158,7 @@ void load_plugin(const std::string& path, Catalog& catalog) {
   if (std::string_view(abi()) != GAITLAB_ABI) {
     throw std::runtime_error(path + " was built for '" + abi() + "', this program is '" GAITLAB_ABI "': build it again");
   }
-  // Never closed: settings and plugins of the library live as long as the program.
+  // The library is never closed, because its settings and plugins live as long as the program.
   catalog.set_origin(path);
   try {
     enter(catalog);

@@ -1,4 +1,4 @@
-// Catalog of everything registered in this program: plugins by kind and name, with their origin, and the engines.
+// Catalog of all plugins that are registered in this program, by kind and name with their origin, and of the engines.
 #pragma once
 #include <array>
 #include <deque>
@@ -20,39 +20,42 @@ struct Scenario;
 /// A method of time integration.
 struct Integrator {
   std::string name;
-  int order = 0;        ///< order of its error in the step; 0: unknown, or the method chooses its steps
-  bool adapts = false;  ///< divides its steps as physics.accuracy asks
+  int order = 0;        ///< order of the error in the step; 0 if unknown or if the method chooses its steps
+  bool adapts = false;  ///< true if the integrator divides its steps according to physics.accuracy
 };
 
-/// A physics engine: its choices for a scenario and its factory.
+/// A physics engine: its possible settings, and a function that makes it.
 struct Engine {
   std::string name, manual;
-  std::vector<Integrator> integrators;  ///< the first is the default; for a given step, fixed()
-  double step = 0;  ///< default step of the integrators that take it as given, s; with choose_step the longest
+  std::vector<Integrator> integrators;  ///< the first one is the default; fixed() is the default for a given step
+  double step = 0;                    ///< default step of integrators with a given step, s; with choose_step, the longest step
   std::vector<std::size_t> lanes{1};  ///< possible numbers of rollouts side by side, ascending
-  bool rotor_inertia = false;         ///< can add a joint's reflected rotor inertia
+  bool rotor_inertia = false;         ///< true if the engine can add a joint's reflected rotor inertia
   std::unique_ptr<Plant> (*make)(const PlantSettings&) = nullptr;
-  double solver_step = 0;  ///< default with contact.law: bullet, s; 0: the engine does not have that law
-  /// Chooses the step, s, for `step: auto`, which is then the default; for an engine whose stability limits its steps. 0: no
-  /// such step divides the scenario's periods.
+  double solver_step = 0;  ///< default step with contact.law `bullet`, s; 0 if the engine lacks that law
+  /// Function that chooses the step, s, for `step: auto`, which is then the default. It exists if stability limits the steps of
+  /// the engine. It returns 0 if no such step divides the scenario's periods.
   double (*choose_step)(const Scenario&) = nullptr;
 
-  [[nodiscard]] const Integrator* integrator(std::string_view name) const;  ///< nullptr: unknown
-  [[nodiscard]] const Integrator* adaptive() const;  ///< the one that chooses its steps, with default step: auto; or nullptr
-  [[nodiscard]] const Integrator& fixed() const;     ///< the default for a given step: the first that takes it
+  [[nodiscard]] const Integrator* integrator(std::string_view name) const;  ///< null if the name is unknown
+  /// Integrator that chooses its steps, with the default `step: auto`; or null.
+  [[nodiscard]] const Integrator* adaptive() const;
+  /// Default for a given step: the first integrator that does not choose its steps.
+  [[nodiscard]] const Integrator& fixed() const;
   [[nodiscard]] std::vector<std::string> integrator_names() const;
-  /// The default where a step is given, s. own_solver: the contact law is that of its solver.
+  /// Default step for integrators with a given step, s. `own_solver` is true if the engine's own solver defines the contact
+  /// law.
   [[nodiscard]] double given_step(bool own_solver) const { return own_solver && solver_step > 0 ? solver_step : step; }
 };
 
-inline constexpr std::string_view kBuiltIn = "built in";  ///< an origin
+inline constexpr std::string_view kBuiltIn = "built in";  ///< origin of plugins that belong to the program
 
 /// A kind of plugin, with its names in scenarios and messages.
 struct PluginKind {
   Kind kind;
   const char* section;       ///< key of the scenario, and name of the kind in messages
-  const char* default_type;  ///< type if the section names none
-  bool may_be_none;          ///< whether `type: none` is allowed
+  const char* default_type;  ///< type that is used if the section names none
+  bool may_be_none;          ///< true if `type: none` is allowed
   const char* about;         ///< description of the section
   const char* about_type;    ///< description of its key `type`
 };
@@ -65,26 +68,26 @@ inline constexpr std::array<PluginKind, 3> kPluginKinds{{
      "Motor model; its own keys: gaitlab explain actuator TYPE."},
 }};
 const PluginKind& describe(Kind kind);
-/// Kind of a section; nullptr: the section has no plugin.
+/// Kind of plugin that a section selects, or null if the section selects none.
 const PluginKind* find_kind(std::string_view section);
 inline const char* word(Kind kind) { return describe(kind).section; }
 
-/// Libraries that a scenario may load; loading runs their code.
+/// Plugin libraries that a scenario may load. A library that is loaded can run any code.
 struct PluginTrust {
   bool all = true;
-  std::set<std::string> files = {};  ///< canonical paths
-  std::string remedy = {};           ///< part of the message of a refusal: how to allow it
+  std::set<std::string> files = {};  ///< canonical paths of the permitted libraries
+  std::string remedy = {};           ///< part of the message of a refusal that explains how to permit the library
 };
 
 class Catalog final : public Registry {
  public:
   Catalog() = default;
-  Catalog(Catalog&&) = default;  // no copy: entries point to their origins
-  /// Adds an entry. Names are unique within a kind: a second one throws std::invalid_argument naming both origins, as does an
-  /// invalid name (valid: a letter, then letters, digits, _ and -).
+  Catalog(Catalog&&) = default;  // entries point to their origins, so that a catalog cannot be copied
+  /// Adds an entry. Its name must begin with a letter, followed by letters, digits, _ and -. Throws std::invalid_argument for
+  /// any other name. Throws it also, with the origins of both entries, if the kind already has an entry with this name.
   void add(const Entry& entry) override;
   void add(const Engine& engine);
-  /// Sets the origin of the entries added from now on: kBuiltIn or the path of a library.
+  /// Sets the origin of the entries that are added afterwards: kBuiltIn, or the path of a library.
   void set_origin(std::string origin) { origin_ = std::move(origin); }
   void set_loaded(const std::string& path) { loaded_.insert(path); }
   [[nodiscard]] bool loaded(const std::string& path) const { return loaded_.contains(path); }
@@ -109,10 +112,10 @@ class Catalog final : public Registry {
   PluginTrust trust_;
 };
 
-/// Loads a plugin library into the catalog: canonical path, RTLD_NOW | RTLD_LOCAL, ABI string first, floating-point control
-/// register restored, never closed. Loading the same file again does nothing. Throws std::runtime_error if it cannot be opened
-/// (with the reason), has no gaitlab_abi (it is not a plugin), has another ABI (with both), duplicates a name, or throws
-/// itself.
+/// Loads a plugin library into the catalog, from its canonical path, with RTLD_NOW | RTLD_LOCAL. The ABI text is compared
+/// first, the floating-point control register is restored, and the library is never closed. A second call for the same file has
+/// no effect. Throws std::runtime_error if the file cannot be opened (with the reason), lacks gaitlab_abi (it is not a plugin),
+/// has another ABI (with both), registers a name twice, or throws an exception.
 void load_plugin(const std::string& canonical_path, Catalog& catalog);
 
 }  // namespace gaitlab

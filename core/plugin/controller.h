@@ -1,18 +1,19 @@
-// Joint controllers: set points and measurements -> commands. Standard library only.
+// Interface of joint controllers, which compute commands from set points and measurements. Standard library only.
 #pragma once
 #include "core/plugin/cpg.h"
 
 namespace gaitlab {
 
-/// A joint controller. Called once per control period; the command is held until the next call. Without memory: the caller owns
-/// x. update does not allocate.
+/// A joint controller. update() is called once per control period, and its command is held until the next call. The controller
+/// has no memory: the caller owns the state x. update() does not allocate.
 class Controller {
  public:
   virtual ~Controller() = default;
-  [[nodiscard]] virtual std::string_view command_unit() const = 0;  ///< "V" or "N m", as the actuator's; "": either
+  /// "V" or "N m", equal to the actuator's unit; "" if the controller works with either unit.
+  [[nodiscard]] virtual std::string_view command_unit() const = 0;
   [[nodiscard]] virtual std::size_t states() const { return 0; }
   virtual void start(Out) const {}
-  /// All spans except x have one entry per joint; command_limit is the actuator's (same unit as the command).
+  /// Every span except x has one entry per joint. `command_limit` is that of the actuator, in the unit of the command.
   virtual void update(const Measured&, In setpoint, In command_limit, Out x, Out command) const = 0;
 };
 

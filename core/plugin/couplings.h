@@ -1,5 +1,4 @@
-// The coupling graph of a network of oscillators: an explicit list, or a rule that derives it from the robot. Standard library
-// only.
+// The coupling graph of a network of oscillators, from an explicit list or from a rule. Standard library only.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -12,7 +11,7 @@
 
 namespace gaitlab {
 
-/// A coupling, with the limit cycle phi_to = phi_from + phase_lag.
+/// A coupling between two oscillators. On the limit cycle phi_to = phi_from + phase_lag.
 struct Coupling {
   std::int64_t from = 0, to = 0;
   double weight = 1, phase_lag = 0;
@@ -25,10 +24,12 @@ struct Coupling {
   }
 };
 
-/// Joint that each joint follows; joints without a motor neither follow nor are followed. chain: the joint numbered before it;
-/// parent: the next one towards the base; siblings: as parent, and joints with the same parent follow one another; mirror:
-/// joints on the right follow their mirror image on the left, the others as parent; all: every joint follows every other, with
-/// the lags of chain.
+/// Rule that selects which joint each joint follows. Joints without a motor neither follow nor are followed.
+/// - chain: every joint follows the joint with the preceding number.
+/// - parent: every joint follows the next joint towards the base.
+/// - siblings: as parent, and joints with the same parent also follow one another.
+/// - mirror: joints on the right follow their mirror image on the left; all other joints as parent.
+/// - all: every joint follows every other joint, with the lags of chain.
 enum class CouplingRule { chain, parent, siblings, mirror, all };
 
 inline constexpr const char* kCouplingRules[] = {"chain", "parent", "siblings", "mirror", "all"};
@@ -36,11 +37,11 @@ inline constexpr const char* kCouplingRulesAbout =
     "Which joint each joint follows. chain: the previous one; parent: the next towards the base; siblings: parent, and joints "
     "with the same parent; mirror: a right joint follows its left counterpart; all: every other joint; or a list.";
 
-/// The joint that is the image of `joint` (y < 0) in the plane y = 0 at zero angles, or -1. Its axis is parallel to the image
-/// of the joint's; a positive turn may go the other way.
+/// Number of the joint that is the mirror image of `joint` (which has y < 0) in the plane y = 0 at zero angles, or -1. The axes
+/// of image and joint are parallel after reflection, but positive turns may be opposite.
 inline std::int64_t mirror_image(const RobotInfo& robot, std::size_t joint) {
-  constexpr double kSamePlace = 1e-3;     // m: far above rounding, far below a module
-  constexpr double kSameDirection = 0.9;  // cosine
+  constexpr double kSamePlace = 1e-3;     // m; far above rounding errors, far below the size of a module
+  constexpr double kSameDirection = 0.9;  // cosine of the largest angle between parallel axes
   const JointInfo& own = robot.joints[joint];
   if (own.origin[1] > -kSamePlace || !own.driven) return -1;
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
@@ -53,8 +54,8 @@ inline std::int64_t mirror_image(const RobotInfo& robot, std::size_t joint) {
   return -1;
 }
 
-/// Phases on the limit cycle: sums of lags along the couplings from the lowest joint of each connected part (phase 0). Empty if
-/// couplings contradict one another around a cycle: no phases then satisfy all lags.
+/// Phases on the limit cycle, as sums of lags along the couplings. The joint with the lowest number in each connected part has
+/// phase 0. Empty if couplings contradict one another around a cycle, so that no phases satisfy all lags.
 inline std::vector<double> phases_of(const std::vector<Coupling>& graph, std::size_t joints) {
   std::vector<double> phase(joints, 0.0);
   std::vector<bool> known(joints, false);
@@ -85,14 +86,15 @@ inline std::vector<double> phases_of(const std::vector<Coupling>& graph, std::si
 
 namespace detail {
 
-/// The next joint towards the base that has a motor, -1: none.
+/// Number of the next joint towards the base that has a motor, or -1 if there is none.
 inline std::int64_t driven_parent(const RobotInfo& robot, std::size_t joint) {
   std::int64_t at = robot.joints[joint].parent;
   while (at >= 0 && !robot.joints[static_cast<std::size_t>(at)].driven) at = robot.joints[static_cast<std::size_t>(at)].parent;
   return at;
 }
 
-/// Joints with the same parent lead one another by the difference of their lags, which is consistent with rule parent.
+/// Couples the joints with the same parent. Each joint leads another by the difference of their lags, which is consistent with
+/// the rule `parent`.
 inline void couple_siblings(const RobotInfo& robot, double weight, const PerJoint& lag, std::vector<Coupling>& graph) {
   for (std::size_t i = 0; i < robot.joints.size(); ++i) {
     for (std::size_t j = 0; j < robot.joints.size(); ++j) {
@@ -103,7 +105,8 @@ inline void couple_siblings(const RobotInfo& robot, double weight, const PerJoin
   }
 }
 
-/// Weight w / (n - 1) each, so that the total weight on a joint does not depend on n.
+/// Couples every joint to every other. Each of n joints has couplings of weight w / (n - 1), so that the total weight on a
+/// joint does not depend on n.
 inline std::vector<Coupling> couple_all(const std::vector<std::int64_t>& joints, double weight, const PerJoint& lag) {
   std::vector<double> phase(joints.size(), 0.0);
   for (std::size_t i = 1; i < joints.size(); ++i) phase[i] = phase[i - 1] + lag[static_cast<std::size_t>(joints[i])];
@@ -119,7 +122,7 @@ inline std::vector<Coupling> couple_all(const std::vector<std::int64_t>& joints,
 
 }  // namespace detail
 
-/// Couplings of a rule; `lag[i]` is the lead of joint i over the joint it follows.
+/// Couplings of a rule. `lag[i]` is the phase by which joint i leads the joint that it follows.
 inline std::vector<Coupling> couple(const RobotInfo& robot, CouplingRule rule, double weight, const PerJoint& lag) {
   std::vector<std::int64_t> driven;
   for (std::size_t i = 0; i < robot.joints.size(); ++i) {
@@ -133,7 +136,7 @@ inline std::vector<Coupling> couple(const RobotInfo& robot, CouplingRule rule, d
     std::int64_t from = rule == CouplingRule::chain ? before : detail::driven_parent(robot, i);
     before = to;
     if (const std::int64_t image = rule == CouplingRule::mirror ? mirror_image(robot, i) : -1; image >= 0) {
-      graph.push_back({to, image, weight, -lag[i]});  // the two follow one another
+      graph.push_back({to, image, weight, -lag[i]});  // joint and image follow one another
       from = image;
     }
     if (from >= 0) graph.push_back({from, to, weight, lag[i]});

@@ -1,4 +1,4 @@
-// Central pattern generators: ODE state -> joint set points. Standard library only.
+// Interface of central pattern generators, which compute joint set points from the state of an ODE. Standard library only.
 #pragma once
 #include <string>
 
@@ -6,27 +6,27 @@
 
 namespace gaitlab {
 
-/// Sensor values at a control tick; one entry per joint (touching: one per module, 1 or 0). SI units.
+/// Sensor values at a control tick in SI units, with one entry per joint. `touching` has one entry per module, 1 or 0.
 struct Measured {
   double t, period;
   In angle, speed, torque, touching;
 };
 
-/// A model with a state given by ODEs and joint set points (rad) as output. Without memory: the host owns the state x; at each
-/// control tick it calls event and output, and then integrates x' to the next tick (RK4, sub-step `cpg.step`, inputs held). No
-/// member may allocate after construction. A gait is a Cpg without states.
+/// A model with a state given by ODEs, whose output is the joint set points (rad). The model has no memory: the caller owns the
+/// state x. At each control tick the caller calls event() and output(), and then integrates x' to the next tick (RK4, sub-step
+/// `cpg.step`, inputs held). No member may allocate after construction. A gait is a Cpg without states.
 class Cpg {
  public:
   virtual ~Cpg() = default;
   [[nodiscard]] virtual std::size_t states() const { return 0; }
   [[nodiscard]] virtual std::string state_name(std::size_t index) const {
     return std::to_string(index);
-  }  ///< column `cpg.NAME`
+  }  ///< name NAME of a state, for the trace column `cpg.NAME`
   virtual void start(Out) const {}
   virtual void derivative(const Measured&, In, Out) const {}
-  virtual void event(const Measured&, Out) const {}              ///< phase resets; once per tick, before output
-  virtual void output(double t, In x, Out setpoint) const = 0;   ///< x is the state AT t
-  [[nodiscard]] virtual std::string note() const { return {}; }  ///< one line for the user about its set-up
+  virtual void event(const Measured&, Out) const {}              ///< resets phases; called once per tick, before output()
+  virtual void output(double t, In x, Out setpoint) const = 0;   ///< x is the state at time t
+  [[nodiscard]] virtual std::string note() const { return {}; }  ///< one line for the user about the set-up of the model
 };
 
 }  // namespace gaitlab

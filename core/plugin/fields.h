@@ -1,5 +1,5 @@
-// The list of a plugin's settings: one walk over a Settings struct serves reading, the resolved scenario, range errors,
-// `gaitlab explain` and the JSON schema. Standard library only.
+// The list of a plugin's settings. One visit of a Settings struct serves reading, the resolved scenario, range errors, `gaitlab
+// explain` and the JSON schema. Standard library only.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -17,44 +17,45 @@ namespace gaitlab {
 using In = std::span<const double>;
 using Out = std::span<double>;
 
-/// Specification of a number: unit ("" = none), closed range and one sentence.
+/// Specification of a number: unit ("" for none), closed range and one sentence.
 struct Spec {
   const char* unit;
   double min, max;
   const char* about;
 };
 
-inline constexpr double kPositive = std::numeric_limits<double>::denorm_min();  ///< as the least number of a range: more than 0
+/// Least number of a range whose numbers must be above 0.
+inline constexpr double kPositive = std::numeric_limits<double>::denorm_min();
 
-/// A value per joint: in YAML a number, a list, or {default: x, m3/passive: y, "*/active": z}.
+/// A value per joint. In YAML it is a number, a list, or a map such as {default: x, m3/passive: y, "*/active": z}.
 struct PerJoint {
   double common = 0;
-  std::vector<double> each = {};  ///< empty: `common` everywhere
+  std::vector<double> each = {};  ///< empty if every joint has the value `common`
   double operator[](std::size_t joint) const { return each.empty() ? common : each[joint]; }
   bool operator==(const PerJoint&) const = default;
 };
 
-/// A value with a name chosen by the user.
+/// A value under a name that the user chooses.
 struct Named {
   std::string name;
-  std::string text = {};  ///< empty: `number` holds
+  std::string text = {};  ///< empty if the value is `number`
   PerJoint number = {};
   bool operator==(const Named&) const = default;
 };
 
-/// Values of a map whose keys the user chooses: texts alone, or also numbers.
+/// Type of the values in a map whose keys the user chooses: only texts, or texts and numbers.
 enum class NamedValues { texts, texts_or_numbers };
 
 class Fields;
 
-/// Types of fields: a reference to the value, and its limits. Keys, names and sentences are string literals or outlive the
-/// visit, because their addresses are kept.
+/// Types of fields. Each has a reference to the value, and its limits. Keys, names and sentences must be string literals or
+/// outlive the visit, because their addresses are kept.
 namespace field {
 struct Number {
   double& value;
   Spec spec;
 };
-/// A number, or `word` instead of one: then `value` is 0.
+/// A number, or the text `word`, for which `value` is 0.
 struct NumberOr {
   double& value;
   const char* word;
@@ -70,8 +71,8 @@ struct Flag {
 struct Text {
   std::string& value;
 };
-/// A text that may be in a separate file: in YAML the file's path (relative to the scenario), or the text itself, which then
-/// has several lines. `value` is always the text; the resolved scenario contains it in full.
+/// A text that may be in a separate file. In YAML it is the file's path relative to the scenario, or the text in several lines.
+/// `value` is always the text; the resolved scenario contains it in full.
 struct File {
   std::string& value;
 };
@@ -79,10 +80,11 @@ struct OneOf {
   std::string& value;
   std::span<const char* const> names;
 };
-/// Meaning of a value per joint for a verdict. limit: a limit of the actuator; a run without it shows the demand of a gait.
-/// rating: stated by the maker; 0 everywhere means "not stated", and the resolved scenario omits it. required: a value without
-/// a default; its initial value 0 means "not given" and is outside its range. `usual`: value per joint that holds where a limit
-/// is 0, which then means "not stated"; nullptr: 0 is a limit.
+/// Meaning of a value per joint for a verdict.
+/// - limit: limit of the actuator; a run without such limits measures the demand of a gait. If a limit of 0 means "not stated",
+///   `usual` is the value that applies instead; if `usual` is null, 0 is a limit like any other.
+/// - rating: value stated by the maker. 0 for every joint means "not stated", and the resolved scenario omits the key.
+/// - required: value without a default. Its initial value 0 means "not given" and is outside its range.
 enum class Role { setting, limit, rating, required };
 struct EachJoint {
   PerJoint& value;
@@ -90,7 +92,7 @@ struct EachJoint {
   Role role = Role::setting;
   const PerJoint* usual = nullptr;
 };
-/// A joint, by name or number in the file, by number here.
+/// A joint, by name or number in the file. `value` is its number.
 struct Joint {
   std::int64_t& value;
 };
@@ -104,7 +106,7 @@ struct Numbers {
   std::vector<double>& value;
   Spec spec;
 };
-/// A list of rows, each a list of the same length as the first.
+/// A list of rows. Each row is a list with as many numbers as the first row.
 struct Rows {
   std::vector<std::vector<double>>& value;
   Spec spec;
@@ -112,26 +114,26 @@ struct Rows {
 struct Texts {
   std::vector<std::string>& value;
 };
-/// A map whose keys the user chooses (a letter, then letters, digits and _), in the order of the file. A given map replaces the
-/// whole default. Empty texts are refused.
+/// A map whose keys the user chooses, in the order of the file. A key is a letter, followed by letters, digits and _. A map in
+/// the file replaces the whole default. Empty texts are refused.
 struct Map {
   std::vector<Named>& value;
   NamedValues kind;
 };
-/// A list of structs, each with `void fields(Fields&)`.
+/// A list of structs that each have `void fields(Fields&)`.
 struct List {
   void* self;
   void (*resize)(void* self, std::size_t size);
   std::size_t (*size)(void* self);
   void (*visit)(void* self, std::size_t index, Fields& fields);
 };
-/// Either one of `names` (then the list is empty) or a list of structs (then `rule` is empty).
+/// One of `names` (the list is then empty), or a list of structs (`rule` is then empty).
 struct RuleOrList {
   std::string& rule;
   std::span<const char* const> names;
   List list;
 };
-/// A nested map, a struct with `void fields(Fields&)`.
+/// A nested map, as a struct with `void fields(Fields&)`.
 struct Group {
   void* self;
   void (*visit)(void* self, Fields& fields);
@@ -146,14 +148,14 @@ struct Field {
   field::Value value;
 };
 
-/// Visits the fields of a Settings struct in order. A Settings struct is default-constructible, its initial values are the
-/// defaults, and it has `void fields(Fields&)`. Classes that read, write or list settings override visit and, if they report
-/// problems, problem_at.
+/// Visitor of the fields of a Settings struct, in order. A Settings struct is default-constructible, its initial values are the
+/// defaults, and it has `void fields(Fields&)`. Classes that read, write or list settings override visit() and, if they report
+/// problems, problem_at().
 class Fields {
  public:
   virtual void visit(const Field& field) = 0;
-  /// Reports a failed check across fields at the place of `key`, at the byte `offset` of its text; with `name` at a named
-  /// value; offset npos: at the key or name itself.
+  /// Reports a failed check that concerns several fields, at the byte `offset` of the text of `key`. If `name` is not empty,
+  /// the place is within the value with that name. If `offset` is npos, the place is the key or the name.
   virtual void problem_at(const char* key, std::string_view name, std::size_t offset, std::string_view what) = 0;
   void problem(const char* key, std::string_view what) { problem_at(key, {}, std::string_view::npos, what); }
 
@@ -168,29 +170,30 @@ class Fields {
   void one_of(const char* key, std::string& value, std::span<const char* const> names, const char* about) {
     visit({key, about, field::OneOf{value, names}});
   }
-  /// `names`: names of the enum's values, which start at 0, in their order.
+  /// Field of an enum. `names` are the names of its values, which start at 0, in their order.
   template <class Enum>
   void choice(const char* key, Enum& value, std::span<const char* const> names, const char* about) {
     std::string name = names[static_cast<std::size_t>(value)];
     one_of(key, name, names, about);
     const Enum read = value_of<Enum>(name, names);
-    if (read != value) value = read;  // no write if equal: threads that only read share the settings
+    if (read != value) value = read;  // Without a change, nothing is written, because threads that only read share the settings
   }
   void per_joint(const char* key, PerJoint& value, Spec spec) { visit({key, spec.about, field::EachJoint{value, spec}}); }
-  /// Largest command of an actuator, or its largest current, in that unit.
+  /// Field of an actuator's limit: its largest command, in the unit of the command, or its largest current.
   void limit(const char* key, PerJoint& value, Spec spec) {
     visit({key, spec.about, field::EachJoint{value, spec, field::Role::limit}});
   }
-  /// The same, with 0 for "not stated": then `usual` holds. Derive `usual` before the first limit is visited, which may raise
-  /// it.
+  /// Field of an actuator's limit for which 0 means "not stated"; `usual` then applies. Compute `usual` before the first limit
+  /// is visited, because the visit may raise that limit.
   void limit(const char* key, PerJoint& value, const PerJoint& usual, Spec spec) {
     visit({key, spec.about, field::EachJoint{value, spec, field::Role::limit, &usual}});
   }
-  /// A number that has no default: its initial value is 0 and its range is above 0. A joint without one is an error.
+  /// Field of a number without a default. Its initial value is 0, and its range is above 0. A joint without a value is an
+  /// error.
   void required(const char* key, PerJoint& value, Spec spec) {
     visit({key, spec.about, field::EachJoint{value, spec, field::Role::required}});
   }
-  /// A rating stated by the maker, or 0. Most ratings limit verdicts, not the simulation.
+  /// Field of a rating that the maker states, or 0. Most ratings limit verdicts, not the simulation.
   void rating(const char* key, PerJoint& value, Spec spec) {
     visit({key, spec.about, field::EachJoint{value, spec, field::Role::rating}});
   }
@@ -210,7 +213,7 @@ class Fields {
   void list(const char* key, std::vector<T>& value, const char* about) {
     visit({key, about, list_of(value)});
   }
-  /// `rule` without a value: the list holds.
+  /// Field of a rule or a list. The list applies if `rule` has no value.
   template <class Enum, class T>
   void rule_or_list(const char* key, std::optional<Enum>& rule, std::span<const char* const> names, std::vector<T>& value,
                     const char* about) {

@@ -1,4 +1,4 @@
-// The legs of a robot, found from its assembly. Standard library only.
+// Search for the legs of a robot in its assembly. Standard library only.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -8,18 +8,18 @@
 
 namespace gaitlab {
 
-/// A leg: a chain of modules without branches that ends in feet and is docked sideways (normal within 45 degrees of +-y) to a
-/// module of the spine. Its joints that turn about y, by number; a positive `sign` means that a positive angle is a right-hand
-/// turn about +y.
+/// A leg: a chain of modules without branches that ends in feet. Its first module is docked sideways (normal within 45 degrees
+/// of +-y) to a module of the spine. `hip` and `ankle` are numbers of joints that turn about y. A `sign` of 1 means that a
+/// positive angle is a right-hand turn about +y; otherwise it is -1.
 struct Leg {
-  std::vector<std::int64_t> modules;  ///< from the spine outwards
-  std::int64_t hip = -1, ankle = -1;  ///< first and last joint about y
+  std::vector<std::int64_t> modules;  ///< numbers of the modules, from the spine outwards
+  std::int64_t hip = -1, ankle = -1;  ///< first and last joint that turns about y
   double hip_sign = 1, ankle_sign = 1;
-  bool left = false;      ///< on the +y side
-  double x = 0;           ///< of the hip, m, base frame: larger is further to the front
-  double length = 0;      ///< hip to ankle at zero angles, along -z, m
-  double sole_depth = 0;  ///< ankle to the lowest foot point, m
-  double sole_reach = 0;  ///< ankle to the foremost and rearmost lowest foot point, along x, m
+  bool left = false;      ///< true on the +y side
+  double x = 0;           ///< x of the hip in the base frame, m; a larger x is further to the front
+  double length = 0;      ///< distance from hip to ankle along -z at zero angles, m
+  double sole_depth = 0;  ///< distance from the ankle down to the lowest foot point, m
+  double sole_reach = 0;  ///< largest distance along x from the ankle to a lowest foot point, m
 };
 
 namespace detail {
@@ -53,7 +53,7 @@ inline void measure(const RobotInfo& robot, Leg& leg) {
   }
 }
 
-/// All modules, each after its parent, else in the order of their numbers.
+/// All modules in the order of their numbers, except that each parent precedes its children.
 inline std::vector<std::size_t> parents_first(const RobotInfo& robot) {
   std::vector<std::size_t> order;
   std::vector<bool> listed(robot.modules.size(), false);
@@ -70,7 +70,7 @@ inline std::vector<std::size_t> parents_first(const RobotInfo& robot) {
   return order;
 }
 
-/// Whether a side dock is further out on a chain that is a leg already: then it is the leg's knee, not another leg.
+/// True if a side dock is on a chain that already belongs to a leg. The dock is then the knee of that leg, not another leg.
 inline bool hangs_on_a_leg(const RobotInfo& robot, const std::vector<Leg>& legs, std::size_t module) {
   for (auto at = static_cast<std::int64_t>(module); at >= 0; at = robot.modules[static_cast<std::size_t>(at)].parent) {
     for (const Leg& leg : legs) {
@@ -82,8 +82,8 @@ inline bool hangs_on_a_leg(const RobotInfo& robot, const std::vector<Leg>& legs,
 
 }  // namespace detail
 
-/// All legs, from the front to the rear, left before right. A leg needs a hip and an ankle that turn about y and feet that are
-/// below the ankle; other side chains are not legs.
+/// All legs, from front to rear, with left before right. A leg needs a hip and an ankle that turn about y, and feet that are
+/// below the ankle. Other side chains are not legs.
 inline std::vector<Leg> find_legs(const RobotInfo& robot) {
   std::vector<Leg> legs;
   for (const std::size_t m : detail::parents_first(robot)) {
@@ -100,7 +100,7 @@ inline std::vector<Leg> find_legs(const RobotInfo& robot) {
     detail::measure(robot, leg);
     if (leg.hip >= 0 && leg.ankle != leg.hip && leg.length > 0 && leg.sole_depth > 0) legs.push_back(leg);
   }
-  // Neighbours left and right have the same x within a millimetre.
+  // The x of a left leg and its right neighbour may differ by a millimetre.
   std::stable_sort(legs.begin(), legs.end(),
                    [](const Leg& a, const Leg& b) { return std::abs(a.x - b.x) > 1e-3 ? a.x > b.x : a.left && !b.left; });
   return legs;

@@ -1,4 +1,4 @@
-// The keys that every oscillator CPG shares, and the network they describe. Standard library only.
+// The keys that all oscillator CPGs have in common, and the network of oscillators. Standard library only.
 #pragma once
 #include <stdexcept>
 #include <string>
@@ -12,7 +12,7 @@ namespace gaitlab {
 /// The common keys: frequency, amplitude, offset, phase_lag, couplings.
 struct OscillatorKeys {
   PerJoint frequency{0.25}, amplitude{0.6}, offset{0}, phase_lag{1.2};
-  std::optional<CouplingRule> rule = CouplingRule::chain;  ///< empty: the list holds
+  std::optional<CouplingRule> rule = CouplingRule::chain;  ///< empty if the list `couplings` applies
   std::vector<Coupling> couplings;
 
   void fields(Fields& f) {
@@ -24,8 +24,8 @@ struct OscillatorKeys {
     f.rule_or_list("couplings", rule, kCouplingRules, couplings, kCouplingRulesAbout);
   }
 
-  /// Throws std::invalid_argument for a joint whose set point would stay outside its range, or whose keys are implausible for a
-  /// hinge with a range. A set point that only passes beyond the range is reported by the run, not refused.
+  /// Throws std::invalid_argument for a joint whose set point would remain outside its range, or whose keys are implausible for
+  /// a hinge with a range. A set point that only temporarily exceeds the range is not refused; the run reports it.
   void check(const RobotInfo& robot) const {
     for (std::size_t j = 0; j < robot.joints.size(); ++j) {
       const JointInfo& joint = robot.joints[j];
@@ -37,13 +37,14 @@ struct OscillatorKeys {
     }
   }
 
-  /// The coupling graph; couplings of a rule have the weight `weight`.
+  /// The coupling graph. The couplings of a rule have the weight `weight`.
   [[nodiscard]] std::vector<Coupling> graph(const RobotInfo& robot, double weight) const {
     return rule ? couple(robot, *rule, weight, phase_lag) : couplings;
   }
 };
 
-/// Settings of an oscillator CPG: the common keys, and under `model` the model's keys, a struct with `void fields(Fields&)`.
+/// Settings of an oscillator CPG: the common keys, and the keys of its model under `model`. Model is a struct with `void
+/// fields(Fields&)`.
 template <class Model>
 struct OscillatorSettings : OscillatorKeys {
   Model model;
@@ -54,13 +55,13 @@ struct OscillatorSettings : OscillatorKeys {
   }
 };
 
-/// The couplings with the phases of their limit cycle, for oscillators that start on it.
+/// The couplings with the phases of their limit cycle, for oscillators that start on this cycle.
 struct OscillatorNetwork {
   std::vector<Coupling> couplings;
   std::vector<double> phases;  ///< rad; all 0 if the lags contradict one another around a cycle
   bool consistent = true;
 
-  /// Throws as OscillatorKeys::check.
+  /// Throws std::invalid_argument under the conditions of OscillatorKeys::check.
   OscillatorNetwork(const RobotInfo& robot, const OscillatorKeys& keys, double weight)
       : couplings(keys.graph(robot, weight)), phases(phases_of(couplings, robot.joints.size())) {
     keys.check(robot);
@@ -73,8 +74,8 @@ struct OscillatorNetwork {
   }
 };
 
-/// A CPG with one oscillator per joint and states in blocks of one number per joint: derive from it, and define start,
-/// derivative and output. The model's `coupling` is the weight of a rule's couplings.
+/// A CPG with one oscillator per joint. Its states are blocks of one number per joint. A derived class defines start(),
+/// derivative() and output(). The couplings of a rule have the weight `coupling` of the model.
 template <class Model>
 requires requires(Model model) { model.coupling + 1.0; }
 class OscillatorCpg : public Cpg {
@@ -88,7 +89,7 @@ class OscillatorCpg : public Cpg {
   [[nodiscard]] std::string note() const override { return network_.note(); }
 
  protected:
-  /// `blocks`: names of the states, whose addresses are kept. Throws as OscillatorKeys::check.
+  /// `blocks` are the names of the states, whose addresses are kept. Throws std::invalid_argument as OscillatorKeys::check.
   OscillatorCpg(const RobotInfo& robot, const Settings& settings, std::span<const char* const> blocks)
       : joints_(robot.joints.size()), s_(settings), network_(robot, settings, settings.model.coupling), blocks_(blocks) {}
 

@@ -1,5 +1,5 @@
-// The one header that an out-of-tree plugin includes: the interfaces and GAITLAB_PLUGIN(registry) { add_cpg<Mine>(registry,
-// ...); }
+// The only header that a plugin outside this tree includes, with the interfaces and the macro GAITLAB_PLUGIN.
+// A plugin library contains, for example, GAITLAB_PLUGIN(registry) { add_cpg<Mine>(registry, ...); }
 #pragma once
 #include "core/plugin/registry.h"
 
@@ -15,7 +15,7 @@
 #else
 #define GAITLAB_ABI_LIBRARY "libstdc++ " GAITLAB_ABI_TEXT(_GLIBCXX_RELEASE) " cxx11 " GAITLAB_ABI_TEXT(_GLIBCXX_USE_CXX11_ABI)
 #endif
-/// Number of the interface, compiler, standard library: a plugin is loaded only if all three are equal to the program's.
+/// Number of the interface, compiler, and standard library. A plugin is loaded only if all three equal those of the program.
 #define GAITLAB_ABI "gaitlab-8, " GAITLAB_ABI_COMPILER ", " GAITLAB_ABI_LIBRARY
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a parameter's name cannot be in parentheses

@@ -1,4 +1,5 @@
-// Registration: name -> manual, settings, factory. Abstract, so that a plugin library links against nothing.
+// Registration of plugins by name, with manual, settings and factory. The interface is abstract, so that a plugin library links
+// against nothing.
 #pragma once
 #include <memory>
 
@@ -14,17 +15,17 @@ enum class Kind { cpg, controller, actuator };
 struct Entry {
   Kind kind;
   std::string_view name;
-  std::string_view manual;  ///< equation, reference, minimal YAML
+  std::string_view manual;  ///< text with equation, reference and minimal YAML
   std::shared_ptr<void> (*settings)();
   void (*fields)(void* settings, Fields&);
-  /// A new Cpg, Controller or Actuator. An actuator gets one settings pointer per lane, the others exactly one.
+  /// Makes a new Cpg, Controller or Actuator. An actuator gets one settings pointer per lane, any other plugin exactly one.
   void* (*make)(const RobotInfo&, std::span<const void* const> settings);
-  std::string_view origin = {};  ///< built in, or path of the library; set by the program
+  std::string_view origin = {};  ///< kBuiltIn or the path of the library; set by the program
 };
 
 class Registry {
  public:
-  virtual void add(const Entry&) = 0;  ///< throws if kind and name are in use, naming both origins
+  virtual void add(const Entry&) = 0;  ///< throws, with both origins, if the kind already has this name
 
  protected:
   ~Registry() = default;
@@ -39,7 +40,7 @@ void add(Registry& registry, Kind kind, std::string_view name, std::string_view 
 }
 }  // namespace detail
 
-/// T has `struct Settings` and a constructor T(const RobotInfo&, const Settings&).
+/// Registers T, which has `struct Settings` and a constructor T(const RobotInfo&, const Settings&).
 template <class T>
 void add_cpg(Registry& registry, std::string_view name, std::string_view manual) {
   detail::add<T>(registry, Kind::cpg, name, manual, [](const RobotInfo& robot, std::span<const void* const> s) -> void* {
@@ -47,7 +48,7 @@ void add_cpg(Registry& registry, std::string_view name, std::string_view manual)
   });
 }
 
-/// T has `struct Settings` and a constructor T(const RobotInfo&, const Settings&).
+/// Registers T, which has `struct Settings` and a constructor T(const RobotInfo&, const Settings&).
 template <class T>
 void add_controller(Registry& registry, std::string_view name, std::string_view manual) {
   detail::add<T>(registry, Kind::controller, name, manual, [](const RobotInfo& robot, std::span<const void* const> s) -> void* {
@@ -55,7 +56,8 @@ void add_controller(Registry& registry, std::string_view name, std::string_view 
   });
 }
 
-/// T has `struct Settings` and a constructor T(const RobotInfo&, std::vector<const Settings*> one per lane).
+/// Registers T, which has `struct Settings` and a constructor T(const RobotInfo&, std::vector<const Settings*>), with one
+/// pointer per lane.
 template <class T>
 void add_actuator(Registry& registry, std::string_view name, std::string_view manual) {
   detail::add<T>(registry, Kind::actuator, name, manual, [](const RobotInfo& robot, std::span<const void* const> s) -> void* {

@@ -11,20 +11,22 @@
 namespace gaitlab {
 
 struct JointInfo {
-  std::string name;                   ///< `m3/passive`
-  std::int64_t module = 0;            ///< its module
-  std::int64_t parent = -1;           ///< the next joint towards the base, -1: none
-  double lo = 0, hi = 0;              ///< range, rad; -infinity and infinity: it turns freely
-  std::array<double, 3> origin = {};  ///< a point of the axis, m, base frame, all angles zero
-  std::array<double, 3> axis = {};    ///< unit vector, base frame, all angles zero; positive turn of the farther body
-  bool driven = true;                 ///< false: no motor; set points and torques for it are not used
+  std::string name;                   ///< name such as `m3/passive`
+  std::int64_t module = 0;            ///< number of the joint's module
+  std::int64_t parent = -1;           ///< number of the next joint towards the base, or -1
+  double lo = 0, hi = 0;              ///< range, rad; -infinity and infinity if the joint turns freely
+  std::array<double, 3> origin = {};  ///< point on the axis, m, in the base frame at zero angles
+  /// Unit vector of the joint axis in the base frame at zero angles. A positive angle turns the body farther from the base
+  /// right-handed about this axis.
+  std::array<double, 3> axis = {};
+  bool driven = true;  ///< false for a joint without a motor, whose set points and torques are not used
   [[nodiscard]] bool turns_freely() const { return hi == std::numeric_limits<double>::infinity(); }
 };
 
-/// Throws std::invalid_argument for a set point that only a freely turning hinge can have: for a hinge with a range it is
-/// probably in degrees, or a mistake.
+/// Throws std::invalid_argument for a set point that only a freely turning hinge can have. For a hinge with a range, such an
+/// angle is probably in degrees or a mistake.
 inline void check_angle(const JointInfo& joint, const char* what, double angle) {
-  constexpr double kLargest = 3.2;  // rad: slightly above half a turn
+  constexpr double kLargest = 3.2;  // rad; slightly more than half a turn
   if (joint.turns_freely() || (angle >= -kLargest && angle <= kLargest)) return;
   char text[200];
   (void)std::snprintf(text, sizeof text,
@@ -35,15 +37,15 @@ inline void check_angle(const JointInfo& joint, const char* what, double angle) 
 
 struct ModuleInfo {
   std::string type;                       ///< name of the module type
-  std::int64_t parent = -1;               ///< module that it is docked to, -1 for module 0
-  int parent_face = -1;                   ///< face of the parent that it is docked to
-  std::array<double, 3> normal = {};      ///< outward normal of that face, base frame, all angles zero
-  std::array<double, 3> position = {};    ///< module frame, m, base frame, all angles zero
-  std::array<double, 9> rotation = {};    ///< module axes in the base frame, row major
-  std::vector<std::int64_t> joints = {};  ///< from the reference body outwards
+  std::int64_t parent = -1;               ///< number of the module that it is docked to, or -1 for module 0
+  int parent_face = -1;                   ///< face of the parent at that dock
+  std::array<double, 3> normal = {};      ///< outward normal of the parent's face, in the base frame at zero angles
+  std::array<double, 3> position = {};    ///< origin of the module frame, m, in the base frame at zero angles
+  std::array<double, 9> rotation = {};    ///< axes of the module in the base frame, row major
+  std::vector<std::int64_t> joints = {};  ///< numbers of its joints, from the reference body outwards
   std::vector<std::int64_t> children = {};
   std::vector<std::array<double, 3>> feet =
-      {};  ///< foot contact points, m, base frame, all angles zero; modules without children only
+      {};  ///< foot contact points, m, in the base frame at zero angles; only for modules without children
 };
 
 /// A robot as a tree of modules and joints, with its geometry at zero angles.

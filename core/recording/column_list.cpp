@@ -8,7 +8,7 @@ namespace gaitlab {
 
 namespace {
 
-constexpr std::size_t kFew = 16;  // up to this number comparing all names is as fast as hashing one
+constexpr std::size_t kFew = 16;  // up to this number of columns, comparing all names is as fast as a hash
 
 }  // namespace
 
@@ -47,7 +47,7 @@ void ColumnList::place(std::size_t index) {
   if (found == 0) found = static_cast<std::uint32_t>(index + 1);  // the first of two equal names is kept
 }
 
-/// Slot of the name, or the free slot for it.
+/// Slot that contains the name, or else the free slot for it.
 std::size_t ColumnList::slot(std::string_view name) const {
   const std::size_t last = slots_.size() - 1;
   std::size_t at = std::hash<std::string_view>()(name) & last;

@@ -10,13 +10,13 @@
 namespace gaitlab {
 
 struct Column {
-  std::string name;        ///< `joint.m3/passive.torque` has the joint's number in its name: `joint.7.torque`
+  std::string name;        ///< contains numbers of joints, not their names: `joint.7.torque`
   std::string unit;        ///< "N m", "rad", "" ...
   std::string definition;  ///< one sentence: quantity, sign, axes
 };
 
-/// A list of columns. Reads like a vector. A name is found in constant time, because a report searches one per joint and
-/// quantity; the index is built when columns are added, so that threads can read one table.
+/// A list of columns that reads like a vector. A search by name takes constant time, because a report searches one name per
+/// joint and quantity. The index of names is built when columns are added, so that several threads can read one table.
 class ColumnList {
  public:
   ColumnList() = default;
@@ -36,7 +36,7 @@ class ColumnList {
   void push_back(Column column);
   /// Index of the first column of this name, or size().
   [[nodiscard]] std::size_t find(std::string_view name) const;
-  /// Changes the list: `change` receives the vector.
+  /// Changes the list. `change` receives the vector.
   template <class Change>
   void change(const Change& change) {
     change(list_);
@@ -50,7 +50,7 @@ class ColumnList {
 
   std::vector<Column> list_;
   std::vector<std::uint32_t>
-      slots_;  ///< index + 1 at the name's hash, or in a slot behind it; 0: free. Size: a power of two; empty for few columns
+      slots_;  ///< hash table of names: index + 1 of a column, or 0 in a free slot; size a power of two; empty for few columns
 };
 
 }  // namespace gaitlab

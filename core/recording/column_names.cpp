@@ -8,7 +8,7 @@ namespace gaitlab {
 
 namespace {
 
-/// Words of `stop_torque`, `torque.rms`.
+/// Turns `stop_torque` into `stop torque` and `torque.rms` into `torque RMS`.
 std::string words(std::string_view key) {
   std::string text;
   for (const char c : key) text += c == '.' || c == '_' ? ' ' : c;
@@ -22,7 +22,7 @@ struct NumberedColumn {
   std::string_view quantity;  // torque
 };
 
-/// Without a kind: not a column of a part.
+/// Splits the name of a column of a part. The kind is empty if the column does not belong to a part.
 NumberedColumn numbered(std::string_view column) {
   NumberedColumn found;
   const std::size_t dot = column.find('.');

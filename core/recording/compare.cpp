@@ -16,15 +16,15 @@ namespace gaitlab {
 
 namespace {
 
-constexpr double kSameTime = 1e-6;  // of the spacing; rounding of k h is some 1e-16 of t
-constexpr double kFlat = 1e-9;      // a smaller range is rounding, in any unit of a trace
+constexpr double kSameTime = 1e-6;  // share of the spacing; the rounding error of k h is about 1e-16 of t
+constexpr double kFlat = 1e-9;      // a smaller range is a rounding error, in any unit of a trace
 constexpr std::size_t kNamesShown = 8;
 
 struct SharedRow {
   std::size_t a = 0, b = 0;
 };
 
-// One column of both traces over the shared rows.
+// Values of one column of both traces in the shared rows.
 struct Pair {
   std::vector<double> a, b;
 };
@@ -123,7 +123,7 @@ class Comparison {
     uniform_ = uniform_rows();
   }
 
-  // Number of first shared rows that are evenly spaced, in which a shift can be searched (the last row may lie off the grid).
+  // Number of evenly spaced shared rows at the start, in which a shift can be searched. The last row may be off the grid.
   [[nodiscard]] std::size_t uniform_rows() const {
     if (rows_.size() < 2) return rows_.size();
     const double spacing = this->spacing();
@@ -206,7 +206,7 @@ class Comparison {
     }
   }
 
-  // Only for columns that differ: the search is expensive.
+  // Searches a time shift. The search is expensive, and therefore only for columns that differ.
   void shift(const Pair& pair, ColumnDifference& d) const {
     d.rms_after_shift = d.rms;
     const auto finite = [](double value) { return std::isfinite(value); };

@@ -10,10 +10,10 @@ namespace gaitlab {
 
 namespace {
 
-// Share of the scale below which a difference is rounding.
+// Share of the scale below which a difference is a rounding error.
 constexpr double kRounding = 1e-13;
 
-// Share of the largest column of the same unit below which a column is rounding; it is then the column's scale.
+// Least scale of a column, as a share of the largest value of all columns with the same unit.
 constexpr double kTrifle = 1e-9;
 
 double peak_of(const Trace& trace, std::size_t column) {
@@ -30,7 +30,7 @@ double peak_of_unit(const Trace& trace, const std::string& unit) {
   return peak;
 }
 
-/// Row for `count` steps; distance(i, j): |u(h_i) - u(h_j)| / scale.
+/// ConvergenceRow for `count` steps. distance(i, j) is |u(h_i) - u(h_j)| / scale.
 template <class Distance>
 ConvergenceRow row(const std::string& name, std::size_t count, Distance&& distance) {
   ConvergenceRow r{name};

@@ -18,7 +18,7 @@ namespace gaitlab {
 
 namespace {
 
-constexpr std::size_t kPiece = std::size_t{1} << 20;  // bytes; keeps the number of system calls small and memory bounded
+constexpr std::size_t kPiece = std::size_t{1} << 20;  // bytes per system call, so that calls are few and memory is bounded
 
 std::string header_cell(const std::string& name, const std::filesystem::path& path) {
   if (name.empty() || name.find_first_of("\r\n") != std::string::npos)
@@ -29,12 +29,12 @@ std::string header_cell(const std::string& name, const std::filesystem::path& pa
   return quoted + '"';
 }
 
-// Splits a text into lines and lines into cells, and tracks its position.
+// Splits a text into lines and lines into cells, and tracks the position for error messages.
 class CsvReader {
  public:
   CsvReader(std::string file, std::string_view text) : file_(std::move(file)), rest_(text) {}
 
-  // False at the end of the text. A file truncated within a number would otherwise be read as another number.
+  // Returns false at the end of the text. A last line without line end is an error, because a number may be truncated.
   bool next_line() {
     if (rest_.empty()) return false;
     ++line_number_;
@@ -59,8 +59,8 @@ class CsvReader {
   int line_number_ = 0;
 };
 
-// Parses the number at the start of the cell at `first`; ec is not std::errc() if there is none, ptr is the cell's end if it is
-// whole.
+// Parses the number at the start of the cell at `first`. ec is not std::errc() if there is no number. ptr is the end of the
+// cell if the number fills the cell.
 std::from_chars_result parse(const char* first, const char* last, double& value) {
   return std::from_chars(first, last, value, std::chars_format::general);
 }
@@ -69,7 +69,7 @@ std::string_view cell_at(std::string_view line, std::size_t offset) {
   return line.substr(offset, line.find(',', offset) - offset);
 }
 
-// Reads a header name from `offset` on, which moves to the following comma or the end.
+// Reads a column name at `offset`, and moves `offset` to the following comma or the end of the line.
 std::string read_name(const CsvReader& reader, std::size_t& offset) {
   const std::string_view line = reader.line();
   if (offset == line.size() || line[offset] != '"') {
@@ -103,7 +103,7 @@ std::vector<Column> read_header(const CsvReader& reader) {
   std::vector<Column> columns;
   std::unordered_set<std::string> seen;
   bool numbers = true;
-  std::optional<InputError> repeated;  // thrown only if this is a header
+  std::optional<InputError> repeated;  // thrown only if the line is a header
   for (std::size_t offset = 0;; ++offset) {
     const std::size_t start = offset;
     std::string name = read_name(reader, offset);

@@ -25,7 +25,7 @@ constexpr std::string_view kName = "gaitlab-trace-";
 constexpr std::string_view kSize = "\nHDF5 follows at byte 512. Bytes in all: ";
 constexpr std::string_view kHdf5 = "\x89HDF\r\n\x1a\n";
 
-// A format that this program can read.
+// Trace format that this program can read.
 struct Format {
   std::string_view version, hash_name;
   std::string (*hash)(std::string_view);
@@ -33,7 +33,7 @@ struct Format {
 constexpr std::array<Format, 2> kFormats{{{"1", "FNV-1a", [](std::string_view bytes) { return hash(bytes); }},
                                           {"2", "hash", [](std::string_view bytes) { return hash_words(bytes); }}}};
 
-// The user block: text, so that `head -n 2` shows the type of the file.
+// User block of the file. It is text, so that `head -n 2` shows the type of the file.
 std::string header(const Format& format, std::size_t size, std::string_view hash) {
   std::string text =
       fmt::format("{}{}{}{}; {} from byte 512 on: {}\n", kName, format.version, kSize, size, format.hash_name, hash);
@@ -56,7 +56,7 @@ bool take(std::string_view& text, std::string_view expected) {
   return true;
 }
 
-// Whether HDF5 would open it: its signature may be at 0, 512, 1024 ...
+// True if HDF5 would open the file. The HDF5 signature may be at 0, 512, 1024 ...
 bool is_hdf5(std::string_view bytes) {
   for (std::size_t at = 0; at < bytes.size(); at = at == 0 ? kUserBlock : 2 * at) {
     if (bytes.substr(at).starts_with(kHdf5)) return true;
@@ -64,7 +64,7 @@ bool is_hdf5(std::string_view bytes) {
   return false;
 }
 
-// Error of a file of `bytes` that starts like this, or "".
+// Error message for a file of `bytes` bytes that begins with `start`, or "".
 std::string complaint(std::string_view start, std::uintmax_t bytes) {
   if (bytes == 0) return "is empty";
   std::string_view rest = start.substr(0, kUserBlock);
@@ -88,22 +88,22 @@ std::string complaint(std::string_view start, std::uintmax_t bytes) {
   return "";
 }
 
-// Whether the user block matches these bytes.
+// True if the user block matches the remaining bytes.
 bool is_whole(std::string_view bytes) {
   return std::ranges::any_of(kFormats, [&](const Format& format) {
     return bytes.substr(0, kUserBlock) == header(format, bytes.size(), format.hash(bytes.substr(kUserBlock)));
   });
 }
 
-/// Format 1 has texts of variable length; HDF5 1.10 crashes on some forged files when reading these (heap overflow in
-/// H5HG_read), so that a separate process reads them first.
+/// Reads the bytes in a separate process, in case HDF5 crashes. Format 1 has texts of variable length, and HDF5 1.10 crashes
+/// while reading these in some forged files (heap overflow in H5HG_read).
 void try_apart(const std::string& bytes, const SourceLocation& place) {
   constexpr unsigned kPatience = 60;  // s
   const pid_t child = begin_child([&bytes] {
     ::alarm(kPatience);
     try {
       (void)from_image(bytes);
-    } catch (...) {  // the process survives, and the error is reported below
+    } catch (...) {  // the process did not crash, and the caller reports the error
     }
     return 0;
   });
@@ -136,7 +136,7 @@ void write_h5(const Trace& trace, const Provenance& origin, const std::filesyste
 }
 
 StoredTrace read_h5(const std::filesystem::path& path) {
-  // The header first: a file of another size or kind is not read in full.
+  // The header is checked first, so that a file of another size or kind is not read in full.
   constexpr std::size_t kStart = 1 << 16;
   const SourceLocation place{path.string()};
   if (std::string text = complaint(read_start(path, kStart), size_of(path)); !text.empty())

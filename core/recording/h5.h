@@ -1,4 +1,4 @@
-// Traces as HDF5: compressed, with units, definitions, their scenario, and the other tables of a recording.
+// HDF5 files of traces: compressed, with units, definitions, the scenario, and the other tables of a recording.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -17,23 +17,23 @@ struct Provenance {
   std::int64_t seed = 0;
   std::string build;    ///< build id
   std::string outcome;  ///< `done`, or the reason of an early end; empty in a file of format 1
-  /// In recording.h5: hash() of the trace in the CSV file beside it.
+  /// hash() of the trace in the CSV file of the same folder. Used in recording.h5 only.
   std::string csv_hash = {};
 };
 
-/// A table beside the trace: one of kBeside (contents: recording_file.h).
+/// A table stored in addition to the trace. Its name is one of kBeside; recording_file.h describes the contents.
 struct Beside {
   std::string name;
   Trace table;
 };
 
-/// The same, to be written.
+/// A table beside the trace, to be written.
 struct BesideOf {
   const char* name;
   const Trace* table;
 };
 
-/// The file could not be built for lack of memory; text files, which need little, may still be written.
+/// Error if memory is too short to build the HDF5 file. Text files need little memory, and may still be written.
 class NoImage : public RunError {
  public:
   using RunError::RunError;
@@ -42,23 +42,25 @@ class NoImage : public RunError {
 struct StoredTrace {
   Trace trace;
   Provenance origin;
-  std::vector<Beside> beside;  ///< none in a file of format 1
+  std::vector<Beside> beside;  ///< empty for a file of format 1
 };
 
-/// Writes format gaitlab-trace-2. Dataset `/trace`: float64 [rows, columns] (MATLAB shows [columns, rows]), lossless (shuffle,
-/// gzip), with attributes `columns`, `units`, `definitions`, one UTF-8 text of fixed length for each column, filled up with
-/// NULs; the same for each table of `beside` as `/recording/NAME`; root attributes `format`, `scenario`, `outcome`, `csv_hash`,
-/// `seed`, `build`, `rows`, `checksum` (hash() of the trace). The file's first 512 bytes, which HDF5 leaves to the user, hold
-/// format, size and hash_words() of the rest. It contains no dates: the same trace gives the same bytes. The file appears whole
-/// or not at all; it is built in memory, or beyond 200 MB in a temporary file (SpilledVector). Throws RunError if it cannot be
-/// written (see AtomicFile), and NoImage.
+/// Writes format gaitlab-trace-2. Dataset `/trace` is float64 [rows, columns] (MATLAB shows [columns, rows]), compressed
+/// without loss (shuffle, gzip). Its attributes `columns`, `units`, `definitions` have one UTF-8 text per column, of fixed
+/// length and padded with NULs. Each table of `beside` is stored in the same way as `/recording/NAME`. The root attributes are
+/// `format`, `scenario`, `outcome`, `csv_hash`, `seed`, `build`, `rows`, `checksum` (hash() of the trace).
+///
+/// The first 512 bytes of the file, which HDF5 leaves to the user, contain format, size and hash_words() of the remaining
+/// bytes. The file contains no dates, so that the same trace gives the same bytes. It appears whole or not at all, and is built
+/// in memory, or in a temporary file if it has more than 200 MB. Throws RunError if the file cannot be written (see
+/// AtomicFile), and NoImage.
 void write_h5(const Trace& trace, const Provenance& origin, const std::filesystem::path& path,
               std::span<const BesideOf> beside = {});
 
-/// Reads a file of write_h5, bit for bit, or a file of format gaitlab-trace-1 (the same without `/recording`, texts of variable
-/// length). Throws InputError `PATH: error: ...`, one message each: cannot be read, is empty, is not a gaitlab trace (foreign
-/// HDF5, foreign file), has another format version, is truncated, is corrupt. A file that another program has changed counts as
-/// corrupt: HDF5 is given only bytes with the right checksum, because some others crash it.
+/// Reads a file of write_h5, bit for bit, or a file of format gaitlab-trace-1, which has no `/recording` and has texts of
+/// variable length. Throws InputError `PATH: error: ...`, with one message for each of: cannot be read, is empty, is not a
+/// gaitlab trace (foreign HDF5, foreign file), has another format version, is truncated, is corrupt. A file that another
+/// program has changed counts as corrupt. HDF5 receives only bytes with the right checksum, because some other files crash it.
 StoredTrace read_h5(const std::filesystem::path& path);
 
 }  // namespace gaitlab

@@ -17,12 +17,12 @@ namespace gaitlab {
 
 namespace {
 
-// In memory only; HDF5 searches for a file first, so this path can never exist.
+// Name of the file in memory. HDF5 searches for a file of this name first; this path can never exist.
 constexpr const char* kNowhere = "/dev/null/gaitlab";
 constexpr std::size_t kGrowth = std::size_t{1} << 20;  // bytes
 using Image = SpilledVector<char>;
-constexpr hsize_t kChunkRows = 4096;  // of one column: 32 kB, and neighbours in time compress best
-constexpr unsigned kGzip = 1;         // level stated in the file; libdeflate packs the chunks
+constexpr hsize_t kChunkRows = 4096;  // rows of one column, 32 kB; values that are neighbours in time compress best
+constexpr unsigned kGzip = 1;         // level that the file states; libdeflate compresses the chunks
 
 // Checks the result of an HDF5 function: negative means failure.
 template <class Result>
@@ -31,14 +31,15 @@ Result checked(Result result, const char* what) {
   return result;
 }
 
-// Lock for HDF5, one thread at a time (Debian's HDF5 is built without locks); turns off HDF5's messages on stderr.
+// Lock of the HDF5 library for one thread at a time, because Debian builds HDF5 without locks. Turns off the messages of HDF5
+// on stderr.
 class Library {
  public:
   Library() : lock_(mutex()) {
-    // Before the first use: objects left open after a damaged file would make HDF5 complain at exit.
+    // To be called before the first use. Otherwise objects left open after a damaged file make HDF5 complain at exit.
     static const herr_t kNeverAtExit = H5dont_atexit();
     static_cast<void>(kNeverAtExit);
-    // A file names filters by number, for which HDF5 would load any library in a folder of the environment.
+    // A file names filters by number. For an unknown number HDF5 would load any library from a folder of the environment.
     static const herr_t kNoPlugins = H5PLset_loading_state(0);
     static_cast<void>(kNoPlugins);
     H5Eget_auto2(H5E_DEFAULT, &report_, &data_);
@@ -58,7 +59,7 @@ class Library {
   void* data_ = nullptr;
 };
 
-// Owns one identifier of HDF5. close() reports failures; the destructor cannot.
+// Owner of one HDF5 identifier. close() reports failures, which the destructor cannot do.
 class Handle {
  public:
   using Close = herr_t (*)(hid_t);
@@ -70,7 +71,7 @@ class Handle {
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
   Handle& operator=(Handle&&) = delete;
-  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): it stands for the identifier
+  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): replaces the identifier in calls
   void close(const char* what) { checked(close_(std::exchange(id_, -1)), what); }
 
  private:
@@ -106,12 +107,12 @@ H5FD_file_image_callbacks_t memory_of(Image& image) {
 Handle file_access() {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
   checked(H5Pset_fapl_core(access, kGrowth, 0), "file in memory");
-  // Fixed, so that a newer library writes the same format; the oldest, which all readers support.
+  // The version bounds are fixed, so that a newer library writes the same format: the oldest one, which all readers support.
   checked(H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V18), "format bounds");
   return access;
 }
 
-// Type of texts of `size` bytes, or (format 1) of any length.
+// Type of texts of `size` bytes, or in format 1 of any length.
 Handle string_type(std::size_t size) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "string type");
   checked(H5Tset_size(type, size), "string type");
@@ -134,7 +135,7 @@ void write_number(hid_t owner, const char* name, std::int64_t number) {
   write_attribute(owner, name, H5T_STD_I64LE, H5T_NATIVE_INT64, scalar_space(), &number);
 }
 
-// The texts one after the other, each padded with NULs to the length of the longest.
+// Concatenates the texts, each padded with NULs to the length of the longest text.
 std::string padded(const std::vector<std::string_view>& texts, std::size_t& size) {
   size = 1;
   for (const std::string_view text : texts) {
@@ -167,7 +168,7 @@ void write_texts(hid_t owner, const char* name, const Trace& trace, std::string 
   write_attribute(owner, name, type, type, space, bytes.data());
 }
 
-// No dates, and a kind of header that can hold attributes above 64 kB.
+// Omits dates, and selects a kind of header that can hold attributes above 64 kB.
 void plain(hid_t properties) {
   checked(H5Pset_obj_track_times(properties, 0), "properties");
   checked(H5Pset_attr_creation_order(properties, H5P_CRT_ORDER_TRACKED), "properties");
@@ -192,7 +193,7 @@ void write_dataset(hid_t owner, const char* name, const Trace& trace, const Imag
   const Handle properties = dataset_properties(shape);
   Handle data(H5Dcreate2(owner, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose, "dataset");
   if (!trace.values.empty()) {
-    // Bypasses HDF5's filters, whose zlib took 27 % of an ordinary run.
+    // The chunks bypass the filters of HDF5, whose zlib took 27 % of the time of an ordinary run.
     pack_chunks(trace, chunk_rows(shape[0]), [&](std::size_t row, std::size_t column, std::span<const std::byte> bytes) {
       if (column == 0) {
         release(trace.values);
@@ -227,7 +228,7 @@ std::int64_t read_number(hid_t owner, const char* name) {
   return number;
 }
 
-// The texts of an attribute with `rank` dimensions.
+// Reads the texts of an attribute with `rank` dimensions.
 std::vector<std::string> read_texts(hid_t owner, const char* name, int rank, const std::string& bytes) {
   const Handle attribute(H5Aopen(owner, name, H5P_DEFAULT), H5Aclose, name);
   const Handle stored(H5Aget_type(attribute), H5Tclose, name);
@@ -247,7 +248,7 @@ std::vector<std::string> read_texts(hid_t owner, const char* name, int rank, con
   const std::size_t size = H5Tget_size(stored);
   if (size == 0 || count > bytes.size() / size)
     throw ImageError(fmt::format("dataset {}: the declared size exceeds the file", name));
-  std::string all(count * size + 1, '\0');  // at least 1, for a valid address without columns
+  std::string all(count * size + 1, '\0');  // at least one byte, so that the address is valid without columns
   checked(H5Aread(attribute, string_type(size), all.data()), name);
   for (std::size_t i = 0; i < count; ++i) {
     const std::string_view text = std::string_view(all).substr(i * size, size);
@@ -273,14 +274,15 @@ std::vector<Column> read_columns(hid_t data, std::size_t count, const std::strin
   return columns;
 }
 
-/// Refuses soft and external links, which lead to another place or file.
+/// Refuses soft and external links, which refer to another place or file.
 void check_link(hid_t owner, const char* name) {
   H5L_info_t link{};
   checked(H5Lget_info(owner, name, &link, H5P_DEFAULT), name);
   if (link.type != H5L_TYPE_HARD) throw ImageError(fmt::format("/{} is a link to another place", name));
 }
 
-/// Requires values in the file itself, packed as written here. A virtual dataset or external storage would read other files.
+/// Requires values that are stored in the file itself, packed as by this program. A virtual dataset or external storage would
+/// read other files.
 void check_storage(hid_t data, const char* name) {
   const Handle properties(H5Dget_create_plist(data), H5Pclose, name);
   const H5D_layout_t layout = H5Pget_layout(properties);
@@ -324,7 +326,7 @@ Trace read_dataset(hid_t owner, const char* name, const std::string& bytes) {
   }
   const Handle space(H5Dget_space(data), H5Sclose, name);
   const auto [rows, columns] = shape_of(space, 2, name);
-  // gzip compresses at most by a factor of 1032: a larger claim is forged and would only exhaust the memory.
+  // gzip compresses at most by a factor of 1032. A larger declared size is forged, and would only exhaust the memory.
   if (columns != 0 && rows > 1040 * bytes.size() / sizeof(double) / columns) {
     throw ImageError(fmt::format("dataset /{}: the declared size exceeds the file", name));
   }

@@ -1,4 +1,4 @@
-// The HDF5 part of trace.h5, in memory: only this file uses the HDF5 library.
+// HDF5 part of trace.h5, built in memory by the only module that uses the HDF5 library.
 #pragma once
 #include <stdexcept>
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace gaitlab {
 
-inline constexpr std::string_view kTraceFormats[] = {"gaitlab-trace-1", "gaitlab-trace-2"};  ///< the last one is written
+inline constexpr std::string_view kTraceFormats[] = {"gaitlab-trace-1", "gaitlab-trace-2"};  ///< the last format is written
 inline constexpr const char* kBeside[] = {"rest",   "ticks",  "loads", "poses",
                                           "spread", "joints", "run"};  ///< tables of `/recording`
-inline constexpr std::size_t kUserBlock = 512;  ///< bytes before the HDF5 part; the smallest that HDF5 allows
+inline constexpr std::size_t kUserBlock = 512;  ///< bytes before the HDF5 part; the smallest number that HDF5 allows
 
 /// Failure of the HDF5 library, or content that is not a trace.
 class ImageError : public std::runtime_error {
@@ -19,10 +19,11 @@ class ImageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The bytes after the user block. One thread at a time uses HDF5; others wait. Throws ImageError.
+/// Returns the bytes after the user block. Throws ImageError. HDF5 is used by one thread at a time; other threads wait.
 SpilledVector<char> to_image(const Trace& trace, const Provenance& origin, std::span<const BesideOf> beside);
 
-/// Trace from a whole file, user block included. Throws ImageError; the bytes must be those of to_image.
+/// Reads the trace from the bytes of a whole file, including the user block. The HDF5 part must be a result of to_image. Throws
+/// ImageError.
 StoredTrace from_image(const std::string& file);
 
 }  // namespace gaitlab

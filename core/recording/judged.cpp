@@ -11,8 +11,8 @@ namespace gaitlab {
 namespace {
 
 constexpr double kLongestStart = 2;    // s, without a limit cycle
-constexpr double kShareOfStart = 0.2;  // of the run, without a limit cycle
-constexpr double kWholePeriod = 1e-3;  // of a period: tolerance of a whole one
+constexpr double kShareOfStart = 0.2;  // share of the run, without a limit cycle
+constexpr double kWholePeriod = 1e-3;  // tolerance of a whole period, as a share of a period
 constexpr double kSameInstant = 1e-9;  // s
 
 void window(Judged& judged, double end, const MotionCycle& cycle, bool repeats) {
@@ -25,7 +25,7 @@ void window(Judged& judged, double end, const MotionCycle& cycle, bool repeats) 
   judged.from = std::max(0.0, start());
 }
 
-/// The last row at or before `time`, or at most `within` after it.
+/// Last row whose time is at most `time` + `within`.
 std::size_t row_at(const Series& t, double time, double within) {
   std::size_t row = 0;
   while (row + 1 < t.size() && t[row + 1] <= time + within) ++row;
@@ -34,7 +34,7 @@ std::size_t row_at(const Series& t, double time, double within) {
 
 constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
-/// Largest value of the rows behind `first`, with its time; NaN if no value is known.
+/// Largest value in the rows after `first`, and its time. NaN if no value is known.
 std::pair<double, double> peak_of(const Series& t, const Series& values, std::size_t first) {
   if (values.empty() || std::isnan(values.back())) return {kNotKnown, kNotKnown};
   std::pair<double, double> largest{0, 0};
@@ -83,7 +83,7 @@ JudgedJoint from_ticks(const Recording& record, std::size_t joint, std::size_t f
   return j;
 }
 
-/// The first joint with the largest value.
+/// Joint with the largest value. If several are equal, the first of them.
 std::size_t most(const std::vector<JudgedJoint>& joints, double JudgedJoint::*member) {
   std::size_t found = 0;
   for (std::size_t j = 1; j < joints.size(); ++j) {

@@ -11,14 +11,14 @@ namespace gaitlab {
 
 namespace {
 
-constexpr double kRepeats = 0.02;     // e(t) of a repeating motion
+constexpr double kRepeats = 0.02;     // largest e(t) of a repeating motion
 constexpr double kStill = 1e-3;       // rad, half a peak-to-peak
-constexpr double kSmall = 0.1;        // of the largest column: least scale, so that joints that only tremble do not decide
-constexpr double kPromising = 0.3;    // e of a lag next to a period: half a grid step off, harmonics included
+constexpr double kSmall = 0.1;        // least scale as a share of the largest column, so that trembling joints do not decide
+constexpr double kPromising = 0.3;    // largest e of a lag that is half a grid step off a period, with harmonics
 constexpr std::size_t kGrid = 256;    // lags and points per period in the search
 constexpr std::size_t kFine = 4096;   // points per period when refining a lag
 constexpr std::size_t kShortest = 5;  // samples in the shortest period
-constexpr double kNoMatch = 1e300;    // an error above every threshold
+constexpr double kNoMatch = 1e300;    // error above every threshold
 using Moved = std::vector<double>;
 
 struct Columns : std::vector<Moved> {
@@ -35,8 +35,8 @@ struct Range {
   [[nodiscard]] double half() const { return 0.5 * (hi - lo); }
 };
 
-// Replaces the steps of a column that is held between ticks by straight lines between the changes. Only intervals up to twice
-// the median are joined: a pause remains.
+// Replaces the steps of a column that is constant between ticks by straight lines between the changes. Only intervals up to
+// twice the median are joined, so that pauses remain.
 void join_steps(Moved& x) {
   std::vector<std::size_t> changes;
   for (std::size_t i = 1; i < x.size(); ++i) {
@@ -56,7 +56,7 @@ void join_steps(Moved& x) {
   }
 }
 
-// One contiguous array per column; empty if a number is not finite.
+// One contiguous array per column. Empty if a number is not finite.
 Columns columns_of(std::span<const double> values, std::size_t columns) {
   const std::size_t rows = values.size() / columns;
   Columns split(columns, Moved(rows));
@@ -68,7 +68,7 @@ Columns columns_of(std::span<const double> values, std::size_t columns) {
     }
   }
   for (Moved& column : split) join_steps(column);
-  // Only the last quarter: a livelier start does not count.
+  // Least scale, from the last quarter of the data only, because larger motions at the start must not count.
   for (const Moved& column : split) {
     Range range;
     for (std::size_t row = rows - rows / 4; row < rows; ++row) range.add(column[row]);
@@ -77,8 +77,8 @@ Columns columns_of(std::span<const double> values, std::size_t columns) {
   return split;
 }
 
-// Rough error e in the last window for a whole number of samples, on every `stride`-th of them; kNoMatch as soon as it is not
-// promising, or if nothing moves.
+// Rough error e in the last window, for a lag of whole samples, computed from every `stride`-th sample. The error is kNoMatch
+// if it exceeds kPromising or nothing moves.
 class RoughError {
  public:
   explicit RoughError(const Columns& columns) : columns_(columns) {
@@ -93,7 +93,7 @@ class RoughError {
       moves = moves || half > kStill;
       worst = std::max(worst, one);
       if (worst < kPromising) continue;
-      // A column that does not repeat after one lag mostly does not after the next: it is tested first.
+      // A column that does not repeat after one lag usually does not repeat after the next lag. It is tested first.
       std::rotate(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(k),
                   order_.begin() + static_cast<std::ptrdiff_t>(k) + 1);
       return kNoMatch;
@@ -102,7 +102,7 @@ class RoughError {
   }
 
  private:
-  // Error of one column, and half its peak-to-peak.
+  // Error of one column, and half of its peak-to-peak value.
   [[nodiscard]] std::pair<double, double> of(const Moved& x, std::size_t lag, std::size_t stride) const {
     const std::size_t rows = x.size();
     Range range;
@@ -123,8 +123,8 @@ class RoughError {
   std::vector<std::size_t> order_ = {};
 };
 
-// Misfit of a lag: sum over the columns of the mean square of x(t) - x(t - lag) / s_c over a fixed window at the end: smooth in
-// the lag, and a parabola near its minimum, which the worst column's error is not.
+// Misfit of a lag: sum over the columns of the mean square of (x(t) - x(t - lag)) / s_c over a fixed window at the end. Unlike
+// the error of the worst column, it is smooth in the lag, and close to a parabola near its minimum.
 class Misfit {
  public:
   Misfit(const Columns& columns, std::size_t window) : columns_(columns), window_(window) {
@@ -138,7 +138,7 @@ class Misfit {
     }
   }
 
-  // kNoMatch if the data do not reach back far enough.
+  // Misfit of a lag. kNoMatch if the data do not reach back far enough.
   [[nodiscard]] double at(std::size_t lag) const {
     const std::size_t rows = columns_[0].size();
     if (lag < 2 || window_ + lag > rows) return kNoMatch;
@@ -162,7 +162,7 @@ class Misfit {
   std::vector<double> weights_;
 };
 
-// The period in samples near the lag `lag` of a grid with steps of `step`; 0 if the minimum is not inside the data.
+// Period in samples near the lag `lag` of a grid with steps of `step`. 0 if the minimum is not inside the data.
 double refine(const Columns& columns, std::size_t lag, std::size_t step) {
   const Misfit misfit(columns, lag);
   double here = misfit.at(lag);
@@ -187,7 +187,7 @@ double refine(const Columns& columns, std::size_t lag, std::size_t step) {
   return static_cast<double>(lag) + std::clamp(shift, -0.5, 0.5);
 }
 
-// Value of x between samples: the cubic through four neighbours, the last one repeated at the end of the data.
+// Value of x between samples, from a cubic through four neighbours. At the end of the data the last sample is repeated.
 class Between {
  public:
   explicit Between(double lag) : whole_(static_cast<std::size_t>(lag)) {
@@ -196,7 +196,7 @@ class Between {
                 (f + 1) * f * (f - 1) / 6};
     reach_ = whole_ + (f > 0 ? 1 : 0);
   }
-  // x(i + lag) for i + reach() < size.
+  // Returns x(i + lag). Requires i + reach() < size.
   [[nodiscard]] double operator()(const Moved& x, std::size_t i) const {
     const std::size_t last = x.size() - 1;
     double sum = 0;
@@ -210,7 +210,7 @@ class Between {
   std::array<double, 4> weights_ = {};
 };
 
-// e(t) of one period (in samples) over the whole of the data.
+// Error e(t) of one period (in samples) over all data.
 class Repetition {
  public:
   Repetition(const Columns& columns, double period)
@@ -226,7 +226,7 @@ class Repetition {
     }
   }
 
-  // Error in the last window; kNoMatch if there is none or nothing moves.
+  // Error in the last window. kNoMatch if there is no window or nothing moves.
   [[nodiscard]] double error() const {
     if (starts_ == 0 || !moves_) return kNoMatch;
     double worst = 0;
@@ -238,10 +238,10 @@ class Repetition {
     return worst;
   }
 
-  // The earliest start of a window from which on all windows repeat, in samples. Assumes that the last one does.
+  // Earliest start of a window, in samples, from which on all windows repeat. The last window must repeat.
   [[nodiscard]] std::size_t from() const {
     std::size_t from = 0;
-    std::vector<double> sums(starts_ + window_);  // of the squares before a sample: the sum of a window is a difference of two
+    std::vector<double> sums(starts_ + window_);  // sums of squares before each sample; a window is a difference of two sums
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       for (std::size_t i = 0; i + 1 < sums.size(); ++i) sums[i + 1] = sums[i] + squared(c, i);
       const double limit = kRepeats * scales_[c];
@@ -272,7 +272,7 @@ struct Candidate {
   double error = kNoMatch;
 };
 
-// The best lag of each interval of promising ones, shortest first, computed one by one.
+// Best lag of each interval of promising lags, shortest first. They are computed one by one.
 class Candidates {
  public:
   explicit Candidates(const Columns& columns) : rough_(columns), longest_(columns[0].size() / 2) {}

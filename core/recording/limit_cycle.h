@@ -5,25 +5,27 @@
 
 namespace gaitlab {
 
-/// Result of the search. With T the period, x_c a column and s_c = half its peak-to-peak over the last 2 T, at least a tenth of
-/// the largest column's and 1e-3 rad:
+/// Result of the search for a limit cycle. T is the period and x_c a column. The scale s_c is half the peak-to-peak value of
+/// x_c over the last 2 T. It is at least 1e-3 rad, and at least a tenth of the scale of the largest column.
 ///     e(t) = max over c of RMS over [t, t + T] of (x_c(u + T) - x_c(u)) / s_c
-/// `error` is e at the last possible t (two periods before the end); found means error < 0.02.
+/// `error` is e at the last possible t (two periods before the end). `found` means error < 0.02.
 struct MotionCycle {
   bool found = false;
   double from =
-      0;  ///< s after the first row: the earliest sample t with e < 0.02 there and at every later sample; 0 if not found
-  double period = 0;  ///< s; the shortest period found, else that of the best candidate, 0 without one
-  double error = 1;   ///< of that period; 1 without a candidate
+      0;  ///< s after the first row: earliest sample t with e < 0.02 at t and at every later sample; 0 if no cycle is found
+  double period = 0;  ///< shortest period found, s; else the period of the best candidate; 0 without candidates
+  double error = 1;   ///< error of that period; 1 without candidates
 };
 
-/// Searches rows x columns of angles and set points (rad, row-major, sampled every `sample_period` s, without gaps) for the
-/// shortest period. Not found: less than two periods in the data; no repetition to 2 %; no motion: no column moves by more than
-/// 2e-3 rad over the last two periods (any period would fit); a number that is not finite; fewer than 12 rows; periods below 5
-/// samples. Columns that are held between control ticks (set points) are joined by straight lines first: a period that is not a
-/// multiple of the tick would otherwise shift the steps from cycle to cycle and count as an error. A lag is first tested on at
-/// most 256 points of its window, in steps of 1/256 of the lag, then at every sample, and the period between samples is the
-/// vertex of a parabola. About 10 ms for 4001 rows x 32 columns.
+/// Searches for the shortest period in rows x columns of angles and set points (rad, row-major, sampled every `sample_period`
+/// s, without gaps). The search requires finite numbers, at least 12 rows, at least 5 samples per period, and two periods in
+/// the data. It finds nothing if no motion repeats to 2 %. It also finds nothing if no column moves by more than 2e-3 rad over
+/// the last two periods, because any period would then fit.
+///
+/// Columns that are constant between control ticks (set points) are first joined by straight lines. Otherwise a period that is
+/// not a multiple of the tick would shift the steps from cycle to cycle and count as an error. A lag is first tested on at most
+/// 256 points of its window, in steps of 1/256 of the lag, then at every sample. The period between samples is the vertex of a
+/// parabola. The search takes about 10 ms for 4001 rows x 32 columns.
 MotionCycle find_limit_cycle(std::span<const double> values, std::size_t columns, double sample_period);
 
 }  // namespace gaitlab

@@ -1,4 +1,4 @@
-// The limit at which a motor is, with its name and its number in traces.
+// Limit that a motor has reached, with its name and its number in traces.
 #pragma once
 #include "core/names.h"
 
@@ -12,7 +12,7 @@ struct EnumNames<MotorLimit> {
   static constexpr EnumName<MotorLimit> kTable[] = {{none, "none"}, {voltage, "voltage"}, {current, "current"}};
 };
 
-/// Number of a limit in `saturation`: of traces, of Recording::ticks and of Actuator::Electrical.
+/// Number of a limit in the columns `saturation` of traces, in Recording::ticks and in Actuator::Electrical.
 constexpr double saturation_of(MotorLimit limit) { return static_cast<double>(limit); }
 constexpr MotorLimit motor_limit(double saturation) {
   return saturation == saturation_of(MotorLimit::current)   ? MotorLimit::current

@@ -1,4 +1,4 @@
-// The way in which a run ended.
+// Outcome of a run: the way in which it ended.
 #pragma once
 #include <string>
 
@@ -6,8 +6,8 @@
 
 namespace gaitlab {
 
-/// plugin: an exception of one; stopped: by a rule of a study; not_run: the robot was only checked; early: a folder of an older
-/// format, without the reason.
+/// End of a run. `plugin` means that a plugin threw an exception, `stopped` that a rule of a study ended the run, `not_run`
+/// that the robot was only checked. `early` is an early end in a run folder of an older format, which lacks the reason.
 enum class Ended { done, diverged, plugin, stopped, interrupted, not_run, early };
 
 template <>
@@ -25,7 +25,7 @@ struct Outcome {
   [[nodiscard]] bool done() const { return ended == Ended::done; }
   /// `done`, `not run` or the message, as in trace, summary and page.
   [[nodiscard]] std::string text() const { return message.empty() ? name_of(ended) : message; }
-  /// The outcome with that text; for a message Ended::early.
+  /// Outcome with the text `text`; Ended::early for every text but `done`.
   [[nodiscard]] static Outcome of(const std::string& text) {
     const bool done = text == name_of(Ended::done);
     return done ? Outcome() : Outcome{Ended::early, text};

@@ -1,5 +1,4 @@
-// A run as a value: its rows, and the statistics of all its steps. Summary, figures, goldens and pages use it, for a run that
-// has just ended and for one in a folder.
+// Recording of a run, with its rows and the statistics of all its steps, from the simulation or from a run folder.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -14,7 +13,7 @@
 
 namespace gaitlab {
 
-/// One column of a table, row by row; valid as long as the table is not changed.
+/// View of one column of a table. It is valid as long as the table is not changed.
 class Series {
  public:
   Series() = default;
@@ -32,11 +31,11 @@ class Series {
   std::size_t stride_ = 0, size_ = 0;
 };
 
-/// Patterns of the columns that summary, figures and warnings use; recorded for any `trace.columns`.
+/// Patterns of the columns that summary, figures and warnings need. These columns are recorded for any `trace.columns`.
 const std::vector<std::string>& report_columns();
 
-inline constexpr std::size_t kMostTickRows = 20000;  ///< of Recording::ticks, even: 5 min of control ticks 15 ms apart
-/// Columns of a joint in Recording::ticks, after t.
+inline constexpr std::size_t kMostTickRows = 20000;  ///< of Recording::ticks, even; 5 min of ticks every 15 ms
+/// Columns of each joint in Recording::ticks, after the column t.
 enum TickColumn : std::size_t {
   kTorquePeak,
   kErrorPeak,
@@ -54,30 +53,31 @@ enum TickColumn : std::size_t {
 
 /// Recording of one rollout.
 struct Recording {
-  /// Rows at every trace tick, and at the end, or some of them (thin_rows). trace: the columns that `trace.columns` names;
-  /// rest: the other ones of report_columns().
+  /// Rows at every trace tick, and at the end, or every k-th of these rows (thin_rows). `trace` has the columns that
+  /// `trace.columns` selects. `rest` has the other columns of report_columns().
   Trace trace, rest;
-  std::string hash_of_all;  ///< hash() of all rows of `trace`; empty: these are all
-  /// At control ticks at least 2 ms apart (above 20 000 rows: every second of them, and so on), and at the end: for each joint
-  /// the largest |torque| (and whether the motor was at a limit then), |set point - angle|, |speed|, |voltage|, |current| and
-  /// share of the available torque since the row before, and from t = 0 the integrals of torque^2 and current^2 and the time at
-  /// each limit. Over all steps, so that a peak or an RMS of any part of the run does not depend on trace.period.
+  std::string hash_of_all;  ///< hash() of `trace` with all rows; empty if `trace` has all rows
+  /// Rows at control ticks that are at least 2 ms apart, and at the end. Above 20 000 rows, every second row is removed,
+  /// repeatedly. For each joint, a row has the largest |torque|, |set point - angle|, |speed|, |voltage|, |current| and share
+  /// of the available torque since the previous row. It also has the motor limit at the largest torque and, from t = 0, the
+  /// integrals of torque^2 and current^2 and the time at each limit. All steps count, so that a peak or an RMS of any part of
+  /// the run does not depend on trace.period.
   Trace ticks;
-  bool ticks_of_rows = false;  ///< `ticks` were computed from the trace's rows: the folder has no statistics of all steps
-  /// Rows as in `ticks`, but under the new commands: loads of docks and feet, slip distances of feet, stability margin. Without
-  /// columns if the simulation was not told to record them.
+  bool ticks_of_rows = false;  ///< true if `ticks` are computed from rows of the trace, as for a CSV file alone
+  /// Loads of docks and feet, slip distances of feet and stability margin, with the rows of `ticks` but under the new commands.
+  /// There are no columns if loads were not to be recorded.
   Trace loads;
-  /// Rows as in `ticks`: pose of the base, angles and set points of the joints, centre of mass, and normal force of the ground
-  /// on the robot. Folders of older formats have no rows, or only pose and angles.
+  /// Pose of the base, angles and set points of the joints, centre of mass, and normal force of the ground on the robot, with
+  /// the rows of `ticks`. Folders of older formats have no rows, or only pose and angles.
   Trace poses;
-  /// For a motion that is not predictable: numbers (report/verdict/spread.h) of this run, then of runs under a minimally
-  /// different gravity, a row each. Without columns if predictability was not tested.
+  /// Numbers (report/verdict/spread.h) of this run in the first row, and of runs under a minimally different gravity in the
+  /// other rows, for a motion that is not predictable. There are no columns if predictability was not tested.
   Trace spread;
-  std::vector<JointStatistics> joints;  ///< empty: the robot has no joints, or the run has a format without them
-  Ledger ledger;                        ///< at the end
-  StepTally tally;                      ///< of the engine's steps
+  std::vector<JointStatistics> joints;  ///< empty if the robot has no joints, or the format of the run lacks them
+  Ledger ledger;                        ///< energies at the end
+  StepTally tally;                      ///< counts of the steps of the engine
   double simulated = 0;                 ///< s
-  Stability worst;                      ///< the largest rate seen at a control tick
+  Stability worst;                      ///< largest damping rate at a control tick
   double worst_time = 0;                ///< s
   std::int64_t control_ticks = 0, control_ticks_above_1 = 0;
   std::int64_t steps = 0;
@@ -87,9 +87,9 @@ struct Recording {
   [[nodiscard]] std::string trace_hash() const { return hash_of_all.empty() ? hash(trace) : hash_of_all; }
   /// A column of `trace` or `rest` by name; empty if neither has it.
   [[nodiscard]] Series series(const std::string& column) const;
-  /// `joint.N.QUANTITY`: angle, setpoint, torque.
+  /// Column `joint.N.QUANTITY`, where QUANTITY is angle, setpoint or torque.
   [[nodiscard]] Series joint(std::size_t number, const char* quantity) const;
-  /// A column of `poses` by name; empty if a folder of an older format does not have it.
+  /// A column of `poses` by name; empty if the folder has an older format without it.
   [[nodiscard]] Series pose(const std::string& column) const;
   /// Centre of mass at the time of a row.
   [[nodiscard]] Vec3 com(std::size_t row) const;
@@ -99,34 +99,35 @@ struct Recording {
   [[nodiscard]] std::size_t ticked() const {
     return joints.empty() ? (ticks.columns.size() + kTickColumns - 2) / kTickColumns : joints.size();
   }
-  /// A joint's column of `ticks`; empty if it is missing, as in a folder of an older format.
+  /// Column of `ticks` for one joint; empty if it is missing, as in a folder of an older format.
   [[nodiscard]] Series tick(std::size_t joint, TickColumn column) const;
-  /// Whether the columns for `state` exist, as they do except in a folder of an older format.
+  /// True if the columns for `state` exist. They are missing only in a folder of an older format.
   [[nodiscard]] bool has_states(const Robot& robot) const;
-  /// Angles and pose at the time of a row; speeds 0.
+  /// Angles and pose at the time of a row. The speeds are 0.
   [[nodiscard]] RobotState state(const Robot& robot, std::size_t row) const;
 };
 
-/// All rows of a recording that keeps only some of them.
+/// All rows of a recording that keeps every k-th row.
 struct AllRows {
   Trace trace, rest;
-  /// Exchanges these rows with those of the recording.
+  /// Exchanges these rows with the rows of the recording.
   void swap(Recording& r);
 };
 
-/// Reduces the rows of a recording to every k-th and the last, with the least k for which trace and rest have at most `most`
-/// bytes. Returns all rows, or nothing if k is 1. Travel, figures and pages use such rows; peaks and checks use `ticks`,
-/// `poses` and `loads`, which stay.
+/// Reduces the rows of a recording to every k-th row and the last one, with the least k for which `trace` and `rest` have at
+/// most `most` bytes together. Returns all rows, or nothing if k is 1. Travel, figures and pages use the reduced rows. Peaks
+/// and checks use `ticks`, `poses` and `loads`, which are not reduced.
 std::optional<AllRows> thin_rows(Recording& r, std::size_t most = kMostInMemory);
 
-/// Columns of Recording::ticks for `joints` joints, and of Recording::poses; older folders have only the first of the latter.
+/// Columns of Recording::ticks and of Recording::poses for `joints` joints. In older folders, poses have only the first
+/// old_pose_columns().
 std::vector<Column> tick_columns(std::size_t joints);
 std::vector<Column> pose_columns(std::size_t joints);
 constexpr std::size_t old_pose_columns(std::size_t joints) { return 8 + joints; }
-/// Merges each two rows after the first: the later one, with the larger of their peaks.
+/// Merges each two rows after the first into the later row, with the larger peaks of the two rows.
 void halve_ticks(Trace& ticks);
-/// Merges each two rows after the first: the later one, with the larger of their loads of docks and the smaller stability
-/// margin.
+/// Merges each two rows after the first into the later row, with the larger dock loads and the smaller stability margin of the
+/// two rows.
 void halve_rows(Trace& table);
 
 }  // namespace gaitlab

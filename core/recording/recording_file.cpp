@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr const char* kHinges = "energy.hinges";
 constexpr const char* kEnded = "ended";
 
-/// A rollout beside the run, with the words for its definitions.
+/// A companion rollout, with the words that describe it in definitions.
 struct PartingName {
   const char* key;
   Parting StepTally::*member;
@@ -70,7 +70,7 @@ void each_number(OfRecording& r, Visit visit) {
         r.outcome.ended);
 }
 
-/// The same for joint `j`.
+/// Visits every number of joint `j`: visit(name, unit, definition, number).
 template <class OfRecording, class Visit>
 void each_number_of(OfRecording& r, std::size_t j, Visit visit) {
   for (const JointStatistic& one : kJointStatistics) visit(one.name, one.unit, one.definition, r.joints[j].*one.member);
@@ -111,7 +111,7 @@ InputError unfit(const fs::path& file, const std::string& what) {
   return {SourceLocation{file.string()}, "is corrupt: " + what};
 }
 
-/// Numbers of the joints and of the run.
+/// Reads the numbers of the joints and of the run from their tables.
 void take_numbers(const fs::path& file, const Trace& joints, const Trace& run, Recording& r) {
   const auto value = [&](const Trace& table, std::size_t row, const std::string& name) {
     const std::size_t column = table.find(name);
@@ -127,9 +127,9 @@ void take_numbers(const fs::path& file, const Trace& joints, const Trace& run, R
   each_number(r, [&](const std::string& name, const char*, const std::string&, auto& number) {
     using Number = std::remove_reference_t<decltype(number)>;
     const bool added = name == kHinges || name == kEnded || name.starts_with(kParting);
-    if (added && run.find(name) == run.columns.size()) return;  // older folders do not have it
+    if (added && run.find(name) == run.columns.size()) return;  // older folders lack this number
     const double read = value(run, 0, name);
-    // Largest value: of a flag, a source, or a count, which a double holds exactly up to 2^53.
+    // Largest value of a flag, an enum, or a count. A double contains counts exactly up to 2^53.
     constexpr double kMost = std::is_same_v<Number, bool>    ? 1
                              : std::is_same_v<Number, Ended> ? static_cast<double>(enum_names<Ended>().size() - 1)
                              : std::is_enum_v<Number>        ? 3
@@ -150,8 +150,8 @@ void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r
   };
   r.rest = take("rest");
   r.ticks = take("ticks");
-  if (find("loads") != beside.end()) r.loads = take("loads");  // older folders do not have it
-  if (find("poses") != beside.end()) r.poses = take("poses");  // likewise
+  if (find("loads") != beside.end()) r.loads = take("loads");  // older folders lack these tables
+  if (find("poses") != beside.end()) r.poses = take("poses");
   if (find("spread") != beside.end()) r.spread = take("spread");
   const Trace joints = take("joints");
   const Trace run = take("run");
@@ -178,7 +178,7 @@ void write_beside(const Recording& r, Provenance origin, const fs::path& folder)
   write_h5({}, origin, folder / kBesideCsv, tables(r, number_tables(r)));
 }
 
-/// Runs a write that may run out of memory, with the message for that case.
+/// Runs `write`. If memory runs out, returns the message for this case.
 template <class Write>
 std::optional<std::string> short_of_memory(const fs::path& file, const Write& write) {
   try {
@@ -202,7 +202,7 @@ void write_recording(const Recording& r, const Provenance& origin, const std::st
   const fs::path file = folder / "trace.h5";
   const auto why = short_of_memory(file, [&] {
     std::string
-        kept;  // HDF5 does not free the memory of an unfinished file: this reserve is for the text and the following code
+        kept;  // HDF5 does not free the memory of an unfinished file; this reserve is for the message and the code after it
     kept.reserve(kKept);
     write_h5(r.trace, origin, file, tables(r, number_tables(r)));
   });
@@ -214,7 +214,7 @@ void write_recording(const Recording& r, const Provenance& origin, const std::st
 
 namespace {
 
-/// A recording of the rows alone, and the names of what it lacks.
+/// Reads a recording of rows only, and lists the missing parts.
 void take_rows_alone(const fs::path& file, StoredRecording& read) {
   const Trace& trace = read.recording.trace;
   if (trace.rows() > 0) read.recording.simulated = trace.at(trace.rows() - 1, 0);

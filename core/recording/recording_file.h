@@ -1,4 +1,4 @@
-// A recording in its run folder, written and read back.
+// Files of a recording in its run folder.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -11,22 +11,22 @@ namespace gaitlab {
 
 inline constexpr const char* kBesideCsv = "recording.h5";  ///< data that trace.csv lacks
 
-/// Writes trace.h5, or, for `format` csv, trace.csv and recording.h5, which has the data that the CSV file cannot hold. Tables
-/// of `/recording`: `rest`, `ticks`, `loads` and `poses` (see Recording); `joints`, a row for each joint: its statistics and
-/// its torque error; `run`, one row: numbers of the whole run. Throws RunError if a file cannot be written. If memory is too
-/// short for trace.h5, the rows are in trace.csv, which is written row by row.
+/// Writes trace.h5 or, if `format` is csv, trace.csv and recording.h5, which has the data that the CSV file cannot contain.
+/// Tables of `/recording` are `rest`, `ticks`, `loads` and `poses` (see Recording), `joints` and `run`. A row of `joints` has
+/// the statistics and the torque error of one joint. The only row of `run` has the numbers of the whole run. Throws RunError if
+/// a file cannot be written. If memory is too short for trace.h5, the rows are in trace.csv, which is written row by row.
 void write_recording(const Recording& recording, const Provenance& origin, const std::string& format,
                      const std::filesystem::path& folder);
 
-/// A recording read back.
+/// A recording that was read from a run folder.
 struct StoredRecording {
   Recording recording;
   Provenance origin;
-  std::vector<std::string> missing;  ///< one sentence for each missing part of the folder; empty: complete
+  std::vector<std::string> missing;  ///< one sentence for each missing part of the folder; empty if it is complete
 };
 
-/// Reads the recording of a run folder. A folder of an older format, or a CSV file alone, is read in part. InputError: see
-/// trace_file, read_h5, read_csv; tables that do not fit together.
+/// Reads the recording of a run folder. A folder of an older format, or a CSV file alone, is read in part. Throws InputError as
+/// trace_file, read_h5 and read_csv do, and if tables do not fit together.
 StoredRecording read_recording(const std::filesystem::path& folder);
 
 }  // namespace gaitlab

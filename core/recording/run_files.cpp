@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Place of a byte counted from 1, as nlohmann's parser does.
+// Line and column of a byte, which is counted from 1 as by the parser of nlohmann.
 SourceLocation place_of(const fs::path& file, std::string_view text, std::size_t byte) {
   const std::string_view before = text.substr(0, std::min(byte == 0 ? 0 : byte - 1, text.size()));
   const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
@@ -57,7 +57,7 @@ nlohmann::json read_summary(const fs::path& folder) {
     return summary;
   } catch (const nlohmann::json::parse_error& error) {
     throw InputError(place_of(file, text, error.byte), "is not JSON from here on: it is truncated or damaged");
-  } catch (const nlohmann::json::exception&) {  // a number beyond a double
+  } catch (const nlohmann::json::exception&) {  // a number is outside the range of a double
     throw InputError(SourceLocation{file.string()}, "holds a number that is outside the range of a double");
   }
 }

@@ -1,4 +1,4 @@
-// A run read back from its folder.
+// Files of a run folder, read back.
 #pragma once
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
@@ -7,14 +7,15 @@
 
 namespace gaitlab {
 
-/// Path of a run's trace: `run` itself if it is a file (.h5 or .csv), else trace.h5 or trace.csv in that folder, in this order.
-/// Throws InputError if there is none, or it is a file of another kind.
+/// Path of the trace of a run: `run` itself if it is a file (.h5 or .csv), else trace.h5 or trace.csv in the folder `run`, in
+/// this order. Throws InputError if there is no such file, or `run` is a file of another kind.
 std::filesystem::path trace_file(const std::filesystem::path& run);
 
-/// Trace of that file. InputError: see trace_file, read_h5, read_csv.
+/// Reads the trace of a run. Throws InputError as trace_file, read_h5 and read_csv do.
 Trace read_trace(const std::filesystem::path& run);
 
-/// Object in summary.json of a run folder. Throws InputError if it is missing, not JSON (at FILE:LINE:COL), or not an object.
+/// Reads the object in summary.json of a run folder. Throws InputError if the file is missing, not JSON (at FILE:LINE:COL), or
+/// not an object.
 nlohmann::json read_summary(const std::filesystem::path& folder);
 
 }  // namespace gaitlab

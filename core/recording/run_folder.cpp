@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-// Returns 0 or errno, with the rights of the effective user.
+// Returns 0 or errno, for the rights of the effective user.
 int cannot_write(const fs::path& folder) {
   return ::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) == 0 ? 0 : errno;
 }
@@ -58,12 +58,12 @@ int RunFolder::make_parents(const fs::path& folder) {
   for (const fs::path& part : folder.parent_path()) {
     grown /= part;
     const int error = make(grown);
-    // Some file systems answer EROFS or EACCES for a folder that exists: only missing folders matter.
+    // Some file systems return EROFS or EACCES for a folder that exists. Only missing folders matter.
     std::error_code ignored;
     const fs::file_status status = fs::status(grown, ignored);
     if (error == 0 || fs::is_directory(status)) continue;
     if (error != EEXIST) return error;
-    return fs::exists(status) ? ENOTDIR : ENOENT;  // ENOENT: removed since, or a link to a missing folder
+    return fs::exists(status) ? ENOTDIR : ENOENT;  // ENOENT if the folder was removed since, or is a link to a missing folder
   }
   return 0;
 }
@@ -79,7 +79,7 @@ void RunFolder::use(const fs::path& out) {
   if (!fs::exists(status) && error != EEXIST) throw refuse("cannot be made: " + reason(error));
   if (!fs::is_directory(status)) throw refuse("exists and is not a folder");
   if (!lock_.take(path_)) {
-    if (error == 0) made_.pop_back();  // it belongs to the other process now
+    if (error == 0) made_.pop_back();  // the folder belongs to the other process now
     throw refuse("is being written by another process");
   }
   const bool empty = fs::is_empty(path_, code);
@@ -91,7 +91,7 @@ void RunFolder::use(const fs::path& out) {
 void RunFolder::number(const std::string& name) {
   if (name.empty() || name == "." || name == ".." || name.find('/') != std::string::npos)
     throw InputError(SourceLocation{"name"}, fmt::format("\"{}\" cannot name a run folder", name));
-  constexpr int kPatience = 100;  // another process may remove an empty `runs` between our two mkdir
+  constexpr int kPatience = 100;  // another process may remove an empty `runs` between two calls of mkdir
   int vanished = 0;
   for (int k = 1;;) {
     path_ = fs::path("runs") / (k == 1 ? name : fmt::format("{}-{}", name, k));
@@ -99,7 +99,7 @@ void RunFolder::number(const std::string& name) {
     if (error == 0) error = make(path_);
     if (error == 0 && lock_.take(path_)) return;
     if (error == 0) {
-      made_.pop_back();  // another process uses it as its --out
+      made_.pop_back();  // another process uses the folder with --out
       error = EEXIST;
     }
     if (error == EEXIST) {

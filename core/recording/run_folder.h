@@ -1,4 +1,4 @@
-// The folder of one run: created for it, and removed again if it stays empty.
+// Folder of one run, which is created for it, and removed again if it stays empty.
 #pragma once
 #include <filesystem>
 #include <optional>
@@ -9,15 +9,16 @@
 
 namespace gaitlab {
 
-/// Owns the folder from its creation to keep(), and holds its lock during its lifetime: of two processes with the same folder
-/// the second one is refused. Destroyed before keep(), it removes the folders that it created, if they are empty; files, and
-/// folders that existed before, are left.
+/// Owns the folder from its creation to keep(), and locks it during the lifetime of this object. If two processes use the same
+/// folder, the second process is refused. If destroyed before keep(), the object removes the folders that it created and that
+/// are empty. Files, and folders that existed before, are not removed.
 class RunFolder {
  public:
-  /// Without `out`: `runs/NAME` in the working folder, or the first of NAME-2, NAME-3 ... that does not exist (mkdir decides:
-  /// two processes at once get different ones). With `out`: that folder, which must be empty or not exist; parents are created.
-  /// Throws InputError: `--out DIR: error: exists and is not empty`, `... is not a folder`, `... cannot be made: REASON`, `...
-  /// cannot be written: REASON`, `... is being written by another process`; a name that cannot be a folder's.
+  /// Without `out`, creates `runs/NAME` in the working folder, or the first of NAME-2, NAME-3 ... that does not exist. mkdir
+  /// decides, so that two processes at once get different folders. With `out`, uses that folder, which must be empty or not
+  /// exist; parents are created. Throws InputError `--out DIR: error: exists and is not empty`, `... is not a folder`, `...
+  /// cannot be made: REASON`, `... cannot be written: REASON`, `... is being written by another process`, or for a name that
+  /// cannot name a folder.
   RunFolder(const std::optional<std::filesystem::path>& out, const std::string& name);
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;

@@ -6,11 +6,11 @@
 
 namespace gaitlab {
 
-/// Factor by which a value must exceed a peak to replace it: all motors at one limit have its torque, up to rounding, and the
-/// first of these is the peak.
+/// Factor by which a value must exceed a peak to replace it. All motors at one limit have the same torque up to rounding, and
+/// the first of them is the peak.
 inline constexpr double kLarger = 1 + 1e-9;
 
-/// Statistics of one joint over the steps so far. SI.
+/// Statistics of one joint over the steps so far, in SI units.
 struct JointStatistics {
   double torque_peak = 0, torque_rms = 0;                  ///< N m, motor torque
   double torque_peak_time = 0;                             ///< s: start of the step in which torque_peak was reached
@@ -22,12 +22,12 @@ struct JointStatistics {
   double saturated_voltage = 0, saturated_current = 0;     ///< share of time
   double range_share = 0, range_worst = 0;                 ///< share of time outside [lo, hi]; worst excess, rad
   double setpoint_outside = 0;                             ///< share of time with the set point outside [lo, hi]
-  double electrical = 0, copper = 0, gear = 0, shaft = 0;  ///< J: drawn, lost, lost, given to the joint
+  double electrical = 0, copper = 0, gear = 0, shaft = 0;  ///< J: drawn, lost in winding and gear, given to the joint
   double shaft_positive = 0;                               ///< J: positive part of the shaft power
-  double created = 0;  ///< J: energy that the gear gave instead of losing (eq. 2, back-driven)
+  double created = 0;                                      ///< J: energy that the gear created (eq. 2, back-driven)
 };
 
-/// A member of JointStatistics as a column of a table.
+/// A member of JointStatistics, as a column of a table.
 struct JointStatistic {
   double JointStatistics::*member;
   const char *name, *unit, *definition;
@@ -58,30 +58,31 @@ inline constexpr std::array<JointStatistic, sizeof(JointStatistics) / sizeof(dou
     {&JointStatistics::created, "created", "J", "what the gear gave instead of losing"},
 }};
 
-/// Difference between a run and a rollout beside it (core/simulation/step_error.h).
+/// Difference of the motor torques between a run and a companion rollout (core/simulation/step_error.h).
 struct Parting {
-  double time = -1;       ///< s: when a torque first differed by more than the accuracy, times its peak; below 0: never
-  std::size_t joint = 0;  ///< its joint
-  double share = 0;       ///< RMS of the difference of a joint's torque over its peak, for the worst joint
+  double time = -1;  ///< s: first time at which a torque differs by more than accuracy times peak; below 0 if there is none
+  std::size_t joint = 0;  ///< joint with that torque
+  double share = 0;       ///< RMS of the torque difference over the torque peak, for the worst joint
 };
 
-/// Numbers of a rollout's steps since the start.
+/// Counts and error estimates of the steps of a rollout since the start.
 struct StepTally {
-  double solves = 0;                 ///< solutions of the equations of motion; 0: not counted
+  double solves = 0;                 ///< solutions of the equations of motion; 0 if not counted
   double off = 0;                    ///< joint-steps that ended off the law of their motor or stop
-  double coarse = 0;                 ///< s in which an integrator's shortest steps did not reach the accuracy
-  bool estimated = false;            ///< whether a torque error has been estimated so far (core/simulation/step_error.h)
-  Parting event;                     ///< of the rollout with other steps that differs more; share: of the estimated error
-  Parting chaotic, ill;              ///< of the rollout under gravity times 1 + 1e-9, and of 1000 times that difference
-  std::vector<double> torque_error;  ///< of each joint, RMS, N m
-  std::vector<double> torque_peak;   ///< of each joint, largest torque at the moments of the estimate, N m
+  double coarse = 0;                 ///< time in which the shortest steps of an integrator did not reach the accuracy, s
+  bool estimated = false;            ///< true if a torque error has been estimated so far (core/simulation/step_error.h)
+  Parting event;                     ///< for the rollout with other steps that differs first; its share is the estimated error
+  Parting chaotic, ill;              ///< for the rollout under gravity times 1 + 1e-9, and for 1000 times that difference
+  std::vector<double> torque_error;  ///< RMS error per joint, N m
+  std::vector<double> torque_peak;   ///< largest torque per joint at the times of comparison, N m
 };
 
-/// Largest rate lambda of M^-1 (B + sum J^T G J), 1/s, and its origin. A step h is stable for h lambda <= 1 (explicit).
+/// Largest damping rate lambda, 1/s, and its cause. lambda is the largest eigenvalue of M^-1 (B + sum J^T G J). A step h of an
+/// explicit integrator is stable for h lambda <= 1.
 struct Stability {
   double rate = 0;
   enum class Source { motor, stop, contact, hinge } source = Source::motor;
-  std::size_t index = 0;  ///< joint, or contact element; hinge: of a passive hinge
+  std::size_t index = 0;  ///< joint (motor, stop, passive hinge) or contact element
 };
 
 }  // namespace gaitlab

@@ -11,19 +11,19 @@ namespace {
 
 using Index = std::ptrdiff_t;
 
-constexpr double kShare = 0.05;      // of the duration
+constexpr double kShare = 0.05;      // largest shift as a share of the duration
 constexpr double kReach = 0.5;       // s
-constexpr double kWorthwhile = 0.5;  // largest remaining share of the RMS; above, the signals differ in shape, not in time
-constexpr double kAsGood = 0.01;     // share of the mean square to be explained: shifts that differ by less are equally good
+constexpr double kWorthwhile = 0.5;  // largest remaining share of the RMS; above, the signals differ in shape
+constexpr double kAsGood = 0.01;     // share of the mean square; shifts that differ by less are equally good
 constexpr std::size_t kProducts = 1000000;
-constexpr Index kMargin = 2;  // samples that the cubic needs beyond the whole shift
+constexpr Index kMargin = 2;  // samples that the cubic needs in addition to the whole shift
 
 class Search {
  public:
   Search(std::span<const double> first, std::span<const double> second, Index reach)
       : a_(first), b_(second), reach_(reach), begin_(reach + kMargin), end_(static_cast<Index>(first.size()) - begin_) {}
 
-  // The best shift, in samples.
+  // Best shift, in samples.
   TimeShift best() const {
     const double unshifted = square(0, 1);
     Index lag = refined(coarse(unshifted));
@@ -60,7 +60,7 @@ class Search {
     return (sums[0] + sums[1] + sums[2] + sums[3]) / static_cast<double>(count);
   }
 
-  // The same for a shift between samples: cubic through the four neighbours (Lagrange).
+  // Mean square as in square(), for a shift between samples. The cubic passes through the four neighbours (Lagrange).
   [[nodiscard]] double square_between(double shift) const {
     const double floor = std::floor(shift);
     const auto lag = static_cast<Index>(floor);
@@ -76,7 +76,7 @@ class Search {
     return sum / static_cast<double>(end_ - begin_);
   }
 
-  // Vertex of the parabola through three neighbours, relative to the middle one; 0 if it opens downwards.
+  // Vertex of the parabola through three neighbours, relative to the middle neighbour. 0 if the parabola opens downwards.
   static double vertex(double before, double here, double after) {
     const double bend = before - 2 * here + after;
     return bend > 0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0;
@@ -85,7 +85,7 @@ class Search {
     return std::max(0.0, here - 0.25 * (before - after) * vertex(before, here, after));
   }
 
-  // The smallest whole shift that is as good as any, from an affordable number of rows.
+  // Smallest whole shift that is as good as any other, computed from a limited number of rows.
   [[nodiscard]] Index coarse(double unshifted) const {
     const auto products = static_cast<std::size_t>(2 * reach_ + 1) * static_cast<std::size_t>(end_ - begin_);
     const auto stride = static_cast<Index>(products / kProducts + 1);
@@ -107,7 +107,7 @@ class Search {
     return found;
   }
 
-  // Descends to the nearest minimum over all rows.
+  // Nearest minimum of the mean square over all rows, by descent from `lag`.
   [[nodiscard]] Index refined(Index lag) const {
     for (const Index step : {-1, 1}) {
       while (std::abs(lag + step) <= reach_ && square(lag + step, 1) < square(lag, 1)) lag += step;
@@ -131,7 +131,7 @@ TimeShift best_shift(std::span<const double> first, std::span<const double> seco
   const TimeShift none{0, plain_rms(first, second)};
   const double samples = std::min(kShare * static_cast<double>(first.size()), kReach / spacing);
   const auto reach = static_cast<Index>(samples);
-  if (reach < 1 || !(none.rms > 0)) return none;  // the window is not empty from 20 samples on: 0.9 n - 4
+  if (reach < 1 || !(none.rms > 0)) return none;  // the window has 0.9 n - 4 samples; not empty for n >= 20
   const TimeShift found = Search(first, second, reach).best();
   return found.time == 0 ? none : TimeShift{found.time * spacing, found.rms};
 }

@@ -6,7 +6,7 @@ namespace gaitlab {
 
 namespace {
 
-constexpr std::string_view kWords = "2-";  // prefix of format 2; a hash of format 1 is 16 digits alone
+constexpr std::string_view kWords = "2-";  // prefix of format 2; a hash of format 1 has only 16 digits
 
 std::string joined_names(const Trace& trace) {
   std::string names;

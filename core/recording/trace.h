@@ -1,4 +1,4 @@
-// A trace: named columns with unit and definition, a row every trace period.
+// Trace: named columns with unit and definition, and a row every trace period.
 #pragma once
 #include <cstddef>
 #include <span>
@@ -26,11 +26,11 @@ struct Trace {
   [[nodiscard]] std::size_t find(std::string_view name) const { return columns.find(name); }
 };
 
-/// Hash of the names and the bytes of all values: `2-`, the number of its format, and 16 hex digits of WordHash: of all names,
-/// each followed by a NUL, then of the values.
+/// Hash of the names and the bytes of all values. The text is `2-`, the number of the format, and 16 hex digits of the WordHash
+/// of all names, each followed by a NUL, and of the values.
 std::string hash(const Trace& trace);
 
-/// Whether `text` is the hash of this trace, in format 2 or format 1: FNV-1a over the same bytes, without a prefix.
+/// True if `text` is the hash of this trace in format 2, or in format 1, which is FNV-1a over the same bytes without a prefix.
 bool is_hash(std::string_view text, const Trace& trace);
 
 }  // namespace gaitlab

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kRow = "child_face child_module parent_face parent_module orientation";
 
-/// The five columns of a row, in order.
+/// The five columns of a row in order, as fields.
 struct DockFields {
   std::array<std::int64_t, 5> columns = {};
 
@@ -22,7 +22,7 @@ struct DockFields {
                                                      "Module it is docked to.", "Quarter turns about the child's face normal."};
 
   static Spec spec(std::size_t column) {
-    // The orientation (0 to 3), faces and modules are checked against the robot when it is assembled.
+    // Orientation (0 to 3), faces and modules are checked against the robot during the assembly.
     return {"", 0, static_cast<double>(kMaxModule), kAbout[column]};
   }
   void fields(Fields& f) {
@@ -35,7 +35,7 @@ struct DockFields {
   }
 };
 
-/// A row from its five scalars.
+/// Dock from the five scalars of a row.
 std::optional<Dock> read_row(const std::vector<Node>& items, const SourceLocation& place, Problems& problems) {
   if (items.size() != 5) {
     problems.add(place,
@@ -55,7 +55,7 @@ std::optional<Dock> read_row(const std::vector<Node>& items, const SourceLocatio
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-/// Words of a line up to a comment, each with its place.
+/// Words of a line, without its comment, each with its place.
 std::vector<Node> words(const std::string& text, SourceLocation place) {
   std::vector<Node> out;
   bool inside = false;

@@ -1,4 +1,4 @@
-// Build files (.dat), which list how modules are docked, and the same rows inline.
+// Build files (.dat), which list how modules are docked, and the same list within a scenario.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace gaitlab {
 
-inline constexpr int kMaxModule = 100000;  ///< largest module number, so that a small text cannot describe a huge robot
+inline constexpr int kMaxModule = 100000;  ///< largest module number, so that a short text cannot define a huge robot
 
-/// Rows of five whole numbers: child_face child_module parent_face parent_module orientation. Blank lines and # comments are
-/// allowed. The place of a row is that of its first number.
+/// Reads rows of five whole numbers: child_face child_module parent_face parent_module orientation. Blank lines and # comments
+/// are allowed. The place of a row is that of its first number.
 std::vector<Dock> read_build(const std::string& text, const std::string& file, Problems& problems);
 
-/// The same rows as a list of five-number lists or of maps with these five keys.
+/// Reads docks from a list whose elements are lists of five numbers, or maps with the five keys of read_build().
 std::vector<Dock> read_docks(const Node& node, Problems& problems);
 
 }  // namespace gaitlab

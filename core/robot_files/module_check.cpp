@@ -12,14 +12,14 @@
 namespace gaitlab {
 namespace {
 
-constexpr double kRelative = 1e-6;  // relative tolerance for hand-written numbers: right angles, moments of inertia
+constexpr double kRelative = 1e-6;  // relative tolerance of hand-written numbers, for right angles and moments of inertia
 
 const SourceLocation& place_of(const Node& map, const char* key) {
   const Node* value = map.find(key);
   return value == nullptr ? map.place : value->place;
 }
 
-/// Normalises a direction; false with a problem for a zero vector.
+/// Normalises a direction. Returns false, with a problem, for a zero vector.
 bool normalise(Vec3& v, const Node& map, const char* key, Problems& problems) {
   const double norm = v.stableNorm();
   if (!(norm > 0)) {
@@ -88,7 +88,7 @@ class ModuleCheck {
     problem.notes.emplace_back(place_of(places_.hinges[first], "child"), "the first is here");
   }
 
-  /// Reports bodies in a loop: no path of hinges leads from them to the root.
+  /// Reports bodies in a loop, from which no path of hinges leads to the root.
   void check_loops() {
     enum class State : char { unknown, walking, rooted, looping };
     std::vector<State> state(parent_.size(), State::unknown);
@@ -122,7 +122,7 @@ class ModuleCheck {
   }
 
   void check_inertia(const BodyType& b, const SourceLocation& place) {
-    // Scaled to 1, so that intermediate results of tiny or huge numbers stay within the range of a double.
+    // The tensor is scaled to a largest entry of 1, so that intermediate results remain within the range of a double.
     const double scale = b.inertia.cwiseAbs().maxCoeff();
     const Vec3 moments =
         scale > 0 ? Vec3(scale * Eigen::SelfAdjointEigenSolver<Mat3>(b.inertia / scale, Eigen::EigenvaluesOnly).eigenvalues())
@@ -178,7 +178,7 @@ class ModuleCheck {
     }
   }
 
-  /// Accepts two faces in one place, the form in which format 1 wrote a connector that is neither active nor passive.
+  /// Reports two faces in one place, by which format 1 described a connector that is neither active nor passive.
   void check_twins(std::size_t i) {
     for (std::size_t k = 0; k < i; ++k) {
       const FaceType& one = type_.faces[k];
@@ -210,7 +210,7 @@ class ModuleCheck {
   ModuleType& type_;
   const ModulePlaces& places_;
   Problems& problems_;
-  std::vector<std::size_t> parent_;  ///< hinge whose child is the body
+  std::vector<std::size_t> parent_;  ///< hinge whose child is the body with this index
   std::vector<bool> is_parent_;
 };
 

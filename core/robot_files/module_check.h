@@ -1,4 +1,4 @@
-// Check of a module type: one tree of bodies and hinges, physical inertias, faces that can dock.
+// Check of a module type: one tree of bodies and hinges, physically possible inertias, and faces that can dock.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -8,14 +8,14 @@
 
 namespace gaitlab {
 
-/// Places of a module type's parts in its text, in the type's order.
+/// Places of a module type's parts in its text. Each list is in the order of the type.
 struct ModulePlaces {
   std::vector<SourceLocation> bodies;  ///< places of their names
-  std::vector<Node> hinges, faces;     ///< their maps
-  std::int64_t format = 1;             ///< of the text
+  std::vector<Node> hinges, faces;     ///< maps of the hinges and of the faces
+  std::int64_t format = 1;             ///< format version of the text
 };
 
-/// Checks, normalises directions and sets `type.root`.
+/// Checks a module type, normalises its directions and sets `type.root`.
 void check_module(ModuleType& type, const ModulePlaces& places, Problems& problems);
 
 }  // namespace gaitlab

@@ -1,4 +1,4 @@
-// Reader of a module type's YAML: keys and their types. module_check.cpp checks the values.
+// Reader of a module type's YAML, which checks keys and their types. module_check.cpp checks the values.
 #include "core/robot_files/module_file.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace gaitlab {
 namespace {
 
 constexpr double kAny = std::numeric_limits<double>::infinity();
-constexpr std::int64_t kNewest = 2;  ///< format
+constexpr std::int64_t kNewest = 2;  ///< newest format version
 
 void length(Fields& f, const char* key, Vec3& value, const char* about) {
   f.vector(key, span_of(value), {"m", -kAny, kAny, about});
@@ -26,7 +26,7 @@ void direction(Fields& f, const char* key, Vec3& value, const char* about) {
   f.vector(key, span_of(value), {"", -kAny, kAny, about});
 }
 
-/// `origin` and `rpy` of a frame.
+/// Keys `origin` and `rpy` of a frame.
 struct FrameFields {
   Vec3 origin = Vec3::Zero(), turn = Vec3::Zero();
 
@@ -53,7 +53,7 @@ struct BodyFields {
   }
 };
 
-/// Reads a module type's parts one by one; bodies are referred to by name.
+/// Reader of a module type's parts one after the other. Bodies are referred to by name.
 class ModuleReader {
  public:
   ModuleReader(const Node& document, Problems& problems) : document_(document), problems_(problems) {}
@@ -70,7 +70,7 @@ class ModuleReader {
     each(reader.take("hinges"), "hinges", [this](const Node& node) { read_hinge(node); });
     each(reader.take("faces"), "faces", [this](const Node& node) { read_face(node); });
     if (const Node* node = reader.take("contacts")) read_contacts(*node);
-    reader.take("actuator");  // its keys are read once the plugin of its type is known
+    reader.take("actuator");  // the keys within `actuator` are read when the plugin of its type is known
     if (newer(reader, document_, {"connectors", "controller"})) read_connectors(reader.take("connectors"));
     reader.finish();
     return std::move(type_);
@@ -79,7 +79,7 @@ class ModuleReader {
   [[nodiscard]] const ModulePlaces& places() const { return places_; }
 
  private:
-  /// Opens a map of a module type, which may have a `source`.
+  /// Opens a map of a module type. The map may have a `source`.
   Reader open(const Node& node, const std::string& name) {
     Reader reader(node, name, problems_, nullptr);
     std::string source;
@@ -87,7 +87,7 @@ class ModuleReader {
     return reader;
   }
 
-  /// Whether the keys of format 2 may be read; in a text of format 1 each of them is a problem.
+  /// True if the keys of format 2 may be read. In a text of format 1, each of these keys is a problem.
   bool newer(Reader& reader, const Node& map, std::initializer_list<const char*> keys) {
     for (const char* key : keys) {
       const Node* value = reader.take(key);
@@ -97,7 +97,7 @@ class ModuleReader {
   }
 
   void need_format_2(const std::string& what, const SourceLocation& place) {
-    if (places_.format == 0) return;  // the version itself is wrong
+    if (places_.format == 0) return;  // the version is invalid and has been reported
     problems_.add(place, what + " of module format 2, and this is format 1; write gaitlab_module: 2");
   }
 
@@ -193,7 +193,7 @@ class ModuleReader {
     reader.finish();
   }
 
-  /// Index of the body that `key` names; adds a problem for an unknown body.
+  /// Index of the body that `key` names. Adds a problem for an unknown body.
   std::size_t body_of(Reader& reader, const char* key) {
     reader.require({key});
     std::string name;
@@ -249,8 +249,8 @@ class ModuleReader {
     hinge.hi = range[1];
   }
 
-  /// Reads a motor, or the spring and damper of a hinge without one. The keys of `actuator` and `controller` are read once the
-  /// plugins of their types are known.
+  /// Reads the motor of a hinge, or spring and damper of a hinge without a motor. The keys of `actuator` and `controller` are
+  /// read later, when the plugins of their types are known.
   void read_drive(Reader& reader, HingeType& hinge) {
     enum class Drive { motor, none };
     constexpr std::array<const char*, 2> kDrives{"motor", "none"};
@@ -362,7 +362,7 @@ ModuleType read_module(const Node& document, bool versioned, Problems& problems)
   const std::size_t before = problems.size();
   ModuleReader reader(document, problems);
   ModuleType type = reader.read(versioned);
-  // Parts are checked against one another only if all of them were read.
+  // Parts are checked against each other only if all of them were read without problems.
   if (problems.size() == before) check_module(type, reader.places(), problems);
   return type;
 }

@@ -1,4 +1,4 @@
-// Module types, from a separate file or a map in the scenario.
+// Reader of module types, from a separate file or from a map in the scenario.
 #pragma once
 #include <string>
 
@@ -7,9 +7,8 @@
 
 namespace gaitlab {
 
-/// Reads and checks a module type; findings go to `problems`, and then the type must not be used. `versioned`: the map is a
-/// separate file, which must begin with `gaitlab_module: 1` or 2 (docs/modules.md); a map in the scenario without that key has
-/// format 1.
+/// Reads and checks a module type. If it adds problems, the type must not be used. If `versioned`, the map is a separate file,
+/// which must contain `gaitlab_module: 1` or 2 (docs/modules.md). A map in the scenario without that key has format 1.
 ModuleType read_module(const Node& document, bool versioned, Problems& problems);
 
 struct ModuleFile {

@@ -1,4 +1,4 @@
-// Library of the module types of a scenario, by name, file or inline map; each is read once.
+// Library of the module types of a scenario, by name, file or inline map, each of which is read only once.
 #pragma once
 #include <map>
 #include <optional>
@@ -12,17 +12,17 @@ namespace gaitlab {
 
 class TypeLibrary {
  public:
-  /// `folder`: folder of the scenario file, in which names and relative paths are searched.
+  /// `folder` is that of the scenario file, in which names and relative paths are searched.
   TypeLibrary(std::string folder, Problems& problems) : folder_(std::move(folder)), problems_(problems) {}
 
-  /// Reads `robot.types`, a map of names to inline types.
+  /// Reads `robot.types`, a map from names to inline types.
   void define(const Node& types);
 
-  /// Index of the type that a node refers to, in the order of first use; nothing with a problem (reported once per type). The
-  /// given nodes must outlive the library.
+  /// Index of the type that a node refers to, in the order of first use. Returns nothing if the type has problems, which are
+  /// reported once per type. The nodes must outlive the library.
   std::optional<std::size_t> find(const Node& node);
 
-  /// Whether a map is an inline type, not a map of types by module number.
+  /// True if a map is an inline type, and false if it is a map of types by module number.
   static bool is_inline(const Node& map);
 
   std::vector<ModuleType> types;
@@ -38,9 +38,9 @@ class TypeLibrary {
 
   std::string folder_;
   Problems& problems_;
-  std::map<std::string, Index> seen_ = {};  ///< by name or canonical path
+  std::map<std::string, Index> seen_ = {};  ///< indices by name or canonical path
   std::map<const Node*, Index> inline_ = {};
-  std::map<std::string, const Node*> defined_ = {};  ///< robot.types
+  std::map<std::string, const Node*> defined_ = {};  ///< maps of robot.types by name
 };
 
 }  // namespace gaitlab

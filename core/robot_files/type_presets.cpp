@@ -48,7 +48,7 @@ bool alike(const Node* a, const Node* b) {
   return print_yaml(*a) == print_yaml(*b);
 }
 
-/// Every field of some settings: its value per joint, or its text.
+/// Collects every field of some settings, as its value per joint or its text.
 class Seen final : public Fields {
  public:
   struct Value {
@@ -85,7 +85,8 @@ class Figures final : public Fields {
   std::vector<DefaultFigure> found;
 };
 
-/// Combines several settings, each for some joints; a field that is common to all joints must be equal in all of them.
+/// Combines several settings, of which each applies to some joints. A field that is common to all joints must be equal in all
+/// settings.
 class PerJointMerge final : public Fields {
  public:
   PerJointMerge(const std::vector<Seen>& kinds, const std::vector<std::size_t>& of_joint)
@@ -109,7 +110,7 @@ class PerJointMerge final : public Fields {
   }
   void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
 
-  std::vector<std::string> differing;  ///< keys
+  std::vector<std::string> differing;  ///< keys of common fields that differ
 
  private:
   static const Seen::Value& value(const Seen& of, const char* key) {
@@ -166,7 +167,7 @@ void TypePresets::choose_common(const std::vector<const Node*>& maps) {
 }
 
 void TypePresets::choose_each(const Robot& robot, const std::vector<Node>& documents) {
-  std::vector<const Node*> maps;  // of the types that have a hinge with a motor
+  std::vector<const Node*> maps;  // maps of the module types that have a hinge with a motor
   for (const Joint& joint : robot.joints) {
     const std::size_t type = robot.modules[joint.module].type;
     const std::vector<HingeType>& hinges = robot.types[type].hinges;
@@ -174,7 +175,7 @@ void TypePresets::choose_each(const Robot& robot, const std::vector<Node>& docum
     const auto number = static_cast<std::size_t>(std::ranges::find(hinges, name, &HingeType::name) - hinges.begin());
     const Maps of{map_of(documents[type], kind_), map_of(documents[type].find("hinges")->items[number], kind_)};
     if (joint.driven()) maps.push_back(of.of_type);
-    // The settings of a hinge without a motor are never used: it gets those of any other.
+    // Settings of a hinge without a motor are never used, so that such a hinge refers to arbitrary settings.
     const auto known = joint.driven() ? std::ranges::find(kinds_, of) : kinds_.begin();
     of_joint_.push_back(static_cast<std::size_t>(known - kinds_.begin()));
     if (joint.driven() && known == kinds_.end()) kinds_.push_back(of);
@@ -206,7 +207,7 @@ std::vector<std::string> TypePresets::sources(const Entry& entry, const std::vec
   const std::vector<DefaultFigure> defaults = default_figures(entry);
   for (const Maps& maps : kinds_) {
     std::vector<std::string> known = but;
-    const auto takes = [&](const Node* map) {  // whether it has numbers not yet in the list
+    const auto takes = [&](const Node* map) {  // true if the map has numbers that are not in the list yet
       const std::size_t before = known.size();
       for (const std::string& key : figures_of(map)) {
         if (std::ranges::find(known, key) == known.end()) known.push_back(key);
@@ -250,7 +251,7 @@ void TypePresets::fill(const Entry& entry, void* settings, JointNames joints, Pr
   std::vector<const Node*> told{kinds_.front().of_type};
   std::vector<Seen> seen;
   for (const Maps& maps : kinds_) {
-    Problems known;  // problems of a map that was read before
+    Problems known;  // discarded problems of a map that was read before
     const bool fresh = std::ranges::find(told, maps.of_type) == told.end();
     const std::shared_ptr<void> own = default_settings(entry);
     read(entry, maps, own.get(), joints, fresh ? problems : known, &maps == &kinds_.front() ? known : problems);

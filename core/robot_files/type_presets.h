@@ -1,4 +1,4 @@
-// Presets of module types for motors and controllers of their hinges: defaults of the scenario's sections.
+// Presets for motors and controllers of hinges, which module types define as defaults of the scenario's sections.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,53 +9,55 @@
 
 namespace gaitlab {
 
-/// Maps of a module type with settings of a kind of plugin: the type's map, then those of its hinges.
+/// Maps of a module type with settings for a kind of plugin: first the map of the type, then those of its hinges.
 std::vector<const Node*> preset_maps(const Node& document, Kind kind);
 
-/// Motor values of a module type that no joint gets.
+/// Motor values of a module type that no joint uses.
 struct DroppedFigures {
   std::string module, type;  ///< names of the module type and of the plugin
   std::vector<std::string> keys;
 };
 
-/// Default value of a plugin's setting per joint.
+/// Default value of a plugin's setting that may differ from joint to joint.
 struct DefaultFigure {
   std::string key, unit;
   double value;
 };
-/// Default values of a plugin: settings other than 0, and limits. A setting that is common to all joints belongs to the law and
-/// is not included.
+/// Default values of a plugin per joint: settings other than 0, and limits. A setting that is common to all joints belongs to
+/// the law and is not included.
 std::vector<DefaultFigure> default_figures(const Entry& entry);
 
-/// `chosen: R, Kt by default of dc_motor`: a default is not a value of a real motor.
+/// Text such as `chosen: R, Kt by default of dc_motor`, for values that are plugin defaults instead of values of a real motor.
 std::string by_default(const std::vector<std::string>& keys, const Entry& entry);
 
-/// Presets of one kind of plugin, actuator or controller. Every joint takes those of its module type and, over them key by key,
-/// those of its hinge. If no module type has format 2, one motor serves all joints, and types with different motors disagree,
-/// as do types with different types of plugin.
+/// Presets for one kind of plugin, actuator or controller. Each joint uses the presets of its module type; presets of its hinge
+/// replace these key by key. Module types disagree if they name different types of plugin. If no module type has format 2, one
+/// motor serves all joints, and module types with different motors disagree as well.
 class TypePresets {
  public:
-  /// robot: nullptr if it could not be read; documents: one per entry of its types. Both outlive this object.
+  /// `robot` is null if it could not be read. `documents` has one entry per module type of the robot. Both must outlive this
+  /// object.
   TypePresets(Kind kind, const Robot* robot, const std::vector<Node>& documents);
 
-  /// Type of the plugin if the scenario names none.
+  /// Type of plugin that applies if the scenario names none.
   [[nodiscard]] const std::string& type() const { return type_; }
   [[nodiscard]] bool agreed() const { return why_.empty(); }
-  /// Reason why the module types disagree; empty: they agree.
+  /// Reason why the module types disagree, or "" if they agree.
   [[nodiscard]] const std::string& why() const { return why_; }
-  /// Whether the joints get presets if this is the scenario's plugin.
+  /// True if some joint gets presets when `entry` is the scenario's plugin.
   [[nodiscard]] bool holds(const Entry& entry) const;
-  /// Sources of the presets except of the keys `but`, each text once: the `source` of the maps that joints with a motor use
-  /// (for a hinge's map without `source` that of its type), and the values that are defaults of the plugin. An empty text: some
-  /// have no source.
+  /// Sources of the presets, except for the keys `but`, each text once. A source is the key `source` of a map that joints with
+  /// a motor use; a hinge's map without `source` has that of its type. Values that are defaults of the plugin count as a
+  /// source. An empty text means that some values have no source.
   [[nodiscard]] std::vector<std::string> sources(const Entry& entry, const std::vector<std::string>& but) const;
-  /// Adds a problem at `place`: the module types disagree, with the settings of each.
+  /// Adds a problem at `place`, which states that the module types disagree, with notes at their settings.
   void refuse(const SourceLocation& place, Problems& problems) const;
-  /// Fills the presets into default settings of `entry`, if the presets are for that type. Findings are added to `problems`.
+  /// Writes the presets into default settings of `entry`, if the presets are for that type of plugin. Errors are added to
+  /// `problems`.
   void fill(const Entry& entry, void* settings, JointNames joints, Problems& problems) const;
 
  private:
-  /// Maps that a joint uses; nullptr: without settings.
+  /// Maps that a joint uses. Null means that the type or hinge has no settings.
   struct Maps {
     const Node* of_type = nullptr;
     const Node* of_hinge = nullptr;
@@ -68,13 +70,13 @@ class TypePresets {
 
   Kind kind_;
   std::string type_, why_;
-  std::vector<Maps> kinds_;            ///< the different ones
-  std::vector<std::size_t> of_joint_;  ///< index of each joint's maps in kinds_; empty: the first, if any, is for all joints
-  std::vector<const Node*> said_;      ///< maps that disagree
+  std::vector<Maps> kinds_;            ///< the distinct combinations
+  std::vector<std::size_t> of_joint_;  ///< index in kinds_ for each joint; empty if kinds_.front(), if any, serves all joints
+  std::vector<const Node*> said_;      ///< maps that disagree with each other
 };
 
-/// Presets that no joint gets because the scenario's plugin is `entry`, by module type with a driven hinge, in the robot's
-/// order.
+/// Presets that no joint uses because the scenario's plugin is `entry`, by module type with a driven hinge, in the order of the
+/// robot's types.
 std::vector<DroppedFigures> dropped_figures(Kind kind, const Robot& robot, const std::vector<Node>& documents,
                                             const TypePresets& presets, const Entry& entry);
 

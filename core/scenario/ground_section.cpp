@@ -31,7 +31,7 @@ struct HeightfieldFields {
   bool writing;
   void fields(Fields& f) {
     const bool from_file = !field.source.file.empty();
-    if (!writing || from_file) {  // finish_ground reads it
+    if (!writing || from_file) {  // finish_ground() reads the values
       f.text(
           "file", field.source.file,
           "File with the heights: text, a row per line, numbers separated by commas or blanks; a matrix of numpy.save "
@@ -62,8 +62,8 @@ struct HeightfieldFields {
   }
 };
 
-/// The settings of a type of ground, under the key of its name; none: it has no overload of its own. writing: the whole ground
-/// is of this type.
+/// Visits the settings of a type of ground, under the key of its name. A type without settings has no overload. `writing` is
+/// true if the whole ground is of this type and is being written.
 template <class Shape>
 void shape_fields(Fields&, Shape&, bool /*writing*/) {}
 
@@ -84,7 +84,7 @@ void shape_fields(Fields& f, Heightfield& field, bool writing) {
   f.group("heightfield", fields, "A smooth surface through heights on a square grid, for type heightfield.");
 }
 
-/// Inputs of the checks that need the whole section.
+/// Inputs of the checks that require the whole section.
 struct GroundNodes {
   const Node& node;
   const std::string& folder;
@@ -148,7 +148,7 @@ void finish_shape(Heightfield& field, const GroundNodes& section) {
   if (file != nullptr && file->kind == Node::Kind::scalar) grid = read_height_file(*map, section.folder, field, problems);
   if (problems.size() != before) return;
   const bool read = values != nullptr ? values->kind == Node::Kind::list : file->kind == Node::Kind::scalar;
-  const bool wrong_rows = field.values.empty() && values != nullptr && read && !values->items.empty();  // reported already
+  const bool wrong_rows = field.values.empty() && values != nullptr && read && !values->items.empty();  // already reported
   if (!read || wrong_rows) return;
   if (field.columns < 2 || field.rows() < 2) {
     problems.add(grid, fmt::format("the heightfield has {} rows of {}; expected at least 2 of 2", field.rows(), field.columns));
@@ -158,7 +158,8 @@ void finish_shape(Heightfield& field, const GroundNodes& section) {
   }
 }
 
-/// Calls with a value of each type of ground, in the order of Ground::Shape: the ground's own, and defaults of the others.
+/// Calls `visit` with a value of each type of ground, in the order of Ground::Shape: the ground's own value, and defaults for
+/// the other types.
 template <class Visit, std::size_t... kIndex>
 void visit_ground_types(const Ground& ground, const Visit& visit, std::index_sequence<kIndex...>) {
   const auto one = [&]<std::size_t k>(std::integral_constant<std::size_t, k>) {
@@ -204,7 +205,7 @@ void finish_ground(const Node& section, const std::string& folder, Scenario& sce
   if (section.kind != Node::Kind::map) return;
   const std::string type = scenario.ground.type().name;
   const Node* given = section.find("type");
-  if (given != nullptr && given->text != type) return;  // unknown, and reported
+  if (given != nullptr && given->text != type) return;  // the type is unknown, which has been reported
   for (const auto& entry : section.keys) {
     const std::string& key = entry.first;
     const auto has_key = [&](const GroundType& other) { return other.has_settings && key == other.name; };

@@ -1,4 +1,4 @@
-// The section `ground`: plane, boxes or heightfield under the robot.
+// The section `ground`, with the plane, boxes or heightfield under the robot.
 #pragma once
 #include <string>
 
@@ -8,12 +8,12 @@ namespace gaitlab {
 
 struct GroundFields {
   Ground& ground;
-  bool writing = false;  ///< only the keys of the ground's type, and those of a self-contained file
+  bool writing = false;  ///< true to visit only the keys of the ground's type, and the keys of a self-contained file
   void fields(Fields& f);
 };
 
-/// Checks and completes the section once it is read: keys of another type, a box's default friction, masses, the grid's file
-/// (relative to `folder`), missing keys. `section`: the node of `ground`.
+/// Checks and completes the ground after the section has been read: keys of another type, default friction of boxes, masses,
+/// the file of a heightfield, and missing keys. `section` is the node of `ground`. File paths are relative to `folder`.
 void finish_ground(const Node& section, const std::string& folder, Scenario& scenario, Problems& problems);
 
 }  // namespace gaitlab

@@ -23,7 +23,7 @@ constexpr std::uintmax_t kMostBytes = sizeof(double) * kMostHeights + (std::uint
 
 enum class HeightFormat { text, npy, png };
 
-/// Format by the file's first bytes, or by its name if the bytes do not match the name.
+/// Format of a file, by its first bytes or its extension.
 HeightFormat format_of(const std::string& path, const std::string& start) {
   const fs::path extension = fs::path(path).extension();
   if (start.starts_with(kNpyMagic) || extension == ".npy") return HeightFormat::npy;
@@ -31,7 +31,7 @@ HeightFormat format_of(const std::string& path, const std::string& start) {
   return HeightFormat::text;
 }
 
-/// A file of heights that is read into a field.
+/// Reader of a file of heights into a heightfield.
 class HeightFile {
  public:
   HeightFile(const Node& map, const std::string& folder, Problems& problems)
@@ -43,7 +43,7 @@ class HeightFile {
     std::vector<double> heights = std::move(table->values);
     for (std::size_t i = 0; i < heights.size(); ++i) {
       heights[i] *= field.source.scale;
-      if (std::abs(heights[i]) <= kHeights.max) continue;  // false for NaN also
+      if (std::abs(heights[i]) <= kHeights.max) continue;  // the comparison is false for NaN as well
       problems_.add({path_}, fmt::format("height [{}, {}], counted from 0, is {}; allowed are {}", i / table->columns,
                                          i % table->columns, with_unit(heights[i], kHeights.unit), range_text(kHeights)));
       return place_;
@@ -57,7 +57,7 @@ class HeightFile {
   }
 
  private:
-  /// Numbers of the file; nothing with a problem.
+  /// Numbers of the file. Returns nothing, with a problem, if the file is invalid.
   std::optional<NumberTable> numbers() try {
     const HeightFormat format = format_of(path_, read_start(path_, kPngMagic.size()));
     if (format == HeightFormat::text) return text();

@@ -51,7 +51,7 @@ std::vector<KeyRow> plugin_keys(const Entry& entry) {
   return explainer.rows();
 }
 
-/// Code block: equations keep their lines.
+/// Code block in Markdown, so that equations keep their lines.
 std::string fenced(const std::string& text) { return "```text\n" + text + (text.ends_with('\n') ? "" : "\n") + "```\n"; }
 
 }  // namespace

@@ -6,15 +6,15 @@
 
 namespace gaitlab {
 
-/// Every key of a scenario file with unit, default, range and sentence.
+/// Text with every key of a scenario file, with unit, default, range and sentence.
 std::string explain_scenario(const Catalog& catalog);
-/// A plugin's manual: its text, then a table of its fields. Throws PluginError.
+/// Manual of a plugin: its text, followed by a table of its fields. Throws PluginError.
 std::string explain_plugin(const Entry& entry);
 
-/// Step of an engine if the scenario gives none, in words: seconds, or auto with the alternatives.
+/// Text on the step that an engine uses if the scenario gives none: a number of seconds, or auto with the alternatives.
 std::string default_step(const Engine& engine);
 
-/// The same as pages of Markdown: docs/reference/scenario.md, and plugins.md with every plugin and engine.
+/// Pages in Markdown: docs/reference/scenario.md, and docs/reference/plugins.md with every plugin and engine.
 std::string scenario_page(const Catalog& catalog);
 std::string plugins_page(const Catalog& catalog);
 

@@ -1,4 +1,4 @@
-// Names that keys of a scenario had in earlier editions.
+// Names that keys of a scenario had in earlier versions.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,7 +9,8 @@
 namespace gaitlab {
 
 /// Renames keys with old names to their present names, before and after the settings of --set are applied. A value that --set
-/// gives under one name replaces the value that the file gives under the other; two names in the same source are a problem.
+/// gives under either name replaces the value that the file gives under the other name. Both names in the same source are a
+/// problem.
 void rename_old_names(Node& root, const std::vector<std::string>& sets, Problems& problems);
 
 }  // namespace gaitlab

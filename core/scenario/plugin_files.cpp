@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One entry of `plugins` as written by the user.
+/// An entry of `plugins` as written by the user.
 struct PluginEntry {
   std::string path, hash;
 
@@ -27,7 +27,7 @@ struct PluginEntry {
   }
 };
 
-/// Reads an entry; `place`: place of the path. False with a problem.
+/// Reads an entry. `place` becomes the place of the path. Returns false, with a problem, if the entry is invalid.
 bool read_entry(const Node& node, PluginEntry& entry, SourceLocation& place, Problems& problems) {
   const std::size_t before = problems.size();
   place = node.place;

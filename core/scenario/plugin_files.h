@@ -1,4 +1,4 @@
-// Plugin libraries that a scenario names: search, check of the recorded hash, loading.
+// Plugin libraries that a scenario names: search, comparison with the recorded hash, and loading.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,16 +7,16 @@
 
 namespace gaitlab {
 
-/// Reads `plugins`: a list of paths (relative to `folder`) or of {path, hash}; loads each library that the catalog trusts.
+/// Reads `plugins`, a list of paths (relative to `folder`) or of maps {path, hash}. Loads each library that the catalog trusts.
 std::vector<PluginFile> read_plugins(const Node& node, const std::string& folder, Catalog& catalog, Problems& problems);
 
-/// Loads a library that the command line names, relative to the current folder. Throws InputError.
+/// Loads a library that the command line names. Its path is relative to the current folder. Throws InputError.
 void load_plugin_file(const std::string& path, Catalog& catalog);
 
-/// A file that a section of a plugin in `folder` names and that messages may not quote; empty: none.
+/// A file that a plugin's section of a scenario in `folder` names and that messages may not quote; "" if there is none.
 std::string hidden_file(const Node& section, const std::string& folder);
 
-/// FNV-1a, 64 bits, of a file's bytes: 16 hex digits; empty if it cannot be read.
+/// FNV-1a hash (64 bit) of a file's bytes as 16 hex digits, or "" if the file cannot be read.
 std::string file_hash(const std::string& path);
 
 }  // namespace gaitlab

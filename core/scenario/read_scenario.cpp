@@ -1,4 +1,4 @@
-// Reader of scenarios: the file, --set, plugins, robot and sections in this order; then checks of the whole.
+// Reader of scenarios, which reads the file, --set, plugins, robot and sections in this order, and then checks the whole.
 #include "core/scenario/read_scenario.h"
 
 #include <fmt/format.h>
@@ -36,7 +36,7 @@ class ScenarioReader {
     if (folder_.empty()) folder_ = ".";
   }
 
-  /// Reads the file's text; afterwards with() makes rollouts from it.
+  /// Reads the text of the file. Afterwards with() gives the scenarios of rollouts.
   const Scenario& read(const std::string& text, const std::vector<std::string>& sets) {
     std::optional<Node> root = parse_yaml(text, path_, problems_);
     if (!root) raise();
@@ -54,10 +54,10 @@ class ScenarioReader {
       raise();
     }
     Reader head(root_, "the scenario", problems_, nullptr);
-    if (!head.version("gaitlab")) raise();  // in another version the keys have another meaning
+    if (!head.version("gaitlab")) raise();  // in another version, the keys have other meanings
     if (const Node* plugins = root_.find("plugins")) {
       scenario_.plugins = read_plugins(*plugins, folder_, catalog_, problems_);
-      raise();  // without the libraries their plugins would be reported as unknown
+      raise();  // without their libraries, plugins would be reported as unknown
     }
     attempt([&] {
       for (std::string& note : drop_old_keys(root_, retyped, catalog_)) add_note(std::move(note));
@@ -76,7 +76,8 @@ class ScenarioReader {
 
   [[nodiscard]] bool driven() const { return scenario_.actuator.entry != nullptr; }
 
-  /// The scenario with further settings, of sections other than the robot's; only sections that depend on them are read again.
+  /// The scenario with further settings of sections other than the robot's. Only the sections that depend on these settings are
+  /// read again.
   [[nodiscard]] Scenario with(const std::vector<std::string>& sets) const {
     if (sets.empty()) return scenario_;
     ScenarioReader own = *this;
@@ -104,12 +105,12 @@ class ScenarioReader {
 
   void tell_dropped_source(const std::vector<std::string>& sets) {
     const auto another = [](const std::string& set) { return set.starts_with("actuator.source="); };
-    if (std::ranges::any_of(sets, another)) std::erase(scenario_.notes, source_note_);  // note of the template
+    if (std::ranges::any_of(sets, another)) std::erase(scenario_.notes, source_note_);  // removes the note of the template
     source_note_ = {{path_}, drop_source(root_, sets)};
     add_note(source_note_.text);
   }
 
-  /// Notes the places of the touched keys that differ from the template's.
+  /// Stores the places of those touched keys whose places differ from the template's.
   void note_own_places() {
     Node touched{Node::Kind::map};
     for (std::size_t i = 0; i < root_.keys.size(); ++i) {
@@ -159,7 +160,7 @@ class ScenarioReader {
     return touched_.empty() || std::ranges::find(touched_, section) != touched_.end();
   }
 
-  /// Adds sections whose defaults or checks depend on a touched one; each starts from its defaults again.
+  /// Adds sections whose defaults or checks depend on a touched section. Each starts again from its defaults.
   void follow_dependencies() {
     constexpr std::array<std::pair<const char*, const char*>, 4> kFollows{
         {{"contact", "physics"}, {"contact", "ground"}, {"controller", "cpg"}, {"actuator", "controller"}}};
@@ -188,7 +189,7 @@ class ScenarioReader {
     }
   }
 
-  /// A height and on_ground exclude one another; if a height is given, on_ground need not be turned off.
+  /// Checks that a height and on_ground: true do not occur together. If a height is given, on_ground need not be false.
   void check_height(const Node& position, bool given, const Node* on_ground) {
     if (on_ground != nullptr && scenario_.on_ground == given) {
       problems_
@@ -232,7 +233,7 @@ class ScenarioReader {
     if (std::ranges::any_of(kOfPlugins, concerns)) make_plugins(sections);
   }
 
-  /// Rules that join several sections.
+  /// Checks rules that concern several sections.
   void check_sections(const SectionFields& sections, const JointNames joints) {
     ScenarioChecks checks(root_, scenario_, catalog_, problems_);
     checks.law();
@@ -250,8 +251,8 @@ class ScenarioReader {
     finish_periods(root_, scenario_, catalog_, problems_);
   }
 
-  /// Chooses the step if the engine does so. For a robot that the engine refuses the engine's default remains; the run reports
-  /// the reason.
+  /// Sets the step if the engine chooses it. For a robot that the engine refuses, the engine's default remains, and the run
+  /// reports the reason.
   void choose_step() {
     Physics& physics = scenario_.physics;
     if (!physics.chosen_step) return;
@@ -267,7 +268,7 @@ class ScenarioReader {
   }
 
   void tell_replaced_motors(const TypePresets& motors) {
-    for (const Note& note : motor_notes_) std::erase(scenario_.notes, note);  // notes on the template's motors
+    for (const Note& note : motor_notes_) std::erase(scenario_.notes, note);  // removes the notes on the template's motors
     motor_notes_.clear();
     if (!driven() || !scenario_.robot) return;
     const ReplacedMotors replaced(root_, scenario_, motors);
@@ -276,14 +277,14 @@ class ScenarioReader {
     scenario_.actuator_source = replaced.source();
   }
 
-  /// Before its section is read: the step's default is above it.
+  /// Contact law, found before its section is read, because the earlier key of the step has a default that depends on it.
   [[nodiscard]] ContactLaw wanted_law() const {
     const Node* contact = root_.find("contact");
     const Node* law = contact == nullptr ? nullptr : contact->find("law");
     return law == nullptr ? ContactLaw::penalty : named<ContactLaw>(law->text).value_or(ContactLaw::penalty);
   }
 
-  /// Whether the robot has hinges, but none with a motor.
+  /// True if the robot has hinges, but none with a motor.
   [[nodiscard]] bool without_motors() const {
     return scenario_.robot && !scenario_.robot->joints.empty() &&
            std::ranges::none_of(scenario_.robot->joints, [](const Joint& joint) { return joint.driven(); });
@@ -296,7 +297,7 @@ class ScenarioReader {
     }
   }
 
-  /// Uses a plugin; its exceptions are bad input like any other.
+  /// Calls `use`. An exception of a plugin becomes a problem of the input.
   template <class Use>
   void attempt(Use use) {
     try {
@@ -313,7 +314,7 @@ class ScenarioReader {
 
   void make_plugins(const SectionFields& sections) {
     if (!scenario_.robot) return;
-    if (!cpg_note_.text.empty()) std::erase(scenario_.notes, cpg_note_);  // note of the template's CPG
+    if (!cpg_note_.text.empty()) std::erase(scenario_.notes, cpg_note_);  // removes the note of the template's CPG
     const RobotInfo robot = info(*scenario_.robot);
     std::unique_ptr<Actuator> actuator;
     std::unique_ptr<Controller> controller;
@@ -344,10 +345,10 @@ class ScenarioReader {
   Problems problems_;
   Node root_;
   Scenario scenario_;
-  std::shared_ptr<const std::vector<std::string>> joints_;  ///< nullptr: the robot could not be read
+  std::shared_ptr<const std::vector<std::string>> joints_;  ///< null if the robot could not be read
   Note cpg_note_, source_note_;
   std::vector<Note> motor_notes_;
-  std::vector<std::string> touched_;  ///< sections to read; empty: all
+  std::vector<std::string> touched_;  ///< names of the sections to read; empty for all
 };
 
 Scenario read_scenario(const std::string& path, const std::vector<std::string>& sets, Catalog& catalog, ReadAs as) {
@@ -376,18 +377,18 @@ ScenarioTemplate::ScenarioTemplate(std::string path, std::vector<std::string> se
 ScenarioTemplate::~ScenarioTemplate() = default;
 
 Scenario ScenarioTemplate::with(const std::vector<std::string>& own) const {
-  // Settings that decide which keys exist, or that need the robot again.
+  // Settings that determine which keys exist, or that require the robot to be read again.
   const auto whole = [&](const std::string& set) {
     const std::string key = set.substr(0, set.find('='));
     const std::string section = key.substr(0, key.find('.'));
     constexpr std::array kWhole{"gaitlab", "name", "plugins", "robot"};
     if (std::ranges::find(kWhole, section) != kWhole.end() || key.ends_with(".type")) return true;
     if (key == section && find_kind(section) != nullptr) return true;  // a whole section of a plugin
-    // The template's type dropped the model of the previous type, which the setting may refer to.
+    // When the template changed the type, it dropped the model of the previous type, to which this setting may refer.
     const auto types = [&](const std::string& one) { return one.starts_with(section + ".type="); };
     return key.starts_with(section + ".model") && std::ranges::any_of(sets_, types);
   };
-  // Without a motor the control period depends on more than these sections.
+  // Without a motor, the control period depends on further sections.
   if (!reader_->driven() || std::ranges::any_of(own, whole)) {
     std::vector<std::string> all = sets_;
     all.insert(all.end(), own.begin(), own.end());

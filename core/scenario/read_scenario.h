@@ -1,4 +1,4 @@
-// Reading scenarios: one from a file, or many that differ in a few settings.
+// Reader of scenarios, either one from a file or many that differ in a few settings.
 #pragma once
 #include <memory>
 #include <string>
@@ -10,30 +10,31 @@ namespace gaitlab {
 
 class ScenarioReader;
 
-/// record: the scenario of an earlier run, whose limits may contradict each other, as older versions allowed.
+/// Purpose of reading. A `record` is the scenario of an earlier run, whose limits may contradict each other, as older versions
+/// allowed.
 enum class ReadAs { scenario, record };
 
-/// Reads and checks a scenario file. `sets` are `key.path=value` texts in order. Loads the scenario's plugins into the catalog.
-/// Throws InputError with every problem found, each at FILE:LINE:COL.
+/// Reads and checks a scenario file. `sets` are texts `key.path=value`, applied in order. Loads the scenario's plugins into the
+/// catalog. Throws InputError with every problem found, each at FILE:LINE:COL.
 Scenario read_scenario(const std::string& path, const std::vector<std::string>& sets, Catalog& catalog,
                        ReadAs as = ReadAs::scenario);
 
-/// One module of the type in a file, alone, without ground. Throws InputError with every problem found.
+/// Scenario with a single module of the type in a file, without ground. Throws InputError with every problem found.
 Scenario read_module(const std::string& path, Catalog& catalog);
 
-/// A scenario that is parsed, assembled and checked once, for many rollouts that differ in a few settings.
+/// A scenario that is parsed, assembled and checked only once, for many rollouts that differ in a few settings.
 class ScenarioTemplate {
  public:
-  /// Throws what read_scenario throws.
+  /// Reads and checks the scenario. Throws InputError as read_scenario().
   ScenarioTemplate(std::string path, std::vector<std::string> sets, Catalog& catalog);
   ~ScenarioTemplate();
   ScenarioTemplate(const ScenarioTemplate&) = delete;
   ScenarioTemplate& operator=(const ScenarioTemplate&) = delete;
 
-  /// The scenario with further `key.path=value` texts after the template's: the same result as read_scenario with all of them.
-  /// The sections that `own` names, and those that depend on them, are read again; the robot and everything else are shared.
-  /// The whole file is read again if `own` sets the robot, the plugins, a type or a `.model` whose type the template set, or if
-  /// the robot has no motor. Throws InputError with every problem found. One thread at a time.
+  /// The scenario with further texts `key.path=value` after those of the template, equal to read_scenario() with all texts. The
+  /// sections in `own`, and those that depend on them, are read again. The robot and all other sections are shared. The whole
+  /// file is read again if `own` sets the robot, the plugins, a type or a `.model` whose type the template set, or if the robot
+  /// has no motor. Throws InputError with every problem found. Only one thread at a time may call this.
   [[nodiscard]] Scenario with(const std::vector<std::string>& own) const;
 
  private:

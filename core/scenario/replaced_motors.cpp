@@ -16,7 +16,7 @@ ReplacedMotors::ReplacedMotors(const Node& root, const Scenario& scenario, const
   if (presets.holds(entry)) return;
   dropped_ = dropped_figures(Kind::actuator, *scenario.robot, *scenario.module_documents, presets, entry);
   const Node* const section = root.find("actuator");
-  std::vector<std::string> assumed;  // types that state motor values
+  std::vector<std::string> assumed;  // keys with a default other than 0 that the section does not set
   for (const DefaultFigure& one : default_figures(entry)) {
     if (section != nullptr && section->find(one.key) != nullptr) continue;
     defaults_.push_back(fmt::format("{} {}", one.key, with_unit(one.value, one.unit)));

@@ -1,4 +1,4 @@
-// Motors of module types that the scenario's type of actuator replaces: dropped values, and defaults used instead.
+// Motors of module types that the scenario's actuator replaces: dropped values, and defaults in their place.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,24 +8,25 @@
 
 namespace gaitlab {
 
-/// Nothing is replaced if the scenario's actuator has the type on which the module types agree; nothing is dropped if they
-/// state no motor values.
+/// Values of module types that the scenario's actuator does not use. No values are replaced if the actuator has the type on
+/// which the module types agree. No values are dropped if the module types state no motor values.
 class ReplacedMotors {
  public:
-  /// root: the scenario's tree. scenario: with robot and actuator read. presets: of actuators.
+  /// `root` is the tree of the scenario. Robot and actuator of `scenario` have been read. `presets` are those of actuators.
   ReplacedMotors(const Node& root, const Scenario& scenario, const TypePresets& presets);
 
-  /// A note for each module type whose values are dropped, at the place of the type; none if the scenario gives every value.
+  /// A note for each module type whose values are dropped, at the place of the actuator's type. Empty if the scenario gives
+  /// every value.
   [[nodiscard]] std::vector<Note> notes() const;
-  /// Source of the section, followed by the defaults of the actuator that the section does not set.
+  /// Source of the values in the section, preceded by a list of the actuator's defaults that the section does not set.
   [[nodiscard]] const std::string& source() const { return source_; }
 
  private:
   SourceLocation place_;
   std::string actuator_, source_, why_;
   std::vector<DroppedFigures> dropped_;
-  std::vector<std::string> defaults_;  ///< defaults in force: `R 4.3 ohm`
-  bool given_ = false;                 ///< the section sets a value
+  std::vector<std::string> defaults_;  ///< defaults that apply, such as `R 4.3 ohm`
+  bool given_ = false;                 ///< true if the section sets a value
 };
 
 }  // namespace gaitlab

@@ -36,7 +36,7 @@ Node empty_list() {
 }  // namespace
 
 std::string resolved(const Scenario& scenario) {
-  Scenario copy = scenario;  // the walk needs write access, because it also serves reading
+  Scenario copy = scenario;  // the visitor requires write access, because it also serves reading
   const std::vector<std::string> joints = joint_names(*scenario.robot);
   Writer writer(joints);
   writer.add("gaitlab", scalar_node("1"));

@@ -1,4 +1,4 @@
-// Resolved scenario: all settings written out in full.
+// Resolved scenario, in which all settings are written out in full.
 #pragma once
 #include <string>
 
@@ -6,8 +6,8 @@
 
 namespace gaitlab {
 
-/// The self-contained YAML text: every default written out, module types and docks inlined, plugins by path and hash. Reading
-/// and resolving it again gives the same bytes.
+/// Self-contained YAML text: every default is written out, module types and docks are inline, and plugins are given by path and
+/// hash. Reading and resolving this text gives the same bytes.
 std::string resolved(const Scenario& scenario);
 
 }  // namespace gaitlab

@@ -19,8 +19,8 @@
 namespace gaitlab {
 namespace {
 
-/// Path of a build file, or of a robot by its name as in `gaitlab list robot`: shipped with the program, or in robots/ beside
-/// the scenario.
+/// Path of a build file, or of a robot by its name as in `gaitlab list robot`. A named robot belongs to the program, or is in a
+/// folder robots/ beside the scenario.
 std::string build_path(const std::string& folder, const std::string& name) {
   const std::string path = path_from(folder, name);
   std::error_code none;
@@ -32,7 +32,7 @@ std::string build_path(const std::string& folder, const std::string& name) {
   return path;
 }
 
-/// Bodies of a robot. `gaitlab check` takes 55 kB and 1 ms of each: 2 GB and 40 s for so many.
+/// Largest number of bodies of a robot. `gaitlab check` takes 55 kB and 1 ms for each body, thus 2 GB and 40 s for this number.
 constexpr std::size_t kMostBodies = 40000;
 
 std::vector<Dock> read_connections(Reader& reader, const std::string& folder, Problems& problems) {
@@ -70,7 +70,7 @@ std::size_t module_count(const std::vector<Dock>& docks) {
   return static_cast<std::size_t>(highest) + 1;
 }
 
-/// Type of each module: `modules` as a type for all, or types by module number.
+/// Type of each module. `modules` is a single type for all modules, or a map of types by module number.
 class TypeChoice {
  public:
   TypeChoice(const Node& modules, std::size_t count, TypeLibrary& library, Problems& problems)
@@ -92,7 +92,7 @@ class TypeChoice {
       }
       if (const std::optional<std::size_t> type = library_.find(*node)) types.push_back(*type);
     }
-    if (default_ != nullptr) library_.find(*default_);  // checked even if no module uses it
+    if (default_ != nullptr) library_.find(*default_);  // the default is checked even if no module uses it
     return types;
   }
 
@@ -130,7 +130,7 @@ class TypeChoice {
   std::map<std::size_t, const Node*> own_;
 };
 
-/// Keeps the types that some module has, in the order of first use, and renumbers.
+/// Keeps the types that some module has, in the order of first use, and renumbers these types.
 void keep_used(TypeLibrary& library, std::vector<std::size_t>& type_of_module) {
   std::vector<ModuleType> types;
   std::vector<Node> documents;
@@ -158,7 +158,7 @@ bool too_large(const TypeLibrary& library, const std::vector<std::size_t>& type_
   return bodies > kMostBodies;
 }
 
-/// A unique name for each type: the type's name, numbered if several types share it.
+/// A unique name for each type. Types with equal names get numbers.
 std::vector<std::string> unique_names(const Robot& robot) {
   std::vector<std::string> names;
   std::set<std::string> taken;
@@ -210,7 +210,7 @@ RobotParts read_robot(Reader& reader, const SourceLocation& place, const std::st
   TypeLibrary library(folder, problems);
   if (const Node* types = reader.take("types")) library.define(*types);
   const std::vector<Dock> docks = read_connections(reader, folder, problems);
-  // Modules are counted by the rows; after a wrong row every module number would look wrong.
+  // The rows determine the number of modules, so that after a wrong row every module number could seem wrong.
   const bool counted = problems.size() == before;
   Node reference{Node::Kind::scalar, place};
   reference.text = kDefaultType;

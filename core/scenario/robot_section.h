@@ -1,4 +1,4 @@
-// The scenario's `robot`: module types found and read, docks read, the robot assembled.
+// The scenario's section `robot`: search and reading of module types, reading of docks, and assembly of the robot.
 #pragma once
 #include <memory>
 #include <string>
@@ -11,16 +11,16 @@ namespace gaitlab {
 
 inline constexpr const char* kDefaultType = "mtran";  ///< default type of the modules
 
-/// Robot of the keys `modules`, `types`, `build` and `docks`. robot == nullptr: there were problems.
+/// Robot of the keys `modules`, `types`, `build` and `docks`. `robot` is null if there were problems.
 struct RobotParts {
   std::shared_ptr<const Robot> robot = {};
-  std::vector<Node> documents = {};  ///< of the module types, one per entry of Robot::types
+  std::vector<Node> documents = {};  ///< documents of the module types, one per entry of Robot::types
 };
 
-/// `reader` is at the map `robot`; `folder`: folder of the scenario file.
+/// Reads a robot. `reader` is at the map `robot`, and `folder` is that of the scenario file.
 RobotParts read_robot(Reader& reader, const SourceLocation& place, const std::string& folder, Problems& problems);
 
-/// The same keys, self-contained: `types` in full, `modules` by name, `docks`.
+/// Self-contained keys of a robot: `types` in full, `modules` by name, and `docks`.
 std::vector<std::pair<std::string, Node>> robot_nodes(const Robot& robot, const std::vector<Node>& documents);
 
 }  // namespace gaitlab

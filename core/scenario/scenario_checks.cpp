@@ -66,7 +66,7 @@ void ScenarioChecks::initial_angles() {
     std::string text;
     int more = 0;
   };
-  std::map<std::string, Outside> findings;  // one per place: a number may hold for all joints
+  std::map<std::string, Outside> findings;  // one per place, because one number may apply to all joints
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const double angle = angles[j];
     if (angle >= joints[j].lo - 1e-9 && angle <= joints[j].hi + 1e-9) continue;

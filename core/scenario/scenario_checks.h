@@ -1,36 +1,36 @@
-// Checks of a scenario as a whole, after its sections are read.
+// Checks of a scenario as a whole, after all sections are read.
 #pragma once
 #include "core/plugin/catalog.h"
 #include "core/scenario/scenario.h"
 
 namespace gaitlab {
 
-/// Checks that add their findings to the problems, at the places of `root`, the scenario's tree.
+/// Checks of a scenario that add problems at the places of `root`, the tree of the scenario.
 class ScenarioChecks {
  public:
   ScenarioChecks(const Node& root, const Scenario& scenario, const Catalog& catalog, Problems& problems)
       : root_(root), scenario_(scenario), catalog_(catalog), problems_(problems) {}
 
-  /// Settings that Bullet's own solver does not support.
+  /// Refuses settings that Bullet's own solver does not support.
   void law();
-  /// Initial angles are within the hinges' ranges.
+  /// Checks that initial angles are within the ranges of their hinges.
   void initial_angles();
-  /// Joints of the figure exist in the robot.
+  /// Checks that the joints of the figure exist in the robot.
   void figure_joints();
-  /// The initial velocity of the base is among its degrees of freedom.
+  /// Checks that the base has the degrees of freedom of its initial velocity.
   void base_velocity();
-  /// Every warning limit is below the limit that fails.
+  /// Checks that limits.touch, which causes a warning, is at most limits.collision, which causes a failure.
   void limits();
-  /// Settings that require an integrator that chooses its steps.
+  /// Refuses settings that require an integrator that chooses its steps, if the integrator does not.
   void automatic_step();
-  /// The controller's unit is the actuator's.
+  /// Checks that controller and actuator have the same unit of the command.
   void units(const Actuator& actuator, const Controller& controller);
-  /// Rotor inertia requires an engine that can add it; names the engines that can.
+  /// Refuses rotor inertia if the engine cannot add it. The message names the engines that can.
   void rotors(const Actuator& actuator);
 
  private:
   void refuse_law(const Engine& engine);
-  /// SourceLocation of a joint's initial angle.
+  /// Place of a joint's initial angle.
   [[nodiscard]] SourceLocation angle_place(std::size_t joint) const;
 
   const Node& root_;

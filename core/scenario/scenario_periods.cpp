@@ -18,7 +18,7 @@ void check_step(const Node& root, const Scenario& scenario, Problems& problems) 
 }
 
 void finish_periods(const Node& root, Scenario& scenario, const Catalog& catalog, Problems& problems) {
-  // Without set points and actuator the control tick only monitors the step.
+  // Without set points and actuator, the only purpose of the control tick is to monitor the step.
   if (scenario.actuator.entry == nullptr && root.find("cpg") == nullptr) {
     scenario.control_period = scenario.physics.adaptive_step ? kLongestStep : scenario.trace.period;
     scenario.cpg_step = scenario.control_period;

@@ -7,7 +7,7 @@
 namespace gaitlab {
 namespace {
 
-// Schema of the parts that are read one by one rather than through Fields: the robot's parts and the head of the file.
+// Schema of the parts that are not read through Fields: the parts of the robot and the head of the file.
 constexpr const char* kParts = R"json({
   "vector": {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3},
   "source": {"type": ["string", "number", "boolean"], "description": "Origin of the values."},
@@ -112,10 +112,11 @@ constexpr const char* kHead = R"json({
 
 std::string first_line(std::string_view text) { return std::string(text.substr(0, text.find('\n'))); }
 
-/// A section whose keys depend on the value of one of them.
+/// A section whose keys depend on the value of one of its keys.
 class Alternatives {
  public:
-  /// `head`: schema of the section, from which only the deciding key is kept. `preset`: value of an absent key; empty: any.
+  /// `head` is the schema of the section, from which only the deciding key is kept. `preset` is the value of that key if it is
+  /// absent; "" permits any value.
   Alternatives(const Json& head, std::string key, std::string preset) : key_(std::move(key)), preset_(std::move(preset)) {
     json_ = {{"type", "object"}, {"description", head["description"]}};
     json_["properties"][key_] = head["properties"][key_];
@@ -196,7 +197,7 @@ std::string scenario_schema(const Catalog& catalog) {
   properties["robot"] = robot_section();
   for (const auto& [key, value] : heads.items()) properties[key] = value;
   properties["physics"] = physics_section(heads["physics"], catalog);
-  // A module type may name another motor than the default, so that without `type` the keys of any motor are allowed.
+  // A module type may name another motor than the default. Without `type`, the keys of any motor are therefore allowed.
   properties["actuator"] = plugin_section(sections.actuator, heads["actuator"], catalog, "");
   properties["controller"] =
       plugin_section(sections.controller, heads["controller"], catalog, describe(Kind::controller).default_type);

@@ -1,4 +1,4 @@
-// JSON Schema (draft 7, for editors) of the scenario file, from the same walk as its reader.
+// JSON Schema (draft 7, for editors) of the scenario file, derived from the same declared fields as its reader.
 #pragma once
 #include <string>
 
@@ -6,8 +6,8 @@
 
 namespace gaitlab {
 
-/// Schema as indented text. The reader refuses everything that it refuses, and checks more (joint names, fit of the parts).
-/// Throws PluginError.
+/// Schema as indented text. The reader refuses everything that the schema refuses, and has further checks (joint names, fit of
+/// the parts). Throws PluginError.
 std::string scenario_schema(const Catalog& catalog);
 
 }  // namespace gaitlab

@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kNone = "none";
 constexpr const char* kDefaultEngine = "bullet";
 
-/// Texts for the interface, which live as long as this object.
+/// Texts for the interface, which must live as long as this object.
 struct Names {
   std::vector<std::string> texts;
   std::vector<const char*> pointers;
@@ -71,7 +71,7 @@ void PhysicsFields::fields(Fields& f) {
   const bool known = count(problems) == before && names.has(name);
   if (names.texts.empty()) {
     f.problem("engine", "no physics engine is built in");
-  } else if (!names.has(name) && count(problems) == before) {  // another engine instead would give other numbers
+  } else if (!names.has(name) && count(problems) == before) {  // another engine would give other numbers
     f.problem("engine",
               fmt::format("this program was built without the default engine '{0}'; write physics: {{engine: {1}}}, or "
                           "add --set physics.engine={1}",
@@ -99,7 +99,7 @@ void PhysicsFields::fields(Fields& f) {
     physics.adaptive_step = step <= 0 && physics.adapts();
     physics.chosen_step = step <= 0 && chooses;
     if (step > 0 || !physics.adapts()) physics.step = step > 0 ? step : engine.step;
-    if (physics.adapts() || catalog != nullptr) {  // written out only if it has an effect
+    if (physics.adapts() || catalog != nullptr) {  // written only if it has an effect
       f.number(
           "accuracy", physics.accuracy,
           {"", 1e-6, 0.5,
@@ -107,11 +107,11 @@ void PhysicsFields::fields(Fields& f) {
            "at rest). The integrator adaptive divides its steps until they agree to that."});
     }
   } else {
-    std::string any;  // the set depends on the engine
+    std::string any;  // the set of names depends on the engine
     f.text("integrator", any, "");
   }
   f.vector("gravity", span_of(physics.gravity), {"m/s^2", -1000, 1000, "Acceleration of gravity, world axes."});
-  // Written out only if it differs from the default, because older goldens do not contain it.
+  // The key is written only if it differs from the default, because older goldens do not contain it.
   if (catalog == nullptr && physics.estimate == Estimate::full) return;
   f.choice(
       "estimate", physics.estimate, enum_names<Estimate>(),
@@ -168,7 +168,7 @@ void PluginFields::fields(Fields& f) {
     sound = count(problems) == before;
     if (sound && choice.entry != nullptr && own_keys) visit_settings(*choice.entry, choice.settings.get(), f);
   } catch (const PluginError& error) {
-    if (problems == nullptr) throw;  // the error would be lost
+    if (problems == nullptr) throw;  // otherwise the error would be lost
     f.problem("type", error.what());
   }
   sound = count(problems) == before;

@@ -1,4 +1,4 @@
-// The sections of a scenario file as settings structs: one walk reads them, writes them out in full and explains them.
+// The sections of a scenario file as structs with fields, from which reader, writer and manual are derived.
 #pragma once
 #include <functional>
 #include <string>
@@ -11,32 +11,32 @@ namespace gaitlab {
 /// Keys of the robot's initial pose and base.
 struct BaseFields {
   Scenario& scenario;
-  bool with_position = true;  ///< writing: only if the position matters
-  std::size_t numbers = 2;    ///< out: how many numbers the position has
+  bool with_position = true;  ///< used for writing; true if the position is written
+  std::size_t numbers = 2;    ///< number of elements of the position; set by fields()
   void fields(Fields& f);
 };
 
-/// The section `physics`. The catalog may be absent when writing.
+/// The section `physics`. `catalog` may be null when writing.
 struct PhysicsFields {
   Physics& physics;
   const Catalog* catalog;
-  const Problems* problems = nullptr;    ///< reading: what shows that the engine's name was wrong
-  ContactLaw law = ContactLaw::penalty;  ///< reading: contact.law, by which the default of the step differs
+  const Problems* problems = nullptr;    ///< used for reading; new problems show that the engine's name is wrong
+  ContactLaw law = ContactLaw::penalty;  ///< value of contact.law, on which the default of the step depends; used for reading
   void fields(Fields& f);
 };
 
-/// The section `actuator`, `controller` or `cpg`: type of the plugin, its settings, and one key of the host.
+/// The section `actuator`, `controller` or `cpg`: the type of the plugin, its settings, and a key of the program.
 struct PluginFields {
   Kind kind;
   PluginSelection& choice;
-  std::string type;        ///< default type; "none": no plugin
-  const Catalog* catalog;  ///< may be absent when writing
+  std::string type;        ///< default type; "none" for no plugin
+  const Catalog* catalog;  ///< may be null when writing
   std::function<void(Fields&)> host = {};
-  std::function<void(const Entry&, void* settings)> presets = {};  ///< defaults that replace the plugin's
-  const Problems* problems = nullptr;                              ///< reading: shows whether the type was wrong
-  bool own_keys = true;                                            ///< explaining: false, because the plugin's manual has them
-  bool none = false;                                               ///< out: `none` was chosen
-  bool sound = true;                                               ///< out: the settings are usable
+  std::function<void(const Entry&, void* settings)> presets = {};  ///< sets defaults that replace those of the plugin
+  const Problems* problems = nullptr;  ///< used for reading; new problems show that the type is wrong
+  bool own_keys = true;  ///< false for the manual of the scenario, because the plugin's manual contains these keys
+  bool none = false;     ///< true if `none` was chosen; set by fields()
+  bool sound = true;     ///< true if the settings can be used; set by fields()
 
   void fields(Fields& f);
 
@@ -44,15 +44,15 @@ struct PluginFields {
   void choose(Fields& f);
 };
 
-/// Sections after the robot, in the file's order.
+/// Sections after the robot, in the order of the file.
 struct SectionFields {
   Scenario& scenario;
   PhysicsFields physics;
   PluginFields actuator, controller, cpg;
   bool has_cpg = true;
-  bool writing = false;  ///< writing in full: only the keys of the ground's type
+  bool writing = false;  ///< true if the sections are written in full, with only the keys of the ground's type
 
-  /// catalog, problems: as above. `actuator_type`: the default.
+  /// `catalog` and `problems` are those of PhysicsFields and PluginFields. `actuator_type` is the default type.
   SectionFields(Scenario& s, const Catalog* catalog, const Problems* problems, const std::string& actuator_type);
   void fields(Fields& f);
 };

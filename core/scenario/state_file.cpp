@@ -16,7 +16,7 @@ namespace gaitlab {
 namespace {
 
 constexpr double kLargest = std::numeric_limits<double>::max();
-constexpr double kUnit = 1e-6;  // tolerance for numbers with six digits
+constexpr double kUnit = 1e-6;  // tolerance of a unit length, for numbers with six digits
 constexpr Spec kMetres{"m", -kLargest, kLargest, ""};
 
 std::span<double> entries(Vec3& v) { return {v.data(), 3}; }
@@ -41,7 +41,7 @@ struct BaseMotion {
     f.vector("angular_acceleration", entries(acceleration.angular), {"rad/s^2", -kLargest, kLargest, ""});
   }
 
-  /// Checks that the motion is among the base's degrees of freedom.
+  /// Checks that the base has the degrees of freedom of the motion.
   void check(Fields& f, Base base) const {
     const auto check_pair = [&](const char* linear_key, const Vec3& linear, const char* angular_key, const Vec3& angular) {
       const bool planar = base == Base::planar;
@@ -57,7 +57,7 @@ struct BaseMotion {
 
 struct WrenchFields {
   std::string body = {};
-  Vec3 point = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< NaN: not given
+  Vec3 point = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< NaN if not given
   Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
 
   void fields(Fields& f) {
@@ -68,7 +68,7 @@ struct WrenchFields {
   }
 };
 
-/// Line and column (bytes, from 1) of the byte before `end`, at which nlohmann's parser stopped.
+/// Line and column (in bytes, from 1) of the byte before `end`, at which nlohmann's parser stopped.
 SourceLocation place_of(const std::string& text, std::size_t end, const std::string& file) {
   const std::string before = text.substr(0, std::min(end == 0 ? 0 : end - 1, text.size()));
   const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
@@ -76,20 +76,22 @@ SourceLocation place_of(const std::string& text, std::size_t end, const std::str
           1 + static_cast<int>(before.size() - line_start)};
 }
 
-/// nlohmann's parser checks that the text is JSON; the YAML parser, which accepts JSON, gives the places.
+/// Parses a JSON text. nlohmann's parser checks that the text is JSON, and the YAML parser, which accepts JSON, gives the
+/// places.
 Node parse_json(std::string text, const std::string& file) {
   try {
     [[maybe_unused]] const auto json = nlohmann::json::parse(text);
   } catch (const nlohmann::json::parse_error& e) {
-    // [json.exception.parse_error.101] parse error at line 1, column 2: syntax error while parsing value - unexpected ...
+    // The message has the form: [json.exception.parse_error.101] parse error at line 1, column 2: syntax error while parsing
+    // value - unexpected ...
     const std::string what = e.what();
     const std::size_t dash = what.find(" - ");
     throw InputError(place_of(text, e.byte, file),
                      "not valid JSON" + (dash == std::string::npos ? "" : ": " + clipped(what.substr(dash + 3))));
   } catch (const nlohmann::json::out_of_range&) {
-    // A number beyond the range of a double: it is reported with its place when it is read.
+    // A number exceeds the range of a double. The problem is reported with its place when the number is read.
   }
-  // In JSON a tab is always between tokens; YAML does not allow tabs everywhere.
+  // In JSON a tab is always between tokens, but YAML does not allow tabs everywhere.
   std::replace(text.begin(), text.end(), '\t', ' ');
   return parse_yaml(text, file);
 }

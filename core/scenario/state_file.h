@@ -1,4 +1,4 @@
-// The state file of `gaitlab dynamics`: JSON, read as strictly as a scenario.
+// The state file of `gaitlab dynamics`, a JSON file that is read as strictly as a scenario.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,17 +11,18 @@ namespace gaitlab {
 /// Input of one evaluation of the dynamics.
 struct DynamicsInput {
   RobotState state;
-  Acceleration acceleration;  ///< inverse dynamics only
-  std::vector<double> tau;    ///< N m; forward dynamics only
+  Acceleration acceleration;  ///< used for inverse dynamics only
+  std::vector<double> tau;    ///< joint torques, N m; used for forward dynamics only
   std::vector<BodyWrench> wrenches;
-  SourceLocation place = {};  ///< place of the joints' angles: `q` in the file, or the file
+  SourceLocation place = {};  ///< place of the joint angles: key `q` in the file, or the file
 };
 
-/// {q, qd, qdd, tau: a list, a number or {default, JOINT: x}; base: {position, quaternion: [w, x, y, z], velocity,
-/// angular_velocity, acceleration, angular_acceleration}; wrenches: [{body, point, force, torque}]}; world axes, SI; every key
-/// may be absent. Defaults: q, qd and the base of `start`, for a wrench's point the origin of its body's frame, else 0. Throws
-/// InputError with every finding at FILE:LINE:COL: not JSON, unknown key, wrong shape, an unknown body, a quaternion whose
-/// length is not 1 (within 1e-6; it is normalised), a motion that the base cannot make.
+/// Reads {q, qd, qdd, tau: a list, a number or {default, JOINT: x}; base: {position, quaternion: [w, x, y, z], velocity,
+/// angular_velocity, acceleration, angular_acceleration}; wrenches: [{body, point, force, torque}]}, in world axes and SI
+/// units. Every key may be absent. The defaults of q, qd and base are those of `start`; the default point of a wrench is the
+/// origin of the frame of its body; all other defaults are 0. Throws InputError with every problem found at FILE:LINE:COL: text
+/// that is not JSON, an unknown key, a wrong shape, an unknown body, or a motion that the base cannot make. A quaternion whose
+/// length differs from 1 by more than 1e-6 is a problem; any other is normalised.
 DynamicsInput read_state_file(const std::string& path, const Robot& robot, Base base, const RobotState& start);
 
 }  // namespace gaitlab

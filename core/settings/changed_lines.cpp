@@ -12,7 +12,7 @@ namespace gaitlab {
 
 namespace {
 
-constexpr std::size_t kMostPairs = 4'000'000;  // of compared lines, of 2 bytes each
+constexpr std::size_t kMostPairs = 4'000'000;  // largest number of compared pairs of lines, with 2 bytes each
 
 using Lines = std::vector<std::string_view>;
 
@@ -26,7 +26,7 @@ Lines lines_of(std::string_view text) {
   return lines;
 }
 
-/// Lengths of the longest common subsequences of the two texts' ends.
+/// Lengths of the longest common subsequences, for the remainders of two texts from each pair of lines on.
 class CommonLines {
  public:
   CommonLines(const Lines& a, const Lines& b) : a_(a), b_(b), width_(b.size() + 1) {
@@ -40,11 +40,11 @@ class CommonLines {
     }
   }
 
-  /// Whether line i of the first text is kept as line j of the second.
+  /// True if line i of the first text is kept as line j of the second.
   [[nodiscard]] bool kept(std::size_t i, std::size_t j) const {
     return !length_.empty() && i < a_.size() && j < b_.size() && a_[i] == b_[j];
   }
-  /// Whether no longest subsequence contains line i of the first text from here on.
+  /// True if some longest common subsequence of the remainders omits line i of the first text.
   [[nodiscard]] bool gone(std::size_t i, std::size_t j) const {
     if (i == a_.size() || j == b_.size()) return j == b_.size();
     return length_.empty() || at(i + 1, j) >= at(i, j + 1);
@@ -56,10 +56,10 @@ class CommonLines {
   const Lines& a_;
   const Lines& b_;
   std::size_t width_;
-  std::vector<std::uint16_t> length_;  // empty: too many lines to compare
+  std::vector<std::uint16_t> length_;  // empty if there are too many lines to compare
 };
 
-/// Rest of a long line after the beginning that it shares with the other line.
+/// Rest of a long line, without most of the beginning that it shares with the other line.
 std::string_view from_the_change(std::string_view line, std::string_view other) {
   constexpr std::size_t kShort = 60;
   constexpr std::size_t kBefore = 20;
@@ -68,7 +68,7 @@ std::string_view from_the_change(std::string_view line, std::string_view other) 
   return line.size() > kShort && same > kBefore ? line.substr(same - kBefore) : line;
 }
 
-/// `line 136: "Kp: 97", was "Kp: 100"`; nullptr: no such line.
+/// Sentence such as `line 136: "Kp: 97", was "Kp: 100"`. Null means that the text lacks the line.
 std::string sentence(std::size_t number, const std::string_view* now, const std::string_view* then) {
   const auto quoted = [](const std::string_view* line, const std::string_view* other) -> std::string {
     if (line == nullptr) return "nothing";
@@ -104,7 +104,7 @@ std::vector<std::string> changed_lines(const std::string& then, const std::strin
     std::size_t end_j = j;
     while ((end_i < a.size() || end_j < b.size()) && !common.kept(end_i, end_j)) ++(common.gone(end_i, end_j) ? end_i : end_j);
     for (; i < end_i || j < end_j; i = std::min(i + 1, end_i), j = std::min(j + 1, end_j)) {
-      if (i < end_i && j < end_j && a[i] == b[j]) continue;  // equal, if there were too many lines to compare
+      if (i < end_i && j < end_j && a[i] == b[j]) continue;  // unchanged, which only occurs with too many lines to compare
       if (changed.size() == most) {
         ++more;
       } else {

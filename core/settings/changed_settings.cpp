@@ -15,20 +15,21 @@ namespace gaitlab {
 
 namespace {
 
-constexpr std::size_t kShortValue = 30;      // characters: of a longer value only the part around the change is shown
+constexpr std::size_t kShortValue = 30;      // characters; a longer value is shown only around the change
 constexpr std::size_t kBeforeTheChange = 8;  // characters shown before the change
-constexpr std::size_t kLongestVector = 6;    // elements, as in an inertia; a longer list is compared element by element
+// Most elements of a list that counts as one value, such as an inertia; longer lists are compared element by element.
+constexpr std::size_t kLongestVector = 6;
 constexpr std::string_view kNotSet = "not set";
 
 bool is_scalar(const Node& node) { return node.kind == Node::Kind::scalar || node.kind == Node::Kind::null; }
 
-/// Whether a list is one value, such as a vector or a dock.
+/// True if a list counts as one value, such as a vector or a dock.
 bool is_vector(const Node& node) {
   return node.kind == Node::Kind::list && node.items.size() <= kLongestVector &&
          std::all_of(node.items.begin(), node.items.end(), is_scalar);
 }
 
-/// Value on one line.
+/// Value of a node on one line.
 std::string value_text(Node node) {
   node.flow = true;
   std::string text = print_yaml(node);
@@ -36,9 +37,9 @@ std::string value_text(Node node) {
   return text;
 }
 
-/// Part of a long value around the change; its first `same` characters are equal in the other value.
+/// Part of a long value around the change. The first `same` characters are equal in both values.
 std::string around(const std::string& text, std::size_t same) {
-  const auto inside = [&](std::size_t at) {  // whether the byte is inside a character of several bytes
+  const auto inside = [&](std::size_t at) {  // true if the byte is inside a character of several bytes
     return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80;
   };
   std::size_t from = text.size() > kShortValue && same > kBeforeTheChange ? same - kBeforeTheChange : 0;
@@ -98,7 +99,7 @@ class SettingsDifference {
     }
   }
 
-  /// Compares two lists without their common beginning and end, so that one element in the middle of a list is one change.
+  /// Compares two lists without their common beginning and end, so that the insertion of an element is one change.
   void elements(const std::string& key, const Node& then, const Node& now) {
     const auto same = [](const Node& a, const Node& b) { return value_text(a) == value_text(b); };
     std::size_t begin = 0;

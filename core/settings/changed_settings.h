@@ -6,10 +6,10 @@
 
 namespace gaitlab {
 
-/// One entry per changed, added or removed setting, in the order of `now`, removed ones behind their section: `actuator.i_max:
-/// 1.2 -> 0.45`, with `not set` for the side without it, `robot.docks[3]: ...` for an element of a list. At most `most`
-/// entries, and then one with the number of the others. Gives changed lines (changed_lines.h) if a text is not YAML, or if only
-/// the notation changed.
+/// One entry per changed, added or removed setting, in the order of `now`, with removed settings after their section. Examples
+/// are `actuator.i_max: 1.2 -> 0.45`, and `robot.docks[3]: ...` for an element of a list. The words `not set` replace the value
+/// that one text lacks. After `most` entries, a last entry contains the number of the omitted ones. If a text is not YAML, or
+/// if only the notation changed, the entries are those of changed_lines().
 std::vector<std::string> changed_settings(const std::string& then, const std::string& now, std::size_t most = 10);
 
 }  // namespace gaitlab

@@ -4,7 +4,8 @@
 
 namespace gaitlab {
 
-/// `../share/gaitlab/scenarios` beside the program's folder if it is installed, else the source tree's scenarios.
+/// Path `../share/gaitlab/scenarios` relative to the program's folder if the program is installed, otherwise the scenarios of
+/// the source tree.
 std::string data_folder();
 
 }  // namespace gaitlab

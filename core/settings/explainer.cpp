@@ -33,7 +33,7 @@ std::string if_among(std::span<const char* const> names, const std::string& name
 std::string table(const std::vector<KeyRow>& rows) {
   std::string out;
   for (const KeyRow& row : rows) {
-    const std::size_t depth = row.key.find_first_not_of(' ') / 2 * 4;  // of a group
+    const std::size_t depth = row.key.find_first_not_of(' ') / 2 * 4;  // depth of the group, as a number of blanks
     std::string head = row.key.substr(row.key.find_first_not_of(' '));
     if (!row.unit.empty()) head += " (" + row.unit + ")";
     std::string limits = row.preset.empty() ? "" : "default " + row.preset;
@@ -62,7 +62,7 @@ std::string markdown_table(const std::vector<KeyRow>& rows) {
   };
   std::string out = "| key | unit | default | range | meaning |\n|---|---|---|---|---|\n";
   for (const KeyRow& row : rows) {
-    // Spaces at the left show the depth; a table of Markdown would drop them.
+    // Spaces at the left state the depth, but a table in Markdown would drop them.
     const std::size_t depth = std::min(row.key.find_first_not_of(' '), row.key.size());
     std::string key;
     for (std::size_t i = 0; i < depth; ++i) key += "&nbsp;";
@@ -153,7 +153,7 @@ void Explainer::on(const char* key, const char* about, const field::Map& field) 
 
 void Explainer::elements(const char* key, const field::List& list) {
   const std::size_t size = list.size(list.self);
-  if (size == 0) list.resize(list.self, 1);  // an element with defaults, to be listed
+  if (size == 0) list.resize(list.self, 1);  // one element with its defaults, for the list of keys
   const std::string before = prefix_;
   prefix_ += std::string(key) + "[].";
   ++depth_;

@@ -1,4 +1,4 @@
-// List of the keys of Settings structs with unit, default, range and sentence: `gaitlab explain`.
+// List of the keys of Settings structs with unit, default, range and sentence, for `gaitlab explain`.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,25 +9,26 @@ namespace gaitlab {
 
 /// One row of the table.
 struct KeyRow {
-  std::string key, unit, preset, range, about;  ///< preset: the default
+  std::string key, unit, preset, range, about;  ///< `preset` is the default value, `about` the sentence
 };
 
-/// The rows as text of at most 80 columns: key, unit, default and range, and the sentence below.
+/// The rows as text of at most 80 columns. A line with key, unit, default and range precedes the sentence.
 std::string table(const std::vector<KeyRow>& rows);
-/// The same as a table of Markdown.
+/// The rows as a table in Markdown.
 std::string markdown_table(const std::vector<KeyRow>& rows);
 
-/// Visit fields, then read rows(). Groups are indented; the keys of a list's elements are shown as `couplings[].from`.
+/// Visitor of fields, after which rows() returns one row per key. Keys of a group are indented. Keys of a list's elements have
+/// names such as `couplings[].from`.
 class Explainer final : public Fields {
  public:
   void visit(const Field& field) override;
   void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
 
-  /// Adds a row that is not a field.
+  /// Adds a row for a key that is not a field.
   void row(const std::string& key, const std::string& unit, const std::string& preset, const std::string& range,
            const std::string& about);
   [[nodiscard]] const std::vector<KeyRow>& rows() const { return rows_; }
-  /// Keys of the outermost map.
+  /// Keys of the outermost map, without those of groups and lists.
   [[nodiscard]] const std::vector<std::string>& keys() const { return keys_; }
 
  private:
@@ -52,7 +53,7 @@ class Explainer final : public Fields {
 
   std::vector<KeyRow> rows_;
   std::vector<std::string> keys_;
-  std::string prefix_;  ///< indentation, or `couplings[].`
+  std::string prefix_;  ///< indentation of a group, or the text `couplings[].`
   int depth_ = 0;
 };
 

@@ -13,7 +13,7 @@ std::string numbers(std::size_t n) { return fmt::format("{} number{}", n, n == 1
 
 bool separates(char c) { return c == ' ' || c == '\t' || c == '\r' || c == ','; }
 
-/// Words of a line up to a comment; two adjacent commas enclose an empty word.
+/// Words of a line, without its comment. Two adjacent commas enclose an empty word.
 Node row_of(const std::string& line, SourceLocation place) {
   Node row{Node::Kind::list, place};
   bool comma = false;

@@ -1,4 +1,4 @@
-// Rows of numbers of equal length: in the scenario, or in a file.
+// Reader of rows of numbers with equal lengths, in the scenario or in a file.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,12 +10,12 @@ namespace gaitlab {
 
 using Rows = std::vector<std::vector<double>>;
 
-/// Rows of a list of lists named `what`; empty with problems if a row is not a list, its length differs from the first row's,
-/// or a number is wrong.
+/// Rows of a list of lists; `what` is the name of the list in messages. The result is empty, with problems, if a row is not a
+/// list, its length differs from that of the first row, or a number is invalid.
 Rows read_rows(const Node& list, const std::string& what, const Spec& spec, Problems& problems);
 
-/// Node of a text with one row per line, numbers separated by commas or blanks, comments after #: a list of lists, each with
-/// its place.
+/// Node of a text with one row per line. Numbers are separated by commas or blanks, and comments follow #. The node is a list
+/// of lists, each with its place in the file.
 Node grid_node(const std::string& text, const std::string& file);
 
 }  // namespace gaitlab

@@ -10,7 +10,7 @@
 namespace gaitlab {
 namespace {
 
-/// Common patterns that match some joint: each joint's module with any hinge, and its hinge of any module.
+/// Common patterns that match some joint: any hinge of a joint's module, and a joint's hinge in any module.
 std::vector<std::string> usual_patterns(const std::vector<std::string>& joints) {
   std::vector<std::string> patterns;
   std::unordered_set<std::string> seen;

@@ -1,5 +1,5 @@
-// The only user of yaml-cpp 0.7. Its node API accepts far too much (duplicate keys, aliases, tags, further documents), so the
-// tree is built from its parse events, where each of these is still visible.
+// Parser based on yaml-cpp 0.7. The node API of that library accepts too much (duplicate keys, aliases, tags, further
+// documents), so that the tree is built from parse events, which still distinguish these cases.
 #include "core/settings/node.h"
 
 #include <fmt/format.h>
@@ -21,10 +21,10 @@ namespace {
 
 constexpr std::size_t kMaxDepth = 32;
 
-/// Thrown to leave the parser after a problem that makes the rest unreadable.
+/// Exception that leaves the parser after a problem that makes the remaining text unreadable.
 struct Stop {};
 
-/// The first tab in the indentation of a line, up to and including line `last` (from 0).
+/// Place of the first tab in the indentation of a line, up to and including line `last` (from 0).
 std::optional<SourceLocation> indenting_tab(const std::string& text, const std::string& file, int last) {
   std::size_t begin = 0;
   for (int line = 0; line <= last && begin < text.size(); ++line) {
@@ -43,7 +43,7 @@ class TreeBuilder final : public YAML::EventHandler {
   TreeBuilder(const std::string& text, const std::string& file, Problems& problems)
       : text_(std::make_shared<const std::string>(text)), file_(file), problems_(problems) {}
 
-  /// The finished root; only after a whole document.
+  /// The finished root, for use only after a whole document.
   Node take() { return std::move(root_); }
 
   void OnDocumentStart(const YAML::Mark& mark) override {
@@ -65,7 +65,7 @@ class TreeBuilder final : public YAML::EventHandler {
     node.quoted = tag == "!";
     node.source = text_;
     node.position = static_cast<std::size_t>(std::max(0, mark.pos));
-    // A quoted scalar implicitly has the tag "!"; an explicit tag starts with '!' in the text.
+    // A quoted scalar has the tag "!" implicitly. An explicit tag starts with '!' in the text.
     const bool explicit_tag = tag != "?" && (tag != "!" || character(mark) == '!');
     check_tag(mark, explicit_tag, tag);
     add(std::move(node));
@@ -85,7 +85,8 @@ class TreeBuilder final : public YAML::EventHandler {
   struct Open {
     Node node;
     bool has_key = false, duplicate = false;
-    std::unordered_map<std::string, std::size_t> index = {};  ///< of the keys so far: linear search would take quadratic time
+    /// Index of the keys so far, because linear search would take quadratic time.
+    std::unordered_map<std::string, std::size_t> index = {};
   };
 
   [[nodiscard]] SourceLocation at(const YAML::Mark& mark) const { return {file_, mark.line + 1, mark.column + 1}; }
@@ -150,7 +151,8 @@ class TreeBuilder final : public YAML::EventHandler {
     }
   }
 
-  /// The value of a duplicate key is dropped: the problem is noted, and reading continues to find others.
+  /// Adds a node to the innermost list or map. The value of a duplicate key is dropped, and reading continues to find other
+  /// problems.
   void add_item(Node node) {
     Open& top = stack_.back();
     const bool in_map = top.node.kind == Node::Kind::map;
@@ -175,7 +177,7 @@ std::optional<Node> build(const std::string& text, const std::string& file, Prob
     std::istringstream stream(text);
     YAML::Parser parser(stream);
     if (!parser.HandleNextDocument(builder)) throw InputError({file}, "the file is empty; expected a map (KEY: VALUE lines)");
-    // A second call instead of a loop: on stray text yaml-cpp reports documents without end.
+    // This is a second call instead of a loop, because on stray text yaml-cpp reports documents without end.
     parser.HandleNextDocument(builder);
     return builder.take();
   } catch (const Stop&) {

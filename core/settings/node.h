@@ -1,4 +1,4 @@
-// A YAML text as a tree of nodes with their places. Reading is strict where yaml-cpp 0.7 is lax (docs/decisions).
+// A YAML text as a tree of nodes with their places in the file, read more strictly than by yaml-cpp 0.7 (docs/decisions).
 #pragma once
 #include <memory>
 #include <optional>
@@ -13,32 +13,32 @@ namespace gaitlab {
 struct Node {
   enum class Kind { null, scalar, list, map } kind = Kind::null;
   SourceLocation place = {};
-  std::string text = {};                                          ///< scalar
-  bool quoted = false;                                            ///< scalar in quotes: a text, never a number
-  bool flow = false;                                              ///< list or map on one line: { } [ ]
-  std::vector<Node> items = {};                                   ///< list; values of a map, in file order
-  std::vector<std::pair<std::string, SourceLocation>> keys = {};  ///< map: key of items[i]
-  std::shared_ptr<const std::string> source = {};                 ///< scalar read from a text: that text
-  std::size_t position = 0;                                       ///< scalar: its offset in `source`
+  std::string text = {};         ///< text of a scalar
+  bool quoted = false;           ///< true for a scalar in quotes, which is a text and never a number
+  bool flow = false;             ///< true for a list or map on one line, in [ ] or { }
+  std::vector<Node> items = {};  ///< elements of a list, or values of a map in file order
+  std::vector<std::pair<std::string, SourceLocation>> keys = {};  ///< keys of a map; keys[i] belongs to items[i]
+  std::shared_ptr<const std::string> source = {};                 ///< text that contains the scalar
+  std::size_t position = 0;                                       ///< offset of the scalar in `source`
 
-  [[nodiscard]] const Node* find(const std::string& key) const;  ///< value of a map's key, or nullptr
+  [[nodiscard]] const Node* find(const std::string& key) const;  ///< value of a map's key, or null
 };
 
-/// Description of a node's content for a message: `'fast'`, `a list`, `empty`.
+/// Description of a node's content for a message, such as `'fast'`, `a list` or `empty`.
 std::string found(const Node& node);
 
-/// Parses one YAML document whose root is a map. Throws InputError (syntax, duplicate key, anchor, alias, tag, second document,
-/// deeper than 32, larger than 1 MB, not UTF-8 text, ...).
+/// Parses one YAML document whose root is a map. Throws InputError for invalid or refused text: syntax errors, duplicate keys,
+/// anchors, aliases, tags, a second document, nesting deeper than 32, more than 1 MB, or text that is not UTF-8.
 Node parse_yaml(const std::string& text, const std::string& file);
 
-/// The same with every finding in `problems`; nothing if the text has no tree. A duplicate key, an anchor or a tag is an error,
-/// but the tree is returned, so that a reader can find its other errors.
+/// Parses as above, with every error in `problems`. Returns nothing if the text has no tree. The tree is returned in spite of a
+/// duplicate key, an anchor or a tag, so that a reader can find further errors.
 std::optional<Node> parse_yaml(const std::string& text, const std::string& file, Problems& problems);
 
-/// The same from a file; for a missing file InputError at `asked_at` (or the file itself).
+/// Parses a file. If the file is missing, throws InputError at `asked_at`, or at the file if `asked_at` is empty.
 Node read_yaml(const std::string& path, const SourceLocation& asked_at = {});
 
-/// YAML text of a node, indented by `indent`; parse_yaml gives the same node, places excepted.
+/// YAML text of a node, indented by `indent` blanks. parse_yaml() turns the text into the same node, except for places.
 std::string print_yaml(const Node& node, int indent = 0);
 
 }  // namespace gaitlab

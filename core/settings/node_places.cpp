@@ -1,5 +1,5 @@
-// yaml-cpp gives only the start of a scalar (for a block scalar that of its `|`); the other places are found by reading the
-// source again.
+// Places within scalars. yaml-cpp gives only the start of a scalar (the position of `|` for a block scalar), so that these
+// functions read the source again.
 #include "core/settings/node_places.h"
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 namespace gaitlab {
 namespace {
 
-/// Number of bytes of the source at `at` that represent the character c of a text; 0 if they represent another one.
+/// Number of bytes of the source at `at` that represent the character c of a text. It is 0 if they represent another character.
 std::size_t length_of(const std::string& source, std::size_t at, char quote, char c) {
   if (at >= source.size() || source[at] == '\n') return 0;
   if (quote == '\'' && c == '\'') return source.compare(at, 2, "''") == 0 ? 2 : 0;
@@ -51,7 +51,7 @@ std::size_t first_content(const std::string& text, std::size_t line) {
   return std::string::npos;
 }
 
-/// Place in a block after `|`: every line of the text is a line of the source, indented.
+/// Place in a block after `|`. Every line of the block is a line of the source, indented.
 SourceLocation in_block(const Node& scalar, std::size_t offset) {
   const std::string& source = *scalar.source;
   const std::size_t end_of_header = source.find('\n', scalar.position);

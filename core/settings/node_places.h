@@ -1,4 +1,4 @@
-// Location in the file of a character of a scalar.
+// Place in the file of a character of a scalar.
 #pragma once
 #include <cstddef>
 #include <string_view>
@@ -7,11 +7,13 @@
 
 namespace gaitlab {
 
-/// Place of the byte `offset` of a scalar's text (its size: just behind the last character), for plain and quoted scalars on
-/// one line and for block scalars (`|`). For other scalars (folded over several lines, given by --set) the scalar's place.
+/// Place of the byte `offset` of a scalar's text, for plain and quoted scalars on one line and for block scalars (`|`). An
+/// offset equal to the text's size is the place behind the last character. For any other scalar, such as one folded over
+/// several lines or given by --set, the result is the place of the scalar.
 SourceLocation place_in(const Node& scalar, std::size_t offset);
 
-/// Adds a problem there; for such other scalars the message contains the character's number.
+/// Adds a problem at the place of the byte `offset`. If place_in() cannot find that place, the message contains the character's
+/// number.
 void add_in(const Node& scalar, std::size_t offset, std::string_view what, Problems& problems);
 
 }  // namespace gaitlab

@@ -44,7 +44,7 @@ std::vector<std::string> split(const std::string& path) {
   return parts;
 }
 
-/// The value as YAML, or nothing with a problem.
+/// The value as a YAML node. Returns nothing, with a problem, if the value is invalid.
 std::optional<Node> parse_value(const std::string& text, const SourceLocation& place, Problems& problems) {
   if (text.find('\n') != std::string::npos) {
     problems.add(place, "the value has several lines; expected one");
@@ -102,7 +102,7 @@ Node& map_item(Node& map, const std::string& key, const SourceLocation& place) {
   return map.items.emplace_back(Node{Node::Kind::null, place});
 }
 
-/// Whether a key belongs to a value per joint: `m3/active`, a pattern, or `default`.
+/// True if a key belongs to a value per joint: `m3/active`, a pattern, or `default`.
 bool of_joints(const std::string& key) { return key == "default" || is_pattern(key) || key.find('/') != std::string::npos; }
 
 /// Replaces a number by the equivalent map with the same value for every joint.
@@ -157,14 +157,14 @@ std::vector<std::string> known_keys(const Entry& entry) {
   return keys;
 }
 
-/// "model.mu, model.rate" for a map, else the key alone.
+/// Text such as "model.mu, model.rate" for a map; otherwise the key alone.
 std::string described(const std::string& key, const Node& value) {
   std::string out;
   for (const auto& [inner, place] : value.keys) out += (out.empty() ? "" : ", ") + clipped(key) + "." + clipped(inner);
   return out.empty() ? clipped(key) : out;
 }
 
-/// Removes the keys and values for which `gone` is true; returns their names.
+/// Removes the entries for which `gone` is true, and returns their names.
 template <class Gone>
 std::string take_out(Node& map, const std::string& prefix, Gone gone) {
   std::string dropped;
@@ -191,7 +191,7 @@ std::string drop_from(Node& section, bool cpg, const std::vector<std::string>& k
     const bool empty_model = cpg && key == "model" && value.kind == Node::Kind::map && value.items.empty();
     return !empty_model && !is_set(value) && std::find(known.begin(), known.end(), key) == known.end();
   });
-  // A model that lost all its keys is removed without mention: the keys are named already.
+  // A model that lost all its keys is removed without a message, because the message already contains these keys.
   take_out(section, "",
            [&](const std::string& key, const Node& value) { return cpg && key == "model" && value.items.empty(); });
   return dropped + (dropped.empty() || others.empty() ? "" : ", ") + others;
@@ -233,7 +233,7 @@ std::vector<std::string> drop_old_keys(Node& root, const std::vector<Retyped>& r
   for (const Retyped& change : retyped) {
     const Kind kind = find_kind(change.section)->kind;
     const Entry* entry = catalog.find(kind, change.to);
-    if (entry == nullptr) continue;  // an unknown type is reported when the section is read
+    if (entry == nullptr) continue;  // the reader of the section reports an unknown type
     for (std::size_t i = 0; i < root.keys.size(); ++i) {
       if (root.keys[i].first != change.section) continue;
       const std::string dropped = drop_from(root.items[i], kind == Kind::cpg, known_keys(*entry));

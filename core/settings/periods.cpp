@@ -12,9 +12,10 @@
 namespace gaitlab {
 namespace {
 
-constexpr double kTolerance = 1e-9;  // relative, of a ratio to the nearest whole number
+constexpr double kTolerance = 1e-9;  // relative deviation of a ratio from the nearest whole number
 
-/// Largest period of which both are whole multiples, by Euclid's algorithm; 0 if there is none above b * 1e-7.
+/// Largest period of which a and b are whole multiples, by Euclid's algorithm. Returns 0 if no such period is above 1e-7 times
+/// the smaller of a and b.
 double common_divisor(double a, double b) {
   const double smallest = std::min(a, b) * 1e-7;
   while (b > smallest) {
@@ -26,7 +27,7 @@ double common_divisor(double a, double b) {
   return 0;
 }
 
-/// Rounds to 12 digits, far within the tolerance: messages offer 0.015 rather than 0.015000000000000001.
+/// Rounds to 12 digits, far within the tolerance, so that messages contain 0.015 instead of 0.015000000000000001.
 double rounded(double value) {
   const std::string text = fmt::format("{:.12g}", value);
   std::from_chars(text.data(), text.data() + text.size(), value);
@@ -45,8 +46,8 @@ std::size_t digits(double value) {
   return count;
 }
 
-/// The candidate divisor/k nearest to `start` in the direction of `towards` (+1 or -1 for k) that is a short decimal; without a
-/// near short one, the nearest of all.
+/// A short decimal divisor/k near k = `first`, searched in the direction of `towards` (+1 or -1 for k). Without a short decimal
+/// nearby it is the nearest step that divides all periods, or 0 if there is none.
 double fitting(const std::vector<double>& periods, double divisor, double first, double towards) {
   const auto fits = [&](double step) {
     return std::all_of(periods.begin(), periods.end(), [&](double period) { return math::whole_steps(period, step) > 0; });

@@ -1,4 +1,4 @@
-// Divisibility of periods, and the nearest periods that divide. All in s.
+// Divisibility of periods (in s), and the nearest periods that divide each other.
 #pragma once
 #include <optional>
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace gaitlab {
 
-/// Up to two steps, one on each side of `step`, of which all `periods` are whole multiples; short decimals are preferred.
+/// Up to two steps of which all `periods` are whole multiples: one on each side of `step`. Short decimals are preferred.
 std::vector<double> fitting_steps(const std::vector<double>& periods, double step);
 
-/// Longest step of an integrator that divides its steps, s: longer steps would miss short contacts (docs/equations.md, 7).
+/// Longest step of an integrator that divides its steps, s. Longer steps would miss short contacts (docs/equations.md, 7).
 constexpr double kLongestStep = 5e-3;
 
-/// The longest such step that divides the control period.
+/// The longest step, at most kLongestStep, that divides the control period.
 double longest_step(double control_period);
 
 /// Up to two whole multiples of `step`, one on each side of `period`.
@@ -24,11 +24,11 @@ std::vector<double> fitting_periods(double period, double step);
 struct Period {
   std::string name;
   double value = 0;
-  std::optional<SourceLocation> given = {};  ///< place; nothing: a default
+  std::optional<SourceLocation> given = {};  ///< place of the value; nothing for a default
 };
 
-/// Adds a problem for each period that is not a whole multiple of the step: at the place of the period, or of the step if only
-/// the step is given, or `otherwise`.
+/// Adds a problem for each period that is not a whole multiple of the step. Its place is that of the period, or of the step if
+/// only the step is given, or `otherwise` if neither is given.
 void check_periods(const std::vector<Period>& periods, const Period& step, const SourceLocation& otherwise, Problems& problems);
 
 }  // namespace gaitlab

@@ -16,7 +16,7 @@
 namespace gaitlab {
 namespace {
 
-/// Key in the form of --set: docs.0.1 for `docs[0][1]`.
+/// Key in the form of --set, such as docs.0.1 for `docs[0][1]`.
 std::string dotted(const std::string& key) {
   std::string text;
   for (const char c : key) {
@@ -25,13 +25,13 @@ std::string dotted(const std::string& key) {
   return clipped(text);
 }
 
-/// Hint for an angle beyond its range: `; 180 degrees are 3.142 rad`.
+/// Hint for an angle beyond its range, such as `; 180 degrees are 3.142 rad`. Empty if the value is not plausible as degrees.
 std::string in_degrees(double value, const std::string& unit) {
   if (unit != "rad" || !(std::abs(value) <= 3600 && std::abs(value) > 2 * std::numbers::pi)) return "";
   return fmt::format("; {:.6g} degrees are {:.4g} rad", value, value * std::numbers::pi / 180);
 }
 
-/// Whether the key of a plugin's, ground's or panel's map decides which other keys exist.
+/// True if other keys of the map depend on this key, in the map of a plugin, ground or panel.
 bool decides(std::string_view key) { return key == "type" || key == "kind"; }
 
 Node empty_map(const SourceLocation& place) { return {Node::Kind::map, place}; }
@@ -82,7 +82,7 @@ void Reader::finish() {
     const auto& [key, place] = map_->keys[i];
     if (known.count(key) > 0) continue;
     const std::size_t colon = key.find(':');
-    // In YAML {a:1} is a key without a value; the intention is clear.
+    // In YAML, {a:1} is a key without a value. The user probably meant a: 1.
     if (map_->items[i].kind == Node::Kind::null && colon != std::string::npos) {
       problems_.add(place, "unknown key " + in_quotes(key) + "; put a space after the colon");
     } else {
@@ -189,7 +189,7 @@ void Reader::on(const char* key, const field::OneOf& field) {
     field.value = *it;
     return;
   }
-  // The other keys of a map depend on its type: without the type they cannot be checked.
+  // The other keys of a map depend on its type, so that they cannot be checked without the type.
   tolerant_ = tolerant_ || decides(key);
   if (node->kind == Node::Kind::scalar) {
     problems_.add(node->place,
@@ -265,8 +265,8 @@ void Reader::on(const char* key, const field::Map& field) {
                     fmt::format("{} {} ends within a bracket: in {{ }} a comma ends the text; put it in quotes, or on a "
                                 "line of its own",
                                 clipped(name), found(node->items[i])));
-      field.value.push_back({name, "0"});  // so that the name counts as defined
-      return;                              // the following keys are pieces of the text
+      field.value.push_back({name, "0"});  // so that later checks find the name
+      return;                              // the following keys are fragments of the text
     }
     if (!is_name(name, "_") || name[0] == '_' || (name[0] >= '0' && name[0] <= '9')) {
       problems_.add(place, in_quotes(name) + " is not a name; expected a letter, then letters, digits and _");
@@ -300,7 +300,7 @@ void Reader::read_named_numbers(const Node& node, const std::string& what, PerJo
   const std::size_t before = problems_.size();
   const bool every = read_joint_map(node, what, kAny, value);
   if (every || problems_.size() > before) return;
-  // Without a default the other joints would have no value.
+  // Without a default, the remaining joints would have no value.
   problems_.add(node.place, what + " names some joints only; add default: for the others");
 }
 
@@ -313,7 +313,7 @@ void Reader::visit(const Field& field) {
 }
 
 void Reader::problem_at(const char* key, std::string_view name, std::size_t offset, std::string_view what) {
-  tolerant_ = tolerant_ || decides(key);  // as for an unknown type
+  tolerant_ = tolerant_ || decides(key);  // an invalid type makes the set of known keys uncertain
   const Node* node = map_->find(key);
   if (node == nullptr) {
     problems_.add(map_->place, std::string(what));

@@ -1,4 +1,4 @@
-// Reader of Settings structs from a YAML map: checks types, ranges and names, and reports every problem with its location.
+// Reader of Settings structs from a YAML map, which checks types, ranges and names and reports every problem with its place.
 #pragma once
 #include <initializer_list>
 #include <string>
@@ -9,32 +9,32 @@
 
 namespace gaitlab {
 
-/// Names of the robot's joints; nullptr if the robot could not be built (values that depend on them are then not checked).
+/// Names of the robot's joints. Null if the robot could not be built; values that depend on its joints are then not checked.
 using JointNames = const std::vector<std::string>*;
 
-/// Reader of one map. Visit the fields, then call finish(), which reports the keys that were not read. A field that is absent
-/// or wrong keeps its value.
+/// Reader of one map. After the visits of all fields, finish() reports the keys that were not read. A field keeps its value if
+/// its key is absent or invalid.
 class Reader final : public Fields {
  public:
-  /// `node` should be a map; for anything else a problem named `name` is added. The node and the problems must outlive the
-  /// reader. `folder`: base of relative file paths.
+  /// Reader of `node`, called `name` in messages. A node that is not a map is a problem. The node and the problems must outlive
+  /// the reader. Relative file paths start at `folder`.
   Reader(const Node& node, const std::string& name, Problems& problems, JointNames joints, std::string folder = {});
-  /// Reader of an absent map: every field keeps its default. `place`: place of the parent.
+  /// Reader of an absent map, with which every field keeps its default. `place` is that of the parent.
   Reader(const SourceLocation& place, Problems& problems, JointNames joints, std::string folder = {});
 
   void visit(const Field& field) override;
   void problem_at(const char* key, std::string_view name, std::size_t offset, std::string_view what) override;
 
-  /// Value of a key, or nullptr; the key then counts as known.
+  /// Value of a key, or null. The key then counts as known.
   const Node* take(const char* key);
   [[nodiscard]] bool has(const char* key) const { return map_->find(key) != nullptr; }
-  /// Reads a format version; false with a problem for any version except 1.
+  /// Reads a format version. Returns false, and adds a problem, for any version except 1.
   bool version(const char* key) { return version(key, 1) != 0; }
-  /// Reads a format version from 1 to `newest`: 1 if none is given, 0 with a problem.
+  /// Reads a format version from 1 to `newest`. Returns 1 if no version is given, and 0 with a problem for an invalid version.
   std::int64_t version(const char* key, std::int64_t newest);
-  /// Restricts reading to these keys; other fields keep their values.
+  /// Restricts reading to these keys. Fields with other keys keep their values.
   void only(std::vector<std::string> keys) { only_ = std::move(keys); }
-  /// Reports missing keys.
+  /// Reports each of these keys that is missing.
   void require(std::initializer_list<const char*> keys);
   /// Reports every key that was not read.
   void finish();
@@ -63,23 +63,23 @@ class Reader final : public Fields {
   bool read_one(const Node& node, const std::string& what, const Spec& spec, double& value);
   void read_each(const Node& node, const std::string& key, const Spec& spec, std::span<double> value);
   void read_each_joint(const Node& node, const char* key, const field::EachJoint& field);
-  /// For a field without a default: reports the first joint without a value.
+  /// Reports the first joint without a value, for a field without a default.
   void require_each(const char* key, const Node* node, const PerJoint& value);
   void read_joint_list(const Node& node, const std::string& key, const Spec& spec, PerJoint& value);
-  /// Whether every joint gets a value, by name, pattern or default.
+  /// Reads a map of values per joint. Returns true if every joint gets a value, by name, pattern or default.
   bool read_joint_map(const Node& node, const std::string& key, const Spec& spec, PerJoint& value);
   void read_named(const Node& node, const std::string& what, NamedValues kind, Named& value);
   void read_named_numbers(const Node& node, const std::string& what, PerJoint& value);
-  /// Number of a joint by its name, or -1 with a problem.
+  /// Number of a joint by its name, or -1 with a problem if the name is unknown.
   std::int64_t joint_number(const std::string& name, const SourceLocation& place);
 
-  Node empty_;  ///< replaces an absent map, or a value that is not a map
+  Node empty_;  ///< node used for an absent map, or for a value that is not a map
   const Node* map_;
   Problems& problems_;
   JointNames joints_;
   std::string folder_;
   std::vector<std::string> known_, only_;
-  bool tolerant_ = false;  ///< the set of known keys is uncertain
+  bool tolerant_ = false;  ///< true if the set of known keys is uncertain, so that unknown keys are not reported
 };
 
 }  // namespace gaitlab

@@ -1,4 +1,4 @@
-// The values of a Reader that name joints: a value per joint, and a joint itself.
+// The values of a Reader that depend on joints: a value per joint, and the name of a joint.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -58,13 +58,13 @@ namespace {
 
 using Key = std::pair<std::string, SourceLocation>;
 
-/// Entry of a map for a joint.
+/// Value that an entry of a map gives to a joint.
 struct Said {
-  const Key* key = nullptr;  ///< nullptr: nothing
+  const Key* key = nullptr;  ///< null if no entry gives a value
   double number = 0;
 };
 
-/// Reports two patterns with different values for a joint; `more`: number of further such joints.
+/// Reports two patterns that give different values to a joint. `more` is the number of further joints with this conflict.
 void report_clash(const std::string& joint, std::size_t more, const Said& first, const Key& key, double number,
                   Problems& problems) {
   problems
@@ -84,7 +84,8 @@ bool Reader::read_joint_map(const Node& node, const std::string& key, const Spec
   if (node.keys.size() > (common != nullptr ? 1U : 0U) && read.each.empty() && joints_ != nullptr) {
     read.each.assign(joints_->size(), read.common);
   }
-  std::vector<Said> said(joints_ == nullptr ? 0 : joints_->size());  // by name; else by pattern
+  // By joint: the entry with its name, or else with a pattern.
+  std::vector<Said> said(joints_ == nullptr ? 0 : joints_->size());
   std::vector<std::pair<const Key*, double>> patterns;
   for (std::size_t i = 0; i < node.keys.size(); ++i) {
     const auto& [name, place] = node.keys[i];
@@ -131,7 +132,7 @@ std::int64_t Reader::joint_number(const std::string& name, const SourceLocation&
 void Reader::on(const char* key, const field::Joint& field) {
   const Node* node = take(key);
   if (node == nullptr) {
-    // The default joint of a plugin may not exist in this robot; -1: none.
+    // The default joint of a plugin may not exist in this robot. A default of -1 means no joint.
     const bool beyond = joints_ != nullptr && field.value >= 0 && static_cast<std::size_t>(field.value) >= joints_->size();
     if (beyond && !tolerant_) problems_.add(map_->place, "missing key " + in_quotes(key));
     return;

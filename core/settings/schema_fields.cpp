@@ -7,12 +7,12 @@
 namespace gaitlab {
 namespace {
 
-/// Any scalar: a text need not be quoted, so that 8 and true are texts also.
+/// Schema of any scalar. A text need not be quoted, so that 8 and true are texts as well.
 Json scalar() { return {{"type", {"string", "number", "boolean"}}}; }
 
 Json bounded(const char* type, const Spec& spec) {
   Json json{{"type", type}};
-  // The smallest number above 0 means "more than 0".
+  // Ranges use the smallest number above 0 to mean "more than 0".
   if (spec.min == kPositive) {
     json["exclusiveMinimum"] = 0;
   } else if (std::isfinite(spec.min)) {
@@ -22,7 +22,7 @@ Json bounded(const char* type, const Spec& spec) {
   return json;
 }
 
-/// The first line shown by an editor: the sentence and the unit.
+/// Adds a description, which an editor shows first: the sentence and the unit.
 Json described(Json json, const char* about, const char* unit = "") {
   std::string text = about;
   if (*unit != '\0') text += (text.empty() ? "[" : " [") + std::string(unit) + "]";
@@ -84,7 +84,7 @@ void SchemaFields::on(const char* key, const char* about, const field::OneOf& fi
 
 void SchemaFields::on(const char* key, const char* about, const field::EachJoint& field) {
   const Json one = bounded("number", field.spec);
-  Json json = one;  // each rule below applies only to values of its type
+  Json json = one;  // each rule below applies only to values of the type in the rule
   json["type"] = {"number", "array", "object"};
   json["items"] = one;
   json["additionalProperties"] = one;
@@ -141,7 +141,7 @@ void SchemaFields::on(const char* key, const char* about, const field::Map& fiel
 
 void SchemaFields::on(const char* key, const char* about, const field::List& field) {
   const std::size_t size = field.size(field.self);
-  if (size == 0) field.resize(field.self, 1);  // an element with defaults, to be listed
+  if (size == 0) field.resize(field.self, 1);  // one element with its defaults, for the list of keys
   SchemaFields element;
   field.visit(field.self, 0, element);
   if (size == 0) field.resize(field.self, 0);

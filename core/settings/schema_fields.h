@@ -12,7 +12,7 @@ using Json = nlohmann::ordered_json;
 /// Schema of a map with exactly these keys.
 Json object_schema(Json properties);
 
-/// Visit fields, then take properties().
+/// Visitor of fields, after which properties() contains their schema.
 class SchemaFields final : public Fields {
  public:
   void visit(const Field& field) override;

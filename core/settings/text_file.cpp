@@ -17,8 +17,8 @@ namespace {
   throw InputError(asked_at, fmt::format("file '{}' {}", path, what));
 }
 
-/// Number of bytes of the UTF-8 character that starts at `at`; 0 if there is no valid character (also for overlong forms and
-/// surrogates).
+/// Number of bytes of the UTF-8 character that starts at `at`. It is 0 if there is no valid character; overlong forms and
+/// surrogates are invalid.
 std::size_t utf8_length(const std::string& text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
   const unsigned first = byte(at);
@@ -34,7 +34,7 @@ std::size_t utf8_length(const std::string& text, std::size_t at) {
   return overlong || outside ? 0 : length;
 }
 
-/// Error of the character at `at`, or empty.
+/// Error message about the character at `at`, or "".
 std::string bad_character(const std::string& text, std::size_t at) {
   const auto c = static_cast<unsigned char>(text[at]);
   if (c == '\t' || c == '\n') return {};
@@ -45,7 +45,7 @@ std::string bad_character(const std::string& text, std::size_t at) {
   return {};
 }
 
-/// Checks that a file is within a folder; false also if either path cannot be resolved.
+/// True if a file is within a folder; false if either path cannot be resolved.
 bool lies_in(const std::filesystem::path& file, const std::filesystem::path& folder) {
   std::error_code failure;
   const std::filesystem::path inner = std::filesystem::canonical(file, failure);
@@ -55,7 +55,7 @@ bool lies_in(const std::filesystem::path& file, const std::filesystem::path& fol
   return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
 }
 
-/// Checks that a line of the file begins with the key.
+/// True if a line of the file begins with the key of such files.
 bool says(const NamedFile& file) {
   if (file.key.empty()) return false;
   try {

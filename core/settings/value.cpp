@@ -11,7 +11,7 @@
 namespace gaitlab {
 namespace {
 
-/// "is FOUND; expected a KIND in UNIT": `kind` like "number", `how` an adjective or an addition at the end.
+/// Text "is FOUND; expected a KIND in UNIT". `before` precedes the kind, and `after` follows it.
 std::string expected(const Node& node, const std::string& before, const std::string& kind, const std::string& unit,
                      const std::string& after = {}) {
   return fmt::format("is {}; expected a {}{}{}{}", found(node), before, kind, unit.empty() ? "" : " in " + unit, after);
@@ -39,7 +39,7 @@ Reading<double> read_number(const Node& node, const std::string& unit) {
   double value = 0;
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool zero = text.find_first_of("123456789") >= std::min(text.find_first_of("eE"), text.size());
-  // Overflow and underflow are checked here: whether from_chars reports an underflow differs between library versions.
+  // Overflow and underflow are checked here, because versions of from_chars differ in their report of an underflow.
   if (failure == std::errc::result_out_of_range || !std::isfinite(value) || (value == 0 && !zero)) {
     return {0, fmt::format("is {}; expected a number that fits a double (0, or 5e-324 to 1.8e+308)", clipped(node.text))};
   }

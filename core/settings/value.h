@@ -1,4 +1,4 @@
-// Scalars read strictly, before any conversion.
+// Strict readers of scalars, which check the text before its conversion.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace gaitlab {
 
-/// A value, or an error as the rest of a sentence: `is 'fast'; expected a number in s`.
+/// A value, or an error message that continues a sentence, such as `is 'fast'; expected a number in s`.
 template <class T>
 struct Reading {
   T value = {};
@@ -15,12 +15,13 @@ struct Reading {
   [[nodiscard]] bool ok() const { return wrong.empty(); }
 };
 
-/// A finite decimal number. Refused: .nan, .inf, hexadecimal, octal, leading zeros, 1_000, quotes, overflow, underflow to 0.
+/// Reads a finite decimal number. Refuses .nan, .inf, hexadecimal, octal, leading zeros, 1_000, quotes, overflow, and underflow
+/// to 0.
 Reading<double> read_number(const Node& node, const std::string& unit);
 Reading<std::int64_t> read_integer(const Node& node);
-/// `true` or `false`, nothing else.
+/// Reads `true` or `false`, and refuses any other text.
 Reading<bool> read_flag(const Node& node);
-/// Any scalar.
+/// Reads any scalar as text.
 Reading<std::string> read_scalar(const Node& node);
 
 }  // namespace gaitlab

@@ -80,7 +80,7 @@ std::string wrapped(const std::string& text, std::size_t indent, std::size_t wid
       if (code) {
         line.insert(0, own + 8, ' ');
       } else if (begin < text.size() && text[begin] != ' ' && text[begin] != '\n') {
-        line += " " + take();  // the rest continues in the paragraph
+        line += " " + take();  // the rest of the line continues the paragraph
       }
     }
     out += (line.empty() ? "" : std::string(indent, ' ')) + line + "\n";
@@ -115,7 +115,8 @@ void add_all(const InputError& error, Problems& problems) {
 }
 
 bool is_name(const std::string& text, const std::string& also) {
-  const auto within = [](char c, char from, char to) { return c >= from && c <= to; };  // std::isalnum depends on the locale
+  // The function std::isalnum would depend on the locale.
+  const auto within = [](char c, char from, char to) { return c >= from && c <= to; };
   const auto fits = [&](char c) {
     return within(c, 'a', 'z') || within(c, 'A', 'Z') || within(c, '0', '9') || also.find(c) != std::string::npos;
   };

@@ -46,7 +46,7 @@ void Writer::on(const char* key, const field::Flag& field) { add(key, scalar_nod
 void Writer::on(const char* key, const field::Text& field) { add(key, text_node(field.value)); }
 
 void Writer::on(const char* key, const field::File& field) {
-  // A text on one line would be read as a path.
+  // The reader would take a text on one line for a path.
   add(key, scalar_node(field.value.find('\n') == std::string::npos ? field.value + "\n" : field.value, true));
 }
 
@@ -58,7 +58,7 @@ void Writer::on(const char* key, const field::EachJoint& field) {
 }
 
 void Writer::on(const char* key, const field::Joint& field) {
-  // A number that is not a joint's means "none" to its plugin; it is the default and can be omitted.
+  // A plugin reads an invalid joint number as "none". This number is the default, so that the key can be omitted.
   if (field.value < 0 || static_cast<std::size_t>(field.value) >= joints_.size()) return;
   add(key, text_node(joints_[static_cast<std::size_t>(field.value)]));
 }

@@ -1,4 +1,4 @@
-// Writer of Settings structs as maps, with every default in full: the resolved scenario.
+// Writer of Settings structs as YAML maps that contain every default, for the resolved scenario.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 namespace gaitlab {
 
 Node scalar_node(std::string text, bool quoted = false);
-/// Node of a text: quoted if a reader could take it for something else.
+/// Node of a text, in quotes if a reader could mistake the text for another type.
 Node text_node(const std::string& text);
 /// Node of a list on one line.
 Node numbers_node(std::span<const double> values);
@@ -17,7 +17,7 @@ Node numbers_node(std::span<const double> values);
 /// Writer of one map, filled by visiting fields.
 class Writer final : public Fields {
  public:
-  /// Joints are written by name.
+  /// `joints` are the joint names, by which joints are written.
   explicit Writer(const std::vector<std::string>& joints) : joints_(joints) { map_.kind = Node::Kind::map; }
 
   void visit(const Field& field) override;

@@ -1,4 +1,4 @@
-// print_yaml: a Node as YAML text that parse_yaml reads back.
+// print_yaml(), which prints a Node as YAML text that parse_yaml() reads back.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,8 @@ bool is_null_text(const std::string& text) {
   return text.empty() || text == "~" || text == "null" || text == "Null" || text == "NULL";
 }
 
-/// Whether a reader takes the bare text for this scalar. In a list or map on one line more characters have a meaning.
+/// True if a reader takes the text without quotes for this scalar. In a list or map on one line, more characters have a
+/// meaning.
 bool plain_safe(const std::string& text, bool in_flow) {
   if (is_null_text(text) || text.front() == ' ' || text.back() == ' ' || text.back() == ':') return false;
   if (std::string("?:,[]{}#&*!|>'\"%@`").find(text.front()) != std::string::npos) return false;
@@ -50,7 +51,7 @@ std::string scalar(const std::string& text, bool quoted, bool in_flow) {
   return !quoted && plain_safe(text, in_flow) ? text : double_quoted(text);
 }
 
-/// A key is quoted like a scalar in brackets: a colon must not end it early.
+/// Text of a key, quoted like a scalar in brackets, because a colon must not end it early.
 std::string key_text(const std::string& key) { return scalar(key, false, true); }
 
 std::string flow(const Node& node) {
@@ -76,7 +77,7 @@ bool is_block(const Node& node) {
   return (node.kind == Node::Kind::list || node.kind == Node::Kind::map) && !node.flow && !node.items.empty();
 }
 
-/// Whether a block after `|` can hold the lines unchanged; a first line that begins with a space cannot.
+/// True if a block after `|` can contain the lines unchanged; a first line that begins with a space cannot.
 bool fits_block(const Node& node) {
   const std::string& text = node.text;
   if (node.kind != Node::Kind::scalar || !node.quoted || text.find('\n') == std::string::npos) return false;
@@ -88,7 +89,7 @@ bool fits_block(const Node& node) {
   });
 }
 
-/// The lines of a block, below its key.
+/// The lines of a block, to be printed below its key.
 std::string block(const std::string& text, int indent) {
   const std::string margin(static_cast<std::size_t>(indent), ' ');
   std::string out = text.ends_with('\n') ? "|\n" : "|-\n";
@@ -114,7 +115,7 @@ std::string print_yaml(const Node& node, int indent) {
   for (std::size_t i = 0; i < node.items.size(); ++i) {
     const Node& item = node.items[i];
     if (node.kind == Node::Kind::list) {
-      // The item's own text, its first line's margin replaced by the dash.
+      // The text of the item. A dash replaces the margin of its first line.
       out += margin + "- " + print_yaml(item, indent + 2).substr(margin.size() + 2);
     } else if (fits_block(item)) {
       out += margin + key_text(node.keys[i].first) + ": " + block(item.text, indent + 2);

@@ -13,7 +13,8 @@ namespace {
 
 using LaneGroup = std::vector<std::size_t>;  ///< indices of waiting rollouts
 
-/// Number of lanes for `left` remaining rollouts: the smallest width that holds all of them, else the largest, at most `most`.
+/// Number of lanes for `left` remaining rollouts: the smallest width that is enough for all of them, else the largest width up
+/// to `most` (0 means no bound).
 std::size_t width(std::span<const std::size_t> widths, std::size_t left, std::size_t most) {
   std::size_t best = widths.front();
   for (const std::size_t lanes : widths) {
@@ -24,13 +25,13 @@ std::size_t width(std::span<const std::size_t> widths, std::size_t left, std::si
   return best;
 }
 
-/// Queue of rollouts that wait to run; threads take packs from it.
+/// Queue of waiting rollouts, from which threads take lane groups.
 class Waiting {
  public:
   Waiting(const BatchStream& stream, const BatchSettings& settings, std::size_t look_ahead)
       : stream_(stream), settings_(settings), look_ahead_(look_ahead) {}
 
-  /// Rollouts that share lanes, in the order of next(); empty when all were given.
+  /// Takes out rollouts that can share lanes, in the order of next(). Empty after the last rollout.
   std::vector<Rollout> take() {
     const std::lock_guard lock(mutex_);
     while (more_ && waiting_.size() < look_ahead_) {
@@ -54,7 +55,7 @@ class Waiting {
   }
 
  private:
-  /// Size of a pack for which all threads have work: the last rollouts are divided among them.
+  /// Number of rollouts per thread, so that the last rollouts are divided among all threads.
   [[nodiscard]] std::size_t fair(std::size_t left) const {
     const auto threads = static_cast<std::size_t>(std::max(1, settings_.threads));
     return more_ ? left : (left + threads - 1) / threads;
@@ -68,7 +69,7 @@ class Waiting {
   bool more_ = true;
 };
 
-/// Runs one rollout alone; false: stopped.
+/// Runs one rollout alone. Returns false if stopped.
 bool run_alone(RolloutEnd& end, const BatchStream& stream, Records records, const std::atomic<bool>& stop) {
   try {
     Simulation simulation({&end.rollout.scenario, 1}, records);
@@ -87,7 +88,7 @@ bool run_alone(RolloutEnd& end, const BatchStream& stream, Records records, cons
   return true;
 }
 
-/// Runs a whole pack; false: stopped.
+/// Runs a lane group. Returns false if stopped.
 bool run_pack(std::vector<RolloutEnd>& pack, const BatchStream& stream, const BatchSettings& settings, Records records,
               const std::atomic<bool>& stop) {
   if (pack.size() > 1) {
@@ -105,7 +106,7 @@ bool run_pack(std::vector<RolloutEnd>& pack, const BatchStream& stream, const Ba
       if (!simulation.run({}, &stop)) return false;
       for (std::size_t l = 0; l < pack.size(); ++l) pack[l].recording = simulation.take_recording(l);
       return true;
-    } catch (const RunError&) {  // an error of one lane or of what all share: run_alone reports it for each rollout
+    } catch (const RunError&) {  // run_alone runs each rollout again and reports its error
     } catch (const InputError&) {
     }
   }

@@ -1,4 +1,4 @@
-// The integrator of a CPG's states between control ticks.
+// Integrator of the states of a CPG between control ticks.
 #pragma once
 #include <cstdint>
 
@@ -7,12 +7,13 @@
 
 namespace gaitlab {
 
-/// Classical Runge-Kutta of order 4 with a fixed sub-step; stable up to h |lambda| = 2.8. Allocates only at construction.
+/// Classical Runge-Kutta method of order 4 with a fixed sub-step h. It is stable for h |lambda| <= 2.8, where lambda is an
+/// eigenvalue of the Jacobian of the CPG. Allocates only at construction.
 class CpgIntegrator {
  public:
   explicit CpgIntegrator(std::size_t states) : method_(states) {}
 
-  /// Advances `state` from t by `steps` sub-steps of h, s. measured(t): the inputs at t.
+  /// Advances `state` from time t by `steps` sub-steps of h (t and h in s). measured(t) returns the inputs at time t.
   template <class MeasuredAt>
   void advance(const Cpg& cpg, Out state, double t, std::int64_t steps, double h, const MeasuredAt& measured) {
     for (std::int64_t i = 0; i < steps && !state.empty(); ++i) {

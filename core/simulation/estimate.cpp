@@ -1,4 +1,4 @@
-// Companion rollouts of a run, for the estimate of its torque error: their scenarios, steps and comparison.
+// Companion rollouts of a run, with which its torque error is estimated: scenarios, steps and comparison.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,16 +14,16 @@ namespace {
 
 constexpr double kEventShare = 0.01;  // event threshold, as a share of a torque's peak, for integrators without an accuracy
 constexpr double kChaotic = 1e-9;     // relative change of gravity
-/// Factors on a torque difference, by Companion.
+/// Factors by which torque differences are multiplied, by Companion.
 constexpr std::array<double, kDifferences> kFactors{StepError::kOfFiner, StepError::kOfCoarser, 1, 1000};
 
-/// Number of steps of h in the whole control periods that `seconds` needs.
+/// Number of steps h in `seconds`, rounded up to whole control periods.
 std::int64_t whole_periods(double seconds, double h, std::int64_t control_every) {
   const double periods = seconds / (h * static_cast<double>(control_every));
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(periods - 1e-9))) * control_every;
 }
 
-/// Companions of a run with an accuracy.
+/// Scenarios of the companions of a run with an accuracy.
 std::vector<Scenario> companions(const Scenario& s) {
   std::vector<Scenario> all(kCompanions, s);
   all[static_cast<std::size_t>(Companion::twin)].physics.accuracy *= StepError::kFiner;
@@ -47,8 +47,8 @@ std::vector<Scenario> Simulation::side_by_side(std::span<const Scenario> lanes, 
   return all;
 }
 
-/// Comparison times: over the whole run every kApart or less if the integrator has an accuracy, in windows if the step is
-/// fixed.
+/// Comparison times. If the integrator has an accuracy, they cover the whole run at intervals of at most kApart. If the step is
+/// fixed, they are in windows.
 TwinWindows Simulation::twin_windows() const {
   const Physics& physics = scenarios_[0].physics;
   const std::int64_t control_every = math::steps_in(scenarios_[0].control_period, h_);
@@ -58,7 +58,7 @@ TwinWindows Simulation::twin_windows() const {
   }
   if (physics.adapts()) return how;
   const double ratio = 1 << physics.integrator->order;
-  // With an explicit method twice the step may be unstable.
+  // With an explicit method, a step of twice the length may be unstable.
   const bool longer = control_every % 2 == 0 && !(standing_.rate > 0);
   how.steps = longer ? 2 : -2;
   how.factor = (longer ? 1 : ratio) * StepError::kSafety / (ratio - 1);
@@ -68,9 +68,9 @@ TwinWindows Simulation::twin_windows() const {
   return how;
 }
 
-/// Companions that are separate simulations. With a fixed step: one twin with as many lanes as the run, compared in windows.
-/// With an accuracy the companions are lanes of the run's pack or, on a processor without such lanes, simulations of one lane
-/// each; the bits are the same.
+/// Companions that are separate simulations. With a fixed step there is one twin, with as many lanes as the run, compared in
+/// windows. With an accuracy, the companions are lanes of the lane group of the run. On a processor without such lanes, they
+/// are simulations of one lane each, with the same bits.
 std::vector<std::unique_ptr<Simulation>> Simulation::rollouts_apart() const {
   std::vector<std::unique_ptr<Simulation>> all;
   const auto add = [&](std::span<const Scenario> lanes) {
@@ -88,8 +88,8 @@ std::vector<std::unique_ptr<Simulation>> Simulation::rollouts_apart() const {
   return all;
 }
 
-/// Sets up the estimate if there are motors and the state can be copied. Several runs with an accuracy side by side are not
-/// estimated: each would need a pack of lanes for itself.
+/// Sets up the estimate if there are motors and the state can be copied. Several runs with an accuracy side by side have no
+/// estimate, because each would need a lane group for itself.
 void Simulation::make_estimate() {
   const Physics& physics = scenarios_[0].physics;
   const bool wanted = std::ranges::any_of(scenarios_, [](const Scenario& s) { return s.physics.estimate == Estimate::full; });
@@ -104,7 +104,7 @@ void Simulation::make_estimate() {
   const StateLayout layout{layout_.joints, recorded_};
   step_error_ = std::make_unique<StepError>(layout, accuracy);
 
-  // One array for all changing numbers: this simulation's, the sums', the separate companions'.
+  // One array for all changing numbers: numbers of this simulation, of step_error_ and of the separate companions.
   const std::size_t own = own_.size();
   const std::size_t sums = StepError::size(layout);
   std::size_t size = own + sums;
@@ -121,7 +121,7 @@ void Simulation::make_estimate() {
   numbers_ = std::move(numbers);
 }
 
-/// Before a step: at the start of a window the twin takes over this state.
+/// Copies the present state to the twin if a window starts. Called before a step.
 void Simulation::begin_window() {
   if (!how_.begins(step_number())) return;
   Simulation& twin = *apart_.front();
@@ -136,7 +136,7 @@ In Simulation::torques_now() {
   return torque_;
 }
 
-/// After a step, before it is counted.
+/// Advances the companions and compares torques. Called after a step, before the step counter advances.
 void Simulation::estimate() {
   const std::int64_t step = step_number();
   const std::int64_t at = how_.at(step);
@@ -165,7 +165,8 @@ void Simulation::estimate_in_window(bool asked, double t) {
   step_error_->compare(Companion::twin, apart_.front()->torques_now(), how_.factor, weight, t);
 }
 
-/// step() of a companion: records nothing; a lane that diverges or whose plugin throws stops and stays at its initial state.
+/// Advances a companion by `times` steps without recording. A lane that diverges or whose plugin throws stops and stays at its
+/// initial state.
 void Simulation::step_companion(int times) try {
   for (int i = 0; i < times; ++i) {
     if (any(&Simulation::control_tick)) {

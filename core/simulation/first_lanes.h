@@ -1,4 +1,4 @@
-// Entries of the first lanes of a pack, of arrays joint * lanes + lane.
+// Entries of the first lanes of a lane group, in arrays with index joint * lanes + lane.
 #pragma once
 #include <array>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace gaitlab {
 
-/// Copies of these entries, in a slot that the caller names, or the arrays themselves if all lanes are wanted. The methods
-/// allocate nothing.
+/// Extracts the entries of the first lanes. The result is a copy in the slot `Place`, or the array itself if all lanes are
+/// wanted. The methods allocate nothing.
 class FirstLanes {
  public:
   enum Place { torque, speed, angle, setpoint, voltage, current, saturation, power_in, copper, gear, available, places };
@@ -20,7 +20,7 @@ class FirstLanes {
   [[nodiscard]] bool all() const { return lanes_ == layout_.lanes; }
   In of(In values, Place place) { return all() ? values : In(copy(values, 0, copies_[place])); }
   Out of(Out values, Place place) { return all() ? values : copy(values, 0, copies_[place]); }
-  /// Entries of the same number of lanes, from `lane` on.
+  /// Copies the entries of the same number of lanes, beginning with lane `lane`, into the slot `torque`.
   In from(In values, std::size_t lane) { return copy(values, lane, copies_[torque]); }
 
  private:

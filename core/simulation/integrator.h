@@ -1,4 +1,4 @@
-// Explicit time integration, written once over a plant's accelerations.
+// Explicit time integrators of the motion of a robot.
 #pragma once
 #include <array>
 #include <vector>
@@ -8,10 +8,12 @@
 
 namespace gaitlab {
 
-/// semi_implicit: v+ = v + h a(q, v), q+ = q (+) h v+ (order 1, symplectic for conservative forces); rk4: the classical
-/// Runge-Kutta method (order 4), the orientation as a quaternion q' = (0, omega) q / 2 normalised after the step. Both are
-/// explicit: for damping of rate lambda they are stable up to h lambda = 2 and 2.8; gaitlab requires h lambda <= 1.
-/// `accelerate(state, weight, out)` is called once with weight 1, or four times with 1/6, 1/3, 1/3, 1/6. No allocation in step.
+/// Method semi_implicit: v+ = v + h a(q, v), q+ = q (+) h v+, of order 1, symplectic for conservative forces. The operator (+)
+/// turns an orientation by a rotation vector. Method rk4: the classical Runge-Kutta method of order 4. It integrates the
+/// orientation as a quaternion, q' = (0, omega) q / 2, which is normalised after the step. For damping of rate lambda,
+/// semi_implicit is stable up to h lambda = 2 and rk4 up to 2.8; gaitlab requires h lambda <= 1. `accelerate(state, weight,
+/// out)` is called once with weight 1 (semi_implicit), or four times with weights 1/6, 1/3, 1/3, 1/6 (rk4). step() allocates
+/// nothing.
 class ExplicitIntegrator {
  public:
   enum Method { semi_implicit, rk4 };
@@ -35,7 +37,7 @@ class ExplicitIntegrator {
     }
   }
 
-  /// Positions from the velocities of s: q+ = q (+) h v.
+  /// Advances the positions of s with the velocities of s: q+ = q (+) h v.
   static void drift(RobotState& s, double h) {
     s.position += h * s.velocity;
     s.orientation = (turn(h * s.angular_velocity) * s.orientation).normalized();
@@ -49,10 +51,10 @@ class ExplicitIntegrator {
     for (std::size_t j = 0; j < s.q.size(); ++j) s.qd[j] += h * a.joints[j];
   }
 
-  /// q' = (0, omega) q / 2, as coefficients to be summed.
+  /// Derivative of an orientation: q' = (0, omega) q / 2. Its coefficients are to be summed; it has no unit length.
   static Quat spin(const Vec3& omega, const Quat& q) { return Quat(0, 0.5 * omega.x(), 0.5 * omega.y(), 0.5 * omega.z()) * q; }
 
-  /// s = start + h * (velocities of `at`, a). The orientation of `at` need not have unit length: an RK4 stage has not.
+  /// s = start_ + h * (velocities of `at`, a). The orientation of `at` need not have unit length, because stages of RK4 do not.
   void from_start(RobotState& s, const RobotState& at, const Acceleration& a, double h) const {
     s.position = start_.position + h * at.velocity;
     s.orientation.coeffs() = start_.orientation.coeffs() + h * spin(at.angular_velocity, at.orientation).coeffs();
@@ -64,7 +66,7 @@ class ExplicitIntegrator {
     }
   }
 
-  /// rate += weight * derivative at `at`.
+  /// rate_ += weight * derivative at `at`.
   void accumulate(const RobotState& at, const Acceleration& a, double weight) {
     rate_.position += weight * at.velocity;
     rate_.orientation.coeffs() += weight * spin(at.angular_velocity, at.orientation).coeffs();
@@ -83,7 +85,8 @@ class ExplicitIntegrator {
     start_ = s;
     clear(rate_);
     for (std::size_t i = 0; i < 4; ++i) {
-      // The dynamics use a unit quaternion; the stage keeps its own length, without which the method would lose its order.
+      // The dynamics use a unit quaternion. The stage keeps its unnormalised quaternion; otherwise the method would lose its
+      // order.
       const Quat raw = s.orientation;
       s.orientation.normalize();
       accelerate(s, kWeight[i], a_);

@@ -1,4 +1,4 @@
-// One rollout within a simulation: everything that is not an array over lanes.
+// Data of one rollout in a simulation, except arrays over all lanes.
 #pragma once
 #include <memory>
 #include <string>
@@ -37,7 +37,7 @@ struct Simulation::Lane {
 
   [[nodiscard]] Measured measured(double t) const { return {t, scenario.control_period, angle, speed, torque, touching}; }
 
-  /// CPG states from t to t + Ts, inputs held.
+  /// Advances the CPG states from t to t + Ts with constant inputs. Ts is the control period.
   void integrate_cpg(double t) {
     integrator.advance(*cpg, cpg_state, t, math::steps_in(scenario.control_period, scenario.cpg_step), scenario.cpg_step,
                        [&](double at) { return measured(at); });
@@ -47,18 +47,18 @@ struct Simulation::Lane {
   const Robot& robot;
   std::size_t index;
   LaneClock clock;
-  bool closed = false;  ///< its recording is complete
+  bool closed = false;  ///< the recording of the lane is complete
   Outcome outcome;
   std::vector<ContactElement> contacts;
   std::vector<std::size_t> passive = {};  ///< joints without a motor
   std::unique_ptr<Cpg> cpg;
   std::unique_ptr<Controller> controller;
-  Out cpg_state, controller_state, ledger;                                       // parts of the one state array
+  Out cpg_state, controller_state, ledger;                                       // parts of Simulation::state_
   double energy_at_start = 0;                                                    // J
-  std::vector<double> angle, speed, torque, touching, setpoint, command, limit;  // one lane, contiguous, as plugins take them
+  std::vector<double> angle, speed, torque, touching, setpoint, command, limit;  // by joint (touching: by module), for plugins
   Sample sample;
   CpgIntegrator integrator;
-  std::unique_ptr<Recorder> recorder;  ///< nullptr: it goes beside a run
+  std::unique_ptr<Recorder> recorder;  ///< nullptr for a companion (step_error.h)
 };
 
 }  // namespace gaitlab

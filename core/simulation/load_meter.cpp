@@ -13,14 +13,14 @@ namespace gaitlab {
 
 namespace {
 
-constexpr double kLoaded = 0.005;  // of the weight: smaller loads are the flicker of a foot that lifts off
+constexpr double kLoaded = 0.005;  // share of the weight; smaller loads occur while a foot lifts off
 
 enum FootColumn : std::size_t {
   kFootForce,
   kFootPoint = 3,
   kFootSlid = 6,
   kFootColumns
-};  // Loads::judged has the column slid alone
+};  // with Loads::judged, `slid` is the only column
 
 double level(const Vec3& v) { return std::sqrt(v.x() * v.x() + v.y() * v.y()); }
 
@@ -32,7 +32,7 @@ bool states_what_docks_hold(const Robot& robot) {
   return false;
 }
 
-/// Rounds to single precision: seven digits exceed the accuracy of the contact law, and halve the bytes of a trace file.
+/// Rounds to single precision. Seven digits exceed the accuracy of the contact law and halve the size of a trace file.
 double single(double value) { return static_cast<double>(static_cast<float>(value)); }
 
 }  // namespace
@@ -111,7 +111,7 @@ void LoadMeter::measure(Foot& foot, Out row) {
   Vec3 force = Vec3::Zero();
   Vec3 point = Vec3::Zero();
   double load = 0;
-  double loads = 0;  // sum of both ticks' loads
+  double loads = 0;  // sum of the loads at both ticks
   double way = 0;
   for (const std::size_t e : foot.elements) {
     const ContactSample& contact = sample_.contacts[e];

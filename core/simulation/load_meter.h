@@ -9,19 +9,19 @@
 
 namespace gaitlab {
 
-/// Fills the rows of Recording::loads, one after the other. Definitions: docs/conventions.md, "Loads".
+/// Computes the rows of Recording::loads in the order of time. Definitions: docs/conventions.md, "Loads".
 class LoadMeter {
  public:
-  /// `wanted` is not left_out.
+  /// `wanted` must not be Loads::left_out.
   LoadMeter(const Scenario& scenario, const std::vector<ContactElement>& elements, Loads wanted);
 
   [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
-  /// Sample to be measured. The caller fills t, state, kinematics, sums and contacts, and the reactions if want_reactions().
+  /// Sample to measure. The caller fills its t, state, kinematics, sums and contacts, and the reactions if want_reactions().
   Sample& sample() { return sample_; }
-  /// Whether the sample needs reactions: there are columns of docks. With contact.law bullet there are none, because not all
-  /// contact forces are known.
+  /// True if the sample needs reactions, which the columns of docks require. With contact.law bullet there are no such columns,
+  /// because not all contact forces are known.
   [[nodiscard]] bool want_reactions() const { return !docks_.empty(); }
-  /// Computes a row from the sample; path lengths continue from the row before.
+  /// Computes a row from the sample. Path lengths are sums since the first row.
   void measure(Out row);
   /// Removes the columns of feet that never carried a load.
   void drop_idle_feet(Trace& loads) const;
@@ -30,26 +30,26 @@ class LoadMeter {
   /// Face of the parent to which module `module` is docked.
   struct DockFace {
     std::size_t module = 0, link = 0;
-    Vec3 normal = Vec3::Zero();  ///< link frame
+    Vec3 normal = Vec3::Zero();  ///< outward normal of the face, link frame
   };
   /// A body with contact elements, and its load and slip so far.
   struct Foot {
     std::size_t body = 0;
     std::vector<std::size_t> elements;
-    double load = 0;            ///< N, at the tick before
-    double slid = 0;            ///< m
-    Vec3 point = Vec3::Zero();  ///< m, where the load acts
+    double load = 0;            ///< N, at the previous tick
+    double slid = 0;            ///< slip distance, m
+    Vec3 point = Vec3::Zero();  ///< point of action of the load, m
     bool idle = true;
   };
-  /// A contact element at the tick before.
+  /// State of a contact element at the previous tick.
   struct Before {
     double fn = 0;
-    Vec3 in_link = Vec3::Zero();  ///< the material point that touched
+    Vec3 in_link = Vec3::Zero();  ///< material point that touched the ground, link frame
   };
 
   void add_columns(const Scenario& scenario);
-  /// Distance by which the element's contact point has moved over the ground since the last tick, m: the point that touched
-  /// then, or else the one that touches now.
+  /// Horizontal distance by which the contact point of an element moved since the previous tick, m. The material point that
+  /// touched the ground at the previous tick is used, or the present one if none touched then.
   [[nodiscard]] double slide(std::size_t element) const;
   [[nodiscard]] std::size_t foot_width() const;
   void measure(Foot& foot, Out row);

@@ -70,7 +70,7 @@ void Meter::add(double time, const StepEffort::Part& part, In setpoint, const Ac
   add(pass, rest, whole);
 }
 
-/// Runs the pass over entries from `from` on, with inputs of these entries.
+/// Runs the pass over the entries that start at `from`. The input arrays start at the same entry.
 void Meter::add(MeterPass pass, const std::array<const double*, kInputs>& inputs, std::size_t from) {
   const auto [angle, speed, torque, setpoint, voltage, current, saturation, power_in, copper, gear, available] = inputs;
   pass.in = {angle, speed, torque, setpoint, voltage, current, saturation, power_in, copper, gear, available};

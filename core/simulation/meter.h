@@ -1,4 +1,4 @@
-// Sums and peaks over ALL steps of a run, joint by joint; the trace rows are too sparse for them.
+// Sums and peaks of each joint over ALL steps of a run; the trace rows are too sparse for them.
 #pragma once
 #include <array>
 #include <vector>
@@ -10,14 +10,14 @@
 
 namespace gaitlab {
 
-/// Accumulates statistics elementwise over joint * lanes + lane. add() allocates nothing.
+/// Accumulates statistics in arrays with index joint * lanes + lane. add() allocates nothing.
 class Meter {
  public:
   explicit Meter(std::span<const Scenario> lanes);
 
-  /// Adds one part of the step that starts at `time` (s): motion, torque and the actuator law there. available: the largest
-  /// torque that the actuator has in that direction at that speed, N m; infinity: no limit. measured: one number per lane, 1 if
-  /// the part counts, else 0.
+  /// Adds one part of the step that starts at `time` (s). `report` contains the quantities of the actuator law in that part.
+  /// `available` is the largest torque of the actuator at the speed of the joint, in the direction of the torque, N m; infinity
+  /// if there is no limit. `measured` has one number per lane: 1 if the part counts, else 0.
   void add(double time, const StepEffort::Part& part, In setpoint, const Actuator::Electrical& report, In available,
            In measured);
   [[nodiscard]] JointStatistics statistics(std::size_t joint, std::size_t lane) const;
@@ -25,22 +25,24 @@ class Meter {
   void tick(std::size_t lane, Out row);
 
  private:
-  static constexpr std::size_t kInputs = 11;  ///< inputs of a pass
+  static constexpr std::size_t kInputs = 11;  ///< number of input arrays of a pass
   void add(MeterPass pass, const std::array<const double*, kInputs>& inputs, std::size_t from);
 
-  // All arrays have a length of whole blocks (kMeterBlock); elements behind the entries stay 0.
+  // The length of all arrays is a multiple of kMeterBlock; elements after the last entry stay 0.
   std::vector<double> driven_;
   std::vector<double> lo_, hi_;
-  std::array<std::vector<double>, kJointStatistics.size()> sums_;  // plain loops over all joints and lanes
-  // Peaks since the last tick: N m, rad, saturation at that torque, rad/s, share of the available torque, V, A.
+  std::array<std::vector<double>, kJointStatistics.size()> sums_;  // one array per statistic
+  // Peaks since the last tick: torque (N m), error (rad), saturation at the torque peak, speed (rad/s), share of the available
+  // torque, voltage (V), current (A).
   std::vector<double> recent_peak_, recent_error_, recent_limit_, recent_speed_, recent_envelope_, recent_voltage_,
       recent_current_;
   std::size_t lanes_, entries_;
   void (*pass_)(const MeterPass&);
-  std::vector<double> time_;  ///< simulated time of each lane, s: only a divisor
-  // Scratch, joint * lanes + lane: weights; 1 where the part is the motion itself.
+  std::vector<double> time_;  ///< simulated time of each lane, s, by which sums are divided
+  // Scratch with index joint * lanes + lane: weights in sums and in shares of time (s); seen_ is 1 if the peaks of the part
+  // count, else 0.
   std::vector<double> weight_, share_, seen_;
-  std::array<std::array<double, kMeterBlock>, kInputs> rest_{};  // inputs of the last block, if it is not whole
+  std::array<std::array<double, kMeterBlock>, kInputs> rest_{};  // inputs of the last block if the entries do not fill it
 };
 
 }  // namespace gaitlab

@@ -1,5 +1,6 @@
-// The pass of core/simulation/meter_pass.h over `Lanes`, the vector type of the including file. Elementwise: the bits do not
-// depend on its width. No function here may be compiled by another file also (tests/gates/kernels.sh).
+// Pass of core/simulation/meter_pass.h for the vector type `Lanes` of the including file. All operations are elementwise, so
+// that the bits do not depend on the vector width. Compiled functions must not be shared with files for other processor types
+// (tests/gates/kernels.sh).
 #pragma once
 #include "core/recording/motor_limit.h"
 #include "core/simulation/meter_pass.h"
@@ -23,13 +24,13 @@ inline Lanes load(const double* from) {
   return x;
 }
 inline void store(double* to, const Lanes& x) { __builtin_memcpy(to, &x, sizeof(x)); }
-// Same results as std::max and std::abs, also for NaN.
+// larger() and magnitude() have the same results as std::max and std::abs, also for NaN.
 inline Lanes larger(const Lanes& a, const Lanes& b) { return a < b ? b : a; }
 inline Lanes magnitude(const Lanes& x) { return x <= 0 ? 0 - x : x; }
 inline void raise(double* to, const Lanes& value) { store(to, larger(load(to), value)); }
 inline void add(double* to, const Lanes& value) { store(to, load(to) + value); }
 
-/// Processes the entries from `at` on, one per vector element.
+/// Processes the entries of one vector, the first of which is entry `at`.
 inline void add_lanes(const MeterPass& p, std::size_t at) {
   using F = JointStatistics;
   const Lanes zero = {};
@@ -53,7 +54,7 @@ inline void add_lanes(const MeterPass& p, std::size_t at) {
   if (p.some) {
     const Lanes torque_now = seen * magnitude(torque);
     const Lanes apart_now = seen * apart;
-    // Called before the peak itself is updated.
+    // Stores the time of a new peak. Called before the peak itself is updated.
     const auto first = [&](std::size_t when, std::size_t of, const Lanes& now) {
       double* const to = sum_of(when);
       store(to, now > kLarger * load(sum_of(of)) ? zero + p.time : load(to));

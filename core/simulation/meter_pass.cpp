@@ -1,4 +1,4 @@
-// Two entries at once: every x86-64 has such registers.
+// Meter pass with registers of two entries, which every x86-64 processor has.
 namespace {
 typedef double Lanes __attribute__((vector_size(16)));  // NOLINT(modernize-use-using): takes no attribute
 }

@@ -1,4 +1,5 @@
-// One part of a step into the sums and peaks of Meter: plain arrays, for code that is compiled once per processor type.
+// Pass that adds one part of a step to the sums and peaks of Meter, with plain arrays for code that is compiled per processor
+// type.
 #pragma once
 #include <cstddef>
 
@@ -6,10 +7,10 @@
 
 namespace gaitlab {
 
-/// Number of entries that a pass takes at once: doubles in the widest registers, so that no pass has a remainder.
+/// Number of doubles in the widest registers. All arrays have a multiple of this length, so that no pass has a remainder.
 inline constexpr std::size_t kMeterBlock = 8;
 
-/// Arrays of `entries` elements, a multiple of kMeterBlock; their meaning: Meter::add.
+/// Arrays with `entries` elements, a multiple of kMeterBlock. Meter::add explains their meaning.
 struct MeterPass {
   std::size_t entries = 0;
   double time = 0;  ///< start of the step, s
@@ -18,15 +19,15 @@ struct MeterPass {
     const double *angle, *speed, *torque, *setpoint;
     const double *voltage, *current, *saturation, *power_in, *copper, *gear, *available;
   } in = {};
-  const double *lo = nullptr, *hi = nullptr, *driven = nullptr;       ///< rad; 1: the joint has a motor, else 0
-  const double *weight = nullptr, *share = nullptr, *seen = nullptr;  ///< s; s; 1 if the part is on the motion itself, else 0
+  const double *lo = nullptr, *hi = nullptr, *driven = nullptr;  ///< lo, hi: rad; driven: 1 for a joint with a motor, else 0
+  const double *weight = nullptr, *share = nullptr, *seen = nullptr;  ///< weight, share: s; seen: 1 if peaks count, else 0
   double* sums[kJointStatistics.size()] = {};
   struct {
     double *peak, *error, *limit, *speed, *envelope, *voltage, *current;
-  } recent = {};  ///< since the last tick
+  } recent = {};  ///< peaks since the last tick
 };
 
 void add_pass(const MeterPass& pass);
-void add_pass_avx2(const MeterPass& pass);  ///< the same bits, for a processor with AVX2
+void add_pass_avx2(const MeterPass& pass);  ///< add_pass for a processor with AVX2, with the same bits
 
 }  // namespace gaitlab

@@ -1,4 +1,4 @@
-// Four entries at once, for processors with AVX2.
+// Meter pass with registers of four entries, for processors with AVX2.
 namespace {
 typedef double Lanes __attribute__((vector_size(32)));  // NOLINT(modernize-use-using): takes no attribute
 }

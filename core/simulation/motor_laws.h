@@ -1,15 +1,15 @@
-// Motor laws as an engine evaluates them itself, several lanes at once.
+// Motor laws that an engine evaluates itself for several lanes at once.
 #pragma once
 #include "core/plugin/actuator.h"
 
 namespace gaitlab {
 
-/// Both functions return false where the engine leaves this actuator to evaluate its own laws.
+/// Both functions return false if the engine does not implement the laws of this actuator.
 class MotorLaws {
  public:
-  /// As Actuator::electrical.
+  /// Computes the quantities of Actuator::electrical.
   virtual bool evaluate_motors(In command, In speed, const Actuator::Electrical& out) = 0;
-  /// The most torque that DC motors have at these speeds in the direction of these torques, N m (infinity: no limit).
+  /// Computes the largest torque of DC motors at these speeds in the direction of `torque`, N m; infinity if there is no limit.
   virtual bool evaluate_available(In speed, In torque, Out available) = 0;
 
  protected:

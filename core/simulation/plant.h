@@ -16,14 +16,15 @@
 
 namespace gaitlab {
 
-/// Force on the robot at a contact element, world axes, N, and its penetration, m; both 0 without contact.
+/// Force on the robot at a contact element, world axes, N, and the penetration of the element, m. Force and penetration are 0
+/// without contact.
 struct ContactSample {
   Vec3 force = Vec3::Zero();
   double fn = 0, penetration = 0;
   Vec3 point = Vec3::Zero();  ///< point of action, m, world
 };
 
-/// Motion of a box of the ground that has a mass: its centre, world axes.
+/// Motion of a box of the ground that has a mass. Position (m) and velocity (m/s) refer to the centre, world axes.
 struct BoxMotion {
   Vec3 position = Vec3::Zero();
   Quat orientation = Quat::Identity();
@@ -34,60 +35,61 @@ struct BoxMotion {
 struct LaneSettings {
   std::shared_ptr<const Robot> robot;
   Vec3 gravity = Vec3::Zero();
-  Ground ground;  ///< Kind::none: without contact
+  Ground ground;  ///< NoGround if there are no contacts
   std::vector<ContactElement> contacts;
   PenaltyContact law;
   double accuracy = 0;  ///< relative accuracy of the torques, for integrators that choose their steps
 };
 
-/// Settings from which an engine makes a plant; everything referred to outlives the plant. The base is lane 0, the only one of
-/// an engine without lanes.
+/// Settings from which an engine makes a plant. All referenced objects must outlive the plant. The base class has the settings
+/// of lane 0, which is the only lane of some engines.
 struct PlantSettings : LaneSettings {
   std::vector<LaneSettings> others;  ///< lanes 1 ..
   Base base = Base::floating;
-  const Actuator* actuator = nullptr;        ///< joint * lanes + lane; nullptr: no motors
-  std::string integrator;                    ///< one of the engine's by name; "": its default
-  ContactLaw contact = ContactLaw::penalty;  ///< of another one `law` is not used
-  double step = 0;                           ///< s: the longest that advance is given
+  const Actuator* actuator = nullptr;        ///< index joint * lanes + lane; nullptr if there are no motors
+  std::string integrator;                    ///< name of an integrator of the engine; "" is the default
+  ContactLaw contact = ContactLaw::penalty;  ///< with another law than penalty, `law` is not used
+  double step = 0;                           ///< longest step of advance(), s
 };
 
-/// Thrown by Engine::make for a robot with too many joints for the engine: the reason and the remedy.
+/// Thrown by Engine::make for a robot with too many joints for the engine. The message contains the reason and the remedy.
 struct TooManyJoints : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Holds only caches beside the numbers that the simulation owns and binds once, unless the contact law says otherwise
-/// (ContactModel::complete_state): a snapshot is a copy of them. An engine defines the five functions without a default.
+/// Advances a state that the simulation owns. The plant itself contains only caches, so that a copy of state and history is a
+/// snapshot, unless ContactModel::complete_state is false. An engine implements at least the pure virtual functions.
 class Plant {
  public:
   virtual ~Plant() = default;
-  /// The state (StateLayout) and history this plant works on from now on.
+  /// Sets the arrays of state (StateLayout) and history that the plant changes from now on.
   virtual void bind(Out state, Out history) = 0;
-  /// Advances by one step of h seconds under held commands (joint * lanes + lane); calls the actuator at every stage of the
-  /// integrator.
+  /// Advances by one step of h seconds under constant commands (index joint * lanes + lane). Calls the actuator at every stage
+  /// of the integrator.
   virtual void advance(In command, double h) = 0;
   [[nodiscard]] virtual StepEffort applied() const = 0;
-  /// Forward dynamics by the engine's own algorithm at `state`, not the bound one: accelerations under these joint torques, N
-  /// m, and wrenches on bodies. Weight and the motors' rotors act; motors, stops, passive hinges and contacts do not.
+  /// Computes accelerations by the forward dynamics of the engine at `state`, which need not be the bound state. Joint torques
+  /// (N m), wrenches on bodies, weight and rotor inertia act; motors, stops, passive hinges and contacts do not.
   virtual void accelerate(std::size_t lane, const RobotState& state, In torque, std::span<const BodyWrench> wrenches,
                           Acceleration& out) = 0;
-  /// Forces of every contact element; of a plant with a memory, those of its last step.
+  /// Forces of all contact elements. If ContactModel::complete_state is false, these are the forces of the last step.
   virtual void contacts(std::size_t lane, std::span<ContactSample> out) const = 0;
 
-  /// Number of values kept from step to step beside the state, of all lanes; all 0 at the start.
+  /// Number of values that the plant keeps from step to step in addition to the state, for all lanes. All are 0 at the start.
   [[nodiscard]] std::size_t history() const { return history_; }
-  /// The rule for the longest step at the present state under these commands. standing: the weight rests in equal parts on the
-  /// robot's support (support.h), whatever the contact forces are now. Default: no rule limits the step.
+  /// Largest damping rate at the present state under these commands, which limits the step. If `standing`, the weight rests in
+  /// equal parts on the support of the robot (support.h) instead of on the present contacts. By default nothing limits the
+  /// step.
   [[nodiscard]] virtual Stability stability(std::size_t /*lane*/, In /*command*/, bool /*standing*/) { return {}; }
-  /// Computes contacts and centre of mass at the bound state, of all lanes at once.
+  /// Computes contacts and centre of mass of all lanes at the bound state.
   virtual void update_contacts() {}
-  /// Centre of mass, world, m; none: the engine does not have it at hand.
+  /// Centre of mass, m, world; nothing if the engine does not compute it.
   [[nodiscard]] virtual std::optional<Vec3> com(std::size_t /*lane*/) const { return {}; }
-  /// Positions of the boxes of the ground that have a mass; the others' entries stay as they are.
+  /// Writes the motion of the ground boxes that have a mass. Entries of other boxes stay unchanged.
   virtual void boxes(std::span<BoxMotion> /*out*/) const {}
-  /// All but the torque error.
+  /// Writes all members except the estimate of the torque error.
   virtual void tally(std::size_t /*lane*/, StepTally& /*out*/) const {}
-  /// nullptr: the actuator evaluates its laws.
+  /// nullptr if the actuator evaluates its laws itself.
   [[nodiscard]] virtual MotorLaws* motor_laws() { return nullptr; }
 
  protected:

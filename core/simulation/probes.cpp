@@ -14,7 +14,7 @@ namespace gaitlab {
 namespace {
 
 const std::string kReaction = "reaction.";
-constexpr std::size_t kMostPatterns = 1000;  // each is tried on every column: more come from a generated list and take seconds
+constexpr std::size_t kMostPatterns = 1000;  // every pattern is tried on every column; longer lists would take seconds
 
 }  // namespace
 
@@ -170,7 +170,7 @@ void Probes::add_bodies(const Robot& robot, const Sample& first) {
 
 void Probes::add_boxes(const Ground& ground) {
   for (std::size_t b = 0; b < ground.boxes().size(); ++b) {
-    if (!(ground.boxes()[b].mass > 0)) continue;  // it is where the scenario says
+    if (!(ground.boxes()[b].mass > 0)) continue;  // this box stays where the scenario places it
     const std::string name = fmt::format("box.{}.", b);
     const std::string of = fmt::format(" of ground.boxes[{}]", b);
     add_vector(name, "m", "middle" + of + ", world axes", [b](const Sample& s) { return s.boxes[b].position; });
@@ -232,7 +232,7 @@ void Probes::add_reactions(const Robot& robot) {
 
 namespace {
 
-/// The columns that the scenario's patterns match, and t.
+/// Marks the columns that match the patterns of the scenario, and t.
 std::vector<bool> matched(const Scenario& scenario, const std::vector<Column>& columns) {
   std::vector<bool> wanted(columns.size(), false);
   wanted[0] = true;
@@ -251,7 +251,7 @@ std::vector<bool> matched(const Scenario& scenario, const std::vector<Column>& c
       wanted[i] = found = true;
     }
     const bool of_no_joint =
-        scenario.robot->joints.empty() && pattern.starts_with("joint.");  // as the default patterns have it
+        scenario.robot->joints.empty() && pattern.starts_with("joint.");  // the default patterns include joint.*
     if (found || of_no_joint) continue;
     constexpr std::size_t kMostOffers = 200;  // largest number of names shown
     const std::string near = problems.size() < kMostOffers ? nearest(pattern, names) : "";

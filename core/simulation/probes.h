@@ -12,23 +12,23 @@ namespace gaitlab {
 
 class Probes {
  public:
-  /// The columns that match the scenario's patterns, in the order of docs/conventions.md. Throws InputError: a pattern that
-  /// matches nothing; reactions under contact.law: bullet. `sample` outlives this object and holds the initial state, which
-  /// fixes the signs of the bodies' quaternions (qw >= 0).
+  /// Selects the columns that match the patterns of the scenario, in the order of docs/conventions.md. `sample` must outlive
+  /// this object. It contains the initial state, which fixes the signs of the quaternions of bodies (qw >= 0). Throws
+  /// InputError if a pattern matches no column, or if reactions are wanted with contact.law: bullet.
   Probes(const Scenario& scenario, const std::vector<ContactElement>& contacts, const Cpg* cpg, std::string_view command_unit,
          const Sample& sample);
 
   [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
-  /// Every column that a trace of the scenario could have, for any patterns: units and definitions by name, which a CSV file
-  /// does not contain. Throws PluginError.
+  /// All columns that a trace of the scenario can have, with units and definitions, which a CSV file does not contain. Throws
+  /// PluginError.
   static std::vector<Column> known(const Scenario& scenario);
   /// The columns of report_columns() that the patterns do not match.
   [[nodiscard]] const std::vector<Column>& rest_columns() const { return rest_columns_; }
-  /// Whether any column reads Sample::reactions.
+  /// True if any column reads Sample::reactions.
   [[nodiscard]] bool want_reactions() const { return want_reactions_; }
-  /// Whether any column other than the centre of mass reads what Sample::forward_kinematics computes.
+  /// True if any column except the centre of mass reads results of Sample::forward_kinematics.
   [[nodiscard]] bool want_places() const { return want_places_; }
-  void fill(Out row, Out rest) const;  ///< from the present sample
+  void fill(Out row, Out rest) const;  ///< writes the values of columns() and rest_columns()
 
  private:
   using Read = std::function<double(const Sample&)>;

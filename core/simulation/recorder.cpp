@@ -15,10 +15,10 @@ namespace gaitlab {
 
 namespace {
 
-constexpr std::size_t kReleasedRows = 4096;  // at a time: some 20 MB of a walking robot with all columns
-constexpr double kTickRows = 2e-3;           // s, between rows of Recording::ticks at least
+constexpr std::size_t kReleasedRows = 4096;  // rows at a time, some 20 MB for a walking robot with all columns
+constexpr double kTickRows = 2e-3;           // shortest interval between rows of Recording::ticks, s
 
-/// Error of rows, which are kept until the end of the run, that exceed the memory or the disk.
+/// Error for rows that exceed the memory or the disk. Rows are kept until the end of the run.
 InputError too_many_rows(const Scenario& s, const RowsNeeded& needed, const std::string& there_is) {
   return {s.place("duration"),
           fmt::format("the run would record {:.3g} rows of {:.0f} columns, {:.3g} GB, and {}: take a longer trace.period than "
@@ -26,9 +26,9 @@ InputError too_many_rows(const Scenario& s, const RowsNeeded& needed, const std:
                       needed.rows, needed.columns, needed.bytes() / 1e9, there_is, s.trace.period)};
 }
 
-/// InputError if the disk, the container (cgroup 2) or the process (ulimit -v) offers less.
+/// Throws InputError if the rows exceed the disk, or the memory of the container (cgroup 2) or of the process (ulimit -v).
 void check_space(const Scenario& s, const RowsNeeded& needed) {
-  constexpr double kLittle = 1e8;  // bytes: always available, and the query takes longer than a short rollout
+  constexpr double kLittle = 1e8;  // bytes; not checked, because the query takes longer than a short rollout
   if (needed.bytes() < kLittle) return;
   const auto check = [&](double bytes, const std::string& whose, const char* of) {
     if (bytes > 0 && needed.bytes() > bytes)
@@ -56,7 +56,7 @@ Recorder::Recorder(const Scenario& scenario, const std::vector<ContactElement>& 
     recording.trace.columns = probes_->columns();
     recording.rest.columns = probes_->rest_columns();
   } else {
-    probes_.reset();  // trace.columns is checked all the same
+    probes_.reset();  // by now Probes has checked trace.columns
   }
   const std::size_t joints = scenario.robot->joints.size();
   recording.ticks.columns = tick_columns(joints);

@@ -1,4 +1,4 @@
-// The recording of one lane as it grows: rows of the trace, of ticks, poses and loads, and the numbers at its end.
+// Recorder of one lane: rows of the trace, ticks, poses and loads, and the totals at the end.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -13,40 +13,40 @@
 
 namespace gaitlab {
 
-/// Takes samples and writes them down; what a sample holds is the simulation's. Allocates at construction, and for rows of
-/// loads.
+/// Adds rows to the recording from samples, which the simulation fills. Allocates at construction, and for rows of loads.
 class Recorder {
  public:
-  /// sample: the lane's, as at the start; it outlives this, as do scenario and contacts. Throws InputError: a column that does
-  /// not exist; rows that do not fit into memory.
+  /// `sample` is the sample of the lane in its initial state. `sample`, `scenario` and `contacts` must outlive this object.
+  /// Throws InputError if a column does not exist or the rows do not fit into memory.
   Recorder(const Scenario& scenario, const std::vector<ContactElement>& contacts, const Cpg* cpg, std::string_view command_unit,
            const Sample& sample, const Records& wanted);
 
   [[nodiscard]] RowsNeeded rows_needed() const;
 
   [[nodiscard]] bool has_rows() const { return probes_ != nullptr; }
-  /// Inputs of the columns of a row (Probes); false without rows.
+  /// True if columns of the trace need places of bodies, or reactions (Probes). False without rows.
   [[nodiscard]] bool wants_places() const { return has_rows() && probes_->want_places(); }
   [[nodiscard]] bool wants_reactions() const { return has_rows() && probes_->want_reactions(); }
-  /// A row of Recording::trace and rest, from the sample.
+  /// Adds a row to Recording::trace and Recording::rest from the sample.
   void add_row();
 
-  /// Whether Recording::ticks has a row at the next control tick.
+  /// True if Recording::ticks gets a row at the next control tick.
   [[nodiscard]] bool tick_due() const { return recording.control_ticks % ticks_per_row_ == 0; }
-  /// A row of Recording::ticks: its numbers behind the time, to be filled in; nothing: that row exists already, or the rows
-  /// have just become fewer. last: the lane ends.
+  /// Adds a row to Recording::ticks and returns its numbers after the time, which the caller fills in. Returns nothing if that
+  /// row exists already, or if the rows have just been thinned out and this tick is not due any more. `last` is true when the
+  /// lane ends.
   std::optional<Out> add_tick(double t, bool last);
-  /// A row of Recording::poses: state, set points, centre of mass and contacts of the sample.
+  /// Adds a row to Recording::poses: state, set points, centre of mass and contacts of the sample.
   void add_pose(double t, const Sample& sample);
 
-  /// Whether the last row of ticks lacks one of Recording::loads.
+  /// True if the last row of Recording::ticks has no row of Recording::loads yet.
   [[nodiscard]] bool loads_due() const { return loads_due_; }
   void leave_out_loads() { loads_due_ = false; }
-  /// The meter whose sample is to be filled in before add_loads; only if loads_due().
+  /// Meter whose sample the caller fills before add_loads(). Only if loads_due().
   [[nodiscard]] LoadMeter& loads() { return *loads_; }
   void add_loads();
 
-  /// The numbers at the end, from the last sample.
+  /// Sets the totals of the recording at its end, from the last sample.
   void finish(std::int64_t steps, double t, const Outcome& outcome, const Sample& last);
 
   Recording recording;
@@ -56,8 +56,8 @@ class Recorder {
   void release_rows();
 
   const Scenario& scenario_;
-  std::unique_ptr<Probes> probes_;    ///< nullptr: no rows
-  std::unique_ptr<LoadMeter> loads_;  ///< nullptr: not wanted
+  std::unique_ptr<Probes> probes_;    ///< nullptr if no rows are wanted
+  std::unique_ptr<LoadMeter> loads_;  ///< nullptr if no loads are wanted
   std::int64_t ticks_per_row_ = 1;    ///< control ticks per row of Recording::ticks
   bool loads_due_ = false;
   std::size_t unreleased_ = 0;  ///< rows since release_rows() let their pages leave memory

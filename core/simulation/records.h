@@ -1,23 +1,23 @@
-// The wanted parts of a recording, and the memory that they take.
+// Optional parts of a recording, and the memory that its rows need.
 #pragma once
 
 namespace gaitlab {
 
-/// The rows of numbers that a run keeps until its end.
+/// Size of the table of rows that a run keeps until its end.
 struct RowsNeeded {
   double rows = 0, columns = 0;
   [[nodiscard]] double bytes() const { return 8 * rows * columns; }
 };
 
-/// Extent of Recording::loads. recorded: all columns, which need the accelerations at every control tick. judged: ways and
-/// slip, and docks if any has rated loads.
+/// Extent of Recording::loads. With `recorded`, it has all columns, which need the accelerations at every control tick. With
+/// `judged`, it has path lengths and slip, and the docks if any dock has rated loads.
 enum class Loads { left_out, judged, recorded };
 
-/// Parts of a recording beside ticks, poses and the statistics of all steps.
+/// Optional parts of a recording. Ticks, poses and the statistics of all steps are always recorded.
 struct Records {
   constexpr Records(Loads of = Loads::left_out, bool with_rows = true) : loads(of), rows(with_rows) {}
   Loads loads;
-  bool rows;  ///< of Recording::trace and rest; false: these have no columns
+  bool rows;  ///< true if Recording::trace and rest have columns
 };
 
 }  // namespace gaitlab

@@ -50,7 +50,7 @@ double Sample::energy(const Robot& robot, const Rotors& rotors, const std::vecto
 }
 
 void Sample::set_boxes(const Ground& ground) {
-  // Else none of them is asked for.
+  // Without movable boxes, no column needs them.
   if (std::ranges::none_of(ground.boxes(), [](const Box& box) { return box.mass > 0; })) return;
   for (const Box& box : ground.boxes()) {
     Quat turned(box.R);

@@ -12,7 +12,7 @@ Rotors Simulation::rotors(const Lane& lane) const {
   return {actuator_ == nullptr ? In() : actuator_->reflected_inertia(), lanes_.size(), lane.index};
 }
 
-/// State, centre of mass and contacts of now. `places`: of all bodies, too.
+/// Reads state, centre of mass and contacts from the plant. If `places`, computes also the kinematics of all bodies.
 void Simulation::read_state(Lane& lane, bool places) {
   Sample& s = lane.sample;
   layout_.read(plant_state_, lane.index, s.state);
@@ -22,7 +22,7 @@ void Simulation::read_state(Lane& lane, bool places) {
   plant_->contacts(lane.index, s.contacts);
 }
 
-/// places: as read_state.
+/// Fills the sample of the lane at the present time. `places` is passed to read_state.
 Sample& Simulation::take_sample(Lane& lane, bool places) {
   const std::size_t lanes = lanes_.size();
   const std::size_t l = lane.index;
@@ -47,7 +47,7 @@ Sample& Simulation::take_sample(Lane& lane, bool places) {
   return s;
 }
 
-/// The left limit of what is not the plant's state: the actuator law under the command in force.
+/// Computes motor quantities and contacts as left limits, under the command in force.
 void Simulation::observe() {
   evaluate_motors(plant_state_.subspan(layout_.speeds(), command_.size()));
   if (actuator_ != nullptr) {
@@ -73,8 +73,8 @@ void Simulation::record(Lane& lane) {
   recorder.add_row();
 }
 
-/// Rows and ends within the step that starts now: each by a shorter step of its own, after which the state is put back, so that
-/// nothing depends on which rows there are.
+/// Records rows and ends within the step that starts now. A separate shorter step leads to each of them, and the state is then
+/// restored, so that results do not depend on the rows.
 void Simulation::record_within_step() {
   if (!scenarios_[0].physics.adaptive_step) return;
   for (double at = 0;;) {
@@ -112,7 +112,8 @@ void Simulation::record_within_step() {
   }
 }
 
-/// Rows of Recording::ticks and poses; no pose of a state that has diverged. Contacts are those of the present state.
+/// Adds a row to Recording::ticks and, unless the state has diverged, to Recording::poses. The contacts belong to the present
+/// state.
 void Simulation::record_tick(Lane& lane) {
   const std::optional<Out> row = lane.recorder->add_tick(time(), lane.closed);
   if (!row) return;
@@ -124,8 +125,8 @@ void Simulation::record_tick(Lane& lane) {
   lane.recorder->add_pose(time(), s);
 }
 
-/// Records the loads of the `wanted` lanes under the commands that begin now, which change torques at once; for a lane that
-/// ends, under the commands in force.
+/// Records the loads of the `wanted` lanes under the commands that begin now, which change torques at once. For a lane that
+/// ends, the last commands remain in force.
 void Simulation::record_loads(const std::function<bool(const Lane&)>& wanted) {
   const auto due = [&](const auto& lane) { return lane->recorder != nullptr && lane->recorder->loads_due() && wanted(*lane); };
   if (std::ranges::none_of(lanes_, due)) return;
@@ -157,7 +158,7 @@ void Simulation::record_loads(Lane& lane) {
   recorder.add_loads();
 }
 
-/// Adds the numbers at the end to the rows of a lane.
+/// Completes the recording of a lane with the last rows and the totals.
 void Simulation::close(Lane& lane) {
   lane.closed = true;
   plant_->update_contacts();
@@ -167,7 +168,7 @@ void Simulation::close(Lane& lane) {
   take_statistics(lane);
 }
 
-/// Statistics of joints so far.
+/// Updates the joint statistics of the recording.
 void Simulation::take_statistics(Lane& lane) {
   std::vector<JointStatistics>& joints = lane.recorder->recording.joints;
   joints.clear();

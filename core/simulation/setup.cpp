@@ -86,7 +86,7 @@ PlantSettings Simulation::plant_settings() const {
   return settings;
 }
 
-/// Number of values that change, without those of the separate companions.
+/// Number of changing values of this simulation, without the values of separate companions.
 std::size_t Simulation::state_size() const {
   std::size_t size = 1 + layout_.size() + plant_->history() + 2 * layout_.joints * lanes_.size();
   for (const auto& lane : lanes_) {
@@ -95,8 +95,8 @@ std::size_t Simulation::state_size() const {
   return size;
 }
 
-/// step counter | plant | its history | set points | commands | per lane: CPG states, controller states, ledger's sums. Keeps
-/// the present values.
+/// Divides `numbers` into step counter | plant | its history | set points | commands | per lane: CPG states, controller states,
+/// sums of the ledger. The present values are copied.
 void Simulation::cut_state(Out numbers) {
   std::ranges::copy(own_, numbers.begin());
   own_ = numbers.first(state_size());
@@ -147,10 +147,10 @@ void Simulation::set_start() {
   }
 }
 
-/// No command yet: set point = angle, command 0.
+/// Resets a lane to its initial state, without a command yet: set point = angle, command 0.
 void Simulation::place_at_start(Lane& lane) {
   const RobotState start = start_state(lane.scenario);
-  lane.sample.state = start;  // copied, not moved: the probes hold pointers into its vectors
+  lane.sample.state = start;  // copied, not moved, because the probes point into its vectors
   layout_.write(lane.sample.state, lane.index, plant_state_);
   for (std::size_t j = 0; j < layout_.joints; ++j) {
     setpoint_[j * lanes_.size() + lane.index] = lane.sample.state.q[j];

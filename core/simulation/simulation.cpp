@@ -13,7 +13,8 @@ namespace gaitlab {
 
 namespace {
 
-// Largest plausible joint speed: beyond it a run has diverged, and ends here rather than at the overflow a few steps later.
+// Largest plausible joint speed. A run with a larger speed has diverged, and ends here rather than at the overflow a few steps
+// later.
 constexpr double kLargestSpeed = 1e5;  // rad/s
 
 }  // namespace
@@ -60,7 +61,7 @@ bool Simulation::run(const std::function<void(double)>& progress, const std::ato
       progress(static_cast<double>(step_number()) / static_cast<double>(steps_));
     if (stop != nullptr && stop->load(std::memory_order_relaxed)) return false;
   }
-  record();  // t = duration is a row even where it is not a multiple of the trace period
+  record();  // t = duration is a row even if it is not a multiple of the trace period
   return true;
 } catch (const PluginError& error) {
   throw stopped(error);
@@ -68,12 +69,12 @@ bool Simulation::run(const std::function<void(double)>& progress, const std::ato
 
 void Simulation::ask_watch() {
   constexpr double kEvery = 1;     // s
-  constexpr double kSlack = 1e-9;  // s: rounding error of steps that add up to a second
+  constexpr double kSlack = 1e-9;  // s; more than the rounding error of the sum of steps
   if (done() || time() < asked_ + kEvery - kSlack) return;
   asked_ += kEvery;
   for (const auto& lane : lanes_) {
     if (lane->closed || !recorded(*lane)) continue;
-    // Until the lane is closed these hold nothing.
+    // Until the lane is closed, the recording lacks time and statistics.
     lane->recorder->recording.simulated = time();
     take_statistics(*lane);
     std::string reason = watch_(lane->index, lane->recorder->recording);
@@ -88,7 +89,7 @@ SimulationError Simulation::stopped(const PluginError& error) const {
           fmt::format("stopped at step {}, t = {:.6g} s: {}", step_number(), time(), error.what())};
 }
 
-/// Runs code of a lane; an exception ends that lane or, if the lane is alone, the run.
+/// Runs code of a lane. An exception ends the lane or, if the lane is alone, the run.
 template <class Work>
 void Simulation::guard(Lane& lane, Work work) try {
   work();
@@ -108,14 +109,14 @@ void Simulation::fail(Lane& lane, const SimulationError& error) {
   end(lane);
 }
 
-/// Closes the record of the lane and resets it to its initial state with zero commands, so that the unused lane cannot produce
-/// NaN.
+/// Closes the recording of the lane and resets the lane to its initial state with zero commands, so that the unused lane cannot
+/// produce NaN.
 void Simulation::end(Lane& lane) {
   close(lane);
   if (lanes_.size() > 1) place_at_start(lane);
 }
 
-/// Evaluates the actuator law at these speeds under the commands in force.
+/// Evaluates the actuator law at `speeds` under the commands in force.
 void Simulation::evaluate_motors(In speeds) {
   if (actuator_ == nullptr) return;
   const Actuator::Electrical into{voltage_, current_, saturation_, power_in_, copper_, gear_};
@@ -123,8 +124,8 @@ void Simulation::evaluate_motors(In speeds) {
   if (laws == nullptr || !laws->evaluate_motors(command_, speeds, into)) actuator_->electrical(command_, speeds, into);
 }
 
-/// Torque available to the recorded lanes in a part of a step, in the direction of their torques, N m; infinity: the actuator
-/// states no limit.
+/// Torque available to the recorded lanes in a part of a step, in the direction of their torques, N m. Infinity if the actuator
+/// has no limit.
 In Simulation::evaluate_available(const StepEffort::Part& part) {
   if (actuator_ == nullptr) return In(available_).first(largest_.size());
   if (MotorLaws* const laws = plant_->motor_laws();
@@ -146,7 +147,8 @@ In Simulation::evaluate_available(const StepEffort::Part& part) {
 
 void Simulation::sense() {
   const std::size_t lanes = lanes_.size();
-  // The left limit, as in a row: the sensors depend on the state and the command in force, not on how the last step was taken.
+  // Left limits, as in a trace row: the sensors depend on the state and the command in force, not on the method of the last
+  // step.
   if (actuator_ != nullptr) {
     actuator_->effort(command_, plant_state_.subspan(layout_.speeds(), command_.size()), torque_, slope_);
   }
@@ -184,7 +186,7 @@ void Simulation::command(Lane& lane) {
   const Measured measured = lane.measured(time());
   if (lane.cpg != nullptr) {
     lane.cpg->event(measured, lane.cpg_state);
-    std::fill(lane.setpoint.begin(), lane.setpoint.end(), NAN);  // entries that the CPG does not write are found below
+    std::fill(lane.setpoint.begin(), lane.setpoint.end(), NAN);  // check_cpg finds entries that the CPG does not write
     lane.cpg->output(time(), lane.cpg_state, lane.setpoint);
   } else {
     for (std::size_t j = 0; j < lane.setpoint.size(); ++j) lane.setpoint[j] = lane.scenario.initial.angles[j];
@@ -217,15 +219,15 @@ void Simulation::watch_stability() {
   }
 }
 
-/// Advances the plant by a step and adds it to the ledger, which is part of the state, and to the statistics of the `measured`
-/// lanes.
+/// Advances the plant by a step. Adds the step to the ledger, which is part of the state, and to the statistics of the
+/// `measured` lanes.
 void Simulation::advance(double h, const std::function<bool(const Lane&)>& measured) {
   plant_->advance(command_, h);
   const StepEffort applied = plant_->applied();
   const std::size_t lanes = lanes_.size();
   for (std::size_t l = 0; l < recorded_; ++l) measured_[l] = measured(*lanes_[l]) ? 1 : 0;
   for (const StepEffort::Part& of_all : applied.parts) {
-    if (lanes != recorded_ && !(of_all.instant || of_all.sum[0] != 0 || of_all.share[0] > 0)) continue;  // of companions alone
+    if (lanes != recorded_ && !(of_all.instant || of_all.sum[0] != 0 || of_all.share[0] > 0)) continue;  // companions only
     evaluate_motors(of_all.speed);
     StepEffort::Part part = of_all;
     part.torque = first_.of(of_all.torque, FirstLanes::torque);
@@ -267,7 +269,7 @@ void Simulation::check(Lane& lane) {
   if (!fine(lane)) fail(lane, diverged(lane));
 }
 
-/// Whether all numbers of a lane's state are finite and within bounds.
+/// True if all numbers of the state of a lane are finite and within bounds.
 bool Simulation::fine(const Lane& lane) const {
   bool fine = true;
   for (std::size_t i = lane.index; i < plant_state_.size(); i += lanes_.size()) {

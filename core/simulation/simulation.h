@@ -1,4 +1,4 @@
-// The loop: record, sense, command, advance, check. Owns the plant, the plugins and ALL state in one array.
+// Simulation loop, which owns the plant, the plugins and ALL state in one array.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -22,21 +22,26 @@ class PluginError;
 struct Sample;
 struct Rotors;
 
-/// Whether two scenarios can be lanes of one simulation: they share engine, integrator, step, kind of actuator, base, and the
-/// robot's structure: links, joints, and the link of each contact element.
+/// True if two scenarios can be lanes of one simulation. They must share engine, integrator, step, control period, actuator
+/// plugin, base, contact law and the structure of the robot: links, motors of joints, and the link of each contact element.
 bool can_share(const Scenario& a, const Scenario& b);
 
-/// Whether the torque error of a run is estimated by whole rollouts beside it: such a run takes a pack of lanes alone.
+/// True if whole rollouts beside a run estimate its torque error. Such a run needs a lane group for itself.
 bool estimated_by_rollouts(const Scenario& s);
 
 /// Simulates one or more scenarios side by side, one per lane, each to its own end. Lanes may differ in everything except what
-/// can_share requires, and a lane has the same bits as when run alone. Among several runs with an accuracy none has its torque
-/// error estimated; a single one gets additional lanes for the estimate, which the caller does not see. Throws
-/// std::invalid_argument if the lanes cannot share a simulation or the engine does not offer that number of lanes. The
-/// constructor checks the step: InputError if h lambda > 1 for the standing robot, with the largest step allowed and the joint
-/// or contact that sets it. step() does not allocate, except at control ticks if loads are recorded, and for robots with
-/// hundreds of joints when a step is divided further than any before. If a lane diverges or its plugin throws, step() throws
-/// SimulationError if the lane is alone; beside others the lane ends there, with its outcome().
+/// can_share requires. Each lane has the same bits as when run alone.
+///
+/// The torque error of a single run with an accuracy is estimated in additional lanes, which the caller does not see. Several
+/// runs with an accuracy in one simulation have no such estimate.
+///
+/// The constructor throws std::invalid_argument if the lanes cannot share a simulation or the engine does not offer that number
+/// of lanes. It throws InputError if h lambda > 1 for the standing robot, with the largest step allowed and the joint or
+/// contact that sets it.
+///
+/// In general step() does not allocate. It allocates at control ticks if loads are recorded, and for robots with hundreds of
+/// joints when a step is divided further than any before. If a lane that is alone diverges or its plugin throws, step() throws
+/// SimulationError. With several lanes, only that lane ends, with its outcome().
 class Simulation {
  public:
   explicit Simulation(std::span<const Scenario> lanes, Records records = {});
@@ -45,30 +50,29 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   void step();
-  [[nodiscard]] bool done() const;  ///< every lane has ended
-  /// Outcome of a lane.
+  [[nodiscard]] bool done() const;  ///< true if every lane has ended
   [[nodiscard]] const Outcome& outcome(std::size_t lane) const;
-  /// Sets a function that is called for each running lane once every simulated second, with its recording so far: rows, ticks,
-  /// statistics of joints and time alone. It returns the reason to end the lane there, or "" to continue. The calls for a lane
-  /// do not depend on the other lanes.
+  /// Sets a function that is called for each running lane once every simulated second. Only rows, ticks, joint statistics and
+  /// time of the recording are then filled. The function returns "" to continue, or a reason to end the lane. The calls for a
+  /// lane do not depend on the other lanes.
   void watch(std::function<std::string(std::size_t lane, const Recording& so_far)> watch) { watch_ = std::move(watch); }
-  /// Steps to the end; `progress(share)` about 200 times; stops early (returns false) once `stop` is set.
+  /// Steps to the end and calls `progress(share of the steps)` about 200 times. Returns false if `stop` was set before the end.
   bool run(const std::function<void(double)>& progress = {}, const std::atomic<bool>* stop = nullptr);
 
-  /// Everything that changes: step counter, plant, held set points and commands, plugins' states, the ledger's sums. A copy is
-  /// a snapshot without the recording: a run that is put back continues to record. Throws InputError if the plant keeps more
-  /// than that (Plant::state_is_complete).
+  /// All numbers that change: step counter, plant, present set points and commands, states of plugins, sums of the ledger. A
+  /// copy is a snapshot without the recording. If it is copied back, the run continues from there and continues to record.
+  /// Throws InputError if ContactModel::complete_state is false for the contact law.
   Out state();
   [[nodiscard]] std::int64_t step_number() const { return static_cast<std::int64_t>(state_[0]); }
   [[nodiscard]] RowsNeeded rows_needed(std::size_t lane) const;
   [[nodiscard]] double time() const { return static_cast<double>(step_number()) * h_ + within_; }
-  /// Recording of lane `lane` so far, moved out: call it once, at the end.
+  /// Moves out the recording of lane `lane`. To be called once, at the end.
   Recording take_recording(std::size_t lane);
   [[nodiscard]] const Stability& standing() const { return standing_; }
 
  private:
   struct Lane;
-  enum class Role { run, companion };  ///< companion: records nothing, is not itself estimated, throws nothing in a step
+  enum class Role { run, companion };  ///< a companion records nothing, has no estimate, and throws nothing in a step
   Simulation(std::span<const Scenario> lanes, Records records, Role role);
 
   static std::vector<Scenario> side_by_side(std::span<const Scenario> lanes, Role role);
@@ -122,7 +126,7 @@ class Simulation {
   [[nodiscard]] SimulationError diverged(const Lane& lane) const;
 
   std::vector<Scenario> scenarios_;  ///< one per lane
-  std::size_t recorded_;             ///< the first of them are runs; the others are companions of the first
+  std::size_t recorded_;             ///< number of lanes that are runs; the lanes after them are companions of lane 0
   Records records_;
   Role role_;
   double h_;
@@ -131,19 +135,19 @@ class Simulation {
   std::unique_ptr<Plant> plant_;
   std::vector<std::unique_ptr<Lane>> lanes_;
   StateLayout layout_;
-  std::unique_ptr<Actuator> own_actuator_;  ///< actuator of the recorded lanes alone; nullptr: actuator_
-  std::vector<double> numbers_;             ///< all changing numbers, those of apart_ included; empty in a separate companion
-  Out state_;                               ///< the same; in a separate companion a part of the run's
-  Out own_;                                 ///< state_ without the numbers of apart_ and step_error_
-  std::vector<std::unique_ptr<Simulation>> apart_;        ///< companions that are separate simulations, not lanes of this one
-  TwinWindows how_;                                       ///< times at which the twin runs beside this
-  std::unique_ptr<StepError> step_error_;                 ///< nullptr: no estimate
-  Out plant_state_, plant_history_, setpoint_, command_;  ///< parts of state_; joint * lanes + lane
+  std::unique_ptr<Actuator> own_actuator_;          ///< actuator of the recorded lanes; nullptr if actuator_ has only these
+  std::vector<double> numbers_;                     ///< all changing numbers, including apart_; empty in a separate companion
+  Out state_;                                       ///< numbers_; in a separate companion a part of the numbers_ of the run
+  Out own_;                                         ///< state_ without the numbers of apart_ and step_error_
+  std::vector<std::unique_ptr<Simulation>> apart_;  ///< companions that are separate simulations, not lanes of this one
+  TwinWindows how_;                                 ///< times at which the twin runs beside this simulation
+  std::unique_ptr<StepError> step_error_;           ///< nullptr if there is no estimate
+  Out plant_state_, plant_history_, setpoint_, command_;  ///< parts of state_; the last two by joint * lanes + lane
   std::vector<double> voltage_, current_, saturation_, power_in_, copper_, gear_, torque_, slope_, available_,
-      largest_;                   ///< scratch, elementwise; largest_: recorded lanes only
+      largest_;                   ///< scratch by joint * lanes + lane; largest_ has the recorded lanes only
   FirstLanes first_;              ///< entries of the recorded lanes
-  std::vector<double> saved_;     ///< scratch: copy of state_ during a row within a step
-  std::vector<double> measured_;  ///< scratch: 1 for a lane in whose statistics a step counts, else 0
+  std::vector<double> saved_;     ///< scratch: copy of state_ while a row within a step is recorded
+  std::vector<double> measured_;  ///< scratch: 1 for a lane whose statistics include a step, else 0
   std::vector<Lane*> ended_;      ///< scratch: lanes that end at the present row
   double within_ = 0;             ///< s: time of the present row after the start of the step
   Meter meter_;

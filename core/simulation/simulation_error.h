@@ -8,8 +8,8 @@
 
 namespace gaitlab {
 
-/// Thrown when the state diverges (not finite, or above 1e5) or a plugin throws; what() contains step, time and joint or
-/// plugin.
+/// Thrown if the state diverges (a number is not finite, or above 1e5) or a plugin throws. what() contains the step, the time,
+/// and the joint or plugin.
 class SimulationError : public RunError {
  public:
   SimulationError(Ended ended, std::int64_t step, double time, std::string where, const std::string& what);

@@ -25,7 +25,7 @@ void static_contact_slopes(const LaneSettings& s, const Kinematics& k, std::vect
   if (out.empty()) return;
   const double load = s.robot->mass * s.gravity.norm() / static_cast<double>(out.size());
   const double sink =
-      load / s.law.kn;  // for k = 1; an estimate for other exponents, whose rate is monitored from the first tick on
+      load / s.law.kn;  // exact for k = 1, an estimate for other exponents; the rate is monitored from the first tick
   for (ContactSlope& contact : out) {
     const double friction = contact.tangential;
     contact.along_normal = s.law(sink, 0.0, 0.0, friction).normal_slope;
@@ -51,7 +51,7 @@ void RateMonitor::stop_at(const Robot& robot, const RobotState& state) {
   }
 }
 
-/// Dry friction has its largest slope at rest.
+/// At rest (standing), dry friction has its largest slope.
 void RateMonitor::hinge_at(const Robot& robot, const RobotState& state, bool standing, double step) {
   for (std::size_t j = 0; j < hinge.size(); ++j) {
     if (robot.joints[j].driven()) continue;
@@ -64,7 +64,7 @@ Vec3 RateMonitor::velocity_at(const Kinematics& k, const ContactSlope& c) const 
   return v_[c.link] + omega_[c.link].cross(c.point - k.p[c.link]);
 }
 
-/// force = (B + sum J^T G J) velocity: outward for the velocities, inward for the forces.
+/// force = (B + sum J^T G J) velocity. Velocities are computed from the base outwards, forces from the tips inwards.
 void RateMonitor::damp(const Robot& robot, const Kinematics& k, In x, Out f) {
   v_[0] = Vec3(x[0], x[1], x[2]);
   omega_[0] = Vec3(x[3], x[4], x[5]);
@@ -116,7 +116,8 @@ Stability RateMonitor::attribute(const Kinematics& k, In x, double rate) const {
 }
 
 Stability RateMonitor::largest(const Robot& robot, const Kinematics& k, InverseMass& inverse_mass, int iterations) {
-  // A start vector that is orthogonal to no mode; joints alternate and differ so that no symmetry hides one.
+  // Start vector that is orthogonal to no mode. Its entries alternate in sign and differ in size, so that no symmetry hides a
+  // mode.
   for (std::size_t i = 0; i < x_.size(); ++i) {
     x_[i] = (i % 2 == 0 ? 1.0 : -1.0) * (1.0 + 0.1 * static_cast<double>((7 * i) % 11));
   }

@@ -1,4 +1,4 @@
-// The largest damping rate of a robot, which limits an explicit step.
+// Largest damping rate of a robot, which limits an explicit step.
 #pragma once
 #include <vector>
 
@@ -6,8 +6,9 @@
 
 namespace gaitlab {
 
-/// Computes accelerations caused by unit impulses: y = M^-1 f. Generalised vectors: velocity of the base frame's origin 3,
-/// angular velocity 3 (world axes), joint speeds; base entries stay 0 if the base cannot move.
+/// Computes y = M^-1 f, the change of velocity y under an impulse f. The vectors contain the velocity of the origin of the base
+/// frame (3 entries), the angular velocity of the base (3), both in world axes, and the joint speeds. The entries of the base
+/// stay 0 if it cannot move.
 class InverseMass {
  public:
   virtual void apply(In force, Out acceleration) = 0;
@@ -16,8 +17,9 @@ class InverseMass {
   ~InverseMass() = default;
 };
 
-/// Slope of one contact force against the velocity of its point: G = tangential T + normal n n^T, N s/m. If `slip` is not 0
-/// (sliding), the tangential part acts only at right angles to it.
+/// Slope of one contact force with respect to the velocity of its point, N s/m: G = tangential T + along_normal n n^T, where T
+/// projects onto the tangential plane. If the contact slides (`slip` is not 0), the tangential part acts only at right angles
+/// to `slip`.
 struct ContactSlope {
   std::size_t element = 0, link = 0;
   Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ(), slip = Vec3::Zero();  ///< slip: unit vector, 0 while sticking
@@ -30,26 +32,26 @@ struct ContactSlope {
   }
 };
 
-/// Contact slopes of a standing robot: its weight in equal parts on its support (support.h), at the penetration that carries
-/// it. Replaces `out`; empty if there is no ground.
+/// Replaces `out` by the contact slopes of a standing robot. Its weight rests in equal parts on its support (support.h), at the
+/// penetration that carries the weight. `out` is empty if there is no ground.
 void static_contact_slopes(const LaneSettings& settings, const Kinematics& kinematics, std::vector<ContactSlope>& out);
 
-/// Power iteration on A = M^-1 (B + sum J^T G J) with the Rayleigh quotient in the norm of (B + sum J^T G J): a lower bound,
-/// with an error of second order in the vector's error. Cold start and a fixed number of iterations: the same state gives the
-/// same result.
+/// Estimates the largest eigenvalue of A = M^-1 (B + sum J^T G J) by power iteration, with the Rayleigh quotient in the norm of
+/// (B + sum J^T G J). The estimate is a lower bound, with an error of second order in the error of the vector. The start vector
+/// and the number of iterations are fixed, so that the same state gives the same result.
 class RateMonitor {
  public:
   explicit RateMonitor(const Robot& robot);
 
-  /// Inputs, to be filled before each call: sized by the joints, and without contacts.
+  /// Inputs of largest(), which the caller fills. The constructor sets one 0 per joint, and no contacts.
   std::vector<double> motor, stop;     ///< damping slopes, N m s/rad
-  std::vector<double> hinge;           ///< N m s/rad: damping slopes of passive hinges, and stiffness times the step
-  std::vector<ContactSlope> contacts;  ///< capacity reserved by the caller
+  std::vector<double> hinge;           ///< damping slopes of passive hinges plus stiffness times step, N m s/rad
+  std::vector<ContactSlope> contacts;  ///< the caller reserves the capacity
 
-  /// The rate that limits the step. The caller has filled `motor`; for a standing robot with the slopes at rest, because at
-  /// speed the motors may be saturated, with slope 0. `touching` fills `contacts` at the present state; a standing robot has
-  /// the contacts that carry it, whichever touch at the start. A spring of stiffness K counts as a damper of step K, which
-  /// keeps step^2 K / inertia below 1 also.
+  /// Rate that limits the step. The caller has filled `motor`. For a standing robot these are the slopes at rest, because
+  /// motors that are saturated at speed have slope 0. `touching` fills `contacts` at the present state. For a standing robot,
+  /// the contacts are instead the elements that carry it, even if others touch at the start. A spring of stiffness K counts as
+  /// a damper of step * K, which also keeps step^2 K / inertia below 1.
   template <class Touching>
   [[nodiscard]] Stability rule(const LaneSettings& lane, Base base, const Kinematics& kinematics, const RobotState& state,
                                bool standing, double step, InverseMass& inverse_mass, Touching touching) {
@@ -65,9 +67,9 @@ class RateMonitor {
   }
   [[nodiscard]] Stability largest(const Robot& robot, const Kinematics& kinematics, InverseMass& inverse_mass, int iterations);
 
-  /// 20 iterations give 1 % and better: the rate's error is of second order in the vector's error.
+  /// 20 iterations give an error of at most 1 %, because the error of the rate is of second order in the error of the vector.
   static constexpr int kMonitorIterations = 20;
-  static constexpr int kStartIterations = 200;  ///< once, before the run
+  static constexpr int kStartIterations = 200;  ///< used once, before the run
 
  private:
   void stop_at(const Robot& robot, const RobotState& state);
@@ -77,7 +79,7 @@ class RateMonitor {
   [[nodiscard]] Stability attribute(const Kinematics& k, In velocity, double rate) const;
 
   std::vector<double> x_, kx_, y_;
-  std::vector<Vec3> v_, omega_, force_, moment_;  ///< per link, about its origin
+  std::vector<Vec3> v_, omega_, force_, moment_;  ///< per link, at the origin of the link frame
 };
 
 }  // namespace gaitlab

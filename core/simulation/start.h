@@ -5,11 +5,12 @@
 
 namespace gaitlab {
 
-/// Initial angles, speeds, pose and twist. `on_ground` lowers the robot until the first of its contact elements touches
-/// (without any, its outline's lowest point to height 0). The quaternion has w >= 0.
+/// Initial angles, speeds, pose and twist. If Scenario::on_ground, the robot is lowered until the first of its contact elements
+/// touches. A robot without contact elements is lowered until the lowest point of its outline is at height 0. The quaternion
+/// has w >= 0.
 RobotState start_state(const Scenario& scenario);
 
-/// The same, lowered onto the ground even if the scenario gives a height.
+/// Initial state of the robot, lowered onto the ground even if the scenario gives a height.
 RobotState lowered_start(const Scenario& scenario);
 
 }  // namespace gaitlab

@@ -9,12 +9,12 @@ namespace gaitlab {
 
 namespace {
 
-// Largest ratio that counts as zero: a joint's inertia with the joints beyond it free, over the inertia with them held.
-// Rounding leaves 1e-16 times the sizes along the chain.
+// Largest ratio that counts as zero: inertia of a joint with the joints beyond it free, over its inertia with these joints
+// locked. Rounding errors of the ratio are 1e-16 times the sizes along the chain.
 constexpr double kNothing = 1e-12;
-// Share of a joint's held inertia that its parent receives. With 1 a long chain would count as one rod, whose inertia grows
-// with the third power of its length, against which the joint's own would seem to be zero (a chain of 7000 modules). With 0.5
-// distant links count little, and two joints in line with others between them are still found.
+// Share of the locked inertia of a joint that its parent receives. With 1, a long chain would count as one rod, whose inertia
+// grows with the third power of its length. In comparison the free inertia of a joint would seem to be zero (in a chain of 7000
+// modules). With 0.5, distant links count little, and two joints in line with other joints between them are still found.
 constexpr double kHold = 0.5;
 
 using Spatial = Eigen::Matrix<double, 6, 6>;
@@ -26,7 +26,7 @@ Mat3 cross(const Vec3& r) {
   return m;
 }
 
-/// About the link's own origin.
+/// Spatial inertia of a link about its origin, world axes.
 Spatial inertia_of(const Link& link, const Mat3& R) {
   const Mat3 c = cross(R * link.com);
   Spatial i;
@@ -34,7 +34,7 @@ Spatial inertia_of(const Link& link, const Mat3& R) {
   return i;
 }
 
-/// An inertia about a point, moved to another point from which the first is at r.
+/// Transforms a spatial inertia to another point; r is the position of its present point relative to the new point.
 Spatial moved(const Spatial& inertia, const Vec3& r) {
   Spatial x = Spatial::Identity();  // motion here -> motion there
   x.bottomLeftCorner<3, 3>() = -cross(r);
@@ -54,9 +54,9 @@ std::unique_ptr<Plant> make_plant(const Scenario& scenario, const PlantSettings&
 void check_inertia(const Scenario& scenario, const Kinematics& k, In rotors, std::size_t lanes, std::size_t lane,
                    const SourceLocation& place) {
   const Robot& robot = *scenario.robot;
-  std::vector<Spatial> free(robot.links.size());  // with all joints beyond free
+  std::vector<Spatial> free(robot.links.size());  // inertias with all outer joints free
   for (std::size_t i = 0; i < free.size(); ++i) free[i] = inertia_of(robot.links[i], k.R[i]);
-  std::vector<Spatial> held = free;                    // with the joints beyond held, the nearest ones most
+  std::vector<Spatial> held = free;                    // inertias with the outer joints locked, mainly the nearest
   for (std::size_t i = free.size() - 1; i > 0; --i) {  // a parent comes before its children
     const Link& link = robot.links[i];
     const auto joint = static_cast<std::size_t>(link.joint);

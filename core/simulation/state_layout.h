@@ -1,4 +1,4 @@
-// Layout of the state of a plant, and the quantities that a step leaves beside it.
+// Layout of the state of a plant, and the torques and works of a step.
 #pragma once
 #include <cstddef>
 
@@ -8,14 +8,14 @@ namespace gaitlab {
 
 struct RobotState;
 
-/// Indices of the numbers of a rollout's state. Entry e of lane l is at e * lanes + l; SI, world axes.
+/// Indices of the numbers of the state of a rollout. Entry e of lane l has the index e * lanes + l. SI units, world axes.
 struct StateLayout {
   std::size_t joints = 0, lanes = 1;
   static constexpr std::size_t kPosition = 0;          ///< origin of the base frame, 3
   static constexpr std::size_t kOrientation = 3;       ///< quaternion w x y z, base -> world
-  static constexpr std::size_t kVelocity = 7;          ///< of that origin, 3
-  static constexpr std::size_t kAngularVelocity = 10;  ///< 3
-  static constexpr std::size_t kAngles = 13;           ///< then the joints' speeds
+  static constexpr std::size_t kVelocity = 7;          ///< velocity of the origin of the base frame, 3
+  static constexpr std::size_t kAngularVelocity = 10;  ///< angular velocity of the base, 3
+  static constexpr std::size_t kAngles = 13;           ///< joint angles, followed by the joint speeds
 
   [[nodiscard]] std::size_t size() const { return (kAngles + 2 * joints) * lanes; }
   [[nodiscard]] std::size_t angles() const { return kAngles * lanes; }
@@ -27,18 +27,18 @@ struct StateLayout {
 
 /// Torques and works of the last step, for the ledger and the statistics, not for the trace.
 struct StepEffort {
-  /// Motors and joints at one moment within the step, with the moment's weights.
+  /// Motors and joints at one time within the step, with the weights of this time.
   struct Part {
-    In torque;             ///< of the motors, N m (joint * lanes + lane)
-    In speed;              ///< speed of each joint at that torque, rad/s: power is computed with it
-    In angle;              ///< rad
-    In sum;                ///< per lane: weight in integrals, s; negative if an extrapolation subtracts it
-    In share;              ///< per lane: weight in shares of time, s; 0: only an auxiliary of the integration, or `instant`
-    bool instant = false;  ///< without duration: the step's start under its command, for peaks alone
+    In torque;  ///< motor torque, N m (joint * lanes + lane)
+    In speed;   ///< joint speed at that torque, rad/s, for the computation of power
+    In angle;   ///< joint angle, rad
+    In sum;     ///< per lane: weight in integrals, s; negative if an extrapolation subtracts the part
+    In share;   ///< per lane: weight in shares of time, s; 0 for an auxiliary part of the integration or if `instant`
+    bool instant = false;  ///< start of the step under its command, without duration; counts for peaks only
   };
   std::span<const Part> parts;
-  In contact, friction, stops;  ///< per lane: J that the robot gave the ground along its normal, along it, and the hinge stops
-  In hinges;                    ///< per lane: J taken by dampers and friction of passive hinges
+  In contact, friction, stops;  ///< per lane, J: work on the ground along its normal and tangent to it, and on stops
+  In hinges;                    ///< per lane, J: work absorbed by dampers and friction of passive hinges
 };
 
 /// StepEffort of a plant with one lane whose steps have one part.
@@ -48,7 +48,7 @@ class OnePart {
     h_ = h;
     part_ = {torque, speed, angle, {&h_, 1}, {&h_, 1}};
   }
-  /// works: contact, friction, stops, hinges, J
+  /// `works` contains the works contact, friction, stops, hinges, J.
   [[nodiscard]] StepEffort applied(In works) const {
     return {{&part_, 1}, works.subspan(0, 1), works.subspan(1, 1), works.subspan(2, 1), works.subspan(3, 1)};
   }

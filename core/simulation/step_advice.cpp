@@ -14,7 +14,7 @@ double usable_step(const Scenario& s, double limit) {
   constexpr double kSeries[] = {5, 2.5, 2, 1.25, 1};
   for (double scale = 1; scale < 1e9; scale *= 10) {
     for (const double mantissa : kSeries) {
-      const double step = mantissa / scale;  // the number that its text is
+      const double step = mantissa / scale;  // has the same bits as the decimal text
       const auto divides = [&](double period) { return math::whole_steps(period, step) > 0; };
       if (step <= limit && divides(s.control_period) && divides(s.trace.period) && divides(s.duration)) return step;
     }
@@ -25,7 +25,7 @@ double usable_step(const Scenario& s, double limit) {
 double stable_step(const Scenario& scenario, double longest) {
   constexpr double kRoom = 0.8;
   constexpr double kContactRoom = 0.45;
-  constexpr double kFine = 1e-6;  // of the control period: no robot is refused at such a step
+  constexpr double kFine = 1e-6;  // share of the control period; short enough for every robot
   Scenario probe = scenario;
   probe.physics.step = scenario.control_period * kFine;
   probe.physics.estimate = Estimate::off;

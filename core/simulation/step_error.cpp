@@ -48,7 +48,7 @@ void StepError::compare(Companion which, In torque, double factor, double weight
   }
 }
 
-/// Least peak that counts, as a share of the lane's largest torque.
+/// Least peak torque that counts in a lane, N m: the share kLeastPeak of the largest torque of the lane.
 double StepError::least_peak(std::size_t lane) const {
   double largest = 0;
   for (std::size_t i = lane; i < peaks_.size(); i += layout_.lanes) largest = std::max(largest, peaks_[i]);
@@ -66,7 +66,7 @@ void StepError::look_for_event(const Difference& apart, std::size_t i, double di
   apart.event_time[i] = apart.largest_time[i];
 }
 
-/// RMS so far of factor x difference of a joint, N m; 0 before the first comparison.
+/// RMS since the start of factor times difference of a joint, N m. 0 before the first comparison.
 double StepError::rms(Companion which, std::size_t joint, std::size_t lane) const {
   const Difference& apart = of(which);
   return apart.count[0] > 0 ? std::sqrt(apart.squares[joint * layout_.lanes + lane] / apart.count[0]) : 0;

@@ -1,4 +1,4 @@
-// Torque error of the time steps, estimated from the difference to a twin: a second rollout with other steps.
+// Estimate of the torque error of the time steps, from the differences to rollouts with other steps.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace gaitlab {
 
-/// Times at which a twin with another fixed step runs and is compared, in steps of the first. The twin restarts from the
-/// first's numbers at every window, and continues with a separate CPG, controller and commands.
+/// Times, in steps of the run, at which a twin runs and is compared with the run. A twin is a second rollout with another fixed
+/// step. It restarts from the numbers of the run at every window, and continues with a separate CPG, controller and commands.
 struct TwinWindows {
-  int steps = 0;      ///< 2: the twin takes one step for two of the first; -2: two for one; 0: no windows, the whole run
-  double factor = 0;  ///< error of the first over the difference of the two
+  int steps = 0;      ///< 2: one step of the twin for two of the run; -2: two for one; 0: the whole run, without windows
+  double factor = 0;  ///< error of the run over the difference to the twin
   std::int64_t window = 0;
-  std::int64_t cycle = 0;    ///< distance of windows
-  std::int64_t settle = 0;   ///< not compared at the start of each window except the first
-  std::int64_t compare = 1;  ///< distance of comparisons
+  std::int64_t cycle = 0;    ///< interval between the starts of two windows
+  std::int64_t settle = 0;   ///< time without comparisons at the start of each window except the first
+  std::int64_t compare = 1;  ///< interval between comparisons
 
   [[nodiscard]] std::int64_t at(std::int64_t step) const { return steps == 0 ? step : step % cycle; }
   [[nodiscard]] bool begins(std::int64_t step) const { return steps != 0 && at(step) == 0; }
@@ -25,54 +25,55 @@ struct TwinWindows {
   [[nodiscard]] bool compares(std::int64_t step) const { return runs(step) && (at(step) >= settle || step < cycle); }
 };
 
-/// Companions: the rollouts beside a run with which it is compared; the first kCompanions are simulated.
+/// Companions of a run: rollouts with which the run is compared. The first kCompanions of them are simulated.
 enum class Companion {
-  twin,     ///< finer steps, or with a given step other ones
-  coarse,   ///< coarser steps: shows errors that run and twin share
-  chaotic,  ///< gravity times 1 + 1e-9: a motion that changes by that is not predictable, and no step length helps
-  ill,      ///< the difference to `chaotic` times 1000: that of gravity times 1 + 1e-6, in proportion
+  twin,     ///< finer steps; with a fixed step, steps of another length
+  coarse,   ///< coarser steps, for errors that run and twin have in common
+  chaotic,  ///< gravity times 1 + 1e-9. A motion that this changes is not predictable with steps of any length
+  ill,      ///< difference to `chaotic` times 1000, as a linear estimate for gravity times 1 + 1e-6
 };
 constexpr std::size_t kCompanions = 3, kDifferences = 4;
 
-/// Difference of the motor torques between rollouts, every kApart or less, as at rows:
+/// Estimates the error of the motor torques from their differences between rollouts, at intervals of at most kApart. The
+/// torques are left limits, as in trace rows:
 ///     error = factor RMS(T_1 - T_2)
-/// With an accuracy the larger error of two companions counts: with kFiner and kCoarser times the accuracy, and the factors
-/// kOfFiner and kOfCoarser, fitted on drawn scenarios by tests/tools/estimate.py. With a fixed step of order p (Richardson) the
-/// factor is kSafety / (2^p - 1) if the twin's step is twice as long, 2^p times that if it is half as long; the first kGrowth
-/// of a window, in which the difference grows, does not count except at the start of the run, and impacts outside of all
-/// windows are missed. Motors whose torques agree and do not depend on speed have no estimate. All changing numbers are those
-/// of bind(); only the constructor allocates.
+/// With an accuracy, the larger error of two companions counts. They have kFiner and kCoarser times the accuracy of the run,
+/// and the factors kOfFiner and kOfCoarser, which were fitted on randomly drawn scenarios by tests/tools/estimate.py. With a
+/// fixed step and an integrator of order p (Richardson), the factor is kSafety / (2^p - 1) if the step of the twin is twice as
+/// long, and 2^p times that if it is half as long. The first kGrowth of a window, in which the difference grows, does not count
+/// except at the start of the run. Impacts outside of all windows are missed. Motors whose torques agree and do not depend on
+/// speed have no estimate. All changing numbers are in the array of bind(); only the constructor allocates.
 class StepError {
  public:
-  static constexpr double kApart = 5e-3;                       ///< s
-  static constexpr double kGrowth = 15e-3;                     ///< s, rounded up to control periods
-  static constexpr double kFiner = 0.5, kCoarser = 3;          ///< accuracy of the rollouts over the accuracy of the first
-  static constexpr double kOfFiner = 2.26, kOfCoarser = 0.58;  ///< error of the first over the difference to them
-  static constexpr double kSafety = 1.25;                      ///< events lower the order, and windows miss some
-  static constexpr double kStart = 1.0 / 3;  ///< weight of the first window; each of the others has the weight of a whole cycle
-  static constexpr double kLeastPeak = 0.02;  ///< share of the largest peak of all joints: smaller peaks count as this
+  static constexpr double kApart = 5e-3;    ///< longest interval between comparisons, s
+  static constexpr double kGrowth = 15e-3;  ///< s, rounded up to control periods; not compared at the start of a window
+  static constexpr double kFiner = 0.5, kCoarser = 3;  ///< accuracy of twin and coarse companion over accuracy of the run
+  static constexpr double kOfFiner = 2.26, kOfCoarser = 0.58;  ///< error of the run over its difference to them
+  static constexpr double kSafety = 1.25;                      ///< because events lower the order, and windows miss some events
+  static constexpr double kStart = 1.0 / 3;   ///< weight of the first window; other windows have the weight 1 of a whole cycle
+  static constexpr double kLeastPeak = 0.02;  ///< share of the largest peak of all joints, to which smaller peaks are raised
 
-  /// `accuracy`, per lane: share of a torque's peak by which two rollouts must differ for an event.
+  /// `accuracy` is, per lane, the share of the peak torque by which two rollouts must differ for an event.
   StepError(const StateLayout& layout, std::vector<double> accuracy);
 
   /// Number of values that bind() takes.
   static std::size_t size(const StateLayout& layout);
   void bind(Out numbers);
-  /// Takes the torques of the first, and their slopes, at a moment of comparison, in every step of the run; joint * lanes +
-  /// lane.
+  /// Stores the torques of the run and their slopes at a time of comparison (index joint * lanes + lane). Called over the whole
+  /// run, also outside of windows.
   void see(In torque, In slope);
-  /// Compares the torques of a companion with them, after see(), t seconds after the start.
+  /// Compares the torques of a companion with the torques of the last see(), t seconds after the start.
   void compare(Companion which, In torque, double factor, double weight, double t);
-  /// Writes the estimate of a lane so far. Peaks are those of see(): the first milliseconds, in which a motor may jump to its
-  /// limit, do not count.
+  /// Writes the estimate of a lane so far. The peaks are the largest torques in see(). The first milliseconds, in which a motor
+  /// may jump to its limit, do not count.
   void put(std::size_t lane, StepTally& tally) const;
 
  private:
-  /// joint * lanes + lane, but count: weight of all comparisons. An event is a difference beyond the accuracy times the peak of
-  /// the whole run, which is known at the end alone: the first that is beyond the peak so far is kept as long as it stays
-  /// beyond, then replaced by the largest so far.
+  /// Sums and events with index joint * lanes + lane, and `count`, the weight of all comparisons. An event is a difference
+  /// above the accuracy times the peak of the whole run, which is known only at the end. The first difference above accuracy
+  /// times the peak so far is kept as long as it stays above, and is then replaced by the largest difference so far.
   struct Difference {
-    Out count, squares, event_time, event, largest_time, largest;  ///< s; N m
+    Out count, squares, event_time, event, largest_time, largest;  ///< times in s, differences in N m
   };
   [[nodiscard]] const Difference& of(Companion which) const { return apart_[static_cast<std::size_t>(which)]; }
   [[nodiscard]] double rms(Companion which, std::size_t joint, std::size_t lane) const;

@@ -11,9 +11,10 @@ namespace gaitlab {
 
 namespace {
 
-constexpr double kBand = 1e-3;  // m: a robot that settles on its lowest elements sinks by less than this
+constexpr double kBand = 1e-3;  // m; more than a robot sinks while it settles on its lowest elements
 
-/// A point is inside a convex hull if no gap between the directions to its vertices, seen from the point, is as wide as pi.
+/// True if `com` is in the convex hull of the elements: seen from `com`, no gap between the directions to the vertices is as
+/// wide as pi.
 bool holds(std::span<const SupportElement> elements, const Vec3& com) {
   std::vector<double> angles;
   for (const SupportElement& s : elements) angles.push_back(math::atan2(s.point.y() - com.y(), s.point.x() - com.x()));
@@ -43,7 +44,7 @@ struct Above {
   double x, y;
 };
 
-/// m^2: from c to the stretch from a to b.
+/// Squared distance from c to the line segment from a to b, m^2.
 double distance_square(Above a, Above b, Above c) {
   const Above along{b.x - a.x, b.y - a.y};
   const double length = along.x * along.x + along.y * along.y;

@@ -17,13 +17,13 @@ namespace {
 
 constexpr double kTouching = 1e-9;  // m: smaller overlaps of touching faces are rounding
 
-/// One shape of a body, in its link's frame, with its bounding ball.
+/// One shape of a body in the frame of its link, with a bounding sphere.
 struct Piece {
   std::size_t body = 0, link = 0;
   Convex local;
   Extent extent{local};
-  Vec3 centre = Vec3::Zero();  ///< m, link frame
-  double reach = 0;            ///< m
+  Vec3 centre = Vec3::Zero();  ///< m, centre of the bounding sphere in the frame of the link
+  double reach = 0;            ///< m, radius of the bounding sphere
 };
 
 std::vector<Piece> pieces_of(const Robot& robot) {
@@ -43,7 +43,7 @@ std::vector<Piece> pieces_of(const Robot& robot) {
 
 using Pair = std::pair<std::size_t, std::size_t>;  // indices in Robot::bodies, the smaller one first
 
-/// True if two bodies can collide: no hinge joins them, and they belong to different links.
+/// Condition for a collision of two bodies: no hinge joins them, and they belong to different links.
 class Meetings {
  public:
   explicit Meetings(const Robot& robot) : robot_(robot), parents_(robot.bodies.size(), robot.bodies.size()) {
@@ -58,21 +58,22 @@ class Meetings {
 
  private:
   const Robot& robot_;
-  std::vector<std::size_t> parents_;  ///< parent of each body by its hinge; the number of bodies: none
+  std::vector<std::size_t> parents_;  ///< parent of each body by its hinge; the number of bodies if none
 };
 
-/// A pair of pieces that are near one another.
+/// Two pieces that are near each other.
 struct Near {
-  std::size_t a = 0, b = 0;  ///< the smaller index first
-  /// m: they are apart as long as the sum of their paths is below this.
+  std::size_t a = 0, b = 0;  ///< indices of the pieces, the smaller index first
+  /// Sum of the two pieces' paths, m, up to which they cannot touch.
   double apart_until = 0;
-  Vec3 axis = Vec3::Zero();  ///< the last separating axis; 0: none so far
-  Pose then = {};            ///< pose of the second in the frame of the first when the gap was measured
-  double gap = 0;            ///< m
+  Vec3 axis = Vec3::Zero();  ///< last separating axis; 0 if none was found yet
+  Pose then = {};            ///< pose of piece b in the frame of piece a when the gap was measured
+  double gap = 0;            ///< m, gap between the pieces at that time
 };
 
-/// Poses of all pieces in one row after the other, computed on demand: only for pieces that may have met since they were last
-/// found apart. A point of a piece moves at most as far as the centre of its ball, plus the turn of its link allows.
+/// Poses of all pieces in one row after another. A piece is moved only if it may have touched another one since the two were
+/// last found apart. The path of a point of a piece is at most the path of its bounding sphere's centre plus the path due to
+/// the rotation of the link.
 class Row {
  public:
   explicit Row(const std::vector<Piece>& pieces)
@@ -89,7 +90,7 @@ class Row {
     if (first) before_ = k.R;
     k_ = &k;
     moved_.assign(pieces_.size(), false);
-    // Bound of |R - R'|: the path of a point at 1 m from the centre by the turn.
+    // Bound of |R - R'|: path of a point at 1 m from the centre due to the rotation.
     const auto turned = [&](std::size_t link) { return (k.R[link] - before_[link]).norm() / std::numbers::sqrt2; };
     double turn = 0;
     double farthest = 0;
@@ -110,16 +111,17 @@ class Row {
     moved_[i] = true;
     return there_[i];
   }
-  /// Upper bound of the path of all points of the piece since the first row, m.
+  /// Upper bound of the path of any point of the piece since the first row, m.
   [[nodiscard]] double way(std::size_t i) const { return way_[i]; }
   [[nodiscard]] double lowest(std::size_t i) const { return balls_[i].z() - pieces_[i].reach; }
-  /// Height of the piece's lowest point, m.
+  /// Height of the lowest point of the piece, m.
   [[nodiscard]] double bottom(std::size_t i) const {
     const Pose there = place(i);
     return there.p.z() + pieces_[i].extent.along(there.R.transpose() * Vec3::UnitZ()).first;
   }
 
-  /// Visits pairs of pieces that collide, in the order of a sweep along x; meet(a, b, depth): m, as penetration(), above 0.
+  /// Calls meet(a, b, depth) for all pairs of pieces that collide, in the order of a sweep along x. depth is that of
+  /// penetration(), m, and greater than 0.
   template <class Meet>
   void pairs(const Meetings& can, double ignored, Meet meet) {
     if (2 * since_found_ > margin_ - kRounding) find_near(can);
@@ -145,7 +147,7 @@ class Row {
   [[nodiscard]] double left(std::size_t i) const { return balls_[i].x() - pieces_[i].reach; }
   [[nodiscard]] double together(const Near& pair) const { return way_[pair.a] + way_[pair.b]; }
 
-  /// Finds pairs whose balls are less than the margin apart, by a sweep along x.
+  /// Finds the pairs of pieces whose bounding spheres are less than margin_ apart, by a sweep along x.
   void find_near(const Meetings& can) {
     since_found_ = 0;
     std::ranges::sort(order_, {}, [&](std::size_t i) { return Key(left(i), i); });
@@ -167,13 +169,13 @@ class Row {
     near_ = std::move(found);
   }
 
-  /// Pose of the second piece in the frame of the first.
+  /// Pose of piece b in the frame of piece a.
   [[nodiscard]] Pose seen(const Near& pair) const {
     const std::size_t from = pieces_[pair.a].link;
     return {k_->R[from].transpose() * k_->R[pieces_[pair.b].link], k_->R[from].transpose() * (balls_[pair.b] - k_->p[from])};
   }
 
-  /// Whether the two have moved relative to one another by less than the gap between them. Two pieces of one leg move far
+  /// True if the pieces have moved relative to each other by less than the gap between them. Two pieces of one leg may move far
   /// together.
   bool still_apart(Near& pair) const {
     if (!(pair.gap > 0)) return false;
@@ -185,7 +187,8 @@ class Row {
     return true;
   }
 
-  /// Penetration of two pieces. The axis that separated two pieces mostly separates them at the next tick also.
+  /// Penetration of two pieces. The axis that separates them at one tick usually separates them at the next tick, so it is
+  /// tested first.
   double depth(std::size_t a, std::size_t b, double ignored, Near& pair) {
     const auto overlap = [&] { return overlap_along(pieces_[a].extent, place(a), pieces_[b].extent, place(b), pair.axis); };
     double found = 0;
@@ -210,9 +213,9 @@ class Row {
   std::vector<Vec3> balls_;
   std::vector<Convex> there_ = {};
   std::vector<bool> moved_;
-  std::vector<double> way_;  ///< m
+  std::vector<double> way_;  ///< m, upper bound of the path of each piece
   std::vector<std::size_t> order_ = {};
-  double margin_ = 0;                                             ///< m: largest distance of near balls
+  double margin_ = 0;                                             ///< m, largest gap between bounding spheres of near pieces
   double since_found_ = std::numeric_limits<double>::infinity();  ///< m: upper bound of any piece's path since find_near
   std::vector<Near> near_ = {};
   struct Met {
@@ -223,14 +226,14 @@ class Row {
   std::vector<Met> met_ = {};
 };
 
-/// Distance from the deepest vertex out of the ground, m; 0: no vertex is in the ground.
+/// Largest distance out of the ground of any vertex, m; 0 if no vertex is in the ground.
 double depth_of(const Convex& piece, const Ground& ground) {
   double depth = 0;
   for (const Vec3& vertex : piece.vertices) depth = std::max(depth, ground.query(vertex, piece.radius).penetration);
   return depth;
 }
 
-/// Collisions and sunk bodies found so far.
+/// Collisions and sunk bodies found in the rows so far.
 class Search {
  public:
   Search(const Scenario& scenario, const std::vector<Piece>& pieces)
@@ -263,7 +266,7 @@ class Search {
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       if (row.way(i) < above_until_[i]) continue;
       double room = row.lowest(i) - (highest_ - limits_.sink);
-      // On boxes and fields the way out can change by more than the piece moves.
+      // On boxes and height fields the way out of the ground can change by more than the piece moves.
       if (room <= 0 && ground_.is_plane()) room = row.bottom(i) + limits_.sink;
       above_until_[i] = row.way(i) + room - kTouching;
       if (room > kTouching) continue;
@@ -293,7 +296,8 @@ class Search {
   const Limits& limits_;
   const Ground& ground_;
   double highest_;                   ///< m
-  std::vector<double> above_until_;  ///< m: a piece with a shorter path is not deeper than Limits::sink
+  std::vector<double> above_until_;  ///< m: until the path of a piece reaches this, the piece cannot be deeper than
+                                     ///< Limits::sink
   std::set<Pair> met_ = {};
   std::set<std::size_t> buried_ = {};
   Collision collision_ = {};

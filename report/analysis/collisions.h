@@ -1,5 +1,5 @@
-// Collisions: bodies of a robot that overlap one another or the ground. contact.law penalty keeps only the contact elements of
-// contact.on above the ground.
+// Collisions: bodies of a robot that overlap one another or the ground. They can occur because contact.law penalty keeps only
+// the contact elements of contact.on above the ground.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -9,35 +9,37 @@
 
 namespace gaitlab::report {
 
-/// Collision of bodies that no hinge joins and that can move against each other; indices in Robot::bodies.
+/// Collisions of pairs of bodies that can move relative to each other and that no hinge joins. Bodies are given by their index
+/// in Robot::bodies.
 struct Collision {
-  double time = 0;                                    ///< s, of the first tick with an overlap
-  std::size_t first = 0, second = 0;                  ///< the deepest pair at that tick
-  double depth = 0, deepest_time = 0;                 ///< m, the largest of all ticks; s
-  std::size_t deepest_first = 0, deepest_second = 0;  ///< the pair with that depth
-  std::size_t pairs = 0;                              ///< number of pairs that overlapped
+  double time = 0;                                    ///< s, first tick with an overlap
+  std::size_t first = 0, second = 0;                  ///< the pair with the deepest overlap at that tick
+  double depth = 0, deepest_time = 0;                 ///< m, deepest overlap of the whole run; s, its time
+  std::size_t deepest_first = 0, deepest_second = 0;  ///< the pair with the deepest overlap of the whole run
+  std::size_t pairs = 0;                              ///< number of pairs that overlapped at any tick
 };
 
-/// A body in the ground, by the distances out of it (Ground::query) of its shapes' vertices, or of a whole sphere.
+/// Bodies in the ground. The depth of a body is the largest distance from a vertex of its shapes, or from a sphere's lowest
+/// point, out of the ground (Ground::query).
 struct Sunk {
-  std::size_t body = 0;                ///< Robot::bodies: the deepest one
-  double time = 0;                     ///< s, of the first tick with a body in the ground
-  std::size_t bodies = 0;              ///< number of bodies in the ground
-  std::size_t first = 0;               ///< the deepest one at that tick
-  double depth = 0, deepest_time = 0;  ///< m, the largest of all ticks; s
+  std::size_t body = 0;                ///< index in Robot::bodies of the deepest body
+  double time = 0;                     ///< s, first tick with a body in the ground
+  std::size_t bodies = 0;              ///< number of bodies that were in the ground at any tick
+  std::size_t first = 0;               ///< index of the deepest body at the first tick
+  double depth = 0, deepest_time = 0;  ///< m, largest depth of the whole run; s, its time
 };
 
 struct Overlaps {
-  std::size_t shaped = 0;  ///< number of bodies with a shape; 0: not known, also for a run without poses
+  std::size_t shaped = 0;  ///< number of bodies with a shape; 0 if overlaps are not known, for example in a run without poses
   std::optional<Collision> collision = {};
   std::optional<Sunk> sunk = {};
 };
 
-/// Overlaps of the shapes of all bodies at control ticks (States::at_ticks), above Limits::touch and Limits::sink. Not known
-/// under contact.law bullet, whose solver keeps bodies apart.
+/// Overlaps of the shapes of all bodies at control ticks (States::at_ticks) that are deeper than Limits::touch or Limits::sink.
+/// Not known under contact.law bullet, whose solver keeps bodies apart.
 Overlaps overlaps(const Scenario& scenario, const Recording& record);
 
-/// Depth of the robot in the ground in this state, m; 0 if nothing is in it, and without a ground.
+/// Depth of the robot's deepest point in the ground in this state, m. 0 if no part is in the ground or there is no ground.
 double depth_in_ground(const Scenario& scenario, const RobotState& state);
 
 }  // namespace gaitlab::report

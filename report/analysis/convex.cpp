@@ -10,8 +10,8 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr int kRoundSegments = 24;  // of a full circle: a half cylinder has 12
-constexpr double kNoAxis = 1e-9;    // length of a product of parallel edges
+constexpr int kRoundSegments = 24;  // segments of a full circle; a half cylinder has 12
+constexpr double kNoAxis = 1e-9;    // length of a cross product below which two edges are parallel
 
 Convex block(const Vec3& size) {
   Convex made;
@@ -23,7 +23,7 @@ Convex block(const Vec3& size) {
   return made;
 }
 
-/// Prism with axis y; the half one is on the side of +x.
+/// Prism with axis y. A half prism is on the side of +x.
 Convex prism(double radius, double length, bool half) {
   Convex made;
   const int sides = half ? kRoundSegments / 2 : kRoundSegments;
@@ -44,7 +44,7 @@ Convex prism(double radius, double length, bool half) {
   return made;
 }
 
-/// Least and largest coordinate of a convex's points along a unit axis.
+/// Least and largest coordinate of a convex along a unit axis.
 std::pair<double, double> range(const Convex& of, const Vec3& axis) {
   double lo = std::numeric_limits<double>::infinity();
   double hi = -lo;
@@ -56,12 +56,12 @@ std::pair<double, double> range(const Convex& of, const Vec3& axis) {
   return {lo - of.radius, hi + of.radius};
 }
 
-/// Smallest overlap so far; 0 once an axis separates, or nearly separates.
+/// Smallest overlap of two convexes along the axes tested so far; 0 if an axis separates them or nearly does.
 class Overlap {
  public:
   Overlap(const Convex& a, const Convex& b, double ignored) : a_(a), b_(b), ignored_(ignored) {}
 
-  /// Tests an axis; false: no further axis is needed.
+  /// Tests an axis. Returns false if no further axis is needed.
   bool along(const Vec3& direction) {
     const double length = direction.norm();
     if (length < kNoAxis) return true;
@@ -72,7 +72,7 @@ class Overlap {
     return least_ > ignored_;
   }
   [[nodiscard]] double depth() const { return least_ > ignored_ ? least_ : 0; }
-  [[nodiscard]] const Vec3& axis() const { return axis_; }  ///< the axis tested last
+  [[nodiscard]] const Vec3& axis() const { return axis_; }  ///< axis that was tested last
 
  private:
   const Convex& a_;
@@ -84,7 +84,7 @@ class Overlap {
 bool apart_from_sphere(Overlap& overlap, const Convex& sphere, const Convex& other) {
   for (const Vec3& vertex : other.vertices) {
     Vec3 way = vertex - sphere.vertices.front();
-    if (way.norm() < kNoAxis) way = Vec3::UnitX();  // the centre is at the vertex: all directions are equally long
+    if (way.norm() < kNoAxis) way = Vec3::UnitX();  // the centre coincides with the vertex: every direction is equally short
     if (!overlap.along(way)) return true;
     for (const Vec3& edge : other.directions) {
       if (!overlap.along(way - edge * edge.dot(way))) return true;
@@ -93,7 +93,7 @@ bool apart_from_sphere(Overlap& overlap, const Convex& sphere, const Convex& oth
   return false;
 }
 
-/// False at the first separating axis.
+/// Tests all axes. Returns false at the first separating axis.
 bool overlap_everywhere(Overlap& overlap, const Convex& a, const Convex& b) {
   for (const Convex* of : {&a, &b}) {
     for (const Vec3& normal : of->normals) {

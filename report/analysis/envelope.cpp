@@ -16,7 +16,7 @@ constexpr std::size_t kSpeeds = 121;  // points of a curve; odd, so that speed 0
 constexpr double kFastest = 1e5;      // rad/s: above any joint speed
 constexpr int kHalvings = 60;         // until the interval of the bisection is empty
 
-/// Torque of every joint at its speed under the largest command along its axis, N m.
+/// Torque of every joint at its speed under the largest positive command, N m.
 std::vector<double> most_at(const AvailableTorque& available, const std::vector<double>& speeds) {
   std::vector<double> most(speeds.size());
   std::vector<double> least(speeds.size());
@@ -24,7 +24,7 @@ std::vector<double> most_at(const AvailableTorque& available, const std::vector<
   return most;
 }
 
-/// Current of every joint under that command, A; NaN if it is not at its largest current.
+/// Current of every joint under the largest positive command, A; NaN if it is not limited by the largest current.
 std::vector<double> limited_currents(const AvailableTorque& available, const std::vector<double>& speeds) {
   std::vector<double> current(speeds.size());
   std::vector<double> saturation(speeds.size());
@@ -41,7 +41,8 @@ std::optional<double> stated(double rating) { return rating > 0 ? std::optional(
 
 std::optional<double> finite(double value) { return std::isfinite(value) ? std::optional(value) : std::nullopt; }
 
-/// Speed of every joint at which the torque along + falls to 0, rad/s. None: it does not.
+/// Speed of every joint at which the torque under the largest positive command falls to 0, rad/s. Nothing if it does not fall
+/// to 0.
 std::vector<std::optional<double>> no_load_speeds(const AvailableTorque& available, std::size_t joints) {
   std::vector<double> low(joints, 0.0);
   std::vector<double> high(joints, 1e-3);
@@ -135,7 +136,8 @@ Motors motors(const Scenario& scenario, double fastest) try {
     if (known == found.kinds.end()) found.kinds.push_back(motor);
   }
   return found;
-} catch (const PluginError&) {  // a plugin that throws may have ended the run, which reports it; the envelope is not known
+} catch (const PluginError&) {  // a plugin that throws may have ended the run, and then the run reports it; the envelope is not
+                                // known
   return {{Envelope()}, std::vector<std::size_t>(scenario.robot->joints.size(), 0)};
 }
 

@@ -10,18 +10,19 @@
 
 namespace gaitlab::report {
 
-/// Available torque of the motors at a speed: the actuator's effort at plus and minus its largest useful command.
+/// Torque available from the motors at a speed: the actuator's effort under plus and minus its largest useful command.
 class AvailableTorque {
  public:
   /// Throws PluginError.
   explicit AvailableTorque(const Scenario& scenario);
-  /// The actuator; must exist: something drives the joints.
+  /// The actuator plugin. Requires a scenario with an actuator.
   [[nodiscard]] const Actuator& actuator() const { return *actuator_; }
-  /// Whether the actuator states a largest command for the joint; otherwise its available torque has no meaning.
+  /// True if the actuator states a largest command for the joint. Otherwise the available torque has no meaning.
   [[nodiscard]] bool known(std::size_t joint) const { return joint < known_.size() && known_[joint]; }
-  /// The largest commands; 0 without a stated limit.
+  /// Largest command of each joint; 0 if the actuator states none.
   [[nodiscard]] In commands() const { return most_; }
-  /// Torque limits of every joint at its speed (rad/s), N m: largest along its axis, and least (largest against it).
+  /// Torque limits of every joint at its speed (rad/s), N m: the largest in the positive direction, and the least, which is the
+  /// largest in the negative direction.
   void at(In speed, Out most, Out least) const;
 
  private:
@@ -30,26 +31,26 @@ class AvailableTorque {
   std::vector<double> most_, least_;
 };
 
-/// Envelope of one kind of motor. Empty and none: the actuator states no limit.
+/// Torque-speed envelope of one kind of motor. The optional values and curves are empty if the actuator states no limit.
 struct Envelope {
-  std::string unit;                        ///< of the command: V, N m
-  std::optional<double> command, current;  ///< largest useful command; A, if the current is limited
-  std::optional<double> rest, no_load;     ///< N m at rest; rad/s without load
-  std::vector<double> speed, most, least;  ///< rad/s; N m at the largest command along + and along -
-  /// Ratings of the maker (DriveRatings): A RMS; N m, largest and RMS; rad/s.
+  std::string unit;                        ///< unit of the command: V or N m
+  std::optional<double> command, current;  ///< largest useful command; largest current, A, if it is limited
+  std::optional<double> rest, no_load;     ///< torque at rest, N m; no-load speed, rad/s
+  std::vector<double> speed, most, least;  ///< rad/s; N m at the largest positive and at the largest negative command
+  /// Ratings of the maker (DriveRatings): RMS current, A; largest and RMS torque of the gear, N m; largest speed, rad/s.
   std::optional<double> continuous, gear_peak, gear_continuous, speed_max;
   bool operator==(const Envelope&) const = default;
 };
 
 struct Motors {
   std::vector<Envelope> kinds;
-  std::vector<std::size_t> of_joint;  ///< index in kinds; empty: no joint has a motor
+  std::vector<std::size_t> of_joint;  ///< index in `kinds` for each joint; empty if no joint has a motor
   [[nodiscard]] const Envelope& joint(std::size_t j) const { return kinds[of_joint[j]]; }
 };
 
-/// Envelopes of the motors. Speeds range from -w to w, with w a quarter above the speed without load, or `fastest` (rad/s, of
-/// the run) if that is larger, but at most three times the former; without a speed without load w is `fastest`. Empty if the
-/// actuator throws.
+/// Envelopes of the motors. Speeds range from -w to w. w is the largest speed of the run, `fastest` (rad/s), but at least 1.25
+/// and at most 3 times the no-load speed if there is one. If the actuator throws PluginError, all joints have an empty
+/// envelope.
 Motors motors(const Scenario& scenario, double fastest);
 
 }  // namespace gaitlab::report

@@ -22,7 +22,7 @@ class Altimeter {
     k_.place(*scenario_.robot, state);
     const Vec3 com = centre_of_mass(*scenario_.robot, k_);
     if (ground_.is_plane()) return com.z();
-    const double give = scenario_.limits.sink;  // what is deeper does not stand there: the check `in_ground`
+    const double give = scenario_.limits.sink;  // m: an element deeper than this is not supported there (check `in_ground`)
     if (elements_.empty()) return com.z() - ground_.surface_below(com, give);
     double below = 0;
     for (const ContactElement& e : elements_) below += ground_.surface_below(k_.point(e.link, e.centre), give);
@@ -36,7 +36,8 @@ class Altimeter {
   Kinematics k_;
 };
 
-/// Boxes that move are at the scenario's places at the start alone, and their later places are not recorded.
+/// Ground without the boxes that move. They are at the scenario's places only at the start, and their later places are not
+/// recorded.
 Ground fixed_ground(const Scenario& scenario) {
   return scenario.contact.model().moves_boxes ? scenario.ground.without_moving_boxes() : scenario.ground;
 }

@@ -1,4 +1,4 @@
-// Height of the robot above the ground below it, its least height and whether it fell.
+// Height of the robot above the ground, its least height, and the time at which the robot fell.
 #pragma once
 #include <optional>
 #include <vector>
@@ -8,24 +8,26 @@
 
 namespace gaitlab::report {
 
-/// Fall of a robot. Heights are of the centre of mass above the mean height of the surfaces that carry the contact elements of
-/// contact.on (Ground::surface_below), or the surface below the centre of mass if there are none.
+/// Heights of a robot on a ground, and its fall. A height is that of the centre of mass above the mean height of the surfaces
+/// below the contact elements of contact.on (Ground::surface_below). Without contact elements it is measured from the surface
+/// below the centre of mass.
 struct Fall {
-  double standing = 0;              ///< m, of the start pose, lowered onto the ground
-  double lowest = 0;                ///< m, of all ticks
-  double lowest_time = 0;           ///< s
-  std::optional<double> time = {};  ///< s, of the first tick below Limits::height; none: it did not fall
+  double standing = 0;              ///< m, height of the start pose, lowered onto the ground
+  double lowest = 0;                ///< m, least height of all ticks
+  double lowest_time = 0;           ///< s, time of the least height
+  std::optional<double> time = {};  ///< s, first tick with a height below Limits::height * standing; empty if the robot did not
+                                    ///< fall
   [[nodiscard]] double share() const { return lowest / standing; }
 };
 
-/// Heights at control ticks (States::at_ticks), m; empty: the folder has no poses.
+/// Heights at control ticks (States::at_ticks), m. Empty if the folder has no poses.
 std::vector<double> heights(const Scenario& scenario, const Recording& record);
 
-/// Height of the start pose, lowered onto the ground, m.
+/// Height of the centre of mass in the start pose, lowered onto the ground, m.
 double standing_height(const Scenario& scenario);
 
-/// Fall of a floating base above a ground; none for other runs, without poses, and if the start pose has its centre of mass not
-/// above the ground.
+/// Heights and fall of a robot with a floating base on a ground. Empty for other robots, for a run without poses, and if the
+/// centre of mass of the start pose is not above the ground.
 std::optional<Fall> fall(const Scenario& scenario, const Recording& record);
 
 }  // namespace gaitlab::report

@@ -13,13 +13,13 @@ namespace gaitlab::report {
 
 namespace {
 
-/// A contact element and its columns.
+/// A contact element and its columns of the trace.
 struct Pressed {
   ContactElement element;
   Series fn, fx, fy, fz;
 };
 
-/// Point of an element where the ground acts: its deepest point. Moving boxes do not count.
+/// Point at which the ground acts on an element: the element's deepest point. Boxes that move are ignored.
 Vec3 meeting_point(const Scenario& scenario, const ContactElement& element, const Vec3& centre) {
   if (!scenario.ground.exists() || scenario.contact.model().moves_boxes) return centre - element.radius * Vec3::UnitZ();
   return scenario.ground.query(centre, element.radius).point;

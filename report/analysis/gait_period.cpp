@@ -21,11 +21,11 @@ namespace {
 
 constexpr double kFarEnough = 120;          // s: two periods of a slow gait, after its start
 constexpr double kLongerThanTheRun = 5;     // factor on the run's duration
-constexpr std::int64_t kMostTicks = 20000;  // simulated ticks of the CPG alone: some 0.1 s
-constexpr std::int64_t kMostRows = 4000;    // in the search for a period
-constexpr double kSameSetPoint = 1e-5;      // rad: poses are single precision
+constexpr std::int64_t kMostTicks = 20000;  // simulated ticks of the CPG alone, which take about 0.1 s
+constexpr std::int64_t kMostRows = 4000;    // largest number of rows in the search for a period
+constexpr double kSameSetPoint = 1e-5;      // rad; recorded set points are single precision
 
-/// Least frequency above 0 of a driven joint, Hz; 0: the settings have none.
+/// Least frequency above 0 of a driven joint in the CPG's settings, Hz; 0 if there is none.
 double least_frequency(const Scenario& s) {
   double least = 0;
   const SettingsNumbers settings(s.cpg);
@@ -65,7 +65,8 @@ std::vector<double> set_points_alone(const Scenario& s, std::int64_t ticks) {
   return all;
 }
 
-/// Whether feedback changed no recorded set point. The set point of a row was in force just before it.
+/// True if feedback changed no recorded set point: all are equal to those of the CPG `alone`. The set point in a row was in
+/// force just before the time of the row.
 bool recorded_so(const Scenario& s, const Recording& r, const std::vector<double>& alone, const std::vector<Series>& recorded) {
   const Series t = motion(r).t;
   for (std::size_t row = 1; row < t.size(); ++row) {
@@ -78,8 +79,8 @@ bool recorded_so(const Scenario& s, const Recording& r, const std::vector<double
   return true;
 }
 
-/// The cycle of the CPG without its robot, over longer than the run; none if feedback changes the set points, or if that is not
-/// known.
+/// Cycle of the CPG without its robot, simulated for longer than the run. Nothing if feedback changes the set points, or if
+/// this cannot be found out.
 std::optional<MotionCycle> cycle_alone(const Scenario& s, const Recording& r) try {
   const std::vector<Series> recorded = set_points(s, r);
   const double seconds = std::max(kFarEnough, kLongerThanTheRun * r.simulated);

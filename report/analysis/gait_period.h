@@ -5,11 +5,12 @@
 
 namespace gaitlab::report {
 
-/// Number of periods that show a gait whose motion does not settle to a limit cycle.
+/// Number of set-point periods that a run must contain if its motion does not settle to a limit cycle.
 inline constexpr double kPeriodsNeeded = 3;
 
-/// Period of the set points, s: as recorded; for a run too short to show one, that of the CPG simulated alone for longer; if
-/// feedback changes the set points, by the least frequency (Hz) of its settings. 0: they do not repeat.
+/// Period of the set points, s; 0 if they do not repeat. It is found in the recorded set points. If the run is too short, it is
+/// found by simulating the CPG alone for longer. If feedback changes the set points, it is the inverse of the least frequency
+/// (Hz) among the CPG's settings.
 double set_point_period(const Scenario& scenario, const Recording& record);
 
 }  // namespace gaitlab::report

@@ -7,14 +7,14 @@
 
 namespace gaitlab::report {
 
-/// amplitude * sin(2 pi t / period + phase); the phase in (-pi, pi].
+/// Harmonic amplitude * sin(2 pi t / period + phase), with the phase in (-pi, pi].
 struct Harmonic {
   double amplitude = 0, phase = 0;
 };
 
-/// Least-squares fit of mean + harmonic to the rows of the last whole periods of the limit cycle; with the mean in the fit, it
-/// does not disturb the harmonic even though the rows do not divide the period. `time`: s, rising, as long as the series. None
-/// without a limit cycle.
+/// Least-squares fit of mean + harmonic to the rows of the last whole periods of the limit cycle. Because the mean is fitted
+/// too, it does not affect the harmonic, even if a period is not a whole number of rows. `time` (s) rises and has the length of
+/// each signal. Empty without a limit cycle.
 std::vector<Harmonic> first_harmonics(const MotionCycle& cycle, const Series& time, const std::vector<Series>& signals);
 
 }  // namespace gaitlab::report

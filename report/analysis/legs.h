@@ -9,15 +9,15 @@
 
 namespace gaitlab::report {
 
-/// Legs of a robot that walks: find_legs gives four or more, and contacts and a ground are on; else none.
+/// Legs of a robot that walks: it has four or more legs (find_legs), contact elements and a ground. Empty for other robots.
 std::vector<Leg> legs_that_walk(const Scenario& scenario);
 
-/// Names of the legs: first module, place on its side counted from the front (front, middle, rear; with more than three front,
-/// 2nd, 3rd ... rear) and side. `legs` in the order of find_legs.
+/// Names of the legs, such as `m9 front left`: first module, place on its side (front, middle, rear; with more than three legs
+/// front, 2nd, 3rd ... rear) and side. `legs` must be in the order of find_legs.
 std::vector<std::string> leg_names(const std::vector<Leg>& legs);
 
-/// Names of feet, given by the numbers of their bodies: the leg's name, for a leg with several feet followed by the body's, and
-/// without a leg the body's.
+/// Names of feet, given by the indices of their bodies: the name of the leg, followed by the body's name if the leg has several
+/// feet. A foot outside the legs has its body's name.
 std::vector<std::string> foot_names(const Scenario& scenario, std::span<const std::size_t> bodies);
 
 }  // namespace gaitlab::report

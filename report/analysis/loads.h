@@ -4,8 +4,8 @@
 
 namespace gaitlab::report {
 
-/// Recording::loads at the times of the trace's rows, linear between two control ticks. NaN: `stability` while no foot bears a
-/// load, at a tick or beside it. Without rows if the recording has no loads.
+/// Recording::loads interpolated linearly from control ticks to the times of the trace's rows. `stability` is NaN if no foot
+/// carries a load at one of the two ticks. No rows if the recording has no loads.
 Trace loads_at_rows(const Recording& record);
 
 }  // namespace gaitlab::report

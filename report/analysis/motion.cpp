@@ -12,9 +12,9 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kOnGrid = 1e-6;  // of the spacing: times are whole steps, up to rounding
+constexpr double kOnGrid = 1e-6;  // share of the spacing; times are whole steps, except for rounding
 
-/// A column of /recording/poses, or of the trace of an older folder.
+/// Column of /recording/poses, or of the trace in a folder of an older format.
 Series of_motion(const Recording& r, const std::string& column) {
   return motion_of_ticks(r) ? r.pose(column) : r.series(column);
 }
@@ -23,13 +23,13 @@ Series of_joint(const Recording& r, std::size_t joint, const char* quantity) {
   return of_motion(r, fmt::format("joint.{}.{}", joint, quantity));
 }
 
-/// Evenly spaced samples.
+/// Number of evenly spaced rows, and their spacing.
 struct Grid {
   std::size_t rows = 0;
   double spacing = 0;  ///< s
 };
 
-/// The last row may lie off the grid, if the run ends between two.
+/// Evenly spaced rows of the motion. The last row is left out if the run ends between two of them.
 Grid grid(const Scenario& scenario, const Recording& r) {
   if (!motion_of_ticks(r)) {
     const double period = scenario.trace.period;
@@ -37,7 +37,7 @@ Grid grid(const Scenario& scenario, const Recording& r) {
   }
   const Series t = r.pose("t");
   if (t.size() < 2) return {};
-  // Rows are at every control tick, or at every second, third ... one for short control periods and long runs.
+  // Rows are at every control tick or, for short control periods and long runs, at every nth tick.
   const double ticks = std::max(1.0, std::round(t[1] / scenario.control_period));
   Grid made{0, ticks * scenario.control_period};
   const auto on_grid = [&](std::size_t k) {

@@ -1,5 +1,5 @@
-// Motion of the robot as a whole and the limit cycle of its joints, at control ticks, so that results do not depend on
-// trace.period. Folders of older formats have them at the rows of the trace.
+// Motion of the robot as a whole and limit cycle of its joints. They are computed at control ticks, so that results do not
+// depend on trace.period, or in folders of older formats at the rows of the trace.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,33 +10,33 @@
 
 namespace gaitlab::report {
 
-/// Columns of the motion; empty if the recording does not have them. The recording outlives this object.
+/// Columns of the motion, empty if the recording does not contain them. The recording must outlive this object.
 struct Motion {
-  Series t, x, y, z;      ///< s; m, of the centre of mass
-  Series qw, qx, qy, qz;  ///< of the base
+  Series t, x, y, z;      ///< time, s; position of the centre of mass, m
+  Series qw, qx, qy, qz;  ///< orientation of the base
 };
 
 Motion motion(const Recording& record);
 
-/// Turn of the base about world z from one row of the motion to another, rad: the sum of the twists from row to row, which is
-/// defined for any pitch of the base.
+/// Turn of the base about world z from one row of the motion to another, rad. It is the sum of the twists between consecutive
+/// rows, which is defined at any pitch of the base.
 double heading_change(const Motion& motion, std::size_t from, std::size_t to);
 
-/// Whether the motion is at control ticks: the recording has set points, centre of mass and load there.
+/// True if the motion is at control ticks, because the recording contains set points, centre of mass and load there.
 bool motion_of_ticks(const Recording& record);
 
-/// `in this older folder limit cycle, judged time and the robot's way are of the trace's rows, one per 50 ms ...`; empty: they
-/// are at control ticks, or rows_sentence covers them.
+/// Text `in this older folder limit cycle, judged time and the robot's way are of the trace's rows, one per 50 ms ...`. Empty
+/// if the motion is at control ticks, or if rows_sentence covers it.
 std::string motion_sentence(const Recording& record);
 
-/// Normal forces of the ground that carry the robot, at the rows of the motion, N; empty: not known, the base does not float,
-/// or the robot has no contact elements.
+/// Normal forces of the ground on the robot at the rows of the motion, N. Empty if they are not known, the base is not
+/// floating, or the robot has no contact elements.
 std::vector<Series> ground_loads(const Scenario& scenario, const Recording& record);
 
-/// Set points of the joints with a motor that have one, at the rows of the motion, rad.
+/// Recorded set points of the joints with a motor, at the rows of the motion, rad.
 std::vector<Series> set_points(const Scenario& scenario, const Recording& record);
 
-/// Limit cycle of all angles and set points; of the set points alone.
+/// Limit cycle of all angles and set points together, and of the set points alone.
 MotionCycle limit_cycle(const Scenario& scenario, const Recording& record);
 MotionCycle set_point_cycle(const Scenario& scenario, const Recording& record);
 

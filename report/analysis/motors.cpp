@@ -34,7 +34,7 @@ std::vector<double> rest_torques(const Scenario& scenario) {
 
 namespace {
 
-/// Joins several sources into one text, chosen ones first; an empty source means values without a source.
+/// Joins several sources into one text, chosen ones first. An empty source stands for values without a source.
 std::string together(std::vector<std::string> sources) {
   for (std::string& one : sources) {
     if (one.empty()) one = kNoSource;
@@ -60,7 +60,7 @@ std::vector<std::string> changed_figures(const Scenario& scenario, const TypePre
   return keys;
 }
 
-/// Short form of a source: its first clause, or that it is chosen.
+/// Short form of a source: its first clause, or the statement that the values were chosen.
 std::string in_few_words(const std::string& source) {
   constexpr std::size_t kLongest = 60;
   if (source.empty() || source.starts_with(kNoSource)) {
@@ -74,7 +74,7 @@ std::string in_few_words(const std::string& source) {
   return blank == std::string::npos ? clause : clause.substr(0, clause.find_last_not_of(" ,:", blank) + 1) + " ...";
 }
 
-/// Only the chosen sources, if there are any.
+/// Short forms of several sources. If some of them are chosen, only those are included.
 std::string in_few_words(const std::vector<std::string>& sources) {
   std::vector<std::string> words;
   const bool any_chosen = std::ranges::any_of(sources, chosen);

@@ -1,4 +1,4 @@
-// Torque, voltage and current limits of the motors at standstill, with their sources. At other speeds: envelope.h.
+// Limits of the motors at rest, with the sources of their values (envelope.h has the limits at other speeds).
 #pragma once
 #include <string>
 #include <vector>
@@ -7,32 +7,33 @@
 
 namespace gaitlab::report {
 
-/// Whether the drives are DC motors, which have a voltage and a current.
+/// True if the drives are DC motors, which have a voltage and a current.
 bool dc_motors(const Scenario& scenario);
 
 /// Number of joints with a motor of any kind.
 std::size_t driven_joints(const Robot& robot);
 
-/// Largest torque of every joint's motor at rest, within its limits of voltage and current (eq. 1, 2), N m; empty if the
+/// Largest torque at rest of every joint's motor within its limits of voltage and current (eq. 1, 2), N m. Empty if the
 /// actuator does not consist of DC motors.
 std::vector<double> rest_torques(const Scenario& scenario);
 
-/// Sources of the motor values: the `source` of the values that the scenario gives (`u_max of the scenario: data sheet 3`), and
-/// the one of the module type's actuator; chosen ones first. Values without a source are chosen, and the text says so. Empty:
-/// no actuator.
+/// Sources of the motor values, chosen ones first: of the values that the scenario gives (`u_max of the scenario: data sheet
+/// 3`), and of the values of the module types. A value without a source counts as chosen, and the text says so. Empty without
+/// an actuator.
 std::string motor_source(const Scenario& scenario);
 
-/// Setting with which the gears create no energy (eq. 2): `take actuator.efficiency_model: directional`; empty if the actuator
-/// has no such key.
+/// Change of a setting after which the gears create no energy (eq. 2): `take actuator.efficiency_model: directional`. Empty if
+/// the actuator does not have this setting.
 std::string no_created_energy(const Scenario& scenario);
 
-/// Whether values are chosen, not a maker's: their source contains that word, in any case, or is empty.
+/// True if the source means that values were chosen and are not a maker's: it is empty or contains the word `chosen`, in any
+/// case.
 bool chosen(const std::string& source);
 
 inline const std::string kNoSource = "chosen: no source stated";
 
-/// Sources of a verdict in one sentence: `motors: maxon catalogue 118752; docks: chosen figures`. motors, docks: sources of the
-/// values used by checks; empty: no check used any.
+/// Sentence on the sources of a verdict: `motors: maxon catalogue 118752; docks: chosen figures`. `motors` and `docks` are the
+/// sources of the values that checks use, empty if no check uses any.
 std::string figures_sentence(const std::vector<std::string>& motors, const std::vector<std::string>& docks);
 
 }  // namespace gaitlab::report

@@ -1,4 +1,4 @@
-// Removal of folders from file paths in texts of a result: a folder is not part of a run.
+// Removal of folders from file paths in the texts of a result, which should not depend on where files are stored.
 #pragma once
 #include <string>
 
@@ -6,7 +6,7 @@
 
 namespace gaitlab::report {
 
-/// The text with every path of a plugin library, and of a file of heights, reduced to the file name.
+/// Returns `text` with every path of a plugin library and of a height file reduced to the file name.
 std::string without_folders(std::string text, const Scenario& scenario);
 
 }  // namespace gaitlab::report

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
 
-/// Value at a time: linear between rows, constant beyond the ends.
+/// Value at time t, linear between rows, constant beyond the first and the last row.
 double at_time(const Series& time, const Series& value, double t) {
   std::size_t next = 0;
   while (next + 1 < time.size() && time[next] < t) ++next;

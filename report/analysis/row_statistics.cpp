@@ -16,9 +16,9 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kOnTick = 1e-6;  // of a control period: a row at that distance from a control tick counts as at it
+constexpr double kOnTick = 1e-6;  // share of a control period: rows within this distance of a control tick count as at the tick
 
-/// Columns of a joint in the trace that a column of ticks requires.
+/// Quantities of a joint whose trace columns are needed to compute a column of ticks.
 std::initializer_list<const char*> needs(TickColumn column) {
   static constexpr std::initializer_list<const char*> kTorque{"torque"}, kError{"setpoint", "angle"},
       kLimit{"torque", "saturation"}, kSaturation{"saturation"}, kSpeed{"speed"}, kEnvelope{"torque", "speed"},
@@ -45,15 +45,16 @@ std::initializer_list<const char*> needs(TickColumn column) {
   }
 }
 
-/// State of the motors of all joints at one moment.
+/// State of the motors of all joints at one instant.
 struct Moment {
   explicit Moment(std::size_t joints)
       : torque(joints), speed(joints), error(joints), voltage(joints), current(joints), saturation(joints), used(joints) {}
   std::vector<double> torque, speed, error, voltage, current;  ///< N m, rad/s, rad, V, A
-  std::vector<double> saturation, used;                        ///< see saturation_of; share of the available torque
+  std::vector<double> saturation, used;                        ///< motor state as in saturation_of; share of the available
+                                                               ///< torque
 };
 
-/// Moments of the trace.
+/// Motor states at the rows of a trace, and just after them.
 class Moments {
  public:
   Moments(const Scenario& scenario, const Recording& record)
@@ -76,7 +77,7 @@ class Moments {
     saturation_ = all("saturation");
   }
 
-  /// The row itself: under the command before it.
+  /// State recorded in the row, under the command in force before the time of the row.
   [[nodiscard]] Moment at(std::size_t row) const {
     Moment now(joints_);
     for (std::size_t j = 0; j < joints_; ++j) {
@@ -91,7 +92,7 @@ class Moments {
     return now;
   }
 
-  /// Start of the interval after the row: under the command of the next row, if that holds for the whole interval.
+  /// State just after the row, under the command stored in the next row, if that command covers the whole interval.
   [[nodiscard]] Moment begun(std::size_t row) const {
     Moment now = at(row);
     if (!one_command(row)) return now;
@@ -113,17 +114,17 @@ class Moments {
   }
 
  private:
-  /// 0 if the column is missing for a joint without a motor.
+  /// Value in a row; 0 if the column is missing for a joint without a motor.
   static double value(const std::vector<Series>& of, std::size_t joint, std::size_t row) {
     return of.empty() ? kNotKnown : of[joint].empty() ? 0.0 : of[joint][row];
   }
 
-  /// Whether the interval after the row contains no control tick.
+  /// True if no control tick is inside the interval after the row.
   [[nodiscard]] bool one_command(std::size_t row) const {
     return t_[row + 1] / period_ - kOnTick <= std::floor(t_[row] / period_ + kOnTick) + 1;
   }
 
-  /// Computes the share of the torque available at that speed, in the direction of the torque.
+  /// Computes `used`: torque / torque available at that speed in the direction of the torque.
   void use(Moment& now) const {
     now.used.assign(joints_, kNotKnown);
     if (torque_.empty() || speed_.empty()) return;
@@ -144,8 +145,8 @@ class Moments {
   std::vector<Series> command_, setpoint_, angle_, torque_, speed_, voltage_, current_, saturation_;
 };
 
-/// Fills a joint's part of the row of ticks after an interval of h seconds between two moments; `before`: its part in the
-/// previous row, from which integrals continue.
+/// Fills a joint's part of a row of ticks, for the interval of h seconds between two instants. `before` is the joint's part in
+/// the previous row, whose integrals are continued.
 void fill_row(const Moment& from, const Moment& to, std::size_t j, double h, In before, Out row) {
   const auto peak = [&](std::vector<double> Moment::*of) { return std::max(std::abs((from.*of)[j]), std::abs((to.*of)[j])); };
   const auto integral = [&](auto value) { return h / 2 * (value(from) + value(to)); };

@@ -1,4 +1,4 @@
-// Numbers among the settings of any plugin.
+// List of all numbers among the settings of a plugin.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace gaitlab::report {
 
-/// Numbers by key: `Kp`, `model.ramp`; those in lists are left out.
+/// Numbers by key, such as `Kp` or `model.ramp`. Numbers in lists are left out.
 class SettingsNumbers final : public Fields {
  public:
   struct Found {
@@ -19,7 +19,7 @@ class SettingsNumbers final : public Fields {
   void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
 
   [[nodiscard]] const std::vector<Found>& all() const { return found_; }
-  /// nullptr: no such number.
+  /// The number with this key, or nullptr if there is none.
   [[nodiscard]] const Found* find(const std::string& key) const;
 
  private:

@@ -7,28 +7,28 @@
 
 namespace gaitlab::report {
 
-/// Recording::state for many rows: the columns are searched once. The recording outlives this object.
+/// States at many rows, as by Recording::state, but the columns are searched only once. The recording must outlive this object.
 class States {
  public:
   /// States at the rows of the trace; requires has_states(robot).
   States(const Recording& recording, const Robot& robot);
-  /// States at control ticks, so that results do not depend on trace.period; for a folder of an older format at the rows of the
-  /// trace. Without rows: the folder has neither.
+  /// States at control ticks, so that results do not depend on trace.period, or in a folder of an older format at the rows of
+  /// the trace. No rows if the folder has neither.
   static States at_ticks(const Recording& recording, const Robot& robot);
 
   [[nodiscard]] std::size_t size() const { return time_.size(); }
   [[nodiscard]] double time(std::size_t row) const { return time_[row]; }
-  /// Angles and pose of the robot at a row. Its speeds are 0.
+  /// Angles and pose of the robot at a row. The speeds are set to 0.
   [[nodiscard]] RobotState operator()(std::size_t row) const;
 
  private:
   States() = default;
   Series time_;
-  std::array<Series, 7> base_;  ///< x y z qw qx qy qz
+  std::array<Series, 7> base_;  ///< columns x, y, z, qw, qx, qy, qz
   std::vector<Series> angles_ = {};
 };
 
-/// Whether States::at_ticks are at control ticks.
+/// True if States::at_ticks returns states at control ticks.
 bool states_of_ticks(const Recording& recording);
 
 }  // namespace gaitlab::report

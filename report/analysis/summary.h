@@ -1,4 +1,4 @@
-// Summary of a run: its numbers.
+// Summary of a run, from which the summary numbers are computed.
 #pragma once
 #include <optional>
 #include <string>
@@ -12,28 +12,28 @@
 
 namespace gaitlab::report {
 
-/// Summary numbers. Definitions: docs/conventions.md. SI.
+/// Summary of a run in SI units. docs/conventions.md defines the numbers.
 struct Summary {
-  double wall_time = 0;  ///< s; the only number that differs between equal runs
+  double wall_time = 0;  ///< s, real time of the run; the only number that differs between equal runs
   std::string build;
   Outcome outcome;
-  double simulated = 0;                             ///< s, less than the duration if the run stopped early
-  double displacement_x = 0, displacement_y = 0;    ///< of the centre of mass, m
+  double simulated = 0;                             ///< s, less than the duration if the run ended early
+  double displacement_x = 0, displacement_y = 0;    ///< m, displacement of the centre of mass
   double distance = 0, speed = 0, path_length = 0;  ///< m, m/s, m
-  double heading_change = 0;                        ///< rad, of the base's x axis about world z
+  double heading_change = 0;                        ///< rad, turn of the base's x axis about world z
   double cost_electrical = 0, cost_mechanical = 0;  ///< J / (N m); 0 if the robot has not moved or has no weight
   MotionCycle limit_cycle;
-  double set_point_period = 0;                    ///< s, gait_period.h; 0: the set points do not repeat
-  double stability_max = 0, stability_share = 0;  ///< h lambda; share of control ticks above 1
+  double set_point_period = 0;                    ///< s (gait_period.h); 0 if the set points do not repeat
+  double stability_max = 0, stability_share = 0;  ///< largest h lambda; share of control ticks with h lambda above 1
   std::string stability_source;
   Judged judged;
   Posture posture;                          ///< over the judged window
-  std::optional<std::optional<Fall>> fall;  ///< fall(); nothing: not computed
-  /// The most critical joint; 0 if there is none.
+  std::optional<std::optional<Fall>> fall;  ///< result of fall(); no value if it was not computed
+  /// Index of the most loaded joint; 0 if no joint was judged.
   [[nodiscard]] std::size_t most_loaded() const { return judged.order.empty() ? 0 : judged.order.front(); }
 };
 
-/// Summary of an incomplete recording: time, paths and speeds alone.
+/// Summary of an incomplete recording: only time, paths and speeds are filled in.
 Summary travelled(const Recording& record);
 
 /// Summary of a recording. Throws PluginError.

@@ -14,12 +14,14 @@ namespace {
 constexpr double kRounds = 1e-9;                     // s
 constexpr double kNearly = 1 / std::numbers::sqrt2;  // cosine of 45 degrees
 
-/// One period: the sum of the turns about level axes in it, rad, and the cosines of the least and the largest tilt.
+/// Interval of one period, with the sum of its turns about horizontal axes, rad, and the cosines of the least and the largest
+/// tilt.
 struct Stretch {
   double from, to;
   Vec3 turn = Vec3::Zero();
   double most = -1, least = 1;
-  /// Turns of a base that wobbles and yaws add up also, but it never points nearly upwards and nearly downwards.
+  /// The turns of a base that wobbles and yaws can also add up to a whole turn, but such a base does not point both nearly
+  /// upwards and nearly downwards.
   [[nodiscard]] bool whole_turn() const {
     return std::hypot(turn.x(), turn.y()) > std::numbers::pi && most > kNearly && least < -kNearly;
   }
@@ -39,7 +41,7 @@ std::vector<Stretch> stretches(const Judged& judged, double set_points) {
 
 /// Rotation vector, rad, world axes.
 Vec3 turn_between(const Quat& before, const Quat& after) {
-  const Eigen::AngleAxisd turn(after * before.inverse());  // by at most pi
+  const Eigen::AngleAxisd turn(after * before.inverse());  // the angle is at most pi
   return turn.angle() * turn.axis();
 }
 

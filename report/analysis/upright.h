@@ -1,4 +1,4 @@
-// Tilt of the base, and whether it rolls over in every period.
+// Tilt of the base, and detection of a base that rolls over in every period.
 #pragma once
 #include <optional>
 
@@ -7,20 +7,20 @@
 
 namespace gaitlab::report {
 
-/// Tilt of the base's axis that pointed upwards at the start, at control ticks (States::at_ticks).
+/// Tilt of the axis of the base that points upwards at the start, at control ticks (States::at_ticks).
 struct Upright {
-  double tilt = 0;                  ///< rad, largest angle from the vertical
-  double tilt_time = 0;             ///< s
+  double tilt = 0;                  ///< rad, largest angle of the axis from the vertical
+  double tilt_time = 0;             ///< s, time of the largest angle
   std::optional<double> over = {};  ///< s, of the first tick at which the axis points below the horizontal
-  /// Whether the base rolls: about level axes it makes one whole turn or more in every period, to the nearest number of turns,
-  /// and its axis comes within 45 degrees of upwards and of downwards. False for a base that rocks, tumbles or lies on its
-  /// back.
+  /// True if the base rolls over in every period. In each period, its turns about horizontal axes add up to at least one whole
+  /// turn (rounded), and the axis comes within 45 degrees of upwards and of downwards. False for a base that rocks, tumbles or
+  /// is on its back.
   bool rolls = false;
 };
 
-/// Tilt of a floating base; none for other bases, and without poses. Periods are those of the limit cycle in the judged window;
-/// without one the last periods of the set points, `set_points` s long (gait_period.h); if these do not repeat (0), the halves
-/// of the window.
+/// Tilt of a floating base; nothing for other bases or without poses. `rolls` is decided over the periods of the limit cycle in
+/// the judged window. Without a limit cycle, the last period of the set points, of length `set_points` (s, gait_period.h), is
+/// used; if that is 0, the two halves of the window.
 std::optional<Upright> upright(const Scenario& scenario, const Recording& record, const Judged& judged, double set_points);
 
 }  // namespace gaitlab::report

@@ -22,7 +22,8 @@ struct Stop {
   double share;
   std::array<double, 3> colour;
 };
-/// Same as the page's heat map (report/page/src/colour.ts): lightness is monotonic, so that it is readable in grey.
+/// Colour ramp that equals the one of the page's heat map (report/page/src/colour.ts). Its lightness is monotonic, so that it
+/// is readable in grey.
 constexpr Stop kRamp[] = {
     {0, {236, 239, 242}}, {0.25, {254, 226, 178}}, {0.5, {252, 178, 92}}, {0.8, {222, 84, 28}}, {1, {140, 0, 34}}};
 
@@ -53,7 +54,8 @@ std::string chunk(std::string_view type, const std::string& data) {
   return big_endian(data.size()) + all + big_endian(crc);
 }
 
-/// The largest share in each of `columns` equal parts of the run, a row of pixels; each row begins with its filter, 0.
+/// Pixels of the image: the largest share in each of `columns` equal parts of the run, one row per joint. Each row begins with
+/// the PNG filter type 0.
 std::string pixels(const Recording& record, std::size_t columns) {
   const Series t(record.ticks, 0);
   std::string all;

@@ -1,4 +1,4 @@
-// Overview picture of a run: joints over time, coloured by the used share of the available torque.
+// Overview picture of a run, which shows over time how much of the available torque each joint uses.
 #pragma once
 #include <string>
 
@@ -6,9 +6,9 @@
 
 namespace gaitlab::report {
 
-/// A PNG as a data: URL for a page, one px per joint (the first at the top) and `columns` px over the whole run, each the
-/// largest share of Recording::ticks in it: pale 0, dark red 1. "" if the run has no joints or its folder lacks the shares. The
-/// same run gives the same bytes.
+/// PNG as a data: URL for a page. Each joint is one row of pixels, the first joint at the top; `columns` pixels cover the whole
+/// run. The colour is the largest share of the available torque (Recording::ticks) within the pixel's time, from pale (0) to
+/// dark red (1). Returns "" if the run has no joints or the recording lacks the shares. The same run produces the same bytes.
 std::string heat_image(const Recording& record, std::size_t columns);
 
 }  // namespace gaitlab::report

@@ -11,7 +11,7 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kMostQuanta = 0x1p50;
-constexpr int kLevel = 6;  // 9 takes three times as long for 1 % less (hexapod, 20 s)
+constexpr int kLevel = 6;  // compression level; 9 takes three times as long for 1 % less (hexapod, 20 s)
 
 void append_varint(std::string& bytes, std::uint64_t value) {
   for (; value > 127; value >>= 7) bytes.push_back(static_cast<char>(static_cast<unsigned char>((value & 127) | 128)));
@@ -41,7 +41,7 @@ std::string Packing::text() const { return base64(deflated(bytes_, kLevel)); }
 double quantum_of(double magnitude, double largest_quantum) {
   const double wanted = magnitude / 1000;
   if (!std::isfinite(wanted) || !(wanted > 1e-12) || wanted >= largest_quantum) return largest_quantum;
-  // Quotients of integer powers of ten, so that 1e-5 is the nearest double.
+  // The result is an integer divided by an integer power of ten, which gives the double nearest to 1e-5.
   double below = 1;
   while (wanted * below < 1) below *= 10;
   const double digit = wanted * below;

@@ -1,4 +1,4 @@
-// Numbers in the data of a page: rounded to a quantum, differences, variable length, deflated, as text.
+// Compact encoding of number series in the data of a page.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -7,23 +7,26 @@
 
 namespace gaitlab::report {
 
-/// A row of numbers in a Packing: a value is an integer times the quantum.
+/// A series of numbers in a Packing. Each value is an integer times the quantum.
 struct Channel {
   std::string name, unit;
   double quantum = 1;
   std::size_t count = 0;
 };
 
-/// Channels one after another. Encoding of each: x / quantum, rounded to the nearest integer (half away from zero); the
-/// difference to the one before, of the first to 0; zigzag (0, -1, 1, -2 ... become 0, 1, 2, 3 ...); seven bits a byte, the
-/// lowest first, the eighth set except in the last (LEB128). A value that is not finite repeats the previous number, at the
-/// start 0; values beyond 2^50 quanta are clamped, because a page reads doubles.
+/// Encoder of channels one after another. A value is encoded in these steps:
+/// - x / quantum, rounded to the nearest integer (half away from zero).
+/// - Difference to the previous integer; the first one is preceded by 0.
+/// - Zigzag code: 0, -1, 1, -2, ... become 0, 1, 2, 3, ....
+/// - Seven bits per byte, the lowest first; the eighth bit is set except in the last byte (LEB128).
+/// A value that is not finite repeats the previous integer, or is 0 at the start. Values beyond 2^50 quanta are clamped,
+/// because a page computes with doubles.
 class Packing {
  public:
   void add(std::string name, std::string unit, double quantum, const std::vector<double>& values);
   [[nodiscard]] const std::vector<Channel>& channels() const { return channels_; }
   [[nodiscard]] const std::string& bytes() const { return bytes_; }
-  /// Base64 of the bytes, deflated by zlib. Throws std::bad_alloc.
+  /// Bytes of all channels, compressed by zlib, in Base64. Throws std::bad_alloc.
   [[nodiscard]] std::string text() const;
 
  private:
@@ -31,11 +34,11 @@ class Packing {
   std::string bytes_;
 };
 
-/// The quantum for numbers of at most this magnitude: `largest_quantum`, or a thousandth of the magnitude if that is less,
-/// rounded down to 1, 2 or 5 times a power of ten.
+/// Quantum for numbers of at most this magnitude. It is a thousandth of the magnitude, rounded down to 1, 2 or 5 times a power
+/// of ten, but at most `largest_quantum`.
 double quantum_of(double magnitude, double largest_quantum);
 
-/// RFC 4648, with padding, on one line.
+/// Base64 text (RFC 4648) with padding, on one line.
 std::string base64(std::string_view bytes);
 
 }  // namespace gaitlab::report

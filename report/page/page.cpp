@@ -36,7 +36,7 @@ std::string page(const PageData& data) {
       {{"/*TITLE*/", title}, {"/*META*/", data.meta}, {"/*DATA*/", data.data}}};
   std::string text;
   text.reserve(empty.size() + title.size() + data.meta.size() + data.data.size());
-  // Inserted text is not searched again: a name may contain a mark. The marks are in any order.
+  // Inserted text is not searched for marks, because a name may contain one. The marks may be in any order.
   for (std::size_t at = 0; at < empty.size();) {
     std::size_t next = empty.size();
     const std::pair<std::string_view, std::string_view>* found = nullptr;

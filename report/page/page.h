@@ -1,4 +1,4 @@
-// report.html: a run as one self-contained file for a browser.
+// report.html, which shows a run as one self-contained file for a browser.
 #pragma once
 #include <string>
 #include <string_view>
@@ -7,11 +7,11 @@
 
 namespace gaitlab::report {
 
-/// The page without a run, made by report/page: it contains each of the marks /*TITLE*/, /*META*/ and /*DATA*/ once
-/// (cmake/page.cmake ensures that).
+/// Page without data, built from the TypeScript in report/page. It contains each of the marks /*TITLE*/, /*META*/ and /*DATA*/
+/// once (cmake/page.cmake ensures that).
 std::string_view page_template();
 
-/// The page of a run.
+/// HTML text of the page of a run.
 std::string page(const PageData& data);
 
 }  // namespace gaitlab::report

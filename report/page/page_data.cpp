@@ -31,7 +31,7 @@ std::string plugin_name(const PluginSelection& plugin) {
   return plugin.entry == nullptr ? "none" : std::string(plugin.entry->name);
 }
 
-/// Frequency of the gait, if all joints have the same.
+/// Frequency of the gait in JSON if all joints have the same one, else null.
 Json frequency(const PluginSelection& cpg) {
   const SettingsNumbers settings(cpg);
   const SettingsNumbers::Found* found = settings.find("frequency");
@@ -40,7 +40,7 @@ Json frequency(const PluginSelection& cpg) {
   return std::ranges::all_of(found->value.each, same) ? Json(found->value[0]) : Json();
 }
 
-/// Removes folders from every text within.
+/// Removes folders from every text in a JSON value.
 void leave_folders_out(Json& json, const Scenario& scenario) {
   if (json.is_string()) json = without_folders(json.get<std::string>(), scenario);
   if (!json.is_structured()) return;
@@ -105,7 +105,7 @@ Json phases_json(const Recording& r, const MotionCycle& cycle, std::size_t joint
   return all;
 }
 
-/// Without numbers of the clock.
+/// Summary numbers without those measured by the clock.
 Json summary_json(const RunData& run) {
   Json all = numbers_json(run);
   for (const SummaryNumber& number : summary_numbers()) {
@@ -114,7 +114,7 @@ Json summary_json(const RunData& run) {
   return all;
 }
 
-/// The joint that is longest at a limit of its motor in the judged time; null: none is.
+/// The joint that is longest at a limit of its motor in the judged window; null if none reaches a limit.
 Json longest_json(const Robot& robot, const Judged& judged) {
   for (const std::size_t j : judged.order) {
     const JudgedJoint& joint = judged.joints[j];

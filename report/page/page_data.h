@@ -9,24 +9,25 @@
 
 namespace gaitlab::report {
 
-/// Characters of `data` above which every second row is left out, repeatedly.
+/// Largest length of PageData::data in characters. Above it every second row is left out, repeatedly.
 inline constexpr std::size_t kMostData = std::size_t{4} << 20;
 
 struct PageData {
   std::string name;
-  std::string meta;  ///< JSON without any `<`, which cannot end a script or begin a comment
-  std::string data;  ///< Packing::text()
+  std::string meta;  ///< JSON text without the character `<`, so that it cannot end a script or begin a comment
+  std::string data;  ///< text from Packing::text()
 };
 
-/// Data of a run's page; docs/report.md describes the members. No number is of the clock, and folders are removed: plugins have
-/// only their file names. missing: one sentence for each missing part of the run's folder. The same run gives the same bytes.
+/// Data of a run's page; docs/report.md describes its members. `missing` contains one sentence for each part that is missing in
+/// the run's folder. The data contain no number measured by the clock and no folders: plugins have only their file names. The
+/// same run produces the same bytes.
 PageData page_data(const Scenario& scenario, const Recording& record, const Summary& summary, const Verdict& verdict,
                    std::vector<std::string> missing = {}, std::size_t most = kMostData);
 
-/// Description of the packed channels for unpacking.
+/// JSON description of the packed channels, from which the page unpacks them.
 nlohmann::ordered_json channels_json(const Packing& packing);
 
-/// JSON for a script of a page: without any `<`.
+/// JSON text without the character `<`, for a script of a page.
 std::string json_text(const nlohmann::ordered_json& json);
 
 }  // namespace gaitlab::report

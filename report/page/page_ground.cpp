@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostDrawn = 200;  // heights per side
 
-/// The page's word for the way in which it draws the ground.
+/// The word in the page's data for the way in which the ground is drawn.
 const char* drawn_as(const Ground& ground) { return ground.relief() != nullptr ? Heightfield::kType.name : ground.type().name; }
 
 std::size_t height_stride(const Heightfield& field) {
@@ -31,7 +31,7 @@ Json heights(const Heightfield& field) {
   for (std::size_t y = 0; y < field.rows(); y += stride, ++ny) {
     nx = 0;
     for (std::size_t x = 0; x < field.columns; x += stride, ++nx)
-      values.push_back(std::round(1e5 * (field.origin.z() + field.values[y * field.columns + x])) / 1e5);  // to 0.01 mm
+      values.push_back(std::round(1e5 * (field.origin.z() + field.values[y * field.columns + x])) / 1e5);  // rounded to 0.01 mm
   }
   const double spacing = field.spacing * static_cast<double>(stride);
   return {{"origin", {field.origin.x(), field.origin.y()}},

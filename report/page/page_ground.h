@@ -1,4 +1,4 @@
-// The ground in a page.
+// The ground in the data of a page.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 
@@ -7,9 +7,9 @@
 
 namespace gaitlab::report {
 
-/// Stride of the heights that are drawn in x and in y, so that there are at most 200 x 200; 1 for other grounds.
+/// Stride in x and y of the heights that are drawn, so that they are at most 200 x 200. 1 for a ground without heights.
 std::size_t height_stride(const Ground& ground);
-/// Plane, boxes (with the number of the columns of moving ones) and heights.
+/// JSON of the ground: plane, boxes and heights. A box that moves has the index of its columns in the recording.
 nlohmann::ordered_json page_ground(const Scenario& scenario, const Recording& record);
 
 }  // namespace gaitlab::report

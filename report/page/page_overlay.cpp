@@ -16,7 +16,7 @@ PageData overlaid(const PageData& a, const PageData& b, const PageOverlay& overl
   for (const Stray& stray : overlay.strays) {
     double largest = 0;
     for (const double d : stray.difference) largest = std::isfinite(d) ? std::max(largest, std::abs(d)) : largest;
-    // The tolerance remains visible for any deviation.
+    // The quantum is limited, so that the tolerance remains visible beside a large deviation.
     differences.add(stray.signal, stray.unit, quantum_of(std::min(largest, 20 * stray.tolerance), 1), stray.difference);
     strays.push_back({{"signal", stray.signal},
                       {"unit", stray.unit},

@@ -1,4 +1,4 @@
-// Page with two runs: the second one is laid over the first.
+// A page of two runs, in which the second run is drawn over the first.
 #pragma once
 #include <array>
 #include <optional>
@@ -9,27 +9,28 @@
 
 namespace gaitlab::report {
 
-/// A signal of the second run outside its band around the first one's.
+/// A signal of the second run that leaves its band around the signal of the first run.
 struct Stray {
-  std::string signal, unit;      ///< name of a channel of the page, as `joint.3.torque`
-  double ratio = 0;              ///< RMS of the difference, in bands
-  double tolerance = 0;          ///< in the unit: allowed deviation at any time
-  std::optional<double> from{};  ///< s: the first time beyond the tolerance
-  /// The second run minus the first, at the first one's rows; fewer if the second run has fewer. The channels are too coarse
-  /// for it.
+  std::string signal, unit;      ///< name of the page's channel, for example `joint.3.torque`, and its unit
+  double ratio = 0;              ///< RMS of the difference / band
+  double tolerance = 0;          ///< allowed deviation at any time, in `unit`
+  std::optional<double> from{};  ///< s, first time at which the difference exceeds the tolerance
+  /// Second run minus first run, at the rows of the first run, or at fewer rows if the second run is shorter. It is stored
+  /// because the quanta of the channels are too coarse for a difference.
   std::vector<double> difference = {};
 };
 
-/// Common texts of a page's two runs.
+/// Texts of a page of two runs.
 struct PageOverlay {
-  std::array<std::string, 2> labels{"A", "B"};  ///< short names of the runs, in the order of the page
-  std::vector<std::string> differs = {};        ///< different settings of the second run, a sentence each
-  std::string strayed = {};                     ///< a sentence on a run outside its golden's bands; empty: a page of two runs
-  std::vector<Stray> strays = {};               ///< in the order of leaving their bands
+  std::array<std::string, 2> labels{"A", "B"};  ///< short names of the two runs, in the order of the page
+  std::vector<std::string> differs = {};        ///< one sentence for each setting that is different in the second run
+  std::string strayed = {};                     ///< sentence on a run that left the bands of its golden; empty on a page that
+                                                ///< compares two runs
+  std::vector<Stray> strays = {};               ///< signals outside their bands, in the order in which they leave them
 };
 
-/// The page of run `a`, with run `b` laid over it: docs/report.md, `overlay`. Throws nlohmann::json::exception if the texts are
-/// not from page_data.
+/// Page of run `a` with run `b` drawn over it (docs/report.md, `overlay`). Throws nlohmann::json::exception if the data were
+/// not made by page_data.
 PageData overlaid(const PageData& a, const PageData& b, const PageOverlay& overlay);
 
 }  // namespace gaitlab::report

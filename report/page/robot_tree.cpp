@@ -50,7 +50,7 @@ Json json_of(const Pose& pose) {
 }
 
 RobotTree::RobotTree(const Robot& robot) : robot_(robot), order_(robot.bodies.size()), place_(robot.bodies.size()) {
-  // Parent links come first; within a link, a module comes after the one that it is docked to.
+  // Parent links come first. Within a link, a module comes after the module that it is docked to.
   std::vector<std::size_t> away;
   for (std::size_t m = 0; m < robot.modules.size(); ++m) away.push_back(docks_away(robot, m));
   std::iota(order_.begin(), order_.end(), 0);
@@ -61,7 +61,7 @@ RobotTree::RobotTree(const Robot& robot) : robot_(robot), order_(robot.bodies.si
   for (std::size_t i = 0; i < order_.size(); ++i) place_[order_[i]] = i;
 }
 
-/// Two bodies of a module are never in one link: a hinge is between them.
+/// Body of a module in a link. There is only one, because a hinge separates any two bodies of a module.
 std::size_t RobotTree::body_in(std::size_t module, std::size_t link) const {
   std::size_t body = robot_.modules[module].first_body;
   while (robot_.bodies[body].link != link) ++body;

@@ -1,4 +1,4 @@
-// A robot in a page: a tree of bodies with their shapes and faces, in JSON.
+// A robot in the data of a page, as a tree of bodies with shapes and faces in JSON.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
@@ -7,32 +7,33 @@
 
 namespace gaitlab::report {
 
-/// [x, y, z]
+/// Array [x, y, z].
 nlohmann::ordered_json json_of(const Vec3& v);
-/// [x, y, z, qw, qx, qy, qz]
+/// Array [x, y, z, qw, qx, qy, qz].
 nlohmann::ordered_json json_of(const Pose& pose);
 
-/// The bodies of a robot in an order in which each body comes after its parent. `parent` and `body` in the page are indices in
-/// that order.
+/// The bodies of a robot in an order in which each parent precedes its children. The members `parent` and `body` in the page
+/// are indices in this order.
 class RobotTree {
  public:
   explicit RobotTree(const Robot& robot);
-  /// Index of a body of Robot::bodies.
+  /// Index in the page of a body, given by its index in Robot::bodies.
   [[nodiscard]] std::size_t place(std::size_t body) const { return place_[body]; }
-  /// The body of Robot::bodies that a joint moves.
+  /// Index in Robot::bodies of the body that a joint moves.
   [[nodiscard]] std::size_t moved_by(std::size_t joint) const;
 
-  /// Bodies. A body's pose is its parent's * pre * turn(axis, angle of joint) * post; for the base without a parent's.
+  /// List of bodies. The pose of a body is parent's pose * pre * turn(axis, joint angle) * post, or without the parent's pose
+  /// for the base.
   [[nodiscard]] nlohmann::ordered_json bodies() const;
-  /// Shapes and faces by `type/body`, as in BodyType and FaceType.
+  /// Shapes and faces, as objects by `type/body`, with the members of BodyType and FaceType.
   [[nodiscard]] nlohmann::ordered_json geometry() const;
   [[nodiscard]] nlohmann::ordered_json faces() const;
-  /// One dock for each module except the first, in the order of their numbers.
+  /// List of docks, one for each module except the first, in the order of the modules.
   [[nodiscard]] nlohmann::ordered_json docks() const;
 
  private:
   struct Hung {
-    int parent = -1;  ///< of Robot::bodies
+    int parent = -1;  ///< index in Robot::bodies
     int joint = -1;
     Pose pre = {}, post = {};
     Vec3 axis = Vec3::Zero();

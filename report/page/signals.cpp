@@ -14,15 +14,15 @@ namespace gaitlab::report {
 
 namespace {
 
-/// Columns with a common rounding.
+/// Columns with the same unit and quantum.
 struct SignalKind {
-  const char *pattern, *unit;  ///< nullptr: unit of the command
+  const char *pattern, *unit;  ///< nullptr for the unit of the command
   double quantum;              ///< largest quantum
-  bool fine = false;           ///< a smaller quantum for small magnitudes
-  bool spare = false;          ///< left out if always 0
+  bool fine = false;           ///< true: the quantum is smaller for small magnitudes
+  bool spare = false;          ///< true: left out if all values are 0
 };
 
-// With units, which a CSV file does not contain.
+// Units are listed here, because a CSV file does not contain them.
 constexpr SignalKind kQuantities[] = {{"t", "s", 1e-6},
                                       {"base.?", "m", 2e-5},
                                       {"base.q?", "", 1e-5},
@@ -44,8 +44,8 @@ constexpr SignalKind kQuantities[] = {{"t", "s", 1e-6},
                                       {"energy.*", "J", 1e-3, true},
                                       {"box.*.?", "m", 2e-5},
                                       {"box.*.q?", "", 1e-5}};
-constexpr double kForce = 0.02;  // N, of feet
-constexpr double kPlace = 5e-4;  // m, of feet
+constexpr double kForce = 0.02;  // N, quantum of the forces on feet
+constexpr double kPlace = 5e-4;  // m, quantum of the positions of feet
 
 double magnitude(const Signal& signal, std::size_t rows) {
   double largest = 0;
@@ -62,7 +62,7 @@ void set_quanta(std::span<Signal> group, std::size_t rows, const SignalKind& qua
   for (Signal& signal : group) signal.quantum = quantum_of(largest, quantity.quantum);
 }
 
-/// `dock.3.shear` of module 3 is `dock.2.shear` on a page: the first module has no dock.
+/// Name of a column in the page. `dock.3.shear` of module 3 becomes `dock.2.shear`, because the first module has no dock.
 std::string page_name(const std::string& column) {
   constexpr std::string_view kDock = "dock.";
   if (!column.starts_with(kDock)) return column;
@@ -79,7 +79,7 @@ void add_columns(std::span<const Trace* const> tables, const SignalKind& quantit
     for (std::size_t i = 0; i < table->columns.size() && table->rows() > 0; ++i) {
       const std::string& name = table->columns[i].name;
       if (!glob(quantity.pattern, name)) continue;
-      if (table != tables.front() && name == "t") continue;  // equal in all tables
+      if (table != tables.front() && name == "t") continue;  // the time is equal in all tables
       Signal signal{page_name(name), quantity.unit == nullptr ? command_unit : quantity.unit, 1, {*table, i}, {}};
       if (!quantity.spare || magnitude(signal, rows) > 0) all.push_back(std::move(signal));
     }
@@ -87,7 +87,7 @@ void add_columns(std::span<const Trace* const> tables, const SignalKind& quantit
   set_quanta(std::span(all).subspan(first), rows, quantity);
 }
 
-/// Adds a signal for the times at which another is known, because a channel has no gaps.
+/// Adds a signal that is 1 at the times at which the signal `name` is known, because a channel has no gaps.
 void add_known(const std::string& name, std::size_t rows, std::vector<Signal>& all) {
   const auto found = std::ranges::find(all, name, &Signal::name);
   if (found == all.end()) return;

@@ -1,4 +1,4 @@
-// Signals of a run in its page, with the quantum to which each is rounded.
+// The signals of a run in its page, each with the quantum to which it is rounded.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace gaitlab::report {
 
-/// A column of the recording, or computed numbers.
+/// A column of the recording, or computed numbers if `column` is empty.
 struct Signal {
   std::string name, unit;
   double quantum = 1;
@@ -18,20 +18,21 @@ struct Signal {
   [[nodiscard]] double operator[](std::size_t row) const { return column.empty() ? values[row] : column[row]; }
 };
 
-/// Time, pose of the base, centre of mass, joints, loads of docks, stability, energies and boxes, as far as the recording has
-/// them, then the feet, `foot.N.fx`. Stops that are never reached are left out. Quanta: see docs/report.md; if a quantity is
-/// small in all joints, feet or docks, a thousandth of its largest magnitude. `loads`: loads_at_rows, where `dock.M` is of
-/// module M; here it is of the dock M - 1. `record` and `loads` outlive the result.
+/// Signals that the recording contains: time, pose of the base, centre of mass, joints, loads of docks, stability, energies,
+/// boxes; then the feet as `foot.N.fx` etc. Stops that are never reached are left out. Quanta are described in docs/report.md;
+/// if a quantity is small in all joints, feet or docks, its quantum is a thousandth of its largest magnitude. `loads` is
+/// loads_at_rows, in which `dock.M` belongs to module M; in the result it belongs to dock M - 1. `record` and `loads` must
+/// outlive the result.
 std::vector<Signal> signals(const Recording& record, const Trace& loads, const std::vector<Foot>& feet,
                             const std::string& command_unit);
 
-/// All signals, of every `stride`th row and the last one.
+/// Packs all signals with every `stride`th row and the last row.
 Packing packed(const std::vector<Signal>& signals, std::size_t rows, std::size_t stride);
 
-/// Number of these rows.
+/// Number of rows that packed() keeps.
 std::size_t thinned(std::size_t rows, std::size_t stride);
 
-/// Sentences on signals that are missing, which a page could show for the scenario.
+/// Sentences on signals that are missing although a page could show them for this scenario.
 std::vector<std::string> left_out(const Scenario& scenario, const std::vector<Signal>& signals);
 
 }  // namespace gaitlab::report

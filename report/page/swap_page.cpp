@@ -15,8 +15,9 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr std::size_t kPictureColumns = 240;  // px of a picture: equals its size on the page, so that no pixel is divided
-constexpr double kRobotWidth = 560;           // px
+// Width of a picture, px. It equals the width on the page, so that no pixel is divided.
+constexpr std::size_t kPictureColumns = 240;
+constexpr double kRobotWidth = 560;  // px
 
 constexpr const char* kStyle = R"(
 :root { --ink: #1b2127; --muted: #5f6a74; --rule: #e1e6ea; --bg: #f3f5f7; --panel: #fff; --pass: #00694c; --fail: #b3261e; --open: #4a5661; color-scheme: light dark; }
@@ -41,7 +42,7 @@ td:last-child small { white-space: normal; min-width: 86px; }
 .robot { max-width: 100%; margin: 0 0 16px; border-radius: 10px; }
 )";
 
-/// Replaces a hyphen before a number by a minus sign.
+/// Replaces a hyphen before a number by a typographic minus sign.
 std::string typeset(const std::string& text) {
   std::string set;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -52,19 +53,19 @@ std::string typeset(const std::string& text) {
   return xml_escaped(set);
 }
 
-/// px: a whole number for each joint, in all about 64.
+/// Height of a picture, px: a whole number for each joint, together about 64.
 std::size_t picture_height(std::size_t joints) { return joints * std::max<std::size_t>(1, (64 + joints / 2) / joints); }
 
 using Run = const RunData&;
 
-/// A number of the terminal's table; a cell with two numbers has a column for each here.
+/// A number of the table of `swap`. A cell with two numbers becomes two columns.
 struct Shown {
   const char *head, *under;
   std::string (*text)(Run run);
-  std::string (*small)(Run run) = nullptr;  ///< below it
+  std::string (*small)(Run run) = nullptr;  ///< number below it in small text
 };
 
-/// A number without the sign of zero.
+/// Text of a number, in which 0 has no sign.
 std::string fixed(double value, int digits, bool sign = false) {
   std::string text = sign ? fmt::format("{:+.{}f}", value, digits) : fmt::format("{:.{}f}", value, digits);
   return text.find_first_not_of("+-0.") == std::string::npos ? text.substr(text.find('0')) : text;
@@ -95,7 +96,7 @@ constexpr Shown kShown[] = {
     {"limit cycle", "", cycle_text, cycle_small},
 };
 
-/// Picture of the robot at the end of the first completed run, from the side of its path; empty: none.
+/// Picture of the robot at the end of the first completed run, from the side of its path. Empty if no run was completed.
 std::string robot_picture(const std::vector<SwapEntry>& entries) {
   for (const SwapEntry& entry : entries) {
     const RunData& run = entry.named.run;

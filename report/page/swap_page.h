@@ -1,4 +1,4 @@
-// swap.html: a scenario under several CPGs side by side, each with its verdict and its page.
+// swap.html, which shows a scenario under several CPGs, each with its verdict and a link to its page.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,11 +11,11 @@ namespace gaitlab::report {
 struct SwapEntry {
   NamedRun named;
   const Verdict& verdict;
-  std::string page;  ///< file of the run's page, beside this one
+  std::string page;  ///< file name of the run's page, in the folder of swap.html
 };
 
-/// A page in one file without scripts and requests: the robot at the end of the first run, and a row per CPG with its verdict,
-/// a picture of joints over time, and the numbers of `swap`'s table. No number is of the clock.
+/// HTML text in one file without scripts and network requests. It shows the robot at the end of the first run, and for each CPG
+/// the verdict, a picture of the joints over time, and the numbers of the table of `swap`. No number is measured by the clock.
 std::string swap_page(const std::string& name, const std::vector<SwapEntry>& entries);
 
 }  // namespace gaitlab::report

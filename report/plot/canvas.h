@@ -9,7 +9,7 @@
 
 namespace gaitlab::report {
 
-/// A point. In a drawing: px, y down. In a side view: m, y is the world's z, up.
+/// A point. In a drawing it is in px with y downwards; in a side view it is in m, and y is the world's z.
 struct Point {
   double x = 0, y = 0;
 };
@@ -17,7 +17,7 @@ using Polygon = std::vector<Point>;  ///< closed: the last point is connected to
 
 inline bool finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 
-/// Colours of Okabe and Ito, which are distinguishable with every kind of colour vision, and greys.
+/// Colours of Okabe and Ito, which people with any kind of colour vision can distinguish, and greys.
 namespace colour {
 inline constexpr std::string_view kBlue = "#0072B2", kVermillion = "#D55E00", kGreen = "#009E73", kOrange = "#E69F00",
                                   kSky = "#56B4E9", kPurple = "#CC79A7", kYellow = "#F0E442", kBlack = "#000000",
@@ -26,9 +26,10 @@ inline constexpr std::string_view kBlue = "#0072B2", kVermillion = "#D55E00", kG
 
 struct Style {
   std::string_view stroke = "none", fill = "none";  ///< `#RRGGBB`
-  double width = 1;                                 ///< of the stroke, px
+  double width = 1;                                 ///< px, width of the stroke
   std::string_view dash = {};                       ///< lengths of dashes and gaps, px, as SVG's stroke-dasharray: `8 3`
-  bool stroke_below = false;  ///< fill over stroke, so that overlapping polygons show their common outline only
+  bool stroke_below = false;  ///< true: the fill covers the inner half of the stroke, so that overlapping polygons show only
+                              ///< their common outline
 };
 
 enum class Anchor { start, middle, end };
@@ -38,17 +39,17 @@ struct TextStyle {
   Anchor anchor = Anchor::start;
   std::string_view fill = colour::kInk;
   bool bold = false;
-  bool upwards = false;  ///< turned by a quarter, to be read from the right
+  bool upwards = false;  ///< true: turned by a quarter, to be read from the right
 };
 
-/// Size of a sheet in px, and of a printed px in mm.
+/// Size of a sheet in px, and the size of a px in print.
 struct Paper {
   double width = 0, height = 0;  ///< px
-  double mm = 25.4 / 96;         ///< size of a px
+  double mm = 25.4 / 96;         ///< mm, size of a px
 };
 
-/// Points that are not finite are left out, and a polyline is broken there. No dates, no random ids: the same calls give the
-/// same bytes.
+/// Interface for drawing a file. Points that are not finite are left out, and a polyline is broken there. Files contain no
+/// dates and no random ids: the same calls produce the same bytes.
 class Canvas {
  public:
   virtual ~Canvas() = default;
@@ -56,25 +57,25 @@ class Canvas {
   virtual void rectangle(Point corner, double width, double height, const Style& style) = 0;
   virtual void circle(Point centre, double radius, const Style& style) = 0;
   virtual void polyline(std::span<const Point> points, const Style& style) = 0;
-  /// One path; where polygons of the same sense overlap, their union is filled.
+  /// Draws all polygons as one path. If polygons of the same orientation overlap, their union is filled.
   virtual void polygons(std::span<const Polygon> polygons, const Style& style) = 0;
-  /// Baseline at `at`; `content` is any text, invalid UTF-8 and control characters are replaced.
+  /// Draws a text whose baseline starts, is centred or ends at `at`. Invalid UTF-8 and control characters are replaced.
   virtual void text(Point at, std::string_view content, const TextStyle& style) = 0;
   void text(Point at, std::string_view content) { text(at, content, TextStyle()); }
-  /// The whole file.
+  /// Content of the complete file.
   [[nodiscard]] virtual std::string finish() const = 0;
 };
 
-/// A coordinate in a file: at most two decimals, no trailing zeros, no "-0".
+/// A coordinate as text for a file, with at most two decimals, no trailing zeros and no "-0".
 std::string coordinate(double value);
 
-/// A rough width of `text` in any sans-serif font of `size` px, for layouts.
+/// Approximate width of `text` in a sans-serif font of `size` px, for layouts.
 double text_width(std::string_view text, double size);
 
-/// The size, px, from `most` down to `least`, at which a text in bold is at most `room` (px) wide.
+/// Largest font size in px, from `most` down to `least`, for which a bold text is at most `room` px wide.
 double fitting_size(std::string_view text, double most, double least, double room);
 
-/// `#RRGGBB` at a share, from 0 to 1, of a ramp between equally spaced colours (two or more).
+/// Colour `#RRGGBB` at a share from 0 to 1 of a ramp between equally spaced colours (two or more).
 using Rgb = std::array<int, 3>;
 std::string ramp(std::span<const Rgb> colours, double share);
 

@@ -7,11 +7,11 @@ namespace gaitlab::report {
 
 struct Character {
   std::size_t length =
-      0;  ///< bytes; 0: invalid UTF-8, or a control character, a surrogate or a noncharacter, which XML forbids
+      0;  ///< bytes; 0 for invalid UTF-8 and for a control character, a surrogate or a noncharacter, which XML forbids
   char32_t code = 0;
 };
 
-/// The first character of `text`, which is not empty.
+/// The first character of `text`, which must not be empty.
 Character first_character(std::string_view text);
 
 }  // namespace gaitlab::report

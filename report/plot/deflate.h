@@ -5,8 +5,9 @@
 
 namespace gaitlab::report {
 
-inline constexpr int kMostDeflated = 9;  ///< zlib's level of the smallest output
-/// The bytes in zlib's format, level 0 to 9; the same bytes for the same version of zlib. Throws std::bad_alloc.
+inline constexpr int kMostDeflated = 9;  ///< compression level of zlib with the smallest output
+/// Compresses bytes into zlib's format with a level from 0 to 9. The same version of zlib produces the same bytes. Throws
+/// std::bad_alloc.
 std::string deflated(std::string_view bytes, int level);
 
 }  // namespace gaitlab::report

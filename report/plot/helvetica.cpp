@@ -10,7 +10,8 @@ namespace gaitlab::report {
 namespace {
 
 constexpr unsigned kFirst = 0x20;
-using Widths = std::array<unsigned short, 0x100 - kFirst>;  // of WinAnsi 0x20 to 0xFF, thousandths; 0: not in it
+// Widths of the WinAnsi codes 0x20 to 0xFF, in thousandths of the font size; 0 for an unused code.
+using Widths = std::array<unsigned short, 0x100 - kFirst>;
 
 // clang-format off
 constexpr Widths kRegular{
@@ -116,13 +117,13 @@ constexpr SymbolCharacter kSymbol[] = {
     {0x2265, 0xB3, 549},
 };
 
-// WinAnsi 0x80 to 0x9F; 0: none.
+// Characters of the WinAnsi codes 0x80 to 0x9F; 0 for an unused code.
 constexpr std::array<char32_t, 32> kHigh{
     0x20AC, 0, 0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021, 0x02C6, 0x2030, 0x0160, 0x2039, 0x0152, 0, 0x017D, 0,
     0, 0x2018, 0x2019, 0x201C, 0x201D, 0x2022, 0x2013, 0x2014, 0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, 0, 0x017E, 0x0178};
 // clang-format on
 
-/// 0: not in WinAnsi.
+/// WinAnsi code of a character; 0 if it has none.
 unsigned win_ansi(char32_t code) {
   if ((code >= 0x20 && code < 0x7F) || (code >= 0xA0 && code < 0x100)) return code;
   if (code == 0) return 0;

@@ -1,4 +1,4 @@
-// Text in the fonts that every PDF reader has: Helvetica, and Symbol for Greek letters and signs.
+// Text in two fonts that every PDF reader has: Helvetica, and Symbol for Greek letters and signs.
 #pragma once
 #include <set>
 #include <string>
@@ -9,7 +9,7 @@ namespace gaitlab::report {
 
 enum class Font { helvetica, bold, symbol };
 
-/// Characters of one font in its encoding: WinAnsi (Windows code page 1252), or that of Symbol.
+/// Consecutive characters of one font in its encoding: WinAnsi (Windows code page 1252), or the encoding of Symbol.
 struct TextRun {
   Font font = Font::helvetica;
   std::string bytes = {};
@@ -17,14 +17,15 @@ struct TextRun {
 
 struct SetText {
   std::vector<TextRun> runs = {};
-  double width = 0;                 ///< for size 1, by the fonts' metrics
-  std::set<char32_t> missing = {};  ///< characters that neither font has, replaced by `?`
+  double width = 0;                 ///< width at font size 1, by the metrics of the fonts
+  std::set<char32_t> missing = {};  ///< characters that neither font has; they are replaced by `?`
 };
 
-/// `text` (UTF-8) as runs. Widths: Adobe's metrics of the 14 standard fonts, as given by the URW fonts of the same widths.
+/// Splits `text` (UTF-8) into runs of one font. Widths are Adobe's metrics of the 14 standard fonts, taken from the URW fonts
+/// of equal widths.
 SetText set_in_helvetica(std::string_view text, bool bold);
 
-/// Width of `text` in Helvetica of `size`, in its unit.
+/// Width of `text` in Helvetica, in the unit of `size`.
 double helvetica_width(std::string_view text, double size, bool bold = false);
 
 }  // namespace gaitlab::report

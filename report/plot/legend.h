@@ -1,4 +1,4 @@
-// The legend of a figure: symbols with their names.
+// The legend of a figure, which shows symbols with their names.
 #pragma once
 #include <functional>
 #include <span>
@@ -10,30 +10,30 @@ namespace gaitlab::report {
 
 struct LegendEntry {
   std::string name;
-  std::function<void(Canvas&, Point)> draw;  ///< the symbol around a point
-  double wide = 12;                          ///< px, of the symbol
+  std::function<void(Canvas&, Point)> draw;  ///< draws the symbol around a point
+  double wide = 12;                          ///< px, width of the symbol
 };
 LegendEntry line_entry(std::string name, const Style& style, double wide = 30);
 LegendEntry dot_entry(std::string name, const Style& style, double radius);
 LegendEntry box_entry(std::string name, const Style& style);
 
-/// Gaps before and behind a name, px; and the function for the width of a text.
+/// Gaps before and after a name, px, and the function that computes the width of a text.
 struct LegendLook {
   double before = 8, behind = 24;
   double (*width)(std::string_view, double) = text_width;
 };
 
-inline constexpr double kLegendLine = 24;  ///< px, distance of lines
+inline constexpr double kLegendLine = 24;  ///< px, distance between lines of a legend
 
-/// Draws the entries from left to right and line by line, the first baseline at `y` (px); without a canvas it only measures.
+/// Draws the entries from left to right and line by line. The first baseline is at `y` (px). Without a canvas nothing is drawn.
 /// Returns the last baseline.
 double draw_legend(Canvas* canvas, std::span<const LegendEntry> entries, double left, double right, double y,
                    const LegendLook& look = {});
 
-/// Width of the entries in one line, px.
+/// Width of all entries in one line, px.
 double legend_width(std::span<const LegendEntry> entries, const LegendLook& look = {});
 
-/// Draws the entries in one line that ends at `right` (px). Returns its left end.
+/// Draws the entries in one line that ends at `right` (px). Returns the left end of the line.
 double draw_legend_row(Canvas& canvas, std::span<const LegendEntry> entries, double right, double y);
 
 }  // namespace gaitlab::report

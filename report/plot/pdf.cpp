@@ -12,12 +12,12 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kPoint = 25.4 / 72;           // mm
-constexpr double kQuarter = 0.55228474983079;  // 4/3 (sqrt(2) - 1): a quarter of a circle as a Bezier curve
+constexpr double kPoint = 25.4 / 72;           // mm, size of a pt
+constexpr double kQuarter = 0.55228474983079;  // 4/3 (sqrt(2) - 1), for a quarter of a circle as a Bezier curve
 
 std::string at(Point p) { return coordinate(p.x) + " " + coordinate(p.y); }
 
-/// `#RRGGBB` as three numbers from 0 to 1, in PDF's text.
+/// Colour `#RRGGBB` as three numbers from 0 to 1 in PDF syntax.
 std::string rgb(std::string_view colour) {
   std::string text;
   for (std::size_t i = 1; i < 7; i += 2) {
@@ -28,7 +28,7 @@ std::string rgb(std::string_view colour) {
   return text;
 }
 
-/// A string of PDF: brackets and backslashes escaped, bytes beyond ASCII in octal.
+/// String in PDF syntax: brackets and backslashes are escaped, bytes beyond ASCII are octal.
 std::string literal(std::string_view bytes) {
   std::string text = "(";
   for (const char c : bytes) {
@@ -54,7 +54,7 @@ std::string font_object(Font font) {
 
 Pdf::Pdf(const Paper& paper) : paper_(paper) {
   const double scale = paper.mm / kPoint;
-  // px, y down, to pt, y up
+  // Converts px with y downwards to pt with y upwards.
   page_ = fmt::format("{0:.8f} 0 0 -{0:.8f} 0 {1:.4f} cm\n", scale, paper.height * scale);
   rectangle({0, 0}, paper.width, paper.height, {.fill = colour::kWhite});
 }
@@ -128,7 +128,7 @@ void Pdf::text(Point where, std::string_view content, const TextStyle& style) {
   missing_.insert(set.missing.begin(), set.missing.end());
   const double back = set.width * style.size * (style.anchor == Anchor::start ? 0 : style.anchor == Anchor::middle ? 0.5 : 1);
   const Point start = style.upwards ? Point{where.x, where.y + back} : Point{where.x - back, where.y};
-  // Turns letters upright, because y points down.
+  // The text matrix turns letters upright, because y points downwards on the page.
   page_ += fmt::format("BT {}rg {} {} Tm", rgb(style.fill), style.upwards ? "0 -1 -1 0" : "1 0 0 -1", at(start));
   for (const TextRun& run : set.runs) {
     fonts_.insert(run.font);
@@ -152,7 +152,7 @@ std::string Pdf::finish() const {
   objects[2] =
       fmt::format("<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {} {}] /Contents 4 0 R\n/Resources << /Font <<{} >> >> >>",
                   coordinate(paper_.width * scale), coordinate(paper_.height * scale), fonts);
-  std::string file = "%PDF-1.4\n%\xE2\xE3\xCF\xD3\n";  // bytes above 127: not a text file
+  std::string file = "%PDF-1.4\n%\xE2\xE3\xCF\xD3\n";  // bytes above 127 mark the file as binary
   std::string references = fmt::format("xref\n0 {}\n0000000000 65535 f \n", objects.size() + 1);
   for (std::size_t i = 0; i < objects.size(); ++i) {
     fmt::format_to(std::back_inserter(references), "{:010} 00000 n \n", file.size());

@@ -1,4 +1,4 @@
-// A drawing as PDF 1.4: one page, vectors and text.
+// Writer of a drawing as PDF 1.4 with one page of vectors and text.
 #pragma once
 #include <set>
 
@@ -7,9 +7,9 @@
 
 namespace gaitlab::report {
 
-/// PDF writer. The same calls give the same picture as with Svg: one matrix from px to pt, and below it the same coordinates.
-/// Text is in Helvetica and Symbol, which are not embedded. No date; the file's /ID is a hash of the page. The page is
-/// compressed by zlib: another version of zlib may write other bytes with the same content.
+/// PDF writer. The same calls produce the same picture as with Svg: one matrix converts px to pt, and all coordinates are in
+/// px. Text is in Helvetica and Symbol, which are not embedded. The file contains no date, and its /ID is a hash of the page.
+/// The page is compressed by zlib, so that another version of zlib may write other bytes for the same content.
 class Pdf final : public Canvas {
  public:
   explicit Pdf(const Paper& paper);
@@ -23,7 +23,7 @@ class Pdf final : public Canvas {
   /// Throws RunError if there is no memory for zlib.
   [[nodiscard]] std::string finish() const override;
 
-  /// Characters that the fonts lack, replaced by `?`.
+  /// Characters that were replaced by `?` because the fonts do not have them.
   [[nodiscard]] const std::set<char32_t>& missing() const { return missing_; }
 
  private:

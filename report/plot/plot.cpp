@@ -9,14 +9,15 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kOutside = 4;     // px, length of a tick
-constexpr double kToText = 8;      // px, from the frame to a text at its side
+constexpr double kToText = 8;      // px, from the frame to a text at a side
 constexpr double kHalfText = 4.5;  // px, from the middle of a text at a side to its baseline
-constexpr double kTextBelow = 18;  // px, from the frame to the baseline of a text below it
+constexpr double kTextBelow = 18;  // px, from the frame to the baseline of a text below the frame
 
-/// Intersection of [a, b] with a height.
+/// Point at which the line through a and b has the height y.
 Point crossing(Point a, Point b, double y) { return {a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y), y}; }
 
-/// The line between two heights, with gaps outside. A peak that exceeds them by less than half a pixel is flattened instead.
+/// Parts of a line between two heights, with gaps outside. A point that is less than half a pixel outside is moved to the limit
+/// instead.
 std::vector<Point> cut(std::vector<Point> points, double top, double bottom) {
   constexpr double kTouch = 0.5;  // px
   for (Point& p : points) {
@@ -125,7 +126,7 @@ void Plot::moment(double x, const Style& style) const { canvas_.line({x_(x), are
 
 void draw_colours(Canvas& canvas, const PlotArea& area, std::span<const std::string> colours, Axis right,
                   const PlotLook& look) {
-  // Each colour extends to the lower end and is covered by the next one: otherwise thin lines show between them.
+  // Each colour extends to the lower end and is covered by the next one. Otherwise thin lines would be visible between them.
   for (std::size_t k = colours.size(); k-- > 0;) {
     const double height = (area.bottom - area.top) * static_cast<double>(k + 1) / static_cast<double>(colours.size());
     canvas.rectangle({area.left, area.bottom - height}, area.right - area.left, height, {.fill = colours[k]});

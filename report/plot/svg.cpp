@@ -22,10 +22,10 @@ std::string attributes(const Style& style) {
   return text;
 }
 
-// Replacement of a character that XML does not allow: white space remains white space.
+// Replacement of a character that XML does not allow. White space becomes a blank.
 std::string_view replacement(char c) { return c == '\t' || c == '\n' || c == '\r' ? " " : "\xEF\xBF\xBD"; }
 
-// Entity for the ASCII character that starts `text`.
+// Entity for the ASCII character at the start of `text`.
 std::string_view entity(std::string_view text) {
   switch (text.front()) {
     case '&':
@@ -43,7 +43,7 @@ std::string_view entity(std::string_view text) {
   }
 }
 
-// Start of a file with this size of the drawing in px; `size`: displayed size, in any unit.
+// Start of a file for a drawing of this size in px. `size` is the displayed size in any unit.
 std::string head(double width, double height, const std::string& size, const char* font) {
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"

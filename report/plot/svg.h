@@ -1,15 +1,15 @@
-// SVG writer for shapes and text.
+// Writer of a drawing as SVG.
 #pragma once
 #include "report/plot/canvas.h"
 
 namespace gaitlab::report {
 
-/// Collects shapes on a white ground; coordinates in px with at most two decimals. The file is a valid XML document.
+/// SVG writer with a white background. Coordinates are in px with at most two decimals. The file is a valid XML document.
 class Svg final : public Canvas {
  public:
-  /// Drawing for the screen: px, in any sans-serif font.
+  /// Drawing for the screen, whose size is in px, with any sans-serif font.
   Svg(double width, double height);
-  /// Drawing for print: its size in mm, in Helvetica or a font of the same widths.
+  /// Drawing for print, whose size is in mm, with Helvetica or a font of the same widths.
   explicit Svg(const Paper& paper);
   void line(Point a, Point b, const Style& style) override;
   void rectangle(Point corner, double width, double height, const Style& style) override;
@@ -24,7 +24,7 @@ class Svg final : public Canvas {
   std::string head_, body_;
 };
 
-/// `text` escaped for XML content and attributes.
+/// `text` with the characters that XML reserves replaced, for content and attributes.
 std::string xml_escaped(std::string_view text);
 
 }  // namespace gaitlab::report

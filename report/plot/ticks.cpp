@@ -11,10 +11,11 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kSlack = 1e-9;  // of a step: a tick that rounding moved out of the range still counts
-constexpr double kTouch = 0.01;  // of a step: a peak may exceed the axis by this, instead of extending the axis by a whole step
+constexpr double kSlack = 1e-9;  // share of a step; a tick that rounding moved out of the range is kept
+// Share of a step; a peak may exceed the axis by this instead of extending the axis by a whole step.
+constexpr double kTouch = 0.01;
 constexpr double kAnyWaste = 1e300;
-constexpr double kMostWaste = 9;  // largest product over both axes of height over range
+constexpr double kMostWaste = 9;  // largest (axis length / range), multiplied over both axes
 constexpr double kHuge = 1e300;
 
 // Extends a range that is empty or not finite.
@@ -32,7 +33,7 @@ void widen(double& lo, double& hi) {
   hi += pad;
 }
 
-/// As many decimals as the step has; 1e+06 and the like for very large or small ones.
+/// Text with as many decimals as the step has, or with an exponent (1e+06) for very large and very small numbers.
 std::string tick_text(double value, double step) {
   if (step >= 1e6 || step < 1e-6 || std::abs(value) >= 1e7) return with_minus(fmt::format("{:.4g}", value));
   int decimals = 0;
@@ -42,7 +43,7 @@ std::string tick_text(double value, double step) {
   return zero ? text.substr(1) : with_minus(text);
 }
 
-/// Ticks at the multiples of a step within [lo, hi].
+/// Axis [lo, hi] with ticks at the multiples of a step.
 Ticks linear(double lo, double hi, double step) {
   Ticks ticks{lo, hi, {}, step};
   const double first = std::ceil(lo / step - kSlack);
@@ -53,7 +54,7 @@ Ticks linear(double lo, double hi, double step) {
 
 std::string short_number(double at, bool log) { return with_minus(fmt::format("{:.6g}", log ? power_of_ten(at) : at)); }
 
-/// Marks within [lo, hi], logarithms.
+/// Ticks within [lo, hi], which are logarithms to base 10.
 std::vector<Tick> log_marks(double lo, double hi, int count) {
   constexpr double kManyDecades = 3;
   const bool many = hi - lo >= kManyDecades;
@@ -68,7 +69,7 @@ std::vector<Tick> log_marks(double lo, double hi, int count) {
   }
   constexpr std::size_t kFew = 2;
   if (marks.size() >= kFew) return marks;
-  // Below a factor of 5: round numbers as on a linear axis.
+  // If the range is below a factor of 5, ticks are round numbers as on a linear axis.
   marks = ticks_within(power_of_ten(lo), power_of_ten(hi), count).marks;
   for (Tick& mark : marks) mark.at = log10_of(mark.at);
   return marks;

@@ -1,4 +1,4 @@
-// Tick marks of an axis, linear, logarithmic or words: their places and texts.
+// Tick marks of a linear or logarithmic axis or of an axis of words: positions and texts.
 #pragma once
 #include <limits>
 #include <span>
@@ -7,63 +7,63 @@
 
 namespace gaitlab::report {
 
-/// Range of the data; values that are not finite do not count.
+/// Range of the data. Values that are not finite are ignored.
 struct Bounds {
   double lo = std::numeric_limits<double>::infinity(), hi = -std::numeric_limits<double>::infinity();
   void add(double value);
   void add(std::span<const double> values);
   [[nodiscard]] bool empty() const { return lo > hi; }
-  /// From 0 at the lower end to 1; 0.5 for a single value.
+  /// Position of a value in the range, from 0 at the lower end to 1 at the upper end; 0.5 if the range is a single value.
   [[nodiscard]] double share(double value) const { return hi > lo ? (value - lo) / (hi - lo) : 0.5; }
 };
 
 struct Tick {
   double at = 0;
-  std::string text;  ///< numbers with a real minus sign
+  std::string text;  ///< number with a typographic minus sign, or word
 };
 
-/// An axis from `lo` to `hi` with its marks: in the unit of the values; on a logarithmic axis all places are logarithms to base
-/// 10, on an axis of words their indices.
+/// An axis from `lo` to `hi` with its marks. Positions are in the unit of the values, logarithms to base 10 on a logarithmic
+/// axis, and indices on an axis of words.
 struct Ticks {
   double lo = 0, hi = 1;
   std::vector<Tick> marks = {};
-  double step = 0;  ///< distance of the marks on a linear axis; otherwise 0
+  double step = 0;  ///< distance of the marks on a linear axis; 0 on other axes
 };
 
-/// About `count` ticks for [lo, hi], which is extended to whole steps (and if it is empty).
+/// About `count` ticks for [lo, hi]. The axis is extended to whole steps, and also if the range is empty.
 Ticks ticks_around(double lo, double hi, int count);
-/// The same for bounds; without data, from 0 to 1.
+/// About `count` ticks for bounds; for empty bounds the axis is from 0 to 1.
 Ticks ticks_around(const Bounds& bounds, int count);
 
-/// About `count` ticks within [lo, hi], which is unchanged.
+/// About `count` ticks within [lo, hi]. The ends of the axis are not changed.
 Ticks ticks_within(double lo, double hi, int count);
 
-/// About `count` ticks within the bounds, which are widened by a share of them; a single value is in the middle. `log`: of
-/// logarithms to base 10, with ticks at 1, 2, 5, 10 ..., over many decades at 1, 10 ... or fewer
+/// About `count` ticks within bounds that are widened by the share `wider`. A single value is in the middle of the axis. With
+/// `log` the bounds are logarithms to base 10, and ticks are at 1, 2, 5, 10, ...; over many decades at 1, 10, ... or fewer.
 Ticks ticks_over(const Bounds& bounds, bool log, int count, double wider = 0);
 
-/// A tick at every nth word; `beyond`: from the outermost words to the ends of the axis.
+/// A tick at every nth word (`every`). `beyond` is the distance from the outermost words to the ends of the axis.
 Ticks word_ticks(std::span<const std::string> words, double beyond = 0.5, std::size_t every = 1);
-/// The same from top to bottom, for an axis at a side.
+/// As word_ticks, but from top to bottom, for an axis at a side.
 Ticks row_ticks(std::span<const std::string> words, std::size_t every = 1);
 
-/// Two axes on one plot, for the ranges [lo, hi] of a and of b: as many steps below and above zero on both, so that the zeros
-/// and all grid lines meet; among several divisions the one that wastes least paper. If a does not come near zero, or the
-/// ranges would fill less than a third of the paper on average (one curve above zero, the other below), the axes have separate
-/// ticks.
+/// Two axes of one plot, for the ranges [lo, hi] of a and of b. Both axes have equally many steps below and above zero, so that
+/// their zeros and grid lines coincide. Among several divisions, the one that wastes the least area is chosen. The axes have
+/// separate ticks if the range of a is far from zero, or if the ranges would use less than a third of the height on average (if
+/// one curve is above zero and the other below).
 struct TwinTicks {
   Ticks a, b;
 };
 TwinTicks twin_ticks(double a_lo, double a_hi, double b_lo, double b_hi);
 
-/// The smallest 1, 2 or 5 times a power of ten not below `least` (> 0).
+/// Smallest number of the form 1, 2 or 5 times a power of ten that is not below `least` (> 0).
 double nice_step(double least);
 
-/// 10^exponent.
+/// 10^exponent, and the logarithm to base 10.
 double power_of_ten(double exponent);
 double log10_of(double value);
 
-/// A number for readers: with a real minus sign.
+/// Text of a number in which a hyphen as sign is replaced by a typographic minus sign.
 std::string with_minus(std::string text);
 
 }  // namespace gaitlab::report

@@ -1,4 +1,4 @@
-// A check of the verdict: a limit, and the number of the run that is compared with it.
+// A check of the verdict, which compares a number of the run with a limit.
 #pragma once
 #include <limits>
 #include <span>
@@ -14,18 +14,20 @@ namespace report {
 
 enum class CheckStatus { pass, warn, fail, too_close, not_judged };
 enum class CheckGroup { run, motor, motion, structure, ground, trust };
-/// The part of a run to which a check applies. A longer run cannot undo a failure in the whole run.
+/// Time interval to which a check applies: the judged window or the whole run. A failure of a whole-run check remains a failure
+/// if the run is continued.
 enum class CheckSpan { window, whole_run };
-/// Kind of the part that a check names as the worst.
+/// Kind of the robot's part with the least margin, named in Check::worst.
 enum class Part { none, joint, body, dock, foot };
 
-/// A number of the run, with the limit beyond which a check fails, or warns if it never fails; both in `unit`.
+/// A number of the run and its limit, both in `unit`. Beyond the limit the check fails, or it warns if it is a check that never
+/// fails.
 struct Criterion {
   double value, limit;
-  std::string unit = {};  ///< "" for shares
+  std::string unit = {};  ///< "" for shares and counts
   bool least = false;     ///< the limit is a lower limit
-  /// (limit - value) / |limit|, with the opposite sign for a lower limit; for a limit of 0 without the division. 0 or more:
-  /// kept.
+  /// Margin (limit - value) / |limit|, with the opposite sign for a lower limit. For a limit of 0 it is not divided. It is
+  /// negative beyond the limit.
   [[nodiscard]] double margin() const { return margin(limit); }
   [[nodiscard]] double margin(double other_limit) const;
 };
@@ -61,59 +63,59 @@ struct EnumNames<report::Part> {
 
 namespace report {
 
-/// Result of a check: a limit, and the number of the run that is compared with it. NaN: the number is not known.
+/// Result of a check, which compares a number of the run with a limit. Numbers that are not known are NaN.
 struct Check {
-  std::string id;                      ///< `voltage`
-  CheckGroup group = CheckGroup::run;  ///< trust: accuracy of the run itself
-  std::string title;                   ///< `Voltage suffices`
+  std::string id;                      ///< identifier, for example `voltage`
+  CheckGroup group = CheckGroup::run;  ///< the group `trust` contains the checks of the run's accuracy
+  std::string title;                   ///< for example `Voltage suffices`
   CheckStatus status = CheckStatus::not_judged;
   CheckSpan span = CheckSpan::window;
-  bool can_fail = true;  ///< false: it only warns
+  bool can_fail = true;  ///< false: beyond the limit the check warns and does not fail
   bool least = false;    ///< the limit is a lower limit
-  double value, limit;   ///< of the worst part, by the criterion that decides
-  std::string unit;      ///< "" for shares
-  /// Margin of the criterion that decides. Orders the checks, and is a quantity of studies.
+  double value, limit;   ///< number and limit of the worst part, by the criterion with the least margin
+  std::string unit;      ///< "" for shares and counts
+  /// Margin of the criterion with the least margin. It orders the checks, and studies can use it as a quantity.
   double margin = std::numeric_limits<double>::quiet_NaN();
-  std::vector<Criterion> criteria = {};  ///< for a check with several criteria: all, the main one first
-  double error = 0;                      ///< relative error of the value; 0: not estimated
-  Part part = Part::none;                ///< kind of `worst`
-  std::string worst = {};                ///< the part with the least margin: `m3/passive`, `m5`
+  std::vector<Criterion> criteria = {};  ///< all criteria of a check that has several, the main criterion first
+  double error = 0;                      ///< relative error of the value; 0 if not estimated
+  Part part = Part::none;                ///< kind of the part `worst`
+  std::string worst = {};                ///< the part with the least margin, for example `m3/passive` or `m5`
   std::size_t parts = 0;                 ///< number of parts beyond the limit
-  double from, to;                       ///< s: time of the worst one
-  double first;                          ///< s: when a part was first beyond the limit
-  std::string first_part = {};           ///< that part; empty: none, or not known
+  double from, to;                       ///< s, time interval in which the worst part reached `value`
+  double first;                          ///< s, time when a part was first beyond the limit
+  std::string first_part = {};           ///< part that was first beyond the limit; empty if none is known
   std::string definition;                ///< definition of the value
   std::string source = {};               ///< source of the limit
-  std::string text = {};                 ///< sentence for the user
-  std::string remedy = {};               ///< setting to change: `take a smaller amplitude`; empty: no setting is known to help
-  std::string missing = {};              ///< shortfall: `11 V`; empty: not known
-  SourceLocation place = {};             ///< place of the setting concerned
+  std::string text = {};                 ///< sentence about the result, printed for the user
+  std::string remedy = {};               ///< change of a setting that helps: `take a smaller amplitude`; empty if none is known
+  std::string missing = {};              ///< shortfall of the motor, for example `11 V`; empty if not known
+  SourceLocation place = {};             ///< line of the scenario with the setting that the check concerns
 
-  /// `text`, with the time if the value is of one instant, and the shortfall.
+  /// `text`, followed by the time if the value belongs to one instant, and by the shortfall.
   [[nodiscard]] std::string sentence() const;
-  /// The least margin with `limit` as the limit of the main criterion.
+  /// Least margin of all criteria if `limit` replaces the limit of the main criterion.
   [[nodiscard]] double margin_of(double limit) const;
 };
 
 struct CheckedRun;
 
-/// The constant parts of a check: one row of the list from which verdict, terminal, page, studies, `explain` and docs are
-/// generated.
+/// Constant data of a check. The list of all kinds is the source of the verdict, the terminal output, the page, the columns of
+/// studies, `gaitlab explain` and the documentation.
 struct CheckKind {
   const char* id;
   CheckGroup group;
   const char *unit, *title;
-  const char* definition;  ///< value of the main criterion
+  const char* definition;  ///< definition of the number that the main criterion compares
   const char *fails, *warns;
   CheckSpan span;
-  const char* key;     ///< setting of the scenario to which a message refers
-  const char* remedy;  ///< advice of `explain`
+  const char* key;     ///< key of the scenario setting at which messages about the check are placed
+  const char* remedy;  ///< advice printed by `gaitlab explain`
   void (*judge)(const CheckedRun& run, Check& made);
   bool least = false;         ///< the limit is a lower limit
-  bool of_all_loads = false;  ///< without a stated limit its number needs Loads::recorded
+  bool of_all_loads = false;  ///< true: without a stated limit the check needs Loads::recorded to compute its number
   [[nodiscard]] bool can_fail() const { return *fails != '\0'; }
 };
-/// All checks, in the order of the verdict.
+/// All kinds of checks, in the order of the verdict.
 std::span<const CheckKind> check_kinds();
 
 }  // namespace report

@@ -1,4 +1,4 @@
-// The list of checks.
+// The list of all checks of the verdict.
 #include "report/verdict/checks.h"
 #include "report/verdict/load_checks.h"
 
@@ -13,7 +13,7 @@ template <DockQuantity kQuantity>
 void dock(const CheckedRun& run, Check& made) {
   judge_docks(run.scenario, run.record, kQuantity, dock_limits(*run.scenario.robot, kQuantity), made);
   if (made.status == CheckStatus::not_judged || run.torque_errors.empty()) return;
-  // All docks get the error of the worst joint, so that the worst dock decides.
+  // All docks get the torque error of the worst joint, so that the dock with the least margin decides.
   const ErrorBar bar = ErrorBar::around(made.worst, made.value / made.limit, std::ranges::max(run.torque_errors));
   widen(run.scenario, {&bar, 1}, made);
 }

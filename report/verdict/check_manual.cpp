@@ -42,7 +42,7 @@ constexpr const char* kMargin =
     "foot has the least margin. A value is too close to its limit if its error bar, from the estimated error of the torques, "
     "contains the limit, unless another part exceeds its limit by more than its own error.";
 
-/// A paragraph after a head; its further lines are indented by the head's width.
+/// Paragraph with a head. Its further lines are indented by the width of the head.
 std::string hanging(const std::string& head, const std::string& text, std::size_t width) {
   return head + wrapped(text, head.size(), width).substr(head.size());
 }

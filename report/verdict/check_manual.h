@@ -1,4 +1,4 @@
-// Manual of the verdict: its words, and every check with its limit and remedy.
+// Manual of the verdict: its four words, and every check with its limit and remedy.
 #pragma once
 #include <string>
 
@@ -6,7 +6,7 @@
 
 namespace gaitlab::report {
 
-/// Text of `gaitlab explain verdict`: the words, then a line per check.
+/// Text of `gaitlab explain verdict`: the four words, then one line per check.
 std::string explain_verdict();
 /// Text of `gaitlab explain CHECK`.
 std::string explain_check(const CheckKind& kind);

@@ -1,4 +1,4 @@
-// The checks of a verdict: each computes one check.
+// The functions that compute the checks of a verdict, one function per check.
 #pragma once
 #include <optional>
 #include <string>
@@ -15,7 +15,7 @@
 
 namespace gaitlab::report {
 
-/// Input of every check.
+/// Run data from which every check is computed.
 struct CheckedRun {
   const Scenario& scenario;
   const Recording& record;
@@ -26,26 +26,29 @@ struct CheckedRun {
   std::string motor_source = report::motor_source(scenario);
   std::optional<Fall> fall = summary.fall ? *summary.fall : report::fall(scenario, record);
   Evidence evidence = report::evidence(scenario, record, summary);
-  std::vector<double> torque_errors = report::torque_errors(record);  ///< of each joint, share of its largest torque
+  std::vector<double> torque_errors = report::torque_errors(record);  ///< RMS torque error of each joint, as a share of its
+                                                                      ///< largest torque
 
   [[nodiscard]] const std::string& joint(std::size_t j) const { return scenario.robot->joints[j].name; }
   [[nodiscard]] const Limits& limits() const { return scenario.limits; }
   [[nodiscard]] bool driven() const { return !motors.of_joint.empty(); }
-  /// Reason why checks on this column of ticks cannot be judged; empty: they can.
+  /// Reason why checks that read this column of Recording::ticks cannot be judged; empty if they can.
   [[nodiscard]] std::string unknown(TickColumn column) const;
 };
 
-/// Pass up to `pass`, warning up to `warn`, failure above and for NaN.
+/// Status `pass` up to `pass`, `warn` up to `warn`, and `fail` above and for NaN.
 CheckStatus graded(double value, double pass, double warn);
 
-/// The interval between the row of Recording::ticks before `time` and `time`, in which a peak of that row was reached.
+/// Time interval from the preceding row of Recording::ticks to the row at `time`. A peak stored in the row at `time` was
+/// reached in this interval.
 std::pair<double, double> row_before(const Recording& record, double time);
 
-/// Source of a threshold in the section `limits`; all defaults are chosen.
+/// Text for Check::source of a threshold in the section `limits`. It states if the threshold is the default (chosen) or a value
+/// of the scenario.
 std::string threshold(const char* key, double value, double preset);
 
-// Each function judges one check. Initially a check has its id, title and unit, is not judged and has no number and no text; a
-// check that stays so was not judged, and its text gives the reason.
+// Each function judges one check. The check is passed in with id, title and unit, the status `not judged`, and neither number
+// nor text. A function that cannot judge keeps this status and sets the text to the reason.
 namespace checks {
 void outcome(const CheckedRun& run, Check& made);
 void height(const CheckedRun& run, Check& made);

@@ -37,7 +37,7 @@ void name_joint(Check& made, const CheckedRun& run, std::size_t joint) {
   made.worst = run.joint(joint);
 }
 
-/// Reason why collisions of bodies without a shape cannot be judged; empty: all have one.
+/// Reason why collisions cannot be judged, for example bodies without a shape. Empty if they can.
 std::string no_bodies(const CheckedRun& run) {
   const std::size_t all = run.scenario.robot->bodies.size();
   if (const ContactModel& contact = run.scenario.contact.model(); contact.keeps_bodies_apart)

@@ -1,4 +1,4 @@
-// Checks of the gait as a whole: progress, and the evidence for the word.
+// Checks of the gait as a whole: progress, repetition, and the evidence for `feasible`.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,13 +17,15 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kLeastTravel = 0.01, kLeastTurn = 0.01;  // of the extent, and rad: per period; without a period ten times that
+// Least travel, as a share of the robot's extent, and least turn, rad. Both are per period; without a period they are ten times
+// as large.
+constexpr double kLeastTravel = 0.01, kLeastTurn = 0.01;
 constexpr const char* kTooShort = "the run is too short";
-constexpr double kMostCycleError = 0.02;  // as core/recording/limit_cycle.h
-constexpr const char* kTimes = "times";   // unit of a ratio
-constexpr double kSpeedsUp = 1.2;         // of the first half's speed, if gravity drives the robot
+constexpr double kMostCycleError = 0.02;  // equal to that in core/recording/limit_cycle.h
+constexpr const char* kTimes = "times";   // unit of a ratio of speeds
+constexpr double kSpeedsUp = 1.2;         // ratio of speeds of second and first half above which gravity drives the robot
 
-/// Control ticks in the judged window.
+/// Indices of control ticks in the judged window.
 struct Rows {
   std::size_t first = 0, last = 0;
 };
@@ -34,7 +36,7 @@ Rows window(const CheckedRun& run, const Series& time) {
   return rows;
 }
 
-/// Diagonal of the box around all links and contact elements at the start, m; 0: not known.
+/// Diagonal of the box around all links and contact elements at the start, m; 0 if not known.
 double extent(const Scenario& s, const Recording& r) {
   const States states = States::at_ticks(r, *s.robot);
   if (states.size() == 0) return 0;
@@ -52,15 +54,16 @@ double extent(const Scenario& s, const Recording& r) {
   return (most - least).norm();
 }
 
-/// Two intervals of equal length up to the end of the run, each of whole periods.
+/// Two intervals of equal length, each of whole periods. The second one ends at the end of the run.
 struct Halves {
-  double from = 0, length = 0;  ///< s, of the first; length 0: the run has no two periods
+  double from = 0, length = 0;  ///< s, start of the first interval; length of both; length 0 if the run contains fewer than two
+                                ///< periods
 };
 
-/// The halves of the window; with an odd number of periods the middle one is in both, and a single period is compared with the
-/// one before. For a run that is judged as a whole a drop at the start is left out.
+/// The two halves of the judged window. With an odd number of periods the middle one belongs to both halves. A single period is
+/// compared with the preceding one. If the run has no limit cycle, a drop at the start is left out.
 Halves halves(const CheckedRun& run) {
-  constexpr double kMissing = 1e-3;  // of a period: tolerance of a whole one
+  constexpr double kMissing = 1e-3;  // share of a period that may be missing from a whole one
   const Judged& judged = run.summary.judged;
   const double start = judged.periods > 0 ? judged.from : std::max(judged.from, left_out_start(judged.to));
   const double window = judged.to - start;
@@ -71,7 +74,7 @@ Halves halves(const CheckedRun& run) {
   return from >= -kMissing * unit ? Halves{from, std::ceil(held / 2) * unit} : Halves{};
 }
 
-/// Work of gravity from the first half on, J.
+/// Work of gravity from the start of the first half on, J.
 double gravity_work(const Scenario& s, const Motion& m, const Halves& of) {
   std::size_t first = 0;
   while (first + 1 < m.t.size() && m.t[first] < of.from) ++first;
@@ -79,7 +82,7 @@ double gravity_work(const Scenario& s, const Motion& m, const Halves& of) {
   return s.robot->mass * s.physics.gravity.dot(Vec3(way(m.x), way(m.y), way(m.z)));
 }
 
-/// Ratio of the path speeds of the second and the first half.
+/// Path speed in the second half / path speed in the first half.
 double speed_up(const Motion& m, const Halves& of, double end) {
   const auto way = [&](double from, double to) {
     double sum = 0;
@@ -92,14 +95,14 @@ double speed_up(const Motion& m, const Halves& of, double end) {
   return before > 0 ? way(end - of.length, end) / before : 1;
 }
 
-/// Fails a check of a robot that gravity pulls down a slope.
+/// Makes the check fail if gravity pulls the robot down a slope.
 void judge_slide(const CheckedRun& run, const Motion& m, Check& made) {
   const Scenario& s = run.scenario;
   const Halves two = halves(run);
   const double fallen = gravity_work(s, m, two);
   double driven = 0;
   for (const JointStatistics& joint : run.record.joints) driven += joint.shaft;
-  if (!run.evidence.not_borne.empty()) return;  // a fall is not a slide
+  if (!run.evidence.not_borne.empty()) return;  // a falling robot does not slide
   const double faster = speed_up(m, two, run.summary.judged.to);
   if (!(fallen > std::max(driven, least_energy(s))) || !(faster > kSpeedsUp)) return;
   made.criteria = {{made.value, made.limit, made.unit, true}, {faster, kSpeedsUp, kTimes}};
@@ -171,7 +174,7 @@ void field(const CheckedRun& run, Check& made) {
   if (!s.ground.has_border() || m.x.empty() || m.y.empty()) return;
   made.status = CheckStatus::pass;
   made.text = "the robot stays on its heightfield";
-  if (s.ground.beyond_border(m.x.front(), m.y.front())) {  // told before the run
+  if (s.ground.beyond_border(m.x.front(), m.y.front())) {  // a warning was printed before the run
     made.status = CheckStatus::not_judged;
     made.text = "the robot starts beside its heightfield";
     return;

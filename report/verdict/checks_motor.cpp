@@ -44,9 +44,10 @@ struct Span {
   [[nodiscard]] double length() const { return to - from; }
 };
 
-/// The longest interval after the first row in which a joint may have been at the limit without a break: consecutive rows of
-/// ticks at the limit throughout, and the parts of the rows before and after. A row that was partly at the limit, in an unknown
-/// number of pieces, counts as one piece at its end and one at its start. parts: s, of every row.
+/// The longest interval after row `first` in which a joint may have been at the limit without interruption. `parts` is the time
+/// at the limit in each row of ticks, s. Rows that are completely at the limit are joined with the parts of the neighbouring
+/// rows. Such a part may consist of several pieces at unknown times; it counts as one piece at the end and one at the start of
+/// its row.
 Span longest_span(const Series& t, const std::vector<double>& parts, std::size_t first) {
   constexpr double kAllTheWhile = 0.999;
   Span longest;
@@ -62,7 +63,7 @@ Span longest_span(const Series& t, const std::vector<double>& parts, std::size_t
   return longest;
 }
 
-/// Reason why an actuator without a voltage or a limit is not judged; empty: it is.
+/// Reason why an actuator without a voltage or without a limit is not judged. Empty if it is judged.
 std::string unstated(const CheckedRun& run, MotorLimit limit, double share) {
   if (share > 0 || run.has_dc_motors) return "";
   if (limit == MotorLimit::voltage) return "the actuator is not made of DC motors, and has no voltage";
@@ -70,13 +71,13 @@ std::string unstated(const CheckedRun& run, MotorLimit limit, double share) {
   return limited ? "" : "the actuator states no limit";
 }
 
-/// Addition to the source of a threshold: that of the motor values.
+/// Addition to the source of a threshold: the sources of the motor values.
 std::string of_motors(const CheckedRun& run) {
   return run.motor_source.empty() ? "" : fmt::format("; motors: {}", run.motor_source);
 }
 
-/// Time in each row of ticks that a joint is at this limit, s. With `error` above 0 an upper bound: a row counts whole if the
-/// joint is at no limit, but its torque comes within that share of this one.
+/// Time that a joint is at this limit in each row of ticks, s. With `error` above 0 it is an upper bound: a row at no limit
+/// counts completely if the torque is within that share of this limit.
 std::vector<double> parts_at_limit(const CheckedRun& run, std::size_t joint, double error, MotorLimit limit) {
   const Recording& r = run.record;
   const Series t(r.ticks, 0);
@@ -97,13 +98,13 @@ std::vector<double> parts_at_limit(const CheckedRun& run, std::size_t joint, dou
   return parts;
 }
 
-/// Relative error of a joint's torque, and so of its current; 0: not estimated.
+/// Relative error of a joint's torque, which is also that of its current; 0 if not estimated.
 double error_of(const CheckedRun& run, std::size_t joint) {
   return joint < run.torque_errors.size() ? run.torque_errors[joint] : 0;
 }
 
-/// Sets Check::first to the end of the first row, behind the row `after`, in which any driven joint is `beyond`, and
-/// Check::first_part to the joint; leaves both unchanged if none is.
+/// Sets Check::first to the end of the first row after row `after` in which any driven joint is `beyond`, and Check::first_part
+/// to that joint. Changes neither if there is none.
 template <class Beyond>
 void find_first(const CheckedRun& run, std::size_t after, TickColumn column, const Beyond& beyond, Check& made) {
   const Series t(run.record.ticks, 0);
@@ -119,10 +120,10 @@ void find_first(const CheckedRun& run, std::size_t after, TickColumn column, con
   }
 }
 
-/// A joint at a limit of its motor.
+/// Time that a joint is at a limit of its motor.
 struct AtLimit {
   std::size_t joint = 0;
-  double share = 0;  ///< share of the window
+  double share = 0;  ///< share of the judged window
   Span longest;
   std::vector<Criterion> criteria;
   [[nodiscard]] const Criterion& decisive() const { return *std::ranges::min_element(criteria, {}, margin_of); }
@@ -130,9 +131,9 @@ struct AtLimit {
   static double margin_of(const Criterion& one) { return one.margin(); }
 };
 
-/// error: share by which the torque may be larger.
+/// Time that a joint is at a limit if its torque is larger by the share `error`.
 AtLimit at_limit(const CheckedRun& run, std::size_t joint, double error, MotorLimit limit) {
-  constexpr double kRounding = 1 + 1e-6;  // for an interval that is a sum of rows
+  constexpr double kRounding = 1 + 1e-6;  // tolerance of an interval that is a sum of rows
   const Series t(run.record.ticks, 0);
   const std::size_t first = run.summary.judged.first_row;
   const std::vector<double> parts = parts_at_limit(run, joint, error, limit);
@@ -145,7 +146,7 @@ AtLimit at_limit(const CheckedRun& run, std::size_t joint, double error, MotorLi
   return made;
 }
 
-/// Error bar whose least value is from this joint with times shorter by the share `error`, and whose largest is from `widest`.
+/// Error bar of a joint. Its lower end is from `at` with times shorter by the share `error`, its upper end from `widest`.
 ErrorBar bar_of(const AtLimit& at, double error, const AtLimit& widest) {
   ErrorBar bar{"", error, 0, 1 - widest.margin()};
   for (const Criterion& one : at.criteria)
@@ -153,17 +154,17 @@ ErrorBar bar_of(const AtLimit& at, double error, const AtLimit& widest) {
   return bar;
 }
 
-/// Driven joints at a limit of their motors.
+/// Driven joints that are at a limit of their motors.
 struct Saturated {
-  std::size_t joints = 0;  ///< at the limit for some time
+  std::size_t joints = 0;  ///< number of joints at the limit for some time
   std::optional<AtLimit> worst;
-  std::optional<AtLimit> widest;  ///< joint with the least margin if torques are larger by their errors, and that fails
+  std::optional<AtLimit> widest;  ///< joint with the least margin if torques are larger by their errors, provided that it fails
   std::vector<ErrorBar> bars;
 };
 
 Saturated saturated(const CheckedRun& run, MotorLimit limit) {
   const auto worse = [](const AtLimit& one, const std::optional<AtLimit>& other) {
-    constexpr double kEqual = 1e-9;  // margins of sums of the same ticks
+    constexpr double kEqual = 1e-9;  // differences of margins below this are rounding
     const double nearer = other ? other->margin() - one.margin() : 1;
     return std::abs(nearer) > kEqual ? nearer > 0 : one.share > kLarger * other->share;
   };
@@ -174,7 +175,7 @@ Saturated saturated(const CheckedRun& run, MotorLimit limit) {
     if (one.share > 0) ++made.joints;
     if (worse(one, made.worst)) made.worst = one;
     const double error = error_of(run, j);
-    const bool known = error > 0 && error <= run.limits().torque_error;  // a larger error proves nothing
+    const bool known = error > 0 && error <= run.limits().torque_error;  // a larger error does not show anything
     const AtLimit wide = known ? at_limit(run, j, error, limit) : one;
     made.bars.push_back(bar_of(one, error, wide));
     if (known && wide.margin() < 0 && worse(wide, made.widest)) made.widest = wide;
@@ -182,7 +183,8 @@ Saturated saturated(const CheckedRun& run, MotorLimit limit) {
   return made;
 }
 
-/// Joint and time of the worst saturation, and its sentence. `name`: of what limits the motor.
+/// Fills in joint, time and sentence of the worst joint at a limit. `name` is the quantity that is limited, for example
+/// `voltage`.
 void describe(const CheckedRun& run, const AtLimit& worst, TickColumn column, const char* name, Check& made) {
   made.part = Part::joint;
   made.worst = run.joint(worst.joint);
@@ -232,13 +234,13 @@ void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn
   made.remedy = "take " + torque_remedy(run.scenario, std::max(made.error, run.limits().torque_error));
 }
 
-/// Value and limit of each joint; NaN: not known; infinite or 0 limit: not stated.
+/// Value, limit and time for a joint. NaN if not known; an infinite or 0 limit is not stated.
 struct Rated {
   double value, limit, time;
 };
 
-/// Judges the joint with the least margin. none: text if no joint has a limit. Returns the error bars of all joints that have
-/// one.
+/// Judges the joint with the least margin. `none` is the text if no joint has a limit. Returns the error bars of all joints
+/// with a limit.
 template <class Rate>
 std::vector<ErrorBar> rated(const CheckedRun& run, Check& made, TickColumn column, const char* none, double pass, double warn,
                             Rate rate) {
@@ -296,8 +298,8 @@ void speed(const CheckedRun& run, Check& made) {
   const char* const none = "the actuator has torque at any speed, and states no largest one";
   const auto no_load = [&](std::size_t j) { return run.motors.joint(j).no_load.value_or(kNever); };
   const auto rating = [&](std::size_t j) { return run.motors.joint(j).speed_max.value_or(kNever); };
-  // Torque that a motor cannot reach is a matter of the gait, and a landing may exceed it; a rating of the maker holds from the
-  // first step on.
+  // A landing may exceed the no-load speed, so that speed is compared with the judged window only. A maker's rating must be
+  // kept from the first step on.
   const double share = run.limits().warn_share;
   Check broken = made;
   rated(run, broken, kSpeedPeak, none, share, 1, [&](std::size_t j) {
@@ -309,7 +311,7 @@ void speed(const CheckedRun& run, Check& made) {
     return Rated{joint.speed_peak, no_load(j), joint.speed_peak_time};
   });
   const bool unreached = made.status != CheckStatus::not_judged;
-  const bool worse = broken.status == CheckStatus::fail ||  // a longer run cannot undo it
+  const bool worse = broken.status == CheckStatus::fail ||  // a longer run cannot undo a failure
                      (made.status != CheckStatus::fail && broken.value / broken.limit >= made.value / made.limit);
   const bool by_rating = broken.status != CheckStatus::not_judged && (!unreached || worse);
   if (by_rating) made = broken;

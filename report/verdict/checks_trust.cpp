@@ -1,4 +1,4 @@
-// Checks of the accuracy of a run: of its steps, torques and energies.
+// Checks of the accuracy of a run, that is of its steps, torques and energies.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,16 +16,16 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kTooLong = 0.01;  // share of the control ticks: too long a step more often is a warning
+constexpr double kTooLong = 0.01;  // share of the control ticks with too long a step above which the check warns
 constexpr const char* kUndriven = "nothing drives the joints";
 constexpr const char* kNoEnergies = "the folder holds rows only, and no energies of all steps";
 
-/// Reason why energies are not judged; empty: they are.
+/// Reason why energies are not judged. Empty if they are.
 std::string no_energies(const CheckedRun& run) {
   return !run.driven() ? kUndriven : run.record.joints.empty() ? kNoEnergies : "";
 }
 
-/// Pass up to `limit`; warning above and for NaN.
+/// Status `pass` up to `limit`, `warn` above and for NaN.
 void warn_above(double limit, Check& made) { made.status = made.value <= limit ? CheckStatus::pass : CheckStatus::warn; }
 
 const char* finer(const Scenario& s) {
@@ -51,7 +51,7 @@ void torque_error(const CheckedRun& run, Check& made) {
                           run.scenario.physics.adapts() ? "" : " in windows; `gaitlab converge` compares whole runs");
   if (made.status == CheckStatus::pass) return;
   const bool chaotic =
-      predictability(run.scenario, run.record) == Predictability::chaotic;  // then a shorter step does not help
+      predictability(run.scenario, run.record) == Predictability::chaotic;  // in a chaotic motion a shorter step does not help
   if (!chaotic) made.remedy = "take " + torque_remedy(run.scenario, error.share);
   const Parting& event = run.record.tally.event;
   if (event.time < 0) return;
@@ -105,7 +105,7 @@ void created(const CheckedRun& run, Check& made) {
 void supply(const CheckedRun& run, Check& made) {
   made.text = no_energies(run);
   if (!made.text.empty()) return;
-  double drawn = 0;  // as for the cost of transport
+  double drawn = 0;  // J, energy drawn as in the cost of transport
   for (const JointStatistics& joint : run.record.joints) drawn += joint.electrical;
   const bool costs = run.scenario.robot->mass * run.scenario.physics.gravity.norm() * travelled(run.record).distance > 0;
   made.value = run.record.ledger.electrical;

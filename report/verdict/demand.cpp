@@ -17,12 +17,12 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kThrown =
-    0.5;  // of the height of the start pose on the ground: a gait that rises by more than that above its own run is a jump
+    0.5;  // share of the standing height; if the twin rises higher than the run by more than this, its robot jumps (thrown_up)
 
 class Raise final : public Fields {
  public:
   bool found = false;
-  bool zero = false;  ///< a limit of 0, which remains 0
+  bool zero = false;  ///< true if a limit is 0, which remains 0
   void visit(const Field& field) override {
     const auto* each = std::get_if<field::EachJoint>(&field.value);
     if (each == nullptr || each->role != field::Role::limit) return;
@@ -34,7 +34,7 @@ class Raise final : public Fields {
   void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
 
  private:
-  /// Sets `usual` where no value is stated.
+  /// Replaces values that are not stated by `usual`.
   static void state(PerJoint& value, const PerJoint& usual) {
     if (value.each.empty()) value.each.assign(usual.each.size(), value.common);
     for (std::size_t j = 0; j < value.each.size(); ++j) {
@@ -51,8 +51,8 @@ class Raise final : public Fields {
 /// Largest rise of the centre of mass above its height at the start, m.
 double rise(const std::vector<double>& z) { return *std::ranges::max_element(z) - z.front(); }
 
-/// Requirement beyond its limit of the joint that lacks most, among those at that limit for some time: `0.241 A at m5/passive
-/// (needs 0.741 A; largest torque 1.3 N m, largest speed 0.9 rad/s)`.
+/// Shortfall of the joint that lacks most among those at the limit for some time: `0.241 A at m5/passive (needs 0.741 A;
+/// largest torque 1.3 N m, largest speed 0.9 rad/s)`.
 std::string lack(const Scenario& scenario, const std::vector<JudgedJoint>& own, const std::vector<JudgedJoint>& free,
                  double JudgedJoint::*share, double JudgedJoint::*peak, const char* unit) {
   double most = 0;
@@ -134,7 +134,7 @@ bool take_demand(Verdict& verdict, const std::string& json) try {
   }
   verdict = std::move(with);
   return true;
-} catch (const nlohmann::json::exception&) {  // a file that was changed
+} catch (const nlohmann::json::exception&) {  // the file was changed and is not valid
   return false;
 }
 

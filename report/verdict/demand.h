@@ -1,4 +1,4 @@
-// The demand twin: the same run with unlimited motors, which shows the shortfall of the real motors.
+// The demand twin: a second run of the scenario with 20 times the motor limits, which shows the shortfall of the real motors.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,32 +8,33 @@
 
 namespace gaitlab::report {
 
-inline constexpr double kDemandTimes = 20;  ///< factor between the twin's limits and the scenario's
+inline constexpr double kDemandTimes = 20;  ///< factor between the motor limits of the twin and those of the scenario
 
-/// Demand of a gait: joint statistics without motor limits.
+/// Demand of a gait: joint statistics of the twin, in which the motors are practically unlimited.
 struct Demand {
-  std::string doubt = {};                ///< reason why the demand is unknown or doubtful; empty: neither
-  bool known = false;                    ///< whether `joints` holds values
-  std::vector<JudgedJoint> joints = {};  ///< of the twin, in the window of the run
+  std::string doubt = {};                ///< reason why the demand is unknown or doubtful; empty otherwise
+  bool known = false;                    ///< true if `joints` is filled in
+  std::vector<JudgedJoint> joints = {};  ///< statistics of each joint of the twin, in the judged window of the real run
 };
 
-/// Multiplies every limit in force of the scenario's actuator (fields declared as Fields::limit), stated or not, by
-/// kDemandTimes. False: it has none, or one is 0.
+/// Multiplies every limit of the scenario's actuator (every field declared as Fields::limit) by kDemandTimes. Limits that the
+/// scenario does not state are multiplied too. Returns false if the actuator has no limit, or a limit of 0.
 bool raise_limits(Scenario& scenario);
 
-/// Whether a robot on the ground jumps without limits (`free`) but not in its own run: its centre of mass rises higher by more
-/// than half of its height at the start. False for a fixed base.
+/// True if the robot jumps in the run `free` without motor limits, but not in its `own` run: the centre of mass rises higher
+/// than in `own` by more than half of the robot's standing height. False for a fixed base.
 bool thrown_up(const Scenario& scenario, const Recording& free, const Recording& own);
 
-/// Runs the twin, a scenario modified by raise_limits. The demand is unknown if the twin diverges, and doubtful if its robot
-/// jumps (thrown_up) or if it reaches a limit itself. Deterministic.
+/// Runs the twin, a scenario that raise_limits has changed. The demand is unknown if the twin diverges. It is doubtful if the
+/// twin's robot jumps (thrown_up), or if the twin reaches one of its motor limits. Deterministic.
 Demand demand(const Scenario& twin, const Recording& record, const Summary& summary);
 
-/// Fills in `missing` for checks that fail or warn because of a motor limit, and Verdict::demands.
+/// Fills in Check::missing of the checks that fail or warn because of a motor limit, and Verdict::demands.
 void add_demand(Verdict& verdict, const Scenario& scenario, const Summary& summary, const Demand& demand);
 
-/// The same from the verdict.json of an earlier such run, so that its folder gives the same output again. False, without
-/// effect: the file belongs to another verdict (its word, its window or its limit checks differ), or does not exist.
+/// Fills in the demand as add_demand does, but from the verdict.json of an earlier run with the option, so that a report on the
+/// folder prints it again. Returns false and changes nothing if the file does not exist or belongs to another verdict (its
+/// word, window or limit checks differ).
 bool take_demand(Verdict& verdict, const std::string& json);
 
 }  // namespace gaitlab::report

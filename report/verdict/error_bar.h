@@ -1,4 +1,4 @@
-// Error bar of a part of a check, and the rule for undecided checks.
+// Error bar of a number, and the rule by which a check becomes `too close`.
 #pragma once
 #include <algorithm>
 #include <span>
@@ -12,7 +12,7 @@ struct Scenario;
 
 namespace gaitlab::report {
 
-/// Range of the share of its limit that a part uses; above 1 it is beyond the limit.
+/// Range of value / limit of a joint, given the error of the value. A share above 1 is beyond the limit.
 struct ErrorBar {
   std::string part;
   double error = 0;  ///< relative error of the value
@@ -24,15 +24,15 @@ struct ErrorBar {
   [[nodiscard]] bool across() const { return !beyond() && most > 1; }
 };
 
-/// Whether the limit lies within the bar of some part, and no part is beyond its limit with its whole bar: one such part makes
-/// a check fail, regardless of the others.
+/// True if the limit lies within some joint's error bar, and no joint's error bar is completely beyond its limit. A joint that
+/// is completely beyond makes the check fail, regardless of the others.
 inline bool too_close(std::span<const ErrorBar> bars) {
   return std::ranges::any_of(bars, &ErrorBar::across) && std::ranges::none_of(bars, &ErrorBar::beyond);
 }
 
-/// Sets Check::error to that of the worst part. If `bars` are too close to their limits the status becomes so, and the text
-/// gains the remedy and the range of the worst part or, if its limit is outside of its bar, of the part that may be farthest
-/// beyond.
+/// Sets Check::error to the error of the worst part. If too_close(bars), also sets the status `too close`, adds the range of a
+/// part to the text, and sets the remedy. The range printed is that of the worst part if its limit lies within its error bar;
+/// otherwise that of the joint with the largest upper end among those whose limit lies within their bars.
 void widen(const Scenario& scenario, std::span<const ErrorBar> bars, Check& made);
 
 }  // namespace gaitlab::report

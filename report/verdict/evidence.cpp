@@ -18,8 +18,8 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kRelative = 1e-9;  // rounding
-constexpr double kEstimate = 1e-3;  // of a period, as an estimate
+constexpr double kRelative = 1e-9;  // tolerance for rounding
+constexpr double kEstimate = 1e-3;  // share of a period, tolerance of an estimated period
 
 bool moves(const std::vector<Series>& set_points) {
   for (const Series& one : set_points) {
@@ -55,7 +55,7 @@ void judge_length(const Recording& r, const Summary& summary, Evidence& made) {
   }
 }
 
-/// unknown: gains the names of unknown numbers.
+/// Judges whether the ground carries the robot. Names of numbers that are not known are added to `unknown`.
 void judge_support(const Scenario& s, const Summary& summary, Evidence& made, std::vector<std::string>& unknown) {
   if (s.base != Base::floating) return;
   if (!(s.physics.gravity.norm() > 0)) {
@@ -71,14 +71,14 @@ void judge_support(const Scenario& s, const Summary& summary, Evidence& made, st
   if (made.falls_freely) return;
   const double share = summary.posture.borne_share;
   if (std::isnan(share))
-    unknown.emplace_back("the ground's share of the weight");  // the impulses of the solver are not recorded
+    unknown.emplace_back("the ground's share of the weight");  // recordings do not contain the impulses of the solver
   if (share >= kBorne || std::isnan(share)) return;
   made.not_borne = {fmt::format("the ground carries {} of the weight on average, less than {}: the robot is not on it",
                                 texts::percent(share), texts::percent(kBorne)),
                     "contact"};
 }
 
-/// The motor that creates energy; empty: none.
+/// Sentence on a motor that creates energy; empty if there is none.
 std::string makes_energy(const Scenario& s) {
   if (s.actuator.entry == nullptr || s.robot->joints.empty()) return "";
   const std::unique_ptr<Actuator> actuator = make_actuator(s.actuator, info(*s.robot));
@@ -111,12 +111,12 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made, std::vec
     made.not_trusted = {fmt::format("the error of the torque of joint {} is not a number", s.robot->joints[error.joint].name),
                         steps};
   } else if (!chaotic && error.estimated &&
-             error.share > s.limits.torque_error) {  // in a chaotic motion the spread decides instead
+             error.share > s.limits.torque_error) {  // in a chaotic motion the spread is decisive
     made.not_trusted = {fmt::format("the torque of joint {} is off by about {} of its peak, more than {}; take {}",
                                     s.robot->joints[error.joint].name, texts::rough_percent(error.share),
                                     texts::percent(s.limits.torque_error), torque_remedy(s, error.share)),
                         steps};
-  } else if (driven && !(residual <= kTrustedResidual)) {  // also for NaN
+  } else if (driven && !(residual <= kTrustedResidual)) {  // true also for NaN
     made.not_trusted = {fmt::format("{} of the energy is unaccounted for, more than {}; take a smaller {}",
                                     texts::percent(residual), texts::percent(kTrustedResidual), steps),
                         steps};

@@ -13,19 +13,19 @@ using Json = nlohmann::ordered_json;
 using R = const RunData&;
 using F = JointStatistics;
 
-/// A member over the whole run.
+/// Function for a statistic of a joint over the whole run.
 auto of_whole_run(double F::*member) {
   return [member](R run, std::size_t joint) { return run.record.joints[joint].*member; };
 }
 
-/// A member within the judged window; NaN (null) if no joint has a motor.
+/// Function for a statistic of a joint in the judged window; NaN (null) if no joint has a motor.
 auto of_window(double JudgedJoint::*member) {
   return [member](R run, std::size_t joint) {
     return has_motors(run) ? run.summary.judged.joints[joint].*member : std::numeric_limits<double>::quiet_NaN();
   };
 }
 
-/// A member of the joint with the largest tracking error in the whole run; null: no joint has a motor.
+/// Statistic of the joint with the largest tracking error in the whole run; null if no joint has a motor.
 Json tracked(R run, double F::*figure) {
   return has_motors(run) ? Json(run.record.joints[texts::worst(run.record, &F::error_peak)].*figure) : Json();
 }

@@ -17,9 +17,9 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kNothing = 1e-9;  // N, N m: rounding
+constexpr double kNothing = 1e-9;  // N, N m: smaller loads are rounding
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kLeastWay = 0.01;  // m: with a shorter path the robot does not walk, and the share of slip has no meaning
+constexpr double kLeastWay = 0.01;  // m: on a shorter path the robot does not walk, and the share of slip has no meaning
 
 struct DockWords {
   const char *column, *unit, *does;
@@ -38,26 +38,26 @@ DockWords words(DockQuantity quantity) {
   }
 }
 
-/// The rows of Recording::loads within the judged window, and the row before them.
+/// Rows of Recording::loads within the judged window, and the row before the window.
 struct Window {
   const Trace& loads;
   std::size_t start = 0;
 
-  /// The whole run.
+  /// Window that covers the whole run.
   explicit Window(const Recording& record) : loads(record.loads) {}
-  /// Rows with the indices of Recording::ticks.
+  /// Judged window of a run. Row indices in Recording::loads and Recording::ticks are equal.
   Window(const Recording& record, const Summary& summary)
       : loads(record.loads), start(std::min(summary.judged.first_row, std::max<std::size_t>(record.loads.rows(), 1) - 1)) {}
   [[nodiscard]] Series series(const std::string& name) const {
     const std::size_t at = loads.find(name);
     return at < loads.columns.size() && loads.rows() > 0 ? Series(loads, at) : Series();
   }
-  /// Growth of a sum that starts at t = 0.
+  /// Increase within the window of a sum that starts at t = 0.
   [[nodiscard]] double grown(const Series& sum) const { return sum.empty() ? kUnknown : sum.back() - sum[start]; }
   [[nodiscard]] double time(std::size_t row) const { return loads.at(row, 0); }
 };
 
-/// Reason why the loads of feet and docks are not known; empty: they are.
+/// Reason why the loads of feet and docks are not known. Empty if they are.
 std::string unknown(const Scenario& scenario, const Recording& record) {
   if (const ContactModel& contact = scenario.contact.model(); !contact.element_forces) {
     return fmt::format("not available with contact.law: {}, which yields impulses that do not all act at contact elements",
@@ -73,11 +73,11 @@ std::string unknown_of_feet(const Scenario& scenario, const Recording& record) {
   return unknown(scenario, record);
 }
 
-/// Largest load of a dock, with its time.
+/// Largest load of a dock, its time and its limit.
 struct DockPeak {
   std::size_t module = 0;
   double value = 0, time = 0, limit = kUnknown;
-  double first = kUnknown;  ///< s, when the load first exceeded the limit
+  double first = kUnknown;  ///< s, time when the load first exceeded the limit
   [[nodiscard]] bool limited() const { return limit > 0; }
   [[nodiscard]] double share() const { return value / limit; }
 };
@@ -104,7 +104,7 @@ double stated(const Connector& connector, DockQuantity quantity) {
   return limit > 0 ? limit : kUnknown;
 }
 
-/// The connector of a dock with the smaller limit.
+/// The connector of a dock that has the smaller limit.
 Connector weaker(const Robot& robot, std::size_t module, DockQuantity quantity) {
   const auto [own, parents] = connectors_at(robot, module);
   return stated(parents, quantity) < stated(own, quantity) || std::isnan(stated(own, quantity)) ? parents : own;
@@ -123,7 +123,7 @@ void judge_docks(const Scenario& scenario, const Recording& record, DockQuantity
   const std::size_t modules = scenario.robot->modules.size();
   made.text = modules < 2 ? "the robot has no dock" : unknown(scenario, record);
   if (!made.text.empty()) return;
-  const Window window(record);  // once a dock has opened it stays open
+  const Window window(record);  // the whole run, because an opened dock stays open
   std::vector<DockPeak> peaks;
   for (std::size_t m = 1; m < modules; ++m)
     peaks.push_back(peak_of(window, m, quantity, m < limits.size() ? limits[m] : kUnknown));
@@ -172,7 +172,7 @@ void judge_slip(const Scenario& scenario, const Recording& record, const Summary
   const Window window(record, summary);
   const double way = window.grown(window.series("path"));
   const double slip = window.grown(window.series("slip"));
-  std::vector<std::size_t> feet;  // by their bodies
+  std::vector<std::size_t> feet;  // bodies of the feet
   std::size_t worst = 0;
   double farthest = 0;
   for (const Column& column : record.loads.columns) {
@@ -194,7 +194,7 @@ void judge_slip(const Scenario& scenario, const Recording& record, const Summary
   if (way < kLeastWay) return;
   made.value = slip / way;
   made.limit = scenario.limits.slip;
-  made.status = made.value <= made.limit ? CheckStatus::pass : CheckStatus::warn;  // NaN: a warning
+  made.status = made.value <= made.limit ? CheckStatus::pass : CheckStatus::warn;  // NaN also warns
   made.from = window.time(window.start);
   made.to = window.loads.at(window.loads.rows() - 1, 0);
   made.text = made.worst.empty() ? "no foot slides under load"
@@ -218,7 +218,7 @@ void judge_stability(const Scenario& scenario, const Recording& record, const Su
     }
     ++seen;
     if (margin[row] < 0) ++outside;
-    if (margin[row] >= made.value) continue;  // false for an unknown value
+    if (margin[row] >= made.value) continue;  // false if no value was found yet
     made.value = margin[row];
     made.from = made.to = window.time(row);
   }

@@ -8,20 +8,22 @@ namespace gaitlab::report {
 
 enum class DockQuantity { tension, shear, bending, torsion };
 
-/// Load limits of the docks, by the numbers of modules, N or N m: the smaller limit of the connectors of both faces. NaN, and
-/// all if the result is empty: not stated.
+/// Load limits of the docks, indexed by module, in N or N m: the smaller limit of the two connectors. NaN if it is not stated.
+/// An empty result of this type also means that no limit is stated.
 std::vector<double> dock_limits(const Robot& robot, DockQuantity quantity);
 
-/// Compares the largest load of docks in the whole run with `limits`: that of the dock with the least margin or, if no limit is
-/// stated, the largest one, not judged. For tension only pull counts, for torsion both directions.
+/// Compares the largest load of each dock in the whole run with `limits` and reports the dock with the least margin. If no
+/// limit is stated, reports the largest load, not judged. Tension counts only if it pulls the faces apart; torsion counts in
+/// both directions.
 void judge_docks(const Scenario& scenario, const Recording& record, DockQuantity quantity, const std::vector<double>& limits,
                  Check& made);
 
-/// Compares the slip of the robot's weight over its feet with the robot's path, in the judged window; warns above Limits::slip.
+/// Divides the distance that loaded feet slide, weighted by load, by the length of the robot's path, in the judged window.
+/// Warns above Limits::slip.
 void judge_slip(const Scenario& scenario, const Recording& record, const Summary& summary, Check& made);
 
-/// Least distance of the centre of mass from the edge of the support polygon, inside positive. A note: it has no limit and
-/// always passes, because a gait may be a fall that the next step catches.
+/// Least distance of the centre of mass from the edge of the support polygon, positive inside. It is a note without a limit and
+/// always passes, because a dynamic gait may leave the support polygon.
 void judge_stability(const Scenario& scenario, const Recording& record, const Summary& summary, Check& made);
 
 }  // namespace gaitlab::report

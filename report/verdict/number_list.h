@@ -1,4 +1,4 @@
-// The parts of the list of summary numbers, in its order.
+// Three sections of the list of summary numbers, in the order of the list.
 #pragma once
 #include <vector>
 
@@ -10,7 +10,7 @@ std::vector<SummaryNumber> run_numbers();
 std::vector<SummaryNumber> joint_numbers();
 std::vector<SummaryNumber> motion_numbers();
 
-/// Null for NaN and infinity.
+/// JSON number, or null for NaN and infinity.
 nlohmann::ordered_json or_null(double value);
 
 }  // namespace gaitlab::report

@@ -14,10 +14,10 @@ namespace gaitlab::report::texts {
 namespace {
 
 constexpr double kMostShare = 10, kLeastShare = 1e-6;
-constexpr double kVisible = 1e-3;      // share of the energy drawn
-constexpr double kMuchCreated = 0.05;  // of the energy drawn: printed beside a cost
-constexpr std::size_t kWidth = 64;     // columns beside the titles, of 80
-constexpr double kLeastTravel = 1e-3;  // m: for a robot that does not travel the cost is noise
+constexpr double kVisible = 1e-3;      // share of the energy drawn below which energies are not printed
+constexpr double kMuchCreated = 0.05;  // share of the energy drawn above which created energy is printed beside a cost
+constexpr std::size_t kWidth = 64;     // columns beside the titles, in a terminal of 80 columns
+constexpr double kLeastTravel = 1e-3;  // m; on a shorter path the cost of transport is noise
 
 }  // namespace
 
@@ -127,7 +127,7 @@ Lines transport(const RunData& run) {
   return lines;
 }
 
-// Energy drawn would be higher by this share without the energy that gears create by eq. 2.
+// Without the energy that gears create by eq. 2, the energy drawn would be larger by this share.
 std::string much_created(const RunData& run) {
   const double share = created(run.record) / run.record.ledger.electrical;
   return share > kMuchCreated ? fmt::format("the gears create {} of the energy drawn (eq. 2)", percent(share)) : "";
@@ -137,7 +137,7 @@ namespace {
 
 std::string joint_name(const RunData& run, std::size_t joint) { return run.scenario.robot->joints[joint].name; }
 
-/// `21.5 % of the time (current)`.
+/// Text `21.5 % of the time (current)`.
 std::string share_at_limit(const JudgedJoint& j) {
   if (j.voltage_limited > 0 && j.current_limited > 0) {
     return fmt::format("{} of the time ({} voltage, {} current)", percent(j.limited()), percent(j.voltage_limited),
@@ -158,7 +158,8 @@ Lines window(const RunData& run) {
 
 namespace {
 
-/// Lines for a limit other than the named joint's, or at which another joint is longer.
+/// Lines for each further limit that a joint reaches: another limit than that of the joint `named`, or a joint that is longer
+/// at its limit.
 Lines other_limits(const RunData& run, std::size_t named) {
   struct Kind {
     MotorLimit limit;
@@ -215,8 +216,8 @@ Lines limits(const RunData& run) {
 
 namespace {
 
-/// Line for the joint whose peak is nearest to, or beyond, its motor's torque at rest; none if a joint is at a limit, which is
-/// printed instead.
+/// Line for the joint whose torque peak is nearest to, or beyond, its motor's torque at rest. Empty if a joint is at a limit,
+/// because that is printed instead.
 Lines nearest_to_rest(const RunData& run) {
   const std::vector<double> rest = rest_torques(run.scenario);
   const std::vector<JudgedJoint>& joints = run.summary.judged.joints;

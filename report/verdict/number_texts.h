@@ -9,24 +9,25 @@ namespace gaitlab::report::texts {
 
 using Lines = std::vector<std::string>;
 
-/// Three digits; `more than 1000 %`, `0.0001 % and less` where more digits have no meaning.
+/// Percentage with three digits. Values for which more digits have no meaning become `more than 1000 %` or `0.0001 % and less`.
 std::string percent(double share);
-/// For estimates: two digits, three from 10 % on, `1000 % and more`.
+/// Percentage of an estimate, with two digits, or three from 10 % on. Above 1000 % it is `1000 % and more`.
 std::string rough_percent(double share);
 
-/// `5.2 mm`; from 1 m on in m, from 1 km on in km, three digits.
+/// Length with three digits, in mm below 1 m (`5.2 mm`), in m below 1 km, then in km.
 std::string length(double metres);
 
-/// Three decimals; from a thousand on three digits.
+/// Number with three decimals, or with three digits from 1000 on.
 std::string thousandths(double value);
 
-/// Replaces nan and inf, with or without a sign, by `-` of the same width: a warning reports unknown values.
+/// Replaces nan and inf, with or without a sign, by `-` of the same width. A separate warning reports the numbers that are not
+/// finite.
 std::string without_nan(std::string text);
 
-/// Energy that the gears created, J.
+/// Energy that the gears create in the whole run, J.
 double created(const Recording& record);
 
-/// Joint with the largest value of one of its statistics over the whole run; requires a joint.
+/// Index of the joint with the largest value of this statistic over the whole run. The robot must have a joint.
 std::size_t worst(const Recording& record, double JointStatistics::*member);
 
 Lines simulated(const RunData& run);
@@ -44,7 +45,7 @@ Lines tracking(const RunData& run);
 Lines drawn(const RunData& run);
 Lines ledger(const RunData& run);
 Lines created_energy(const RunData& run);
-/// `the gears create 17 % of the energy drawn (eq. 2)`, beside a cost of transport; empty up to 5 %.
+/// Text `the gears create 17 % of the energy drawn (eq. 2)`, printed beside a cost of transport. Empty up to 5 %.
 std::string much_created(const RunData& run);
 Lines range(const RunData& run);
 Lines stability(const RunData& run);

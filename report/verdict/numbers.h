@@ -1,5 +1,5 @@
-// The list of summary numbers, from which summary.json, the terminal, `compare`, `swap`, goldens and the table in
-// docs/conventions.md are generated. A new number is one entry.
+// The list of summary numbers, from which summary.json, terminal output, `compare`, `swap`, goldens and the table in
+// docs/conventions.md are generated. A new number requires one entry.
 #pragma once
 #include <algorithm>
 #include <functional>
@@ -11,64 +11,65 @@
 
 namespace gaitlab::report {
 
-/// Input of summary numbers: a run that has ended, and its summary.
+/// Data from which a summary number is computed: a completed run and its summary.
 struct RunData {
   const Scenario& scenario;
   const Recording& record;
   const Summary& summary;
 };
 
-/// A summary number. The terminal, `compare`, goldens and `swap` show those whose `place` there is above 0, in ascending order
-/// of `place`, which differs from the list's.
+/// A summary number. The terminal, `compare`, goldens and `swap` show the numbers whose `place` in the member of that name
+/// (`line`, `compare`, `golden`, `swap`) is above 0, in ascending order of `place`. This order differs from that of the list.
 struct SummaryNumber {
-  /// Path in summary.json, separated by `.`: `J` represents the name of every joint; `x` and `y` are the elements of an array.
+  /// Path in summary.json, separated by `.`. `J` represents the name of a joint; `x` and `y` are the elements of an array.
   const char* key = "";
-  const char* unit = "";        ///< "": a share, a count, a name
-  const char* definition = "";  ///< as in docs/conventions.md
-  bool words = false;           ///< a text, or possibly one: not for calculations
-  /// null: not known. A group (`torque_error`) with a null number is null.
+  const char* unit = "";        ///< "" for a share, a count or a name
+  const char* definition = "";  ///< sentence printed in docs/conventions.md
+  bool words = false;           ///< the value is or can be a text, which calculations cannot use
+  /// Computes the value, or null if it is not known. If one number of a group such as `torque_error` is null, the whole group
+  /// is null.
   std::function<nlohmann::ordered_json(const RunData&)> value = {};
-  std::function<double(const RunData&, std::size_t joint)> of_joint = {};  ///< replaces `value` for numbers of every joint
-  bool list = false;                                                       ///< an array or an object: not for a cell of a table
-  bool clock = false;                                                      ///< depends on the clock: differs between equal runs
+  std::function<double(const RunData&, std::size_t joint)> of_joint = {};  ///< replaces `value` for a number of each joint
+  bool list = false;                                                       ///< array or object, left out of tables
+  bool clock = false;                                                      ///< measured by the clock, differs between runs
 
   struct Line {
     int place = 0;
-    const char* title = nullptr;                                     ///< nullptr: flush left
-    std::vector<std::string> (*text)(const RunData& run) = nullptr;  ///< one per line; empty: not printed
+    const char* title = nullptr;                                     ///< nullptr: the line starts at the left margin
+    std::vector<std::string> (*text)(const RunData& run) = nullptr;  ///< lines of text; if empty, nothing is printed
   } line = {};
   struct Compare {
-    int place = 0;                ///< a number of every joint is compared for the most loaded joint
-    bool if_different = false;    ///< left out if A and B are equal
-    const char* label = nullptr;  ///< with unit; nullptr: made from key and unit
+    int place = 0;                ///< position in the output; a number of every joint is that of the most loaded joint
+    bool if_different = false;    ///< left out if runs A and B have equal values
+    const char* label = nullptr;  ///< row title with unit; if nullptr, it is made from key and unit
   } compare = {};
   struct Golden {
     int place = 0;
     bool needs_motor = false;   ///< left out if no joint has a motor
-    bool needs_travel = false;  ///< left out if the robot does not travel: a share of noise
+    bool needs_travel = false;  ///< left out if the robot does not travel, because the number is then noise
   } golden = {};
   struct Swap {
     int place = 0;
     const char *head = "", *under = "";  ///< the two lines above the column
-    int width = 0;                       ///< negative: flush left
+    int width = 0;                       ///< width of the column; negative if the text is aligned left
     std::string (*cell)(const RunData& run) = nullptr;
   } swap = {};
 
-  /// JSON pointer to the number in summary.json. joint: a name, for a number of every joint.
+  /// JSON pointer to the number in summary.json. `joint` is the joint's name for a number of every joint, else empty.
   [[nodiscard]] std::string pointer(const std::string& joint = "") const;
-  /// Name in a golden: the key, or `m0/active.torque.peak`.
+  /// Name in a golden: the key, or for a joint `m0/active.torque.peak`.
   [[nodiscard]] std::string name(const std::string& joint = "") const;
   /// Row title in `compare`: `distance, m`, or `m0/active torque peak, N m`.
   [[nodiscard]] std::string row(const std::string& joint = "") const;
 };
 
-/// All numbers, in the order of summary.json.
+/// All summary numbers, in the order of summary.json.
 const std::vector<SummaryNumber>& summary_numbers();
 
-/// The object of summary.json.
+/// Content of summary.json as a JSON object.
 nlohmann::ordered_json numbers_json(const RunData& run);
 
-/// Numbers with a place in one output, in its order: placed(&SummaryNumber::golden).
+/// Summary numbers that have a place in one output, in the order of that output: placed(&SummaryNumber::golden).
 template <class Shown>
 std::vector<const SummaryNumber*> placed(Shown SummaryNumber::*shown) {
   std::vector<const SummaryNumber*> found;
@@ -80,9 +81,9 @@ std::vector<const SummaryNumber*> placed(Shown SummaryNumber::*shown) {
   return found;
 }
 
-/// Whether any joint has a motor: otherwise torque, cost and tracking error have no meaning.
+/// True if the robot has joints and an actuator. Otherwise torque, cost and tracking error have no meaning.
 bool has_motors(const Scenario& scenario);
-/// The same for a run, and whether its statistics are known.
+/// True if the scenario has an actuator and the recording contains joint statistics.
 bool has_motors(const RunData& run);
 
 }  // namespace gaitlab::report

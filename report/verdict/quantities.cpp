@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
-/// Quantities of the whole robot that are known for a run that ended early; those of joints are known if they cover the whole
-/// run.
+/// Quantities of the whole robot that are known for a run that ended early. Quantities of joints are known if they cover the
+/// whole run.
 constexpr std::array<std::string_view, 11> kSoFar{
     "simulated",     "displacement.x", "displacement.y",       "distance", "speed", "path_length", "straightness",
     "forward_speed", "heading_change", "tracking_error.worst", "fell"};

@@ -1,4 +1,4 @@
-// Summary numbers of a run: settings and outcome, its judged window, the robot, and the path that it travelled.
+// Summary numbers of a run: settings and outcome, judged window, robot, and the path that it travelled.
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -15,13 +15,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 using R = const RunData&;
 
-/// Null: no joint has a motor.
+/// Number computed by `of` from the judged window, or null if no joint has a motor.
 template <class Of>
 Json of_motors(R run, Of of) {
   return has_motors(run) ? Json(of(run.summary.judged)) : Json();
 }
 
-/// `of` null: not estimated.
+/// Number computed by `of` from the torque error, or null if it was not estimated.
 template <class Of>
 Json estimated(R run, Of of) {
   const TorqueError error = torque_error(run.record);
@@ -34,7 +34,7 @@ Json joint_of(R run, const Parting& parting) {
 
 const Parting& apart(R run) { return parting(run.scenario, run.record); }
 
-/// `of` null: rollouts under a disturbed gravity were not made.
+/// Number computed by `of`, or null if no rollout with changed gravity was made.
 template <class Of>
 Json tried(R run, Of of) {
   return predictability(run.scenario, run.record) == Predictability::unknown ? Json() : Json(of());
@@ -55,7 +55,7 @@ Json torque_errors(R run) {
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 Json forward_speed(R run) {
-  constexpr double kLeast = 1e-6;  // of the axis: below is rounding
+  constexpr double kLeast = 1e-6;  // least horizontal length of `axis`, a unit vector; less is rounding
   const Vec3 axis = rpy(run.scenario.orientation) * Vec3::UnitX();
   const double level = std::sqrt(axis.x() * axis.x() + axis.y() * axis.y());
   const double way = axis.x() * run.summary.displacement_x + axis.y() * run.summary.displacement_y;

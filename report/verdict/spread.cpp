@@ -15,7 +15,7 @@ namespace gaitlab::report {
 
 namespace {
 
-/// One rollout: its recording, with the results computed from it.
+/// A rollout: its recording, and the results computed from it.
 struct Rolled {
   const Recording& record;
   const Summary& summary;

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Sets a number; a group with an unknown number is null.
+/// Sets a number in the JSON object. If the number is not known, its group becomes null.
 void put(Json& json, const SummaryNumber& number, const std::string& joint, const Json& value) {
   const Json::json_pointer at(number.pointer(joint));
   const Json::json_pointer group = at.parent_pointer();
@@ -33,11 +33,11 @@ Json numbers_json(const RunData& run) {
       put(json, number, "", number.value(run));
       continue;
     }
-    json.emplace("per_joint", Json::object());  // also without joints
+    json.emplace("per_joint", Json::object());  // exists also in a robot without joints
     for (std::size_t j = 0; j < joints.size(); ++j)
       put(joints[j], number, run.scenario.robot->joints[j].name, number.of_joint(run, j));
   }
-  // Directly in the group: a search by path would test all joints for each number.
+  // Appended to the group directly, because a search by path would compare all joint names for each number.
   auto& all = json["per_joint"].get_ref<Json::object_t&>();
   for (std::size_t j = 0; j < joints.size(); ++j) {
     auto& [name, numbers] = *joints[j]["per_joint"].get_ref<Json::object_t&>().begin();

@@ -9,14 +9,14 @@ namespace gaitlab::report {
 /// The text of summary.json.
 std::string to_json(const Summary& summary, const Scenario& scenario, const Recording& record);
 
-/// Output of `gaitlab run --verbose`.
+/// Text that `gaitlab run --verbose` prints.
 std::string to_text(const Summary& summary, const Scenario& scenario, const Recording& record);
 
-/// Table with a row per joint, the most loaded first: its statistics in the judged window.
+/// Table of the joints in the judged window, one row per joint, the most loaded joint first.
 std::string joint_table(const Summary& summary, const Scenario& scenario);
 
-/// Warning about a part of the robot that starts below the ground, or "": possible if its height was given, or if only contact
-/// elements touch the ground.
+/// Warning that part of the robot starts below the ground; empty if none does. This happens if the scenario states the height,
+/// or if only contact elements touch the ground.
 std::string start_warning(const Scenario& scenario);
 
 }  // namespace gaitlab::report

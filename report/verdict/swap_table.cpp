@@ -39,7 +39,7 @@ std::string in_one_line(std::string text) {
   return text;
 }
 
-/// Quotes by RFC 4180, on one line: a line break in an outcome would end the row for many readers.
+/// CSV cell with quotes as in RFC 4180, on one line, because many readers end a row at a line break within quotes.
 std::string quoted(std::string text) {
   text = in_one_line(std::move(text));
   if (text.find_first_of(",\"\r") == std::string::npos) return text;
@@ -55,7 +55,8 @@ std::string csv_cell(const Json& value) {
   return std::isfinite(value.get<double>()) ? number_text(value) : "";
 }
 
-/// A line below a table: the energy that gears create in the run, which its cost of transport counts as gain. Empty: little.
+/// Line below a table on the energy that gears create in a run, which makes the run's cost of transport too low. Empty if it is
+/// little.
 std::string created_line(const std::string& name, const NamedRun& one) {
   const std::string much = broke_off(one) ? "" : texts::much_created(one.run);
   return much.empty() ? "" : fmt::format("{}: {}\n", name, much);
@@ -79,7 +80,7 @@ std::string swap_table(const std::vector<NamedRun>& runs) {
 
 namespace {
 
-/// A line of CSV: `text`, then a cell for every number that is a single number or text, except those of the clock.
+/// CSV line with `text`, followed by a cell for every number that is a single number or text and is not measured by the clock.
 template <class Cell>
 std::string csv_row(std::string text, const Cell& cell) {
   for (const SummaryNumber& number : summary_numbers()) {
@@ -111,7 +112,7 @@ Json json_numbers(const NamedRun& one) {
   return numbers;
 }
 
-/// The columns of the matrix: a selection of those of `swap`.
+/// Numbers in the columns of the matrix, which are a selection of the columns of `swap`.
 std::vector<const SummaryNumber*> matrix_columns() {
   std::vector<const SummaryNumber*> columns;
   for (const SummaryNumber* number : placed(&SummaryNumber::swap)) {

@@ -1,4 +1,4 @@
-// Tables of several runs side by side, by name: output of `gaitlab swap`.
+// Tables of several runs side by side, which `gaitlab swap` prints.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,40 +9,42 @@
 namespace gaitlab::report {
 
 struct NamedRun {
-  std::string name;  ///< of the CPG
+  std::string name;  ///< name of the CPG
   RunData run;
 };
 
-/// The table of the terminal: two header lines, then a row per run; for a run that ended early, the reason. Below: runs in
-/// which gears create more than 5 % of the energy drawn, so that the cost of transport is too low. Lines end in '\n'.
+/// Table for the terminal: two header lines, then one row per run. For a run that ended early the row is the reason. Below the
+/// table are the runs in which gears create more than 5 % of the energy drawn, which makes the cost of transport too low. Lines
+/// end in '
+/// '.
 std::string swap_table(const std::vector<NamedRun>& runs);
 
-/// Header `cpg,KEY (UNIT),...`, then a row per run: every summary number that is a single number or text, except those of the
-/// clock. Empty cells are not known; a run that ended early has only `outcome`. Format as in write_csv: the shortest text that
-/// is read back unchanged, RFC 4180.
+/// CSV table: the header `cpg,KEY (UNIT),...`, then one row per run, with every summary number that is a single number or text
+/// and is not measured by the clock. Empty cells are not known. For a run that ended early only `outcome` is filled in. Numbers
+/// are the shortest text that is read back unchanged, as in write_csv; quoting follows RFC 4180.
 std::string swap_csv(const std::vector<NamedRun>& runs);
 
-/// An object by name: the content of each run's summary.json without numbers of the clock; for a run that ended early all is
-/// null except `outcome`.
+/// JSON object that maps the name of each run to the content of its summary.json, without numbers measured by the clock. For a
+/// run that ended early, everything is null except `outcome`.
 std::string swap_json(const std::vector<NamedRun>& runs);
 
-/// One of several scenarios, under one CPG.
+/// A run of one scenario with one CPG, from a matrix of several scenarios and CPGs.
 struct MatrixRun {
-  NamedRun named;        ///< named by the CPG
-  std::string scenario;  ///< its name
+  NamedRun named;        ///< the run, with the name of the CPG
+  std::string scenario;  ///< name of the scenario
   const Verdict& verdict;
 };
 
-/// Reason why the motors cannot do it, on one line: the first check that fails, or why the run ended early; empty: they can, or
-/// it was not judged.
+/// Reason why the gait is not feasible, on one line: the reason of the verdict, or why the run ended early. Empty for
+/// `feasible`.
 std::string why_not(const MatrixRun& one);
 
-/// The table of the terminal: two header lines, then a row per run: speed, cost of transport, feasible (y, n, or - if it was
-/// not judged), and the reason. Below: as in swap_table.
+/// Table for the terminal: two header lines, then one row per run with speed, cost of transport, feasible (y, n, or - if not
+/// judged), and the reason. Below the table are the runs with created energy, as in swap_table.
 std::string matrix_table(const std::vector<MatrixRun>& runs);
-/// As swap_csv, with the columns `cpg,scenario,verdict,why` first.
+/// CSV table as that of swap_csv; its first columns are `cpg,scenario,verdict,why`.
 std::string matrix_csv(const std::vector<MatrixRun>& runs);
-/// The content of swap_json by CPG, then by scenario, with `verdict` and `why`.
+/// JSON object by CPG, then by scenario, of the content that swap_json writes for a run, and `verdict` and `why`.
 std::string matrix_json(const std::vector<MatrixRun>& runs);
 
 }  // namespace gaitlab::report

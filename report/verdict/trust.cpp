@@ -16,10 +16,10 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kGood = 0.01;           // of a torque's peak
-constexpr double kLeastPeak = 0.02;      // of the largest of all joints: the least scale
+constexpr double kGood = 0.01;           // share of a torque's peak
+constexpr double kLeastPeak = 0.02;      // share of the largest torque of all joints; a joint's peak counts as at least this
 constexpr double kLeastAccuracy = 1e-6;  // least value that a scenario may request
-constexpr double kHeight = 1e-3;         // m: lifting the robot by it is the least energy that counts
+constexpr double kHeight = 1e-3;         // m, height to which least_energy() lifts the robot
 constexpr double kMargin = 2;            // factor by which a remedy is stricter than necessary
 
 /// Rounds down to one digit: 0.0037 becomes 0.003.
@@ -59,10 +59,10 @@ TorqueError torque_error(const Recording& r) {
   TorqueError worst;
   const std::vector<double> shares = torque_errors(r);
   for (std::size_t j = 0; j < shares.size(); ++j) {
-    if (!(shares[j] <= worst.share)) worst = {true, shares[j], j};  // also if it is NaN
+    if (!(shares[j] <= worst.share)) worst = {true, shares[j], j};  // also true if the share is NaN
     if (std::isnan(worst.share)) break;
   }
-  worst.estimated = !(worst.share <= 0);  // otherwise both took the same steps, and the difference has no meaning
+  worst.estimated = !(worst.share <= 0);  // the difference has no meaning if both rollouts took the same steps
   return worst;
 }
 

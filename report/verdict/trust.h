@@ -1,4 +1,4 @@
-// The accuracy of a run: the error of its torques, its steps, and the settings that improve them.
+// The accuracy of a run: torque error, steps, predictability, and the settings that improve them.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,48 +7,50 @@
 
 namespace gaitlab::report {
 
-/// Estimated error of the motor torques (core/simulation/step_error.h): RMS over the joint's largest torque, both at the
-/// moments of the estimate, for the worst joint. A joint's peak counts as at least 2 % of the largest of all.
+/// Estimated error of the motor torques of the worst joint: RMS error / largest torque of the joint, both from the instants of
+/// the estimate (core/simulation/step_error.h). The largest torque of a joint counts as at least 2 % of the largest of all
+/// joints.
 struct TorqueError {
   bool estimated = false;
   double share = 0;
   std::size_t joint = 0;
 };
 TorqueError torque_error(const Recording& record);
-/// The same for each joint; empty: not estimated.
+/// Torque error of each joint, as a share of its largest torque; empty if it was not estimated.
 std::vector<double> torque_errors(const Recording& record);
 
-/// Sensitivity of the torques to gravity, by changes beyond predictability_limit: predictable: none under a relative change of
-/// 1e-6; `ill`-conditioned: under 1e-6 (computed in proportion from 1e-9); `chaotic`: under 1e-9. unknown: not tested, or
-/// gravity changes no torque.
+/// Sensitivity of the torques to a relative change of gravity. `chaotic`: a change of 1e-9 alters a torque by more than
+/// predictability_limit. `ill` (ill-conditioned): a change of 1e-6 does, computed in proportion from 1e-9. `predictable`:
+/// neither does. `unknown`: not tested, or gravity has no effect on the torques.
 enum class Predictability { unknown, predictable, ill, chaotic };
 Predictability predictability(const Scenario& scenario, const Recording& record);
-/// Difference between the run and the rollout under that gravity.
+/// Difference between the run and the rollout with changed gravity that decided predictability().
 const Parting& parting(const Scenario& scenario, const Recording& record);
-/// `from t = 0.66 s on the motion is not predictable: gravity times 1 + 1e-9 changes the torque of joint m0/active by 49 %`.
+/// Text `from t = 0.66 s on (joint m0/active) the motion is not predictable: gravity times 1 + 1e-9 changes the torques by 49 %
+/// of their peak`.
 std::string predictability_text(const Scenario& scenario, const Recording& record);
 
-/// Largest share of torque_error without a warning: the accuracy that the scenario requests, 1 % by default.
+/// Largest torque error without a warning: the accuracy that the scenario requests, or 1 % with a fixed step.
 double torque_error_limit(const Scenario& scenario);
-/// Largest change of the torques of a predictable motion: the same, but at least 1 %.
+/// Largest change of the torques for which a motion is predictable: torque_error_limit, but at least 1 %.
 double predictability_limit(const Scenario& scenario);
 
-/// The setting that brings the torque error from `share` to that, or to 1 %: `physics.accuracy: 0.003`.
+/// Setting that reduces the torque error from `share` to torque_error_limit, but at most 1 %: `physics.accuracy: 0.003`.
 std::string torque_remedy(const Scenario& scenario, double share);
 
-/// `step auto (at most 0.005 s), accuracy 1 %`, or `step 2.5e-05 s`.
+/// Text `step auto (at most 0.005 s), accuracy 1 %`, or `step 2.5e-05 s`.
 std::string step_text(const Physics& physics);
 
-/// Line of the summary on the steps: their kind, the solves, the torque error.
+/// Text of the summary line `steps`: step, number of solves, torque error.
 std::string steps_text(const Scenario& scenario, const Recording& record);
 
-/// Names of the numbers of a run, over all its steps, that are not finite: `energy.copper`, `torque_rms of m0/active`.
+/// Names of the numbers of a run that are not finite: `energy.copper`, `torque_rms of m0/active`.
 std::vector<std::string> not_finite(const Scenario& scenario, const Recording& record);
 
-/// Energy for lifting the robot by 1 mm, J, above 0; smaller energies do not count.
+/// Energy that lifts the robot by 1 mm, J, greater than 0. Smaller energies are negligible.
 double least_energy(const Scenario& scenario);
 
-/// Scale for missing energies, J: the largest of energy drawn, energy stored, and the least.
+/// Energy to which the residual of the ledger is compared, J: the largest of energy drawn, energy stored, and least_energy.
 double energy_scale(const Scenario& scenario, const Recording& record);
 
 }  // namespace gaitlab::report

@@ -27,12 +27,13 @@ void replace_end(std::string& text, std::string_view end, std::string_view by) {
   if (text.ends_with(end)) text.replace(text.size() - end.size(), end.size(), by);
 }
 
-/// Order of checks: those of the robot as a whole first, because a robot that fell has no gait; then by the least margin.
+/// Key by which failing checks are ordered. Checks of the robot as a whole come first, because a fallen robot has no gait; then
+/// the check with the least margin.
 std::pair<bool, double> urgency(const Check& check) {
   return {check.group != CheckGroup::run, std::isnan(check.margin) ? -std::numeric_limits<double>::infinity() : check.margin};
 }
 
-/// The most urgent check for which `counts` is true, or nullptr.
+/// The first check, in the order of urgency(), for which `counts` is true, or nullptr.
 template <class Counts>
 const Check* worst_of(const std::vector<Check>& checks, const Counts& counts) {
   const Check* found = nullptr;
@@ -46,8 +47,8 @@ bool fails(const Check& check) { return check.status == CheckStatus::fail; }
 bool too_close(const Check& check) { return check.status == CheckStatus::too_close; }
 bool undone_by_no_time(const Check& check) { return fails(check) && check.span == CheckSpan::whole_run; }
 
-/// For an unpredictable motion: if another equally valid rollout is on the other side of the failing limit, or is not judged
-/// (it diverged, it fell), the status becomes `too close`.
+/// Changes the status to `too close` if the motion is unpredictable and the check fails in some of the equally valid rollouts
+/// but not in all, or cannot be judged in one (which diverged or fell).
 void take_spread(const Trace& spread, Check& made) {
   const std::size_t column = spread.find(margin_column(made.id));
   const bool judged = made.status != CheckStatus::not_judged && made.can_fail;
@@ -63,7 +64,7 @@ void take_spread(const Trace& spread, Check& made) {
   made.remedy = "judge several runs with other seeds or starts";
 }
 
-/// Reason why failing checks do not make the gait infeasible, or why it is not feasible without failing checks; empty: none.
+/// Reason why the verdict is `not judged`, with or without failing checks. Empty if there is none.
 std::string not_judged(const CheckedRun& run, const std::vector<Check>& checks) {
   const Evidence& found = run.evidence;
   if (!found.not_trusted.empty()) return found.first().sentence();
@@ -152,7 +153,7 @@ std::string Verdict::why() const {
 
 namespace {
 
-/// A check of the kind, judged for the run.
+/// Computes the check of a kind for the run.
 Check judged_check(const CheckKind& kind, const CheckedRun& run, bool of_rows) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   Check check{.id = kind.id,
@@ -185,7 +186,7 @@ Check judged_check(const CheckKind& kind, const CheckedRun& run, bool of_rows) {
 Verdict verdict(const Scenario& scenario, const Recording& record, const Summary& summary, const Overlaps& overlaps) {
   const CheckedRun run{scenario, record, summary, overlaps};
   Verdict made;
-  std::vector<std::string> motors;  // sources of the values used by checks
+  std::vector<std::string> motors;  // sources of the values that checks use
   std::vector<std::string> docks;
   made.from = summary.judged.from;
   made.to = summary.judged.to;

@@ -1,5 +1,5 @@
-// The verdict on a run: whether the actual robot can do this gait. Every known limit, checked in the judged window or the whole
-// run.
+// The verdict on a run: whether the actual robot can perform the gait. It compares every known limit with the judged window or
+// the whole run.
 #pragma once
 #include <string>
 #include <vector>
@@ -26,51 +26,58 @@ struct EnumNames<report::Word> {
 
 namespace gaitlab::report {
 
-/// Demand of a joint that reaches a limit, without limits (demand.h): largest magnitudes in the judged window.
+/// Demand of a joint that reaches a motor limit (demand.h): its largest magnitudes in the judged window of the run without
+/// limits.
 struct JointDemand {
   std::string joint;
   double voltage, current, torque, speed;  ///< V, A, N m, rad/s
 };
 
 struct Verdict {
-  /// failed: the run ended early. infeasible: a check fails. feasible: no check fails or is too close to its limit, at least
-  /// one limit of the motors was judged, for a robot on a ground also `fall` and `in_ground`, and there is evidence
-  /// (evidence.h). not judged: otherwise; also if a check fails that a longer run could pass, and the run is too short.
+  /// failed: the run ended early.
+  /// infeasible: a check fails.
+  /// feasible: no check fails or is too close to its limit, at least one motor limit was judged, for a robot on a ground also
+  /// `fall` and `in_ground`, and the evidence is complete (evidence.h).
+  /// not judged: none of these, or the run is too short and each failing check could pass in a longer run.
   Word word = Word::not_judged;
-  std::string reason = {};    ///< of `not judged`: the missing evidence, and the setting to change
-  std::string rests_on = {};  ///< of the evidence: `3 periods of 4 s`
+  std::string reason = {};    ///< why the verdict is `not judged`: the missing evidence, and the setting to change
+  std::string rests_on = {};  ///< extent of the run that was judged: `3 periods of 4 s`
   double from = 0, to = 0;    ///< s, the judged window
   std::vector<Check> checks;
-  /// Whether a judged check uses motor values that are chosen, not a maker's, or have no source.
+  /// True if a judged check uses motor values that were chosen, or that have no source, instead of values of a maker.
   bool chosen_motors = false;
-  bool chosen_docks = false;     ///< the same for the load limits of docks
-  std::string figures = {};      ///< these sources in a sentence (motors.h): `motors: chosen figures`
-  std::string first_joint = {};  ///< the first joint of the whole run at a limit of its motor, for any time; empty: none
-  double first_time = 0;         ///< s, the time of that
-  /// Note that peaks, shares and durations are from the trace's rows, because the folder has nothing else; empty: they are from
-  /// all steps.
+  bool chosen_docks = false;     ///< true if a judged check uses load limits of docks that were chosen or have no source
+  std::string figures = {};      ///< sentence on the sources of motor and dock values (motors.h): `motors: chosen figures`
+  std::string first_joint = {};  ///< joint that was first at a motor limit in the whole run; empty if none
+  double first_time = 0;         ///< s, time when `first_joint` was at its limit
+  /// Note that peaks, shares and durations are from the rows of the trace, because the folder contains nothing else. Empty if
+  /// they are from all steps.
   std::string of_rows = {};
-  std::string window_of_rows = {};        ///< motion_sentence of an older folder; empty: the rest is from control ticks
-  std::vector<JointDemand> demands = {};  ///< empty: no joint reaches a limit, or not computed
-  std::string demand_doubt = {};          ///< reason why demands are unknown or doubtful
-  /// For `failed` and `infeasible`: the deciding check. Among the checks that give the word, one of the robot as a whole (group
-  /// run), else the one with the least margin.
+  std::string window_of_rows = {};        ///< note of motion_sentence for a folder of an older format; empty if the motion is
+                                          ///< from control ticks
+  std::vector<JointDemand> demands = {};  ///< empty if no joint reaches a limit, or if the demand was not computed
+  std::string demand_doubt = {};          ///< reason why the demands are unknown or doubtful; empty otherwise
+  /// Id of the deciding check of `failed` and `infeasible`. Among the checks that cause the word it is one of the robot as a
+  /// whole (group run), else the one with the least margin.
   std::string decided_by = {};
   [[nodiscard]] std::size_t count(CheckStatus status) const;
-  /// Failing checks, in the same order.
+  /// Failing checks: first the deciding check, then those of the robot as a whole, then by margin.
   [[nodiscard]] std::vector<const Check*> failures() const;
-  /// The check that can fail with the least margin; nullptr: no margin is known. Limits of 0 count only if they fail.
+  /// The check with the least margin among those that can fail; nullptr if no margin is known. Checks with a limit of 0 count
+  /// only if they fail.
   [[nodiscard]] const Check* tightest() const;
-  /// One sentence after the word: the reason of `not judged`, else the deciding check; empty for `feasible`.
+  /// Sentence printed after the word: the reason of `not judged`, the deciding check of `failed` and `infeasible`, or nothing
+  /// for `feasible`.
   [[nodiscard]] std::string why() const;
 };
 
-/// Judges a run. Shares, peaks and durations are from all steps (Recording::ticks), or from rows (row_statistics.h). A limit
-/// that is not stated is not judged, never assumed kept. Thresholds: the scenario's `limits`.
+/// Judges a run. Shares, peaks and durations are from all steps (Recording::ticks) or, if these are missing, from the rows of
+/// the trace (row_statistics.h). Thresholds are those of the scenario's `limits`. A quantity whose limit is not stated is not
+/// judged.
 Verdict verdict(const Scenario& scenario, const Recording& record, const Summary& summary, const Overlaps& overlaps);
 
-/// Optional tables of a recording that summary, verdict and quantities (quantities.h) need; numbers of CheckKind::of_all_loads
-/// aside.
+/// Optional tables of a recording that summary, verdict and quantities (quantities.h) read. Numbers of checks with
+/// CheckKind::of_all_loads need more tables.
 inline constexpr Records kVerdictReads{Loads::judged, false};
 
 /// The text of verdict.json.

@@ -1,4 +1,4 @@
-// verdict.json, the file of a verdict.
+// Writer of verdict.json, the file of a verdict.
 #include <fmt/format.h>
 
 #include <algorithm>

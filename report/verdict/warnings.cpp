@@ -14,12 +14,12 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kApart = 1.3;          // Kt / Ks or its inverse: measured constants of one motor agree to 10 %
-constexpr double kOvershoots = 1;       // gain of the sampled loop: with 1 the error is zero at the next tick
-constexpr double kCannotSettle = 2;     // measured: 1.3 to 1.9 settle, 2.3 does not
-constexpr double kRounding = 1 + 1e-9;  // for products that are equal on paper
+constexpr double kApart = 1.3;          // largest Kt / Ks or Ks / Kt; measured constants of one motor agree to 10 %
+constexpr double kOvershoots = 1;       // gain of the sampled position loop; at 1 the error is zero at the next tick
+constexpr double kCannotSettle = 2;     // gain of the sampled position loop; measured: 1.3 to 1.9 settle, 2.3 does not
+constexpr double kRounding = 1 + 1e-9;  // tolerance for products that should be equal
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kDegrees = 360;  // degrees: a larger range is not an angle in degrees either, but means "no limit"
+constexpr double kDegrees = 360;  // a hinge range above this number means "no limit", not an angle in degrees
 
 /// Rounds down to two digits: 156.4 becomes 150.
 double two_digits(double value) {
@@ -58,8 +58,8 @@ void check_constants(const Scenario& s, const DcMotor* motors, std::vector<Warni
   }
 }
 
-/// Whether the derivative part responds to a step of the error with more than a quarter of Kp's response (Kd N / (Kd + N Ts),
-/// eq. 5): it then changes the bound on Kp.
+/// True if the derivative part responds to a step of the error with more than a quarter of the proportional part, so that it
+/// changes the bound on Kp. Its response is Kd N / (Kd + N Ts) (eq. 5).
 bool damps(const SettingsNumbers& settings, std::size_t joint, double period) {
   const SettingsNumbers::Found* Kp = settings.find("Kp");
   const SettingsNumbers::Found* Kd = settings.find("Kd");
@@ -77,7 +77,8 @@ void check_gain(const Scenario& s, const DcMotor* motors, std::vector<Warning>& 
   double largest = 0;
   std::size_t worst = 0;
   for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
-    if (!s.robot->joints[j].driven() || !(motors[j].Ks > 0)) continue;  // no damping in such a motor: the rule does not apply
+    // A motor without back-EMF has no damping, and the rule does not apply.
+    if (!s.robot->joints[j].driven() || !(motors[j].Ks > 0)) continue;
     const double g = gain->value[j] * s.control_period / (motors[j].Ks * motors[j].gear);
     if (!(g > largest) || damps(settings, j, s.control_period)) continue;
     largest = g;
@@ -146,7 +147,7 @@ std::vector<Warning> setup_warnings(const Scenario& s) {
     check_motors(s, out);
     check_degrees(s, out);
   } catch (const PluginError&) {
-    out.clear();  // reported by the run, at its place
+    out.clear();  // the run reports the error with its place
   }
   if (s.ground.beyond_border(s.position.x(), s.position.y())) {
     out.push_back(

@@ -21,8 +21,8 @@ namespace gaitlab::studies {
 
 namespace {
 
-/// Whether a file is on a network file system, on which processes do not share memory; values of statfs: NFS, SMB, CIFS,
-/// Lustre, GPFS, FUSE, 9p.
+/// True if a file is on a network file system, whose clients do not share memory. The constants are f_type values of statfs:
+/// NFS, SMB, CIFS, Lustre, GPFS, FUSE, 9p.
 bool on_network(const std::filesystem::path& file) {
   constexpr std::array<unsigned long, 8> kNetworks{0x6969,     0x517B,     0xFF534D42, 0xFE534D42,
                                                    0x0BD00BD0, 0x47504653, 0x65735546, 0x01021997};
@@ -32,8 +32,8 @@ bool on_network(const std::filesystem::path& file) {
   return std::ranges::find(kNetworks, static_cast<unsigned long>(about.f_type)) != kNetworks.end();
 }
 
-/// Checks that the rollback journal ends with the name of a super-journal, as left by a transaction over several databases.
-/// This program never writes one, and SQLite would delete the file of that name anywhere.
+/// True if the rollback journal ends with the name of a super-journal, which a transaction over several databases leaves. This
+/// program never writes a super-journal. SQLite would delete the file of that name anywhere.
 bool names_another_file(const std::filesystem::path& journal) {
   constexpr std::string_view kMagic = "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7";
   std::ifstream file(journal, std::ios::binary);
@@ -42,7 +42,8 @@ bool names_another_file(const std::filesystem::path& journal) {
   return file.read(end.data(), end.size()) && std::string_view(end.data(), end.size()) == kMagic;
 }
 
-/// SQLite opens all four by their names, would block on a FIFO and follows links.
+/// Checks the database and the files beside it before SQLite opens them by name, because SQLite would block on a FIFO and
+/// follow links.
 void check_files(const std::filesystem::path& file) {
   constexpr std::uintmax_t kMost = std::uintmax_t{1} << 40;  // bytes: enough for 2e9 runs
   for (const char* behind : {"", "-wal", "-shm", "-journal"}) {
@@ -66,7 +67,7 @@ void check_files(const std::filesystem::path& file) {
   }
 }
 
-/// `file:` and the path, for opening with options.
+/// URI of a file with options for opening: `file:`, the path, and the options.
 std::string uri(const std::filesystem::path& file, const char* options) {
   std::string text = "file:";
   for (const char c : file.string()) {
@@ -86,8 +87,8 @@ void Database::Close::operator()(sqlite3* database) const { sqlite3_close_v2(dat
 Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
   check_files(file);
   const bool write = mode == Mode::write;
-  // Reading a left-over log needs the shared memory file beside it. Without write permission and without a log the database
-  // cannot change: it is opened as immutable.
+  // Reading a leftover log requires the shared memory file beside the database. Without write permission and without a log, the
+  // database cannot change; it is then opened as immutable.
   std::filesystem::path log = file;
   log += "-wal";
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
@@ -109,10 +110,10 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
   constexpr int kLongest = 64 << 20;  // bytes of a text or row
   sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, kLongest);
   sqlite3_limit(opened, SQLITE_LIMIT_ATTACHED, 0);
-  constexpr int kPatience = 5000;  // ms, for another writer: merge beside a sweep
+  constexpr int kPatience = 5000;  // ms to wait for another writer, such as a merge beside a sweep
   sqlite3_busy_timeout(opened, kPatience);
   execute("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0");
-  // Before the first access to a write-ahead log, which otherwise uses shared memory.
+  // This must precede the first access to a write-ahead log, because that access otherwise uses shared memory.
   if (write && on_network(file)) execute("PRAGMA locking_mode = EXCLUSIVE");
 }
 
@@ -164,7 +165,7 @@ void Statement::check(int code) const {
 }
 
 Statement& Statement::bind(int at, double value) {
-  // The file has no signed zero: -0 would be stored as an integer.
+  // SQLite stores -0 as an integer without its sign, so that -0 is stored as 0 here.
   check(std::isfinite(value) ? sqlite3_bind_double(statement_.get(), at + 1, value + 0.0)
                              : sqlite3_bind_null(statement_.get(), at + 1));
   return *this;
@@ -221,7 +222,7 @@ Transaction::~Transaction() {
   if (!open_) return;
   try {
     database_.execute("ROLLBACK");
-  } catch (const std::exception&) {  // SQLite has rolled it back already, as after a full disk
+  } catch (const std::exception&) {  // SQLite has already rolled the transaction back, for example after a full disk
   }
 }
 

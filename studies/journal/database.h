@@ -1,4 +1,4 @@
-// SQLite file from an untrusted source: opened so that its content is only data.
+// SQLite file from an untrusted source, opened so that SQLite treats its content as data only.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -13,25 +13,25 @@ namespace gaitlab::studies {
 
 class Database;
 
-/// A prepared statement; columns and parameters count from 0.
+/// A prepared statement. Columns and parameters are numbered from 0.
 class Statement {
  public:
-  Statement& bind(int at, double value);  ///< NaN: NULL
+  Statement& bind(int at, double value);  ///< stores NaN and infinity as NULL
   Statement& bind(int at, std::int64_t value);
   Statement& bind(int at, const std::string& value);
   Statement& bind_null(int at);
-  /// Binds all columns of another statement's present row.
+  /// Binds the values of all columns of the current row of `from`.
   Statement& bind_row(const Statement& from);
-  /// Advances to the next row; false: there is none, and the statement may be bound again.
+  /// Advances to the next row. Returns false after the last row; the statement may then be bound again.
   bool step();
-  /// For statements without rows.
+  /// Executes a statement that returns no rows.
   void run() { (void)step(); }
   [[nodiscard]] int columns() const;
   [[nodiscard]] bool null(int at) const;
-  /// Throws InputError if it is infinite, which bind() never writes.
+  /// Throws InputError if the value is infinite, which bind() never writes.
   [[nodiscard]] double number(int at) const;
   [[nodiscard]] std::int64_t integer(int at) const;
-  /// Numbers as the shortest text that gives the same double; NULL as "". Throws as above.
+  /// Value as text. A number is the shortest text that gives the same double, NULL is "". Throws InputError if it is infinite.
   [[nodiscard]] std::string text(int at) const;
 
  private:
@@ -45,25 +45,25 @@ class Statement {
   std::unique_ptr<sqlite3_stmt, Finalize> statement_;
 };
 
-/// A database. Throws InputError if the file is not a database, is damaged or cannot be opened; RunError if it cannot be
-/// written.
+/// A database. Throws InputError if the file is not a database, is damaged or cannot be opened, and RunError if the file cannot
+/// be written.
 class Database {
  public:
   enum class Mode { read, write };
-  /// Opens the file: schemas are not trusted, there are no extensions, triggers and views of the file do not run. Throws
+  /// Opens the file without trust in its schema: extensions are disabled, and triggers and views of the file do not run. Throws
   /// InputError if the file, or a file that SQLite keeps beside it (-wal, -shm, -journal), is a link, a FIFO, a device or too
-  /// large, or if its -journal names another file, which SQLite would delete.
+  /// large. Throws InputError also if the -journal contains the name of another file, because SQLite would delete that file.
   Database(const std::filesystem::path& file, Mode mode);
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
 
-  /// Switches to a write-ahead log, on which readers need not wait; on a network file system the database is then locked by one
-  /// process.
+  /// Switches to a write-ahead log, so that readers need not wait for the writer. On a network file system, one process then
+  /// locks the database.
   void write_ahead();
 
   void execute(const std::string& sql);
   [[nodiscard]] Statement prepare(const std::string& sql) { return {*this, sql}; }
-  /// The single number that a query returns.
+  /// Runs a query that returns a single number, and returns that number.
   std::int64_t integer(const std::string& sql);
 
  private:
@@ -76,7 +76,7 @@ class Database {
   std::unique_ptr<sqlite3, Close> database_;
 };
 
-/// A transaction: rolled back unless committed.
+/// A transaction, which the destructor rolls back unless commit() was called.
 class Transaction {
  public:
   explicit Transaction(Database& database) : database_(database) { database.execute("BEGIN IMMEDIATE"); }
@@ -90,7 +90,7 @@ class Transaction {
   bool open_ = true;
 };
 
-/// Quotes a name for SQL: `"a.b"`.
+/// Quotes a name for SQL, as in `"a.b"`.
 std::string identifier(const std::string& name);
 
 }  // namespace gaitlab::studies

@@ -14,12 +14,12 @@ Journal::Journal(const std::filesystem::path& file, const JournalHead& head, Bui
     : file_(file), head_(head), database_(file, Database::Mode::write), columns_(head) {
   const std::int64_t application = database_.integer("PRAGMA application_id");
   if (database_.integer("SELECT count(*) FROM sqlite_master") == 0 && (application == 0 || application == kApplication)) {
-    // Written before the write-ahead log is used, so that the first bytes of the file identify it even after kill -9.
+    // The application ID precedes the write-ahead log, so that the file's first bytes identify the journal even after kill -9.
     database_.execute(fmt::format("PRAGMA application_id = {}", kApplication));
     database_.write_ahead();
     create();
   } else {
-    read_head();  // leaves another program's file unchanged
+    read_head();  // checks the file, and does not modify a file of another program
     database_.write_ahead();
     compare(head, build);
   }

@@ -1,4 +1,4 @@
-// The journal of a study, study.db: a row for each run that has ended. An SQLite database, which many programs can read.
+// The journal of a study, study.db: an SQLite database with a row for each run that has ended.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -18,15 +18,15 @@ namespace gaitlab::studies {
 /// Result of a run. Its quantities are known only if the outcome is `done`.
 struct Row {
   std::uint64_t run = 0;
-  std::string point;     ///< name derived from its values, the same in every study of the scenario
-  std::string scenario;  ///< its name; empty: the study has only one
+  std::string point;     ///< name derived from the parameter values; a point has the same name in every study of the scenario
+  std::string scenario;  ///< name of the scenario; empty if the study has a single scenario
   std::uint64_t replicate = 0;
   std::int64_t seed = 0;
-  std::string outcome;              ///< done, diverged, refused, plugin
-  std::string message;              ///< reason why it is not `done`, or its verdict not `feasible`
-  double simulated = 0;             ///< s
-  std::vector<std::string> values;  ///< of the parameters, then of the draws
-  std::vector<double> quantities;   ///< by column; empty: not known
+  std::string outcome;              ///< one of done, diverged, stopped, refused, plugin, crashed
+  std::string message;              ///< reason why the outcome is not `done`, or why the verdict is not `feasible`
+  double simulated = 0;             ///< simulated time, s
+  std::vector<std::string> values;  ///< values of the parameters, then of the random draws
+  std::vector<double> quantities;   ///< quantities by column; empty if not known
   std::string verdict;
   std::optional<Score> score = {};
 };
@@ -49,17 +49,17 @@ struct JournalObjective {
 /// Description of the study in its journal.
 struct JournalHead {
   std::string name, build, definition, command;
-  std::string scenario;                ///< resolved; for several as in scenario_texts
-  std::vector<std::string> scenarios;  ///< names; empty: there is one
+  std::string scenario;  ///< resolved text of the scenario; for several scenarios in the format of scenarios_text()
+  std::vector<std::string> scenarios;  ///< names of the scenarios; empty if the study has a single scenario
   std::vector<JournalObjective> objectives;
   std::string combine = "worst";
   double quantile = 0.5;
-  std::uint64_t runs = 0;        ///< 0: number stored in the journal
-  std::uint64_t replicates = 1;  ///< runs per point, in all scenarios
+  std::uint64_t runs = 0;        ///< number of runs of the study; 0 selects the number stored in the journal
+  std::uint64_t replicates = 1;  ///< runs per point: replicates times scenarios
   std::int64_t seed = 1;
   std::vector<JournalParameter> parameters;
   std::vector<Quantity> quantities;
-  std::vector<std::string> shown;  ///< names of quantities
+  std::vector<std::string> shown;  ///< names of the quantities that tables and figures show
   std::vector<Limit> limits;
   bool guarded = true;
 };
@@ -67,40 +67,41 @@ struct JournalHead {
 /// A generation of a search whose points have all ended.
 struct Generation {
   std::uint64_t search = 0, generation = 0, restart = 0;
-  std::uint64_t first_run = 0, runs = 0;  ///< runs of points that had not been requested before
+  std::uint64_t first_run = 0, runs = 0;  ///< runs of the points that no earlier generation requested
   std::uint64_t points = 0, kept = 0;
-  double best = std::numeric_limits<double>::quiet_NaN(), median = best;  ///< of the kept points, by the first objective
-  double spread = 0;  ///< largest deviation of a coordinate, as a share of the box
+  /// Best and median of the kept points, by the first objective.
+  double best = std::numeric_limits<double>::quiet_NaN(), median = best;
+  double spread = 0;  ///< largest deviation of a coordinate, as a share of the range of its parameter
 };
 
-/// A run of one of the best points with another step or engine.
+/// Result of another run of one of the best points, such as a run with half the step or in another engine.
 struct Verification {
   std::uint64_t run = 0;  ///< first run of the point
-  std::string what;       ///< half step, bullet
+  std::string what;       ///< kind of run, such as `as run`, `half step`, or the name of an engine
   std::vector<double> objectives;
   double violation = 0;
-  std::string verdict;  ///< of the first infeasible replicate, or of the first one
-  std::string reason;   ///< reason why it is not verified, or ""
+  std::string verdict;  ///< verdict of the first infeasible replicate; without such a replicate, verdict of the first replicate
+  std::string reason;   ///< reason why the run does not verify the point; "" if the point is verified
 };
 
-/// Effort of packs of runs: the only data that differ from machine to machine.
+/// Effort of packs of runs. Only these data of a journal differ from machine to machine.
 struct Effort {
   std::uint64_t first_run = 0, runs = 0;
-  std::string started;  ///< UTC
-  double wall = 0;      ///< s
+  std::string started;  ///< start of the pack in UTC
+  double wall = 0;      ///< elapsed time, s
   std::string host;
   std::int64_t process = 0;
 };
 
-/// `objective.1` for the first.
+/// Name of the column of an objective: `objective.1` for number 0.
 std::string objective_column(std::size_t number);
 
-/// The columns of table `run` in their order, under their names in SQL.
+/// The columns of table `run` in their order, by their names in SQL.
 struct RunColumns {
   explicit RunColumns(const JournalHead& head);
   std::vector<std::string> parameters, quantities, objectives;
-  bool scenario = false;  ///< whether there is a column `scenario`
-  /// Column for whether a run is kept: `kept`; `feasible` in journals of programs without a quantity of that name.
+  bool scenario = false;  ///< true if the table has a column `scenario`
+  /// Column that states if a run is kept: `kept`, or `feasible` in journals of older programs, whose quantities lack that name.
   std::string kept;
   std::string sql;  ///< statement that creates the table
   [[nodiscard]] std::vector<std::string> all() const;
@@ -115,63 +116,63 @@ struct Brief {
   std::string verdict = {};
 };
 
-/// The time now, in UTC: 2026-01-31T23:59:59Z.
+/// The present time in UTC, as in 2026-01-31T23:59:59Z.
 std::string utc_now();
 
 class Journal {
  public:
   enum class Build { same, any };
-  /// Opens it for writing, or creates it. Throws InputError if the file is not a journal, or belongs to another study (with the
-  /// differences), or to another build, unless `any` is given, which is then noted in the journal. Throws RunError if it cannot
-  /// be written.
+  /// Opens the journal for writing, or creates it. Throws InputError if the file is not a journal, or if it belongs to another
+  /// study (the message lists the differences). Throws InputError also if another build wrote the journal, unless `build` is
+  /// `any`; the journal then records both builds. Throws RunError if the file cannot be written.
   Journal(const std::filesystem::path& file, const JournalHead& head, Build build);
-  /// Opens it for reading, also while another process writes. Throws InputError as above.
+  /// Opens the journal for reading, also while another process writes. Throws InputError if the file is not a journal.
   explicit Journal(const std::filesystem::path& file);
 
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
   [[nodiscard]] const JournalHead& head() const { return head_; }
   [[nodiscard]] const RunColumns& columns() const { return columns_; }
-  /// Column of a quantity by its name, or "".
+  /// SQL column of a quantity, or "" if the journal lacks the quantity.
   [[nodiscard]] std::string column_of(const std::string& quantity) const;
-  /// Whether each run has a row.
+  /// Flag for each run number below `runs`: true if the run has a row.
   [[nodiscard]] std::vector<bool> present(std::uint64_t runs);
-  /// Notes that the study has at least this number of runs.
+  /// Raises the number of runs in the journal to at least `runs`.
   void expect(std::uint64_t runs);
-  /// Writes all rows of a pack, or none. Throws RunError if it cannot be written; earlier rows remain.
+  /// Writes all rows of a pack, or none of them. Throws RunError if the journal cannot be written; earlier rows remain.
   void write(std::span<const Row> rows, const Effort& effort);
-  /// Replaces the rows of these runs.
+  /// Replaces the rows of these runs by the given ones.
   void replace(std::span<const Row> rows);
-  /// Adds generations; existing ones remain.
+  /// Adds the generations that the journal does not contain yet.
   void write(std::span<const Generation> generations);
-  /// Replaces all verifications.
+  /// Replaces all verifications in the journal.
   void write(std::span<const Verification> verifications);
-  /// Ordered by search, then generation.
+  /// All generations, ordered by search, then by generation.
   [[nodiscard]] std::vector<Generation> generations();
   [[nodiscard]] std::vector<Verification> verifications();
-  /// Counts a start of each run; the end of a run resets its count.
+  /// Adds 1 to the number of starts of each run. When a run ends, its number returns to 0.
   void count_starts(std::span<const std::uint64_t> runs);
-  /// Undoes these counts: the runs were stopped.
+  /// Removes the counted starts of runs that were stopped on purpose.
   void forget_starts(std::span<const std::uint64_t> runs);
-  /// Number of starts of each run that never ended.
+  /// Runs that started but never ended, with their number of starts.
   [[nodiscard]] std::vector<std::pair<std::uint64_t, std::int64_t>> unfinished();
 
-  /// Visits all runs in order.
+  /// Visits all runs in the order of their numbers.
   void each_brief(const std::function<void(const Brief&)>& take);
-  /// Columns of one run as text, NULL as ""; empty: no row.
+  /// Columns of one run as text, with NULL as "". Empty if the run has no row.
   [[nodiscard]] std::vector<std::string> row(std::uint64_t run);
-  /// Quantities of one run as text, by column, NULL as "".
+  /// Quantities of one run as text by column, with NULL as "".
   [[nodiscard]] std::vector<std::string> quantities(std::uint64_t run);
-  /// Visits columns of all runs in order, numbers as the shortest text that gives the same double, NULL as "".
+  /// Visits the given columns of all runs in order. Numbers are the shortest text that gives the same double; NULL is "".
   void each_row(const std::vector<std::string>& columns, const std::function<void(const std::vector<std::string>&)>& take);
-  /// Visits columns of the runs that ended as numbers, NaN for unknown ones.
+  /// Visits the given columns of the runs with outcome `done`, as numbers. An unknown number is NaN.
   void each_numbers(const std::vector<std::string>& columns, const std::function<void(std::span<const double>)>& take);
-  /// Copies the rows of another journal of the same study that are missing here. Returns their number. Throws InputError if it
-  /// belongs to another study.
+  /// Copies from another journal of the same study the rows that this journal lacks. Returns the number of copied rows. Throws
+  /// InputError if the other journal belongs to another study.
   std::uint64_t take(Journal& other);
   [[nodiscard]] std::uint64_t rows();
-  /// One more than the largest run number with a row.
+  /// Largest run number with a row, plus 1.
   [[nodiscard]] std::uint64_t end();
-  /// Total of all packs: runs and wall.
+  /// Total number of runs, and total elapsed time, of all packs.
   [[nodiscard]] Effort effort();
 
  private:

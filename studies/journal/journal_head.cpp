@@ -1,4 +1,4 @@
-// Description of the study in a journal: its tables written, read back and compared.
+// Description of the study in a journal: write, read and comparison of its tables.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -167,7 +167,7 @@ namespace {
 
 constexpr const char* kForeign = "is not a journal that this program wrote: ";
 
-/// The row of table study. Throws InputError if it is missing or damaged.
+/// Reads the row of table `study`. Throws InputError if the row is missing or damaged.
 JournalHead read_study(Database& database, const std::filesystem::path& file) {
   JournalHead head;
   Statement study = database.prepare("SELECT * FROM study");
@@ -190,7 +190,7 @@ JournalHead read_study(Database& database, const std::filesystem::path& file) {
   return head;
 }
 
-/// Parameters, quantities, objectives and limits, each in its order.
+/// Reads parameters, quantities, objectives and limits, each in the order of their numbers.
 void read_lists(Database& database, const std::filesystem::path& file, JournalHead& head) {
   Statement parameter = database.prepare("SELECT * FROM parameter ORDER BY number");
   while (parameter.step()) {

@@ -1,4 +1,4 @@
-// Searches in a journal: their generations, and the verification of the best points.
+// Searches in a journal: generations, and verification of the best points.
 #include <array>
 #include <cmath>
 

@@ -1,11 +1,11 @@
-// The tables of a journal, as SQL.
+// SQL statements that create the tables of a journal.
 #pragma once
 #include <array>
 
 namespace gaitlab::studies {
 
-inline constexpr int kApplication = 0x67616974;  ///< `gait`: PRAGMA application_id
-inline constexpr int kSchema = 1;                ///< PRAGMA user_version
+inline constexpr int kApplication = 0x67616974;  ///< PRAGMA application_id, the bytes `gait`
+inline constexpr int kSchema = 1;                ///< PRAGMA user_version, the version of the tables
 
 struct JournalTable {
   const char* name;

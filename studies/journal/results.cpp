@@ -10,7 +10,7 @@ namespace gaitlab::studies {
 
 namespace {
 
-/// Collects the replicates of one point after the other.
+/// Collects the replicates of each point, from runs in the order of their numbers.
 class Gather {
  public:
   Gather(const JournalHead& head, Results& results) : head_(head), results_(results) {}
@@ -112,7 +112,7 @@ Estimated estimated(Journal& journal) {
 
 std::vector<BrokenLimit> broken_limits(Journal& journal) {
   const JournalHead& head = journal.head();
-  std::vector<std::string> columns{"run"};  // at least one
+  std::vector<std::string> columns{"run"};  // `run` ensures that the query has at least one column
   const Names names = [&](const std::string& name, const std::string& joint) -> Naming {
     const std::string full = joint.empty() ? name : name + "[" + joint + "]";
     const auto at = std::ranges::find(head.quantities, full, &Quantity::name);
@@ -123,13 +123,13 @@ std::vector<BrokenLimit> broken_limits(Journal& journal) {
     if (known == columns.end()) columns.push_back(column);
     return {place};
   };
-  std::vector<std::pair<Formula, bool>> formulas;  // with whether it is a guard
+  std::vector<std::pair<Formula, bool>> formulas;  // relations, with true for a guard
   std::vector<BrokenLimit> limits;
   for (const Limit& limit : head.limits) {
     Problems problems;
     Formula formula({limit.text, {}}, names, problems);
     const bool relation = formula.compares("<=") || formula.compares(">=") || formula.compares("==");
-    if (!problems.empty() || !relation) continue;  // a forged relation
+    if (!problems.empty() || !relation) continue;  // the text in the journal is not a relation, as if forged
     formulas.emplace_back(std::move(formula), limit.guard);
     limits.push_back({limit.text});
   }

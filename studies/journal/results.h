@@ -1,4 +1,4 @@
-// Results of a study: its points in order, the best first.
+// Results of a study: its points, ordered from best to worst.
 #pragma once
 #include <array>
 #include <map>
@@ -12,14 +12,14 @@ namespace gaitlab::studies {
 struct PointResult {
   std::uint64_t first_run = 0, runs = 0;
   std::uint64_t failed = 0;                              ///< number of failed runs
-  Score score;                                           ///< over its replicates together
-  double lived = 0;                                      ///< s simulated by the replicate that failed first
-  std::uint64_t feasible_runs = 0, infeasible_runs = 0;  ///< by the words of their verdicts
+  Score score;                                           ///< objectives and violation, combined over the replicates
+  double lived = 0;                                      ///< shortest simulated time of the failed replicates, s
+  std::uint64_t feasible_runs = 0, infeasible_runs = 0;  ///< numbers of runs with verdict `feasible` and `infeasible`
   [[nodiscard]] bool kept() const { return failed == 0 && score.kept(); }
   [[nodiscard]] bool feasible() const { return feasible_runs == runs; }
 };
 
-/// Failed runs by outcome, with the first run of each.
+/// Failed runs by outcome, with the number of the first such run.
 struct Failures {
   struct One {
     std::uint64_t count = 0, first_run = 0;
@@ -29,53 +29,55 @@ struct Failures {
 };
 
 struct Results {
-  std::vector<PointResult> points;  ///< in the order of runs; points with missing replicates are left out
+  std::vector<PointResult> points;  ///< points in the order of their runs, without points that lack a replicate
   Failures failures;
   std::uint64_t runs = 0, kept_runs = 0, feasible_runs = 0;
 };
 
-/// Result of the runs of one point, in their order.
+/// Result of one point, from its runs in the order of their numbers.
 PointResult point_result(const JournalHead& head, std::span<const Brief> runs);
 
 Results results(Journal& journal);
 
-/// Runs with an estimated torque error, and the number of these above each share. With `estimate_every` 1 every run has one, if
-/// the engine offers an estimate.
+/// Number of runs with an estimated torque error, and number of estimates above each share in `kShares`. If `estimate_every` is
+/// 1, every run has an estimate, provided that the engine offers it.
 struct Estimated {
   static constexpr std::array kShares{0.01, 0.02, 0.05};
-  std::uint64_t runs = 0, others = 0;  ///< with and without an estimate
+  std::uint64_t runs = 0, others = 0;  ///< number of runs with an estimate, and number of runs without
   std::array<std::uint64_t, kShares.size()> beyond{};
   double worst = 0;
   void add(double share);
-  static constexpr std::uint64_t kFewest = 3;  ///< with fewer, the other runs are not trusted
+  /// Least number of estimates; with fewer estimates, no run without an estimate is trusted.
+  static constexpr std::uint64_t kFewest = 3;
   [[nodiscard]] bool too_few() const { return others > 0 && runs < kFewest; }
-  /// At least nine of ten estimates are below the largest share, and there are enough of them.
+  /// True if enough runs have an estimate and at most one in ten estimates exceeds the largest share.
   [[nodiscard]] bool trusted() const { return !too_few() && 10 * beyond.back() <= runs; }
 };
 Estimated estimated(Journal& journal);
-/// Quantity with the estimate.
+/// Name of the quantity that contains the estimated torque error.
 inline constexpr const char* kTorqueError = "torque_error.worst";
 
-/// Kept points that no other point dominates, by the first objective, the best first. For equal points the first.
+/// Indices of the kept points that no other point dominates, sorted by the first objective, best first. Of equal points only
+/// the earliest is included.
 std::vector<std::size_t> front(const std::vector<PointResult>& points, const std::vector<JournalObjective>& objectives);
 
-/// A constraint or guard, with the number of ended runs that break it.
+/// A constraint or guard, with the number of ended runs that violate it.
 struct BrokenLimit {
   std::string text;
   std::uint64_t runs = 0;
 };
-/// Limits that some run breaks, the most often broken first.
+/// Limits that at least one run violates, sorted by decreasing number of such runs.
 std::vector<BrokenLimit> broken_limits(Journal& journal);
 
-/// Order of points: kept ones by objective; then the others by violation; then failed ones by simulated time, the longest
-/// first.
+/// True if point a precedes point b. Kept points come first, sorted by the first objective. Points that are not kept follow,
+/// sorted by violation. Failed points come last, the longest simulated time first.
 bool better(const PointResult& a, const PointResult& b, bool maximize);
 
-/// Indices of points, the best first.
+/// Indices of points, sorted from best to worst.
 std::vector<std::size_t> ranked(const std::vector<PointResult>& points, bool maximize);
 
-/// Combines replicates: `worst` is the largest value, `quantile` q the value that a share q of them does not exceed. Larger
-/// values are worse.
+/// Combines the values of the replicates, where a larger value is worse. `worst` is the largest value. `quantile` is the value
+/// that a share `quantile` of the replicates does not exceed.
 double combined(std::vector<double> values, const std::string& how, double quantile);
 
 }  // namespace gaitlab::studies

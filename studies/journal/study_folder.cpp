@@ -24,7 +24,7 @@ struct ShardName {
   std::string index, count;
 };
 
-/// The two numbers in I-of-N.db, also if no shard can have them.
+/// The two numbers in a name I-of-N.db, even if such a shard is impossible.
 std::optional<ShardName> shard_name(const std::string& name) {
   constexpr std::string_view kOf = "-of-";
   constexpr std::string_view kEnd = ".db";
@@ -39,9 +39,9 @@ std::optional<ShardName> shard_name(const std::string& name) {
   return found;
 }
 
-/// Shard of a name; nothing if no shard can have it.
+/// Shard with a given name; nothing if such a shard is impossible.
 std::optional<Shard> shard_of(const ShardName& name) {
-  constexpr std::size_t kDigits = 7;  // as of --shard
+  constexpr std::size_t kDigits = 7;  // limit that --shard also has
   for (const std::string& text : {name.index, name.count}) {
     if (text.size() > kDigits || (text.size() > 1 && text.front() == '0')) return {};
   }
@@ -57,14 +57,14 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-/// The kind of a file by its first bytes.
+/// Kind of a file, by its first bytes.
 enum class Content { journal, unborn, other };
 
-/// unborn: an empty file, or a database without an application ID, left by a process that was killed while it created its
-/// journal.
+/// Kind of a file. `unborn` is an empty file or a database without an application ID. A process that is killed while it creates
+/// its journal leaves such a file.
 Content content_of(const fs::path& file) {
   constexpr std::string_view kSqlite{"SQLite format 3\0", 16};
-  constexpr std::size_t kPlace = 68;  // of the application_id, four bytes, the most significant first
+  constexpr std::size_t kPlace = 68;  // position of the application_id: four bytes, most significant first
   std::error_code none;
   if (fs::is_symlink(file, none)) return Content::other;
   std::string bytes;
@@ -81,7 +81,7 @@ Content content_of(const fs::path& file) {
   return application == 0 ? Content::unborn : Content::other;
 }
 
-/// Checks that a name is that of a journal, or of a file that SQLite keeps beside one.
+/// True if a name is that of a journal, or of a file that SQLite keeps beside a journal.
 bool is_journals(const std::string& name) {
   for (const char* behind : {"-wal", "-shm", "-journal"}) {
     if (name.ends_with(behind)) return is_journals(name.substr(0, name.size() - std::string_view(behind).size()));
@@ -89,7 +89,7 @@ bool is_journals(const std::string& name) {
   return name == kJournalFile || shard_name(name).has_value();
 }
 
-/// Checks that the folder holds only the files of a study that was killed at its start.
+/// True if the folder contains only the files of a study that was killed at its start.
 bool holds_a_start(const fs::path& folder) {
   const std::vector<std::string> names = names_in(folder);
   return std::ranges::all_of(names, [&](const std::string& name) {
@@ -108,13 +108,14 @@ bool holds_a_journal(const fs::path& folder) {
   });
 }
 
-/// Checks that a folder belongs to a study; false for an empty one. Throws InputError if its study.db is something else.
+/// True if a folder belongs to a study; false for an empty folder. Throws InputError if its study.db is not a journal.
 bool is_studys(const fs::path& folder) {
   std::error_code none;
   if (fs::is_empty(folder, none) || none) return false;
   if (holds_a_journal(folder) || holds_a_start(folder)) return true;
   if (!fs::exists(fs::symlink_status(folder / kJournalFile, none))) return false;
-  const Journal there(folder / kJournalFile);  // older programs wrote the application ID into the write-ahead log only
+  // Opens the journal, because older programs wrote the application ID into the write-ahead log only.
+  const Journal there(folder / kJournalFile);
   return true;
 }
 
@@ -159,7 +160,7 @@ fs::path study_folder(const std::optional<fs::path>& out, const std::string& nam
     } catch (const InputError&) {
       if (!again) throw;
     }
-    constexpr std::chrono::milliseconds kPatience{20};  // another shard may be creating it
+    constexpr std::chrono::milliseconds kPatience{20};  // another shard may be creating the folder
     std::this_thread::sleep_for(kPatience);
   }
 }

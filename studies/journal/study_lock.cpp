@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The first 300 bytes: longer than any lock of this program.
+/// The first 300 bytes of a file, more than the longest lock text of this program.
 std::string start_of(int descriptor) {
   std::array<char, 300> bytes{};
   const ssize_t size = ::pread(descriptor, bytes.data(), bytes.size(), 0);
@@ -37,13 +37,13 @@ std::string holder_in(const std::string& text) {
   return ours ? clipped(text.substr(0, text.size() - 1)) : "";
 }
 
-/// Whether it is a regular file with one name.
+/// True if the descriptor is a regular file under one name.
 bool is_plain(int descriptor) {
   struct stat about {};
   return ::fstat(descriptor, &about) == 0 && S_ISREG(about.st_mode) && about.st_nlink == 1;
 }
 
-/// Whether it is also empty or has the line of a lock.
+/// True if the descriptor is a regular file under one name, empty or with the line of a lock.
 bool is_lock(int descriptor) {
   const std::string text = start_of(descriptor);
   return is_plain(descriptor) && (text.empty() || !holder_in(text).empty());
@@ -56,7 +56,7 @@ int open_there(const fs::path& file, int how) {
 
 /// Creates the file, or opens the existing one.
 int open_lock(const fs::path& file) {
-  constexpr int kPatience = 100;  // another process may remove it in between
+  constexpr int kPatience = 100;  // number of attempts, because another process may remove the file between two calls
   for (int k = 0; k < kPatience; ++k) {
     int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (descriptor >= 0 || errno != EEXIST) return descriptor;
@@ -83,8 +83,8 @@ Lock::Lock(fs::path file) : file_(std::move(file)) {
   if (descriptor_ < 0) throw refuse("cannot be opened: " + std::generic_category().message(errno));
   try {
     if (!is_plain(descriptor_)) throw refuse(kNoLock);
-    // A killed process may not have ended when its successor begins, as in a batch system that restarts a job.
-    constexpr int kPatience = 50;  // times 20 ms
+    // A killed process may still exist when its successor begins, for example in a batch system that restarts a job.
+    constexpr int kPatience = 50;  // number of attempts, 20 ms apart
     bool taken = take_lock(descriptor_, file_.parent_path());
     for (int k = 0; k < kPatience && !taken; ++k) {
       ::usleep(20000);
@@ -101,7 +101,7 @@ Lock::Lock(fs::path file) : file_(std::move(file)) {
     throw;
   }
   const std::string text = fmt::format("process {} on {}\n", ::getpid(), host());
-  // Information only: a full disk is reported elsewhere.
+  // The text is information only. A full disk is reported elsewhere.
   if (::ftruncate(descriptor_, 0) == 0) (void)!::pwrite(descriptor_, text.data(), text.size(), 0);
 }
 

@@ -1,22 +1,22 @@
-// The file `lock` of a study, or of one of its shards, for one writing process at a time.
+// The file `lock` of a study or shard, which admits one writing process at a time.
 #pragma once
 #include <filesystem>
 #include <string>
 
 namespace gaitlab::studies {
 
-/// Holds the lock of a file during its lifetime; the file names the holder.
+/// Keeps a file locked during the lifetime of this object. The file contains the number of the locking process and its host.
 class Lock {
  public:
-  /// Creates the file, or takes an existing lock: a regular file, with one name, empty or with the line `process N on HOST`.
-  /// Throws InputError if it is something else, or if another process holds it for a second: `PATH: error: process 12 on HOST
-  /// is writing this study`. File systems without locks: see take_lock().
+  /// Creates the file, or locks the existing one, which must be a regular file under one name, empty or with the line `process
+  /// N on HOST`. Throws InputError if the file is anything else, or if another process keeps the lock for a second: `PATH:
+  /// error: process 12 on HOST is writing this study`. take_lock() describes file systems without locks.
   explicit Lock(std::filesystem::path file);
   ~Lock();
   Lock(const Lock&) = delete;
   Lock& operator=(const Lock&) = delete;
 
-  /// Holder of the lock, or "".
+  /// Holder of the lock as `process N on HOST`, or "" if the file is not locked.
   static std::string holder(const std::filesystem::path& file);
 
  private:
@@ -24,7 +24,8 @@ class Lock {
   int descriptor_ = -1;
 };
 
-/// Checks that a file is the lock of a study, held or free: regular, with one name, empty or with such a line.
+/// True if a file is the lock of a study, locked or not: a regular file under one name, empty or with the line `process N on
+/// HOST`.
 bool is_lock(const std::filesystem::path& file);
 
 /// Name of this machine.

@@ -23,7 +23,8 @@ const Node* find_key(const Node& root, const std::string& key) {
   return node;
 }
 
-/// Settings that take the engine of `verify` in place of a scenario's, with its own step; empty: it is that engine, or none.
+/// Settings that replace the engine of a scenario by that of `verify`, with its default step. Empty if `verify` names no
+/// engine, or if the scenario uses that engine already.
 std::vector<std::string> other_engine_of(const Verify& verify, const Scenario& scenario, const Catalog& catalog,
                                          Problems& problems) {
   const std::string& name = verify.engine;
@@ -45,7 +46,7 @@ std::vector<std::string> other_engine_of(const Verify& verify, const Scenario& s
   return sets;
 }
 
-/// Quantities of joints that a pattern of the study names are the same in every scenario.
+/// Checks that the joint quantities that match the study's patterns are the same in every scenario.
 void check_same(const std::vector<Quantity>& first, const std::vector<Quantity>& other, const SourceLocation& place,
                 Problems& problems) {
   const auto check = [&](const std::vector<Quantity>& have, const std::vector<Quantity>& lack, const char* text) {
@@ -74,13 +75,13 @@ BoundStudy::BoundStudy(Study study, const QuantityOffer& offer, Catalog& catalog
   add_of_each(scenarios_, found, problems);
   find_columns(offer, problems);
   choose_shown(problems);
-  if (shown_.empty()) problems.raise();  // what orders the points is one of them
+  if (shown_.empty()) problems.raise();  // the default objective is the first shown quantity
   if (Text& first = study_.objectives.front().expression; first.text.empty()) first.text = columns_[shown_.front()].name;
   make_judges(offer, catalog, problems);
   problems.raise();
 }
 
-/// A number of one's own that is called like a key of the scenario would be taken for it.
+/// Refuses a free parameter with the name of a key of the scenario, because the two would be confused.
 void BoundStudy::check_own_names(std::size_t scenario, Problems& problems) const {
   for (const Parameter& p : study_.parameters) {
     if (p.sets.empty()) continue;
@@ -114,7 +115,7 @@ void BoundStudy::find_nominal(StudyScenario& scenario, Problems& problems) const
   }
 }
 
-/// Those of the first scenario, which the others must have.
+/// Finds the columns of the first scenario; the other scenarios must have the same columns.
 void BoundStudy::find_columns(const QuantityOffer& offer, Problems& problems) {
   columns_ = columns_of(study_, offer, scenarios_.front().joints);
   constexpr std::size_t kMostColumns = 400;
@@ -142,8 +143,8 @@ void BoundStudy::choose_shown(Problems& problems) {
   }
 }
 
-/// Refuses names in the study's expressions that a scenario lacks. The judges that stay are those of the first, which comes
-/// last.
+/// Refuses names in the study's expressions that a scenario lacks. The loop ends with the first scenario, whose judge and rules
+/// remain.
 void BoundStudy::make_judges(const QuantityOffer& offer, const Catalog& catalog, Problems& problems) {
   std::vector<Problems> found(scenarios_.size());
   std::vector<std::vector<Quantity>> columns(scenarios_.size());
@@ -162,7 +163,7 @@ void BoundStudy::make_judges(const QuantityOffer& offer, const Catalog& catalog,
   add_of_each(scenarios_, found, problems);
 }
 
-/// A rule that begins when every run has ended stops none.
+/// Refuses a stop rule that begins after the end of every run, because the rule would stop none.
 void BoundStudy::check_stops(Problems& problems) const {
   const auto is_duration = [](const std::string& key) { return key == "duration"; };
   for (const Parameter& p : study_.parameters) {
@@ -177,7 +178,7 @@ void BoundStudy::check_stops(Problems& problems) const {
   }
 }
 
-/// The engine of `verify` is another than the study's.
+/// Refuses an engine of `verify` that the study already uses.
 void BoundStudy::check_engines(const Catalog& catalog, std::vector<Problems>& found) const {
   const std::string& engine = study_.verify.engine;
   for (std::size_t s = 0; s < scenarios_.size(); ++s) {

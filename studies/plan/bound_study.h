@@ -1,4 +1,4 @@
-// A study bound to its scenarios: read and checked, with the parts that all of its runs share.
+// A study checked against its scenarios, with the parts that all of its runs share.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -14,15 +14,15 @@ namespace gaitlab::studies {
 
 class BoundStudy {
  public:
-  /// Reads the scenarios and checks the study against each. InputError with every problem found.
+  /// Reads the scenarios and checks the study against each. Throws InputError with every problem found.
   BoundStudy(Study study, const QuantityOffer& offer, Catalog& catalog);
-  BoundStudy(const BoundStudy&) = delete;  // judge and rules refer to the study
+  BoundStudy(const BoundStudy&) = delete;  // judge and stop rules refer to the study
   BoundStudy& operator=(const BoundStudy&) = delete;
 
   [[nodiscard]] const Study& study() const { return study_; }
   void set_runs(std::int64_t runs) { study_.runs = runs; }
   [[nodiscard]] const std::vector<StudyScenario>& scenarios() const { return scenarios_; }
-  /// All scenarios, resolved.
+  /// Text of all resolved scenarios.
   [[nodiscard]] const std::string& scenario_text() const { return scenario_text_; }
   /// Duration of the longest scenario, s.
   [[nodiscard]] double longest() const;
@@ -31,9 +31,11 @@ class BoundStudy {
   [[nodiscard]] const Judge& judge() const { return *judge_; }
   [[nodiscard]] const StopRules& stops() const { return *stops_; }
   [[nodiscard]] const std::vector<Quantity>& columns() const { return columns_; }
-  /// Quantities to show, by column: those that the study's patterns name, in the order of the patterns; without any the speed.
+  /// Columns of the quantities to show: those that match the study's patterns, in the order of the patterns. If the study has
+  /// no patterns, the speed is shown.
   [[nodiscard]] const std::vector<std::size_t>& shown() const { return shown_; }
-  /// A scenario by its number with these settings. InputError: it is refused with these values. One thread at a time.
+  /// The scenario with this number and with additional settings. Throws InputError if the scenario refuses their values. Only
+  /// one thread at a time may call this.
   [[nodiscard]] Scenario with(const std::vector<std::string>& sets, std::size_t scenario) const {
     return scenarios_[scenario].file->with(sets);
   }

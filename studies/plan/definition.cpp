@@ -28,7 +28,7 @@ std::string law_text(const Variation& v) {
   return text;
 }
 
-/// Settings of a search besides its method.
+/// Settings of a search, without its method.
 std::string search_text(const Study& study) {
   const SearchKeys& s = study.search;
   std::string text =

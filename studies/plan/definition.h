@@ -1,4 +1,4 @@
-// The definition of a study as text, and the head of its journal.
+// The definition of a study as text, and the description of the study in its journal.
 #pragma once
 #include <string>
 
@@ -6,7 +6,7 @@
 
 namespace gaitlab::studies {
 
-/// Text that is equal for two studies of the same definition; it does not contain the number of drawn points.
+/// Text of a study, equal for two studies with the same definition. The number of drawn points is not part of the text.
 std::string definition(const BoundStudy& bound);
 
 JournalHead journal_head(const Plan& plan);

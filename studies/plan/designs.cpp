@@ -21,7 +21,7 @@ std::vector<double> morris_shares(std::uint64_t seed, std::size_t parameters, st
   const auto draw = [&](MorrisDraw kind, std::size_t k) {
     return math::uniform({static_cast<std::uint64_t>(kind), seed, trajectory, k});
   };
-  std::vector<std::size_t> order(parameters);  // shuffled by Fisher and Yates
+  std::vector<std::size_t> order(parameters);  // shuffled by the Fisher-Yates method
   std::iota(order.begin(), order.end(), std::size_t{0});
   for (std::size_t k = parameters; k > 1; --k)
     std::swap(order[k - 1], order[static_cast<std::size_t>(draw(MorrisDraw::order, k) * static_cast<double>(k))]);

@@ -1,12 +1,12 @@
-// Random numbers by counter and names by content: the draws of a run depend only on its number, not on earlier runs.
+// Purpose numbers of random draws, which are hashes of counters and names and therefore independent of earlier runs.
 #pragma once
 #include <cstdint>
 
 namespace gaitlab::studies {
 
-/// The draws of searches (points have 1 to 3).
+/// Purpose number for draws of searches. Draws of points use 1 to 3.
 inline constexpr std::uint64_t kSearchDraw = 4;
-/// The choice of points whose torque error is estimated.
+/// Purpose number for the choice of points whose torque error is estimated.
 inline constexpr std::uint64_t kEstimateDraw = 5;
 
 }  // namespace gaitlab::studies

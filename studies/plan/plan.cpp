@@ -28,7 +28,7 @@ std::map<std::string, double> Plan::nominal(const std::vector<std::string>& valu
 
 std::vector<std::string> Plan::sets(std::uint64_t run) const { return sets(points_.values(points_.point(run)), run); }
 
-/// Settings of a run if its point had these values.
+/// Settings of a run as if its point had these values.
 std::vector<std::string> Plan::sets(const std::vector<std::string>& values, std::uint64_t run) const {
   std::vector<std::string> sets;
   for (const auto& [key, value] : bound_.followers().settings(values)) sets.push_back(key + "=" + value);
@@ -51,7 +51,7 @@ std::string Plan::point_name(const std::vector<std::string>& values) const {
   std::string name = scenario_digest_;
   for (std::size_t k = 0; k < values.size(); ++k) name += study().parameters[k].key + "=" + values[k] + "\n";
   const auto own = [](const Parameter& p) { return !p.sets.empty(); };
-  if (std::ranges::any_of(study().parameters, own)) {  // what follows it may be others in another study
+  if (std::ranges::any_of(study().parameters, own)) {  // the followers may differ in another study
     for (const auto& [key, value] : bound_.followers().settings(values)) name += key + "=" + value + "\n";
   }
   return hash128(name);
@@ -75,7 +75,7 @@ Row Plan::row(std::uint64_t run) const {
 
 bool Plan::estimates(const std::string& point) const { return all_estimated_ || drawn_for_estimate(point); }
 
-/// Fewer runs drawn than are evidence for the others, of a study whose points are fixed in advance.
+/// True if the random choice gives an estimate to fewer than Estimated::kFewest runs of a study with fixed points.
 bool Plan::draws_too_few() const {
   if (study().estimate_every <= 1 || study().asked || is_search(study().method)) return false;
   std::uint64_t runs = 0;
@@ -88,7 +88,7 @@ bool Plan::draws_too_few() const {
 bool Plan::drawn_for_estimate(const std::string& point) const {
   const auto every = static_cast<std::uint64_t>(study().estimate_every);
   if (every == 0) return false;
-  std::uint64_t name = 0;  // the first 64 of 128 bit
+  std::uint64_t name = 0;  // first 64 of the 128 bits
   std::from_chars(point.data(), point.data() + std::min<std::size_t>(point.size(), 16), name, 16);
   return math::hash64({kEstimateDraw, static_cast<std::uint64_t>(study().seed), name}) % every == 0;
 }

@@ -1,4 +1,4 @@
-// The runs of a study, by number: the settings of each, and the content of its row in the journal.
+// The runs of a study by number: the settings of each run, and the content of its row in the journal.
 #pragma once
 #include <map>
 #include <string>
@@ -12,13 +12,13 @@ namespace gaitlab::studies {
 
 class Plan {
  public:
-  /// Binds the study to its scenarios and tries the first and the last run. InputError with every problem found, before
-  /// anything runs.
+  /// Reads and checks the study with its scenarios, and tries the settings of the first and the last run. Throws InputError
+  /// with every problem found, before any run starts.
   Plan(Study study, const QuantityOffer& offer, Catalog& catalog);
 
   [[nodiscard]] const BoundStudy& bound() const { return bound_; }
   [[nodiscard]] const Study& study() const { return bound_.study(); }
-  /// The first scenario, with the study's own settings.
+  /// The first scenario, with the settings that the study applies to all runs.
   [[nodiscard]] const Scenario& scenario() const { return scenarios().front().nominal; }
   [[nodiscard]] const std::vector<StudyScenario>& scenarios() const { return bound_.scenarios(); }
   [[nodiscard]] double longest() const { return bound_.longest(); }
@@ -27,41 +27,41 @@ class Plan {
   [[nodiscard]] const std::vector<Quantity>& columns() const { return bound_.columns(); }
 
   [[nodiscard]] const Points& points() const { return points_; }
-  /// Largest number of runs of a method that chooses points by earlier results: its budget.
+  /// Largest number of runs (budget) of a method that chooses points by earlier results.
   [[nodiscard]] std::uint64_t most_runs() const { return points_.runs(); }
-  /// The next point of a study whose points are chosen by what came out, or by another program.
+  /// Adds the next point of a search, or of another program that chooses the points.
   void add(std::vector<std::string> values) { points_.add(std::move(values)); }
-  /// Raises the budget to at least `runs`, in whole points. False: the study has no budget.
+  /// Raises the budget to at least `runs`, rounded to whole points. Returns false if the study has no budget.
   bool raise_budget(std::uint64_t runs);
-  /// Name of a point with these values in the journal, the same in every study of the scenario, or scenarios.
+  /// Name in the journal of a point with these values. The name is the same in every study of the same scenarios.
   [[nodiscard]] std::string point_name(const std::vector<std::string>& values) const;
 
-  /// Settings of a run after the study's, in the form of --set.
+  /// Settings of a run in addition to those of the study, in the form of --set.
   [[nodiscard]] std::vector<std::string> sets(std::uint64_t run) const;
-  /// The same, were its point one with these values.
+  /// Settings of a run as if its point had these values.
   [[nodiscard]] std::vector<std::string> sets(const std::vector<std::string>& values, std::uint64_t run) const;
-  /// As BoundStudy::with; that of a run.
+  /// The scenario with this number and with additional settings, as in BoundStudy::with.
   [[nodiscard]] Scenario with(const std::vector<std::string>& sets, std::size_t scenario) const {
     return bound_.with(sets, scenario);
   }
   [[nodiscard]] Scenario scenario(std::uint64_t run) const { return with(sets(run), points_.scenario(run)); }
-  /// Settings that select the engine of `verify`, with its default step; empty: the run's scenario has that engine, or `verify`
-  /// has none.
+  /// Settings that select the engine of `verify` with its default step. Empty if `verify` names no engine, or if the run's
+  /// scenario uses that engine already.
   [[nodiscard]] const std::vector<std::string>& other_engine(std::uint64_t run) const {
     return scenarios()[points_.scenario(run)].other_engine;
   }
 
-  /// Whether the torque error is estimated for runs of this point: drawn from the seed and its name. If the draw leaves fewer
-  /// than Estimated::kFewest runs of a sweep, all are estimated.
+  /// True if the torque error of this point's runs is estimated. The choice is drawn from the seed and the name of the point.
+  /// If fewer than Estimated::kFewest runs of a sweep would be drawn, all points have an estimate.
   [[nodiscard]] bool estimates(const std::string& point) const;
 
-  /// The row of a run with the values known before the run.
+  /// The row of a run with the values that are known before the run.
   [[nodiscard]] Row row(std::uint64_t run) const;
-  /// Fills in the results of the run.
+  /// Writes the results of the run into its row.
   void finish(Row& row, const Scenario& scenario, const Recording& recording, const Measure& measure) const;
 
  private:
-  /// Numbers of a point with these values in a scenario, by key.
+  /// Numeric values of a scenario's keys at a point with these parameter values.
   [[nodiscard]] std::map<std::string, double> nominal(const std::vector<std::string>& values, std::size_t scenario) const;
   [[nodiscard]] bool drawn_for_estimate(const std::string& point) const;
   [[nodiscard]] bool draws_too_few() const;

@@ -12,7 +12,7 @@ namespace gaitlab::studies {
 
 namespace {
 
-/// Low (or first) values of all parameters, or high (or last) ones.
+/// Low (or first) values of all parameters; with `high`, high (or last) values.
 std::vector<std::string> corner(const Study& study, bool high) {
   std::vector<std::string> values;
   for (const Parameter& p : study.parameters)
@@ -69,7 +69,7 @@ std::vector<Problem> refused_ends(const Plan& plan) {
 }
 
 std::vector<Problem> short_runs(const Plan& plan) {
-  constexpr double kPeriods = 3;  // as report/verdict/evidence.h
+  constexpr double kPeriods = 3;  // equal to the number in report/verdict/evidence.h
   std::vector<Problem> notes;
   for (const Parameter& p : plan.study().parameters) {
     if (!p.sets.empty() || p.words || !p.key.starts_with("cpg.") || p.key.find("frequency") == std::string::npos) continue;

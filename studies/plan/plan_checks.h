@@ -1,4 +1,4 @@
-// Checks of a plan by trying its runs, before the first of them.
+// Checks of a study before its first run, by trial of the settings of some runs.
 #pragma once
 #include <vector>
 
@@ -7,13 +7,14 @@
 
 namespace gaitlab::studies {
 
-/// Tries the first and the last run: what both refuse no run can have, a misspelt key above all. InputError.
+/// Tries the settings of the first and the last run. Throws InputError with the problems common to both, such as a misspelt
+/// key.
 void check_corners(const Plan& plan);
 
-/// Ends of parameters that a scenario refuses, its other keys as they are.
+/// Ends of parameter ranges that a scenario refuses while its other keys remain as they are.
 std::vector<Problem> refused_ends(const Plan& plan);
 
-/// Parameters whose slowest gait does not have the three periods in the run that a verdict needs.
+/// Parameters whose slowest gait has fewer periods in the run than the three that a verdict needs.
 std::vector<Problem> short_runs(const Plan& plan);
 
 }  // namespace gaitlab::studies

@@ -16,12 +16,12 @@ namespace gaitlab::studies {
 
 namespace {
 
-// Purpose of a draw: the first word of every hash.
-enum class Draw : std::uint64_t { point = 1, seed, variation };  // and kSearchDraw
+// Purpose of a draw, which is the first word of every hash.
+enum class Draw : std::uint64_t { point = 1, seed, variation };  // kSearchDraw and kEstimateDraw continue this list
 
 std::uint64_t word(Draw draw) { return static_cast<std::uint64_t>(draw); }
 
-/// The value of a list at a share in [0, 1).
+/// Value of a list at a share in [0, 1) of its length.
 const std::string& pick(const std::vector<std::string>& values, double share) {
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size()))];
 }

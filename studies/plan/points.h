@@ -9,8 +9,8 @@
 
 namespace gaitlab::studies {
 
-/// Points and runs by number. Runs are numbered from 0: those of a point follow one another, its replicates in the first
-/// scenario, then in the next.
+/// Points and runs by number. Runs are numbered from 0. The runs of a point are consecutive: its replicates in the first
+/// scenario, then those in the next scenario.
 class Points {
  public:
   explicit Points(const Study& study) : study_(study) {}
@@ -26,11 +26,11 @@ class Points {
   /// Adds the next point of a method that chooses points by earlier results.
   void add(std::vector<std::string> values) { chosen_.push_back(std::move(values)); }
 
-  /// Value of each parameter in the form of --set. A grid changes the last parameter fastest.
+  /// Value of each parameter in the form of --set. In a grid, the last parameter changes fastest.
   [[nodiscard]] std::vector<std::string> values(std::uint64_t point) const;
-  /// Draw of each variation in the form of --set. nominal: numbers of the point, by key.
+  /// Draw of each variation in the form of --set. `nominal` contains the numbers of the point by key.
   [[nodiscard]] std::vector<std::string> drawn(std::uint64_t replicate, const std::map<std::string, double>& nominal) const;
-  /// Seed of the scenario's random numbers, 53 bits.
+  /// Seed for the random numbers of the scenario in this replicate, 53 bits.
   [[nodiscard]] std::int64_t seed(std::uint64_t replicate) const;
 
  private:
@@ -41,7 +41,8 @@ class Points {
 /// A point of a Sobol sequence in the unit cube.
 std::vector<double> sobol_point(std::size_t dimensions, std::uint64_t number);
 
-/// A value of a parameter between its ends: share 0 is low, 1 is high. Rounded to 12 digits, so that a grid of tenths is exact.
+/// Value of a parameter at a share of its range: 0 is low, 1 is high. It is rounded to 12 digits, so that a grid of tenths is
+/// exact.
 double between(const Parameter& parameter, double share);
 
 }  // namespace gaitlab::studies

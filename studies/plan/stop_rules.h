@@ -1,4 +1,4 @@
-// Rules that end hopeless runs early.
+// Rules that end a hopeless run early.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,16 +7,17 @@
 
 namespace gaitlab::studies {
 
-/// The rules of a study, written as `stop: [fell, "saturated.voltage > 0.3 after 4"]`.
+/// The stop rules of a study, as in `stop: [fell, "saturated.voltage > 0.3 after 4"]`.
 class StopRules {
  public:
-  /// Faults of expressions, and quantities that are not known during a run, are problems at their places.
+  /// Adds a problem at its place for each faulty expression, and for each quantity that is not known during a run.
   StopRules(const Study& study, const QuantityOffer& offer, const std::vector<std::string>& joints, Problems& problems);
 
   [[nodiscard]] bool empty() const { return rules_.empty(); }
-  /// `stopped by RULE at t = 4 s` for the first rule that is true in the recording so far (Simulation::watch); "": none is.
+  /// Reason `stopped by RULE at t = 4 s` for the first rule that is true in `so_far`, the recording from Simulation::watch. ""
+  /// if no rule is true.
   [[nodiscard]] std::string reason(const Scenario& scenario, const Recording& so_far) const;
-  /// Texts of the rules.
+  /// Texts of all rules.
   [[nodiscard]] std::vector<std::string> texts() const;
 
  private:
@@ -26,7 +27,7 @@ class StopRules {
     Formula when;
   };
   std::vector<Rule> rules_;
-  std::vector<std::pair<std::string, std::string>> quantities_;  ///< names and joints, by their index in the formulas
+  std::vector<std::pair<std::string, std::string>> quantities_;  ///< name and joint, by their index in the formulas
   QuantityOffer offer_;
 };
 

@@ -9,8 +9,8 @@
 
 namespace gaitlab::studies {
 
-/// Jobs 0 to count - 1. `take(rows)`: called with rows that ended side by side; `told(done, count)`: called after it. One call
-/// at a time. False: `stop` was set.
+/// Second runs with the numbers 0 to count - 1. `take` is called with rows of runs that ended side by side, then `told` with
+/// the number of ended runs. Calls do not overlap.
 struct Again {
   std::size_t count = 0;
   std::function<Job(std::size_t number)> job;
@@ -19,11 +19,12 @@ struct Again {
 };
 bool do_again(const Again& again, const Executor& executor, std::atomic<bool>& stop);
 
-/// Runs without an estimate, if too few have one, or more than one in ten of these is inaccurate (Estimated::trusted);
-/// else none. None if study or scenario turn the estimate off.
+/// Runs that need a second run with an estimate. The list contains all runs without an estimate if too few estimates exist, or
+/// if more than one estimate in ten is inaccurate (Estimated::trusted). Otherwise the list is empty. The list is empty also if
+/// the study or its scenarios disable the estimate.
 std::vector<std::uint64_t> runs_in_doubt(const Plan& plan, Journal& journal);
 
-/// Runs these again with an estimate and replaces their rows in the journal.
+/// Simulates these runs again with an estimate and replaces their rows in the journal. Returns false if `stop` was set.
 bool estimate_again(const Plan& plan, Journal& journal, const std::vector<std::uint64_t>& runs, const Executor& executor,
                     const std::function<void(std::size_t done, std::size_t of)>& told, std::atomic<bool>& stop);
 

@@ -24,7 +24,7 @@ std::string key_of(const Row& row) {
   return key_of(row.point, std::to_string(row.replicate), std::to_string(row.seed), row.scenario);
 }
 
-/// The lines of a definition with its rules for stopping.
+/// The lines of a definition that contain stop rules.
 std::string stop_lines(const std::string& definition) {
   std::string lines;
   for (std::size_t at = 0; at < definition.size();) {
@@ -40,7 +40,7 @@ std::size_t column(const std::vector<std::string>& names, const std::string& nam
   return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
 }
 
-/// Jobs in an executor that reuses results.
+/// Jobs for an executor, with reuse of results.
 class Remembering {
  public:
   Remembering(const Work& work, std::vector<Answers>& answers, std::uint64_t* taken)
@@ -78,11 +78,11 @@ class Remembering {
 
  private:
   struct Known {
-    std::optional<Row> row;    ///< nothing: the run has not ended
-    std::vector<Row> waiting;  ///< rows with the same values
+    std::optional<Row> row;    ///< nothing until the run has ended
+    std::vector<Row> waiting;  ///< rows of repetitions that wait for the result
   };
 
-  /// Row of another run with the same values, with this run's number.
+  /// Row of another run with the same values, renumbered for the run `wanted`.
   static Row as(Row wanted, const Row& known) {
     Row row = known;
     row.run = wanted.run;
@@ -96,9 +96,9 @@ class Remembering {
     return {};
   }
 
-  /// Whether a run with the same values gives the row, now or when it has ended.
+  /// True if a run with the same values provides the row, now or when that run has ended.
   bool held(const Job& job) {
-    constexpr std::size_t kMost = 20000;  // rows in memory; later ones are run again
+    constexpr std::size_t kMost = 20000;  // most rows in memory; further repetitions are simulated again
     std::optional<Row> row;
     {
       const std::lock_guard lock(mutex_);
@@ -130,7 +130,7 @@ class Remembering {
   const Work& work_;
   std::vector<Answers>& answers_;
   std::uint64_t* taken_;
-  std::vector<Row> given_;  ///< rows found by next(), which one thread at a time calls
+  std::vector<Row> given_;  ///< rows found by next(), which only one thread at a time calls
   std::mutex mutex_;        ///< guards the following members
   std::map<std::string, Known> known_;
 };
@@ -158,7 +158,7 @@ Answers::Answers(const Plan& plan, std::filesystem::path file, const std::string
     quantities_.push_back(
         column(names, journal_->columns().quantities[static_cast<std::size_t>(at - head.quantities.begin())]));
   }
-  // Keys of the columns. With other keys the other study's points have other names, and none is found.
+  // Keys of the columns. If the other study has other keys, its points have other names, so that none is found.
   std::vector<std::string> keys;
   for (const Parameter& p : plan.study().parameters) keys.push_back(p.key);
   for (const Variation& v : plan.study().replicates.vary) keys.push_back(v.key);

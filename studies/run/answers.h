@@ -1,4 +1,4 @@
-// Results without a run: rows of other studies, and points that are requested twice.
+// Results without simulation: rows of other studies, and points that were requested twice.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -12,16 +12,17 @@
 
 namespace gaitlab::studies {
 
-/// Rows of another study's journal that answer runs of this one: same point, replicate, seed and draws. Scores are computed
-/// again, so that objective, constraints and guards may differ.
+/// Rows of another study's journal that are results of this study's runs: same point, replicate, seed and draws. Scores are
+/// computed anew, so that objective, constraints and guards may differ.
 class Answers {
  public:
-  /// `journal`: study.db, or its folder. The plan must outlive this object. Throws InputError if it is not a journal, lacks a
-  /// quantity that this study needs, has other rules for stopping, or was written by another build than `build`, unless `any`
-  /// is given.
+  /// Opens the journal (study.db, or its folder). The plan must outlive this object. Throws InputError if the file is not a
+  /// journal, lacks a quantity that this study needs, or has other stop rules. Throws InputError also if a build other than
+  /// `build` wrote the journal, unless `taken` is `any`.
   Answers(const Plan& plan, std::filesystem::path journal, const std::string& build, Journal::Build taken);
 
-  /// The row of a run with the known values of Plan::row; nothing: not found. One thread at a time.
+  /// The row of a run, found by the values that Plan::row gives; nothing if the journal lacks it. Only one thread at a time may
+  /// call this.
   [[nodiscard]] std::optional<Row> find(const Row& wanted);
 
  private:
@@ -29,13 +30,14 @@ class Answers {
 
   const Plan& plan_;
   std::unique_ptr<Journal> journal_;
-  std::map<std::string, std::uint64_t> runs_;     ///< by point, replicate, seed and scenario
-  std::vector<std::size_t> values_, quantities_;  ///< columns in that journal of this study's columns
+  std::map<std::string, std::uint64_t> runs_;     ///< run numbers by point, replicate, seed and scenario
+  std::vector<std::size_t> values_, quantities_;  ///< columns of that journal for the values and quantities of this study
   std::size_t outcome_ = 0, message_ = 0, simulated_ = 0, verdict_ = 0;
 };
 
-/// An executor that searches the answers first, and runs points with the same values once: repeated ones get the row of the
-/// first. The rows do not depend on which one is run. `taken`: receives the number of answered rows; may be null.
+/// An executor that first searches the answers, and simulates points with equal values only once: each repetition gets a copy
+/// of the first row. The rows do not depend on the choice of the simulated run. The number of rows found in answers is added to
+/// `taken`, unless it is null.
 Executor remembering(Executor executor, std::vector<Answers>& answers, std::uint64_t* taken = nullptr);
 
 }  // namespace gaitlab::studies

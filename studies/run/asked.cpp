@@ -37,7 +37,7 @@ std::uint64_t Asked::point(std::vector<std::string> values) {
   return next_++;
 }
 
-/// Moves past next_, which belongs to a point of the journal, possibly with missing replicates.
+/// Takes the point next_ from the journal, even if it lacks replicates, and advances to the next number.
 void Asked::pass_taken() {
   const Known& known = in_journal_.at(next_);
   const std::vector<std::string> names = journal_.columns().all();

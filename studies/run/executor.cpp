@@ -7,7 +7,7 @@ namespace gaitlab::studies {
 
 namespace {
 
-/// The jobs of one call, between next and end.
+/// The jobs of one call of the executor, from next() to end().
 class LocalWork {
  public:
   LocalWork(const Plan& plan, const Measure& measure, const Work& work) : plan_(plan), measure_(measure), work_(work) {}
@@ -75,7 +75,7 @@ class LocalWork {
     return std::move(rows_.extract(run).mapped());
   }
 
-  /// Row of a run whose scenario is refused with its values: contains the first problem.
+  /// Marks the row of a run whose scenario is refused with its values. The message is the first problem.
   static void refuse(Row& row, const std::vector<Problem>& problems) {
     row.outcome = "refused";
     row.message = problems.empty() ? "" : problems.front().text;
@@ -89,7 +89,7 @@ class LocalWork {
   const Plan& plan_;
   const Measure& measure_;
   const Work& work_;
-  std::vector<Row> refused_;  ///< rows refused by next(), which one thread at a time calls
+  std::vector<Row> refused_;  ///< rows refused by next(), which only one thread at a time calls
   std::mutex mutex_;          ///< guards the following members
   std::map<std::uint64_t, Row> rows_;
 };

@@ -1,4 +1,4 @@
-// Jobs and rows as bytes, for processes that cooperate.
+// Jobs and rows as bytes, for exchange between cooperating processes.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -11,7 +11,7 @@ namespace gaitlab::studies {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Bytes of jobs in CBOR: doubles are exact, NaN remains NaN (of any kind), texts may contain any bytes.
+/// Bytes of jobs in CBOR. Doubles are exact, every NaN remains a NaN, and texts may contain any bytes.
 Bytes packed(std::span<const Job> jobs);
 Bytes packed(std::span<const Row> rows);
 std::vector<Job> jobs_of(const Bytes& bytes);

@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 constexpr const char* kExpected = R"(; expected {"id": 7, "parameters": {"KEY": VALUE}})";
 
 Json parsed(const std::string& line, const SourceLocation& place) {
-  constexpr int kDeep = 2;  // nesting depth of objects
+  constexpr int kDeep = 2;  // largest nesting depth of objects
   const auto shallow = [&](int depth, Json::parse_event_t, Json&) {
     if (depth > kDeep) throw InputError(place, "holds values within values" + std::string(kExpected));
     return true;
@@ -28,13 +28,13 @@ Json parsed(const std::string& line, const SourceLocation& place) {
     SourceLocation at = place;
     at.column = static_cast<int>(error.byte);
     throw InputError(at, "is not JSON" + std::string(kExpected));
-  } catch (const Json::exception&) {  // a number beyond the range of a double
+  } catch (const Json::exception&) {  // a number exceeds the range of a double
     throw InputError(place, "holds a number that is too large" + std::string(kExpected));
   }
 }
 
-/// Value of a parameter in the form of --set. A value of the wrong type is a problem; a value out of range refuses the
-/// question.
+/// Value of a parameter in the form of --set. A value of the wrong type is a problem. A value out of range marks the question
+/// as refused.
 std::string value_of(const Json& value, const Parameter& p, Question& question, const SourceLocation& place,
                      Problems& problems) {
   if (p.words ? !value.is_string() : !value.is_number()) {
@@ -42,7 +42,8 @@ std::string value_of(const Json& value, const Parameter& p, Question& question, 
                                     p.words ? "a word, in double quotes" : "a number"));
     return {};
   }
-  const std::string text = p.words ? value.get<std::string>() : number_text(value.get<double>() + 0.0);  // -0 is 0
+  // + 0.0 turns -0 into 0.
+  const std::string text = p.words ? value.get<std::string>() : number_text(value.get<double>() + 0.0);
   const double number = p.words ? 0 : value.get<double>();
   const bool listed = std::ranges::find(p.values, text) != p.values.end();
   if (p.values.empty() ? number >= p.low && number <= p.high : listed) return text;

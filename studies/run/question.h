@@ -1,4 +1,4 @@
-// Protocol for a program that chooses points: questions and answers, one line of JSON each.
+// Protocol with a program that chooses points: each question and each answer is one line of JSON.
 #pragma once
 #include <span>
 #include <string>
@@ -9,20 +9,20 @@
 
 namespace gaitlab::studies {
 
-/// `{"id": 7, "parameters": {"cpg.frequency": 0.5}}`
+/// A question such as `{"id": 7, "parameters": {"cpg.frequency": 0.5}}`.
 struct Question {
-  std::string id;                   ///< as JSON
-  std::vector<std::string> values;  ///< of the parameters, in the form of --set
-  std::string refused;              ///< reason why the study does not have such a point; empty: it has
+  std::string id;                   ///< JSON text of the id
+  std::vector<std::string> values;  ///< values of the parameters in the form of --set
+  std::string refused;              ///< reason why the study excludes this point; empty if the point is valid
 };
 
-/// Reads a question; `place`: of the line. Throws InputError if it is not a question to this study: not JSON, or a parameter
-/// that is missing, unknown or of the wrong type. A value outside the study's range gives a refused point.
+/// Reads a question from `line` at `place`. Throws InputError if the line is not JSON, or if a parameter is missing, unknown or
+/// of the wrong type. A value outside the study's range gives a refused point.
 Question read_question(const std::string& line, const SourceLocation& place, const std::vector<Parameter>& parameters);
 
-/// Answer for a point: runs in the order of replicates with their quantities, one row of values each by column; without rows:
-/// refused. With several replicates each quantity is a list. Numbers are the shortest that give the same double; unknown ones
-/// are null.
+/// Answer for a point. `runs` are in the order of replicates, and `quantities` contains their values by column. An empty `runs`
+/// means that the point is refused. With several replicates, each quantity is a list. A number is the shortest text that gives
+/// the same double, and an unknown number is null.
 std::string answer(const Question& question, const JournalHead& head, std::span<const Brief> runs,
                    std::span<const std::vector<std::string>> quantities);
 

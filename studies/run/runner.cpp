@@ -85,7 +85,7 @@ void Runner::begin(std::span<const std::uint64_t> runs) {
 
 void Runner::write(const std::vector<Row>& rows) {
   const std::lock_guard lock(mutex_);
-  Pack pack{Clock::now(), utc_now(), {}};  // of refused runs, and runs that ended a process: they never began here
+  Pack pack{Clock::now(), utc_now(), {}};  // used for refused or crashed runs, which never began in this process
   if (const auto at = started_.find(rows.front().run); at != started_.end()) {
     pack = std::move(at->second);
     started_.erase(at);
@@ -99,7 +99,7 @@ void Runner::write(const std::vector<Row>& rows) {
   settings_.told(standing_);
 }
 
-/// Removes the counted starts of stopped runs, whose process did not end.
+/// Removes the counted starts of stopped runs, because they did not terminate their process.
 void Runner::forget_stopped() {
   for (const auto& [first, pack] : started_) journal_.forget_starts(pack.runs);
   started_.clear();

@@ -1,4 +1,4 @@
-// Runner of a study: does runs by number and writes their rows to the journal.
+// Runner of a study, which does runs by number and writes their rows to the journal.
 #pragma once
 #include <atomic>
 #include <chrono>
@@ -13,13 +13,13 @@
 
 namespace gaitlab::studies {
 
-/// Progress of a study.
+/// Progress of a study, or of one of its shards.
 struct Standing {
-  std::uint64_t wanted = 0;  ///< runs of this shard
-  std::uint64_t ended = 0;   ///< runs with a row
-  std::uint64_t before = 0;  ///< of these, runs with a row at the start
+  std::uint64_t wanted = 0;  ///< number of runs of this shard
+  std::uint64_t ended = 0;   ///< number of runs with a row
+  std::uint64_t before = 0;  ///< number of runs that had a row at the start
   std::uint64_t kept = 0, feasible = 0, failed = 0;
-  std::optional<Score> best;  ///< of kept runs, by the first objective
+  std::optional<Score> best;  ///< score of the best kept run, by the first objective
   std::uint64_t best_run = 0;
   [[nodiscard]] bool whole() const { return ended == wanted; }
   void add(const Brief& run, bool maximize);
@@ -28,21 +28,21 @@ struct Standing {
 struct RunnerSettings {
   Executor executor;
   Shard shard;
-  int jobs = 1;  ///< parallel processes for runs during which the program ended before
-  /// Called after each pack, one call at a time.
+  int jobs = 1;  ///< number of parallel processes for runs during which the program ended before
+  /// Called after each pack of runs. Calls do not overlap.
   std::function<void(const Standing&)> told = [](const Standing&) {};
-  /// Called for each run with a row: first those of the journal, then each as it ends. One call at a time.
+  /// Called for each run with a row: first for the rows of the journal, then for each run that ends. Calls do not overlap.
   std::function<void(const Brief&)> ended = [](const Brief&) {};
 };
 
 class Runner {
  public:
-  /// Counts the journal's rows. Plan and journal must outlive this object.
+  /// Counts the rows of the journal. Plan and journal must outlive this object.
   Runner(const Plan& plan, Journal& journal, RunnerSettings settings);
 
-  /// Does the runs of this shard with a number below `end` that have no row. Each pack is written to the journal when it has
-  /// ended. A run during which the process ended twice is first tried in a separate process. False: `stop` was set; unfinished
-  /// runs leave no rows. Throws RunError if the journal cannot be written.
+  /// Does the runs of this shard that have a number below `end` and no row. Each pack is written to the journal when it has
+  /// ended. A run during which the process ended twice is first tried in a separate process. Returns false if `stop` was set;
+  /// unfinished runs then leave no rows. Throws RunError if the journal cannot be written.
   bool run(std::uint64_t end, std::atomic<bool>& stop);
 
   [[nodiscard]] const Standing& standing() const { return standing_; }
@@ -64,11 +64,11 @@ class Runner {
   Journal& journal_;
   RunnerSettings settings_;
   bool maximize_;
-  std::vector<bool> present_;  ///< by run
+  std::vector<bool> present_;  ///< true if the run with this index has a row
   std::uint64_t next_ = 0;
   std::string host_ = host();
   std::mutex mutex_;                       ///< guards the following members, and the journal
-  std::map<std::uint64_t, Pack> started_;  ///< by first run
+  std::map<std::uint64_t, Pack> started_;  ///< packs by their first run
   Standing standing_;
 };
 

@@ -21,14 +21,14 @@ namespace {
 
 constexpr std::array kOwnSignals{SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGSYS};
 
-/// Whether the run ends without ending this process, with any outcome.
+/// True if the simulation returns with any outcome, so that it has not terminated this process.
 bool try_run(const Plan& plan, std::uint64_t run, std::atomic<bool>& stop) {
   std::optional<Rollout> only = Rollout{run, plan.scenario(run)};
   const BatchStream stream{.next = [&] { return std::exchange(only, std::nullopt); }, .end = [](std::vector<RolloutEnd>&&) {}};
   return run_pulled(stream, {}, Loads::recorded, stop);
 }
 
-/// Signal that the process caused itself and that ended it, or 0.
+/// Signal by which the process terminated itself, or 0.
 int own_signal(int status) {
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   return std::ranges::find(kOwnSignals, signal) != kOwnSignals.end() ? signal : 0;
@@ -75,7 +75,7 @@ std::vector<Row> crashes_of(const Plan& plan, std::span<const std::uint64_t> run
     int status = 0;
     const pid_t ended = ::waitpid(-1, &status, 0);
     if (ended < 0 && errno != EINTR) break;
-    if (ended < 0) continue;  // by a signal, which may have set `stop`
+    if (ended < 0) continue;  // a signal interrupted the call, and may have set `stop`
     const auto at = children.find(ended);
     if (at == children.end()) continue;
     if (const int signal = own_signal(status); signal != 0) rows.push_back(crashed(plan, at->second, signal));

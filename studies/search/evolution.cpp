@@ -19,10 +19,10 @@ namespace {
 
 struct Answers {
   std::map<Vector, Vector> known;
-  std::vector<Vector> asked;  ///< requested points without a known value, in order
+  std::vector<Vector> asked;  ///< requested points without a known value, in the order of request
 };
 
-/// Problem with answers from a table that all copies share.
+/// Problem that takes its values from a table, which all copies of the problem share.
 struct Recorded {
   std::shared_ptr<Answers> answers = std::make_shared<Answers>();
   Vector low{0}, high{1};
@@ -37,10 +37,11 @@ struct Recorded {
   [[nodiscard]] std::pair<Vector, Vector> get_bounds() const { return {low, high}; }
 };
 
-/// Algorithm of one generation at a time, with memory. Step sizes below which cmaes and xnes would end are 0: on a flat
-/// population, with all points refused, they would end at once. Bounds are not forced: the box is mirrored instead.
+/// Algorithm that evolves one generation at a time and keeps its memory. The step sizes at which cmaes and xnes end are set to
+/// 0, because otherwise these algorithms end at once on a flat population, as when all points are refused. Bounds are not
+/// forced, because the box is mirrored instead.
 pagmo::algorithm made(const EvolutionSettings& s) {
-  constexpr double kOwn = -1;  // default of the algorithm
+  constexpr double kOwn = -1;  // selects the algorithm's default
   switch (s.algorithm) {
     case Method::xnes:
       return pagmo::algorithm(pagmo::xnes(1, kOwn, kOwn, kOwn, s.sigma, 0, 0, true, false, s.seed));

@@ -1,4 +1,4 @@
-// A population that evolves generation by generation, with external evaluation, by the algorithms of pagmo.
+// A population that evolves by an algorithm of pagmo, while the caller evaluates each generation.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -8,35 +8,37 @@
 
 namespace gaitlab::studies {
 
-/// Coordinates, or the values of the objectives.
+/// Coordinates of a point, or values of the objectives.
 using Vector = std::vector<double>;
 
 struct EvolutionSettings {
-  Method algorithm = Method::cma;  ///< one of the searches
-  Vector low, high;                ///< the box; searches may exceed it
+  Method algorithm = Method::cma;  ///< one of the search methods
+  Vector low, high;                ///< lower and upper corner of the box; the algorithm may leave the box
   unsigned seed = 1;
   double sigma = 0.25;  ///< first step of cma and xnes, as a share of the box
-  /// The first population with its values; smaller is better. No value is NaN.
+  /// The first population with its objective values. A smaller value is better, and no value is NaN.
   std::vector<Vector> points, values;
 };
 
-/// Alternate ask() and tell(). The points and the end are those of pagmo's serial evolution, bit for bit: a generation is
-/// evolved on a copy with a problem that records its requests, and again when the values are known.
+/// An evolving population, for alternate calls of ask() and tell(). Points and end agree bit for bit with pagmo's serial
+/// evolution. A copy first evolves with a problem that records the requested points. When the values of these points are known,
+/// the generation evolves again.
 class Evolution {
  public:
   virtual ~Evolution() = default;
-  /// The points of the next generation; none: the algorithm ends here.
+  /// The points of the next generation. Empty if the algorithm has ended.
   virtual std::vector<Vector> ask() = 0;
-  /// Sets the values of these points. Throws RunError if a point of the generation depends on the value of another.
+  /// Sets the values of the points from ask(). Throws RunError if a point of the generation depends on the value of another
+  /// point.
   virtual void tell(const std::vector<Vector>& values) = 0;
-  /// Points of the population.
+  /// Points of the present population.
   [[nodiscard]] virtual std::vector<Vector> points() const = 0;
   [[nodiscard]] virtual std::vector<Vector> values() const = 0;
 };
 
 std::unique_ptr<Evolution> evolution(const EvolutionSettings& settings);
 
-/// `pagmo 2.18.0`: other versions may choose other points.
+/// Name and version of the library, such as `pagmo 2.18.0`. Other versions may choose other points.
 const char* evolution_library();
 
 }  // namespace gaitlab::studies

@@ -8,7 +8,7 @@ namespace gaitlab::studies {
 namespace {
 
 constexpr double kNotKept = 1e6, kFailed = 2e6;
-constexpr double kMost = 1e5;  // magnitude up to which an objective is unchanged, and limit of a violation
+constexpr double kMost = 1e5;  // largest magnitude of an objective that remains unchanged, and largest violation
 
 double pressed(double value) {
   const double size = std::abs(value);

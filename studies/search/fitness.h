@@ -1,4 +1,4 @@
-// Fitness of a point for a search: finite numbers that keep the order of points.
+// Fitness of a point for a search: finite numbers in the order of the points.
 #pragma once
 #include <vector>
 
@@ -6,12 +6,12 @@
 
 namespace gaitlab::studies {
 
-/// Fitness by objective, smaller is better. A kept point: its objective (negated if it is maximised), compressed beyond +-1e5
-/// to below 9e5. A point that is not kept: 1e6 + its violation, at most 1e5. A failed point: 2e6 + (1 - simulated time /
-/// duration), both in s.
+/// Fitness by objective; smaller is better. A kept point has its objective, negated for maximisation; a magnitude above 1e5 is
+/// compressed to below 9e5. A point that is not kept has 1e6 + its violation, at most 1e5. A failed point has 2e6 + 1 -
+/// simulated time / duration, with both times in s.
 std::vector<double> fitness(const PointResult& point, const std::vector<JournalObjective>& objectives, double duration);
 
-/// Improvement of a value over a former best, as a share of that; for a better kind (kept, not kept, failed): 1.
+/// Relative improvement of a value over a former best value. It is 1 if the point is of a better kind (failed, not kept, kept).
 double fitness_gain(double former, double value);
 
 }  // namespace gaitlab::studies

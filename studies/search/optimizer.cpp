@@ -26,7 +26,8 @@ SearchSettings search_settings(const Study& study, std::uint64_t number) {
           .number = number};
 }
 
-/// Values of all parameters in the form of --set: a combination of the listed values, and a point in the box of the others.
+/// Values of all parameters in the form of --set, from a combination of the listed values and a point in the box of the
+/// remaining parameters.
 std::vector<std::string> values_at(const Study& study, std::size_t combination, const Vector& point) {
   std::vector<std::string> values(study.parameters.size());
   std::size_t coordinate = point.size();
@@ -47,7 +48,7 @@ struct Course {
   Search search;
   std::size_t combination;
   std::vector<std::uint64_t> points = {};
-  std::uint64_t first = 0, added = 0;  ///< points requested for the first time
+  std::uint64_t first = 0, added = 0;  ///< number of the first new point, and number of new points
 };
 
 class Optimizer {
@@ -86,7 +87,7 @@ class Optimizer {
 
   std::vector<bool> present() { return journal_.present(plan_.most_runs()); }
 
-  /// Adds the points that the searches request. False: the budget ends within this generation.
+  /// Adds the points that the searches request. Returns false if the budget ends within this generation.
   bool ask() {
     for (std::size_t s = 0; s < courses_.size(); ++s) {
       Course& course = courses_[s];
@@ -107,7 +108,7 @@ class Optimizer {
     return true;
   }
 
-  /// Checks that the journal's first new run belongs to the requested point.
+  /// Checks that the first new run of a search is at the requested point, if the journal contains that run already.
   void check(std::uint64_t first) {
     const std::uint64_t run = first * plan_.points().runs_of_point();
     if (run >= added_ * plan_.points().runs_of_point() || !before_[run]) return;
@@ -166,11 +167,11 @@ class Optimizer {
 
   Plan& plan_;
   Journal& journal_;
-  std::vector<Brief> answers_;  ///< by run
+  std::vector<Brief> answers_;  ///< results by run number
   Runner runner_;
-  std::vector<bool> before_;  ///< runs in the journal at the start
+  std::vector<bool> before_;  ///< true if the journal contains the run with this index at the start
   std::vector<Course> courses_;
-  std::map<std::vector<std::string>, std::uint64_t> memo_;  ///< points by their values
+  std::map<std::vector<std::string>, std::uint64_t> memo_;  ///< numbers of points by their values
   std::uint64_t added_ = 0;                                 ///< number of points
 };
 

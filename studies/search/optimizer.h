@@ -1,4 +1,4 @@
-// Runner of a study's searches: turns their points into runs, and returns the results to them.
+// Runner of a study's searches, which turns their points into runs and returns the results to them.
 #pragma once
 #include "studies/run/runner.h"
 
@@ -6,17 +6,18 @@ namespace gaitlab::studies {
 
 /// Progress of the searches.
 struct SearchPlace {
-  std::uint64_t searches = 0, generation = 0, restart = 0;  ///< of the most advanced search
-  std::uint64_t asked = 0;                                  ///< runs of this generation
+  /// Number of searches; generation and restart of the most advanced search.
+  std::uint64_t searches = 0, generation = 0, restart = 0;
+  std::uint64_t asked = 0;  ///< runs of this generation
 };
 
 enum class SearchEnd { budget, converged, stopped };
 
-/// Runs the searches. Each search proceeds independently; their generations run side by side. Parameters with lists of values
-/// have a search for every combination of these. A point that was requested before is not run again. Only the journal is kept
-/// between two calls: a second call makes the same requests and finds the answers there. `told`: called before each generation.
-/// Throws InputError if the journal's points are not those of the searches (another version of pagmo), RunError if the journal
-/// cannot be written.
+/// Runs the searches of a study. Searches are independent, and their generations run side by side. If parameters have lists of
+/// values, each combination of these values has a separate search. A point that was requested before is not simulated again.
+/// Only the journal remains between two calls: a second call makes the same requests and finds their results there. `told` is
+/// called before each generation. Throws InputError if the points in the journal are not those of the searches, as after a
+/// change of pagmo. Throws RunError if the journal cannot be written.
 SearchEnd run_searches(Plan& plan, Journal& journal, RunnerSettings settings,
                        const std::function<void(const SearchPlace&)>& told, std::atomic<bool>& stop);
 

@@ -25,7 +25,7 @@ double within(double coordinate) {
   return std::round(kDigits * (folded > 1 ? 2 - folded : folded)) / kDigits;
 }
 
-/// Indices ordered by the number of points that dominate each; equal ones in their order.
+/// Indices in the order of the number of points that dominate each. Points with equal numbers keep their order.
 std::vector<std::size_t> best_first(const std::vector<Vector>& values) {
   std::vector<std::size_t> behind(values.size());
   for (std::size_t k = 0; k < values.size(); ++k) {

@@ -18,11 +18,11 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kResamples = 500;
-constexpr std::uint64_t kBootstrapDraw = 111;  // the first word of its hashes
+constexpr std::uint64_t kBootstrapDraw = 111;  // purpose number, the first word of each hash
 
 using Blocks = std::vector<std::size_t>;  ///< numbers of blocks, possibly repeated
 
-/// Blocks in which every point has a value.
+/// Numbers of the blocks in which every point has a value.
 Blocks whole_blocks(std::span<const double> values, std::size_t size) {
   Blocks whole;
   for (std::size_t b = 0; (b + 1) * size <= values.size(); ++b) {
@@ -32,7 +32,7 @@ Blocks whole_blocks(std::span<const double> values, std::size_t size) {
   return whole;
 }
 
-/// Estimates from a resample, by measure and parameter, in sequence.
+/// Function that estimates all measures from a resample: measure by measure, with one number per parameter.
 using Estimator = std::function<std::vector<double>(const Blocks&)>;
 
 void estimate(Sensitivity& found, const Blocks& used, const Estimator& estimator, std::size_t parameters) {
@@ -86,7 +86,7 @@ std::vector<double> elementary_effects(std::uint64_t seed, std::size_t n, std::s
   return effects;
 }
 
-/// mu*, mu, sigma of the drawn trajectories.
+/// Measures mu*, mu and sigma of the drawn trajectories.
 std::vector<double> morris_measures(const std::vector<double>& effects, std::size_t n, const Blocks& drawn) {
   std::vector<double> measures(3 * n, kNone);
   if (drawn.empty()) return measures;
@@ -108,20 +108,20 @@ std::vector<double> morris_measures(const std::vector<double>& effects, std::siz
   return measures;
 }
 
-/// Total indices, then first-order indices, of the drawn rows.
+/// Total indices, then first-order indices, from the drawn rows.
 std::vector<double> jansen(std::span<const double> values, std::size_t n, const Blocks& drawn) {
   std::vector<double> measures(2 * n, kNone);
   if (drawn.size() < 2) return measures;
   const auto rows = static_cast<double>(drawn.size());
   double mean = 0;
   for (const std::size_t row : drawn) mean += (values[row * (n + 2)] + values[row * (n + 2) + 1]) / (2 * rows);
-  double variance = 0;  // over A and B together
+  double variance = 0;  // variance of A and B together
   for (const std::size_t row : drawn) {
     const double a = values[row * (n + 2)] - mean;
     const double b = values[row * (n + 2) + 1] - mean;
     variance += (a * a + b * b) / (2 * rows - 1);
   }
-  // Smaller differences are rounding.
+  // A smaller variance is rounding.
   constexpr double kRounding = 1e-24;
   if (!(variance > kRounding * mean * mean) || !(variance > 0)) return measures;
   for (std::size_t p = 0; p < n; ++p) {
@@ -149,7 +149,7 @@ std::string method_of(const JournalHead& head) {
   return head.definition.substr(from, head.definition.find('\n', from) - from);
 }
 
-/// An output: its values at the points, by number.
+/// An output of the study, with its values by point number.
 struct Output {
   std::string name, unit;
   std::vector<double> values;
@@ -160,7 +160,7 @@ std::string unit_of(const JournalHead& head, const std::string& name) {
   return quantity == head.quantities.end() ? "" : quantity->unit;
 }
 
-/// Mean over the replicates of each point; not known if it is unknown for one of them.
+/// Mean over the replicates of each point. NaN if the value is unknown for any replicate.
 std::vector<double> means(Journal& journal, const std::string& column, std::size_t points) {
   const std::uint64_t replicates = journal.head().replicates;
   std::vector<double> sums(points, 0.0);
@@ -206,7 +206,7 @@ std::vector<Sensitivity> sensitivities(Journal& journal, const Results& results)
   for (const JournalParameter& p : head.parameters) {
     if (!p.drawn) keys.push_back(p.key);
   }
-  constexpr std::uint64_t kMostPoints = 1U << 28U;  // a journal with more was not written by this program
+  constexpr std::uint64_t kMostPoints = 1U << 28U;  // this program never writes a journal with more points
   const std::uint64_t all = head.runs / head.replicates;
   if (keys.empty() || all > kMostPoints) return {};
   const auto points = static_cast<std::size_t>(all);

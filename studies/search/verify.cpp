@@ -15,7 +15,7 @@ namespace gaitlab::studies {
 
 namespace {
 
-/// Another way to run a point; `sets`: settings for one of its runs.
+/// Another way to run a point. `sets` gives the settings for one of its runs.
 struct Way {
   std::string what;
   std::vector<std::string> (*sets)(const Plan& plan, std::uint64_t run);
@@ -36,7 +36,7 @@ std::vector<Way> ways(const Plan& plan) {
   return ways;
 }
 
-/// Largest difference of a coordinate as a share of its range; 1 for different words.
+/// Largest difference between two points in a coordinate, as a share of its range. Different listed values give 1.
 double apart(const Study& study, const std::vector<std::string>& a, const std::vector<std::string>& b) {
   double most = 0;
   for (std::size_t k = 0; k < study.parameters.size(); ++k) {
@@ -54,9 +54,10 @@ double apart(const Study& study, const std::vector<std::string>& a, const std::v
   return most;
 }
 
-constexpr const char* kEvidence = "margin.evidence";  // below 0: evidence is missing
+constexpr const char* kEvidence = "margin.evidence";  // a negative margin means that evidence is missing
 
-/// Reason in a verdict, which need not be among the guards, not to verify a point, or "". `why`: the sentence after its word.
+/// Reason in a verdict not to verify a point, even if the check is not a guard; "" without a reason. `why` is the sentence
+/// after the word.
 std::string doubt(const std::string& word, double evidence, const std::string& why) {
   const std::string end = why.empty() ? "" : ": " + why;
   if (word == "infeasible") return "the verdict is infeasible" + end;
@@ -68,10 +69,10 @@ double evidence(const Plan& plan, const Row& row) {
   return row.quantities.at(static_cast<std::size_t>(at - plan.columns().begin()));
 }
 
-/// `in rubble: ` for a row, if the study has several scenarios.
+/// Text such as `in rubble: ` for a row, or "" if the study has only one scenario.
 std::string in_scenario(const Row& row) { return row.scenario.empty() ? "" : "in " + row.scenario + ": "; }
 
-/// Reason not to verify a point, or "".
+/// Reason not to verify a point, or "" if the point is verified.
 std::string reason(const Plan& plan, const std::vector<Row>& rows, const PointResult& was, const PointResult& is) {
   std::string why;
   const auto add = [&](const std::string& text) { why += (why.empty() ? "" : "; ") + text; };
@@ -95,7 +96,7 @@ std::string reason(const Plan& plan, const std::vector<Row>& rows, const PointRe
     if (breaks) add(in_scenario(row) + fmt::format("{}", fmt::join(broken, ", ")));
     const bool said = breaks && std::ranges::find(broken, of_verdict) != broken.end();
     if (!doubted.empty() && !said) add(in_scenario(row) + doubted);
-    break;  // only the first of several replicates
+    break;  // only the first failing replicate is described
   }
   return why;
 }

@@ -13,13 +13,13 @@ namespace {
 
 constexpr const char* kSets = " sets ";
 
-/// Text on one line.
+/// The text on a single line.
 std::string flat(std::string text) {
   std::ranges::replace(text, '\n', ' ');
   return text;
 }
 
-/// Names for expressions: the numeric parameters, by their index.
+/// Names for use in expressions: the numeric parameters, by their index.
 Names numbers_of(const std::vector<Parameter>& parameters) {
   return [&parameters](const std::string& name, const std::string& joint) -> Naming {
     std::vector<std::string> known;
@@ -45,7 +45,8 @@ Followers::Followers(const std::vector<Parameter>& parameters, Problems& problem
 
 std::vector<std::pair<std::string, std::string>> Followers::settings(const std::vector<std::string>& values) const {
   std::vector<double> numbers;
-  for (const std::string& value : values) numbers.push_back(number_of(value));  // words are not used in expressions
+  // Words become 0 and are not used in expressions.
+  for (const std::string& value : values) numbers.push_back(number_of(value));
   std::vector<std::pair<std::string, std::string>> settings;
   for (std::size_t k = 0; k < all_.size(); ++k) {
     if (all_[k].sets.empty()) settings.emplace_back(all_[k].key, values[k]);

@@ -9,27 +9,27 @@
 
 namespace gaitlab::studies {
 
-/// Settings made by the parameters of a study: a parameter that is a key of the scenario sets it; a free parameter sets the
-/// keys that follow it, each by an expression over all parameters.
+/// Settings that the parameters of a study define. A parameter that is a key of the scenario sets that key. A free parameter
+/// sets each of its followers by an expression over all parameters.
 class Followers {
  public:
-  /// Faults of expressions are added to the problems at their places; then this object must not be used.
+  /// Adds the faults of expressions to the problems at their places. After a fault, this object must not be used.
   Followers(const std::vector<Parameter>& parameters, Problems& problems);
 
-  /// Key and value of each setting of a point, from the values of its parameters.
+  /// Key and value of each setting of a point, computed from the values of its parameters.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> settings(const std::vector<std::string>& values) const;
 
  private:
   struct One {
     std::string key;
-    std::vector<std::pair<std::string, Formula>> sets = {};  ///< empty: the key is the scenario's
+    std::vector<std::pair<std::string, Formula>> sets = {};  ///< empty if `key` is a key of the scenario
   };
   std::vector<One> all_;
 };
 
-/// Lines of a definition for the keys that follow a parameter: `legs sets cpg.offset: 0.3*legs - 0.1`.
+/// Lines of a definition for the keys that follow a parameter, as in `legs sets cpg.offset: 0.3*legs - 0.1`.
 std::string followers_text(const Parameter& parameter);
-/// Sets the followers of a journal's parameters from its definition.
+/// Sets the followers of a journal's parameters from the text of its definition.
 void read_followers(std::vector<Parameter>& parameters, const std::string& definition);
 
 }  // namespace gaitlab::studies

@@ -61,7 +61,7 @@ double Formula::value(const Term& term, std::span<const double> quantities) {
   std::array<double, 3> operands{};
   for (std::size_t k = 0; k < term.arguments.size(); ++k) {
     operands[k] = value(term.arguments[k], quantities);
-    // A comparison with NaN would be false, and a prohibition without effect.
+    // A comparison with NaN would be false and its negation true; the result is NaN instead.
     if (std::isnan(operands[k])) return std::numeric_limits<double>::quiet_NaN();
   }
   double result = 0;
@@ -81,7 +81,7 @@ std::vector<std::pair<std::string, std::string>> named_joints(const std::string&
   std::vector<std::pair<std::string, std::string>> found;
   try {
     collect_joints(expression::parse(text, expression::Names::figures), found);
-  } catch (const expression::Fault&) {  // reported where the formula is made
+  } catch (const expression::Fault&) {  // the constructor of Formula reports this fault
   }
   return found;
 }

@@ -12,13 +12,13 @@
 
 namespace gaitlab::studies {
 
-/// Text of an expression, with its place.
+/// Text of an expression, with its place in the file.
 struct Text {
   std::string text;
-  Node node;  ///< a scalar, for places within it
+  Node node;  ///< a scalar node, from which places within the text are computed
 };
 
-/// Result of looking up a name: number of a quantity's column, or an error message (`joint` empty: none was given).
+/// Result of the lookup of a name: column number of a quantity, or an error message.
 struct Naming {
   std::optional<std::size_t> column;
   std::string wrong = {};
@@ -29,19 +29,19 @@ using Names = std::function<Naming(const std::string& name, const std::string& j
 class Formula {
  public:
   Formula() = default;
-  /// Every fault is added to the problems at its place; then the formula must not be used.
+  /// Adds every fault to the problems at its place. After a fault, the formula must not be used.
   Formula(const Text& text, const Names& names, Problems& problems);
-  /// `quantities` by column; the result is NaN if one that it needs is not known.
+  /// Value of the expression for `quantities` by column. NaN if a quantity that it needs is not known.
   [[nodiscard]] double value(std::span<const double> quantities) const { return value(term_, quantities); }
-  /// Whether the expression is a comparison with this sign.
+  /// True if the expression is a comparison with this sign.
   [[nodiscard]] bool compares(const char* sign) const {
     return term_.kind == expression::Term::Kind::call && term_.name == sign;
   }
-  /// Value of one operand of an operator or call.
+  /// Value of one operand of the outermost operator or call.
   [[nodiscard]] double operand(std::size_t number, std::span<const double> quantities) const {
     return value(term_.arguments[number], quantities);
   }
-  /// Whether it contains this quantity, of any joint.
+  /// True if the expression contains this quantity, for any joint.
   [[nodiscard]] bool names(const std::string& quantity) const { return names(term_, quantity); }
 
  private:
@@ -50,10 +50,10 @@ class Formula {
   [[nodiscard]] static double value(const Term& term, std::span<const double> quantities);
   [[nodiscard]] static bool names(const Term& term, const std::string& quantity);
 
-  Term term_;  ///< `number` of a name is its quantity's column
+  Term term_;  ///< the `number` of a name is the column of its quantity
 };
 
-/// Quantities per joint in a text, as far as it can be parsed.
+/// Quantities per joint in a text, as (quantity, joint), as far as the text can be parsed.
 std::vector<std::pair<std::string, std::string>> named_joints(const std::string& text);
 
 }  // namespace gaitlab::studies

@@ -13,7 +13,7 @@ namespace gaitlab::studies {
 
 namespace {
 
-/// Old name of a guard, from before guards were checks.
+/// Old name of a guard, from versions in which guards were quantities instead of checks.
 struct OldGuard {
   const char *name, *check;
   enum class Means { limit, at_most_a_flag, at_least_a_flag, nothing_new, other } means;
@@ -40,7 +40,7 @@ const OldGuard* old_guard(const std::string& name) {
   return found == kOldGuards.end() ? nullptr : &*found;
 }
 
-/// `stops: 0.1`, `stops: {margin: 0.1}` ...
+/// Text of a guard, such as `stops: 0.1` or `stops: {margin: 0.1}`.
 std::string guard_text(const Guard& guard) {
   switch (guard.asks) {
     case Guard::Asks::limit:

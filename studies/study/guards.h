@@ -1,4 +1,4 @@
-// Guards: the checks of the verdict that a run of a study must keep.
+// Guards: the checks of the verdict that a run of a study must pass.
 #pragma once
 #include <span>
 #include <string>
@@ -9,57 +9,60 @@
 
 namespace gaitlab::studies {
 
-/// A check of the verdict. Its margin is the quantity `margin.ID` of every run: 0 or more if it is kept.
+/// A check of the verdict. Its margin is the quantity `margin.ID` of every run; 0 or more means that the check passes.
 struct CheckOffer {
   std::string id, unit, definition;
-  bool can_fail = false;  ///< false: it only warns
-  bool limited = false;   ///< whether a guard may replace its limit, in `unit`
+  bool can_fail = false;  ///< false if the check can only warn
+  bool limited = false;   ///< true if a guard may replace the limit of the check by another one, in `unit`
 };
 
-/// Reads the value of the key `guards`: verdict, none, or checks by id. Old names become ids, with a note in the study.
+/// Reads the value of the key `guards`: `verdict`, `none`, or checks by id. An old name is replaced by its id, with a note in
+/// the study.
 void read_guards(const Node& node, Study& study, Problems& problems);
 
 /// Old names of guards that are still accepted.
 std::vector<std::string> old_guards();
 
-/// `margin.stops`; `margin.stops[0.1]` with the study's limit instead of the check's.
+/// Column with the margin of a guard: `margin.stops`, or `margin.stops[0.1]` if the study replaces the limit of the check by
+/// 0.1.
 std::string margin_column(const Guard& guard);
 
-/// A guard on a quantity, which must be at least `least`; an unknown quantity (of motors, in a robot without motors) counts as
-/// kept.
+/// A guard on a quantity, which must be at least `least`. An unknown quantity satisfies the guard, such as a motor's margin in
+/// a robot without motors.
 struct MarginGuard {
-  std::string check, name;  ///< name: of the quantity
+  std::string check, name;  ///< id of the check, and name of the quantity with its margin
   std::size_t column = 0;
   double least = 0;
-  bool of_verdict = false;  ///< a check of the verdict's word; false: named by the study
+  bool of_verdict = false;  ///< true for a check that decides the verdict; false for a check that the study names
   [[nodiscard]] double broken(std::span<const double> quantities) const;
 };
 
-/// The guards of one study, by the columns of its journal.
+/// The guards of one study, with the columns of its journal.
 class Guards {
  public:
   Guards() = default;
-  /// `columns`: names. Unknown checks are problems at their places. `of_energy`: whether an objective is the electrical cost of
-  /// transport, for which the energy that gears create is guarded also.
+  /// Selects the guards. `columns` are names. Unknown checks are problems at their places. `of_energy` is true if an objective
+  /// is the electrical cost of transport; the energy that gears create is then guarded as well.
   Guards(const Study& study, const std::vector<std::string>& columns, std::span<const CheckOffer> checks, bool of_energy,
          Problems& problems);
 
-  /// Sum over the guards of the shortfall of each margin; 1 if the verdict is not `feasible` and no margin falls short. 0: no
-  /// guard is broken.
+  /// Sum over the guards of the amount by which each margin is too small. It is 1 if the verdict is not `feasible` although no
+  /// margin is too small, and 0 if all guards are satisfied.
   [[nodiscard]] double violation(std::span<const double> quantities, const std::string& verdict) const;
-  /// The guards that a run breaks; `why`: the sentence after its verdict.
+  /// Texts of the guards that a run violates. `why` is the sentence after its verdict.
   [[nodiscard]] std::vector<std::string> broken(std::span<const double> quantities, const std::string& verdict,
                                                 const std::string& why) const;
-  /// Relations over columns, `margin.stops >= 0`; for a verdict with checks that the study replaces, a sentence.
+  /// Relations over columns, as in `margin.stops >= 0`. For a verdict with checks that the study replaces, the text is a
+  /// sentence.
   [[nodiscard]] std::vector<std::string> texts() const;
 
  private:
-  /// Whether an infeasible verdict fails only by checks whose limits the study replaces.
+  /// True if the verdict is infeasible only because of checks that the study replaces.
   [[nodiscard]] bool made_up_for(std::span<const double> quantities, const std::string& verdict) const;
 
   bool verdict_ = false;
   std::vector<MarginGuard> all_;
-  std::vector<MarginGuard> replaced_;  ///< checks of the verdict that the study replaces, with the verdict's limits
+  std::vector<MarginGuard> replaced_;  ///< checks of the verdict that the study replaces, with their original limits
 };
 
 }  // namespace gaitlab::studies

@@ -1,4 +1,4 @@
-// Scoring of the run of a point: its objectives and its violation of constraints and guards.
+// Score of a run: its objectives, and its violation of constraints and guards.
 #pragma once
 #include <array>
 #include <span>
@@ -13,61 +13,61 @@
 
 namespace gaitlab::studies {
 
-/// A quantity: a column of the journal.
+/// A quantity, stored as a column of the journal.
 struct Quantity {
   std::string name, unit, meaning;
 };
 
 /// Quantities and checks that the program offers.
 struct QuantityOffer {
-  std::vector<Quantity> common;     ///< of every run
-  std::vector<Quantity> of_joints;  ///< names that accept [JOINT]
-  std::vector<CheckOffer> checks;   ///< of the verdict, in its order
-  /// Names of quantities known during a run, with and without [JOINT]; and the function that computes them from the recording
-  /// so far.
+  std::vector<Quantity> common;     ///< quantities that every run has
+  std::vector<Quantity> of_joints;  ///< quantities whose names accept [JOINT]
+  std::vector<CheckOffer> checks;   ///< checks of the verdict, in its order
+  /// Names of the quantities that are known during a run, with and without [JOINT]. `value_so_far` computes such a quantity
+  /// from the recording so far.
   std::vector<std::string> so_far = {};
   std::function<double(const std::string& name, const std::string& joint, const Scenario& scenario, const Recording& so_far)>
       value_so_far = {};
 };
 
-/// The quantities of one run, by column, NaN if not known; the word of its verdict, and the sentence after it.
+/// Quantities of one run by column, NaN if not known, with the word of its verdict and the sentence after that word.
 struct Judged {
   std::vector<double> quantities;
   std::string verdict, why;
 };
-/// Function that judges a run, with the parts of its recording that it needs. May be called from several threads at once.
+/// Function that judges a run, with the parts of the recording that the function reads. Several threads may call it at once.
 struct Measure {
   std::function<Judged(const Scenario&, const Recording&)> judged;
   Records reads;
   Judged operator()(const Scenario& scenario, const Recording& recording) const { return judged(scenario, recording); }
 };
 
-/// A limit: a constraint, or a guard.
+/// A limit of a study: a constraint or a guard.
 struct Limit {
-  std::string text;  ///< `torque.rms <= 0.6`
+  std::string text;  ///< text, as in `torque.rms <= 0.6`
   bool guard = false;
 };
 
 struct Score {
-  std::array<double, kMostObjectives> objectives{};  ///< by objective of the study; NaN: not known
-  double violation = 0;                              ///< sum over constraints and guards of their relative violations; 0: none
+  std::array<double, kMostObjectives> objectives{};  ///< values by objective of the study; NaN if not known
+  double violation = 0;  ///< sum of the relative violations of constraints and guards, plus 1 for each unknown objective
   [[nodiscard]] double objective() const { return objectives[0]; }
   [[nodiscard]] bool kept() const { return violation == 0; }
 };
 
-/// Scores runs of one study. A constraint with unknown quantities counts as broken by 1; a guard on a margin that the run does
-/// not have (of motors, in a robot without motors) does not count.
+/// Scores the runs of one study. A constraint with an unknown quantity counts as a violation of 1. A guard does not count if
+/// the run lacks its margin, such as a motor's margin in a robot without motors.
 class Judge {
  public:
-  /// `columns` of the journal, in order. Faults of expressions and unknown quantities are problems at their places.
+  /// `columns` are those of the journal, in order. Faulty expressions and unknown quantities are problems at their places.
   Judge(const Study& study, const std::vector<Quantity>& columns, const QuantityOffer& offer,
         const std::vector<std::string>& joints, Problems& problems);
 
   [[nodiscard]] Score score(std::span<const double> quantities, const std::string& verdict) const;
-  /// Constraints and guards that a run breaks, `torque.rms <= 0.6 (0.7)`; `why`: the sentence after its verdict.
+  /// Constraints and guards that a run violates, as in `torque.rms <= 0.6 (0.7)`. `why` is the sentence after the verdict.
   [[nodiscard]] std::vector<std::string> broken(std::span<const double> quantities, const std::string& verdict,
                                                 const std::string& why) const;
-  /// Constraints, then guards.
+  /// All limits of the study: constraints, then guards.
   [[nodiscard]] std::vector<Limit> limits() const;
   [[nodiscard]] const std::vector<std::string>& objectives() const { return objective_texts_; }
 
@@ -84,15 +84,15 @@ class Judge {
   Guards guards_;
 };
 
-/// Violation of a relation a <= b, a >= b or a == b; in a guard an unknown value does not count.
+/// Violation of a relation a <= b, a >= b or a == b. In a guard, an unknown a gives 0.
 double broken(const Formula& relation, std::span<const double> quantities, bool guard = false);
 
-/// Violation of a limit: max(0, value - limit) / |limit| (limit 0: divided by 1); `least`: with the opposite sign; 1 for an
-/// unknown value.
+/// Relative violation of an upper limit: max(0, value - limit) / |limit|, or max(0, value - limit) if the limit is 0. If
+/// `least` is true, the limit is a lower one. An unknown value or limit gives 1.
 double broken(double value, double limit, bool least);
 
-/// Columns of a journal: all quantities of every run, and the quantities of single joints that the study names. Judge reports
-/// unknown joints.
+/// Columns of a journal: all quantities of every run, and the quantities of single joints that the study names. Unknown joints
+/// are omitted here, because Judge reports them.
 std::vector<Quantity> columns_of(const Study& study, const QuantityOffer& offer, const std::vector<std::string>& joints);
 
 }  // namespace gaitlab::studies

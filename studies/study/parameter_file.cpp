@@ -1,4 +1,4 @@
-// Parts of a study file that vary: parameters, replicates, and options of the command line.
+// Reader of the parts of a study file that vary (parameters, replicates), and of the corresponding command-line options.
 #include "studies/study/parameter_file.h"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ namespace gaitlab::studies {
 
 namespace {
 
-/// Reads a list of values, numbers or words, in the form of --set.
+/// Reads a list of values (numbers or words) in the form of --set.
 void read_values(const Node& list, const std::string& what, std::vector<std::string>& values, bool& words, Problems& problems) {
   if (list.kind != Node::Kind::list || list.items.empty()) {
     problems.add(list.place, what + " is " + (list.items.empty() && list.kind == Node::Kind::list ? "empty" : found(list)) +
@@ -47,11 +47,11 @@ void check_range(const Parameter& p, const SourceLocation& place, const std::str
   }
 }
 
-/// Reads followers: {cpg.offset: 0.3*legs - 0.1}
+/// Reads followers, as in {cpg.offset: 0.3*legs - 0.1}.
 void read_followers_of(const Node& node, Parameter& parameter, Problems& problems) {
   const std::string& name = parameter.key;
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-  constexpr std::array<std::string_view, 4> kTaken{"pi", "and", "or", "not"};  // in expressions
+  constexpr std::array<std::string_view, 4> kTaken{"pi", "and", "or", "not"};  // names that expressions use
   if (!is_name(name, "_") || !letter(name[0]) || std::ranges::find(kTaken, name) != kTaken.end()) {
     problems.add(
         parameter.place,
@@ -106,7 +106,7 @@ void read_parameters(const Node& node, Study& study, Problems& problems) {
 
 namespace {
 
-/// Two numbers of a law, into v.a and v.b. expected: the law with names for them.
+/// Reads the two numbers of a law into v.a and v.b. `expected` is the text of the law with names for the numbers.
 void read_pair(const Node& list, Variation& v, const char* expected, Problems& problems) {
   const bool two = list.kind == Node::Kind::list && list.items.size() == 2;
   for (std::size_t k = 0; k < 2; ++k) {
@@ -119,7 +119,7 @@ void read_pair(const Node& list, Variation& v, const char* expected, Problems& p
   }
 }
 
-/// A normal law on `node`, cut at low and high.
+/// Reads a normal law, truncated at low and high.
 void read_normal(const Node& node, const Node& normal, double low, double high, Variation& v, Problems& problems) {
   v.law = Variation::Law::normal;
   read_pair(normal, v, "normal: [MEAN, DEVIATION]", problems);
@@ -221,7 +221,7 @@ Node scalar(const std::string& text, const SourceLocation& place) {
   return node;
 }
 
-/// LOW, HIGH and, of a grid, N.
+/// Reads LOW, HIGH and, for a grid, N.
 void read_range(const std::vector<std::string>& parts, bool drawn, Parameter& parameter, Problems& problems) {
   const Reading<double> low = read_number(scalar(parts[0], parameter.place), "");
   const Reading<double> high = read_number(scalar(parts[1], parameter.place), "");

@@ -11,7 +11,8 @@ namespace gaitlab::studies {
 void read_parameters(const Node& node, Study& study, Problems& problems);
 void read_replicates(const Node& node, Replicates& replicates, Problems& problems);
 
-/// Reads `--grid KEY=A:B:N`, `KEY=log:A:B:N`, `KEY=v,v,v` (`drawn`: `--random KEY=A:B`, `log:A:B`, `v,v,v`).
+/// Reads an option `--grid KEY=A:B:N`, `KEY=log:A:B:N` or `KEY=v,v,v`; if `drawn`, `--random KEY=A:B`, `KEY=log:A:B` or
+/// `KEY=v,v,v`.
 Parameter read_parameter(const std::string& option, const std::string& text, bool drawn, Problems& problems);
 
 }  // namespace gaitlab::studies

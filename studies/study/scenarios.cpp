@@ -13,7 +13,7 @@ namespace gaitlab::studies {
 
 namespace {
 
-constexpr std::string_view kDocument = "--- # scenario ";  // not the beginning of a line in a resolved scenario
+constexpr std::string_view kDocument = "--- # scenario ";  // no line of a resolved scenario begins with this text
 
 bool alike(const Problem& a, const Problem& b) { return a.text == b.text && to_string(a.place) == to_string(b.place); }
 
@@ -27,7 +27,7 @@ std::vector<std::string> joints_of(const Scenario& scenario) {
   return names;
 }
 
-/// The problems of a scenario that a study file names, without quotes from it.
+/// The problems of a scenario that a study file names, without quotes of the scenario's lines.
 InputError without_quotes(const InputError& error, const std::filesystem::path& study, const std::string& scenario) {
   Problems found;
   Problems told;

@@ -1,4 +1,4 @@
-// The scenarios of a study: one, or several with names; every point runs in each.
+// The scenarios of a study, in each of which every point runs.
 #pragma once
 #include <map>
 #include <memory>
@@ -10,24 +10,25 @@
 
 namespace gaitlab::studies {
 
-/// A scenario of a study, read once.
+/// A scenario of a study, read from its file once.
 struct StudyScenario {
-  std::string name;  ///< empty: the only one
+  std::string name;  ///< empty if the study has only one scenario
   std::unique_ptr<ScenarioTemplate> file = {};
-  Scenario nominal = {};      ///< with the study's settings
-  std::string resolved = {};  ///< the same as text
+  Scenario nominal = {};      ///< scenario with the settings that the study applies to all runs
+  std::string resolved = {};  ///< `nominal` as text
   std::vector<std::string> joints = {};
-  std::map<std::string, double> nominal_values = {};  ///< of keys that vary by a factor
+  std::map<std::string, double> nominal_values = {};  ///< values of the keys that variations multiply by a factor
   std::vector<std::string> other_engine = {};         ///< settings that select the engine of `verify`, with its default step
 };
 
 /// Reads the scenarios with the study's settings. Throws InputError with every problem found.
 std::vector<StudyScenario> read_scenarios(const Study& study, Catalog& catalog);
 
-/// Reports an error of a setting as an error of the parameter or variation that makes it, at its place in the study.
+/// Reports an error in a setting as an error of the parameter or variation that defines the setting, at its place in the study.
 void add_as_written(const InputError& error, const Study& study, Problems& problems);
 
-/// `found`: per scenario. A problem of all scenarios is reported once, one of some scenarios with their names.
+/// Adds the problems found in each scenario. A problem of all scenarios is added once. A problem of only some scenarios is
+/// added with their names.
 void add_of_each(const std::vector<StudyScenario>& scenarios, const std::vector<Problems>& found, Problems& problems);
 
 /// A resolved scenario with its name.
@@ -35,9 +36,10 @@ struct ScenarioText {
   std::string name, text;
 };
 
-/// Text in a journal: for several scenarios a document each, below a line `--- # scenario NAME`; for a single one its text.
+/// Text in a journal. A single scenario is its resolved text. Several scenarios are one document each, below a line `--- #
+/// scenario NAME`.
 std::string scenarios_text(const std::vector<StudyScenario>& scenarios);
-/// The scenarios of such a text; empty: it is the text of a single one.
+/// The scenarios of a text by scenarios_text(). Empty if the text is that of a single scenario.
 std::vector<ScenarioText> scenario_texts(const std::string& text);
 
 }  // namespace gaitlab::studies

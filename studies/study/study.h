@@ -1,4 +1,4 @@
-// A study as written by the user: the points of a scenario to run, their number of runs, and their objectives.
+// A study as written by the user: a scenario's points to run, their number of runs, and their objectives.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -17,41 +17,41 @@ namespace studies {
 /// A key of the scenario that is computed from a free parameter of the study.
 struct Follower {
   std::string key;
-  Text expression;  ///< over the parameters
+  Text expression;  ///< expression over the parameters
   SourceLocation place = {};
 };
 
 /// A quantity that varies from point to point: a key of the scenario, or a free parameter from which keys are computed.
 struct Parameter {
-  std::string key;                  ///< as for --set; of a free parameter: its name
-  std::vector<std::string> values;  ///< listed values; empty: low to high
-  bool words = false;               ///< values that are not numbers
+  std::string key;                  ///< key in the form of --set, or the name of a free parameter
+  std::vector<std::string> values;  ///< listed values; empty if the values range from low to high
+  bool words = false;               ///< true if the values are not numbers
   double low = 0, high = 0;
-  bool log = false;        ///< evenly spaced in the logarithm
-  std::int64_t count = 0;  ///< number of values in a grid, from low to high; 0: drawn
+  bool log = false;        ///< true if values are evenly spaced in their logarithm
+  std::int64_t count = 0;  ///< number of grid values from low to high; 0 if values are drawn
   SourceLocation place = {};
-  std::vector<Follower> sets = {};  ///< keys computed from it; empty: it is a key itself
+  std::vector<Follower> sets = {};  ///< keys computed from a free parameter; empty if `key` is a key of the scenario
 
   [[nodiscard]] bool in_grid() const { return !values.empty() || count > 0; }
 };
 
-/// A key of the scenario that is drawn anew for each replicate, with the same draws for every point.
+/// A key of the scenario that is drawn anew for each replicate. Every point has the same draws.
 struct Variation {
   enum class Law { normal, uniform, values };
   std::string key;
   Law law = Law::uniform;
-  double a = 0, b = 0;              ///< mean and deviation, or the ends
-  std::optional<double> low, high;  ///< draws outside are repeated
-  bool times = false;               ///< as a factor on the point's value
+  double a = 0, b = 0;              ///< mean and standard deviation of a normal law, or ends of a uniform law
+  std::optional<double> low, high;  ///< limits of a draw; a draw outside is repeated
+  bool times = false;               ///< true if the draw multiplies the point's value
   std::vector<std::string> values = {};
-  bool words = false;  ///< values that are not numbers
+  bool words = false;  ///< true if the values are not numbers
   SourceLocation place = {};
 };
 
 enum class Combine { mean, worst, median, quantile };
 
 struct Replicates {
-  std::int64_t count = 0;  ///< 0: one, with the scenario's seed
+  std::int64_t count = 0;  ///< 0 means one run with the seed of the scenario
   std::vector<Variation> vary;
   Combine combine = Combine::worst;
   double quantile = 0.5;
@@ -59,7 +59,7 @@ struct Replicates {
 };
 
 struct Objective {
-  Text expression;  ///< empty: the first quantity shown
+  Text expression;  ///< empty for the first quantity shown
   bool maximize = true;
 };
 inline constexpr std::size_t kMostObjectives = 3;
@@ -68,12 +68,14 @@ inline constexpr std::size_t kMostObjectives = 3;
 struct Guard {
   enum class Asks { limit, margin, kept, nothing };
   std::string check;
-  Asks asks = Asks::kept;  ///< limit: `number` replaces the check's limit; margin: at least `number`; kept: at least 0
+  /// With `limit`, `number` replaces the limit of the check. With `margin`, the least margin is `number`; with `kept` it is 0.
+  /// With `nothing`, the check is not guarded.
+  Asks asks = Asks::kept;
   double number = 0;
   SourceLocation place = {};
 };
 
-/// A rule that ends a hopeless run: if this is true after `after` seconds.
+/// A rule that ends a hopeless run: `when` is an expression that is tested from `after` seconds on.
 struct StopText {
   Text when;
   double after = 0;  ///< s
@@ -112,59 +114,59 @@ struct EnumNames<studies::Method> {
 
 namespace studies {
 
-/// Whether the method chooses points by previous results (`gaitlab optimize`).
+/// True if the method chooses points by previous results (`gaitlab optimize`).
 constexpr bool is_search(Method method) { return enum_row(method).searches; }
 
-/// Keys of methods that are searches.
+/// Settings of a search method.
 struct SearchKeys {
-  std::int64_t population = 0;  ///< 0: depends on the number of parameters
-  std::int64_t instances = 1;   ///< searches side by side
-  std::int64_t restarts = 3;    ///< largest number, per search
-  double sigma = 0.25;          ///< first step of cma and xnes, as a share of the box
+  std::int64_t population = 0;  ///< 0 selects a size by the number of parameters
+  std::int64_t instances = 1;   ///< number of searches side by side
+  std::int64_t restarts = 3;    ///< largest number of restarts per search
+  double sigma = 0.25;          ///< first step of cma and xnes, as a share of each parameter's range
 };
 
 /// Settings for the verification of the best points.
 struct Verify {
-  std::int64_t best = 3;  ///< number of points
+  std::int64_t best = 3;  ///< number of points to verify
   bool halve_step = true;
   std::string engine = "none";
-  double change = 0.02;  ///< of the objective, relative: with a larger change the point is not verified
+  double change = 0.02;  ///< largest relative change of an objective for which a point is verified
   SourceLocation place = {};
 };
 
-/// One of several scenarios; every point runs in each.
+/// One of several scenarios of a study. Every point runs in each of them.
 struct NamedScenario {
   std::string name, file;
 };
 
 struct Study {
-  std::string name, file;                ///< file: of the study; empty: from the command line
-  std::string scenario;                  ///< file of the only scenario
-  std::vector<NamedScenario> scenarios;  ///< several scenarios instead
+  std::string name, file;  ///< name of the study, and path of its file; the path is empty for a study from the command line
+  std::string scenario;    ///< file of the scenario, if there is only one
+  std::vector<NamedScenario> scenarios;  ///< scenarios, if there are several
   std::vector<std::string> sets;
-  std::vector<SourceLocation> set_places;  ///< of settings in a file
+  std::vector<SourceLocation> set_places;  ///< places of settings that a study file contains
   std::int64_t seed = 1;
   std::vector<Parameter> parameters;
   Replicates replicates;
-  std::vector<Objective> objectives{1};  ///< several: for a Pareto front
+  std::vector<Objective> objectives{1};  ///< one, or several for a Pareto front
   std::vector<Text> constraints;
-  bool guarded = true;         ///< by the verdict; false: no guards
-  std::vector<Guard> guards;   ///< in addition to the verdict, or replacing its checks
-  std::vector<Problem> notes;  ///< old names, with their replacements
+  bool guarded = true;         ///< true if the checks of the verdict are guards; false for no guards
+  std::vector<Guard> guards;   ///< guards that the study adds, or with which it replaces checks of the verdict
+  std::vector<Problem> notes;  ///< notes on old names and their replacements
   std::vector<StopText> stops;
   SourceLocation quantities_place{"--show"};
-  std::vector<std::string> quantities;  ///< patterns of the quantities to show
+  std::vector<std::string> quantities;  ///< patterns for the names of the quantities to show
   Method method = Method::grid;
   SearchKeys search;
   Verify verify;
-  std::int64_t runs = 0;                           ///< budget of random and sobol: points times replicates
-  std::int64_t trajectories = 20, samples = 1024;  ///< of morris; of sobol_indices
-  /// Whether the points are those of a sensitivity study.
+  std::int64_t runs = 0;  ///< budget of runs for methods that draw or search points: points times replicates
+  std::int64_t trajectories = 20, samples = 1024;  ///< trajectories of morris, samples of sobol_indices
+  /// True if the points are those of a sensitivity study.
   [[nodiscard]] bool of_sensitivity() const { return method == Method::morris || method == Method::sobol_indices; }
-  /// Runs per point: its replicates in every scenario.
+  /// Runs per point: replicates times scenarios.
   [[nodiscard]] std::uint64_t runs_of_point() const { return std::max<std::size_t>(1, scenarios.size()) * replicates.number(); }
-  std::int64_t estimate_every = 16;  ///< the torque error is estimated for one point in this number; 0: none
-  bool asked = false;                ///< points come from another program (`gaitlab evaluate`) instead of the method
+  std::int64_t estimate_every = 16;  ///< the torque error is estimated for one point in this number; 0 disables the estimate
+  bool asked = false;                ///< true if another program chooses the points (`gaitlab evaluate`)
 };
 
 }  // namespace studies

@@ -1,4 +1,4 @@
-// Checks for settings of a study that contradict one another.
+// Checks for contradictory settings of a study.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ void check_search(const Study& study, const SourceLocation& place, Problems& pro
   }
 }
 
-/// A key that follows a parameter must not be set otherwise.
+/// Refuses a second setting of a key that follows a parameter.
 void check_followers(const Study& study, Problems& problems) {
   for (const Parameter& own : study.parameters) {
     for (const Follower& f : own.sets) {
@@ -53,7 +53,7 @@ void check_followers(const Study& study, Problems& problems) {
   }
 }
 
-/// The replicates set the seed; a setting would override it.
+/// Refuses the seed as a parameter, follower or variation, because the replicates set it.
 void check_seed(const Study& study, Problems& problems) {
   constexpr const char* kWhy = "seed cannot be chosen here; expected replicates: {count: N}, whose runs differ in their seed";
   for (const Parameter& p : study.parameters) {

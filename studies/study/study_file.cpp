@@ -20,7 +20,8 @@ namespace gaitlab::studies {
 
 namespace {
 
-/// Reads {flat: a.yaml, rubble: b.yaml}; `folder`: of the study.
+/// Reads named scenarios, as in {flat: a.yaml, rubble: b.yaml}. Their paths are relative to `folder`, which is that of the
+/// study.
 void read_named_scenarios(const Node& node, const std::filesystem::path& folder, Study& study, Problems& problems) {
   constexpr std::size_t kMost = 1000;
   if (node.kind != Node::Kind::map || node.keys.empty() || node.keys.size() > kMost) {
@@ -49,7 +50,7 @@ void read_objective(const Node& node, Objective& objective, Problems& problems) 
   const Node* least = reader.take("minimize");
   reader.finish();
   const Node* chosen = most != nullptr ? most : least;
-  if (chosen == nullptr && problems.size() > before) return;  // a misspelt key was reported
+  if (chosen == nullptr && problems.size() > before) return;  // the misspelt key has already been reported
   if (chosen == nullptr || (most != nullptr && least != nullptr)) {
     problems.add(node.place, "objective is not one expression; expected {maximize: speed} or {minimize: ...}");
   } else if (chosen->kind != Node::Kind::scalar) {
@@ -59,7 +60,7 @@ void read_objective(const Node& node, Objective& objective, Problems& problems) 
   }
 }
 
-/// Reads one objective, {maximize: speed}, or a list of up to three.
+/// Reads one objective, as in {maximize: speed}, or a list of up to three.
 void read_objectives(const Node& node, std::vector<Objective>& objectives, Problems& problems) {
   if (node.kind != Node::Kind::list) return read_objective(node, objectives.front(), problems);
   if (node.items.empty() || node.items.size() > kMostObjectives)
@@ -81,7 +82,7 @@ void read_constraints(const Node& node, Study& study, Problems& problems) {
   }
 }
 
-/// Reads texts, each an expression, optionally followed by ` after SECONDS`.
+/// Reads a list of stop rules, each an expression, optionally followed by ` after SECONDS`.
 void read_stops(const Node& node, Study& study, Problems& problems) {
   if (node.kind != Node::Kind::list) problems.add(node.place, "stop is " + found(node) + "; expected a list of texts");
   for (const Node& item : node.items) {
@@ -170,7 +171,7 @@ bool is_study(const std::string& file) {
   Problems problems;
   const std::string text = read_file(file, kMostScenario);
   const std::optional<Node> root = parse_yaml(text, file, problems);
-  // Invalid YAML is reported by the reader of the file's apparent kind.
+  // Invalid YAML is later reported by the reader of a study or scenario, as the text suggests.
   return root ? root->find("gaitlab_study") != nullptr : text.find("gaitlab_study:") != std::string::npos;
 }
 
@@ -183,7 +184,7 @@ void check_name(const Study& study, const Node& root, Problems& problems) {
                "name " + in_quotes(study.name) + " is not allowed; expected letters, digits, _ . and -, not a . first");
 }
 
-/// Places of the keys that later messages name.
+/// Takes over the places of keys to which later messages refer.
 void take_places(const Node& root, Study& study) {
   if (const Node* sets = root.find("set")) {
     for (const Node& set : sets->items) study.set_places.push_back(set.place);
@@ -195,7 +196,7 @@ void take_places(const Node& root, Study& study) {
   }
 }
 
-/// The method for a study that names none, or whose points come from another program.
+/// Selects the method if the study names none, or if another program chooses the points.
 void choose_method(Study& study, bool named, Purpose purpose) {
   const bool grid = std::ranges::all_of(study.parameters, &Parameter::in_grid);
   const Method search = study.objectives.size() > 1 ? Method::nsga2 : Method::cma;

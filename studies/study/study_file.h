@@ -1,4 +1,4 @@
-// Study file STUDY.yaml, and its manual.
+// Reader of a study file STUDY.yaml, and the documentation of its keys.
 #pragma once
 #include <span>
 #include <string>
@@ -8,24 +8,25 @@
 
 namespace gaitlab::studies {
 
-/// Whether the file is a study: it has a key `gaitlab_study`. Throws InputError if it cannot be read as YAML.
+/// True if the file is a study, which has a key `gaitlab_study`. Throws InputError if the file cannot be read as YAML.
 bool is_study(const std::string& file);
 
-/// Command for which a study is read: without a method it is a grid or drawn at random, or a search. For `evaluate` the points
-/// come from another program; method and budget do not count.
+/// Command for which a study is read, which selects the method if the study names none: a grid or random points for `sweep`, a
+/// search for `optimize`. For `evaluate` another program chooses the points; method and budget are then ignored.
 enum class Purpose { sweep, optimize, evaluate };
 
-/// Reads a study as strictly as a scenario. Throws InputError with every problem at FILE:LINE:COL; Plan checks the parts that
-/// need the scenario (keys of parameters, quantities).
+/// Reads a study as strictly as a scenario. Throws InputError with every problem at FILE:LINE:COL. Parts that depend on the
+/// scenario, such as keys of parameters and quantities, are checked by Plan.
 Study read_study(const std::string& file, Purpose purpose = Purpose::sweep);
 
-/// Text of `gaitlab explain study` and docs/reference/study.md.
+/// Text of `gaitlab explain study`.
 std::string explain_study();
 std::string study_page();
-/// JSON Schema (draft 7) of `gaitlab schema --study`. The reader refuses everything that it refuses, and checks more.
+/// JSON Schema (draft 7) of `gaitlab schema --study`. The reader refuses everything that the schema refuses, and has further
+/// checks.
 std::string study_schema(std::span<const CheckOffer> checks);
 
-/// Adds a problem for settings that contradict one another.
+/// Adds a problem for each pair of settings that contradict one another.
 void check_study(const Study& study, const SourceLocation& place, Problems& problems);
 
 }  // namespace gaitlab::studies

@@ -1,4 +1,4 @@
-// Keys of a study that are declared as fields: one walk over them reads, explains and writes the schema.
+// Keys of a study that are declared as fields, from which reader, manual and schema are derived.
 #pragma once
 #include <array>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace gaitlab::studies {
 
-/// Top-level keys that are read and explained by one walk over `fields`.
+/// Top-level keys of a study file.
 struct PlainKeys {
   Study& study;
   std::string& scenario;

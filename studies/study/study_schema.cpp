@@ -1,5 +1,4 @@
-// The JSON Schema of a study file, for editors: from the same walks as its reader, and from the parts that the reader reads one
-// by one.
+// The JSON Schema of a study file, for editors. It is derived from the declared fields, and written by hand for the other keys.
 #include "core/settings/schema_fields.h"
 #include "studies/study/guards.h"
 #include "studies/study/study_file.h"

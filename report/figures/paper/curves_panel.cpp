@@ -1,4 +1,4 @@
-// Kind `curves`: columns of the trace over time.
+// Panel kind `curves`, which shows columns of the trace over time.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,14 +15,14 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kCurvesHeight = 45;  // mm
-constexpr double kTitleAway = 8;      // px, between tick labels and the title of the axis
-constexpr double kAscent = 10;        // px, of 13 px text
+constexpr double kTitleAway = 8;      // px, between tick texts and the title of the axis
+constexpr double kAscent = 10;        // px, height of 13 px text above its baseline
 constexpr std::string_view kStanceFill = "#E4E4E4";
 
-/// A column of a recording, with its quantity and joint.
+/// A column of a recording, split into quantity and joint.
 struct FoundColumn {
-  std::string name, alias;      ///< joint.7.torque, joint.m3/passive.torque
-  std::string quantity, joint;  ///< torque, m3/passive; com.x and nothing
+  std::string name, alias;      ///< for example joint.7.torque and joint.m3/passive.torque
+  std::string quantity, joint;  ///< for example torque and m3/passive; for com.x the joint is empty
   std::string unit;
 };
 
@@ -52,8 +52,8 @@ struct PaperCurve {
   const PaperRun* run;
   FoundColumn column;
   Side side;
-  std::string name = {};                       ///< in the legend
-  std::vector<double> time = {}, values = {};  ///< within the panel
+  std::string name = {};                       ///< name in the legend
+  std::vector<double> time = {}, values = {};  ///< part of the run within the panel
   Style style = {};
 };
 
@@ -209,7 +209,7 @@ class CurvesOfPanel final : public PaperPanel {
     stances_ = footfalls(run.scenario, run.recording, {legs[number]}, time, 0).front().stances;
   }
 
-  /// Names the curves by the parts in which they differ: run, joint, quantity.
+  /// Gives each curve a name from the parts in which the curves differ: run, joint, quantity.
   void name_curves() {
     const auto differs = [&](const auto& part) {
       return std::ranges::any_of(curves_, [&](const PaperCurve& c) { return part(c) != part(curves_.front()); });
@@ -257,7 +257,7 @@ class CurvesOfPanel final : public PaperPanel {
 
   [[nodiscard]] double beside(Side side) const { return texts_beside(side == Side::left ? ticks_.a : ticks_.b); }
 
-  /// Title of an axis: its quantities if there are one or two, and the unit.
+  /// Title of an axis: the unit, preceded by the quantities if there are one or two.
   [[nodiscard]] std::string title(Side side) const {
     const AxisRecipe& axis = side == Side::left ? panel_.left : panel_.right;
     if (!axis.label.empty() || !has(side)) return axis.label;

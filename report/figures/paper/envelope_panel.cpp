@@ -1,4 +1,4 @@
-// Kind `envelope`: torque over speed, in front of the motors' limits.
+// Panel kind `envelope`, which shows torque over speed and the motors' limits.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kEnvelopeHeight = 55;  // mm
-constexpr std::size_t kNamed = 7;       // joints with a separate line
-constexpr double kApart = 0.25;         // px: least distance of a path's points
+constexpr std::size_t kNamed = 7;       // largest number of joints that have separate lines
+constexpr double kApart = 0.25;         // px, least distance between points of a path
 constexpr double kPadding = 1.06;       // factor on the range of the data
 constexpr std::string_view kAvailable = "#E8E8E8";
 
@@ -88,7 +88,7 @@ class EnvelopeOfPanel final : public PaperPanel {
   [[nodiscard]] std::vector<std::string> notes() const override { return notes_; }
 
  private:
-  /// Not `thinned`: the speed rises and falls.
+  /// `thinned` cannot be used, because the speed rises and falls.
   static std::vector<Point> line(const Plot& plot, const JointPath& path) {
     std::vector<Point> points;
     for (std::size_t row = 0; row < path.speed.size(); ++row) {
@@ -109,7 +109,7 @@ class EnvelopeOfPanel final : public PaperPanel {
     for (const Envelope& envelope : envelopes_) {
       x.add(envelope.speed);
       for (const std::vector<double>* torque : {&envelope.most, &envelope.least})
-        y.add(1.15 * (*torque)[torque->size() / 2]);  // at rest
+        y.add(1.15 * (*torque)[torque->size() / 2]);  // torque at rest
     }
     below_ = {.ticks = ticks_within(kPadding * x.lo, kPadding * x.hi, 8), .title = "speed (rad/s)"};
     left_ = {.ticks = ticks_within(kPadding * y.lo, kPadding * y.hi, 6), .title = "torque (N m)"};

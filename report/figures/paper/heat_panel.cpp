@@ -1,4 +1,4 @@
-// Kind `heat`: joints over time, the share of their motor's torque as a colour.
+// Panel kind `heat`, which shows over time how much of its motor's torque each joint uses, as a colour.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,12 +15,13 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kHeatRow = 14;                 // px
-constexpr double kLeastLabel = 13;              // px, of a row with a name
-constexpr double kCells = 240;                  // per row
-constexpr int kLevels = 20;                     // of the ramp: 5 % each
+constexpr double kLeastLabel = 13;              // px, least height of a row with a name
+constexpr double kCells = 240;                  // cells per row
+constexpr int kLevels = 20;                     // levels of the colour ramp, 5 % each
 constexpr double kBarGap = 12, kBarWidth = 10;  // px
 
-/// From white to nearly black by hues of Okabe and Ito, steadily darker, so that it is readable in grey also.
+/// Colours from white to nearly black with hues of Okabe and Ito. They darken steadily, so that the figure is also readable in
+/// grey.
 constexpr std::array<Rgb, 5> kHeat{{{255, 255, 255}, {250, 221, 150}, {230, 145, 20}, {190, 70, 0}, {70, 15, 0}}};
 
 int level(double share) { return std::clamp(static_cast<int>(std::floor(share * kLevels)), 0, kLevels - 1); }
@@ -65,8 +66,8 @@ class HeatOfPanel final : public PaperPanel {
     const double gap = row > 6 ? 1 : 0;
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const double top = area.top + row * static_cast<double>(j);
-      // Each colour extends to the end of the row and is covered by the next one: otherwise a thin line shows between
-      // neighbours.
+      // Each colour extends to the end of the row and is covered by the next one. Otherwise a thin line would be visible
+      // between neighbours.
       int before = -1;
       for (std::size_t c = 0; c < cell_.size(); ++c) {
         const int now = level(share_[j][c]);
@@ -120,7 +121,7 @@ class HeatOfPanel final : public PaperPanel {
         const std::size_t j = joints_[i];
         const double needed = load[i].torque[k];
         const double has = !known ? largest : needed >= 0 ? most[j] : -least[j];
-        // For a joint faster than its motor without load nothing is available: its share is 1.
+        // A joint that is faster than its motor's no-load speed has no available torque: its share is 1.
         const double share = needed == 0 ? 0 : has > 0 ? std::abs(needed) / has : 1;
         share_[i][c] = std::max(share_[i][c], share);
       }
@@ -130,8 +131,8 @@ class HeatOfPanel final : public PaperPanel {
   std::vector<std::size_t> joints_;
   std::vector<std::string> names_, notes_;
   double height_ = 0, from_ = 0, to_ = 0;
-  std::vector<double> cell_;                ///< s, their starts
-  std::vector<std::vector<double>> share_;  ///< per joint and cell
+  std::vector<double> cell_;                ///< s, start time of each cell
+  std::vector<std::vector<double>> share_;  ///< one list per joint, one share per cell
   std::string title_ = "torque (% of available)";
 };
 

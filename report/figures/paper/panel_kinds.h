@@ -1,4 +1,4 @@
-// The table of the kinds of panels; the first is the default.
+// The table of panel kinds of a figure for a paper; its first entry is the default.
 #pragma once
 #include <memory>
 
@@ -9,14 +9,15 @@ namespace gaitlab::report {
 class PaperPanel;
 struct PanelSource;
 
-/// A kind of panel, defined beside its `PaperPanel`.
+/// A kind of panel. Each is defined in the file of its `PaperPanel`.
 struct PanelKind {
   const char* name;
-  const char* about;                                        ///< its first line is a complete sentence
-  bool one_run;                                             ///< it draws `run`; otherwise `runs`
-  void (*fields)(PanelRecipe& panel, Fields& f);            ///< its keys besides `kind` and `run`
-  const char* (*lacking)(const PanelRecipe& panel);         ///< message on missing keys; nullptr: none is missing
-  std::unique_ptr<PaperPanel> (*make)(const PanelSource&);  ///< collects problems of the panel
+  const char* about;                                        ///< manual text, whose first line is a complete sentence
+  bool one_run;                                             ///< true if the key `run` chooses one run; false if `runs` chooses
+                                                            ///< several
+  void (*fields)(PanelRecipe& panel, Fields& f);            ///< declares the keys of the kind besides `kind` and `run`
+  const char* (*lacking)(const PanelRecipe& panel);         ///< message about missing keys, or nullptr if none is missing
+  std::unique_ptr<PaperPanel> (*make)(const PanelSource&);  ///< makes the panel and collects problems of its keys
 };
 
 extern const PanelKind kCurvesPanel, kEnvelopePanel, kHeatPanel, kFootfallsPanel, kViewsPanel;

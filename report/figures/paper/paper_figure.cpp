@@ -15,7 +15,7 @@ constexpr double kTextSize = 13;         // px, of all text
 constexpr double kPointMm = 25.4 / 72;   // mm
 constexpr double kTopMargin = 4;         // px
 constexpr double kBetweenPanels = 10;    // px
-constexpr double kLetterHeight = 18;     // px, least head of a panel with a letter
+constexpr double kLetterHeight = 18;     // px, least height above a frame with a letter
 constexpr double kLeastFrame = 10;       // mm
 constexpr double kLeastFrameWidth = 25;  // mm
 

@@ -1,4 +1,4 @@
-// A figure for a paper: panels one below another on a sheet of a size in mm.
+// A figure for a paper, with panels one below another on a sheet whose size is in mm.
 #pragma once
 #include <memory>
 #include <span>
@@ -9,16 +9,16 @@
 
 namespace gaitlab::report {
 
-/// A figure for a paper. Text of the recipe's size in pt is 13 px in the drawing, so that a px is font / 13 pt: lines and gaps
-/// suit the text. Frames of all panels begin and end at the same x.
+/// A figure for a paper. Text of the recipe's font size (pt) is 13 px high in the drawing, so that 1 px is font / 13 pt, and
+/// lines and gaps scale with the text. The frames of all panels have the same left and right edges.
 class PaperFigure {
  public:
-  /// `runs`: the recipe's runs, in its order. Throws InputError with every finding at its place in the recipe: a column, joint
-  /// or leg that the run does not have, incompatible units, a time beyond the run, a size too small.
+  /// `runs` contains the recipe's runs in its order. Throws InputError with every problem at its place in the recipe: a column,
+  /// joint or leg that the run does not have, incompatible units, a time beyond the run, or a size that is too small.
   PaperFigure(const Recipe& recipe, std::span<const PaperRun> runs);
   [[nodiscard]] const Paper& paper() const { return paper_; }
   void draw(Canvas& canvas) const;
-  /// One table per panel.
+  /// Data of the figure, one table per panel.
   [[nodiscard]] std::vector<Trace> data() const;
   [[nodiscard]] std::vector<std::string> notes() const;
 
@@ -26,9 +26,9 @@ class PaperFigure {
   struct Placed {
     std::unique_ptr<PaperPanel> panel;
     PlotArea area = {};
-    double top = 0;  ///< px, of its head
+    double top = 0;  ///< px, upper edge of the part above the frame
   };
-  /// Common to all frames; throws InputError if the width is too small.
+  /// Left and right edge of all frames. Throws InputError if the width is too small.
   [[nodiscard]] Edges edges(const Recipe& recipe) const;
   void place(const Recipe& recipe);
 

@@ -13,7 +13,7 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kSlack = 1e-9;  // s: a row's time is a number of steps times the step
+constexpr double kSlack = 1e-9;  // s, tolerance, because the time of a row is a number of steps times the step
 
 }  // namespace
 

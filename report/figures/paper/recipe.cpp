@@ -22,7 +22,8 @@ struct NamedSize {
   const char* name;
   double width;  ///< mm
 };
-// "Preparation of Papers for IEEE Transactions and Journals": one column 3.5 inches (21 picas), two columns 7.16 inches.
+// Sizes from "Preparation of Papers for IEEE Transactions and Journals": one column is 3.5 inches (21 picas), two columns are
+// 7.16 inches.
 constexpr std::array<NamedSize, 2> kSizes{{{"ieee-column", 88.9}, {"ieee-page", 181.864}}};
 
 const std::string& names_of_sizes() {
@@ -182,7 +183,7 @@ Recipe read_recipe(const std::string& file) {
     problems.add(recipe.place({"panels"}),
                  fmt::format("panels has {} entries; allowed are up to {}", recipe.panels.size(), kLetters));
   }
-  // A panel of an unknown kind has been refused already: its missing keys are not known.
+  // A panel of an unknown kind has already been refused, and its missing keys are not known.
   const bool whole = problems.empty();
   for (std::size_t i = 0; i < recipe.panels.size(); ++i) check_panel(recipe, i, names, whole, problems);
   problems.raise();

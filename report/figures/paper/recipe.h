@@ -1,4 +1,5 @@
-// The recipe of a figure for a paper: its runs, panels and size. YAML, read as strictly as a scenario.
+// The recipe of a figure for a paper, which is a YAML file with runs, panels and size. The reader rejects unknown keys, as that
+// of scenarios does.
 #pragma once
 #include <span>
 #include <string>
@@ -14,7 +15,7 @@ struct PanelKind;
 
 inline constexpr double kLongestTime = 1e9;  ///< s
 
-/// The left or the right axis of a panel with curves.
+/// The left or the right axis of a panel of curves.
 struct AxisRecipe {
   std::vector<std::string> columns, names;
   std::string label;
@@ -24,48 +25,48 @@ struct AxisRecipe {
 
 struct PanelRecipe {
   const PanelKind* kind;
-  std::vector<std::string> runs;  ///< curves; empty: all
-  std::string run;                ///< other kinds; empty: the only one
+  std::vector<std::string> runs;  ///< names of runs, in a panel of curves; empty for all runs
+  std::string run;                ///< name of the run in panels of other kinds; empty for the only run
   AxisRecipe left, right;
-  std::string stance;                    ///< name of a leg
-  std::vector<std::string> joints{"*"};  ///< patterns; joints without a motor are left out
+  std::string stance;                    ///< name of the leg whose stance phases are shaded
+  std::vector<std::string> joints{"*"};  ///< patterns of joint names; joints without a motor are left out
   std::string joint;
   std::vector<double> times;  ///< s
   bool legend = true;
-  double from = 0, to = 0;  ///< s; to 0: the end
-  double height = 0;        ///< mm; 0: chosen by the panel
+  double from = 0, to = 0;  ///< s; `to` 0 means the end of the run
+  double height = 0;        ///< mm; 0 if the panel chooses it
   PanelRecipe();
   void fields(Fields& f);
-  void time_fields(Fields& f);  ///< from, to
+  void time_fields(Fields& f);  ///< declares the keys from, to
   void height_field(Fields& f);
-  void joint_fields(Fields& f);  ///< joints over time: joints, from, to, height
+  void joint_fields(Fields& f);  ///< declares the keys of panels with joints over time: joints, from, to, height
 };
 
 struct Recipe {
   std::string file;
-  std::vector<Named> runs;  ///< name and folder as written
+  std::vector<Named> runs;  ///< name and folder of each run, as written in the file
   double width = 88.9;      ///< mm
-  double height = 0;        ///< mm; 0: sum of the panels
+  double height = 0;        ///< mm; 0 for the sum of the panels
   double font = 8;          ///< pt
   bool letters = true;
   std::vector<PanelRecipe> panels;
-  Node root;  ///< of the file
+  Node root;  ///< YAML tree of the file
 
-  /// All keys except `gaitlab` and `size`.
+  /// Declares all keys except `gaitlab` and `size`.
   void fields(Fields& f);
-  /// Place of a value in the file, by keys and numbers of items; as far as the path exists.
+  /// Place in the file of the value with this path of keys and item numbers, or of its innermost parent that exists.
   [[nodiscard]] SourceLocation place(const std::vector<std::string>& path) const;
 };
 
-/// Reads a recipe. Throws InputError with every finding at FILE:LINE:COL; the runs are not read.
+/// Reads a recipe, but not its runs. Throws InputError with every problem at FILE:LINE:COL.
 Recipe read_recipe(const std::string& file);
 
-/// Names of the kinds of panels; a kind by its name, which exists.
+/// Names of all panel kinds, and the kind with a given name, which must exist.
 std::span<const char* const> panel_names();
 const PanelKind& panel_kind(std::string_view name);
-/// The manual of a kind of panel: `gaitlab explain figure KIND`.
+/// Text of `gaitlab explain figure KIND`.
 std::string explain_panel(const PanelKind& kind);
-/// Manuals of all kinds: docs/reference/figure.md.
+/// Text of docs/reference/figure.md, which contains the manuals of all kinds.
 std::string recipe_page();
 
 }  // namespace gaitlab::report

@@ -1,4 +1,4 @@
-// Kinds `footfalls` and `views`: the gait as footfalls and pictures.
+// Panel kinds `footfalls` and `views`, which show the footfall diagram and views of the robot.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -46,7 +46,7 @@ class FootfallsOfPanel final : public PaperPanel {
   [[nodiscard]] Margins margins() const override {
     double names = 0;
     for (const Footfall& row : rows_) names = std::max(names, helvetica_width(row.name, 13));
-    return {11 + names, 8 + text_width("0.00", 13) + 1};  // as in draw_footfalls
+    return {11 + names, 8 + text_width("0.00", 13) + 1};  // widths as in draw_footfalls
   }
   [[nodiscard]] double head(const Edges&) const override { return kFootfallHead; }
   [[nodiscard]] double body(const Edges&) const override {
@@ -79,7 +79,7 @@ class FootfallsOfPanel final : public PaperPanel {
   double from_ = 0, to_ = 0;
 };
 
-/// Index of the nearest row, the earlier one if two are equally near; requires a row.
+/// Index of the row nearest to a time; the earlier row if two are equally near. There must be a row.
 std::size_t nearest_row(const std::vector<double>& time, double at) {
   std::size_t nearest = 0;
   for (std::size_t row = 1; row < time.size(); ++row) {
@@ -142,7 +142,7 @@ class ViewsOfPanel final : public PaperPanel {
     draw_views(canvas, input_, {area.left, area.right}, area.top);
   }
 
-  /// Data of the pictures.
+  /// Poses of the robot in the views.
   [[nodiscard]] Trace data() const override {
     std::vector<DataColumn> columns{{"t [s]", {}},   {"base.x [m]", {}}, {"base.y [m]", {}}, {"base.z [m]", {}},
                                     {"base.qw", {}}, {"base.qx", {}},    {"base.qy", {}},    {"base.qz", {}}};

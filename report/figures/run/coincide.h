@@ -7,17 +7,17 @@
 
 namespace gaitlab::report {
 
-/// Two curves of a panel coincide if they differ by at most 0.5 % of their range in every row of the panel; their range is from
-/// the smallest to the largest value of both there, and at least 1e-3 of the panel's unit. Chosen: a pixel of a panel that the
-/// two fill.
+/// Largest difference of two curves that coincide, as a share of their range. The range is from the least to the largest value
+/// of both curves in the panel, and at least 1e-3 of the panel's unit. The condition must be satisfied in every row. 0.5 % is
+/// chosen: about one pixel of a panel that the curves fill.
 inline constexpr double kCoincide = 5e-3;
 
-/// Groups of two or more runs that pairwise coincide in all of these panels; in the order of the runs, each in the first group
-/// that it fits. A run without values, with a value that is not finite, or with other times than another coincides with none.
+/// Groups of two or more runs whose curves coincide pairwise in all panels, in the order of the runs. Each run is in the first
+/// group to which it fits. A run without values, with a value that is not finite, or with different times coincides with none.
 std::vector<std::vector<std::size_t>> coinciding(const std::vector<std::vector<double>>& time,
                                                  const std::vector<CurvesPanel>& panels);
 
-/// `a, b, c`
+/// Names of the runs of a group: `a, b, c`.
 std::string run_names(const std::vector<std::size_t>& group, const std::vector<std::string>& of_runs);
 
 }  // namespace gaitlab::report

@@ -24,8 +24,8 @@ struct CurveStyle {
   [[nodiscard]] Style style() const { return {.stroke = colour, .width = 1.6, .dash = dash}; }
 };
 
-/// Styles: seven colours, then the same with dashes. The first of n coinciding curves is solid, and each further one, drawn
-/// over it, leaves 1/n of every 28 px to the previous one.
+/// Styles of the runs: seven colours, then the same colours with dashes. The first of n coinciding curves is solid. Each
+/// further curve is drawn over it and leaves 1/n of every 28 px to the previous curve.
 std::vector<CurveStyle> styles(const CurvesInput& input) {
   constexpr std::array kColours{colour::kBlue, colour::kVermillion, colour::kGreen, colour::kPurple,
                                 colour::kSky,  colour::kOrange,     colour::kBlack};
@@ -49,7 +49,7 @@ double end_of(const CurvesInput& input) {
   return end;
 }
 
-/// Draws the legend, or only measures it: the y below it.
+/// Draws the legend and returns the y below it. Without a canvas nothing is drawn.
 double runs_legend(Canvas* canvas, const CurvesInput& input, const std::vector<CurveStyle>& styles) {
   std::vector<LegendEntry> entries;
   for (std::size_t run = 0; run < input.names.size(); ++run)

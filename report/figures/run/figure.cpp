@@ -17,8 +17,9 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kChartHead = 36, kChartHeight = 260, kChartFoot = 58;  // px; the head has the legend
-constexpr double kNear = 0.8;                                           // of the torque at rest
+constexpr double kChartHead = 36, kChartHeight = 260, kChartFoot = 58;  // px; the legend is in the head
+// Share of the torque at rest above which a curve comes near it.
+constexpr double kNear = 0.8;
 
 constexpr Style kAngle{.stroke = colour::kBlue, .width = 2};
 constexpr Style kSetpoint{.stroke = colour::kBlack, .width = 1.1, .dash = "2 3"};
@@ -33,7 +34,7 @@ struct LimitLook {
 constexpr std::array<LimitLook, 2> kLimits{
     {{MotorLimit::voltage, "#E3E3E3", "voltage limit"}, {MotorLimit::current, "#F3D3BD", "current limit"}}};
 
-// First of the samples shown; `time` is not empty.
+// Index of the first sample that is shown. `time` must not be empty.
 std::size_t first_shown(const std::vector<double>& time) {
   std::size_t first = 0;
   while (time[first] < time.back() - kShownSeconds - 1e-9) ++first;
@@ -42,7 +43,7 @@ std::size_t first_shown(const std::vector<double>& time) {
 
 Ticks shown_time(const std::vector<double>& time) { return ticks_within(time[first_shown(time)], time.back(), 8); }
 
-/// One joint over time: angle and set point on the left axis, torque on the right one.
+/// Chart of one joint over time, with angle and set point on the left axis and torque on the right axis.
 class JointChart {
  public:
   JointChart(const FigureInput& input, const JointPanel& panel) : time_(input.time), panel_(panel) {
@@ -112,7 +113,7 @@ class JointChart {
     return fmt::format("time (s), the last {:.3g} of {:.4g}", time_.back() - time_[first_], time_.back());
   }
 
-  /// The motor's torques at rest, of each sign that the curve comes near.
+  /// Torques at rest of the motor, with each sign for which the curve comes near.
   [[nodiscard]] std::vector<double> rest_torques() const {
     std::vector<double> near;
     const double most = panel_.rest_torque;
@@ -127,7 +128,7 @@ class JointChart {
     return std::ranges::find(shown, saturation_of(limit)) != shown.end();
   }
 
-  /// A span extends from its first row to the row after its last.
+  /// Shades the time at a limit. An interval extends from its first row to the row after its last.
   void shade_limits(const Plot& plot) const {
     if (panel_.limit.size() != time_.size()) return;
     for (std::size_t i = first_; i < panel_.limit.size();) {
@@ -141,7 +142,7 @@ class JointChart {
     }
   }
 
-  // A peak is from all steps, the curve from rows: the mark is at the height of the peak, at the nearest row.
+  // Marks the largest torque. Its height is from all steps, whereas the curve is from rows; the mark is at the nearest row.
   void mark_peak(Canvas& canvas, const Plot& plot, const PlotArea& area) const {
     const std::vector<double>& torque = panel_.torque;
     std::size_t row = first_;
@@ -167,7 +168,7 @@ class JointChart {
                 {.fill = colour::kVermillion});
   }
 
-  // One row above the frame: the joint's name at the left, the legend at the right.
+  // Draws one row of text above the frame: the joint's name at the left, the legend at the right.
   void draw_head(Canvas& canvas, const PlotArea& area) const {
     std::vector<LegendEntry> entries;
     for (const LimitLook& look : kLimits) {

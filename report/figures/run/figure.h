@@ -1,4 +1,4 @@
-// The figure of a run: one joint's motion and torque over time, the legs' footfalls, and the robot from the side.
+// The figure of a run: motion and torque of joints over time, the footfalls of the legs, and views of the robot.
 #pragma once
 #include <optional>
 #include <string>
@@ -9,47 +9,51 @@
 
 namespace gaitlab::report {
 
-inline constexpr double kShownSeconds = 8;  ///< s: curves over time show the last of a run
+inline constexpr double kShownSeconds = 8;  ///< s, curves show the end of the run, at most of this length
 
-/// The robot at one instant, m, in the plane of the view: x along the travel, y up, the ground at 0.
+/// The robot at one instant, m, in the plane of the view: x is along the direction of travel, y up, and the ground is at y = 0.
 struct View {
   double time = 0;                   ///< s
-  std::vector<Outline> outlines;     ///< far to near, as from side_view
-  std::vector<Point> contacts = {};  ///< points where the ground pushes
-  std::optional<Point> joint = {};   ///< the joint of the first panel, marked by an arrow
+  std::vector<Outline> outlines;     ///< outlines of the bodies from far to near, as side_view returns them
+  std::vector<Point> contacts = {};  ///< points at which the ground pushes
+  std::optional<Point> joint = {};   ///< position of the joint in the first panel, marked by an arrow
   std::optional<double> com = {};    ///< x of the centre of mass
 };
 
-/// One joint over time.
+/// Curves of one joint over time. A curve has the length of the figure's time, or is empty and not drawn.
 struct JointPanel {
-  std::string joint;                    ///< name of the joint shown, `m3/passive`
-  std::vector<double> angle, setpoint;  ///< rad; as long as the figure's time, or empty: not drawn
-  std::vector<double> torque;           ///< N m; likewise
-  std::vector<double> limit;            ///< 1 at the limit of voltage, 2 of current: shaded; likewise
-  double peak = 0, peak_time = 0;       ///< N m, s: the largest torque of the judged window; 0: not shown
-  double rest_torque = 0;               ///< N m: largest torque of the motor at rest; 0: not known
-  double least_angle = 0;  ///< rad: the angle axis spans at least -this to this, so that a joint at rest appears at rest
+  std::string joint;                    ///< name of the joint, `m3/passive`
+  std::vector<double> angle, setpoint;  ///< rad
+  std::vector<double> torque;           ///< N m
+  std::vector<double> limit;            ///< 1 at the limit of voltage, 2 at the limit of current; both are shaded
+  double peak = 0, peak_time = 0;       ///< N m and s, largest torque of the judged window; not drawn if 0
+  double rest_torque = 0;               ///< N m, largest torque of the motor at rest; 0 if not known
+  double least_angle = 0;  ///< rad, least half range of the angle axis, which prevents noise of a resting joint from filling
+                           ///< the panel
 };
 
 struct FigureInput {
   std::string title;
   std::vector<double> time;              ///< s, rising
-  std::vector<JointPanel> joints;        ///< from top to bottom
-  std::vector<Footfall> footfalls = {};  ///< one per leg, from top to bottom; empty: no diagram
-  std::string footfall_note = {};        ///< caption over the right end, for bars and numbers
-  std::vector<View> views;               ///< drawn from top to bottom
-  std::vector<Polygon> solids = {};      ///< obstacles on the ground, m, in the plane of the view; drawn within its x range
-  bool ground = true;                    ///< a plane at height 0; without it every view is centred on the robot
-  std::string views_title = {};          ///< instead of `side view (arrow: joint above)`
+  std::vector<JointPanel> joints;        ///< panels from top to bottom
+  std::vector<Footfall> footfalls = {};  ///< rows of the footfall diagram from top to bottom; no diagram if empty
+  std::string footfall_note = {};        ///< caption over the right end of the diagram, for bars and duty factors
+  std::vector<View> views;               ///< views from top to bottom
+  std::vector<Polygon> solids = {};      ///< obstacles on the ground, m, in the plane of the view; only the part within its x
+                                         ///< range is drawn
+  bool ground = true;                    ///< true: a plane at height 0 is drawn; false: every view is centred on the robot
+  std::string views_title = {};          ///< title that replaces `side view (arrow: joint above)`
   bool views_legend = true;
   std::string views_axis = "x (m), heights on the same scale";
 };
 
-/// An SVG document, 1000 px wide, as high as the views need. A panel per joint (left out without its series): the last 8 s,
-/// angle and set point on the left axis, torque on the right one, zeros on one line if that takes less than half the height,
-/// the largest torque marked, time at a limit shaded, and the motor's torque at rest as a line if the curve comes near it.
-/// Below it the footfalls over the same seconds (left out without `time`), and the views, all on one scale in both directions
-/// and over one x range, with the ground and an axis in metres. Values that are not finite leave a gap.
+/// SVG document, 1000 px wide and as high as the views need. From top to bottom:
+/// - A panel per joint over the last 8 s, left out without curves: angle and set point on the left axis, torque on the right
+/// axis. The zeros of both axes coincide if that costs less than half the height. The largest torque is marked, time at a limit
+/// is shaded, and the motor's torque at rest is a line if the curve comes near it.
+/// - The footfalls over the same seconds, left out without `time`.
+/// - The views, with the same scale in both directions, the same x range, the ground, and an axis in m.
+/// Values that are not finite leave a gap.
 std::string figure_svg(const FigureInput& input);
 
 }  // namespace gaitlab::report

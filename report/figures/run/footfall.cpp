@@ -9,7 +9,8 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kRow = 24, kBar = 12;  // px
-constexpr double kGapSeen = 0.6;        // px: a foot that bounces for less appears to stand, and the file stays small
+// Longest gap that is closed, px, so that a bouncing foot appears to stand and the file stays small.
+constexpr double kGapSeen = 0.6;
 
 void draw_bars(Canvas& canvas, const Plot& plot, const PlotArea& area, const Footfall& row, std::size_t number) {
   const auto place = [&](double time) { return plot.at(time, static_cast<double>(number)); };

@@ -1,4 +1,4 @@
-// Signals of a run drawn over those of another, with their differences.
+// A figure of two runs that shows signals of one run, those of the reference, and their differences.
 #pragma once
 #include <optional>
 #include <string>
@@ -9,12 +9,12 @@ namespace gaitlab::report {
 struct OverlayPanel {
   std::string name, unit;
   std::vector<double> time = {};                 ///< s, rising
-  std::vector<double> reference = {}, now = {};  ///< in the unit, as long as `time`; not finite: a gap
-  double tolerance = 0;                          ///< in the unit; drawn in the difference
-  std::optional<double> outside = {};            ///< s, first time beyond the tolerance: marked
+  std::vector<double> reference = {}, now = {};  ///< in `unit`, as long as `time`; values not finite leave a gap
+  double tolerance = 0;                          ///< allowed difference in `unit`, drawn as limits of the difference
+  std::optional<double> outside = {};            ///< s, first time at which the difference exceeds the tolerance; it is marked
 };
 
-/// An SVG document, 1000 px wide, from top to bottom per panel both signals and, on a separate axis, their difference. Panels
+/// SVG document, 1000 px wide. Each panel shows both signals and, below them on a separate axis, their difference. Panels
 /// without rows are left out.
 std::string overlay_svg(const std::string& title, const std::vector<OverlayPanel>& panels);
 

@@ -16,11 +16,12 @@ namespace gaitlab::report {
 namespace {
 
 constexpr std::size_t kViews = 5;
-constexpr double kLongest = 4;        // s, of the side views: a period may have been found as a multiple of the gait's
-constexpr double kPeriodless = 2;     // s, of the side views without a limit cycle
-constexpr double kLeastAngle = 0.02;  // rad, the angle axis of a joint at rest
-constexpr double kAboutY = 0.9;       // least |y| of an axis
-constexpr double kSamePlace = 1e-3;   // m
+// Longest time that the views cover, s. The period found may be a multiple of the gait's.
+constexpr double kLongest = 4;
+constexpr double kPeriodless = 2;     // s, time that the views cover without a limit cycle
+constexpr double kLeastAngle = 0.02;  // rad, least half range of the angle axis, for a joint at rest
+constexpr double kAboutY = 0.9;       // least |y| of the axis of a joint that turns about y
+constexpr double kSamePlace = 1e-3;   // m, distances that differ by less are equal
 
 JointPanel joint_panel(const Scenario& scenario, const Recording& r, const Summary& summary, std::size_t joint) {
   JointPanel panel;
@@ -39,7 +40,7 @@ JointPanel joint_panel(const Scenario& scenario, const Recording& r, const Summa
   return panel;
 }
 
-// The start of the whole periods at the end of the run that are shown.
+// Start of the whole periods within the time shown at the end of the run, s.
 double periods_from(const Summary& s) {
   const double shown = std::min(kShownSeconds, s.simulated);
   const double period = s.limit_cycle.period;
@@ -47,7 +48,7 @@ double periods_from(const Summary& s) {
   return s.simulated - std::floor(shown / period + 1e-3) * period;
 }
 
-// Adds five views from the start of the last period on; a sixth would equal the first.
+// Adds five views from the start of the last period on. A view at its end would be equal to the first one.
 void add_period(FigureInput& input, const Scenario& scenario, const Recording& r, const Summary& s, const Sight& from,
                 std::size_t joint) {
   const MotionCycle& cycle = s.limit_cycle;
@@ -63,7 +64,7 @@ void add_period(FigureInput& input, const Scenario& scenario, const Recording& r
                   cycle.found && cycle.period <= span ? "one period," : "the last", span, scenario.robot->joints[joint].name);
   input.views_axis = from.axis + ", " + from.scale();
   const double ahead = from.camera.right.dot(r.state(*scenario.robot, r.rows() - 1).orientation * Vec3::UnitX());
-  if (std::abs(ahead) < 0.7) return;  // seen from the front rather than from the side
+  if (std::abs(ahead) < 0.7) return;  // the robot is seen from the front rather than from the side
   input.views_axis = fmt::format("{}, forward is {}; {}", from.axis, ahead > 0 ? "right" : "left", from.scale());
 }
 
@@ -73,7 +74,8 @@ struct Drawn {
   double least_angle = 0;  ///< rad
 };
 
-/// Joints of the figure's key; without it the most loaded joint, and for a robot on legs the middle of the spine.
+/// The joints that `figure.joints` lists or, if it is empty, the most loaded joint, and for a robot on legs the central spine
+/// joint.
 std::vector<Drawn> drawn_joints(const Scenario& scenario, const Summary& summary, const std::vector<Leg>& legs) {
   const std::vector<Joint>& joints = scenario.robot->joints;
   if (joints.empty()) return {};

@@ -1,4 +1,4 @@
-// figure.svg of a run.
+// The figure of a run, written as figure.svg.
 #pragma once
 #include <span>
 #include <string>
@@ -9,21 +9,21 @@
 
 namespace gaitlab::report {
 
-/// The figure of a run. The joints of `figure.joints` on twin axes, or the most loaded one, and the robot from the side of its
-/// path (from above if its joints turn about the vertical) at the last five seconds; with a limit cycle five views a fifth of a
-/// period apart.
+/// SVG of a run's figure. It shows the joints of `figure.joints`, or else the most loaded joint, over time on twin axes, and
+/// five views of the robot from the side of its path (from above if its joints turn about the vertical). The views are one
+/// second apart at the end of the run. With a limit cycle they are a fifth of its last period apart, at most 0.8 s.
 ///
-/// For a robot that walks on legs (find_legs gives four or more, contacts and a ground are on) also its central spine joint
-/// (the paper's figure 14), the footfalls of its legs, and always the views over a period: the last one of the limit cycle, at
-/// most 4 s; 2 s without one. A leg stands if it carries more than 2 % of the weight; its duty factor is over the whole periods
-/// in the last 8 s (without a limit cycle, or with a longer period, over all of them).
+/// For a robot that walks (four or more legs by find_legs, contact elements, a ground) the figure also contains the central
+/// spine joint (the paper's figure 14) and the footfalls of the legs. Without a limit cycle its views cover the last 2 s. A leg
+/// is in stance if it carries more than 2 % of the weight. Duty factors are over the whole periods within the last 8 s; without
+/// a limit cycle, or with a longer period, over the last 8 s.
 std::string run_figure(const Scenario& scenario, const Recording& record, const Summary& summary);
 
-/// The joint marked in the paper's figure 13. The spine consists of the modules that are not in a leg. Of its joints that turn
-/// about y (within 25 degrees, at zero angles: they bend the spine up and down; if there is none, of all its joints), the one
-/// nearest, along x, to the middle between the foremost and the rearmost joint of the spine; of two as near (to a millimetre)
-/// the one further to the front. Not the most loaded of the spine: in our hexapod that is the foremost one, where the front
-/// legs are docked.
+/// Index of the central spine joint, which is the joint marked in the paper's figure 13. The spine is all modules outside the
+/// legs. Candidates are the spine joints that turn about y within 25 degrees at zero angles and therefore bend the spine up and
+/// down, or all spine joints if there are none. The result is the candidate nearest, along x, to the middle between the
+/// foremost and the rearmost spine joint; among equally near ones (to a millimetre) the foremost. The most loaded spine joint
+/// would be unsuitable: in the hexapod it is the foremost one, where the front legs are docked.
 std::size_t central_spine_joint(const RobotInfo& robot, const std::vector<Leg>& legs);
 
 }  // namespace gaitlab::report

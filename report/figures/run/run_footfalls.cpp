@@ -26,7 +26,7 @@ std::vector<Footfall> footfalls(const Scenario& scenario, const Recording& r, co
   const std::vector<std::string> names = leg_names(legs);
   std::vector<Footfall> rows;
   for (std::size_t i = 0; i < legs.size(); ++i) {
-    if (!lacking_load(scenario, r, {legs[i]}).empty()) continue;  // a leg without data must not appear idle
+    if (!lacking_load(scenario, r, {legs[i]}).empty()) continue;  // a leg without data must not appear unloaded
     std::vector<double> load(time.size(), 0.0);
     for (const std::int64_t m : legs[i].modules) {
       const Series of_module = r.series(fmt::format("load.{}", m));

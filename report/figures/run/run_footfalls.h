@@ -1,4 +1,4 @@
-// Stance phases of each leg of a run's robot.
+// Stance phases of the legs in a run, computed from the recorded loads.
 #pragma once
 #include <span>
 #include <vector>
@@ -10,12 +10,13 @@
 
 namespace gaitlab::report {
 
-inline constexpr double kStands = 0.02;  ///< share of the weight: a leg that carries more stands
+inline constexpr double kStands = 0.02;  ///< share of the weight above which a leg is in stance
 
-/// The first column `load.M` of these legs that the recording lacks; empty: it has them all.
+/// Name of the first missing column `load.M` that these legs need. Empty if the recording contains all.
 std::string lacking_load(const Scenario& scenario, const Recording& record, const std::vector<Leg>& legs);
 
-/// A row per leg, over the whole run; `time` (s) of the recording's rows, duty factors from `from` (s) to its end.
+/// Footfalls over the whole run, one row per leg. `time` is that of the recording's rows, s. Duty factors are over the interval
+/// from `from` (s) to the end.
 std::vector<Footfall> footfalls(const Scenario& scenario, const Recording& record, const std::vector<Leg>& legs,
                                 std::span<const double> time, double from);
 

@@ -8,7 +8,7 @@ namespace gaitlab::report {
 
 inline constexpr double kWidth = 1000, kTitleHeight = 44;  ///< px
 
-/// Draws the title in the middle; a long one is made smaller.
+/// Draws the title in the middle of the sheet, in a smaller size if it is long.
 void draw_run_title(Canvas& canvas, const std::string& title);
 
 }  // namespace gaitlab::report

@@ -12,12 +12,12 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kUpright = 0.7;   // least |z| of an axis that turns within the ground plane
-constexpr double kWay = 0.02;      // m: a shorter path has no direction
-constexpr double kOffX = 0.26;     // |y| of a direction: within 15 degrees of x it counts as x
-constexpr double kAlongY = 0.035;  // 1 - |y|: within 15 degrees of y it counts as y
+constexpr double kUpright = 0.7;   // least |z| of the axis of a joint that turns within the ground plane
+constexpr double kWay = 0.02;      // m; a shorter path has no direction
+constexpr double kOffX = 0.26;     // |y| of a direction; within 15 degrees of x it counts as x
+constexpr double kAlongY = 0.035;  // 1 - |y|; within 15 degrees of y it counts as y
 
-/// The main direction of points in the plane: the first axis of their scatter, oriented along the path.
+/// Angle of the main direction of points in the plane: the first principal axis, oriented along the path.
 double main_direction(const Series& x, const Series& y) {
   const auto n = static_cast<double>(x.size());
   double mx = 0;
@@ -39,7 +39,7 @@ double main_direction(const Series& x, const Series& y) {
   return forward < 0 ? angle + std::numbers::pi : angle;
 }
 
-/// Whether most joints turn about the vertical: the robot is then shown from above.
+/// True if most joints turn about the vertical. The robot is then shown from above.
 bool moves_in_plane(const Robot& robot, const Kinematics& k) {
   std::size_t upright = 0;
   for (const Joint& joint : robot.joints)
@@ -47,18 +47,18 @@ bool moves_in_plane(const Robot& robot, const Kinematics& k) {
   return 2 * upright > robot.joints.size();
 }
 
-/// The line of a surface below the robot at the end.
+/// Profile of a height field below the robot at the end of the run.
 Polygon relief_line(const Heightfield& field, const Recording& r, const Sight& from) {
   constexpr int kPieces = 400;
   constexpr double kThick = 0.004;  // m
-  constexpr double kFar = 1000;     // m, beyond the border, where the heights go on
+  constexpr double kFar = 1000;     // m, length of the profile beyond the border of the field
   const Vec3 robot(r.series("base.x").back(), r.series("base.y").back(), 0);
   const Vec3& right = from.camera.right;
-  const Vec3 base = robot - right.dot(robot) * right;  // on the line below the robot, where the picture has 0
+  const Vec3 base = robot - right.dot(robot) * right;  // point below the robot at which the horizontal axis of the view is 0
   const double width = field.spacing * static_cast<double>(std::max(field.columns, field.rows()) - 1);
   const Vec3 middle = field.origin + 0.5 * field.spacing *
                                          Vec3(static_cast<double>(field.columns - 1), static_cast<double>(field.rows() - 1), 0);
-  const double start = right.dot(middle) - 0.75 * width;  // 1.5 times the longer side: the diagonal, too
+  const double start = right.dot(middle) - 0.75 * width;  // 1.5 times the longer side also covers the diagonal
   const auto height = [&](double at) { return field.at(base.x() + at * right.x(), base.y() + at * right.y()).z; };
   Polygon line{{start - kFar, height(start)}};
   for (int i = 0; i <= kPieces; ++i) {
@@ -94,7 +94,7 @@ Sight sight(const Scenario& scenario, const Recording& r) {
   if (const double way = std::hypot(x.back() - x.front(), y.back() - y.front()); way > kWay) {
     const double angle = main_direction(x, y);
     const Vec3 along(math::cos(angle), math::sin(angle), 0);
-    // Near the world's x the picture uses world coordinates, forwards or backwards.
+    // Near the world's x axis the view uses world coordinates, in either direction of travel.
     if (std::abs(along.y()) > kOffX) {
       s.camera = {along, Vec3::UnitZ(), Vec3(-along.y(), along.x(), 0)};
       const double degrees = std::remainder(angle, 2 * std::numbers::pi) * 180 / std::numbers::pi;

@@ -1,4 +1,4 @@
-// A run's robot at an instant, seen from the side of its path.
+// Views of a run's robot at an instant, from the side of its path or from above.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace gaitlab::report {
 
-/// View of the robot: from the side of its path, or from above if it moves within the ground plane.
+/// Direction of view: from the side of the robot's path, or from above if the robot moves within the ground plane.
 struct Sight {
   Camera camera;
   std::string view = "side view";
@@ -18,14 +18,15 @@ struct Sight {
   [[nodiscard]] const char* scale() const { return above ? "both ways on one scale" : "heights on the same scale"; }
 };
 
-/// Sight from the side of the centre of mass's path; from above if most joints turn about the vertical.
+/// Direction of view for a run: from the side of the centre of mass's path, or from above if most joints turn about the
+/// vertical.
 Sight sight(const Scenario& scenario, const Recording& record);
 
-/// The robot at a row of the recording, with the place of a joint.
+/// View of the robot at a row of the recording, with the position of a joint.
 View view_at(const Scenario& scenario, const Recording& record, const Sight& from, std::size_t row, std::size_t joint);
 
-/// Figure input with the ground, its obstacles and the axis of the views, but without views. Boxes by their outlines; of a
-/// field the line below the robot at the end.
+/// Figure input with the ground, its obstacles and the axis of the views, but without views. Boxes are outlines. A height field
+/// is a line, its profile below the robot at the end of the run.
 FigureInput views_input(const Scenario& scenario, const Recording& record, const Sight& from);
 
 }  // namespace gaitlab::report

@@ -12,7 +12,7 @@ namespace gaitlab::report {
 
 namespace {
 
-// A sphere's picture is a circle for any orientation.
+// Vertices of a shape in the world. A sphere becomes a circle in the plane of the view.
 std::vector<Vec3> world_vertices(const Shape& shape, const Pose& body, const Camera& camera) {
   if (shape.kind != Shape::Kind::sphere) return moved(convex(shape), body).vertices;
   const double radius = shape.size.x();
@@ -22,12 +22,13 @@ std::vector<Vec3> world_vertices(const Shape& shape, const Pose& body, const Cam
   return points;
 }
 
-// Bodies of a planar robot differ in depth by rounding only, which must not change their order from picture to picture.
+// Depth rounded to 0.1 mm. The depths of bodies of a planar robot differ only by rounding, which must not change their order
+// from view to view.
 double rounded_depth(double depth) { return std::round(depth * 1e4); }
 
 struct Seen {
   Outline outline;
-  double mean = 0, front = 0;  // depth
+  double mean = 0, front = 0;  // m, depths
 };
 
 Seen see(const std::vector<Shape>& shapes, const Pose& pose, Role role, const Camera& camera) {

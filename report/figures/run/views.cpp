@@ -12,12 +12,12 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kViewMost = 150;  // px, the tallest robot
-constexpr double kViewGap = 40;    // px, between one view's ground and the next one's headroom
+constexpr double kViewMost = 150;  // px, height of the tallest robot
+constexpr double kViewGap = 40;    // px, between the ground of a view and the highest point of the next view
 
 struct RoleLook {
   Role role;
-  std::string_view fill, far, name;  // far: half way to white
+  std::string_view fill, far, name;  // `far` is half way to white
 };
 constexpr std::array<RoleLook, 4> kLooks = {RoleLook{Role::active, colour::kSky, "#CCE8F7", "active block"},
                                             RoleLook{Role::link, colour::kGrey, "#E0E0E0", "link"},
@@ -45,7 +45,7 @@ Extent extent(const View& view) {
   return extent;
 }
 
-// The part of a polygon on one side of a vertical line: where sign * (x - at) >= 0.
+// Part of a polygon on one side of a vertical line, where sign * (x - at) >= 0.
 Polygon beside(const Polygon& polygon, double at, double sign) {
   Polygon kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -161,9 +161,9 @@ class Views {
     return any([](const View& view) { return view.joint.has_value(); }) ? "side view (arrow: joint above)" : "side view";
   }
 
-  /// Height of the legend below the title, px: 0 if it fits beside it.
+  /// Height of the legend below the title, px; 0 if the legend fits beside the title.
   [[nodiscard]] double legend_below() const {
-    const double title = text_width(views_title(), 13) * 1.1 + 20;  // bold
+    const double title = text_width(views_title(), 13) * 1.1 + 20;  // bold text is wider
     if (!input_.views_legend || title + legend_width(legend()) <= right_ - left_) return 0;
     return kLegendLine + draw_legend(nullptr, legend(), left_, right_, 0);
   }
@@ -188,8 +188,8 @@ class Views {
 
   const FigureInput& input_;
   double left_, right_;
-  std::vector<double> floors_ = {};  // height of each view's base line, m
-  double above_ = 0, below_ = 0;     // extent above and below the base line, m
+  std::vector<double> floors_ = {};  // m, height of the base line of each view
+  double above_ = 0, below_ = 0;     // m, extent above and below the base line
   double per_metre_ = 1;
   Ticks ticks_;
   Scale x_;

@@ -34,7 +34,7 @@ void draw_box(Canvas& canvas, const Plot& plot, double x, double half, const Box
                    {.stroke = colour::kInk, .fill = group.kept ? "#C6DDF0" : colour::kWhite, .width = 1.3});
   canvas.line({x - half, middle}, {x + half, middle}, {.stroke = colour::kBlue, .width = 2.4});
   if (in_order.size() > kMostDots) return;
-  // Dots side by side in the order of the replicates.
+  // Dots are side by side in the order of the replicates.
   for (std::size_t k = 0; k < in_order.size(); ++k) {
     const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(in_order.size());
     canvas.circle({x + half * (1.4 * share - 0.7), y(in_order[k])}, 2.6,

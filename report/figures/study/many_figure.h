@@ -1,4 +1,4 @@
-// Figures over the points of a study with any number of parameters.
+// Figures of all points of a study with any number of parameters.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,32 +7,34 @@
 
 namespace gaitlab::report {
 
-/// A parameter: numbers, or words, of which a point has the index.
+/// Axis of a parameter. If the parameter is a word, the coordinate of a point is its index in `words`.
 struct ManyAxis {
   StudyAxis axis;
   std::vector<std::string> words = {};
 };
 
 struct ManyPoint {
-  std::vector<double> at;  ///< by axis
-  double value = 0;        ///< NaN: not known
+  std::vector<double> at;  ///< one coordinate per axis
+  double value = 0;        ///< NaN if not known
   PointState state = PointState::kept;
 };
 
 struct ManyFigure {
-  std::string title, note;  ///< note: below
+  std::string title, note;  ///< `note` is printed below the figure
   std::vector<ManyAxis> axes;
   StudyAxis value;
   std::vector<ManyPoint> points;
-  std::size_t best = 0;  ///< index of a point; points.size(): none
+  std::size_t best = 0;  ///< index of the best point; points.size() if there is none
 };
 
-/// Parallel coordinates: a line per point over an axis per parameter, kept ones coloured by their value, others grey, the best
-/// black. Above 20 000 line segments between axes a histogram of them. At most 16 parameters; the note mentions those left out.
+/// SVG with parallel coordinates: one axis per parameter, at most 16, and one line per point. Kept points are coloured by their
+/// value, others are grey, the best is black. Above 20 000 line segments, a histogram of the lines is drawn instead. The note
+/// lists the parameters that were left out.
 std::string parallel_svg(const ManyFigure& figure);
-/// A panel per parameter, at most 24: the value over the parameter. Above 20 000 dots a histogram of them.
+/// SVG with a panel for each of at most 24 parameters, which shows the value over the parameter. Above 20 000 dots, a histogram
+/// of the dots is drawn instead.
 std::string scatter_svg(const ManyFigure& figure);
-/// Points of both figures as CSV.
+/// CSV table of the points, for both figures.
 std::string many_csv(const ManyFigure& figure);
 
 }  // namespace gaitlab::report

@@ -1,4 +1,4 @@
-// Parallel coordinates.
+// Figure of parallel coordinates.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -63,7 +63,7 @@ class Parallel {
   [[nodiscard]] static double up(double share) {
     return kParallelPlot.bottom - share * (kParallelPlot.bottom - kParallelPlot.top);
   }
-  /// Place of a point on an axis, from 0 to 1.
+  /// Position of a point on an axis, from 0 to 1.
   [[nodiscard]] double share(const ManyPoint& p, std::size_t k) const {
     const double at = k < axes_ ? place_on(f_.axes[k], p.at[k]) : p.value;
     return (at - ticks_[k].lo) / (ticks_[k].hi - ticks_[k].lo);
@@ -76,7 +76,7 @@ class Parallel {
     svg_.polyline(points, style);
   }
 
-  /// Lines in the order: points that are not kept, then from the palest to the darkest, the best last.
+  /// Draws points that are not kept first, then the others from the palest to the darkest, and the best one last.
   void lines() {
     std::vector<std::size_t> order(f_.points.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -102,7 +102,7 @@ class Parallel {
     line(f_.points[f_.best], {.stroke = colour::kBlack, .width = 2.4});
   }
 
-  /// Points on one segment between two levels of neighbouring axes.
+  /// Points whose lines have the same two levels on neighbouring axes.
   struct Stretch {
     std::size_t points = 0, fit = 0;
     double sum = 0;
@@ -123,7 +123,7 @@ class Parallel {
     return found;
   }
 
-  /// Histogram of the segments between two axes, from level to level.
+  /// Draws a histogram of the lines between two axes, with a band for each pair of levels.
   void stretches() {
     for (std::size_t k = 0; k < axes_; ++k) {
       const Stretches found = stretches_behind(k);
@@ -149,13 +149,13 @@ class Parallel {
     for (const Tick& tick : ticks_[k].marks) {
       const double y = up((tick.at - ticks_[k].lo) / (ticks_[k].hi - ticks_[k].lo));
       svg_.line({x - 3, y}, {x + 3, y}, kAxisLine);
-      // White background, so that lines do not cross it.
+      // A white background prevents lines from crossing the text.
       svg_.rectangle({x + 5, y - 6}, text_width(tick.text, 11) + 2, 12, {.fill = colour::kWhite});
       svg_.text({x + 6, y + 4}, tick.text, {.size = 11});
     }
   }
 
-  /// The axis of the value, with its colours: grey if no point is kept.
+  /// Draws the axis of the value with its colours, or in grey if no point is kept.
   void value_axis() {
     constexpr int kSteps = 96;
     constexpr double kStripWide = 14;  // px
@@ -170,7 +170,8 @@ class Parallel {
     draw_colours(svg_, {x, x + kStripWide, kParallelPlot.top, kParallelPlot.bottom}, colours, {ticks_.back()});
   }
 
-  // In two alternating rows, and from the outer axes inwards, so that long names do not overlap.
+  // Draws the name of an axis. Names are in two alternating rows and extend inwards at the outer axes, so that long names do
+  // not overlap.
   void name(std::size_t k) {
     const double x = across(k);
     const bool last = k == axes_;
@@ -197,8 +198,8 @@ class Parallel {
   const ManyFigure& f_;
   Svg svg_;
   std::size_t axes_;
-  Bounds range_, all_;        ///< of the values: range of the colours, and of all
-  std::vector<Ticks> ticks_;  ///< of the parameters, then of the value
+  Bounds range_, all_;        ///< range of the values that have a colour, and range of all values
+  std::vector<Ticks> ticks_;  ///< ticks of the parameters, then of the value
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Each parameter against a value.
+// Figure of a value over each parameter.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ constexpr double kPanelLeft = 84, kColumnWide = 224, kRowHigh = 196;  // px
 constexpr double kDot = 2.6;                                          // px
 constexpr std::string_view kUnfitDot = "#B0B0B0";
 
-constexpr double kEdge = 0.04;  // of an axis, beyond the outermost dots
+constexpr double kEdge = 0.04;  // share of an axis beyond the outermost dots
 
 class Scatter {
  public:
@@ -68,7 +68,7 @@ class Scatter {
     return plot.at(place_on(f_.axes[k], p.at[k]), p.value);
   }
 
-  /// Points that are not kept are drawn first.
+  /// Draws the dots, first those of points that are not kept.
   void dots(const Plot& plot, std::size_t k) {
     for (const bool fit : {false, true}) {
       for (const ManyPoint& p : f_.points) {
@@ -79,7 +79,7 @@ class Scatter {
     }
   }
 
-  /// Histogram of the points.
+  /// Draws a histogram of the points.
   void cells(const Plot& plot, const Ticks& across, std::size_t k) {
     const Bins x{across.lo, across.hi, 36};
     const Bins y{values_.lo, values_.hi, 26};

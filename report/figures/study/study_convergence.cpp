@@ -42,7 +42,7 @@ Curves curves_of(const std::vector<ConvergencePoint>& search, bool maximize) {
   return curves;
 }
 
-/// Calls `draw` with the generation of every restart.
+/// Calls `draw` with the generation of each restart.
 template <class Draw>
 void each_restart(const std::vector<ConvergencePoint>& search, const Draw& draw) {
   for (std::size_t k = 1; k < search.size(); ++k) {

@@ -1,20 +1,21 @@
-// Progress of a search: best, median and share of kept points by generation.
+// A figure of the progress of a search: best value, median and share of kept points over the generations.
 #pragma once
 #include "report/figures/study/study_figure.h"
 
 namespace gaitlab::report {
 
-/// best, median: of the kept points; NaN: none.
+/// State of a search after a generation. `best` and `median` are over the kept points, NaN if there are none.
 struct ConvergencePoint {
   double generation = 0, restart = 0, points = 0;
-  double best = 0, median = 0, kept = 0, spread = 0;  ///< kept: share of the points; spread: share of the box
+  double best = 0, median = 0, kept = 0, spread = 0;  ///< `kept` is a share of the points, `spread` a share of the parameter
+                                                      ///< box
 };
 
 struct ConvergenceFigure {
   std::string title, note;
   StudyAxis value;
   bool maximize = true;
-  std::vector<std::vector<ConvergencePoint>> searches;  ///< each in the order of its generations
+  std::vector<std::vector<ConvergencePoint>> searches;  ///< one list per search, in the order of the generations
 };
 
 std::string convergence_svg(const ConvergenceFigure& figure);

@@ -17,13 +17,13 @@ namespace {
 
 constexpr double kSheetHeight = 560;         // px
 constexpr PlotArea kPlot{96, 620, 64, 440};  // px
-constexpr double kStudyMargin = 0.03;        // of an axis, beyond the outermost marks
+constexpr double kStudyMargin = 0.03;        // share of an axis beyond the outermost marks
 constexpr std::string_view kBand = "#C6DDF0";
 constexpr Style kPaleHatch{.stroke = colour::kWhite, .width = 0.8};
 
 double on_axis(const StudyAxis& axis, double value) { return axis.log ? log10_of(value) : value; }
 
-/// Lines at 45 degrees within a rectangle.
+/// Draws lines at 45 degrees within a rectangle.
 void hatch(Canvas& canvas, Point corner, double width, double height, const Style& style = kHatchLine) {
   constexpr double kApart = 7;  // px, distance of lines
   for (double offset = kApart; offset < width + height; offset += kApart) {
@@ -33,7 +33,7 @@ void hatch(Canvas& canvas, Point corner, double width, double height, const Styl
   }
 }
 
-/// Edges half way between neighbours, and at the same distance beyond the outermost.
+/// Edges of cells: half way between neighbouring values, and at the same distance beyond the outermost values.
 struct Edges1 {
   explicit Edges1(std::vector<double> values) {
     std::ranges::sort(values);
@@ -45,7 +45,7 @@ struct Edges1 {
     between.insert(between.begin(), values.empty() ? -0.5 : values[0] + first);
     between.push_back(values.empty() ? 0.5 : values[n - 1] + last);
   }
-  /// Edges of the cell that contains a value.
+  /// Lower and upper edge of the cell that contains a value.
   [[nodiscard]] std::pair<double, double> cell(double value) const {
     const auto above = std::upper_bound(between.begin() + 1, between.end() - 1, value);
     return {*(above - 1), *above};
@@ -53,7 +53,7 @@ struct Edges1 {
   std::vector<double> between;
 };
 
-/// The mean of several points: of the kept ones, or else of the others.
+/// Mean of several points: of the kept points or, if there are none, of the others.
 class Pooled {
  public:
   void add(const StudyPoint& p) {
@@ -83,7 +83,7 @@ class Pooled {
   double sum_ = 0, count_ = 0;
 };
 
-/// Cells of a figure over its parameters; for a line: intervals.
+/// Cells of a figure over its parameters. In a line figure they are intervals.
 class Cells {
  public:
   explicit Cells(const StudyFigure& figure) : f_(figure) {
@@ -100,7 +100,7 @@ class Cells {
   [[nodiscard]] std::size_t number(const StudyPoint& p) const {
     return y_.of(on_axis(f_.y, p.y)) * x_.count + x_.of(on_axis(f_.x, p.x));
   }
-  /// Centre of a cell, in the units of the parameters.
+  /// Centre of a cell in the units of the parameters.
   [[nodiscard]] Point centre(std::size_t number) const {
     const double x = x_.at(number % x_.count, 0.5);
     const double y = f_.map ? y_.at(number / x_.count, 0.5) : 0;
@@ -112,7 +112,7 @@ class Cells {
   Bins x_, y_;
 };
 
-/// A figure with cells instead of too many points, each with the mean of its points.
+/// Figure in which cells replace too many points. Each cell has the mean of its points.
 StudyFigure histogram(const StudyFigure& figure) {
   const Cells cells(figure);
   std::vector<Pooled> pooled(cells.size());
@@ -143,7 +143,7 @@ class Drawing {
       if (!f_.map) values_.add(p.low);
       if (!f_.map) values_.add(p.high);
     }
-    // The colours of a map are scaled to kept points: points that exploit the simulation would make all others pale.
+    // The colours of a map are scaled to the kept points. Points that exploit the simulation would make all others pale.
     if (values_.lo < values_.hi || !f_.map) return;
     for (const StudyPoint& p : f_.points) {
       if (p.state != PointState::failed) values_.add(p.value);
@@ -163,7 +163,7 @@ class Drawing {
   }
 
  private:
-  /// Place of a point on the axes of the parameters.
+  /// Position of a point on the axes of the parameters.
   [[nodiscard]] double x_of(const StudyPoint& p) const { return on_axis(f_.x, p.x); }
   [[nodiscard]] double y_of(const StudyPoint& p) const { return on_axis(f_.y, p.y); }
 
@@ -184,7 +184,7 @@ class Drawing {
     if (f_.best < f_.points.size()) draw_ring(svg_, plot.at(x_of(f_.points[f_.best]), f_.points[f_.best].value));
   }
 
-  /// The values over the band from the least to the largest; `points` by rising x.
+  /// Draws the values as a curve, with a band from the least to the largest value. `points` are by rising x.
   void curve(const Plot& plot, const std::vector<StudyPoint>& points) {
     Polygon band;
     std::vector<Point> lower;
@@ -202,7 +202,7 @@ class Drawing {
 
   void dot(Point at, std::string_view fill) { svg_.circle(at, kMark, {.stroke = colour::kBlue, .fill = fill, .width = 1.4}); }
 
-  /// An axis of a map, which ends with the cells if there are any. A single row or column is labelled with its value.
+  /// Axis of a map, which ends at the outermost cells if there are any. The only row or column is labelled with its value.
   [[nodiscard]] Axis map_axis(const StudyAxis& axis, const Bounds& range, const Edges1& edges) const {
     Axis made{.title = shortened(axis.title()), .lines = TickLines::outside};
     made.ticks = f_.grid ? ticks_over({edges.between.front(), edges.between.back()}, axis.log, 8)

@@ -1,4 +1,4 @@
-// A figure over the points of a study: a line over one parameter, a map over two.
+// A figure of the points of a study, which is a line for one parameter and a map for two.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,14 +9,15 @@ namespace gaitlab {
 
 namespace report {
 
-/// An axis: a parameter or a quantity.
+/// Axis of a parameter or of a quantity.
 struct StudyAxis {
   std::string name, unit;
   bool log = false;
   [[nodiscard]] std::string title() const { return unit.empty() ? name : name + " (" + unit + ")"; }
 };
 
-/// kept: breaks no guard and no constraint. Others: infeasible by the verdict of a run, or broken without such a verdict.
+/// State of a point. `kept`: the point satisfies all guards and constraints. `infeasible`: the verdict of a run is infeasible.
+/// `broken`: the point does not satisfy a guard or constraint, without such a verdict. `failed`: a run ended early.
 enum class PointState { kept, broken, infeasible, failed };
 
 }  // namespace report
@@ -30,14 +31,15 @@ struct EnumNames<report::PointState> {
 
 namespace report {
 
-/// value: the mean over the replicates, low and high the least and the largest; NaN: not known.
+/// Point of a study. `value` is the mean over the replicates, `low` and `high` are their least and largest value. NaN if not
+/// known.
 struct StudyPoint {
   double x = 0, y = 0;
   double value = 0, low = 0, high = 0;
   PointState state = PointState::kept;
 };
 
-/// Entry of a legend for the points that ended normally and are not kept; empty: none.
+/// Legend entry for the points that did not fail and are not kept. Empty if there are none.
 template <class Points>
 const char* not_kept_text(const Points& points) {
   bool broken = false;
@@ -51,17 +53,17 @@ const char* not_kept_text(const Points& points) {
 inline bool not_kept(PointState state) { return state == PointState::broken || state == PointState::infeasible; }
 
 struct StudyFigure {
-  std::string title, note;  ///< note: a line below
+  std::string title, note;  ///< `note` is a line below the figure
   StudyAxis x, y, value;
-  bool map = false;   ///< two parameters
-  bool grid = false;  ///< a map of cells; else of dots
+  bool map = false;   ///< true for two parameters
+  bool grid = false;  ///< true if the points of a map are a grid of cells; otherwise they are dots
   std::vector<StudyPoint> points;
-  std::size_t best = 0;  ///< index of a point; points.size(): none
+  std::size_t best = 0;  ///< index of the best point; points.size() if there is none
 };
 
-/// SVG with at most 20 000 marks: above that a histogram, whose cells are the means of their kept points.
+/// SVG with at most 20 000 marks. For more points it is a histogram, whose cells show the mean of their kept points.
 std::string study_svg(const StudyFigure& figure);
-/// The points as CSV.
+/// CSV table of the points.
 std::string study_csv(const StudyFigure& figure);
 
 }  // namespace report

@@ -24,7 +24,8 @@ constexpr Style kFront{.stroke = colour::kBlue, .fill = colour::kBlue, .width = 
 constexpr Style kStair{.stroke = colour::kBlue, .width = 1.4};
 constexpr Style kVerified{.stroke = colour::kBlack, .width = 2.2};
 
-/// Bounds of the front, with a margin of its size: far dominated points would compress the front into a corner.
+/// Range of an axis: that of the front with a margin of its own size. Dominated points far away would compress the front into a
+/// corner.
 Bounds front_bounds(const FrontFigure& f, std::size_t objective) {
   Bounds front;
   Bounds all;
@@ -45,7 +46,7 @@ Axis front_axis(const FrontFigure& f, std::size_t objective, int count) {
           .title = f.objectives[objective].title() + (f.maximize[objective] ? ", more is better" : ", less is better")};
 }
 
-/// Between two points of a front the worse value of each objective holds.
+/// Line of a front as a staircase: between two points, each objective has the worse of their values.
 std::vector<Point> stair(std::span<const Point> front) {
   std::vector<Point> line;
   for (const Point& at : front) {

@@ -1,4 +1,4 @@
-// Two objectives against one another: the Pareto front, and the dominated points.
+// A figure of two objectives, with the Pareto front and the dominated points.
 #pragma once
 #include "core/names.h"
 #include "report/figures/study/study_figure.h"
@@ -21,7 +21,7 @@ namespace report {
 
 struct FrontPoint {
   double run = 0;
-  std::vector<double> objectives;  ///< two or three; the third is in the table alone
+  std::vector<double> objectives;  ///< two or three values; a third one is only in the table
   FrontState state = FrontState::behind;
 };
 
@@ -29,10 +29,10 @@ struct FrontFigure {
   std::string title, note;
   std::vector<StudyAxis> objectives;
   std::vector<bool> maximize;
-  std::vector<FrontPoint> points;  ///< kept ones; points of the front ordered by the first objective
+  std::vector<FrontPoint> points;  ///< kept points; those of the front are in the order of the first objective
 };
 
-/// SVG with at most 20 000 marks: above that every n-th dominated point.
+/// SVG with at most 20 000 marks. For more points only every nth dominated point is drawn.
 std::string front_svg(const FrontFigure& figure);
 std::string front_csv(const FrontFigure& figure);
 

@@ -9,40 +9,40 @@ namespace gaitlab::report {
 
 inline constexpr double kSheetWidth = 760, kSheetTop = 64;  ///< px
 inline constexpr double kMark = 5;                          ///< px, radius of a point
-inline constexpr std::size_t kMostMarks = 20000;            ///< per figure
+inline constexpr std::size_t kMostMarks = 20000;            ///< largest number of marks in a figure
 inline constexpr Style kBestMark{.stroke = colour::kBlack, .width = 2.4};
 inline constexpr Style kHatchLine{.stroke = colour::kInk, .width = 0.8};
 
-/// Bins of a histogram: equal parts of [lo, hi].
+/// Bins of a histogram, which are equal parts of [lo, hi].
 struct Bins {
   double lo = 0, hi = 1;
   std::size_t count = 1;
-  /// The bin that contains a value; values outside are in the outermost bins.
+  /// Index of the bin that contains a value. Values outside [lo, hi] belong to the first or last bin.
   [[nodiscard]] std::size_t of(double value) const;
-  /// Place at a share of a bin: 0 its lower edge, 1 its upper one.
+  /// Position within a bin: its lower edge for share 0, its upper edge for share 1.
   [[nodiscard]] double at(std::size_t bin, double share) const;
 };
 
-/// A number of a CSV file; empty: not finite.
+/// Number as a cell of a CSV file; empty if it is not finite.
 std::string csv_cell(double value);
 
-/// A name without its middle part if it is too long for the sheet.
+/// The name, without its middle part if it is too long for the sheet.
 std::string shortened(const std::string& name);
 
-/// Draws the title: long ones are made smaller, and then cut.
+/// Draws the title. A long title is made smaller, and cut if it is still too long.
 void draw_sheet_title(Canvas& canvas, const std::string& title);
-/// Draws a note, small and grey, in the necessary number of lines; the last at `y` (px).
+/// Draws a note in small grey text, with line breaks as needed. The last baseline is at `y` (px).
 void draw_sheet_note(Canvas& canvas, const std::string& note, double y);
 
-/// `#RRGGBB` from pale (0) to dark blue (1), steadily darker, so that it is readable in grey also.
+/// Colour `#RRGGBB` of a share, from pale (0) to dark blue (1). It darkens steadily, so that it is also readable in grey.
 std::string shade(double share);
 
-/// Draws the scale of shades right of an area, with ticks and a title; without bounds nothing.
+/// Draws the colour scale right of an area, with ticks and a title. Draws nothing if the bounds are empty.
 void draw_shades(Canvas& canvas, const PlotArea& area, const Bounds& bounds, const std::string& title);
 
-/// Mark of a failed point.
+/// Draws the mark of a failed point.
 void draw_cross(Canvas& canvas, Point centre, double half);
-/// Mark of the best point.
+/// Draws the mark of the best point.
 void draw_ring(Canvas& canvas, Point centre);
 
 }  // namespace gaitlab::report
