@@ -68,8 +68,10 @@ class Regular {
   [[nodiscard]] std::uintmax_t size() const { return size_; }
 
   /// Reads at most `most` bytes, even if the file has grown.
-  [[nodiscard]] std::string read(std::uintmax_t most) const {
-    std::string text;
+  template <class Bytes>
+  [[nodiscard]] Bytes read(std::uintmax_t most) const {
+    Bytes text;
+    text.reserve(std::min(most, size_ + 1));
     while (text.size() < most) {
       const std::size_t had = text.size();
       const std::size_t piece = std::min<std::uintmax_t>(kReadPiece, most - had);
@@ -216,16 +218,29 @@ std::filesystem::file_type kind_of(const std::filesystem::path& path) {
   return type;
 }
 
-std::string read_file(const std::filesystem::path& path, std::uintmax_t most) {
+namespace {
+
+template <class Bytes>
+Bytes read_whole(const std::filesystem::path& path, std::uintmax_t most) {
   const Regular file(path);
   if (file.size() > most) {
     throw InputError(SourceLocation{path.string()},
                      fmt::format("cannot be read: it has {} bytes; expected at most {}", file.size(), most));
   }
-  return file.read(most + 1);
+  return file.read<Bytes>(most + 1);
 }
 
-std::string read_start(const std::filesystem::path& path, std::size_t bytes) { return Regular(path).read(bytes); }
+}  // namespace
+
+std::string read_file(const std::filesystem::path& path, std::uintmax_t most) { return read_whole<std::string>(path, most); }
+
+SpilledVector<char> read_large_file(const std::filesystem::path& path, std::uintmax_t most) {
+  SpilledVector<char> bytes = read_whole<SpilledVector<char>>(path, most);
+  release(bytes);
+  return bytes;
+}
+
+std::string read_start(const std::filesystem::path& path, std::size_t bytes) { return Regular(path).read<std::string>(bytes); }
 
 std::uintmax_t size_of(const std::filesystem::path& path) { return Regular(path).size(); }
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/files/spill.h"
+
 namespace gaitlab {
 
 /// Treatment of an existing file with the same name.
@@ -68,6 +70,8 @@ inline constexpr std::uintmax_t kMostTrace = std::uintmax_t{1} << 34;     ///< t
 /// All bytes of a regular file. Opening never blocks. Throws InputError `PATH: error: cannot be read: REASON` for a device, a
 /// FIFO, a folder, or more than `most` bytes, without reading anything.
 std::string read_file(const std::filesystem::path& path, std::uintmax_t most);
+/// The same for a file that may exceed the memory.
+SpilledVector<char> read_large_file(const std::filesystem::path& path, std::uintmax_t most);
 /// The first bytes, at most `bytes`, of a regular file of any size. Throws InputError as read_file().
 std::string read_start(const std::filesystem::path& path, std::size_t bytes);
 /// Size of a regular file in bytes. Throws InputError as read_file().

@@ -42,17 +42,21 @@ struct Spilled {
 template <class T>
 using SpilledVector = std::vector<T, Spilled<T>>;
 
+inline std::string_view view(const SpilledVector<char>& bytes) { return {bytes.data(), bytes.size()}; }
+
 /// Lets the pages of an array leave memory if it lies in a file.
 template <class T>
 void release(const SpilledVector<T>& array) noexcept {
   if (Spilled<T>::in_file(array.capacity())) release_spilled(array.data(), array.capacity() * sizeof(T));
 }
 
-/// Calls visit(bytes) for consecutive parts of an array, each a multiple of 8 bytes except the last, and releases each.
+/// Calls visit(bytes) for consecutive parts of an array from byte `from` on, and releases each part. Every part except the last
+/// has a multiple of 8 bytes.
 template <class T, class Visit>
-void each_part(const SpilledVector<T>& array, const Visit& visit) {
+void each_part(const SpilledVector<T>& array, const Visit& visit, std::size_t from = 0) {
   constexpr std::size_t kPart = std::size_t{1} << 26;
   std::string_view rest(reinterpret_cast<const char*>(array.data()), array.size() * sizeof(T));
+  rest.remove_prefix(std::min(from, rest.size()));
   for (; !rest.empty(); rest.remove_prefix(std::min(kPart, rest.size()))) {
     visit(rest.substr(0, kPart));
     release(array);

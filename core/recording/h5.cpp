@@ -28,10 +28,25 @@ constexpr std::string_view kHdf5 = "\x89HDF\r\n\x1a\n";
 // Trace format that this program can read.
 struct Format {
   std::string_view version, hash_name;
-  std::string (*hash)(std::string_view);
+  std::string (*hash)(const SpilledVector<char>& file, std::size_t from);
 };
-constexpr std::array<Format, 2> kFormats{{{"1", "FNV-1a", [](std::string_view bytes) { return hash(bytes); }},
-                                          {"2", "hash", [](std::string_view bytes) { return hash_words(bytes); }}}};
+
+std::string hash_of_words(const SpilledVector<char>& file, std::size_t from) {
+  WordHash words;
+  words.add_length(file.size() - from);
+  each_part(
+      file, [&](std::string_view bytes) { words.add_words(bytes); }, from);
+  return words.text();
+}
+
+std::string hash_of_bytes(const SpilledVector<char>& file, std::size_t from) {
+  std::uint64_t state = kFnvOffset;
+  each_part(
+      file, [&](std::string_view bytes) { state = fnv1a(bytes, state); }, from);
+  return fmt::format("{:016x}", state);
+}
+
+constexpr std::array<Format, 2> kFormats{{{"1", "FNV-1a", hash_of_bytes}, {"2", "hash", hash_of_words}}};
 
 // User block of the file. It is text, so that `head -n 2` shows the type of the file.
 std::string header(const Format& format, std::size_t size, std::string_view hash) {
@@ -89,15 +104,15 @@ std::string complaint(std::string_view start, std::uintmax_t bytes) {
 }
 
 // True if the user block matches the remaining bytes.
-bool is_whole(std::string_view bytes) {
+bool is_whole(const SpilledVector<char>& bytes) {
   return std::ranges::any_of(kFormats, [&](const Format& format) {
-    return bytes.substr(0, kUserBlock) == header(format, bytes.size(), format.hash(bytes.substr(kUserBlock)));
+    return view(bytes).substr(0, kUserBlock) == header(format, bytes.size(), format.hash(bytes, kUserBlock));
   });
 }
 
 /// Reads the bytes in a separate process, in case HDF5 crashes. Format 1 has texts of variable length, and HDF5 1.10 crashes
 /// while reading these in some forged files (heap overflow in H5HG_read).
-void try_apart(const std::string& bytes, const SourceLocation& place) {
+void try_apart(const SpilledVector<char>& bytes, const SourceLocation& place) {
   constexpr unsigned kPatience = 60;  // s
   const pid_t child = begin_child([&bytes] {
     ::alarm(kPatience);
@@ -127,10 +142,7 @@ void write_h5(const Trace& trace, const Provenance& origin, const std::filesyste
   } catch (const std::bad_alloc&) {
     throw NoImage(path.string() + ": cannot be written: out of memory");
   }
-  WordHash words;
-  words.add_length(hdf5.size());
-  each_part(hdf5, [&](std::string_view bytes) { words.add_words(bytes); });
-  file.write(header(kFormats.back(), kUserBlock + hdf5.size(), words.text()));
+  file.write(header(kFormats.back(), kUserBlock + hdf5.size(), hash_of_words(hdf5, 0)));
   each_part(hdf5, [&](std::string_view bytes) { file.write(bytes); });
   file.commit();
 }
@@ -141,10 +153,10 @@ StoredTrace read_h5(const std::filesystem::path& path) {
   const SourceLocation place{path.string()};
   if (std::string text = complaint(read_start(path, kStart), size_of(path)); !text.empty())
     throw InputError(place, std::move(text));
-  const std::string bytes = read_file(path, kMostTrace);
+  const SpilledVector<char> bytes = read_large_file(path, kMostTrace);
   if (bytes.size() < kUserBlock || !is_whole(bytes))
     throw InputError(place, "is corrupt or was changed by another program: its bytes are not those that were written");
-  if (bytes.starts_with(kTraceFormats[0])) try_apart(bytes, place);
+  if (view(bytes).starts_with(kTraceFormats[0])) try_apart(bytes, place);
   try {
     return from_image(bytes);
   } catch (const ImageError& error) {

@@ -104,6 +104,15 @@ H5FD_file_image_callbacks_t memory_of(Image& image) {
   return calls;
 }
 
+// The same for a file that HDF5 reads. HDF5 neither copies nor changes it.
+H5FD_file_image_callbacks_t memory_in_place(const Image& image) {
+  H5FD_file_image_callbacks_t calls = memory_of(const_cast<Image&>(image));
+  calls.image_malloc = [](std::size_t, H5FD_file_image_op_t, void* from) -> void* { return static_cast<Image*>(from)->data(); };
+  calls.image_realloc = [](void*, std::size_t, H5FD_file_image_op_t, void*) -> void* { return nullptr; };
+  calls.image_memcpy = [](void* to, const void*, std::size_t, H5FD_file_image_op_t, void*) { return to; };
+  return calls;
+}
+
 Handle file_access() {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
   checked(H5Pset_fapl_core(access, kGrowth, 0), "file in memory");
@@ -229,7 +238,7 @@ std::int64_t read_number(hid_t owner, const char* name) {
 }
 
 // Reads the texts of an attribute with `rank` dimensions.
-std::vector<std::string> read_texts(hid_t owner, const char* name, int rank, const std::string& bytes) {
+std::vector<std::string> read_texts(hid_t owner, const char* name, int rank, std::string_view bytes) {
   const Handle attribute(H5Aopen(owner, name, H5P_DEFAULT), H5Aclose, name);
   const Handle stored(H5Aget_type(attribute), H5Tclose, name);
   if (H5Tget_class(stored) != H5T_STRING) throw ImageError(fmt::format("{} is not a text", name));
@@ -257,7 +266,7 @@ std::vector<std::string> read_texts(hid_t owner, const char* name, int rank, con
   return found;
 }
 
-std::vector<Column> read_columns(hid_t data, std::size_t count, const std::string& bytes) {
+std::vector<Column> read_columns(hid_t data, std::size_t count, std::string_view bytes) {
   const std::vector<std::string> names = read_texts(data, "columns", 1, bytes);
   const std::vector<std::string> units = read_texts(data, "units", 1, bytes);
   const std::vector<std::string> definitions = read_texts(data, "definitions", 1, bytes);
@@ -303,7 +312,7 @@ void check_storage(hid_t data, const char* name) {
 }
 
 // Rows of many chunks at a time, so that pages of a table in a file can leave memory.
-void read_rows(hid_t data, hid_t space, Trace& trace) {
+void read_rows(hid_t data, hid_t space, const Image& file, Trace& trace) {
   constexpr std::size_t kRows = 4 * kChunkRows;
   for (std::size_t row = 0; row < trace.rows(); row += kRows) {
     const std::array<hsize_t, 2> start{row, 0};
@@ -313,10 +322,11 @@ void read_rows(hid_t data, hid_t space, Trace& trace) {
     checked(H5Dread(data, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, &trace.values[row * trace.columns.size()]),
             "reading the values");
     release(trace.values);
+    release(file);
   }
 }
 
-Trace read_dataset(hid_t owner, const char* name, const std::string& bytes) {
+Trace read_dataset(hid_t owner, const char* name, const Image& bytes) {
   check_link(owner, name);
   const Handle data(H5Dopen2(owner, name, H5P_DEFAULT), H5Dclose, name);
   check_storage(data, name);
@@ -331,9 +341,9 @@ Trace read_dataset(hid_t owner, const char* name, const std::string& bytes) {
     throw ImageError(fmt::format("dataset /{}: the declared size exceeds the file", name));
   }
   Trace trace;
-  trace.columns = read_columns(data, columns, bytes);
+  trace.columns = read_columns(data, columns, view(bytes));
   trace.values.resize(rows * columns);
-  if (!trace.values.empty()) read_rows(data, space, trace);
+  if (!trace.values.empty()) read_rows(data, space, bytes, trace);
   return trace;
 }
 
@@ -346,6 +356,8 @@ Image to_image(const Trace& trace, const Provenance& origin, std::span<const Bes
   plain(creation);
   const Handle access = file_access();
   Image image;
+  if (const std::size_t values = trace.values.size() * sizeof(double); values > kMostInMemory)
+    image.reserve(values / 4 * 3);  // a walking robot's trace has 0.56 of its values
   H5FD_file_image_callbacks_t memory = memory_of(image);
   checked(H5Pset_file_image_callbacks(access, &memory), "memory of the file");
   Handle file(H5Fcreate(kNowhere, H5F_ACC_TRUNC, creation, access), H5Fclose, "file");
@@ -371,15 +383,16 @@ Image to_image(const Trace& trace, const Provenance& origin, std::span<const Bes
   return image;
 }
 
-StoredTrace from_image(const std::string& file_bytes) {
+StoredTrace from_image(const Image& file_bytes) {
   const Library library;
   const Handle access = file_access();
-  // HDF5 copies the image; the pointer is not const only for callbacks that are not set.
+  H5FD_file_image_callbacks_t memory = memory_in_place(file_bytes);
+  checked(H5Pset_file_image_callbacks(access, &memory), "memory of the file");
   checked(H5Pset_file_image(access, const_cast<char*>(file_bytes.data()), file_bytes.size()), "image");
   const Handle file(H5Fopen(kNowhere, H5F_ACC_RDONLY, access), H5Fclose, "opening the file");
-  const auto text = [&](const char* name) { return read_texts(file, name, 0, file_bytes).front(); };
+  const auto text = [&](const char* name) { return read_texts(file, name, 0, view(file_bytes)).front(); };
   const std::string format = text("format");
-  if (!file_bytes.starts_with(format + "\n")) throw ImageError("the attribute `format` is not that of the first line");
+  if (!view(file_bytes).starts_with(format + "\n")) throw ImageError("the attribute `format` is not that of the first line");
   const bool first = format == kTraceFormats[0];
   StoredTrace stored;
   stored.origin = {text("scenario"), read_number(file, "seed"), text("build"), first ? "" : text("outcome"),

@@ -24,6 +24,6 @@ SpilledVector<char> to_image(const Trace& trace, const Provenance& origin, std::
 
 /// Reads the trace from the bytes of a whole file, including the user block. The HDF5 part must be a result of to_image. Throws
 /// ImageError.
-StoredTrace from_image(const std::string& file);
+StoredTrace from_image(const SpilledVector<char>& file);
 
 }  // namespace gaitlab
