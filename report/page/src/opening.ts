@@ -29,7 +29,7 @@ export function opening(source: Source, link: URLSearchParams): Opening {
   };
 }
 
-/** Joint of the link, of the first stray signal, of the check, or of the largest load: the first of these that exists. */
+/** Joint of the link, the first stray signal, the check, or the largest load: the first of these that exists. */
 function firstJoint({ recording, loads, ghost }: Source, run: Run, check: Check | null, linked: string | null): number {
   const stray = ghost?.overlay.strays[0];
   const theirs = check ? jointAt(run.recording.meta, check.part, check.worst) : -1;
@@ -41,7 +41,7 @@ function firstJoint({ recording, loads, ghost }: Source, run: Run, check: Check 
   return found.find((j) => j >= 0) ?? loads.hardest.joint;
 }
 
-/** Time of the first stray signal, of the check, or of the largest load, s: the first of these that exists. */
+/** Time of the first stray signal, the check, or the largest load, s: the first of these that exists. */
 function firstTime({ recording, loads, ghost }: Source, run: Run, check: Check | null): number {
   const { joints, verdict } = recording.meta;
   const seen = check && moment(run, check);

@@ -91,7 +91,7 @@ export function moment(run: Run, check: Check): number | null {
   return from === null ? largestRow(run, of, all.from, all.to) : largestRow(run, of, from, check.to ?? from);
 }
 
-/** Time of the first row beyond the limit of a check, s; null if no value is beyond the limit or the time is unknown. */
+/** Time of the first row beyond the limit of a check, s; null if no row is beyond the limit or the time is unknown. */
 export function firstMoment(run: Run, check: Check): number | null {
   const { first, first_part: part } = check;
   const of = first === null ? null : measure(run, check, part);
