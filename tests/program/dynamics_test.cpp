@@ -238,7 +238,8 @@ TEST(ReactionColumns, CarryMotorAndStopTorquesAndNothingHoldsTheBase) {
   EXPECT_GT(touching, 0);
 }
 
-/// A rotor accelerates by n^2 J qdd of the torque of its motor; reactions and contact forces balance the rest.
+/// The part n^2 J qdd of a motor's torque accelerates the rotor. The reactions of the hinge contain only the rest of the
+/// torque.
 TEST(ReactionColumns, BalanceWithRotors) {
   // With one row per step, qdd follows from the speeds of two rows, because semi_implicit adds h qdd to the speeds. Rows
   // between which the command changes are skipped.
