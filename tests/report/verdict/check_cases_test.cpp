@@ -235,7 +235,7 @@ TEST(CheckCases, DecidedByTheFirstOfEqualMargins) {
   EXPECT_EQ(with(true).decided_by, "fall");
 }
 
-/// A spread of margins makes a check `too close` if the margins of the spread are on both sides of the limit.
+/// A spread of margins makes a passed check `too close` if one of its margins is beyond the limit or unknown.
 TEST(CheckCases, ASpreadMakesTooCloseWhatItBringsToTheOtherSide) {
   Case made = rated_gait();
   const auto with = [&](std::vector<double> margins) {
