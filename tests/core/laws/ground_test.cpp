@@ -195,7 +195,7 @@ TEST(GroundField, OfAPlaneIsThePlane) {
       const Vec3 on(x, y, 0.05 + 0.2 * (x + 0.2) - 0.3 * (y - 0.1));
       if (x < -0.19 || y < 0.11 || x > 0.09 || y > 0.49) {
         EXPECT_NEAR(ground.relief()->at(x, y).z, on.z(),
-                    kGroundRounding);  // outside of the field the normal differs
+                    kGroundRounding);  // near the edge of the field the normal differs
         continue;
       }
       expect_touch(ground.query(on - 0.001 * normal, 0), 0.001, normal);
