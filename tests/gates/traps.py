@@ -16,7 +16,7 @@ import tempfile
 PROGRAM, BUILD = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WORK = pathlib.Path(tempfile.mkdtemp(prefix="traps."))
-LONGEST = int(os.environ.get("TRAPS_LONGEST", "600"))  # s: only what waits for ever is stopped
+LONGEST = int(os.environ.get("TRAPS_LONGEST", "600"))  # s; time limit for a command that does not end
 bad = 0
 
 
@@ -27,7 +27,7 @@ def wrong(text):
 
 
 def call(argv, folder, **options):
-    """Exit code (None: it waits for ever), and both outputs."""
+    """Exit code of a command (None if it does not end), and both outputs."""
     try:
         done = subprocess.run([str(word) for word in argv], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, timeout=LONGEST,
                               **options)
@@ -47,7 +47,7 @@ def expect(argv, folder):
 
 
 def elf_files(folder):
-    """Programs and shared libraries."""
+    """Paths of programs and shared libraries in a folder."""
     for path in sorted(folder.rglob("*")):
         if path.is_file() and not path.is_symlink() and path.suffix != ".o":
             with open(path, "rb") as file:
@@ -126,9 +126,9 @@ COMMANDS = {
     "test": "test golden/two.yaml --junit junit.xml",
     "new plugin": "new plugin cpg mine",
 }
-# Commands whose purpose is to write anew what lies under their names: in the folder of a study or a run, or the figure of a recipe.
+# Commands that intentionally replace files: in the folder of a study or a run, or the figure of a recipe.
 RENEWED = {"study report", "sweep --out", "shard", "study merge", "report of two", "figure"}
-# Ends of names that are SQLite's beside a journal, and that a killed `approve` leaves.
+# Endings of file names that SQLite uses next to a journal, and of files that a killed `approve` leaves.
 OURS = ("-wal", "-shm", "-journal", ".golden.next")
 
 
@@ -166,7 +166,7 @@ def copy_of(folder):
 
 
 def libraries_of(program):
-    """Names of all libraries that the loader takes, and for each the versions that are asked for of it."""
+    """Names of all libraries that the loader uses, each with the required symbol versions."""
     names = [line.split()[0] for line in expect(["ldd", program], WORK).splitlines() if "=>" in line]
     versions, of = {}, None
     for line in expect(["objdump", "--private-headers", program], WORK).splitlines():
@@ -178,7 +178,7 @@ def libraries_of(program):
 
 
 def make_library(name, versions, file, log):
-    """A library that writes its name into a file where it is loaded."""
+    """Builds a library that writes its name into a file when it is loaded."""
     (WORK / "trap.c").write_text(f"""#include <fcntl.h>
 #include <unistd.h>
 __attribute__((constructor)) static void loaded(void) {{
