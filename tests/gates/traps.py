@@ -217,12 +217,12 @@ def try_libraries(good):
             harmless(f"a library {name}", "--version", folder, (0,))
             (folder / name).unlink()
         if bad:
-            continue  # all at once say no more
+            continue  # a test with all libraries at once would show nothing more
         for name in libraries:
             shutil.move(WORK / name, folder / name)
         commands = COMMANDS.values() if program == PROGRAM else ["--version"]
         for words in commands:
-            harmless("libraries", words, folder, (0, 2))  # 2: what it writes is there already
+            harmless("libraries", words, folder, (0, 2))  # exit code 2 if the output exists already
         print(f"ok       {program.name}: {len(commands)} commands beside {len(libraries)} libraries", flush=True)
 
 
@@ -230,10 +230,10 @@ def try_libraries(good):
 
 
 def names_of(words, folder):
-    """The names below the folder that a command looks at, and those that it writes, as strace sees them."""
+    """Names below the folder that a command opens, and names that it writes, according to strace."""
     log = WORK / "strace"
     code, said = call(["strace", "-f", "-qq", "-e", "trace=%file", "-o", log, *gaitlab(words)], folder)
-    if code not in (0, 3):  # 3: no gait of so short a search stands
+    if code not in (0, 3):  # exit code 3 if the verification of this short search fails
         wrong(f"{words}: exit code {code}: {said.decode(errors='replace')[-300:]}")
     looked, written = set(), set()
     for line in log.read_text(errors="replace").splitlines():
@@ -265,7 +265,7 @@ def ends(what, words, folder):
 
 
 def put(folder, name):
-    """The path of a name whose folder exists and that nothing has."""
+    """Path of a name that does not exist in an existing folder."""
     path = folder / name
     path.parent.mkdir(parents=True, exist_ok=True)
     if path.is_dir() and not path.is_symlink():
@@ -282,7 +282,7 @@ def try_names(good):
     for command, words in COMMANDS.items():
         looked, written = names_of(words, copy_of(good))
         for name in sorted(looked):
-            # A name of a file that all commands read in the same way is tried with the first that does.
+            # A file that all commands read in the same way is tested only with the first of them.
             if (name, words.split()[0]) in seen:
                 continue
             seen.add((name, words.split()[0]))
@@ -320,7 +320,7 @@ def main():
     if built < 5 or installed < 1:
         wrong(f"only {built} files of the build tree and {installed} installed: this gate sees nothing")
     print(f"ok       the run paths of {built} built and {installed} installed files", flush=True)
-    resource.setrlimit(resource.RLIMIT_CPU, (300, 300))  # s, of each process: what turns round for ever
+    resource.setrlimit(resource.RLIMIT_CPU, (300, 300))  # limit of CPU time per process for endless loops, s
     prepare(good := WORK / "good")
     try_libraries(good)
     code, said = call(["strace", "-f", "-e", "trace=%file", "true"], WORK) if shutil.which("strace") else (127, b"strace is missing")
