@@ -192,7 +192,8 @@ __attribute__((constructor)) static void loaded(void) {{
 
 
 def try_libraries(good):
-    """Each library alone, since one that lacks the symbols ends the program before others are seen; then all at once, with every command."""
+    """Tests each library alone, because a library without the required symbols ends the program before it loads others. Then tests all
+    libraries at once with every command."""
     log = WORK / "loaded"
     environment = {key: value for key, value in os.environ.items() if key != "LD_LIBRARY_PATH"}
 
