@@ -286,7 +286,7 @@ TEST_F(Sweep, TakesAnswersOfOtherStudies) {
           "nowhere.db: error: does not exist; expected the study.db of a study");
 }
 
-/// Of points with equal values, one is simulated, and all have its results.
+/// Points with equal values are simulated once, and all have the results.
 TEST_F(Sweep, RunsEqualPointsOnce) {
   ASSERT_EQ(call("sweep two.yaml --random cpg.amplitude=0.2,0.3 --runs 12 --out s --quiet").code, 0);
   const auto rows = table("s");

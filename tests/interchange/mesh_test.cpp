@@ -137,7 +137,8 @@ TEST(Mesh, TilesLieOnTheHeightfieldAndReachOverTheArea) {
   for (const Mesh& one : both_kinds(made)) sums_of(one, 0.5);  // angles between normals are at most twice 30 degrees
 }
 
-// Of a large heightfield only one height of several is drawn. (A mesh of 4096 x 4096 heights would have half a gigabyte.)
+// The mesh of a large heightfield contains only one height of several. (A mesh of 4096 x 4096 heights would have half a
+// gigabyte.)
 TEST(Mesh, OfALargeHeightfieldOneHeightOfEveryFewIsDrawn) {
   Heightfield field{{1, 2, 0}, 0.1, 1101, {}};
   std::vector<double> heights;

@@ -224,7 +224,7 @@ function drawn(desk: Desk, row: Row, tried: Set<string>): HTMLTableRowElement[] 
   return [head, detail];
 }
 
-/** Row with mark, title, values and limits of a check. For two runs, a mark stands beside each value. */
+/** Row with mark, title, values and limits of a check. For two runs, each value has a mark. */
 function summary(row: Row, title: HTMLElement, two: boolean): HTMLTableRowElement {
   const mark = (c: Check) =>
     noted(c) ? [make("span.sr", "a note")] : [icon(marks[c.status]), make("span.sr", words[c.status])];

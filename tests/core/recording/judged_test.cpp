@@ -127,8 +127,8 @@ TEST(Judged, WithoutSetPointsThatRepeatTheWholeRunCounts) {
   EXPECT_EQ(whole.periods, 0U);
 }
 
-/// Of joints at a limit, the joint with the longest time at the limit is first. (All have equal peaks, and the joint with the
-/// lowest number was once first.)
+/// The first of the joints at a limit is the joint with the longest time at the limit. (All have equal peaks, and the joint
+/// with the lowest number was once first.)
 TEST(Judged, TheJointThatIsLongestAtALimitComesFirst) {
   Recording r = ticks_of_ten_seconds();
   for (int k = 0; k <= 100; ++k) cell(r, k, 0, 0) = cell(r, k, 1, kTorquePeak) = 2;

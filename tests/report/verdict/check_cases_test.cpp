@@ -97,7 +97,7 @@ TEST(CheckCases, SaturationNamesItsJoints) {
   EXPECT_EQ(with(0, 0).value, 0);
 }
 
-/// Of joints with equal margins, the worst is the joint that is at its limit for the longer total time.
+/// The worst of several joints with equal margins is the joint that is at its limit for the longer total time.
 TEST(CheckCases, SaturationOfEqualStretches) {
   const auto worst = [](std::size_t longer, std::size_t other) {
     Case made = rated_gait();
@@ -221,7 +221,7 @@ TEST(CheckCases, TightestIsTheLeastMarginOfThoseThatFail) {
   EXPECT_NEAR(close.judged().tightest()->margin, 0.005, kCaseRounding);
 }
 
-/// Of failed checks with equal margins, the first decides. A failed check of the robot as a whole precedes all others.
+/// The first of several failed checks with equal margins decides. A failed check of the robot as a whole precedes all others.
 TEST(CheckCases, DecidedByTheFirstOfEqualMargins) {
   const auto with = [](bool falls) {
     Case made = rated_gait();

@@ -13,7 +13,7 @@ namespace gaitlab::test {
 inline constexpr std::size_t kJoint = 5;  // number of the joint whose values are changed
 inline constexpr std::size_t kEarly = 1;  // number of a row before the judged window
 
-/// Sets the cell of joint kJoint in a row of ticks; row 0 stands for the last row.
+/// Sets the cell of joint kJoint in a row of ticks; row 0 means the last row.
 inline Change tick(TickColumn column, double value, std::size_t row = 0) {
   return [=](Case& made) { made.tick(row == 0 ? made.last_tick() : row, kJoint, column) = value; };
 }
