@@ -87,10 +87,10 @@ class RandomRobots {
     return t;
   }
 
-  /// Random motors, one per joint, with torques between that of the shipped motor and a hundredth of it. A third of the motors
+  /// Random motors, one per joint, with torques between 1 % and 100 % of the torque of the shipped motor. A third of the motors
   /// is mostly at its current limit, and half have a rotor inertia. Gears are as in the paper or directional. The damping by
-  /// back-EMF is at most about that of the shipped motor (0.9 N m s). A directional gear damps more, so that the step of an
-  /// explicit method must suit the decay rate.
+  /// back-EMF is at most about equal to the damping of the shipped motor (0.9 N m s). A directional gear damps more, so that
+  /// the step of an explicit method must suit the decay rate.
   actuators::DcMotorActuator::Settings motors(std::size_t joints) {
     actuators::DcMotorActuator::Settings m;
     const auto each = [&](PerJoint& value, const auto& draw) {
@@ -128,7 +128,7 @@ class RandomRobots {
   double friction() { return below(5) == 0 ? 0 : scaled(0.05, 3); }
 
   /// Random state with angles within the stops and joint speeds up to 3 rad/s. The base has a random pose and, unless it is
-  /// fixed, random velocities; those of a planar base are in its plane.
+  /// fixed, random velocities. The velocities of a planar base are in its plane.
   RobotState state(const Robot& robot, Base base) {
     RobotState s;
     s.orientation = Quat(rotation());

@@ -226,7 +226,7 @@ TEST_F(GoldenCommand, NoGolden) {
 }
 
 TEST_F(GoldenCommand, UnreadableGoldenOrScenarioIsNotTested) {
-  folder.write("other.yaml", kCaterpillar + "name: good\n");  // the default name is that of the file
+  folder.write("other.yaml", kCaterpillar + "name: good\n");  // the default name is the file name
   fs::copy(folder / "good.golden", folder / "other.golden");
   folder.write("good.golden/trace.golden", read(folder / "good.golden/trace.golden").substr(0, 500));
   Result result = call("test .");

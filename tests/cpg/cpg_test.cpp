@@ -183,7 +183,7 @@ void validate_pair(const std::string& name, Integrated run, double w, double tol
 
 constexpr double kLag = 1.2, kPsi = 2.5;
 
-/// Pair of oscillators that starts kPsi ahead of the lag kLag. The start is that of a CPG with the sum of both as its lag.
+/// Pair of oscillators that starts kPsi ahead of the lag kLag. The start comes from a CPG whose lag is the sum kLag + kPsi.
 template <class T>
 Integrated displaced(const T& cpg, const typename T::Settings& s, double h) {
   typename T::Settings ahead = s;

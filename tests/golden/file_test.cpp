@@ -39,8 +39,8 @@ TEST(GoldenFile, KeepsEveryValueWithinTheDeclaredPrecision) {
 }
 
 TEST(GoldenFile, IsSmall) {
-  // The trace has 73 columns for 20 s, as that of the hexapod. Noise, which compresses worst, takes less than 2 bytes per value
-  // and 1 % of overhead.
+  // The trace has 73 columns for 20 s, like a trace of the hexapod. Noise, which compresses worst, takes less than 2 bytes per
+  // value and 1 % of overhead.
   std::mt19937_64 random(1);
   Trace trace;
   trace.columns = {{"t", "s", {}}};

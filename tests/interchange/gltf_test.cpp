@@ -40,7 +40,7 @@ Pose traced(const Recording& recording, const std::string& name, std::size_t row
   return {q.toRotationMatrix(), {value("x"), value("y"), value("z")}};
 }
 
-/// Number of the row whose time is closest to that of a keyframe.
+/// Number of the row whose time is closest to the time of a keyframe.
 std::size_t row_at(const Recording& recording, double time) {
   const Series t = recording.series("t");
   std::size_t best = 0;

@@ -37,7 +37,8 @@ class InMujoco {
   double& q(std::size_t joint) { return data_->qpos[model_->jnt_qposadr[id(scenario_.robot->joints[joint].name)]]; }
   [[nodiscard]] int dof(std::size_t joint) const { return model_->jnt_dofadr[id(scenario_.robot->joints[joint].name)]; }
 
-  /// Sets the state in MuJoCo to that of gaitlab. The pose of a planar base is given by x, z and its rotation from the start.
+  /// Sets the state in MuJoCo to the state of gaitlab. The pose of a planar base is given by x, z and its rotation from the
+  /// start.
   void set(const RobotState& s, double x, double z, double turn) {
     const Vec3 w = s.orientation.conjugate() * s.angular_velocity;
     if (scenario_.base == Base::floating) {
@@ -59,8 +60,8 @@ class InMujoco {
     mj_forward(model_.get(), data_.get());
   }
 
-  /// Matrix from the generalised velocity of gaitlab to that of MuJoCo. In MuJoCo the angular velocity of a free joint is in
-  /// body axes, and joints are in depth-first order.
+  /// Matrix from the generalised velocity of gaitlab to the generalised velocity of MuJoCo. In MuJoCo the angular velocity of a
+  /// free joint is in body axes, and joints are in depth-first order.
   [[nodiscard]] Eigen::MatrixXd from_ours(const RobotState& s) const {
     const auto base = static_cast<Eigen::Index>(base_entries(scenario_.base).size());
     Eigen::MatrixXd T = Eigen::MatrixXd::Zero(model_->nv, model_->nv);

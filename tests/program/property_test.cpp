@@ -292,8 +292,8 @@ TEST(Property, NumbersAndRootAreNames) {
     }
     for (BodyWrench& w : r.wrenches) w.body = body_in_other(w.body);
 
-    // The base frame of the other robot is fixed to the reference body of its root. Its motion is that of this body in the
-    // original robot.
+    // The base frame of the other robot is fixed to the reference body of its root, and moves like this body of the original
+    // robot.
     Kinematics k(robot);
     k.update(robot, c.state);
     const std::size_t base_there = other.modules[0].reference;

@@ -137,7 +137,8 @@ TEST(RandomSteps, EndOnTheLawOfEveryMotor) {
       EXPECT_EQ(tally.off, 0) << integrator << ", seed " << seed;
     }
   }
-  // The tolerance is that of the search. Rounding the speed at the end of the step adds 1e-13 at a back-EMF of 1e3 N m s/rad.
+  // The search for the end of a step has a tolerance of 1e-9. Rounding the speed at the end of the step adds 1e-13 at a
+  // back-EMF of 1e3 N m s/rad.
   EXPECT_LE(worst, 1e-9 * (1 + 1e-3));
   EXPECT_GT(limited, 1000);
   EXPECT_GT(changed, 1000);

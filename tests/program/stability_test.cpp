@@ -53,7 +53,7 @@ TEST(LambdaRule, PowerIterationFindsTheLargestEigenvalue) {
   k.update(robot, zero);
   DenseMass mass(robot, k);
   RateMonitor monitor(robot);
-  for (const double friction : {0.0, 400.0, 4000.0}) {  // N s/m; lambda is that of motors, of both, of the contact
+  for (const double friction : {0.0, 400.0, 4000.0}) {  // N s/m; motors, both, or the contact determine lambda
     monitor.motor.assign(robot.joints.size(), 0.896);
     monitor.contacts.assign(
         1, {0, 3, k.point(3, Vec3(0.03, 0.02, -0.03)), Vec3::UnitZ(), Vec3::UnitY(), friction, 0.3 * friction});

@@ -198,7 +198,7 @@ TEST_F(Converge, HalvesTheAccuracy) {
   EXPECT_TRUE(std::regex_search(text, std::regex("\naccuracy +0[.]01 +0[.]005 +order\n"))) << text;
   EXPECT_TRUE(contains(text, "\naccuracy 0.01 is good for 1 %: the error is at most ")) << text;
   EXPECT_FALSE(contains(text, " s is good")) << text;
-  // The errors in the table are those of separate runs with these accuracies.
+  // The errors in the table equal the errors of separate runs with these accuracies.
   std::vector<Trace> traces;
   for (const char* accuracy : {"0.01", "0.005", "0.0025"}) {
     traces.push_back(run(shipped("caterpillar.yaml",

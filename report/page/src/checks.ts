@@ -177,7 +177,7 @@ function explanation(desk: Desk, row: Row): Node[] {
   });
 }
 
-/** Sentences under a check. `tried` is the advice that earlier rows contain, which is not repeated. */
+/** Sentences under a check. `tried` contains the advice of earlier rows, which is not repeated. */
 function findings(c: Check, label: string, tried: Set<string>): HTMLElement[] {
   const found: HTMLElement[] = [];
   const advice = label + remedy(c);

@@ -1,5 +1,5 @@
-// Second run of the page. Times, and numbers of joints, feet and docks, are those of the first run; this file converts
-// them.
+// Second run of the page. Panels use times, and numbers of joints, feet and docks, of the first run; this file converts
+// these to the second run.
 import type { Values } from "./channels";
 import type { Overlay, Stray } from "./format";
 import { Loads } from "./loads";

@@ -155,8 +155,8 @@ export class Marks {
 }
 
 /**
- * Picture of a face's number. The number of an active face is on a filled disc, that of a passive face in a brown ring,
- * that of a face without gender in a grey ring. A wedge points along the reference direction of the face.
+ * Picture of a face's number. It is on a filled disc for an active face, in a brown ring for a passive face, and in a
+ * grey ring for a face without gender. A wedge points along the reference direction of the face.
  */
 function plate({ id, gender }: Face, quarters: number): CanvasTexture {
   const canvas = document.createElement("canvas");

@@ -217,7 +217,7 @@ TEST(GroundField, PassesThroughItsHeightsAndGoesOnOutside) {
   EXPECT_NEAR(f.at(3, 9).z, 2.05, kGroundRounding);
 }
 
-// The normal of a heightfield is that of its surface, and is continuous across the edges of cells.
+// The normal of a contact is the normal of the heightfield's surface, and is continuous across the edges of cells.
 TEST(GroundField, NormalIsTheSlopeOfTheSurface) {
   std::mt19937 engine(3);
   std::uniform_real_distribution<double> unit(-0.02, 0.02);

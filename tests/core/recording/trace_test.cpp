@@ -57,7 +57,7 @@ TEST(Trace, HashKeepsNamesApart) {
   EXPECT_NE(hash(a), hash(b));
 }
 
-// The hashes equal those of an independent program in Python (for a whole file: tests/gates/h5py.sh).
+// The hashes equal the hashes of an independent program in Python (for a whole file: tests/gates/h5py.sh).
 TEST(Trace, HashIsPinned) {
   EXPECT_EQ(hash(Trace{}), "2-68853b6a3912cca3");
   EXPECT_EQ(hash(Trace{{{"a", "", ""}}, {}}), "2-a4ba087e50356aa8");

@@ -73,7 +73,7 @@ TEST(Posture, CycleSpeedIsThatOfTheWindow) {
   EXPECT_TRUE(std::isnan(cycle_speed(r, judged)));  // unknown without a limit cycle
   judged.periods = 2;
   EXPECT_NEAR(cycle_speed(r, judged), 0.3 * std::sqrt(2.0), 1e-12);
-  judged.to = 9.92;  // the position between two rows differs from that of the start
+  judged.to = 9.92;  // divides the interval between two rows differently from the start
   EXPECT_NEAR(cycle_speed(r, judged), 0.3 * std::sqrt(2.0), 1e-12);
 }
 

@@ -112,7 +112,7 @@ TEST(Quantities, AreTheNumbersOfTheSummary) {
     if (quantity.name == "limit_cycle.found") {
       EXPECT_EQ(quantity.value(data), summary.limit_cycle.found ? 1 : 0);
     }
-    // The electrical energy is that of the whole robot, and not the largest of the joints.
+    // The value is the electrical energy of the whole robot, and not the largest energy of a joint.
     if (quantity.name == "energy.electrical") {
       EXPECT_EQ(quantity.value(data), record.ledger.electrical);
     }

@@ -197,7 +197,7 @@ TEST(CheckTable, SpansDecideOfARunThatIsTooShort) {
   }
 }
 
-/// Checks have the documented spans. The span of `speed` is that of the limit that decides.
+/// Checks have the documented spans. The span of `speed` depends on the limit that decides.
 TEST(CheckTable, HasItsSpans) {
   const std::set<std::string> window{"progress", "voltage", "current", "envelope", "speed",     "heat",     "gear_continuous",
                                      "tracking", "battery", "slip",    "airborne", "stability", "periodic", "evidence"};

@@ -177,7 +177,7 @@ TEST(Earned, WheelsAreJudgedAfterTwoSeconds) {
   EXPECT_EQ(drive("duration=1").word, Word::not_judged);
 }
 
-/// If the run is shorter than a period of the CPG, the period is that of the CPG, and not the duration of the run.
+/// If the run is shorter than a period of the CPG, the period of the CPG counts, and not the duration of the run.
 TEST(Earned, FramesThatRepeatHaveTheirPeriod) {
   const Told brief(
       shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=3", "cpg.type=keyframes",

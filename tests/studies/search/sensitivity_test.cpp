@@ -33,7 +33,7 @@ double ishigami(const Shares& shares) {
   return math::sin(angle(0)) * (1 + 0.1 * cubed * cubed) + 7 * s * s;
 }
 
-/// The indices S and ST agree with those of Saltelli et al. The tolerance 0.03 is the required accuracy for 4096 samples.
+/// The indices S and ST agree with the values of Saltelli et al. The tolerance 0.03 is the required accuracy for 4096 samples.
 TEST(Sensitivity, SobolIndicesOfIshigami) {
   constexpr std::size_t kRows = 4096;
   const auto design = [](std::uint64_t point) { return saltelli_shares(3, point); };
