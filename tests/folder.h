@@ -1,4 +1,4 @@
-// A folder of a test's own, and whole files.
+// Temporary folder for a test, and functions that read and write whole files.
 #pragma once
 #include <cstdlib>
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace gaitlab::test {
 
-/// Made under the system's temporary folder, removed at the end.
+/// Folder below the system's temporary folder. The destructor removes it with its content.
 class Folder {
  public:
   Folder() {
@@ -22,7 +22,7 @@ class Folder {
   Folder& operator=(const Folder&) = delete;
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-  /// Writes the file, byte for byte, and returns its path.
+  /// Writes `text` to the file `name` of the folder without any conversion. Returns the path of the file.
   std::string write(const std::string& name, const std::string& text) const {
     std::ofstream(path_ / name, std::ios::binary) << text;
     return *this / name;
@@ -32,7 +32,7 @@ class Folder {
   std::filesystem::path path_;
 };
 
-/// All bytes of a file; "" where there is none.
+/// All bytes of a file; "" if the file does not exist.
 inline std::string read(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;

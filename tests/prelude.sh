@@ -1,6 +1,6 @@
-# shellcheck shell=bash disable=SC2034,SC2154 # variables are for the scripts; program is theirs
-# What every script of tests/gates and tests/tools begins with: strict mode, the folder of the project, a folder that is gone at the
-# end, and one way to say what was found.
+# shellcheck shell=bash disable=SC2034,SC2154 # scripts use the variables, and set `program`
+# Common start of all scripts in tests/gates and tests/tools: strict mode, the folder of the project, a temporary folder that is removed
+# at the end, and functions that report results.
 set -euo pipefail
 
 root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd -P)
@@ -8,38 +8,38 @@ work=$(mktemp -d)
 trap 'rm -rf -- "$work"' EXIT
 failed=0 skipped=0
 
-# The comment at the head of the script.
+# Prints the comment at the head of the script, and ends the script.
 usage() {
   sed -n '2,/^[^#]/s/^# //p' "$0" >&2
   exit 2
 }
 
 ok() { printf 'ok       %s\n' "$*"; }
-# On stderr: seen from within $(...), too.
+# Messages go to stderr, so that they also appear from within $(...).
 bad() {
   failed=$((failed + 1))
   printf 'BAD      %s\n' "$*" >&2
 }
-# skip WHAT WHY
+# skip WHAT WHY: reports a skipped case.
 skip() {
   skipped=$((skipped + 1))
   printf 'SKIPPED  %s: NOT TESTED: %s\n' "$1" "$2" >&2
 }
-# For scripts that go on after what is bad: their last line.
+# Last line of scripts that continue after a failure.
 verdict() {
   printf '%d bad, %d skipped\n' "$failed" "$skipped"
   ((failed == 0))
 }
 
-# For scripts that end at what is bad.
+# Reports a failure and ends the script.
 fail() {
   bad "$@"
   exit 1
 }
 
-# What the last command of `quietly` or `expect` said.
+# Prints the output of the last command of `quietly` or `expect`.
 show_log() { tail -n 100 -- "$work/log" >&2; }
-# quietly COMMAND...: its exit code; what it says is shown where that is not 0.
+# quietly COMMAND...: returns the exit code of COMMAND. The output is printed only if the exit code is not 0.
 quietly() {
   local code=0
   "$@" >"$work/log" 2>&1 || code=$?
@@ -52,28 +52,28 @@ expect() {
   "${@:2}" >"$work/log" 2>&1 || code=$?
   ((code == $1)) || { show_log; fail "exit code $code, expected $1: ${*:2}"; }
 }
-# said PATTERN: the last of these commands must have said so, wherever it broke its lines.
+# said PATTERN: the output of the last of these commands must contain PATTERN, with any line breaks.
 said() { tr -s '\n ' ' ' <"$work/log" | grep -- "$1" >/dev/null || { show_log; fail "did not say '$1'"; }; }
 
-# replace FILE BY: changes the file whole or not at all; `mv` alone would copy where $work is on another disk.
+# replace FILE BY: replaces FILE atomically. `mv` alone would copy if $work is on a different file system.
 replace() { cp -- "$2" "$1.part" && mv -- "$1.part" "$1"; }
 
-# Nothing here is decided by a clock: a gate waits for a state, and kills at moments that are counted in CPU time, so that a machine that
-# is slow, or does something else, too, changes nothing but how long it takes.
+# Gates do not depend on real time. They wait for a state, and kill at moments that are measured in CPU time, so that a slow or busy
+# machine only makes them longer.
 
-# wait_until PROCESS COMMAND...: until the command succeeds. 1: the process has ended before, or twenty minutes have gone by.
+# wait_until PROCESS COMMAND...: waits until COMMAND succeeds. Returns 1 if the process has ended before, or after twenty minutes.
 wait_until() {
   local process=$1 end=$((SECONDS + 1200))
   shift
   until "$@"; do
     if ! kill -0 "$process" 2>/dev/null || ((SECONDS > end)); then
-      "$@" # it may have succeeded just before the end
+      "$@" # the state may have occurred just before the process ended
       return
     fi
     sleep 0.05
   done
 }
-# wait_for PROCESS WHAT COMMAND...: the same; where it waits in vain the script ends.
+# wait_for PROCESS WHAT COMMAND...: waits until COMMAND succeeds, and ends the script with a failure if it does not.
 wait_for() { wait_until "$1" "${@:3}" || { show_log; fail "waited in vain for $2"; }; }
 
 # cpu_time CODE COMMAND...: sets `took`, the milliseconds of CPU time of a command that ends with this exit code.
@@ -85,8 +85,8 @@ cpu_time() {
   took=$((10#$user + 10#$system))
 }
 
-# kill_after MILLISECONDS COMMAND...: the kernel ends the command after so much CPU time of all its threads, as kill -9 does (the
-# program does not catch SIGPROF). 1: it had ended before, with `code`.
+# kill_after MILLISECONDS COMMAND...: the kernel ends COMMAND after this CPU time of all its threads, like kill -9 (the program does not
+# catch SIGPROF). Returns 1 if COMMAND has ended before, with the exit code `code`.
 kill_after() {
   code=0
   # shellcheck disable=SC2016 # words of Perl
@@ -95,9 +95,9 @@ kill_after() {
   ((code == 128 + $(kill -l PROF)))
 }
 
-# A series of N kills, each of a program that runs: a try that came too late does not count, and at most ten times N are made.
+# A series of N kills of running programs. A kill that is too late does not count, and there are at most 10 N attempts.
 #     kills N
-#     while kills_left; do try_to_kill FROM TO COMMAND... || COMMAND had ended before; done    (FROM to TO: milliseconds)
+#     while kills_left; do try_to_kill FROM TO COMMAND... || COMMAND had ended before; done    (FROM and TO are in milliseconds)
 #     kills_told WHAT
 kills() { wanted=$1 hits=0 tries=0; }
 kills_left() { ((hits < wanted && tries < 10 * wanted)); }
@@ -111,15 +111,15 @@ kills_told() {
   if ((hits == wanted)); then ok "$line"; else bad "$line; expected $wanted kills"; fi
 }
 
-# plugin NAME: the library of tests/plugin_example/NAME.cpp in the build of $program.
+# plugin NAME: prints the path of the library of tests/plugin_example/NAME.cpp in the build of $program.
 plugin() { readlink -e -- "$(dirname -- "$program")/../plugins/$1.so" || fail "there is no plugin $1 beside $program"; }
 # The runs of the plugin `waits` wait from `hold` to `release`.
 hold() {
   export GAITLAB_HOLD=$work/hold
   mkdir -- "$GAITLAB_HOLD"
 }
-release() { mv -- "$GAITLAB_HOLD" "$(mktemp -u "$work/released.XXXXXX")"; } # at once, whoever writes into it
-# kill_in_the_middle WHAT COMMAND...: by kill -9, while a run of it waits.
+release() { mv -- "$GAITLAB_HOLD" "$(mktemp -u "$work/released.XXXXXX")"; } # atomic, also if a process writes into the folder
+# kill_in_the_middle WHAT COMMAND...: ends COMMAND by kill -9 while one of its runs waits.
 kill_in_the_middle() {
   local process
   code=0
@@ -133,7 +133,8 @@ kill_in_the_middle() {
   ((code == 128 + 9)) || bad "$1: killed in the middle of a run, exit code $code"
 }
 
-# kill_at_call N COMMAND...: with tests/plugin_example/dies_at_call.cpp of $program's build, as by kill -9. 1: there is no call N.
+# kill_at_call N COMMAND...: ends COMMAND, like kill -9, at call N that changes a file, by tests/plugin_example/dies_at_call.cpp of
+# $program's build. Returns 1 if there are fewer than N calls.
 kill_at_call() {
   code=0
   { env LD_PRELOAD="$(plugin dies_at_call)" GAITLAB_DIES_AT="$1" "${@:2}"; } >"$work/log" 2>&1 || code=$?

@@ -1,6 +1,6 @@
-// Random assemblies and states: modules of the shipped type and of types made up here, docked and numbered at random; motors,
-// contacts and steps. Numbers come from the bits of std::mt19937, which the standard fixes, so a seed means the same robot
-// everywhere: nothing here is drawn in the arguments of one call, whose order is the compiler's.
+// Random robots, states, motors and contact laws. Robots consist of modules of the shipped type and of random types, which are
+// docked and numbered at random. The C++ standard defines the bits of std::mt19937, so that a seed gives the same robot on all
+// platforms. No two arguments of one call draw numbers, because the compiler chooses the order of arguments.
 #pragma once
 #include <algorithm>
 #include <numeric>
@@ -21,7 +21,7 @@ class RandomRobots {
   explicit RandomRobots(std::uint32_t seed) : bits_(seed) {}
 
   double uniform(double lo, double hi) { return lo + (hi - lo) * (static_cast<double>(bits_()) / 4294967296.0); }
-  /// As likely between 1 and 2 as between 10 and 20.
+  /// Number between lo and hi whose logarithm is uniformly distributed.
   double scaled(double lo, double hi) { return lo * math::pow(hi / lo, uniform(0, 1)); }
   std::size_t below(std::size_t n) { return static_cast<std::size_t>(bits_()) % n; }
   Vec3 vector(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
@@ -40,8 +40,8 @@ class RandomRobots {
     for (std::size_t i = list.size(); i > 1; --i) std::swap(list[i - 1], list[below(i)]);
   }
 
-  /// 1 to `largest` modules, numbered in any order but for the root; every second robot has modules of made-up types among
-  /// them.
+  /// Robot of 1 to `largest` modules. The root has number 0, other numbers are in random order. Half of the robots have modules
+  /// of random types.
   Robot robot(std::size_t largest = 10) { return robot_of(1 + below(largest)); }
   Robot robot_of(std::size_t count) {
     for (;;) {
@@ -54,12 +54,13 @@ class RandomRobots {
       for (std::size_t i = 0; i < count; ++i) type_of.push_back(below(types.size()));
       try {
         return assemble(types, type_of, docks(types, type_of));
-      } catch (const InputError&) {  // two blocks in one cell: another one
+      } catch (const InputError&) {  // two blocks occupy one cell; the next robot is tried
       }
     }
   }
 
-  /// A tree of 2 to 5 bodies with arbitrary hinges, tensors and faces; a body between two hinges may be massless.
+  /// Module type: a tree of 2 to 5 bodies with random hinges, inertia tensors and faces. A body between two hinges may be
+  /// massless.
   ModuleType type(const std::string& name) {
     ModuleType t;
     t.name = name;
@@ -76,7 +77,7 @@ class RandomRobots {
     }
     for (int id = 0; id < 6; ++id) {
       const Mat3 R = rotation();
-      const std::size_t on = below(2) == 1 ? 0 : count - 1;  // bodies that have mass
+      const std::size_t on = below(2) == 1 ? 0 : count - 1;  // the first and the last body are never massless
       t.faces.push_back({id, on, id < 3 ? Gender::active : Gender::passive, vector(0.1), R.col(0), R.col(1)});
     }
     for (const std::size_t on : {count - 1, std::size_t{0}, count - 1}) {
@@ -86,9 +87,10 @@ class RandomRobots {
     return t;
   }
 
-  /// Motors of every kind, one per joint: from the shipped one's size to a hundredth of its torque, every third with a current
-  /// limit that it lives at, every second with a rotor; gears as printed or directional. Their back-EMF damps up to about as
-  /// much as the shipped one's (0.9 N m s). A directional gear damps more, so that an explicit method asks for the rate.
+  /// Random motors, one per joint, with torques between 1 % and 100 % of the torque of the shipped motor. A third of the motors
+  /// is mostly at its current limit, and half have a rotor inertia. Gears are as in the paper or directional. The damping by
+  /// back-EMF is at most about equal to the damping of the shipped motor (0.9 N m s). A directional gear damps more, so that
+  /// the step of an explicit method must suit the decay rate.
   actuators::DcMotorActuator::Settings motors(std::size_t joints) {
     actuators::DcMotorActuator::Settings m;
     const auto each = [&](PerJoint& value, const auto& draw) {
@@ -109,23 +111,24 @@ class RandomRobots {
     return m;
   }
 
-  /// Ground from soft to twice the default's stiffness, linear and not, with and without damping; friction viscous up to 10
-  /// mm/s (the default) and more. Damping exponents between 0 and 0.5 are left out: with them a depth that is nothing but
-  /// rounding makes a force.
+  /// Random contact law: stiffness up to twice the default, linear or nonlinear, with or without damping. Friction is viscous
+  /// below a speed of 10 (the default) to 100 mm/s. Damping exponents between 0 and 0.5 are excluded, because with these a
+  /// depth of the size of rounding errors causes a force.
   PenaltyContact contact() {
     PenaltyContact law;
     law.k = below(3) == 0 ? uniform(1, 1.5) : 1;
     law.kn = scaled(2e3, 2e4);
     const std::size_t damping = below(5);
     law.d = damping == 0 ? 0 : damping == 1 ? uniform(0.5, 1.5) : 1;
-    law.cd = damping == 0 ? scaled(1, 30) : damping == 2 ? 0 : scaled(1e3, 1e5);  // p^d, p being some mm
+    law.cd = damping == 0 ? scaled(1, 30) : damping == 2 ? 0 : scaled(1e3, 1e5);  // p^d is small at depths p of some mm
     law.v_lim = scaled(0.01, 0.1);
     return law;
   }
-  /// Coulomb coefficient of a ground.
+  /// Random friction coefficient of a ground; 0 in a fifth of the cases.
   double friction() { return below(5) == 0 ? 0 : scaled(0.05, 3); }
 
-  /// Angles within the stops, speeds up to 3 rad/s, base anywhere (planar: in its plane).
+  /// Random state with angles within the stops and joint speeds up to 3 rad/s. The base has a random pose and, unless it is
+  /// fixed, random velocities. The velocities of a planar base are in its plane.
   RobotState state(const Robot& robot, Base base) {
     RobotState s;
     s.orientation = Quat(rotation());
@@ -159,7 +162,8 @@ class RandomRobots {
     return type;
   }
 
-  /// A box of any shape, turned anyhow: its moments obey the triangle inequality, as those of every body do.
+  /// Body with the inertia tensor of a random box in a random orientation. Such moments obey the triangle inequality, as the
+  /// moments of every physical body do.
   BodyType body(const std::string& name) {
     const Vec3 half{uniform(0.02, 0.1), uniform(0.02, 0.1), uniform(0.02, 0.1)};
     const double mass = uniform(0.1, 0.5);
@@ -169,7 +173,7 @@ class RandomRobots {
     return {name, mass, vector(0.05), R * moments * R.transpose(), {}};
   }
 
-  /// One module after the other is docked to any one before it, their numbers and rows being in no order.
+  /// Random docks. Each module is docked to a random earlier module. The numbers of modules and the order of rows are random.
   std::vector<Dock> docks(const std::vector<ModuleType>& types, const std::vector<std::size_t>& type_of) {
     std::vector<std::size_t> number(type_of.size() - 1);
     std::iota(number.begin(), number.end(), 1);
@@ -182,7 +186,7 @@ class RandomRobots {
       std::size_t parent = 0;
       std::size_t child_face = 0;
       std::size_t parent_face = 0;
-      do {  // a module has six faces and takes one itself: there is always a free one
+      do {  // the earlier modules always have a free face, because a module has six faces and takes one
         parent = number[below(i)];
         child_face = below(6);
         parent_face = (types[type_of[child]].faces[child_face].gender == Gender::active ? 3 : 0) + below(3);

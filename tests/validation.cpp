@@ -24,7 +24,7 @@ double scale() {
   return value;
 }
 
-/// As many digits as the tolerance can tell apart, and one more.
+/// Text of a value with one digit more than the tolerance can distinguish.
 std::string rounded(double value, double tolerance) {
   if (!std::isfinite(value)) return fmt::format("{}", value);
   const double digits = std::ceil(std::log10(std::max(std::abs(value), tolerance) / tolerance)) + 1;
@@ -38,7 +38,7 @@ struct Check {
 
 void report(const Row& row, const Check& check, const std::string& reason) {
   const double factor = scale();
-  // Not `>`: a residual that is not a number is not inside.
+  // This comparison is also false if the residual is NaN.
   const bool inside = check.residual <= check.tolerance * factor && factor > 0;
   const std::string unit = row.unit.empty() ? "" : " " + row.unit;
   const std::string by = check.residual > 0 ? fmt::format("{:.2g}", check.tolerance / check.residual) : "exact";
@@ -60,7 +60,7 @@ void report(const Row& row, const Check& check, const std::string& reason) {
                                     {"residual", fmt::format("{:.2g}", check.residual)},
                                     {"tolerance", fmt::format("{:.2g}", check.tolerance)},
                                     {"inside_by", by},
-                                    // For choosing the worst of one id.
+                                    // Number by which the page selects the worst value of an id.
                                     {"share", std::isfinite(check.residual) ? check.residual / check.tolerance : 1e300},
                                     {"command", fmt::format("{} --gtest_filter={}.{}", program_invocation_short_name,
                                                             test->test_suite_name(), test->name())}};

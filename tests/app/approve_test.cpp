@@ -1,4 +1,4 @@
-// Output of `gaitlab approve`: changes shown, bands kept, runs refused.
+// Tests of `gaitlab approve`: displayed changes, preserved bands, refused runs.
 #include "tests/app/golden_command.h"
 
 namespace gaitlab::test {
@@ -56,7 +56,7 @@ TEST_F(ApproveCommand, ApproveKeepsTheBandsOfTheSameGaitAlone) {
   EXPECT_NE(after.bands[1].width(), before.bands[1].width());
   EXPECT_EQ(call("test good.yaml").code, 0);
   folder.write("good.yaml", other_motor + "physics: {step: 1.25e-5}\n");
-  EXPECT_EQ(call("test good.yaml").code, 0);  // an innocent: its bands are made for it
+  EXPECT_EQ(call("test good.yaml").code, 0);  // an unchanged scenario is within its bands
 
   std::string smaller = kCaterpillar;
   smaller.replace(smaller.find("0.6,"), 4, "0.3,");
@@ -92,18 +92,19 @@ TEST_F(ApproveCommand, ApproveLooksAtItsTargetFirst) {
                  "--replace makes a new one, whose history begins with it");
   fs::create_symlink("loop.yaml", folder / "loop.yaml");
   expect_refused("test loop.yaml", "loop.yaml: error: cannot be read: Too many levels of symbolic links");
-  const Result folder_with_it = call("test .");  // the others are still tested
+  const Result folder_with_it = call("test .");  // all other scenarios are still tested
   EXPECT_EQ(folder_with_it.code, 2);
   expect_contains(folder_with_it.err, "./loop.yaml: error: cannot be read: Too many levels of symbolic links\n");
   expect_contains(folder_with_it.out, "0 passed, 0 failed, ");
 }
 
-// The cost of transport of a robot that hardly moves is noise: a change across the limit is not a regression.
+// The cost of transport of a robot that hardly moves is meaningless. A distance that changes from below to above the limit for
+// the cost of transport is therefore not a regression.
 TEST_F(ApproveCommand, AStepAcrossTheLimitOfTransportIsNone) {
   const std::string text =
       "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\ncontact: {on: all}\n"
       "cpg: {type: phase_oscillator, frequency: 1, amplitude: 0.40458984374999996, phase_lag: 1.2}\n"
-      "duration: 0.1\n";  // 1.0001 mm, with half the step 0.99995 mm
+      "duration: 0.1\n";  // the distance is 1.0001 mm, and 0.99995 mm with half of the step
   folder.write("edge.yaml", text);
   ASSERT_EQ(call("approve edge.yaml --reason 'on the edge'").code, 0);
   const std::string once = bytes("edge.golden");
@@ -116,7 +117,7 @@ TEST_F(ApproveCommand, AStepAcrossTheLimitOfTransportIsNone) {
 }
 
 TEST_F(ApproveCommand, ApproveRefusesBandsThatWouldNoticeNothing) {
-  folder.write("chaos.yaml", kCaterpillar + "controller: {Kp: 400}\n");  // past the sampled loop's limit: it hammers
+  folder.write("chaos.yaml", kCaterpillar + "controller: {Kp: 400}\n");  // the sampled control loop is unstable
   const Result result = call("approve chaos.yaml --reason 'why not'");
   EXPECT_EQ(result.code, 2);
   EXPECT_TRUE(result.err.starts_with("chaos.yaml: error: the band of m")) << result.err;
@@ -124,13 +125,13 @@ TEST_F(ApproveCommand, ApproveRefusesBandsThatWouldNoticeNothing) {
   expect_contains(result.err, "Nothing was written\n");
   EXPECT_FALSE(fs::exists(folder / "chaos.golden"));
 
-  const std::string before = bytes("good.golden");  // an old golden's bands are no way around it
+  const std::string before = bytes("good.golden");  // the bands of an existing golden do not permit approval
   folder.write("good.yaml", kCaterpillar + "controller: {Kp: 400}\n");
   EXPECT_EQ(call("approve good.yaml --reason 'why not'").code, 2);
   EXPECT_EQ(bytes("good.golden"), before);
 }
 
-/// The value that stands behind `key: ` in a message, up to a blank.
+/// Value after `key: ` in a message, up to the next space.
 std::string advised(const std::string& message, const std::string& key) {
   const std::size_t at = message.find(key + ": ");
   if (at == std::string::npos) return "";
@@ -138,7 +139,7 @@ std::string advised(const std::string& message, const std::string& key) {
   return message.substr(from, message.find(' ', from) - from);
 }
 
-// Whoever does what the refusal says has a golden, in one go.
+// The advice in the message of a refused approval leads to an approved golden in one step.
 TEST_F(ApproveCommand, WhatARefusalAdvisesHelps) {
   const auto approve_with = [&](const std::string& physics) {
     folder.write("long.yaml", kCaterpillar + "physics: {engine: articulated, " + physics + "}\n");

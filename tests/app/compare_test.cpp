@@ -1,4 +1,4 @@
-// Output of compare and export, and traces as HDF5: whole outputs, whole messages.
+// Tests of the complete outputs and messages of compare and export, and of HDF5 traces.
 #include <nlohmann/json.hpp>
 
 #include "core/recording/csv.h"
@@ -24,7 +24,7 @@ class CompareCommand : public ::testing::Test {
     EXPECT_EQ(result.err, message + "\n");
     EXPECT_EQ(result.out, "");
   }
-  /// A run folder with this trace, and this summary if there is any.
+  /// Creates a run folder with this trace, and with this summary unless it is empty.
   void make_run(const std::string& name, const std::string& csv, const std::string& summary = "") {
     std::filesystem::create_directory(folder / name);
     folder.write(name + "/trace.csv", csv);
@@ -76,7 +76,7 @@ TEST_F(CompareCommand, SettingsNumbersAndWorstColumns) {
                 "first to part: m0/active angle at t = 0.5 s\n");
 }
 
-/// A joint has the name that both runs give it, and `--columns` takes it.
+/// The output names a joint if both runs give it the same name, and `--columns` accepts this name.
 TEST_F(CompareCommand, NamesOfJoints) {
   const std::string trace = "t,joint.0.angle,joint.1.angle\n0,0,0\n0.5,1,1\n";
   make_run("a", trace, R"({"joints": ["m0/active", "m0/passive"]})");

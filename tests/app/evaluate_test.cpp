@@ -1,4 +1,4 @@
-// `gaitlab evaluate`: what is answered, and which lines are refused.
+// Tests of `gaitlab evaluate`: answers, and refused lines.
 #include <nlohmann/json.hpp>
 
 #include "studies/journal/journal.h"
@@ -34,7 +34,7 @@ class Evaluate : public StudyFixture {
 TEST_F(Evaluate, TakesAnswersOfOtherStudies) {
   ASSERT_EQ(ask(question("1", "0.7") + question("2", "0.9")).code, 0);
   std::filesystem::rename(folder_ / "e", folder_ / "old");
-  // A row of the other study is known by a figure that no run would give.
+  // A value that no run would give marks the row of the other study.
   studies::Database(folder_.path() / "old/study.db", studies::Database::Mode::write)
       .execute("UPDATE run SET path_length = 77 WHERE run = 0");
   const auto all = answers(ask(question("3", "0.7") + question("4", "1.1"), "--answers old"));
@@ -72,7 +72,7 @@ TEST_F(Evaluate, AnswersWithTheFiguresOfTheJournal) {
     EXPECT_EQ(value.get<double>(), std::stod(figures[k])) << journal.head().quantities[k].name;
   }
   EXPECT_EQ(all[1].at("objective").at(0), all[1].at("figures").at("speed"));
-  // The same run as anybody's.
+  // The answer equals the results of a run with the same settings.
   ASSERT_EQ(call("run two.yaml --no-report --set physics.integrator=implicit --set cpg.phase_lag=0.7 --set cpg.type=hopf "
                  "--set physics.step=0.001 --out r")
                 .code,
@@ -85,7 +85,7 @@ TEST_F(Evaluate, OfSeveralReplicatesEachFigureIsAList) {
                 "gaitlab_study: 1\nscenario: two.yaml\nparameters: {cpg.phase_lag: {low: 0.5, high: 1.5}}\n"
                 "replicates: {count: 3, vary: {ground.friction: {uniform: [0.4, 1]}}, combine: median}\n"
                 "objective: [{maximize: speed}, {minimize: distance}]\nguards: none\n");
-  const auto all = answers(ask(R"({"id": 1, "parameters": {"cpg.phase_lag": 1}})"));  // the last line has no end
+  const auto all = answers(ask(R"({"id": 1, "parameters": {"cpg.phase_lag": 1}})"));  // the line has no line end
   ASSERT_EQ(all.size(), 1U);
   auto speeds = all[0].at("figures").at("speed").get<std::vector<double>>();
   ASSERT_EQ(speeds.size(), 3U);
@@ -101,7 +101,7 @@ TEST_F(Evaluate, RefusesLinesThatAreNoQuestionsAndLosesNothing) {
     const Result result = ask(question("1", "0.7") + "\n" + question("2", "0.8") + line + "\n");
     EXPECT_EQ(result.code, 2) << line.substr(0, 100);
     EXPECT_EQ(result.err, message + "\n") << line.substr(0, 100);
-    EXPECT_EQ(answers(result).size(), 1U) << line.substr(0, 100);  // the batch before is answered
+    EXPECT_EQ(answers(result).size(), 1U) << line.substr(0, 100);  // the batch before the refused line is answered
   };
   refuses("hello", "stdin:4:1: error: is not JSON" + expected);
   refuses(R"({"id": 1, "parameters": {"cpg.phase_lag": NaN}})", "stdin:4:43: error: is not JSON" + expected);

@@ -1,4 +1,4 @@
-// Output of `export --to gltf`: files, notes, whole messages.
+// Tests of `export --to gltf`: files, notes, complete messages.
 #include "tests/interchange/glb_file.h"
 #include "tests/program/fixture.h"
 
@@ -67,7 +67,7 @@ TEST_F(ExportGltf, Refusals) {
   refused("export run --to gltf no/x.glb", "no/x.glb: error: cannot be written: its folder does not exist");
   refused("export run --to gltf x.glb --set duration=1",
           "--set duration=1: error: a recorded run cannot be changed; expected a scenario in place of the run");
-  // An older folder whose trace had no poses.
+  // An older run folder contains a trace without poses.
   std::filesystem::create_directory(folder / "old");
   std::filesystem::copy(folder / "run/scenario.resolved.yaml", folder / "old/scenario.resolved.yaml");
   folder.write("old/trace.csv", "t,joint.0.angle\n0,0\n0.1,1\n");

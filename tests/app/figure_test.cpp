@@ -1,4 +1,4 @@
-// `gaitlab figure`: what it refuses, that its bytes repeat, and that it draws the numbers of the trace where they belong.
+// Tests of `gaitlab figure`: refused recipes, reproducible bytes, and correct positions of the numbers of the trace.
 #include <zlib.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ class PaperFigure : public ::testing::Test {
     folder.write("figure.yaml", recipe);
     return gaitlab("figure figure.yaml " + options, folder / "");
   }
-  /// Refused with this alone; nothing is written.
+  /// Expects that the recipe is refused with exactly this message, and that no file is written.
   void refused(const std::string& recipe, const std::string& message) {
     const Result result = draw(recipe, "-o f.svg");
     EXPECT_EQ(result.code, 2);
@@ -133,7 +133,7 @@ TEST_F(PaperFigure, WhatExistsIsReplacedOnlyWhereItIsAskedFor) {
   EXPECT_NE(first.out.find("figure.svg: 88.9 x "), std::string::npos) << first.out;
   EXPECT_EQ(draw(kTwin, "").err, "figure.svg: error: exists; name it with -o to replace it. Nothing was written\n");
   EXPECT_EQ(draw(kTwin, "-o figure.svg").code, 0);
-  EXPECT_EQ(draw(kTwin, "-o figure.pdf").code, 0);  // the same numbers beside it
+  EXPECT_EQ(draw(kTwin, "-o figure.pdf").code, 0);  // writes the same numbers to figure.csv
   folder.write("mine.csv", "t,x\n0,1\n");
   EXPECT_EQ(draw(kTwin, "-o mine.pdf").err,
             "mine.csv: error: exists with other numbers, and mine.pdf does not exist; nothing was written\n");
@@ -156,7 +156,7 @@ TEST_F(PaperFigure, TheNumbersAreThoseOfTheTrace) {
   EXPECT_EQ(drawn.columns[0].name, "t [s]");
   EXPECT_EQ(drawn.columns[1].name, "joint.1.angle [rad]");
   EXPECT_EQ(drawn.columns[2].name, "joint.1.torque [N m]");
-  ASSERT_EQ(drawn.rows(), 81U);  // 0.1 to 0.5 s in steps of 5 ms
+  ASSERT_EQ(drawn.rows(), 81U);  // from 0.1 to 0.5 s in steps of 5 ms
   const std::size_t before = trace.rows() - drawn.rows();
   for (std::size_t row = 0; row < drawn.rows(); ++row) {
     EXPECT_EQ(drawn.at(row, 0), trace.at(row + before, 0));
@@ -169,7 +169,7 @@ struct At {
   double x, y;
 };
 
-/// Pairs of numbers in a text.
+/// Points from the pairs of numbers in a text.
 std::vector<At> points(const std::string& text) {
   static const std::regex kNumber("-?[0-9.]+");
   std::vector<double> numbers;
@@ -184,13 +184,13 @@ double attribute(const std::string& svg, const std::string& name) {
   return std::stod(svg.substr(svg.find(" " + name + "=\"") + name.size() + 3));
 }
 
-/// The line by which numbers become coordinates, from two labels of an axis and where they are written.
+/// Linear map from values to coordinates, determined by two labels of an axis and their positions.
 struct Axis {
   double value, at, per;
   double operator()(double v) const { return at + per * (v - value); }
 };
 
-/// Labels written at one height (along x) or with one anchor (along y).
+/// Axis from labels, which are pairs of value and coordinate.
 Axis axis_from(const std::vector<std::pair<double, double>>& labels) {
   const auto [v0, a0] = labels.front();
   const auto [v1, a1] = labels.back();
@@ -201,7 +201,7 @@ TEST_F(PaperFigure, SvgAndPdfHaveTheCurvesWhereTheirLabelsSay) {
   ASSERT_EQ(draw(kTwin, "-o f.svg").code, 0);
   ASSERT_EQ(draw(kTwin, "-o f.pdf").code, 0);
   const std::string svg = read(folder / "f.svg");
-  // Labels: numbers below the frame, and at its left, 4.5 px below their height.
+  // Labels of the x axis are below the frame. Labels of the y axis are at its left, 4.5 px below the height of their values.
   std::vector<std::pair<double, double>> below;
   std::vector<std::pair<double, double>> left;
   static const std::regex kText("<text x=\"([0-9.]+)\" y=\"([0-9.]+)\" [^>]*text-anchor=\"(middle|end)\"[^>]*>([^<]*)</text>");
@@ -223,13 +223,14 @@ TEST_F(PaperFigure, SvgAndPdfHaveTheCurvesWhereTheirLabelsSay) {
   const std::size_t start = svg.rfind(" d=\"", curve);
   const std::vector<At> drawn = points(svg.substr(start, svg.find('"', start + 4) - start));
   const Trace data = read_csv(folder / "f.csv");
-  ASSERT_EQ(drawn.size(), data.rows());  // less than two rows per 0.25 px: none is left out
+  ASSERT_EQ(drawn.size(), data.rows());  // fewer than two rows per 0.25 px, so that all rows are drawn
   for (std::size_t row = 0; row < data.rows(); ++row) {
-    // Coordinates and places of labels have two decimals: three roundings of 0.005, the label's stretched over the axis.
+    // Coordinates and positions of labels have two decimals. The tolerance is for three rounding errors of 0.005; those of the
+    // labels are extrapolated over the axis.
     EXPECT_NEAR(drawn[row].x, x(data.at(row, 0)), 0.03);
     EXPECT_NEAR(drawn[row].y, y(data.at(row, 1)), 0.03);
   }
-  // The PDF: the same path under its matrix; on paper both agree.
+  // The PDF contains the same path, transformed by its matrix, so that both agree on paper.
   const std::string pdf = read(folder / "f.pdf");
   const std::size_t stream = pdf.find("stream\n") + 7;
   const std::string packed = pdf.substr(stream, std::stoul(pdf.substr(pdf.find("/Length ") + 8)));
@@ -249,9 +250,9 @@ TEST_F(PaperFigure, SvgAndPdfHaveTheCurvesWhereTheirLabelsSay) {
   const std::size_t box = pdf.find("/MediaBox [0 0 ");
   const double top = points(pdf.substr(box + 15, 30)).front().y;
   EXPECT_NEAR(attribute(svg, "width"), 88.9, 1e-9);
-  EXPECT_NEAR(top * 25.4 / 72, height, 0.01);  // two decimals of a point, of a mm
+  EXPECT_NEAR(top * 25.4 / 72, height, 0.01);  // sizes have two decimals, in points and in mm
   for (std::size_t row = 0; row < drawn.size(); row += 7) {
-    // mm from the left and the top edge of the paper; 1e-3: the viewBox has two decimals of about 400.
+    // Distances from the left and top edges of the paper, mm. The tolerance is for the two decimals of the viewBox.
     EXPECT_NEAR(in_pdf[row].x * scale * 25.4 / 72, drawn[row].x * mm, 2e-3);
     EXPECT_NEAR(in_pdf[row].y * scale * 25.4 / 72, drawn[row].y * mm, 2e-3);
   }
@@ -262,7 +263,7 @@ TEST_F(PaperFigure, TheEnvelopeIsThatOfEquations1And2) {
   const Trace data = read_csv(folder / "f.csv");
   const auto column = [&](const char* name) { return data.find(name); };
   ASSERT_LT(column("m0/active speed [rad/s]"), data.columns.size());
-  // Defaults of dc_motor.
+  // Default data of the actuator dc_motor.
   constexpr double kR = 4.3, kKt = 0.00395, kGear = 594, kEta = 0.7, kU = 7.4, kI = 1.2;
   std::size_t rows = 0;
   for (std::size_t row = 0; row < data.rows(); ++row) {
@@ -271,11 +272,11 @@ TEST_F(PaperFigure, TheEnvelopeIsThatOfEquations1And2) {
     ++rows;
     const double most = kEta * kKt * kGear * std::clamp((kU - kKt * kGear * w) / kR, -kI, kI);
     const double least = kEta * kKt * kGear * std::clamp((-kU - kKt * kGear * w) / kR, -kI, kI);
-    EXPECT_NEAR(data.at(row, column("envelope most [N m]")), most, 1e-12);  // rounding of a few operations on numbers near 2
+    EXPECT_NEAR(data.at(row, column("envelope most [N m]")), most, 1e-12);  // rounding errors of numbers near 2
     EXPECT_NEAR(data.at(row, column("envelope least [N m]")), least, 1e-12);
   }
   ASSERT_GT(rows, 100U);
-  // A quarter beyond the speed without load.
+  // The envelope extends to 1.25 times the speed without load.
   EXPECT_NEAR(data.at(rows - 1, column("envelope speed [rad/s]")), 1.25 * kU / (kKt * kGear), 1e-12);
 }
 
@@ -311,7 +312,7 @@ TEST_F(PaperFigure, EveryKindIsDrawn) {
           "figure.yaml:2:17: error: footfalls need a robot that walks on four legs or more");
 }
 
-/// A CSV file holds no units: they are known by the names of its columns.
+/// Runs of CSV files have units, which follow from the names of the columns.
 TEST_F(PaperFigure, RunsOfCsvHaveUnits) {
   ASSERT_EQ(gaitlab("run creep.yaml --quiet --no-report --format csv --out csv", folder / "").code, 0);
   std::string recipe = kTwin;
@@ -326,7 +327,7 @@ TEST_F(PaperFigure, RunsOfCsvHaveUnits) {
           "the other axis");
 }
 
-/// A leg of which nobody knows the load does not stand idle.
+/// Missing loads of feet are an error, because a foot without a known load would be drawn as unloaded.
 TEST_F(PaperFigure, LoadsThatAreNotThereAreAnError) {
   ASSERT_EQ(gaitlab("run " + kScenarios +
                         "hexapod.yaml --set physics.engine=articulated --set duration=0.05 --quiet --no-report --format csv "
@@ -336,7 +337,7 @@ TEST_F(PaperFigure, LoadsThatAreNotThereAreAnError) {
             0);
   const std::string footfalls = "runs: {hexapod: legs}\npanels: [{kind: footfalls}]\n";
   ASSERT_EQ(draw(footfalls, "-o whole.svg").code, 0);
-  fs::remove(folder / "legs/recording.h5");  // which has the loads
+  fs::remove(folder / "legs/recording.h5");  // this file contains the loads
   refused(footfalls, "figure.yaml:2:17: error: run 'hexapod' lacks column load.9, which shows the stance of a leg");
   const Result stance =
       draw("runs: {hexapod: legs}\npanels: [{left: {columns: [com.x]}, stance: m9 front left}]\n", "-o f.svg");
@@ -344,7 +345,7 @@ TEST_F(PaperFigure, LoadsThatAreNotThereAreAnError) {
   EXPECT_TRUE(contains(stance.err, "run 'hexapod' lacks column load.")) << stance.err;
 }
 
-/// The last row of a run whose end is not a multiple of trace.period is at that end.
+/// A view states the time of its row. The last row is at the end of the run, also if this is not a multiple of trace.period.
 TEST_F(PaperFigure, ViewsNameTheTimeOfTheirRow) {
   ASSERT_EQ(gaitlab("run creep.yaml --set duration=0.503 --quiet --no-report --out odd", folder / "").code, 0);
   ASSERT_EQ(draw("runs: {creep: odd}\npanels: [{kind: views, times: [0.2, 0.503]}]\n", "-o f.svg").code, 0);
@@ -355,7 +356,7 @@ TEST_F(PaperFigure, ViewsNameTheTimeOfTheirRow) {
   EXPECT_TRUE(contains(read(folder / "f.svg"), "0.503 s"));
 }
 
-/// A range that the curves leave: they end at the frame.
+/// Curves that leave the range of an axis end at the frame.
 TEST_F(PaperFigure, CurvesEndAtTheFrame) {
   ASSERT_EQ(draw(kRuns + "panels: [{left: {columns: [joint.1.angle], range: [-0.05, 0.05]}}]\n", "-o f.svg").code, 0);
   const std::string svg = read(folder / "f.svg");

@@ -1,4 +1,4 @@
-// Numbers of a study's own, which keys of the scenario follow.
+// Tests of parameters that only the study defines, and of the keys of the scenario that follow them.
 #include "studies/study/followers.h"
 
 #include "studies/journal/journal.h"
@@ -29,7 +29,7 @@ TEST_F(FollowersOfNumbers, AreSetAndTheNumberIsTheColumn) {
   ASSERT_EQ(call("sweep s.yaml --out s --quiet").code, 0);
   const auto rows = table("s");
   ASSERT_EQ(rows.size(), 12U);
-  const auto& row = rows[7];  // legs 0.5, frequency 2, replicate 1
+  const auto& row = rows[7];  // row of legs 0.5, frequency 2, replicate 1
   EXPECT_EQ(row.at("legs"), "0.5");
   EXPECT_EQ(row.at("cpg.frequency"), "2");
   EXPECT_EQ(row.count("cpg.phase_lag"), 0U);
@@ -55,7 +55,7 @@ TEST_F(FollowersOfNumbers, AnotherExpressionIsAnotherStudy) {
   EXPECT_EQ(other.code, 2);
   EXPECT_TRUE(contains(other.err, "\"legs sets cpg.offset: 0.2*legs\", was \"legs sets cpg.offset: 0.3*legs\"")) << other.err;
   const Result answered = call("sweep t.yaml --out t --answers s");
-  EXPECT_TRUE(contains(answered.out, "1 of 3 runs were answered by other studies")) << answered.out;  // both are 0 at legs 0
+  EXPECT_TRUE(contains(answered.out, "1 of 3 runs were answered by other studies")) << answered.out;  // the run of legs 0
 }
 
 TEST_F(FollowersOfNumbers, AreSearchedAndWeighed) {
@@ -101,7 +101,7 @@ TEST_F(FollowersOfNumbers, WrongOnesAreRefused) {
                   "method: {type: random}\nbudget: {runs: 2}\nreplicates: {count: 2, vary: {cpg.offset: {uniform: [0, 1]}}}\n"),
             "s.yaml:4:42: error: cpg.offset follows a and is drawn for every replicate; expected vary: {cpg.offset: {times: "
             "...}}, or one of the two\n");
-  // Without keys that follow it a name of one's own is a misspelt key.
+  // Without keys that follow it, an unknown name counts as a misspelt key.
   EXPECT_EQ(error("legs: {low: 0, high: 1}").substr(0, 38), "s.yaml:4:14: error: unknown key 'legs'");
 }
 

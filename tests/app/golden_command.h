@@ -10,7 +10,7 @@ inline const std::string kCaterpillar =
     "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\ncontact: {on: all}\n"
     "cpg: {type: phase_oscillator, frequency: 1, amplitude: 0.6, phase_lag: 1.2}\nduration: 0.1\n";
 
-/// A folder with the scenario good.yaml (two modules that creep for 0.1 s) and its golden, approved once.
+/// Folder with the scenario good.yaml (two modules that creep for 0.1 s) and its golden, which `approve` has written once.
 class GoldenCommand : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -36,7 +36,7 @@ class GoldenCommand : public ::testing::Test {
     EXPECT_EQ(result.err, message + "\n");
     EXPECT_EQ(result.out, "");
   }
-  /// The golden's two files.
+  /// Bytes of the two files of a golden, golden.json and trace.golden.
   [[nodiscard]] std::string bytes(const std::string& golden) const {
     return read(folder / (golden + "/golden.json")) + read(folder / (golden + "/trace.golden"));
   }

@@ -1,4 +1,4 @@
-// Output of `gaitlab test`: whole messages, exit codes, and goldens that detect changes.
+// Tests of `gaitlab test`: complete messages, exit codes, and changes that a golden detects.
 #include <regex>
 #include <sstream>
 
@@ -11,7 +11,7 @@ namespace gaitlab::test {
 using namespace golden;
 namespace {
 
-/// JUnit without the times that runs took.
+/// JUnit text without the times of the runs.
 std::string without_times(const std::string& junit) {
   return std::regex_replace(junit, std::regex(" time=\"[0-9]+[.][0-9]{3}\""), "");
 }
@@ -55,9 +55,9 @@ TEST_F(GoldenCommand, ApprovedIsGreen) {
   EXPECT_FALSE(fs::exists(folder / "runs"));
 }
 
-/// The golden is kept, but the robot cannot do it: 3, and whatever else is wrong comes first.
+/// If a run agrees with its golden but is infeasible, the exit code is 3. Other errors have precedence.
 TEST_F(GoldenCommand, FailsWhatIsInfeasible) {
-  // Three periods, which are evidence.
+  // The run has three periods, which are sufficient evidence.
   std::string walk = kCaterpillar + "physics: {engine: articulated, accuracy: 0.001}\n";
   walk.replace(walk.find("duration: 0.1"), 13, "duration: 3");
   walk.replace(walk.find("amplitude: 0.6"), 14, "amplitude: 0.1");
@@ -96,7 +96,7 @@ TEST_F(GoldenCommand, AnotherMotorIsARegression) {
   expect_contains(figure, ">good: the worst 6 of ");
   expect_contains(figure, ">m1/passive torque (N m)<");
   EXPECT_EQ(figure.find("joint."), std::string::npos);
-  const std::string bands = ">3 bands<";  // once in each panel
+  const std::string bands = ">3 bands<";  // label that appears once per panel
   std::size_t panels = 0;
   for (std::size_t at = figure.find(bands); at != std::string::npos; at = figure.find(bands, at + 1)) ++panels;
   EXPECT_EQ(panels, 6U);
@@ -110,13 +110,13 @@ TEST_F(GoldenCommand, AnotherMotorIsARegression) {
   expect_contains(junit,
                   "<testsuite name=\"gaitlab test\" tests=\"1\" failures=\"1\" errors=\"0\" skipped=\"0\">\n"
                   "<testcase classname=\"golden\" name=\"good.yaml\"><failure message=\"");
-  const std::size_t told = result.out.find("since approval");  // the same text on screen and in XML
+  const std::size_t told = result.out.find("since approval");  // start of the text that is also in the XML
   const std::string text = result.out.substr(told, result.out.find("\n\n", told) + 1 - told);
   expect_contains(junit, std::regex_replace(text, std::regex(">"), "&gt;") + "</failure>");
   EXPECT_TRUE(junit.ends_with("</failure></testcase>\n</testsuite>\n</testsuites>\n")) << junit;
 }
 
-/// The rest of the table where that is asked for; XML keeps to what is read at one look.
+/// With --all the output contains the whole table. The XML contains only the short output.
 TEST_F(GoldenCommand, AllShowsWhatTheFirstLookLeavesOut) {
   folder.write("good.yaml", kCaterpillar + "actuator: {Kt: 0.0039895}\n");
   const Result first = call("test good.yaml --junit first.xml");
@@ -128,14 +128,14 @@ TEST_F(GoldenCommand, AllShowsWhatTheFirstLookLeavesOut) {
   expect_contains(all.out, "\n  page: runs/test-2/good.failure.html\n  figure: runs/test-2/good.svg\n");
   std::smatch more;
   ASSERT_TRUE(std::regex_search(first.out, more, std::regex("  and ([0-9]+) more: --all shows them;"))) << first.out;
-  // All but the line of the distance, of which there is a row now, and the heads of a table and the rest's own line, which
-  // are even.
+  // The output with --all has one more line per omitted row, and one additional line.
   EXPECT_EQ(lines(all.out), lines(first.out) + std::stoi(more[1]) + 1);
   EXPECT_EQ(std::regex_replace(without_times(read(folder / "all.xml")), std::regex("runs/test-2/"), "runs/test/"),
             without_times(read(folder / "first.xml")));
 }
 
-/// A golden of before the verdict was kept says nothing of it; a run within its bands may have another verdict, too.
+/// A changed verdict is reported, also if the run is within its bands. Older goldens contain no verdict, and nothing is
+/// reported.
 TEST_F(GoldenCommand, TellsAnotherVerdict) {
   Golden golden = read_golden(folder / "good.golden");
   folder.write("good.yaml", kCaterpillar + "limits: {tracking_error: 1e-6}\n");
@@ -161,12 +161,12 @@ TEST_F(GoldenCommand, TellsAnotherVerdict) {
 TEST_F(GoldenCommand, HalfTheStepIsNone) {
   folder.write("good.yaml", kCaterpillar + "physics: {step: 1.25e-5}\n");
   const Result result = call("test good.yaml");
-  EXPECT_EQ(result.code, 0) << result.out;  // a third of every band at most, by calibration
+  EXPECT_EQ(result.code, 0) << result.out;  // by calibration, differences are at most a third of each band
 }
 
 TEST_F(GoldenCommand, AnotherScenarioWithAGivenGolden) {
   folder.write("stiff.yaml", kCaterpillar + "controller: {Kp: 102}\nname: stiff&<feet>\n");
-  EXPECT_EQ(call("test stiff.yaml --golden good.golden").code, 2);  // that is not a name
+  EXPECT_EQ(call("test stiff.yaml --golden good.golden").code, 2);  // the option requires a name, not a folder
   folder.write("stiff.yaml", kCaterpillar + "controller: {Kp: 102}\nname: stiff\n");
   Result result = call("test stiff.yaml --golden good.golden --out figures");
   EXPECT_EQ(result.code, 4);
@@ -226,7 +226,7 @@ TEST_F(GoldenCommand, NoGolden) {
 }
 
 TEST_F(GoldenCommand, UnreadableGoldenOrScenarioIsNotTested) {
-  folder.write("other.yaml", kCaterpillar + "name: good\n");  // the default is the file's
+  folder.write("other.yaml", kCaterpillar + "name: good\n");  // the default name is the file name
   fs::copy(folder / "good.golden", folder / "other.golden");
   folder.write("good.golden/trace.golden", read(folder / "good.golden/trace.golden").substr(0, 500));
   Result result = call("test .");
@@ -306,7 +306,7 @@ TEST_F(GoldenCommand, ARenamedScenarioKeepsItsGolden) {
 
 TEST_F(GoldenCommand, NoScenarioAndNoGoldenVanishesUnseen) {
   EXPECT_EQ(call("test . --strict").code, 0);
-  fs::create_symlink("good.yaml", folder / "link.yaml");  // another name: another scenario, without a golden
+  fs::create_symlink("good.yaml", folder / "link.yaml");  // a different name means a different scenario, without a golden
   folder.write("short.yml", kCaterpillar);
   Result result = call("test .");
   EXPECT_EQ(result.code, 0);
@@ -361,7 +361,7 @@ TEST_F(GoldenCommand, AFileThatCannotBeWrittenHidesNothing) {
   EXPECT_EQ(call("test good.yaml --junit ''").code, 2);
   expect_refused("test good.yaml --junit modules", "--junit modules: error: is a folder");
   folder.write("good.yaml", kCaterpillar + "actuator: {Kt: 0.0039895}\n");
-  folder.write("runs", "a file");  // where the figure's folder should be
+  folder.write("runs", "a file");  // a file at the path of the figure's folder
   const Result result = call("test good.yaml");
   EXPECT_EQ(result.code, 4);
   expect_contains(result.out, "\n0 passed, 1 failed\n");

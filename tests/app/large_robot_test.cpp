@@ -1,4 +1,4 @@
-// Far too large robots and grounds: an answer at once, in little memory, and never a signal.
+// Robots and grounds that are far too large are refused quickly, with little memory, and without a signal.
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -13,14 +13,14 @@ class LargeRobot : public ::testing::Test {
     for (int m = 1; m < modules; ++m) docks += fmt::format("{}[1, {}, 4, {}, 0]", m == 1 ? "" : ", ", m, m - 1);
     folder_.write("s.yaml", "gaitlab: 1\nrobot: {modules: mtran, docks: [" + docks + "]}\n" + more + "duration: 0.1\n");
   }
-  /// `check` of s.yaml within limits of ulimit: -v kB of memory, -t seconds of CPU.
+  /// Result of `check` of s.yaml within limits of ulimit (-v is memory in kB, -t is CPU time in s).
   Result check(const std::string& limits) {
     const std::string command = fmt::format("cd '{}' && ulimit {}; '{}/bin/gaitlab' check s.yaml 2>err >out",
                                             folder_.path().string(), limits, GAITLAB_BINARY_DIR);
     const int status = std::system(("bash -c \"" + command + "\"").c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(folder_ / "out"), read(folder_ / "err")};
   }
-  /// A sanitizer reserves more memory than any limit.
+  /// True if the program starts within the limits. With a sanitizer it does not, because a sanitizer reserves more memory.
   bool has_room(const std::string& limits) {
     chain(2, "");
     return check(limits).code == 0;
@@ -29,7 +29,7 @@ class LargeRobot : public ::testing::Test {
   Folder folder_;
 };
 
-// It needed 13 GB and 51 s, and ended by SIGSEGV in 4 GB.
+// A robot of 20 000 modules is refused quickly. (It once needed 13 GB and 51 s, and ended by SIGSEGV with 4 GB.)
 TEST_F(LargeRobot, OfTwentyThousandModulesIsRefusedBeforeItCosts) {
   const std::string limits = "-t 20 -v 500000";
   if (!has_room(limits)) GTEST_SKIP() << "a sanitizer, which reserves more than any limit";
@@ -49,10 +49,10 @@ TEST_F(LargeRobot, OfTwentyThousandModulesIsRefusedBeforeItCosts) {
       "not 0, and takes at most 2000 joints then; use engine: articulated, whose time grows with the number of joints\n");
 }
 
-// Bullet wrote to the null pointer that it had been given for a block.
+// Without memory for Bullet the program ends with a message. (Bullet once wrote to a null pointer after a failed allocation.)
 TEST_F(LargeRobot, WithoutMemoryForBulletEndsWithAWord) {
   if (!has_room("-v 120000")) GTEST_SKIP() << "a sanitizer, which reserves more than any limit";
-  chain(3'000, "");  // 288 MB for the pairs of its joints
+  chain(3'000, "");  // needs 288 MB for the pairs of its joints
   for (const int kilobytes : {150'000, 250'000, 350'000}) {
     const Result result = check(fmt::format("-v {}", kilobytes));
     EXPECT_EQ(result.code, 1) << kilobytes;
@@ -60,7 +60,8 @@ TEST_F(LargeRobot, WithoutMemoryForBulletEndsWithAWord) {
   }
 }
 
-// The search for the way out of n boxes took n^4 looks at a box: no first step ever ended.
+// A robot on 20 000 boxes at one place is accepted quickly. (The search for the way out of n boxes once examined n^4 boxes, so
+// that the first step did not end.)
 TEST_F(LargeRobot, OnTwentyThousandBoxesInOnePlaceIsAnsweredAtOnce) {
   if (!has_room("-v 2000000")) GTEST_SKIP() << "a sanitizer, which takes a hundred times as long";
   std::string boxes;
@@ -69,7 +70,7 @@ TEST_F(LargeRobot, OnTwentyThousandBoxesInOnePlaceIsAnsweredAtOnce) {
   }
   folder_.write("s.yaml",
                 "gaitlab: 1\nrobot: {modules: mtran}\nduration: 0.1\nground: {type: boxes, boxes: [" + boxes + "]}\n");
-  const Result result = check("-t 100");  // 2 s
+  const Result result = check("-t 100");  // takes 2 s
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_TRUE(contains(result.err, "note: takes a step among 20000 boxes, which lasts seconds where many lie in one place\n"))
       << result.err;

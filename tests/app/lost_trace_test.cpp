@@ -1,4 +1,4 @@
-// A run whose trace cannot be written: what else was found is, and the rows where they can be.
+// If the trace of a run cannot be written, all other results are written, and the rows if possible.
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -31,15 +31,15 @@ TEST_F(LostTrace, ToMemoryKeepsRowsAsTextAndEverythingElse) {
   }
   const std::string hash = read(folder_ / "a/summary.json");
   bool seen = false;
-  // The libraries of the machine decide how much memory a run needs: no limit may crash the program, and the limits from just
-  // below the need down to 30 MB less leave the rows as text alone.
+  // The required memory depends on the libraries of the machine. The program must not crash at any limit. At limits slightly
+  // below the requirement, down to 30 MB less, the rows are written only as text.
   int fails = 20;
   int works = 300;
   while (works - fails > 4 && !seen) {
     const int limit = (fails + works) / 2;
     fs::remove_all(folder_ / "a");
     const Result result = run(fmt::format("ulimit -v {}", limit * 1000));
-    constexpr std::array kOrderly{0, 1, 2, 127};  // 2: the rows do not fit; 127: the libraries do not
+    constexpr std::array kOrderly{0, 1, 2, 127};  // 2 means no memory for the rows, 127 none for the libraries
     ASSERT_NE(std::ranges::find(kOrderly, result.code), kOrderly.end()) << limit << ": " << result.code << result.err;
     (result.code == 0 ? works : fails) = limit;
     if (!fs::exists(folder_ / "a/trace.csv") || !fs::exists(folder_ / "a/summary.json")) continue;
@@ -57,7 +57,7 @@ TEST_F(LostTrace, ToMemoryKeepsRowsAsTextAndEverythingElse) {
 }
 
 TEST_F(LostTrace, ToADiskKeepsEverythingElse) {
-  const Result result = run("ulimit -f 200");  // 200 kB a file; the trace has more
+  const Result result = run("ulimit -f 200");  // at most 200 kB per file, less than the trace
   EXPECT_EQ(result.code, 1);
   EXPECT_TRUE(contains(result.err, "gaitlab: error: a/trace.h5: cannot be written: File too large\n")) << result.err;
   EXPECT_TRUE(fs::exists(folder_ / "a/scenario.resolved.yaml"));

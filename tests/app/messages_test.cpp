@@ -1,4 +1,4 @@
-// Mistakes of first users, and the program's messages for them.
+// Tests of the messages for mistakes of new users.
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -11,14 +11,14 @@ class Messages : public ::testing::Test {
     folder_.write("ok.yaml", "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 0.1\n");
   }
   Result call(const std::string& arguments) { return gaitlab(arguments, folder_.path()); }
-  /// Refused with this and nothing else.
+  /// Expects that the command is refused with exactly this message.
   void refused(const std::string& arguments, const std::string& message) {
     const Result result = call(arguments);
     EXPECT_EQ(result.code, 2) << arguments;
     EXPECT_EQ(result.err, message + "\n") << arguments;
     EXPECT_EQ(result.out, "") << arguments;
   }
-  /// The same of `check` of a scenario.
+  /// Expects that `check` of a scenario with this text is refused with exactly this message.
   void refused_text(const std::string& text, const std::string& message) {
     folder_.write("s.yaml", text);
     refused("check s.yaml", message);
@@ -169,7 +169,7 @@ TEST_F(Messages, WhereAPageIsWritten) {
   EXPECT_TRUE(call("report run --page p.html").out.ends_with(where + "p.html\n"));
   EXPECT_TRUE(call("check ok.yaml --page c.html").out.ends_with(where + "c.html\n"));
   EXPECT_TRUE(contains(read(folder_ / "c.html"), "\"outcome\":\"not run\""));
-  // The run's own page may be made anew, and is the same.
+  // The page of the run may be written again, with the same content.
   folder_.write("run/report.html", "old");
   EXPECT_EQ(call("report run --page run/../run/report.html").code, 0);
   EXPECT_TRUE(read(folder_ / "run/report.html") == read(folder_ / "p.html"));
@@ -212,7 +212,8 @@ TEST_F(Messages, WhatTheMachineCannotHold) {
     EXPECT_TRUE(result.err.starts_with("--set duration=1e6: error: the run would record 4e+10 rows of ")) << result.err;
   }
   EXPECT_TRUE(contains(call("check ok.yaml").out, "records 22 rows of ")) << call("check ok.yaml").out;
-  // Under a limit of the process: above it, and below, where the program itself takes the rest.
+  // The process has a memory limit. One run needs more than the limit, and one needs less, but not with the memory of the
+  // program.
   const std::string program =
       "'" + std::string(GAITLAB_BINARY_DIR) + "/bin/gaitlab' check ok.yaml --set trace.period=1e-4 2>err";
   for (const auto& [duration, there_is] :
@@ -220,14 +221,14 @@ TEST_F(Messages, WhatTheMachineCannotHold) {
     const int status = std::system(
         fmt::format("cd '{}' && ulimit -v 1000000 && {} --set duration={}", folder_.path().string(), program, duration)
             .c_str());
-    if (WEXITSTATUS(status) != 2 && read(folder_ / "err").find("Sanitizer") != std::string::npos) continue;  // reserves more
+    if (WEXITSTATUS(status) != 2 && read(folder_ / "err").find("Sanitizer") != std::string::npos) continue;  // takes more
     EXPECT_EQ(WEXITSTATUS(status), 2) << duration;
     EXPECT_TRUE(contains(read(folder_ / "err"), std::string(", and ") + there_is + ": take a longer trace.period"))
         << read(folder_ / "err");
   }
 }
 
-/// Seconds or years: before the run starts.
+/// The program estimates the computing time before the run, from seconds to years.
 TEST_F(Messages, HowLongARunTakes) {
   const Result soon = call("check ok.yaml");
   EXPECT_TRUE(contains(soon.out, "\n  takes less than 1 s on this machine (")) << soon.out;
@@ -245,7 +246,7 @@ TEST_F(Messages, HowLongARunTakes) {
 
 TEST_F(Messages, ALongRunSaysSoBeforeItStarts) {
   const std::string run = "'" + std::string(GAITLAB_BINARY_DIR) + "/bin/gaitlab' run ok.yaml --set duration=3000";
-  // The quiet one ends after a second of CPU time: its run has begun by then.
+  // The call with --quiet is ended after 1 s of CPU time, when its run has begun.
   folder_.write("run.sh", run +
                               " --out slow 2>slow.err &\n"
                               "until grep -q takes slow.err || ! kill -0 $! 2>/dev/null; do sleep 0.01; done\n"
@@ -269,7 +270,7 @@ TEST_F(Messages, ARunThatFailsInItsFirstSteps) {
   EXPECT_TRUE(contains(result.out, "\n  fails early: diverged at step ")) << result.out;
 }
 
-/// A terminal of 80 columns: nothing but equations and YAML is wider.
+/// Manuals fit a terminal of 80 columns, except for equations and YAML.
 TEST_F(Messages, ManualsFitATerminal) {
   for (const char* command :
        {"explain", "explain cpg hopf", "explain cpg equations", "explain cpg van_der_pol", "explain cpg tripod",

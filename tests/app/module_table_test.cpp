@@ -1,4 +1,4 @@
-// `list module` and `explain module`: what they say against the modules' own sources.
+// The output of `list module` and `explain module` agrees with the published data of the modules.
 #include "app/module_table.h"
 
 #include "tests/program/fixture.h"
@@ -13,7 +13,8 @@ std::string row(const std::string& module) {
   return app::module_row(read_module(kScenarios + "modules/" + module + ".yaml", catalog()));
 }
 
-/// Paper: 65 x 65 x 130 mm, 0.400 kg; docs/equations.md, 2: 0.7 * 0.00395 * 594 * 1.2 N m.
+/// The data of M-TRAN are those of the paper, 65 x 65 x 130 mm and 0.400 kg, and of docs/equations.md, 2, 0.7 * 0.00395 * 594
+/// * 1.2 N m.
 TEST(ModuleTable, SaysWhatThePaperSaysOfMtran) {
   EXPECT_EQ(row("mtran"), "65 x 65 x 130 mm             0.400 kg  2 hinges  1.971 N m");
   const std::string text = table("mtran");
@@ -24,7 +25,7 @@ TEST(ModuleTable, SaysWhatThePaperSaysOfMtran) {
 }
 
 TEST(ModuleTable, SaysWhatConnectorsBear) {
-  const std::string text = table("rofi");  // RoFICoM: 110 N along the normal, 50 N across
+  const std::string text = table("rofi");  // the connector RoFICoM has 110 N along and 50 N across its normal
   EXPECT_TRUE(contains(text, "110 N")) << text;
   EXPECT_TRUE(contains(text, "50 N")) << text;
   EXPECT_TRUE(contains(text, "free")) << text;

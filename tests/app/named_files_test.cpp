@@ -1,4 +1,4 @@
-// Files that a scenario, study or recipe names: messages quote files of its folder only.
+// Messages on files that a scenario, study or recipe refers to quote only files of its folder.
 #include "tests/app/study_fixture.h"
 
 namespace gaitlab::test {
@@ -18,7 +18,7 @@ class NamedFiles : public StudyFixture {
     folder_.write("theirs/own.dat", kSecret);
     fs::create_symlink("../secret.dat", folder_ / "theirs/link.dat");
   }
-  /// Output of `check` for a scenario in the folder `theirs`.
+  /// Output of `check` for a scenario with this robot in the folder `theirs`.
   std::string said(const std::string& robot, const std::string& rest = "") {
     folder_.write("theirs/s.yaml", "gaitlab: 1\nrobot: {" + robot + "}\nduration: 1\n" + rest);
     return told("check theirs/s.yaml");
@@ -64,7 +64,7 @@ TEST_F(NamedFiles, OfTheirOwnFolderAreQuoted) {
                        "expected the column time; found 'name: hunter2'"));
 }
 
-// The first key of a module file or scenario identifies it anywhere.
+// Module files and scenarios, which their first key identifies, are quoted from any folder.
 TEST_F(NamedFiles, ThatSayWhatTheyAreAreQuoted) {
   folder_.write("odd.yaml", "gaitlab_module: 1\nname: odd one\n");
   EXPECT_TRUE(contains(said("modules: ../odd.yaml"), "odd.yaml:2:7: error: name 'odd one' is not allowed"));

@@ -1,4 +1,4 @@
-// `gaitlab optimize`: what is verified and what is not, exit codes, words as parameters, another command for a search.
+// Tests of `gaitlab optimize`: verification of the best points, exit codes, words as parameters, other commands for a search.
 #include "studies/journal/journal.h"
 #include "tests/program/fixture.h"
 
@@ -42,12 +42,12 @@ TEST_F(Optimize, ABestThatStandsHasItsFolder) {
   const std::vector<studies::Generation> generations = journal.generations();
   ASSERT_FALSE(generations.empty());
   EXPECT_EQ(generations[0].points, 16U);
-  // The same command again runs nothing, and ends as before.
+  // Repeating the command simulates nothing and gives the same result.
   EXPECT_EQ(call("optimize s.yaml --out o --quiet").code, 0);
   EXPECT_EQ(this->journal("o").effort().runs, 24U);
-  // The generation that the budget cut is drawn, too.
+  // The last generation, which the budget cuts off, is also written.
   EXPECT_NE(read(folder_ / "o/convergence.csv").find("\n0,1,0,8,"), std::string::npos) << read(folder_ / "o/convergence.csv");
-  // A smaller budget leaves nothing out.
+  // With a smaller budget, all existing runs still count.
   const Result fewer = call("optimize s.yaml --out o --runs 20");
   EXPECT_EQ(fewer.code, 0);
   EXPECT_EQ(fewer.err.rfind("o: note: has runs up to number 23, beyond the budget of 20; all of them count\n", 0), 0U)
@@ -139,7 +139,7 @@ TEST_F(Optimize, WordsHaveASearchEach) {
 }
 
 TEST_F(Optimize, RunsThatAreRefusedAreResults) {
-  // A step beyond what is stable on ground so stiff.
+  // The step is unstable on this stiff ground.
   study(
       "set: [contact.stiffness=1e10, physics.integrator=rk4, physics.step=0.005]\n"
       "parameters: {cpg.amplitude: {low: 0.05, high: 1}}\nbudget: {runs: 20}\n");
@@ -165,9 +165,9 @@ TEST_F(Optimize, CommandsAreToldApart) {
   const Result few = call("optimize s.yaml --runs 9");
   EXPECT_EQ(few.code, 2);
   EXPECT_EQ(few.err, "--runs: error: a budget of 9 runs is less than the 16 of the searches' first generation\n");
-  ASSERT_EQ(call("optimize s.yaml --method random --out r --quiet").code, 0);  // beside a search
+  ASSERT_EQ(call("optimize s.yaml --method random --out r --quiet").code, 0);  // random points instead of a search
   EXPECT_TRUE(journal("r").generations().empty());
-  EXPECT_EQ(call("optimize s.yaml --out r --quiet").code, 2);  // another study
+  EXPECT_EQ(call("optimize s.yaml --out r --quiet").code, 2);  // the folder contains a different study
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Out-of-tree plugins through the scenario's `plugins:`.
+// Tests of plugins from libraries, which the setting `plugins:` of the scenario loads.
 #include <xmmintrin.h>
 
 #include "tests/program/fixture.h"
@@ -69,7 +69,7 @@ TEST_F(Plugins, AFileThatIsNotThereNamesWhatWasTried) {
 }
 
 TEST_F(Plugins, AStaticObjectThatThrowsIsAnError) {
-  // glibc's dlopen ends the program; a sanitizer's lets the exception through, and its own text is told.
+  // dlopen of glibc ends the program. With a sanitizer the exception passes through dlopen, and its text is in the message.
   const std::string ended =
       kPlugins + "throws_at_load.so: error: a static object of this plugin threw an exception when it was loaded\n";
   const std::string passed = "s.yaml:2:11: error: plugin '" + kPlugins + "throws_at_load.so' cannot be loaded: no luck\n";
@@ -81,10 +81,10 @@ TEST_F(Plugins, LoadingLeavesTheRoundingOfTheProcessorAsItWas) {
   const unsigned before = _mm_getcsr();
   Catalog all = app::standard_catalog();
   load_plugin(kPlugins + "flushes.so", all);
-  EXPECT_EQ(_mm_getcsr() & 0xFFC0U, before & 0xFFC0U);  // all but the flags of past operations
+  EXPECT_EQ(_mm_getcsr() & 0xFFC0U, before & 0xFFC0U);  // without the flags of previous operations
 }
 
-/// The scenario whose `kind` throws from `where`.
+/// Scenario with a plugin of this kind that throws from the function `where`.
 std::string throwing(const std::string& kind, const std::string& where) {
   const std::string text =
       "gaitlab: 1\nplugins: [" + kPlugins +

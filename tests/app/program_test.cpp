@@ -1,4 +1,4 @@
-// Bad input as a user meets it: the whole message, exit code 2, nothing written; and a run that diverges.
+// Tests of bad input: complete messages, exit code 2, and no written files; and of a run that diverges.
 #include <regex>
 
 #include "core/recording/h5.h"
@@ -14,7 +14,7 @@ class Program : public ::testing::Test {
     folder.write("good.yaml", "gaitlab: 1\nrobot: {modules: mtran}\nduration: 0.1\n");
   }
 
-  /// Runs `good` or a scenario of this text; expects this message, exit code 2 and no run folder.
+  /// Calls `gaitlab run` with these arguments. Expects this message, exit code 2 and no run folder.
   void expect_refused(const std::string& arguments, const std::string& message) {
     const Result result = gaitlab("run " + arguments, folder / "");
     EXPECT_EQ(result.code, 2) << result.err;

@@ -1,4 +1,4 @@
-// Scenarios and run folders of strangers: what looks at them loads no plugin that the command line does not allow.
+// Commands load plugins of unknown scenarios and run folders only if an option on the command line permits it.
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -14,7 +14,7 @@ class RefusedPlugins : public ::testing::Test {
                   "gaitlab: 1\nplugins: [" + library_ + "]\nrobot: {modules: mtran}\nduration: 0.05\ncpg: {type: wave}\n");
   }
   Result call(const std::string& arguments) { return gaitlab(arguments, folder_.path()); }
-  /// Refused as it stands; with either option it does what it does.
+  /// Expects that the command is refused without an option, and works with either of the two options.
   void only_with_leave(const std::string& arguments) {
     const Result refused = call(arguments);
     EXPECT_EQ(refused.code, 2) << arguments << refused.out;
@@ -52,7 +52,7 @@ TEST_F(RefusedPlugins, WhatLooksAtARunLoadsNone) {
   const Result figure = call("figure f.yaml -o x.svg");
   EXPECT_EQ(figure.code, 2);
   EXPECT_TRUE(contains(figure.err, "is not loaded")) << figure.err;
-  EXPECT_EQ(call("compare a a").code, 0);  // reads columns and numbers alone
+  EXPECT_EQ(call("compare a a").code, 0);  // needs no plugin, because it reads only columns and numbers
   EXPECT_EQ(call("export a --to csv x.csv").code, 0);
 }
 

@@ -1,4 +1,5 @@
-// gaitlab rerun: again from the run folder alone; --verify says what differs; damaged runs are refused.
+// Tests of `gaitlab rerun`: a run is repeated from its run folder alone, --verify reports differences, damaged folders are
+// refused.
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -14,7 +15,7 @@ class Rerun : public ::testing::Test {
                  "duration: 0.1\n");
     fs::create_directory_symlink(kScenarios + "modules", folder / "modules");
     ASSERT_EQ(gaitlab("run s.yaml --quiet --out a", folder / "").code, 0);
-    fs::remove(folder / "s.yaml");  // from the run folder alone
+    fs::remove(folder / "s.yaml");  // the run folder must suffice
     fs::remove(folder / "modules");
   }
   [[nodiscard]] Result verify(const std::string& run) const { return gaitlab("rerun --verify " + run, folder / ""); }
@@ -29,7 +30,7 @@ class Rerun : public ::testing::Test {
 
 TEST_F(Rerun, WritesTheSameBytes) {
   ASSERT_EQ(gaitlab("rerun a --quiet --out b", folder / "").code, 0);
-  fs::remove(folder / "b/scenario.resolved.yaml");  // then from inside the trace
+  fs::remove(folder / "b/scenario.resolved.yaml");  // the scenario within the trace must suffice
   ASSERT_EQ(gaitlab("rerun b --quiet --out c", folder / "").code, 0);
   for (const char* run : {"b", "c"})
     EXPECT_EQ(read(folder / "a/trace.h5"), read(folder / (std::string(run) + "/trace.h5"))) << run;
@@ -85,7 +86,7 @@ TEST_F(Rerun, ToleratesTheLastBits) {
   ASSERT_EQ(gaitlab("export a --to csv a/trace.csv", folder / "").code, 0);
   fs::remove(folder / "a/trace.h5");
   std::string text = read(folder / "a/trace.csv");
-  const std::size_t dot = text.rfind("e-");  // some digits before it: a small number's last one
+  const std::size_t dot = text.rfind("e-");  // end of the digits of a small number
   ASSERT_NE(dot, std::string::npos);
   text[dot - 1] = text[dot - 1] == '1' ? '2' : '1';
   folder.write("a/trace.csv", text);
@@ -105,9 +106,9 @@ TEST_F(Rerun, ARunThatEndedEarlyIsComparedUpToItsLastRow) {
   EXPECT_TRUE(contains(result.out, "it ended early (interrupted at t = 0.1 s): compared up to its last row, t = 0.1 s"))
       << result.out;
   replace("a/summary.json", "interrupted at t = 0.1 s", "done");
-  EXPECT_EQ(verify("a").code, 4);  // a trace that was cut short is not an early end
+  EXPECT_EQ(verify("a").code, 4);  // a truncated trace does not count as an early end
   fs::remove(folder / "a/summary.json");
-  EXPECT_EQ(verify("a").code, 4);  // nor is one that nothing explains
+  EXPECT_EQ(verify("a").code, 4);  // an unexplained short trace does not count as an early end
 }
 
 TEST_F(Rerun, ADivergedRunIsVerified) {
@@ -136,7 +137,8 @@ TEST_F(Rerun, AnotherPluginFileIsRefusedButComparedByVerify) {
   EXPECT_TRUE(contains(result.out, "plugin " + library + ": another file: hash then ")) << result.out;
 }
 
-/// Every message names the file, the exit code is 2, nothing crashes: this is what runs under the sanitizers.
+/// Every command refuses a damaged trace with exit code 2 and a message with the file, and does not crash (also under
+/// sanitizers).
 TEST_F(Rerun, DamagedTracesAreRefusedByEveryCommand) {
   const std::string whole = read(folder / "a/trace.h5");
   std::vector<std::string> damaged = {"", "\x89HDF\r\n\x1a\n", "t,x\n0,1\n", whole + "x", std::string(600, '\0')};

@@ -1,4 +1,4 @@
-// Parts of a study: which of them a task of a Slurm array does, and what makes one journal of them.
+// Tests of shards of a study: the shard that each task of a Slurm array simulates, and merging of their journals.
 #include "studies/journal/database.h"
 #include "tests/app/study_fixture.h"
 
@@ -31,7 +31,7 @@ TEST_F(Shard, OfAnArrayAreItsTasksInOrder) {
   EXPECT_EQ(part.code, 1);
   EXPECT_EQ(part.out, "s/study.db: 4 of 6 runs\n");
   EXPECT_EQ(part.err, "s: error: 1 of 3 shards are missing or not whole; run them again: --array=1\n");
-  task("1", "1", "1", "1");  // sbatch --array=1: its numbers are those of the shards that are there
+  task("1", "1", "1", "1");  // sbatch --array=1 repeats one task; the numbers follow from the existing shards
   EXPECT_TRUE(has("1-of-3"));
   for (int k = 0; k < 2; ++k) {
     const Result whole = call("study merge s");
@@ -91,7 +91,7 @@ TEST_F(Shard, ThatAreDamagedOrOthersAreRefusedAndNothingIsLost) {
   refused("study merge s", "s/shards: error: holds shards of 2 and of 3; expected shards of one division");
 }
 
-// The largest budget counts, in whatever order they lie there.
+// If shards have different budgets, the largest budget counts, in any order of the shards.
 TEST_F(Shard, OfASmallerBudgetAreNotWhole) {
   folder_.write("study.yaml",
                 "gaitlab_study: 1\nscenario: two.yaml\nparameters: {cpg.phase_lag: {low: 0, high: 1}}\n"

@@ -1,4 +1,4 @@
-// Output streams of the program: help into a full disk, foreign texts in messages, threads without memory.
+// Tests of the output streams of the program: output to a full disk, control characters in messages, threads without memory.
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -11,7 +11,7 @@ class Streams : public ::testing::Test {
     folder_.write("ok.yaml", "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 0.1\n");
   }
   Result call(const std::string& arguments) { return gaitlab(arguments, folder_.path()); }
-  /// Command line of a shell: the text before the program's name, and its arguments.
+  /// Calls the program by a shell, with the texts `before` and `after` around the call.
   Result shell(const std::string& before, const std::string& arguments, const std::string& after = "") {
     const std::string command = "cd '" + folder_.path().string() + "' && " + before + " '" + std::string(GAITLAB_BINARY_DIR) +
                                 "/bin/gaitlab' " + arguments + " 2>err " + after;
@@ -53,7 +53,7 @@ TEST_F(Streams, MessagesHoldNoControlCharacters) {
   EXPECT_TRUE(nul.err.ends_with("\n")) << nul.err;
   const Result second = call(
       "check '\xc2\x9b"
-      "31mred.yaml'");  // the same in the second set of control characters
+      "31mred.yaml'");  // escape sequence with a control character of the set C1
   EXPECT_TRUE(second.err.starts_with("\\xc2\\x9b31mred.yaml: error: ")) << second.err;
 }
 
@@ -72,7 +72,7 @@ TEST_F(Streams, NamesOfFilesArePrintedWithoutThem) {
 }
 
 TEST_F(Streams, ThreadsWithoutRoomAreTold) {
-  // Each thread asks for a stack of 4 GB, where all of the program may have less.
+  // Each thread requests a stack of 4 GB, which exceeds the limit of the whole program.
   const std::string limits = "ulimit -s 4000000; ulimit -v 3900000;";
   if (shell(limits, "--version", ">out").code != 0) GTEST_SKIP() << "a sanitizer, which reserves more than any limit";
   const Result few = shell(limits, "converge ok.yaml --quiet -j 4", ">out");

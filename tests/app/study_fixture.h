@@ -1,4 +1,4 @@
-// A folder with a small scenario, and the program called in it.
+// Fixture of the tests of studies: a folder with a small scenario, in which tests call the program.
 #pragma once
 #include <cstdlib>
 #include <map>
@@ -23,7 +23,7 @@ class StudyFixture : public ::testing::Test {
     EXPECT_EQ(result.code, code) << arguments;
     EXPECT_EQ(result.err, message + "\n") << arguments;
   }
-  /// Rows of table.csv, cell by cell; the first are the names. (No cell of these tests holds a comma but messages.)
+  /// Rows of table.csv without the line of names. A row is a map from the column name to the text of the cell.
   std::vector<std::map<std::string, std::string>> table(const std::string& out) {
     std::istringstream text(read(folder_ / (out + "/table.csv")));
     const auto cells = [](const std::string& line) {
@@ -55,7 +55,7 @@ class StudyFixture : public ::testing::Test {
   Folder folder_;
 };
 
-/// Variables of the environment, for as long as this lives.
+/// Environment variables, which the constructor sets and the destructor removes.
 class Environment {
  public:
   explicit Environment(std::map<std::string, std::string> set) : set_(std::move(set)) {

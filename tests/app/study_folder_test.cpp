@@ -1,4 +1,4 @@
-// Forged folders of studies, and folders of users: FIFOs, names of shards, locks, files of other programs.
+// Tests with forged folders of studies and with folders of users: FIFOs, names of shards, locks, files of other programs.
 #include <sys/stat.h>
 
 #include "app/study/study_quantities.h"
@@ -17,7 +17,7 @@ const std::string kInto = "sweep two.yaml --grid cpg.phase_lag=0.5:1.5:4 --quiet
 
 class StudyFolder : public StudyFixture {
  protected:
-  /// A command that would wait for ever is killed after ten minutes.
+  /// Expects the exit code and message of a command. A command that does not end is killed after ten minutes.
   void ends(const std::string& arguments, int code, const std::string& message, const std::string& before = "") {
     const Folder capture;
     const std::string command = "cd '" + folder_.path().string() + "' && " + before + " timeout -s KILL 600 '" +
@@ -39,7 +39,7 @@ class StudyFolder : public StudyFixture {
     fs::remove_all(folder_ / "m");
     fs::copy(folder_ / from, folder_ / "m", fs::copy_options::recursive);
   }
-  /// Lengthens the file of a -journal by the name of a file, as SQLite does where a transaction is over several databases.
+  /// Bytes of a -journal that ends with the name of a file, as SQLite writes it for a transaction over several databases.
   static std::string journal_naming(const std::string& file) {
     const auto big_endian = [](std::uint32_t value) {
       std::string bytes;
@@ -86,7 +86,8 @@ TEST_F(StudyFolder, NoLinkIsFollowedAndNoOtherFileIsDeleted) {
   fs::create_symlink(folder_ / "elsewhere.db", folder_ / "m/study.db");
   ends("study show m", 2, "m/study.db: error: cannot be read: is a link; name the file that it leads to\n");
   copy("whole");
-  // SQLite plays back a -journal, and deletes the file that the -journal names as its super-journal.
+  // SQLite applies a -journal, and deletes the file that the -journal names as its super-journal. The program must prevent
+  // this.
   const std::string mine = folder_.write("mine.txt", "precious");
   folder_.write("m/study.db-journal", journal_naming(mine));
   for (const char* command : {"study show m", "study merge m"})
@@ -113,13 +114,13 @@ TEST_F(StudyFolder, ThatIsNoStudysStaysAsItIs) {
   fs::create_hard_link(folder_ / "theirs", folder_ / "hard/lock");
   ends(kInto + "hard", 2, "--out hard" + refused);
   EXPECT_EQ(read(folder_ / "theirs"), "process 1 on here\n");
-  // Another program's database is not made a write-ahead log before it is refused.
+  // A database of a different program is refused without a change of its journal mode.
   fs::create_directories(folder_ / "other");
   studies::Database(folder_ / "other/study.db", studies::Database::Mode::write).execute("CREATE TABLE mine(x)");
   const std::string bytes = read(folder_ / "other/study.db");
   ends(kInto + "other", 2, "other/study.db: error: is a database of SQLite, and not the journal of a study\n");
   EXPECT_EQ(read(folder_ / "other/study.db"), bytes);
-  // A file `lock` of the user stays in the folder of a study as well.
+  // A file `lock` of the user is preserved, also in the folder of a study.
   made(kInto + "s");
   folder_.write("s/lock", "mine");
   ends(kInto + "s", 2, "s/lock: error: is not the lock of a study: ");
@@ -127,7 +128,7 @@ TEST_F(StudyFolder, ThatIsNoStudysStaysAsItIs) {
   EXPECT_EQ(read(folder_ / "s/lock"), "mine");
 }
 
-// kill -9 leaves an empty study.db, or one without tables, and a lock with or without its line.
+// A sweep continues after kill -9, which leaves an empty study.db or one without tables, and a lock with or without its line.
 TEST_F(StudyFolder, ThatAKilledSweepLeftGoesOn) {
   fs::create_directories(folder_ / "a");
   folder_.write("a/lock", "");
@@ -162,7 +163,7 @@ TEST_F(StudyFolder, MissingShardsAreToldAsRanges) {
   fs::copy(folder_ / "parts/shards/0-of-2.db", folder_ / "m/shards/0-of-9999999.db");
   ends("study merge m", 1, "m: error: 9999998 of 9999999 shards are missing or not whole; run them again: --array=1-9999998\n");
   fs::remove(folder_ / "m/study.db");
-  for (int k = 2; k < 600; k += 2)  // every second one is there; runs 1, 3 ... of 4 are not
+  for (int k = 2; k < 600; k += 2)  // every second shard exists
     fs::copy(folder_ / "parts/shards/0-of-2.db", folder_ / ("m/shards/" + std::to_string(k) + "-of-9999999.db"));
   const Result many = call("study merge m");
   EXPECT_EQ(many.code, 1);
@@ -182,7 +183,7 @@ TEST_F(StudyFolder, AnArrayOfOneTaskMerges) {
   ends("study merge one", 1, "one: error: 1 of 4 runs have not ended; continue with: gaitlab sweep two.yaml ");
 }
 
-// A flock() that a file system does not have, as Lustre without -o flock.
+// On a file system without flock(), such as Lustre without -o flock, a study is written without a lock.
 TEST_F(StudyFolder, WithoutLocksAStudyIsWrittenAsARunIs) {
   folder_.write(
       "none.c",
@@ -222,8 +223,8 @@ TEST_F(StudyFolder, AnInfiniteNumberIsNoneOfAJournal) {
   }
 }
 
-// Files that cannot be written are a failed run, not bad input. A limit of 50 kB for each file (of the shell, in blocks of 512
-// bytes) acts as a full disk: the trace has more.
+// A rerun whose files cannot be written counts as failed, not as bad input. A limit of 50 kB per file (of the shell, in blocks
+// of 512 bytes), which is less than the trace, acts like a full disk.
 TEST_F(StudyFolder, ARerunThatCannotBeWrittenFails) {
   made(kInto + "s");
   ends("study rerun s 1 --out again", 1, "gaitlab: error: again/trace.h5: cannot be written: ", "ulimit -f 100;");

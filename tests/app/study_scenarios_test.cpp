@@ -1,4 +1,4 @@
-// Studies of several scenarios: every point runs in each.
+// Tests of studies with several scenarios, in each of which every point is simulated.
 #include <nlohmann/json.hpp>
 
 #include "studies/journal/journal.h"
@@ -10,7 +10,7 @@ namespace {
 class StudyScenarios : public StudyFixture {
  protected:
   StudyScenarios() {
-    // Three modules, of which m1 is assembled last: its joints have other numbers than in two.yaml.
+    // Module m1 of the three modules is assembled last, so that its joints have other numbers than in two.yaml.
     folder_.write("three.yaml",
                   "gaitlab: 1\nname: three\nrobot: {modules: mtran, docks: [[1, 2, 4, 0, 0], [1, 1, 4, 2, 0]]}\ncontact: {on: "
                   "all}\nphysics: {engine: articulated}\ncpg: {type: phase_oscillator, frequency: 1}\ntrace: {period: 0.015}\n"
@@ -47,7 +47,7 @@ TEST_F(StudyScenarios, EveryPointRunsInEach) {
     EXPECT_EQ(rows[k].at("point"), rows[k < 4 ? 0 : 4].at("point")) << k;
   }
   EXPECT_NE(rows[0].at("point"), rows[4].at("point"));
-  // A factor is of each scenario's own value.
+  // A factor multiplies the value of each scenario.
   EXPECT_NEAR(std::stod(rows[2].at("ground.friction")) / std::stod(rows[0].at("ground.friction")), 0.5 / 0.8, 1e-9);
   for (const std::size_t k : {1U, 6U}) {
     const auto& row = rows[k];
@@ -65,7 +65,7 @@ TEST_F(StudyScenarios, EveryPointRunsInEach) {
     EXPECT_EQ(again.code, 0) << again.err;
     EXPECT_TRUE(contains(again.out, "the quantities are those of the journal")) << again.out;
   }
-  // The worst of all four rows of a point orders them; the table says what each scenario gave.
+  // Points are ordered by the worst of their four rows. The table contains the value of each scenario.
   const std::string shown = call("study show s").out;
   EXPECT_TRUE(contains(shown, "speed (worst)  in short  in long")) << shown;
   double worst = 1;
@@ -88,7 +88,7 @@ TEST_F(StudyScenarios, AreTheSameBytesHoweverTheyRun) {
   const std::string rows = read(folder_ / "one/table.csv");
   EXPECT_EQ(read(folder_ / "two/table.csv"), rows);
   EXPECT_EQ(read(folder_ / "parts/table.csv"), rows);
-  // The same study goes on; with other scenarios, or the same under other names, it is another one.
+  // The same study continues. A study with other scenarios, or with other names of the scenarios, is a different study.
   EXPECT_EQ(call("sweep s.yaml --out one --quiet").code, 0);
   EXPECT_EQ(studies::Journal(folder_ / "one/study.db").effort().runs, 8U);
   study("replicates: {count: 2}\n", "s.yaml", "{short: three.yaml, long: two.yaml}");
@@ -105,7 +105,7 @@ TEST_F(StudyScenarios, AnswerOneAnotherByName) {
   study("", "swapped.yaml", "{long: two.yaml, short: three.yaml}");
   const Result swapped = call("sweep swapped.yaml --out swapped --answers s");
   EXPECT_TRUE(contains(swapped.out, "0 of 4 runs were answered by other studies")) << swapped.out << swapped.err;
-  // The same file under two names has a row for each.
+  // One file under two names has a row per name.
   study("", "twins.yaml", "{a: two.yaml, b: two.yaml}");
   ASSERT_EQ(call("sweep twins.yaml --out twins --quiet").code, 0);
   const auto rows = table("twins");
@@ -146,7 +146,7 @@ TEST_F(StudyScenarios, AreSearchedAndVerifiedTogether) {
   ASSERT_EQ(tried.size(), 3U);
   EXPECT_EQ(tried[0].objectives.front(), best) << "the worst scenario counts";
   for (const studies::Verification& v : tried) EXPECT_EQ(v.reason, "");
-  EXPECT_EQ(call("optimize o.yaml --out o --quiet --runs 47").code, 0);  // the last point has no place any more
+  EXPECT_EQ(call("optimize o.yaml --out o --quiet --runs 47").code, 0);  // the budget is too small for the last point
   folder_.write("few.yaml",
                 "gaitlab_study: 1\nscenarios: {short: two.yaml, long: three.yaml}\n"
                 "parameters: {cpg.amplitude: {low: 0.05, high: 0.2}}\nbudget: {runs: 31}\n");
@@ -232,7 +232,8 @@ TEST_F(StudyScenarios, AreAllInTheEstimate) {
   EXPECT_TRUE(contains(result.out, "\n18 s simulated in all\n")) << result.out;
 }
 
-// A limit that `study show` prints holds in every scenario of the study: a margin is of each scenario's own limit.
+// Margins of guards are relative to the limits of each scenario. `study show` prints a limit only if it applies to every
+// scenario.
 TEST_F(StudyScenarios, GuardsAreMarginsOfEachScenariosOwnLimits) {
   folder_.write("strict.yaml", read(folder_ / "two.yaml") + "limits: {saturated_share: 0.03}\n");
   const auto limits = [&](const std::string& name, const std::string& scenarios) {

@@ -1,4 +1,4 @@
-// `gaitlab swap` of several scenarios, and what a signal leaves of a swap.
+// Tests of `gaitlab swap` with several scenarios, and of the files after a signal.
 #include <nlohmann/json.hpp>
 
 #include "tests/app/study_fixture.h"
@@ -16,8 +16,8 @@ class SwapMatrix : public StudyFixture {
                   "physics: {engine: articulated}\ncpg: {type: sine, frequency: 0.3, amplitude: 0.1}\nduration: 3\n");
   }
 
-  /// Calls it, and sends a signal as soon as this folder is there. (What ran the tests may ignore SIGINT: a shell's background
-  /// job.)
+  /// Calls the program, and sends a signal as soon as the folder `made` exists. The program must not inherit ignored signals,
+  /// which a background job of a shell has.
   Result signalled(const std::string& arguments, const std::string& made, const std::string& signal) {
     folder_.write("call.sh", "env --default-signal=INT,HUP,TERM '" + std::string(GAITLAB_BINARY_DIR) + "/bin/gaitlab' " +
                                  arguments + " >out 2>err &\nwhile [ ! -d " + made +
@@ -60,7 +60,7 @@ TEST_F(SwapMatrix, IsATableOfCpgByScenario) {
                                                                                                            : "  -  ") +
                                                                       why))
       << result.out;
-  // A failed check of the verdict is named in the row.
+  // The row contains the reason of the verdict.
   const std::string tense = json.at("sine").at("two").at("why");
   EXPECT_EQ(json.at("sine").at("two").at("verdict"), "not judged");
   EXPECT_FALSE(tense.empty());
@@ -70,7 +70,7 @@ TEST_F(SwapMatrix, IsATableOfCpgByScenario) {
   EXPECT_EQ(csv.substr(0, 30), "cpg,scenario,verdict,why,name,");
   EXPECT_TRUE(contains(csv, "\nsine,two,not judged,"));
   EXPECT_EQ(std::ranges::count(csv, '\n'), 5);
-  // Each scenario has the files of a swap of it alone.
+  // The files of each scenario equal those of a swap with this scenario alone.
   ASSERT_EQ(call("swap soft.yaml --cpg phase_oscillator,sine --out alone").code, 0);
   for (const char* file : {"overlay.svg", "swap.csv", "swap.json"})
     EXPECT_EQ(read(folder_.path() / "m/soft" / file), read(folder_.path() / "alone" / file)) << file;
@@ -110,7 +110,7 @@ TEST_F(SwapMatrix, WhatIsWrongIsToldOfAllAtOnce) {
   EXPECT_FALSE(fs::exists(folder_ / "runs"));
 }
 
-/// A run that would last for hours.
+/// A signal during a run of hours leaves no empty folder.
 TEST_F(SwapMatrix, ASignalLeavesNoEmptyFolder) {
   const std::string options = " --cpg sine,hopf --set duration=100000 --seed 3 -j 2";
   for (const char* signal : {"INT", "TERM", "HUP"}) {
@@ -131,7 +131,7 @@ TEST_F(SwapMatrix, ASignalLeavesNoEmptyFolder) {
   EXPECT_FALSE(fs::exists(folder_ / "m"));
 }
 
-/// As soon as its folder is there a signal leaves a study that goes on, however early it comes.
+/// A study that a signal stops can be continued, at any time after the creation of its folder.
 TEST_F(SwapMatrix, ASweepThatIsStoppedGoesOn) {
   for (const char* signal : {"INT", "TERM", "HUP"}) {
     const std::string out = std::string("s") + signal;

@@ -1,4 +1,4 @@
-// `gaitlab swap`: the table, the figure, and what it refuses.
+// Tests of `gaitlab swap`: the table, the figure, and refused arguments.
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
@@ -24,7 +24,7 @@ class Swap : public ::testing::Test {
   Folder folder;
 };
 
-/// Cells of a text without quotes or line breaks in them.
+/// Cells of a CSV text whose cells contain no quotes and no line breaks.
 std::vector<std::vector<std::string>> cells(const std::string& text) {
   std::vector<std::vector<std::string>> rows;
   std::istringstream lines(text);
@@ -44,7 +44,8 @@ std::vector<std::vector<std::string>> cells(const std::string& text) {
   return rows;
 }
 
-/// Energy from eq. 2 lowers the cost of transport of a caterpillar by a tenth; directional gears create none.
+/// The output states the energy that gears create. With eq. 2 it reduces the cost of transport of a caterpillar by a tenth;
+/// directional gears create no energy.
 TEST_F(Swap, NamesTheEnergyThatGearsCreate) {
   const auto swapped = [&](const std::string& more) {
     return gaitlab("swap '" + kScenarios +
@@ -61,7 +62,7 @@ TEST_F(Swap, NamesTheEnergyThatGearsCreate) {
 TEST_F(Swap, OneRowACpgAndAFigure) {
   const Result result = call("--cpg phase_oscillator,sine -j 2");
   EXPECT_EQ(result.code, 0) << result.err;
-  // The scenario's own model is dropped for another type, and told.
+  // For other types the `model` of the scenario is dropped, and a note states this.
   EXPECT_NE(result.err.find("amplitude_rate"), std::string::npos) << result.err;
   const std::size_t phase = result.out.find("\nphase_oscillator ");
   const std::size_t sine = result.out.find("\nsine ");
@@ -124,7 +125,7 @@ TEST_F(Swap, OneThatDivergesKeepsItsRow) {
   EXPECT_NE(wild.out.find("\nequations "), std::string::npos) << wild.out;
   EXPECT_NE(wild.out.find("\nsine "), std::string::npos) << wild.out;
   EXPECT_TRUE(fs::exists(folder / "runs/swap-wild/overlay.svg"));
-  // Its outcome, and nothing else.
+  // The row of the diverged run contains its outcome and no numbers.
   const auto numbers = nlohmann::json::parse(read(folder / "runs/swap-wild/swap.json"));
   for (const auto& [key, value] : numbers["equations"].items()) {
     EXPECT_EQ(value.is_null(), key != "outcome") << key;
@@ -152,7 +153,7 @@ TEST_F(Swap, PagesAreWrittenWhereTheyAreAskedFor) {
        {"<a href=\"sine.html\">sine</a>", "<a href=\"phase_oscillator.html\">", "? not judged", "data:image/png;base64,"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   EXPECT_EQ(page.find("<script"), std::string::npos);
-  // A number a cell, no sign of a zero, the robot, and pictures of joints whose pixels are whole.
+  // The page has one number per cell, no zero with a sign, the robot, and images of joints with whole pixels.
   EXPECT_FALSE(std::regex_search(page, std::regex("<td>[^<]*[0-9] +[0-9][^<]*</td>"))) << page;
   EXPECT_FALSE(std::regex_search(page, std::regex("[−+-]0\\.0+<"))) << page;
   EXPECT_NE(page.find("<img class=\"robot\""), std::string::npos);
@@ -183,7 +184,7 @@ TEST_F(Swap, CsvAndJsonHoldTheNumbersOfARun) {
   for (const report::SummaryNumber& number : report::summary_numbers()) {
     const nlohmann::ordered_json::json_pointer at(number.pointer());
     if (number.of_joint != nullptr || number.clock) continue;
-    const bool known = json["sine"].contains(at);  // a group that is not known is null
+    const bool known = json["sine"].contains(at);  // an unknown group is null
     const nlohmann::ordered_json value = known ? json["sine"][at] : nlohmann::ordered_json();
     EXPECT_EQ(value.is_structured(), number.list && known) << number.key;
     if (number.list) continue;
@@ -206,7 +207,7 @@ TEST_F(Swap, EveryFileIsTheSameWithAnyNumberOfThreads) {
     EXPECT_EQ(read(folder / ("one/" + file)), read(folder / ("more/" + file))) << file;
 }
 
-/// `equations` that say what `sine` does: the same set points but for rounding; keyframes stand apart.
+/// Curves that coincide are listed and dashed: `equations` and `sine` have equal set points up to rounding, `keyframes` others.
 TEST_F(Swap, CurvesOnEachOtherAreNamedAndDashed) {
   folder.write("twins.yaml",
                "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 0.3\n"

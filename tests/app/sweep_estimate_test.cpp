@@ -1,4 +1,4 @@
-// `gaitlab sweep`: the torque error of its points, and what its steps cost.
+// Tests of the torque error of the points of `gaitlab sweep`, and of notes on the error of a fixed step.
 #include "tests/app/study_fixture.h"
 
 namespace gaitlab::test {
@@ -6,7 +6,8 @@ namespace {
 
 class SweepEstimate : public StudyFixture {};
 
-/// The same points whatever is run beside them; what was not estimated counts as trusted as they are, and says so.
+/// The torque error of some points is estimated; the selection does not depend on lanes or threads. All other points count as
+/// equally accurate, and the output states this.
 TEST_F(SweepEstimate, EstimatesSomePoints) {
   const auto swept = [&](const char* every, const char* out, const char* how) {
     folder_.write("study.yaml", "gaitlab_study: 1\nscenario: " + kScenarios +
@@ -30,7 +31,7 @@ TEST_F(SweepEstimate, EstimatesSomePoints) {
   EXPECT_EQ(all.err.find("own gait"), std::string::npos) << "its torque error is below 1 %: " << all.err;
   swept("estimate_every: 2\n", "some", "-j 1 --lanes 1 --quiet");
   const std::string some = estimated("some");
-  EXPECT_GE(some.size(), 2 * 3U) << some;  // enough to be evidence for the others
+  EXPECT_GE(some.size(), 2 * 3U) << some;  // enough points as evidence for the others
   EXPECT_LT(some.size(), 2 * 8U);
   swept("estimate_every: 2\n", "again", "-j 2 --lanes 4 --quiet");
   EXPECT_EQ(estimated("again"), some);
@@ -45,7 +46,8 @@ TEST_F(SweepEstimate, EstimatesSomePoints) {
   EXPECT_TRUE(contains(rerun.out, "the quantities are those of the journal")) << rerun.out;
 }
 
-/// A step of 2.5 ms costs the caterpillar of engine articulated some of its speed, and says so before the first run.
+/// Before the first run, a note states the error of the speed that a step of 2.5 ms causes for the caterpillar in engine
+/// articulated.
 TEST_F(SweepEstimate, TellsWhatTheStepCosts) {
   const Result swept =
       call("sweep " + kScenarios +
@@ -57,8 +59,8 @@ TEST_F(SweepEstimate, TellsWhatTheStepCosts) {
   EXPECT_TRUE(contains(swept.err, ": take physics.step: auto")) << swept.err;
 }
 
-/// Steps of 5 ms are too long for a gait of 0.8 Hz: the points that were drawn are off by a tenth, and so all others are
-/// estimated.
+/// If some estimated points are inaccurate, all points are estimated. Steps of 5 ms are too long for a gait of 0.8 Hz and cause
+/// an error of a tenth.
 TEST_F(SweepEstimate, IsOfAllPointsWhereSomeAreNotToBeTrusted) {
   const auto swept = [&](const char* every, const char* out, const char* how) {
     folder_.write("study.yaml",

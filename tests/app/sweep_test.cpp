@@ -1,4 +1,4 @@
-// `gaitlab sweep` and `gaitlab study`: rows are runs, folders are refused where they must be, failures are results.
+// Tests of `gaitlab sweep` and `gaitlab study`: rows equal runs, unsuitable folders are refused, failed runs are results.
 #include <nlohmann/json.hpp>
 
 #include "core/files/atomic_file.h"
@@ -10,7 +10,7 @@ namespace {
 
 class Sweep : public StudyFixture {};
 
-/// A motor that bears next to nothing for good: no other guard sees that.
+/// A point that only fails the check of a continuous rating (`heat`) is not kept.
 TEST_F(Sweep, WhatTheVerdictFailsIsNotFeasible) {
   ASSERT_EQ(
       call("sweep two.yaml --set duration=6 --set cpg.amplitude=0.3 --grid actuator.i_continuous=1e-6,1e3 --out s --quiet")
@@ -31,7 +31,7 @@ TEST_F(Sweep, WhatTheVerdictFailsIsNotFeasible) {
   EXPECT_EQ(rows[1].at("kept"), "1");
 }
 
-/// One word, one meaning: a study without guards keeps what its verdict calls infeasible, and does not call it feasible.
+/// A study without guards keeps infeasible points and does not call them feasible.
 TEST_F(Sweep, WithoutGuardsInfeasibleGaitsAreKeptAndNotFeasible) {
   folder_.write("study.yaml", "gaitlab_study: 1\nscenario: " + kScenarios +
                                   "caterpillar.yaml\nset: [physics.engine=articulated, duration=6]\nguards: none\n"
@@ -47,7 +47,7 @@ TEST_F(Sweep, WithoutGuardsInfeasibleGaitsAreKeptAndNotFeasible) {
   EXPECT_EQ(rows[0].at("feasible"), "0");
 }
 
-/// A rejected point is explained by its check and the part, not by a number.
+/// The output states the check and the part for which a point is not kept.
 TEST_F(Sweep, SaysWhyAPointIsNotKept) {
   const Result swept =
       call("sweep two.yaml --set duration=6 --set cpg.amplitude=0.3 --grid actuator.i_continuous=1e-6 --out s");
@@ -60,7 +60,7 @@ TEST_F(Sweep, SaysWhyAPointIsNotKept) {
   EXPECT_EQ(best.err, "s: no point is kept\n");
 }
 
-/// Old studies are read: their names, with a note on what to write.
+/// Old names in a study file are accepted, with a note on the new names.
 TEST_F(Sweep, OldNamesAreRead) {
   folder_.write("old.yaml",
                 "gaitlab_study: 1\nscenario: two.yaml\nfigures: [speed]\nguards: {fell: 0, judged.tracking_error.peak: 2}\n"
@@ -75,7 +75,7 @@ TEST_F(Sweep, OldNamesAreRead) {
   EXPECT_NE(table("s")[0].at("margin.tracking[2]"), table("s")[0].at("margin.tracking"));
 }
 
-/// A gait that is too slow for the run is told of before the first run.
+/// If runs are too short for a verdict on a slow gait, a note states this before the first run.
 TEST_F(Sweep, NotesRunsThatAreTooShortForAVerdict) {
   const Result swept = call("sweep two.yaml --set duration=3 --random cpg.frequency=0.25:1 --runs 1 --out s");
   EXPECT_EQ(swept.code, 0);
@@ -129,7 +129,7 @@ TEST_F(Sweep, TheSameCommandGoesOnInItsFolder) {
   ASSERT_EQ(call(command).code, 0);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "runs/sweep-two-2"));
   EXPECT_EQ(read(folder_ / "runs/sweep-two/table.csv"), first);
-  ASSERT_EQ(call("sweep two.yaml --grid cpg.phase_lag=0.5:1.5:3 --quiet").code, 0);  // another study: another folder
+  ASSERT_EQ(call("sweep two.yaml --grid cpg.phase_lag=0.5:1.5:3 --quiet").code, 0);  // a different study has its own folder
   EXPECT_TRUE(std::filesystem::exists(folder_ / "runs/sweep-two-2/study.db"));
   refused("sweep two.yaml --grid cpg.phase_lag=0.5:1.5:3 --out runs/sweep-two",
           "runs/sweep-two/study.db: error: belongs to another study; choose another folder (--out), or continue it as it was "
@@ -142,7 +142,7 @@ TEST_F(Sweep, TheSameCommandGoesOnInItsFolder) {
 }
 
 TEST_F(Sweep, WhatFailsIsAResult) {
-  // A control period that is no multiple of the step, and a motor that leaves the numbers.
+  // Failed runs are a control period that is not a multiple of the step, and a motor that diverges.
   ASSERT_EQ(call("sweep two.yaml --set physics.integrator=implicit --grid physics.step=0.001,0.0007 --out s --quiet").code, 0);
   auto rows = table("s");
   ASSERT_EQ(rows.size(), 2U);
@@ -159,14 +159,14 @@ TEST_F(Sweep, WhatFailsIsAResult) {
   EXPECT_TRUE(contains(diverged.out, "1 diverged, first: run 0: diverged at step")) << diverged.out;
 }
 
-/// A plugin that throws is a result at once; one that ends the process, when it has done so twice.
+/// A run whose plugin throws is a failed result. A run whose plugin ends the process is a failed result after two attempts.
 TEST_F(Sweep, SurvivesPlugins) {
   folder_.write("plugin.yaml", "gaitlab: 1\nplugins: [" + std::string(GAITLAB_BINARY_DIR) +
                                    "/plugins/throws.so]\nrobot: {modules: mtran, base: fixed}\nground: {type: none}\n"
                                    "contact: {on: none}\nphysics: {engine: articulated}\nduration: 0.3\n"
                                    "cpg: {type: throws, where: nowhere}\n");
   const std::string command = "sweep plugin.yaml --grid cpg.where=nowhere,output,abort --out s --quiet -j 1";
-  EXPECT_GT(call(command).code, 2);  // by its signal
+  EXPECT_GT(call(command).code, 2);  // the process ends by a signal
   EXPECT_GT(call(command).code, 2);
   const Result third = call(command);
   EXPECT_EQ(third.code, 0) << third.err;
@@ -213,26 +213,27 @@ TEST_F(Sweep, FoldersOfStrangersAreData) {
   std::filesystem::create_directories(folder_ / "other");
   std::filesystem::rename(folder_ / "foreign2.db", folder_ / "other/study.db");
   refused("study best other", "other/study.db: error: is a database of SQLite, and not the journal of a study");
-  // A view in the place of a table, which would run what its author wrote.
+  // A view instead of a table is refused, because it would execute SQL of its author.
   std::filesystem::copy(folder_ / "s", folder_ / "view");
   {
     studies::Database changed(folder_ / "view/study.db", studies::Database::Mode::write);
     changed.execute("ALTER TABLE effort RENAME TO e; CREATE VIEW effort AS SELECT * FROM e");
   }
   refused("study show view", "view/study.db: error: is not a journal that this program wrote: its table effort is another");
-  // Cut in the middle.
+  // A truncated database is refused.
   std::filesystem::copy(folder_ / "s", folder_ / "cut");
   std::filesystem::resize_file(folder_ / "cut/study.db", std::filesystem::file_size(folder_ / "cut/study.db") / 2);
   const Result cut = call("study show cut");
   EXPECT_EQ(cut.code, 2);
   EXPECT_TRUE(contains(cut.err, "cut/study.db: error: is damaged: ")) << cut.err;
-  // A folder that is something else.
+  // A folder with other files is refused.
   std::filesystem::create_directories(folder_ / "full");
   folder_.write("full/thesis.tex", "x");
   refused("sweep two.yaml --grid cpg.phase_lag=0.5:1.5:2 --out full", "--out full: error: exists and is not empty");
 }
 
-/// A joint of amplitude A at 1 Hz moves with up to 2 pi A rad/s: 0.6 and 1.9 for the first two, 3.8 and 5 for the others.
+/// Stop rules end runs at times that do not depend on the lanes. The largest speed at amplitude A and 1 Hz is 2 pi A: 0.6
+/// and 1.9 rad/s for the first two points, 3.8 and 5 rad/s for the others.
 TEST_F(Sweep, RulesEndRunsAtTheSameTimeWhateverTheLanes) {
   const std::string study =
       "gaitlab_study: 1\nscenario: two.yaml\nset: [duration=3.5]\nguards: none\n"
@@ -248,7 +249,7 @@ TEST_F(Sweep, RulesEndRunsAtTheSameTimeWhateverTheLanes) {
   const auto whole = table("all");
   const auto rows = table("one");
   ASSERT_EQ(rows.size(), 4U);
-  for (const std::size_t k : {0U, 1U}) EXPECT_EQ(rows[k], whole[k]) << k;  // a rule that does not hold changes no bit
+  for (const std::size_t k : {0U, 1U}) EXPECT_EQ(rows[k], whole[k]) << k;  // a rule without effect changes no bit
   for (const std::size_t k : {2U, 3U}) {
     EXPECT_EQ(rows[k].at("outcome"), "stopped");
     EXPECT_EQ(rows[k].at("simulated"), "2");
@@ -271,21 +272,21 @@ TEST_F(Sweep, TakesAnswersOfOtherStudies) {
   const std::string out = sweep("--grid cpg.phase_lag=0.4:2:17 --out answered --answers nine/study.db");
   EXPECT_TRUE(contains(out, "9 of 17 runs were answered by other studies")) << out;
   EXPECT_EQ(read(folder_ / "answered/table.csv"), read(folder_ / "plain/table.csv"));
-  // Another objective: the scores are computed again.
+  // With a different objective the scores are computed again.
   folder_.write("cost.yaml",
                 "gaitlab_study: 1\nscenario: two.yaml\nparameters: {cpg.phase_lag: {low: 0.4, high: 2, count: 9}}\n"
                 "objective: {minimize: torque.rms}\nconstraints: [speed >= 0.001]\n");
   const Result other = call("sweep cost.yaml --out cost --answers nine");
   EXPECT_TRUE(contains(other.out, "9 of 9 runs were answered by other studies")) << other.out << other.err;
   for (const auto& row : table("cost")) EXPECT_EQ(row.at("objective.1"), row.at("torque.rms"));
-  // Rows of another step are not taken; replicates have other seeds.
+  // Rows of a different duration are not used, and replicates have other seeds.
   EXPECT_TRUE(contains(sweep("--grid cpg.phase_lag=0.4:2:9 --set duration=0.31 --out longer --answers nine"), "0 of 9 runs"));
   EXPECT_TRUE(contains(sweep("--grid cpg.phase_lag=0.4:2:9 --seeds 1 --out seeds --answers nine"), "0 of 9 runs"));
   refused("sweep two.yaml --grid cpg.phase_lag=0.4:2:9 --out x --answers nowhere.db",
           "nowhere.db: error: does not exist; expected the study.db of a study");
 }
 
-/// Two points with the same values: one is run, both have its row.
+/// Points with equal values are simulated once, and all have the results.
 TEST_F(Sweep, RunsEqualPointsOnce) {
   ASSERT_EQ(call("sweep two.yaml --random cpg.amplitude=0.2,0.3 --runs 12 --out s --quiet").code, 0);
   const auto rows = table("s");
@@ -332,7 +333,7 @@ TEST_F(Sweep, OfSensitivityEndsWithATable) {
   EXPECT_TRUE(contains(read(folder_ / "s/sensitivity-speed.svg"), "share of the variance"));
 }
 
-/// A kill or a full disk while the journal is made leaves a database without tables.
+/// A sweep continues with a database without tables, which a kill or a full disk leaves during the creation of the journal.
 TEST_F(Sweep, GoesOnWhereItsJournalWasNotMade) {
   std::filesystem::create_directory(folder_ / "s");
   folder_.write("s/study.db", "");

@@ -1,4 +1,4 @@
-// `gaitlab report RUN_A RUN_B`: one page of two runs.
+// Tests of `gaitlab report RUN_A RUN_B`, which writes one page for two runs.
 #include <nlohmann/json.hpp>
 
 #include "core/files/atomic_file.h"
@@ -7,7 +7,7 @@
 namespace gaitlab::test {
 namespace {
 
-/// Data of a run in its page.
+/// JSON object `meta` in the text of a page.
 nlohmann::json meta_of(const std::string& page) {
   const std::string mark = "<script type=\"application/json\" id=\"meta\">";
   const std::size_t from = page.find(mark) + mark.size();
@@ -50,10 +50,10 @@ TEST_F(TwoRuns, StandOnOnePageBesideTheFirst) {
   const auto differs = overlay.at("differs").get<std::vector<std::string>>();
   ASSERT_EQ(differs.size(), 4U);
   EXPECT_EQ(differs[0], "cpg.frequency: 0.5 -> 1.2");
-  // Each run is as it is on its own page.
+  // The data of each run equal those on the page of this run alone.
   ASSERT_EQ(call("report fast --page fast.html").code, 0);
   EXPECT_EQ(overlay.at("run"), meta_of(read(*runs / "fast.html")));
-  // Again: in the place of the old one, the same bytes.
+  // Repeating the command replaces the page by the same bytes.
   EXPECT_EQ(call("report a fast").code, 0);
   EXPECT_EQ(read(*runs / "a/compare.html"), page);
 }

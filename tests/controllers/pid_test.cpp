@@ -1,4 +1,5 @@
-// Controller `pid` by itself: what it commands for a sequence of errors, worked by hand and solved for the command.
+// Tests of the controller `pid` alone: commands for a sequence of errors agree with values computed by hand and with closed
+// forms.
 #include "controllers/pid.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@ namespace {
 
 using namespace controllers;
 
-/// Fed with errors, tick by tick, joints together.
+/// Controller of several joints that receives errors tick by tick.
 class Fed {
  public:
   Fed(std::size_t joints, Pid::Settings settings, double period, double limit)
@@ -23,7 +24,7 @@ class Fed {
         command_(joints) {
     pid_.start(x_);
   }
-  /// A set point is the error where the angle is 0.
+  /// Commands for these errors. The angles are 0, so that the set points equal the errors.
   const std::vector<double>& operator()(const std::vector<double>& error) {
     pid_.update(measured_, error, limit_, x_, command_);
     return command_;
@@ -42,7 +43,8 @@ class Fed {
 };
 
 TEST(Pid, HoldsTheIntegralAfterATickBeyondTheLimitOnTheErrorsSide) {
-  // Ki Ts = 1/2. The first tick asks for 2 V of 1 V: it adds nothing, whatever the error is at the next one.
+  // Ki Ts = 1/2. The first command, 2 V, exceeds the limit of 1 V, so that the integral omits this tick for any following
+  // error.
   Pid::Settings settings;
   settings.Kp.common = 2;
   settings.Ki.common = 4;
@@ -54,7 +56,7 @@ TEST(Pid, HoldsTheIntegralAfterATickBeyondTheLimitOnTheErrorsSide) {
     return all;
   };
   EXPECT_EQ(commands(1), (std::vector<double>{2, -0.5, -0.5 - 0.125}));
-  EXPECT_EQ(commands(2), (std::vector<double>{2, -0.5 + 0.5, -0.5 + 0.5 - 0.125}));  // at the limit is not beyond it
+  EXPECT_EQ(commands(2), (std::vector<double>{2, -0.5 + 0.5, -0.5 + 0.5 - 0.125}));  // a command equal to the limit counts
   settings.anti_windup = false;
   EXPECT_EQ(commands(1), (std::vector<double>{2, -0.5 + 0.5, -0.5 + 0.5 - 0.125}));
 }
@@ -69,16 +71,16 @@ TEST(Pid, TakesTheIntegralBackWhileTheErrorIsOnTheOtherSide) {
   EXPECT_EQ(pid({1})[0], 0.5);
   EXPECT_EQ(pid({1})[0], 1.5);
   EXPECT_EQ(pid({1})[0], 2 + 0.5);
-  EXPECT_EQ(pid({-0.5})[0], 2 - 0.25);  // held: 2.5 was beyond the limit with the error's sign
+  EXPECT_EQ(pid({-0.5})[0], 2 - 0.25);  // integral unchanged, because 2.5 exceeded the limit with the sign of the error
   EXPECT_EQ(pid({2})[0], 1.5 + 1);
-  EXPECT_EQ(pid({-2})[0], 1.5 - 1);  // held
+  EXPECT_EQ(pid({-2})[0], 1.5 - 1);  // integral unchanged
   EXPECT_EQ(pid({4})[0], -0.5 + 2);
-  EXPECT_EQ(pid({-1})[0], 3.5 - 0.5);    // beyond the limit with an error of the other sign ...
-  EXPECT_EQ(pid({0.5})[0], 2.5 + 0.25);  // ... which counts
+  EXPECT_EQ(pid({-1})[0], 3.5 - 0.5);    // beyond the limit, but with an error of opposite sign
+  EXPECT_EQ(pid({0.5})[0], 2.5 + 0.25);  // the integral includes that error
 }
 
 TEST(Pid, AnswersAStepWithADerivativeThatDecays) {
-  // Kd = 1, N Ts = 1: half of the filter is kept from tick to tick, and N Kd / (Kd + N Ts) = 4 answers a step of 1 at once.
+  // With Kd = 1 and N Ts = 1, half of the filter state remains from tick to tick, and a step of 1 gives N Kd / (Kd + N Ts) = 4.
   Pid::Settings settings;
   settings.Kp.common = 0;
   settings.Kd.common = 1;
@@ -135,8 +137,8 @@ TEST(Pid, IsTheSumsForRandomErrors) {
   }
   EXPECT_GT(held, 1000);
   EXPECT_GT(turned, 300) << "ticks after which the error has the other sign";
-  // Rounding of 60 sums of numbers up to 100. A command that is at its limit but for rounding would be held by one of the two
-  // only, which none of these is.
+  // The tolerance is for the rounding errors of 60 sums of numbers up to 100. No command equals its limit up to rounding, which
+  // the two formulas would treat differently.
   EXPECT_LT(worst, 1e-12);
 }
 

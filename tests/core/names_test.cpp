@@ -55,7 +55,7 @@ TEST(EnumNames, ATableThatLacksAValueOrHasAnotherOrderIsNotWhole) {
 }
 
 TEST(EnumNames, CompilersTellEnumeratorsFromOtherValues) {
-  EXPECT_TRUE(is_enumerator<Leg::right2>());  // a digit at the end of a name
+  EXPECT_TRUE(is_enumerator<Leg::right2>());  // name with a digit at the end
   EXPECT_TRUE(is_enumerator<static_cast<Leg>(2)>());
   EXPECT_FALSE(is_enumerator<static_cast<Leg>(3)>());
   EXPECT_FALSE(is_enumerator<static_cast<Leg>(10)>());

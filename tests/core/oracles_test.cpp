@@ -1,4 +1,4 @@
-// The oracles themselves, each against a second thing: a derivative, an invariant, a tabulated value.
+// Tests of the analytical solutions that other tests use (tests/oracles), by derivatives, invariants and tabulated values.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,9 +12,10 @@
 namespace gaitlab::oracle {
 namespace {
 
-constexpr double kOracleRounding = 1e-13;  // a few hundred operations on numbers of size 1 to 10
+constexpr double kOracleRounding = 1e-13;  // rounding errors of some hundred operations with numbers of 1 to 10
 
-/// Fourth-order central difference: error h^4 f^(5) / 30 and rounding 1e-16 / h, 1e-11 together for h = 1e-3 and f of size 1.
+/// Derivative by a central difference of order 4. Its error h^4 f^(5) / 30 and rounding error 1e-16 / h are together 1e-11 for
+/// h = 1e-3 and f of size 1.
 template <class F>
 double derivative(const F& f, double t) {
   const double h = 1e-3;
@@ -46,7 +47,7 @@ TEST(Oracle, PendulumObeysItsEquation) {
   const Pendulum pendulum(3, 2.5);
   EXPECT_NEAR(pendulum.angle(0), 2.5, kOracleRounding);
   EXPECT_NEAR(pendulum.angle(pendulum.period()), 2.5, 1e-12);
-  EXPECT_NEAR(Pendulum(3, 1e-4).period(), 2 * std::numbers::pi / 3, 2e-9);  // small: longer by amplitude^2 / 16
+  EXPECT_NEAR(Pendulum(3, 1e-4).period(), 2 * std::numbers::pi / 3, 2e-9);  // small swings are longer by amplitude^2 / 16
   for (const double t : {0.2, 0.9, 1.7}) {
     EXPECT_NEAR(derivative([&](double x) { return pendulum.angle(x); }, t), pendulum.speed(t), 1e-8);
     EXPECT_NEAR(derivative([&](double x) { return pendulum.speed(x); }, t), -9 * std::sin(pendulum.angle(t)), 1e-8);
@@ -57,13 +58,13 @@ TEST(Oracle, DoublePendulumKeepsItsEnergyAndSwingsInItsModes) {
   const DoublePendulum two;
   const DoublePendulum::State start{1, 2, 0.5, -1};
   EXPECT_NEAR(two.energy(two.at(5, start)), two.energy(start), 1e-12);
-  // Small swings: det([4/3, 1/2; 1/2, 1/3] w^2 - g/l [3/2, 0; 0, 1/2]) = 0, so w^2 = (3 +- 6/sqrt(7)) g/l.
+  // For small swings det([4/3, 1/2; 1/2, 1/3] w^2 - g/l [3/2, 0; 0, 1/2]) = 0, hence w^2 = (3 +- 6/sqrt(7)) g/l.
   for (const double sign : {-1.0, 1.0}) {
     const double square = (3 + sign * 6 / std::sqrt(7.0)) * two.g;
     const double ratio = (1.5 * two.g - 4.0 / 3 * square) / (square / 2);  // theta2 / theta1 of the mode
     const DoublePendulum::State mode{1e-6, 1e-6 * ratio, 0, 0};
     const DoublePendulum::State end = two.at(std::numbers::pi / std::sqrt(square), mode);
-    EXPECT_NEAR(end[0] / mode[0], -1, 1e-9);  // not linear: of the size of the angle's square
+    EXPECT_NEAR(end[0] / mode[0], -1, 1e-9);  // nonlinear terms are of the size of the squared angle
     EXPECT_NEAR(end[1] / mode[1], -1, 1e-9);
   }
 }
@@ -80,8 +81,8 @@ TEST(Oracle, FreeTopObeysEulersEquations) {
 TEST(Oracle, HeavyTopHangsTogether) {
   const HeavyTop top{0.3, 0.1, 2};
   EXPECT_NEAR(top.lean(0.7, 1.5, top.spin_for(1.5, 0.7)), 0, kOracleRounding);
-  // Its energy at the turning point is that of the start: (A W^2 sin^2 - 2 mgl (cos theta0 - cos theta)) / 2 = 0, with the
-  // precession from the angular momentum about the vertical.
+  // The energy at the turning point equals that at the start: (A W^2 sin^2 - 2 mgl (cos theta0 - cos theta)) / 2 = 0. The
+  // precession rate W follows from the angular momentum about the vertical.
   const double w3 = 30;
   const double end = top.turns_back(0.7, w3);
   const double W = top.C * w3 * (std::cos(0.7) - std::cos(end)) / (top.A * std::sin(end) * std::sin(end));
@@ -91,7 +92,8 @@ TEST(Oracle, HeavyTopHangsTogether) {
 
 TEST(Oracle, Blocks) {
   const SlidingBlock block{0.8, 9.81, 0.01};
-  // The way is the integral of the speed: Simpson on 20 000 intervals, the kink at v_lim between two of them.
+  // The distance is the integral of the speed, by Simpson's rule on 20 000 intervals. The kink at v_lim is between two
+  // intervals.
   double way = 0;
   const double h = 1e-5;
   for (int i = 0; i < 20000; ++i) {
@@ -99,15 +101,16 @@ TEST(Oracle, Blocks) {
     way += h / 6 * (block.speed(0.9, t) + 4 * block.speed(0.9, t + h / 2) + block.speed(0.9, t + h));
   }
   EXPECT_NEAR(way, block.stops_after(0.9), 1e-9);
-  EXPECT_NEAR(block.creeps(std::atan(0.8)), 0.01, 1e-15);  // the steepest slope: v_lim itself
+  EXPECT_NEAR(block.creeps(std::atan(0.8)), 0.01, 1e-15);  // the speed on the steepest slope is v_lim
   const StandingBlock standing{2, 4, 1e4, 50};
   const auto height = [&](double t) { return standing.height(1, t); };
   const auto speed = [&](double t) { return derivative(height, t); };
-  // Differences of a swing at 140 rad/s with h = 1e-3: (h w)^4 w / 30 twice.
+  // The tolerance is for the errors (h w)^4 w / 30 of two differences of an oscillation at 140 rad/s with h = 1e-3.
   EXPECT_NEAR(derivative(speed, 0.03) / (standing.n * standing.kn / standing.m),
               -height(0.03) - standing.cd / standing.kn * speed(0.03), 2e-4);
   EXPECT_NEAR(standing_sink(2, 10, 4, 1e4), 5e-4, 1e-18);
-  // The bounce by integrating p'' = -K/m p (1 + a p'), stopped where p is 0 again by Newton's method.
+  // The reference for the bounce is the integral of p'' = -K/m p (1 + a p'). Newton's method finds the time at which p is 0
+  // again.
   const auto impact = [](const std::array<double, 2>& x) { return std::array<double, 2>{x[1], -100 * x[0] * (1 + 5 * x[1])}; };
   double t = 0.3;
   std::array<double, 2> x{};
@@ -116,7 +119,7 @@ TEST(Oracle, Blocks) {
     t -= x[0] / x[1];
   }
   EXPECT_NEAR(-x[1], bounces_with(0.1, 100, 500), 1e-12);
-  EXPECT_NEAR(bounces_with(0.1, 100, 1e-3), 0.1, 1e-6);  // no damping: nothing lost
+  EXPECT_NEAR(bounces_with(0.1, 100, 1e-3), 0.1, 1e-6);  // with almost no damping the speed is preserved
 }
 
 TEST(Oracle, MotorSpinUpObeysItsEquation) {
@@ -144,7 +147,7 @@ TEST(Oracle, StopBounceObeysItsEquation) {
 }
 
 TEST(Oracle, PidByHand) {
-  // Kp = 2, Ki = 4, Kd = 1, N = 8, Ts = 1/8: Ki Ts = 1/2, Kd + N Ts = 2. Worked on paper:
+  // Values computed by hand for Kp = 2, Ki = 4, Kd = 1, N = 8, Ts = 1/8, hence Ki Ts = 1/2 and Kd + N Ts = 2:
   //   e     P     I                 D                          u
   //   1     2     0                 0                          2
   //   1/2   1     1/2               -8/2 / 2 = -2             -1/2
@@ -158,7 +161,7 @@ TEST(Oracle, PidByHand) {
 }
 
 TEST(Oracle, PidSumsAreThePidByHand) {
-  // As above, without a limit; then with one of 1, beyond which the commands of the first and the last but one tick are:
+  // First the values of the test above, without a limit. With a limit of 1, the commands marked `held` exceed the limit:
   //   e     P     I                 u
   //   1     2     0                 2      held
   //  -1/4  -1/2   0                -1/2

@@ -1,4 +1,4 @@
-// The rows of docs/validation.md: what is inside, what GAITLAB_TOL_SCALE does, what is written.
+// Tests of the rows of docs/validation.md: tolerances, the effect of GAITLAB_TOL_SCALE, written lines.
 #include "tests/validation.h"
 
 #include <gtest/gtest-spi.h>
@@ -16,7 +16,7 @@ namespace {
 
 const Row kRow{"test.row", "a third", "arithmetic", "m"};
 
-/// Keeps the two variables as they were; these rows belong to no page.
+/// Fixture that restores the two environment variables. Its rows do not appear on the page.
 class Validation : public testing::Test {
  protected:
   void SetUp() override {

@@ -1,4 +1,4 @@
-// Oscillators against closed forms and published periods.
+// Oscillators agree with closed forms and published periods.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ RobotInfo joints(std::size_t count) {
   return robot;
 }
 
-/// A CPG's states, taken on by the classical RK4 as the simulation does.
+/// States of a CPG, integrated by classical RK4 as in the simulation.
 class Integrated {
  public:
   Integrated(const Cpg& cpg, std::size_t joints, double h) : cpg_(cpg), h_(h), x_(cpg.states()), setpoint_(joints) {
@@ -72,7 +72,7 @@ TEST(CpgForms, HopfRadiusAndPhase) {
   Integrated run(cpg, 1, 1e-3);
   for (const double t : {0.5, 1.0, 2.0, 4.0}) {
     run.run(t);
-    // z' = (a (1 - |z|^2) + i omega) z is Bernoulli's equation in r^2: r^-2 = 1 + (r0^-2 - 1) exp(-2 a t), r0 = 0.01.
+    // z' = (a (1 - |z|^2) + i omega) z is Bernoulli's equation in r^2, with r^-2 = 1 + (r0^-2 - 1) exp(-2 a t), r0 = 0.01.
     const double r = 1 / std::sqrt(1 + (1e4 - 1) * std::exp(-2 * 2.0 * t));
     const Row radius{"cpg.hopf_radius", "radius of one oscillator from 0.01", "Bernoulli's equation", ""};
     validate(radius, std::hypot(run.x()[0], run.x()[1]), r, 1e-10, "RK4 at 1 ms: (omega h)^4 = 4e-10 a radian");
@@ -82,7 +82,7 @@ TEST(CpgForms, HopfRadiusAndPhase) {
   }
 }
 
-/// Integral of 1 / (S(b y) / d + S(-b y) / (1 - d)), y = -cos(angle), from one angle to another: Simpson's rule.
+/// Integral of 1 / (S(b y) / d + S(-b y) / (1 - d)) with y = -cos(angle) between two angles, by Simpson's rule.
 double time_between(double from, double to, double duty, double sharpness) {
   constexpr int kParts = 20000;
   double sum = 0;
@@ -102,7 +102,7 @@ TEST(CpgForms, SwingAndStanceTakeRighettisIntegral) {
     const Hopf cpg(joints(1), s);
     Integrated run(cpg, 1, 1e-3);
     run.run(12);
-    // From peak to trough the set point falls. Times of both by linear interpolation of y through 0, where x turns.
+    // The set point decreases from its maximum to its minimum. The times of both are zeros of y, found by linear interpolation.
     std::vector<double> turns;
     while (turns.size() < 3) {
       const double before = run.x()[1];
@@ -120,7 +120,7 @@ TEST(CpgForms, SwingAndStanceTakeRighettisIntegral) {
                     "Righetti, Ijspeert 2008: integral of 1/omega over y > 0 by Simpson's rule", ""};
     validate(share, (turns[1] - turns[0]) / 2, stance / (stance + time_between(-quarter, quarter, duty, 20)), 2e-5,
              "turns are interpolated linearly in steps of 1 ms where the pace changes: h^2 b omega / 8 = 2e-5");
-    EXPECT_NEAR((turns[1] - turns[0]) / 2, duty, 0.02);  // the sharper, the nearer: a blend 1/20 rad wide at both ends
+    EXPECT_NEAR((turns[1] - turns[0]) / 2, duty, 0.02);  // the transitions at both ends are 1/20 rad wide
   }
 }
 
@@ -170,7 +170,7 @@ TEST(CpgForms, CrespisAmplitude) {
   }
 }
 
-/// A pair whose follower starts psi0 ahead of its lag: psi' = -w sin(psi).
+/// Validates a pair of oscillators whose follower starts psi0 ahead of its lag, with psi' = -w sin(psi).
 void validate_pair(const std::string& name, Integrated run, double w, double tolerance, const std::string& reason,
                    const std::function<double(const std::vector<double>&)>& psi) {
   const double psi0 = psi(run.x());
@@ -183,7 +183,7 @@ void validate_pair(const std::string& name, Integrated run, double w, double tol
 
 constexpr double kLag = 1.2, kPsi = 2.5;
 
-/// The state of a pair that starts kPsi ahead of the lag kLag: the start of a CPG whose lag is both.
+/// Pair of oscillators that starts kPsi ahead of the lag kLag. The start comes from a CPG whose lag is the sum kLag + kPsi.
 template <class T>
 Integrated displaced(const T& cpg, const typename T::Settings& s, double h) {
   typename T::Settings ahead = s;

@@ -1,4 +1,4 @@
-// CPG `equations` as a user meets it: every message at its character, and the texts in the resolved scenario.
+// Tests of the CPG `equations` in scenarios: messages with the position of the error, and expressions in the resolved scenario.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -17,7 +17,7 @@ class EquationTexts : public fakes::ScenarioTest {
  protected:
   EquationTexts() { add_cpg<Equations>(catalog_, "equations", Equations::kManual); }
 
-  /// Messages about the lines of a model, whose first line is line 7.
+  /// Messages on these lines of a model. Their first line is line 7 of the scenario.
   std::string wrong(const std::string& lines, const std::vector<std::string>& sets = {}) {
     std::string text = fakes::kTwo + "cpg:\n  type: equations\n  model:\n";
     std::istringstream stream(lines);
@@ -25,7 +25,7 @@ class EquationTexts : public fakes::ScenarioTest {
     const std::string all = error(text, sets);
     return all.starts_with("DIR/s.yaml:") ? all.substr(11) : all;
   }
-  /// The same of one output; of the character: in the line `    output: TEXT`, the first is column 13.
+  /// Messages on a model with this output. The first character of the expression is in column 13.
   std::string output(const std::string& text) { return wrong("output: " + text); }
 };
 
@@ -131,7 +131,7 @@ TEST_F(EquationTexts, HaveTheirPlaceInEveryKindOfScalar) {
   EXPECT_EQ(place("output: |2+\n    x\n  + y\n\n"), "10:9:");
   EXPECT_EQ(place("initial: {phi: 'y'}"), "8:21:");
   EXPECT_EQ(place("initial:\n  phi: |\n    1\n    + y\n  r: 0"), "11:11:");
-  EXPECT_EQ(place("output: >\n  x\n  + y"), "8:13:");  // folded: the scalar's own place
+  EXPECT_EQ(place("output: >\n  x\n  + y"), "8:13:");  // a folded text has the place of its scalar
   EXPECT_EQ(place("output: x\n  + y"), "8:13:");
   EXPECT_EQ(place("output: x", {"cpg.model.output=x + y"}), "--set cpg.model.output=x + y:");
   EXPECT_EQ(place("output: x", {"cpg.model.initial.phi=y"}), "--set cpg.model.initial.phi=y:");

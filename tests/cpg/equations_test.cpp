@@ -1,4 +1,5 @@
-// CPG `equations`: values of texts against the C library and a second evaluation, and the native phase oscillator.
+// Tests of the CPG `equations`: values of expressions agree with the C library and an independent evaluation, and a model
+// agrees with the built-in phase oscillator.
 #include "cpg/equations.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ namespace {
 
 using namespace cpg;
 
-/// A tree of four joints: 0 - 1 - 2 and 0 - 3; 2 on the left, 3 on the right.
+/// Robot with a tree of four joints, 0 - 1 - 2 and 0 - 3. Joint 2 is on the left, joint 3 on the right.
 RobotInfo robot() {
   RobotInfo robot;
   for (const std::int64_t parent : {-1, 0, 1, 0}) {
@@ -35,7 +36,7 @@ RobotInfo robot() {
   return robot;
 }
 
-/// A model without states: its output is what is looked at.
+/// Settings of a model without states, with this output.
 Equations::Settings only(const std::string& output) {
   Equations::Settings s;
   s.model.states.clear();
@@ -71,7 +72,7 @@ TEST(EquationValues, FunctionsAndOperators) {
       {"clamp(-1.3, -1, 1) + clamp(0.7, -1, 1) + clamp(5, -1, 1)", 0.7},
       {"if(1 < 2, 3, 4)", 3},
       {"if(2 < 1, 3, 4)", 4},
-      {"if(0, 1/0, 4)", 4},  // what is not chosen does no harm
+      {"if(0, 1/0, 4)", 4},  // the value that is not selected has no effect
       {"pi", std::numbers::pi},
       {"t", 0.5},
       {"1 + 2*3", 7},
@@ -81,7 +82,7 @@ TEST(EquationValues, FunctionsAndOperators) {
       {"2^3^2", 512},
       {"-2^2", -4},
       {"2^-1", 0.5},
-      {"(-3)^2", 9},  // a product: the power by logarithm would have no value
+      {"(-3)^2", 9},  // computed as a product, because the logarithm of -3 does not exist
       {"2*-3", -6},
       {"- - 3", 3},
       {"+3", 3},
@@ -92,14 +93,14 @@ TEST(EquationValues, FunctionsAndOperators) {
       {"1 < 2 or 2 < 1", 1},
       {"not 1 < 2", 0},
       {"not not 5", 1},
-      {"1 or 0 and 0", 1},  // `and` binds tighter
+      {"1 or 0 and 0", 1},  // `and` has precedence over `or`
       {"1.5e3 + .5 + 2. + 1E-1", 1502.6},
       {"1+1 < 3", 1},
       {" 1\n + 1 ", 2},
       {"phase[i] + index[i]", 0},
-      {"sum(j in neighbours, 1)", 0},  // joint 0 follows none
+      {"sum(j in neighbours, 1)", 0},  // joint 0 follows no joint
   }};
-  for (const auto& [text, expected] : cases) EXPECT_DOUBLE_EQ(value(text), expected) << text;  // 4 ulp: ours have 1, as theirs
+  for (const auto& [text, expected] : cases) EXPECT_DOUBLE_EQ(value(text), expected) << text;  // within 4 ulp
 }
 
 TEST(EquationValues, WhatIsNoNumberGoesThrough) {
@@ -141,7 +142,7 @@ TEST(EquationValues, ParametersAreNumbersListsAndTextsOfTheTree) {
   EXPECT_EQ(values(s), (std::vector<double>{1001, 1000 + 2 * 12., 1000 + 3 * 23., 1000 + 4 * 14.}));
 }
 
-/// A random text with its values, computed here joint by joint (or coupling by coupling) as the text grows.
+/// Random expression that grows step by step, with its values for each joint (or coupling), computed independently.
 class RandomText {
  public:
   explicit RandomText(unsigned seed) : random_(seed) {}
@@ -231,11 +232,11 @@ TEST(EquationValues, ThousandsOfRandomTexts) {
       ASSERT_NE(std::string(e.what()).find("more than 500"), std::string::npos) << e.what() << "\n" << grown.text;
       continue;
     }
-    ASSERT_EQ(out, grown.values) << grown.text;  // the same operations on the same numbers
+    ASSERT_EQ(out, grown.values) << grown.text;  // identical bits, because the operations are the same
   }
 }
 
-/// Wanders by RK4 as the host does.
+/// Integrates a CPG by RK4, as the program does.
 struct Walk {
   Walk(const Cpg& c) : cpg(c), x(c.states()), setpoint(4) { cpg.start(x); }
   void step(double h) {
@@ -254,7 +255,7 @@ struct Walk {
   std::vector<double> x, setpoint;
 };
 
-/// The greatest difference of states and set points over 4 s.
+/// Largest difference of states and set points of both CPGs during 4 s.
 double difference(const PhaseOscillator::Settings& native, const Equations::Settings& own) {
   const PhaseOscillator a(robot(), native);
   const Equations b(robot(), own);
@@ -284,7 +285,7 @@ void expect_native(const OscillatorKeys& keys, bool weighted = false) {
   own.model.parameters = {{"a_r", "", {3}}};
   own.model.states[1].text = "a_r*(amplitude - r)";
   if (weighted) own.model.states[0].text = "omega + sum(j in neighbours, w[i,j]*r[j]*sin(phi[j] - phi[i] - psi[i,j]))";
-  EXPECT_LT(difference(native, own), 1e-12);  // asked for; sums in another order would be a few ulp, contracted by the network
+  EXPECT_LT(difference(native, own), 1e-12);  // required; another order of sums gives some ulp, which the network damps
 }
 
 TEST(Equations, AreTheNativePhaseOscillator) {
@@ -313,7 +314,7 @@ TEST(Equations, HearTheSensors) {
   s.model.output = "y";
   const Equations cpg(robot(), s);
   const std::array<double, 4> angle{1, 2, 3, 4}, speed{5, 6, 7, 8}, torque{9, 8, 7, 6};
-  const std::array<double, 2> touching{0, 1};  // the module of joint 0 alone
+  const std::array<double, 2> touching{0, 1};  // only the module of joint 0 touches the ground
   std::vector<double> rate(4), x(4);
   cpg.derivative({0, 0.015, angle, speed, torque, touching}, x, rate);
   EXPECT_EQ(rate, (std::vector<double>{1951, 862 + 1e4, 773, 684}));
@@ -331,8 +332,8 @@ TEST(Equations, AStateWithoutAnInitialValueStartsAtZeroAndTimeRuns) {
   Walk run(cpg);
   EXPECT_EQ(run.x, std::vector<double>(8, 0.0));
   for (int k = 0; k < 100; ++k) run.step(0.01);
-  EXPECT_NEAR(run.x[0], 1, 1e-14);    // 100 roundings of a sum up to 1
-  EXPECT_NEAR(run.x[4], 0.5, 1e-14);  // t^2 / 2: RK4 has no error on it
+  EXPECT_NEAR(run.x[0], 1, 1e-14);    // rounding errors of 100 sums up to 1
+  EXPECT_NEAR(run.x[4], 0.5, 1e-14);  // RK4 is exact for t^2 / 2
 }
 
 TEST(Equations, InCodeAreRefusedInOneSentence) {

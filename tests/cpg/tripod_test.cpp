@@ -1,4 +1,4 @@
-// The tripod gait's set points: smooth for every order and duty factor, on any number of legs.
+// Tests of the set points of the tripod gait: continuous for every duty factor and any number of legs.
 #include "cpg/tripod.h"
 
 #include <gtest/gtest.h>
@@ -42,8 +42,8 @@ TEST(Tripod, SetPointsNeverJump) {
         settings.model.duty_factor = duty;
         settings.model.ramp = 0;
         const Tripod gait(robot, settings);
-        // Fastest: the swing, A pi / Ts, and tilts below pi / 4 that go within a fifth of it: its own, the depth's and the
-        // lift's. The jumps this guards against were 0.15 rad, ten times that in a tick of 0.1 ms.
+        // The largest speed is that of the swing, A pi / Ts, plus three tilts below pi / 4 within a fifth of the swing. In a
+        // tick of 0.1 ms this is a tenth of the jumps of 0.15 rad that an earlier version had.
         const double swing = 2 * (1 - duty);
         const double fastest = (0.4 * std::numbers::pi + 3 * std::numbers::pi / 4 / 0.2) / swing;
         constexpr double kTick = 1e-4;
@@ -65,8 +65,8 @@ TEST(Tripod, SetPointsNeverJump) {
 TEST(Tripod, AlternatingWithHalfTheTimeOnTheGroundIsTheGaitThatWasTried) {
   const RobotInfo robot = robot_of(kHexapod);
   const Tripod gait(robot, {});
-  // Stance hip from +A to -A, ankle = -hip + d sin^2(pi u); swing: ankle = -hip. Legs {6, 7, 10} stand first; t = 2.3 s, u =
-  // 0.3.
+  // During stance the hip moves from +A to -A, and the ankle is -hip + d sin^2(pi u). During swing the ankle is -hip. Legs 6, 7
+  // and 10 stand first; at t = 2.3 s, u = 0.3.
   const std::vector<double> q = setpoints(gait, robot.joints.size(), 2.3);
   const double lift = 0.4 * std::pow(std::sin(0.3 * std::numbers::pi), 2);
   for (const std::size_t m : {6U, 7U, 10U}) {
@@ -81,13 +81,14 @@ TEST(Tripod, AlternatingWithHalfTheTimeOnTheGroundIsTheGaitThatWasTried) {
 
 TEST(Tripod, ASideDockOnALegIsItsKnee) {
   std::vector<std::array<int, 5>> rows = kHexapod;
-  rows.push_back({0, 11, 5, 5, 0});  // another module, sideways on leg 5
+  rows.push_back({0, 11, 5, 5, 0});  // module 11, docked sideways to leg 5
   const std::vector<Leg> legs = find_legs(robot_of(rows));
   EXPECT_EQ(legs.size(), 6U);
 }
 
 TEST(Tripod, AKneeNumberedBelowItsHipIsAKnee) {
-  // A leg of two modules in a row with a third one sideways on the second; then the same legs with the numbers turned round.
+  // A leg has two modules in a row and a third module docked sideways to the second. The second robot has the same legs with
+  // reversed numbers.
   std::vector<std::array<int, 5>> rows = kQuadruped;
   rows.push_back({1, 7, 4, 3, 0});
   rows.push_back({0, 8, 5, 7, 0});

@@ -1,4 +1,4 @@
-// libFuzzer over one reader, which GAITLAB_READER names (tests/fuzz/readers.h).
+// Fuzz target of libFuzzer for the reader that GAITLAB_READER selects (tests/fuzz/readers.h).
 #include <cstdint>
 
 #include "tests/fuzz/readers.h"

@@ -1,5 +1,5 @@
-// Readers of files that may be hostile, each as one function of bytes. Bad input is an InputError; anything else that happens
-// is a finding. The fuzz target and the test of the corpus call the same functions.
+// Readers of files that may be hostile, each as a function of bytes. The only permitted error is an InputError. The fuzz target
+// and the test of the corpus call these functions.
 #pragma once
 #include <array>
 #include <cstdio>
@@ -47,7 +47,7 @@ inline Catalog& catalog() {
   return made;
 }
 
-/// A YAML scalar in double quotes.
+/// Text as a YAML scalar in double quotes.
 inline std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -61,7 +61,7 @@ inline std::string quoted(const std::string& text) {
   return out + '"';
 }
 
-/// An accepted scenario can be resolved, and resolving it again changes nothing.
+/// Reads a scenario, resolves it, and resolves the result again. Aborts if the two resolved scenarios differ.
 inline Scenario read_whole(const std::string& scenario) {
   Scenario read = read_scenario(folder().write("scenario.yaml", scenario), {}, catalog());
   const std::string once = resolved(read);
@@ -83,7 +83,7 @@ inline void module(const std::string& text) {
   (void)read_whole("gaitlab: 1\nrobot: {modules: module.yaml}\nduration: 1\n");
 }
 
-/// Text, a matrix of NumPy or a grey PNG.
+/// Reads the heights of a heightfield from bytes: a text, a matrix of NumPy or a grey PNG.
 inline void heights(const std::string& bytes) {
   folder().write("heights", bytes);
   (void)read_whole(
@@ -91,7 +91,7 @@ inline void heights(const std::string& bytes) {
       "1e-3}}\n");
 }
 
-/// Read, and one tick of the CPG: whatever its equations give, it comes back.
+/// Reads a CPG of equations, and evaluates its output and derivative once.
 inline void equations(const std::string& text) {
   const Scenario scenario = read_whole(
       "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 1\n"
@@ -113,7 +113,7 @@ inline constexpr const char* kTwo =
     "gaitlab: 1\nname: two\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nphysics: {engine: articulated}\n"
     "cpg: {type: phase_oscillator}\nduration: 0.3\n";
 
-/// Read, and bound to its scenario: `two.yaml` lies beside it.
+/// Reads a study file, and applies it to the scenario `two.yaml` in the folder of the study file.
 inline void study(const std::string& text) {
   folder().write("two.yaml", kTwo);
   studies::Study read = studies::read_study(folder().write("study.yaml", text), studies::Purpose::sweep);
@@ -121,7 +121,7 @@ inline void study(const std::string& text) {
   if (!studies::is_search(plan.study().method) && plan.points().runs() > 0) (void)plan.sets(plan.points().runs() - 1);
 }
 
-/// A question of the program that asks `evaluate`.
+/// Reads a line of input of `gaitlab evaluate`, for two parameters.
 inline void question(const std::string& line) {
   studies::Parameter frequency;
   frequency.key = "cpg.frequency";
@@ -134,7 +134,7 @@ inline void question(const std::string& line) {
   (void)studies::read_question(line, {"stdin", 1, 1}, {frequency, type});
 }
 
-/// The same with every kind of parameter, and the answer for a point beyond their ranges.
+/// Reads a line of input of `gaitlab evaluate` for every kind of parameter, and writes an answer to the line.
 inline void question_kinds(const std::string& line) {
   static const std::vector<studies::Parameter> parameters = [] {
     std::vector<studies::Parameter> all(5);
@@ -163,7 +163,7 @@ inline void question_kinds(const std::string& line) {
   (void)studies::answer(question, head, {}, {});
 }
 
-/// A small study that has ended: four points with two replicates each; one run failed.
+/// Bytes of the journal of a small completed study: four points with two replicates each. One run has failed.
 inline const std::string& good_journal() {
   static const std::string bytes = [] {
     folder().write("two.yaml", kTwo);
@@ -199,7 +199,7 @@ inline const std::string& good_journal() {
   return bytes;
 }
 
-/// No number of a figure is infinite, or none; texts between tags may say anything.
+/// Aborts if a tag of a figure contains the number nan or inf. Texts between tags are not checked.
 inline void check_svg(const std::string& svg) {
   bool tag = false;
   for (std::size_t at = 0; at < svg.size(); ++at) {
@@ -212,7 +212,7 @@ inline void check_svg(const std::string& svg) {
   }
 }
 
-/// A good study.db that lines of SQL have changed, each a statement; its summary and its figures.
+/// Changes a valid study.db by lines of SQL, one statement each, and writes the summary and the figures of the result.
 inline void journal_rows(const std::string& lines) {
   const std::string file = folder().write("rows.db", good_journal());
   for (const char* behind : {"-wal", "-shm", "-journal"}) std::filesystem::remove(file + behind);
@@ -222,11 +222,11 @@ inline void journal_rows(const std::string& lines) {
   for (int k = 0; k < kMost && std::getline(text, line); ++k) {
     const auto begins = [&](const char* word) { return line.starts_with(word); };
     if (!begins("UPDATE ") && !begins("INSERT ") && !begins("DELETE ") && !begins("ALTER ") && !begins("DROP ")) continue;
-    if (line.find_first_of(";(") != std::string::npos && line.find("SELECT") != std::string::npos) continue;  // takes for ever
+    if (line.find_first_of(";(") != std::string::npos && line.find("SELECT") != std::string::npos) continue;  // may not end
     try {
       studies::Database(file, studies::Database::Mode::write).execute(line);
-    } catch (const InputError&) {  // not SQL
-    } catch (const RunError&) {    // what a table does not take
+    } catch (const InputError&) {  // line that is not valid SQL
+    } catch (const RunError&) {    // value that violates a constraint of a table
     }
   }
   studies::Journal journal(file);
@@ -242,8 +242,8 @@ inline void journal_rows(const std::string& lines) {
   }
 }
 
-/// The folder of a study with files of odd names, a line each: `shard NAME`, `file NAME`, `folder NAME`, `link NAME`, and
-/// `lock TEXT`. Files of the user keep their bytes.
+/// Opens the folder of a study that contains files of arbitrary names. Each line creates an entry: `shard NAME`, `file NAME`,
+/// `folder NAME`, `link NAME` or `lock TEXT`. Aborts if a file of the user (`file NAME`) changes.
 inline void names(const std::string& lines) {
   namespace fs = std::filesystem;
   const fs::path study = folder().path() / "named";
@@ -289,10 +289,10 @@ inline void names(const std::string& lines) {
   }
 }
 
-/// The recipe of a figure.
+/// Reads the recipe of a figure.
 inline void recipe(const std::string& text) { (void)report::read_recipe(folder().write("recipe.yaml", text)); }
 
-/// study.db.
+/// Reads the bytes of a study.db.
 inline void journal(const std::string& bytes) {
   studies::Journal read(folder().write("study.db", bytes));
   (void)studies::results(read);
@@ -300,7 +300,7 @@ inline void journal(const std::string& bytes) {
   (void)read.verifications();
 }
 
-/// golden.json beside a trace, its checksum made right.
+/// Reads the text of a golden.json next to a valid trace. Its checksum is corrected first.
 inline void golden(const std::string& text) {
   static const bool made = [] {
     golden::write_golden(test::sample_golden(test::walk(21)), folder().path() / "walk.golden");
@@ -314,7 +314,7 @@ inline void golden(const std::string& text) {
   if (read.history.empty()) std::abort();
 }
 
-/// trace.golden, its size and checksum made right.
+/// Reads the bytes of a trace.golden. Size and checksum are corrected first.
 inline void golden_trace(const std::string& bytes) {
   std::size_t body = bytes.find('\n');
   if (body != std::string::npos) body = bytes.find('\n', body + 1);
@@ -327,7 +327,7 @@ inline void golden_trace(const std::string& bytes) {
   (void)golden::unpack(with(with(0).size()), "trace.golden");
 }
 
-/// trace.h5, its size and checksum made right.
+/// Reads the bytes of a trace.h5. Size and checksum are corrected first.
 inline void trace(const std::string& bytes) {
   constexpr std::size_t kUserBlock = 512;
   const std::string rest = bytes.size() > kUserBlock ? bytes.substr(kUserBlock) : bytes;
@@ -339,7 +339,7 @@ inline void trace(const std::string& bytes) {
 
 inline void csv(const std::string& text) { (void)read_csv(folder().write("trace.csv", text)); }
 
-/// The state file of `gaitlab dynamics`.
+/// Reads a state file of `gaitlab dynamics`.
 inline void state(const std::string& text) {
   const Scenario two = read_scenario(folder().write("two.yaml", kTwo), {}, catalog());
   RobotState start;
@@ -367,7 +367,7 @@ inline constexpr std::array kReaders{Reader{"scenario", scenario},
                                      Reader{"csv", csv},
                                      Reader{"state", state}};
 
-/// InputError is what every reader may say; a journal also that the file cannot be read.
+/// Calls a reader and ignores an InputError, the only exception that a reader may throw.
 inline void take(const Reader& reader, const std::string& bytes) {
   try {
     reader.read(bytes);

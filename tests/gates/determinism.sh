@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# The gate of docs/determinism.md: the same bytes (trace, resolved scenario, verdict, page) whatever surrounds the program.
-# usage: determinism.sh PROGRAM [SCENARIO]; exit code 0: all cases equal or skipped (said loudly), 1: one differs.
+# The gate of docs/determinism.md: the bytes of trace, resolved scenario, verdict and page do not depend on the environment.
+# usage: determinism.sh PROGRAM [SCENARIO]; exit code 0 if all cases are equal or skipped (with a message), 1 if a case differs
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
 program=$(readlink -f -- "$1")
 scenario=$(readlink -f -- "${2:-$root/scenarios/caterpillar.yaml}")
 arguments=(run "$scenario" --set duration=0.6)
 
-# same CASE FOLDER: compares that run with the reference.
+# same CASE FOLDER: compares the run in FOLDER with the reference.
 same() {
   local file
   for file in trace.h5 scenario.resolved.yaml verdict.json report.html; do
@@ -16,7 +16,7 @@ same() {
   ok "$1"
 }
 
-# once CASE COMMAND...: runs `COMMAND... program run ... --out FOLDER` and compares.
+# once CASE COMMAND...: runs `COMMAND... program run ... --out FOLDER` and compares the run with the reference.
 once() {
   local name=$1 out
   shift
@@ -30,14 +30,14 @@ other_folder() {
   same "another working folder" "$work/some where/else/deep/er"
 }
 
-# Every locale there is, and a German one (decimal comma), made here where localedef has its source.
+# All installed locales, and a German locale (decimal comma), which this function builds if localedef has its source.
 locales() {
   local name made=$work/locales
   for name in C $(locale -a | grep -vx C); do once "LC_ALL=$name" env LC_ALL="$name"; done
   mkdir -p "$made"
   if command -v localedef >/dev/null && localedef -i de_DE -f UTF-8 "$made/de_DE.UTF-8" >/dev/null 2>&1 &&
     [[ $(LOCPATH=$made LC_ALL=de_DE.UTF-8 locale decimal_point) == , ]]; then
-    # Leaks off: with LOCPATH a library behind HDF5 (libp11-kit's newlocale) loses 44 bytes before main.
+    # Leak detection is off, because with LOCPATH a library of HDF5 (newlocale of libp11-kit) leaks 44 bytes before main.
     once "LC_ALL=de_DE.UTF-8, a decimal comma" \
       env LOCPATH="$made" LC_ALL=de_DE.UTF-8 ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
   else
@@ -45,7 +45,7 @@ locales() {
   fi
 }
 
-# With a bar and a summary on the terminal, which --quiet would leave out.
+# A run with a progress bar and a summary on the terminal, which --quiet would omit.
 terminal() {
   local out=$work/terminal command
   if ! command -v script >/dev/null || ! script -qec 'test -t 1 && test -t 2' /dev/null </dev/null >/dev/null 2>&1; then
@@ -59,11 +59,11 @@ terminal() {
   colours
 }
 
-# Colours are for a terminal alone, and not where NO_COLOR is set and not empty (https://no-color.org).
+# Output has colours only on a terminal, and only if NO_COLOR is empty or not set (https://no-color.org).
 colours() {
   local command before=$failed
   printf -v command '%q ' "$program" report "$work/reference"
-  # coloured COMMAND: whether it shows colours on a terminal.
+  # coloured COMMAND: succeeds if the output of COMMAND on a terminal has colours.
   coloured() { script -qec "$1" /dev/null </dev/null | grep $'\033\\[3[123]m' >/dev/null; }
   coloured "$command" || bad "on a terminal: no colours"
   coloured "env NO_COLOR= $command" || bad "on a terminal with an empty NO_COLOR: no colours"
@@ -96,7 +96,7 @@ rerun() {
   fi
 }
 
-# Goldens made, and what `gaitlab test` says and writes (also of a gait that fails), with one thread and with two.
+# Approved goldens, and the output and files of `gaitlab test` (also of a failed gait), are the same with one and two threads.
 jobs() {
   local j name goldens
   for j in 1 2; do
@@ -109,7 +109,7 @@ jobs() {
     sed -i 's/amplitude: 0.6$/amplitude: 0.5/' "$goldens/b.yaml"
     (cd -- "$work/jobs-$j" && "$program" test goldens -j "$j" --junit junit.xml >out 2>err) && bad "test -j $j: b should fail"
   done
-  sed -i -E 's/ time="[0-9.]+"//' "$work"/jobs-?/junit.xml  # of the clock
+  sed -i -E 's/ time="[0-9.]+"//' "$work"/jobs-?/junit.xml  # removes computing times
   [[ -d $work/jobs-1/runs ]] || bad "test: no figure of what failed"
   if diff -r "$work/jobs-1" "$work/jobs-2"; then
     ok "gaitlab approve and test -j 1 and -j 2 (goldens, table, figure, XML)"

@@ -28,12 +28,13 @@ from paper import checks, steps
 from paper.trace import Run
 
 HEAD = "gaitlab: 1\ntrace: {columns: ['*']}\n"
-# Four modules: a bend, a leg on each side; blocks with points and spheres all round.
+# Robot of four modules with a bend and a leg on each side. Its blocks have points and spheres on all sides.
 SMALL = """robot:
   modules: mtran
   docks: [[1, 1, 4, 0, 1], [0, 2, 3, 0, 3], [2, 3, 5, 0, 1]]
 """
-# Thrown onto the ground, with joints driven hard into their limits. Joints have P, PI, PD and PID controllers in turns.
+# The robot is thrown onto the ground, and its joints are driven into their limits. The joints alternately have P, PI, PD and PID
+# controllers.
 THROWN = HEAD + SMALL + """contact: {on: all}
 initial:
   angles: [0.3, -0.2, 0.4, -0.5, 0.2, 0.1, 0.6, 1.5]
@@ -68,7 +69,7 @@ duration: 6
 FREE = HEAD + CHAIN
 LEGS = FREE.replace("modules: mtran, docks: [[1, 1, 4, 0, 0], [1, 2, 4, 1, 0]]", "modules: mtran, build: robots/hexapod.dat").replace(
     "duration: 6", "duration: 3")
-# name: scenario (a shipped one's name, or its text), overrides, checks
+# Runs by name: scenario (name of a shipped scenario, or text), overrides, checks.
 RUNS = {
     "caterpillar, bullet": ("caterpillar", ["duration=1.5"], checks.ALL),
     "caterpillar, extrapolated": ("caterpillar", ["duration=4", "physics.engine=articulated", "physics.integrator=extrapolated"], checks.ALL),
@@ -117,7 +118,7 @@ RUNS = {
                 "0.3, 0]}, {time: 1.1, angles: -0.2}, {time: 2, angles: 0.1}]}}\n", [], (checks.patterns, checks.motors)),
     "held": (FREE + "initial: {angles: 0.2}\n", ["duration=1"], (checks.patterns, checks.controllers, checks.motors, checks.bodies)),
 }
-# What must have occurred: otherwise a line would be green for lack of samples.
+# Situations that must have occurred. Otherwise a line could pass without samples.
 MUST = (
     "motors below their limits", "motors at the voltage limit", "motors at the current limit", "directional gears driven backwards",
     "integrals held by anti-windup", "integrals without anti-windup", "phases off the limit cycle", "stops that push",
@@ -127,7 +128,7 @@ MUST = (
 
 
 def scaled(*path, by):
-    """A constant of the scenario, times `by` (lists: every entry)."""
+    """Change that multiplies a constant of the scenario, or all entries of a list, by `by`."""
 
     def edit(run, rules):
         *way, last = path
@@ -156,7 +157,7 @@ def put(*path, value):
 
 
 def cell(column, by):
-    """Every number of one column, times `by`."""
+    """Change that multiplies all numbers of a column by `by`."""
 
     def edit(run, rules):
         run.rows[:, run.index[column]] *= by
@@ -168,7 +169,7 @@ def body(name, key, by):
     return scaled("robot", "types", "mtran", "bodies", name, key, by=by)
 
 
-# name, run, check, line that must turn red, change
+# Mutants: name, run, check, line that must fail, change.
 MUTANTS = (
     ("R + 0.1 %", "hexapod, bullet", checks.motors, "eq. 1", scaled("actuator", "R", by=1.001)),
     ("Ks + 0.1 %", "hexapod, adaptive", checks.motors, "eq. 1", scaled("actuator", "Ks", by=1.001)),

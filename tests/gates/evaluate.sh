@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# Another program asks for points: killed at any moment and started again, it is answered from the journal, and the rows are those of one
-# that nobody disturbed.
+# A program requests points from `gaitlab evaluate`. If evaluate is killed at any moment and started again, it answers from the journal,
+# and the rows equal those of an undisturbed process.
 # usage: evaluate.sh PROGRAM
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
 program=$(readlink -f -- "$1")
 command -v sqlite3 >/dev/null || { skip "evaluate" "sqlite3 is missing (Debian: sqlite3)"; exit 77; }
 source "$root/tests/gates/two_modules.sh"
-two_modules "$work" # neither a method nor a budget
+two_modules "$work" # study without a method and a budget
 evaluate() { "$program" evaluate "$work/study.yaml" --quiet "$@"; }
-# questions FROM TO: one per line, every eighth closes a batch, every fifth is that of four before.
+# questions FROM TO: prints one question per line. Every eighth ends a batch, and every fifth repeats the question four lines before.
 questions() {
   for ((k = $1; k < $2; ++k)); do
     local n=$((k % 5 == 4 ? k - 4 : k)) words=(phase_oscillator hopf)
@@ -29,13 +29,13 @@ cmp "$work/answers" "$work/again" || bad "asked again, the answers are others"
 [[ $(sqlite3 "$work/whole/study.db" 'select sum(runs) from effort') == 96 ]] || bad "what was asked again ran again"
 ok "asked again, answered from the journal"
 
-# In the other order of completion: the same answers, and rows.
+# With answers in order of completion, the answers and rows are the same.
 questions 0 60 | evaluate --out "$work/completed" -j 3 --lanes 1 --as-completed >"$work/completed.answers"
 cmp <(sort "$work/answers") <(sort "$work/completed.answers") || bad "--as-completed: other answers"
 cmp <(rows "$work/whole") <(rows "$work/completed") || bad "--as-completed: other rows"
 ok "answers as they are completed"
 
-# The program is killed; what a start that came to its end has answered is right, and the next one begins anew.
+# After a kill, a complete run of all questions has correct answers and rows. The next kill then begins with an empty folder.
 whole_again() {
   questions 0 60 | evaluate --out "$work/killed" -j 2 >"$work/again"
   cmp "$work/answers" "$work/again" || bad "killed: other answers"
@@ -47,22 +47,22 @@ while kills_left; do
     { whole_again && rm -r "$work/killed"; }
 done
 kills_told "evaluate"
-# Then the one that asks: it ends after nine answers.
+# Then the process that reads the answers ends after nine answers.
 { questions 0 60 | evaluate --out "$work/killed" -j 1 2>/dev/null | head -n 9 >/dev/null; } || true
 whole_again
 ok "killed, and asked again"
 
-# Other questions in the same folder: what is there stays, and what is new gets new numbers.
+# With other questions in the same folder, existing rows are preserved, and new points get new numbers.
 { questions 50 70; } | evaluate --out "$work/killed" -j 1 >"$work/more"
 cmp <(rows "$work/whole") <(rows "$work/killed" | head -n 96) || bad "other questions changed rows"
 [[ $(rows "$work/killed" | wc -l) == 112 ]] || bad "other questions: $(rows "$work/killed" | wc -l) rows"
 cmp <(tail -n 10 "$work/answers") <(head -n 10 "$work/more") || bad "other questions: other answers"
 ok "other questions, in the same folder"
 
-# Nobody reads: exit code 1.
+# If no process reads the answers, the exit code is 1.
 mkfifo "$work/answered"
 exec 8<>"$work/answered"
-exec 9>"$work/answered" 8<&- # the end that reads is closed before the program starts
+exec 9>"$work/answered" 8<&- # closes the reading end before the program starts
 code=0
 questions 0 60 | evaluate --out "$work/unread" -j 1 2>"$work/log" >&9 9>&- || code=$?
 exec 9>&-

@@ -14,7 +14,7 @@ import sys
 import h5py
 
 program, good, flips = sys.argv[1], sys.argv[2], int(sys.argv[3])
-# After a file that it cannot open HDF5 1.10 keeps some blocks: no leak of ours.
+# Leak detection is off, because HDF5 1.10 does not free some blocks after a file that it cannot open.
 os.environ["ASAN_OPTIONS"] = ":".join(filter(None, [os.environ.get("ASAN_OPTIONS"), "detect_leaks=0"]))
 bad = 0
 
@@ -30,14 +30,14 @@ def signed(name):
 
 
 def compare(name):
-    # A minute of CPU time: a tenth of a second is usual. Ten minutes by the clock are for what waits for ever.
+    # The limit is a minute of CPU time; a tenth of a second is usual. The ten minutes of real time are for a call that does not end.
     minute = lambda: resource.setrlimit(resource.RLIMIT_CPU, (60, 60))
     done = subprocess.run([program, "compare", name, good], capture_output=True, text=True, timeout=600, preexec_fn=minute)
     return done.returncode, done.stderr
 
 
 def forged(name, change, said):
-    """A trace whose dataset is made anew by `change`, and what the program says of it."""
+    """Writes a trace whose dataset `change` replaces, and expects this message of the program."""
     global bad
     shutil.copyfile(good, name)
     with h5py.File(name, "r+") as file:
@@ -92,7 +92,7 @@ forged("external-link.h5", external_link, "is a link to another place")
 forged("external.h5", external_storage, "is not stored in this file")
 forged("virtual.h5", virtual, "is not stored in this file")
 forged("itself.h5", of_itself, "is not stored in this file")
-# A library that leaves a file when it is loaded.
+# A library that creates a file when it is loaded.
 with open("evil.c", "w") as code:
     code.write('#include <stdio.h>\n__attribute__((constructor)) static void f(void) { fclose(fopen("loaded", "w")); }\n')
 os.makedirs("plugins", exist_ok=True)
@@ -108,7 +108,7 @@ whole = open(good, "rb").read()
 ends = {}
 for _ in range(flips):
     one = bytearray(whole)
-    # Half of them in the first 4 kB of HDF5's own, where its structures are.
+    # Half of the flips are in the first 4 kB of the HDF5 data, which contain its structures.
     end = random.choice([min(4608, len(one)), len(one)])
     for _ in range(random.randint(1, 8)):
         one[random.randrange(512, end)] ^= 1 << random.randrange(8)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# What `export --to gltf` writes, in the Khronos validator (npm's gltf-validator, pinned in gltf/package-lock.json): no error and no
-# warning, of walks, of every ground and shape, of boxes that move, of a robot at its start. A file that was damaged is found.
-# usage: gltf.sh PROGRAM     (exit code 77: no validator here; with CI=true that is a failure)
+# The Khronos validator (gltf-validator of npm, pinned in gltf/package-lock.json) reports no error and no warning for files of
+# `export --to gltf`: walks, all kinds of ground and shape, moving boxes, a robot at its start. It detects a damaged file.
+# usage: gltf.sh PROGRAM     (exit code 77 if the validator is not available, which is a failure with CI=true)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
 program=$(readlink -f -- "$1")
@@ -23,7 +23,7 @@ if ! npm ci --ignore-scripts --no-audit --no-fund >"$work/log" 2>&1; then
   fail "npm ci"
 fi
 
-# A ball, with a piece of every other shape, that rolls over hills and pushes a box.
+# A ball that rolls over hills and pushes a box. It contains a piece of every other shape.
 cat >ball.yaml <<'YAML'
 gaitlab_module: 1
 name: ball
@@ -67,7 +67,7 @@ for name in hexapod caterpillar rubble pendulum hills push; do
 done
 ok "no error and no warning in 12 files"
 
-# A quaternion that is none, and a file that is cut off.
+# A file with a quaternion that is not normalised, and a truncated file.
 sed '0,/"rotation":\[0.0,0.0,0.0,1.0\]/s//"rotation":[9.0,0.0,0.0,1.0]/' hexapod.glb >long.glb
 head -c 5000 hexapod.glb >cut.glb
 for damaged in long cut; do

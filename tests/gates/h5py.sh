@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A trace read by h5py with the lines of docs/conventions.md as they stand there, against the same trace as CSV.
-# Then forged ones. usage: h5py.sh PROGRAM     (exit code 77: no h5py here; FLIPS, 40: files with flipped bits)
+# A trace read by h5py with the literal code of docs/conventions.md equals the same trace as CSV. Then forged traces are tested.
+# usage: h5py.sh PROGRAM     (exit code 77 if h5py is not available; FLIPS is the number of files with flipped bits, 40 by default)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
 program=$(readlink -f -- "$1")
@@ -14,7 +14,7 @@ cd -- "$work"
 expect 0 "$program" run "$root/scenarios/caterpillar.yaml" --set duration=0.2 --seed 7 --out runs/walk --quiet
 expect 0 "$program" export runs/walk --to csv trace.csv
 
-# The indented block that imports h5py.
+# The indented block of docs/conventions.md that imports h5py.
 awk '/^    import h5py/ { inside = 1 } inside && /^[^ ]/ { exit } inside { print substr($0, 5) }' "$root/docs/conventions.md" >recipe.py
 cat >>recipe.py <<'TEXT'
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Folders of studies that are damaged, a stranger's, read-only or full: refused with a message (exit code 1 or 2), never a crash, and
-# what is in a journal stays.
+# Folders of studies that are damaged, forged, read-only or on a full disk are refused with a message (exit code 1 or 2) and without a
+# crash, and rows of a journal are preserved.
 # usage: hostile.sh PROGRAM
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
@@ -14,17 +14,17 @@ sqlite3 "$work/whole/study.db" 'pragma wal_checkpoint(truncate)' >/dev/null
 rows "$work/whole" >"$work/rows"
 size=$(stat -c %s "$work/whole/study.db")
 
-# copy: a fresh copy of the study, as $work/now.
+# copy: creates a new copy of the study in $work/now.
 copy() { rm -rf "$work/now" && cp -r "$work/whole" "$work/now"; }
-# ends CASE CODES COMMAND...: one of these exit codes, in a minute of CPU time (a tenth of a second is usual, and ten times that under the
-# sanitizers); ten minutes by the clock are for what waits for ever.
+# ends CASE CODES COMMAND...: expects one of these exit codes within a minute of CPU time. (A tenth of a second is usual, and a second with
+# sanitizers.) The limit of ten minutes of real time is for commands that do not end.
 ends() {
   local code=0
   (ulimit -t 60 && exec timeout 600 "${@:3}") >"$work/log" 2>&1 || code=$?
   [[ " $2 " == *" $code "* ]] || { show_log; bad "$1: exit code $code, expected one of $2: ${*:3}"; }
 }
 
-# Cut anywhere, and with bytes that are others.
+# Journals that are truncated at any position, and journals with changed bytes.
 for k in $(seq 0 24); do
   copy
   truncate -s $((size * k / 25 + k)) "$work/now/study.db"
@@ -42,7 +42,7 @@ for k in $(seq 25); do
 done
 ok "cut and changed journals end with a message"
 
-# change SQL MESSAGE: of a journal that was changed so, show, best and sweep say so.
+# change SQL MESSAGE: expects MESSAGE from show, best and sweep with a journal that SQL has changed.
 change() {
   copy
   sqlite3 "$work/now/study.db" "$1" || bad "sqlite3: $1"
@@ -63,7 +63,7 @@ change "pragma user_version = 99" "is a journal of format 99; this program reads
 change "pragma application_id = 7" "is a database of SQLite, and not the journal of a study"
 ok "a stranger's tables are refused"
 
-# What a stranger added does not run, and what is odd in the rows is shown as it is.
+# Added triggers do not run, and unusual values in rows are displayed unchanged.
 copy
 sqlite3 "$work/now/study.db" "create trigger t after insert on run begin delete from run; end; create trigger u after delete on attempt begin delete from run; end;
   delete from run where run = 5"
@@ -78,7 +78,7 @@ ends "odd rows" "0" "$program" study export "$work/now" --to csv "$work/now/odd.
 ends "odd rows" "0 2" "$program" evaluate "$work/study.yaml" --quiet --out "$work/now" </dev/null
 ok "a stranger's triggers and rows are data"
 
-# Who may not write can look, and is told.
+# A user without write permission can display the study, and gets a message.
 if ((EUID == 0)) && command -v setpriv >/dev/null && chmod 711 "$work" && setpriv --reuid=65534 --clear-groups test -x "$program" -a -r "$root/scenarios/modules/mtran.yaml"; then
   copy
   chmod -R a+rX "$work/now" "$work/two.yaml" "$work/study.yaml"
@@ -93,7 +93,7 @@ else
   skip "a read-only folder" "needs root, setpriv, and files that others may read"
 fi
 
-# A file system that fills.
+# A file system that becomes full.
 mkdir "$work/disk"
 if unshare -m true 2>/dev/null && unshare -m mount -t tmpfs none "$work/disk" 2>/dev/null; then
   sed -i 's/runs: 24/runs: 160/' "$work/study.yaml"
@@ -114,9 +114,9 @@ else
   skip "a full file system" "needs root and mount"
 fi
 
-# Nothing in a folder is waited for: FIFOs under every name that is opened there. A command that hangs is killed after two minutes.
+# No command waits for a FIFO under any name that it opens. A command that hangs is killed after two minutes.
 sed -i 's/runs: 160/runs: 24/' "$work/study.yaml"
-# bounded CASE CODES COMMAND...: as ends, with a limit that no load reaches.
+# bounded CASE CODES COMMAND...: like `ends`, with a limit of real time that is sufficient on a busy machine.
 bounded() {
   local code=0
   timeout -s KILL 120 "${@:3}" >"$work/log" 2>&1 || code=$?

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What docs/ci.md and docs/tutorials promise to users: installs the build into an empty prefix, then works from that alone: a
-# user's project with find_package(gaitlab), golden tests and a plugin, the shell recipe, a new plugin of every kind, the tutorial.
+# The promises of docs/ci.md and docs/tutorials: installs the build into an empty prefix and then uses only the prefix. Tests a user's
+# project with find_package(gaitlab), golden tests and a plugin, the shell recipe, a new plugin of every kind, and the tutorials.
 # usage: install.sh PROGRAM_BUILD_DIR (a finished build)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
@@ -9,7 +9,7 @@ prefix=$work/prefix user=$work/user
 program=$prefix/bin/gaitlab
 scenario=scenarios/walk.yaml
 
-# The user's project: a scenario with its own robot file, a plugin, a CMakeLists.txt as in docs/ci.md.
+# Writes the user's project: a scenario with its own robot file, a plugin, and a CMakeLists.txt as in docs/ci.md.
 write_project() {
   mkdir -p "$user/scenarios/robots" "$user/plugin"
   cp -- "$root/tests/plugin_example/wave.cpp" "$user/plugin/"
@@ -36,7 +36,7 @@ gaitlab_add_golden_test(walk.elsewhere scenarios/walk.yaml GOLDEN goldens/walk)
 CMAKE
 }
 
-# Plugins must come from the compiler of the program, which need not be this machine's default.
+# Plugins require the compiler of the program, which may differ from the default compiler.
 compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' "$build/CMakeCache.txt")
 
 # ctest_says CODE [ctest options]: configures, builds and tests the project.
@@ -49,7 +49,7 @@ ctest_says() {
 
 check_installation() {
   [[ -x $program ]] || fail "no program in $prefix"
-  # Asked for, because the program would fall back on those beside the sources.
+  # The gate checks the folder, because the program would otherwise use the scenarios next to the sources.
   [[ -d $prefix/share/gaitlab/scenarios/modules ]] || fail "the shipped scenarios are not installed"
   expect 0 "$program" check "$prefix/share/gaitlab/scenarios/caterpillar.yaml"
 }
@@ -61,9 +61,9 @@ use_plugin() {
   ok "a plugin built against the installed headers runs"
 }
 
-# A gait that was changed must fail, and so must a golden that is not there.
+# A changed gait must fail, and so must a missing golden.
 cmake_way() {
-  ctest_says 8 # no golden yet; 8 is ctest's "tests failed"
+  ctest_says 8 # the golden is missing; 8 means "tests failed" in ctest
   expect 0 "$program" approve "$user/$scenario" --reason "install.sh: the first"
   mkdir "$user/goldens"
   cp -r -- "$user/scenarios/walk.golden" "$user/goldens/walk"
@@ -92,7 +92,7 @@ shell_recipe() {
   ok "shell: test passes, and fails (4) for a changed gait"
 }
 
-# Another compiler is refused when the project is configured, with the name of the right one.
+# The configuration of the project refuses a different compiler, with the name of the correct compiler.
 other_compiler() {
   local other
   for other in clang++ g++; do
@@ -106,7 +106,7 @@ other_compiler() {
   skip "gaitlab_add_plugin refuses another compiler" "there is only one here"
 }
 
-# The three skeletons build without a warning, pass their tests, and fail them where the plugin does nothing.
+# The three skeletons of plugins build without warnings and pass their tests. If the plugin does nothing, the tests fail.
 new_plugins() {
   local kind folder
   for kind in cpg controller actuator; do
@@ -116,7 +116,7 @@ new_plugins() {
       -DCMAKE_CXX_FLAGS="-Wall -Wextra -Wpedantic -Wconversion -Werror"
     expect 0 cmake --build "$folder/build"
     expect 0 ctest --test-dir "$folder/build" --output-on-failure --no-tests=error
-    expect 0 "$program" run "$folder/scenario.yaml" --set duration=0.3 --quiet --out "$folder/run" # finds build/NAME.so
+    expect 0 "$program" run "$folder/scenario.yaml" --set duration=0.3 --quiet --out "$folder/run" # loads build/NAME.so
     case $kind in
       cpg) sed -i 's/setpoint\[i\] = .*/setpoint[i] = 0 * phi[i];/' "$folder/my_$kind.cpp" ;;
       controller) sed -i 's/command\[j\] = .*/command[j] = 0 * (setpoint[j] - m.angle[j]);/' "$folder/my_$kind.cpp" ;;
@@ -129,8 +129,8 @@ new_plugins() {
   ok "gaitlab new plugin: three kinds build, pass their tests, fail them when they do nothing"
 }
 
-# tutorial PAGE: writes and runs the page's blocks in an empty folder, exactly as they stand. ```LANGUAGE FILE: a file;
-# ```sh: commands; ```sh exit=N: commands of which the last exits with N; ```text: what these commands said.
+# tutorial PAGE: writes and runs the literal blocks of the page in an empty folder. A block ```LANGUAGE FILE is a file, ```sh are
+# commands, ```sh exit=N are commands of which the last has exit code N, and ```text is the output of these commands.
 tutorial() {
   local page=$root/docs/tutorials/$1 name=${1%.md}
   mkdir -p "$work/$name"

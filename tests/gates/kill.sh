@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# Killed in the middle of a run, at each call that changes a file, and at random moments: no half file under a final name, an existing golden as it was.
-# usage: kill.sh PROGRAM [N] (N kills a command, 50; KILL_SEED, 1: another choice of moments)
+# The program is killed during a run, at each call that changes a file, and at random moments. This leaves no incomplete file under
+# a final name, and existing goldens are unchanged.
+# usage: kill.sh PROGRAM [N] (N is the number of kills per command, 50 by default; KILL_SEED, 1 by default, selects the moments)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
 program=$(readlink -f -- "$1")
 moments=${2:-50}
 RANDOM=${KILL_SEED:-1}
 
-# Every file under a final name must be readable by what reads it.
+# The reader of each file must accept every file under a final name.
 read_it() {
   case $1 in
     */recording.h5) true ;; # `whole` compares it; it is not a trace
@@ -15,9 +16,9 @@ read_it() {
     *.json) python3 -m json.tool "$1" ;;
     *.yaml) "$program" check "$1" ;;
     */junit.xml) [[ $(tail -n 1 -- "$1") == "</testsuites>" ]] ;;
-    *.svg) [[ $(tail -c 7 -- "$1") == "</svg>" ]] ;; # $(...) takes off the line end
+    *.svg) [[ $(tail -c 7 -- "$1") == "</svg>" ]] ;; # $(...) removes the line end
     *.html) cmp -- <(tail -c 20 -- "$1") <(tail -c 20 -- "$root/report/page/dist/page.html") ;;
-    *.part | *.golden | *.golden.next) true ;; # a golden is read as a whole, by gaitlab test
+    *.part | *.golden | *.golden.next) true ;; # gaitlab test reads a complete golden
     *) printf 'an unknown kind of file\n' && false ;;
   esac
 }
@@ -26,7 +27,7 @@ readable() {
   while IFS= read -r -d '' file; do quietly read_it "$file" || bad "unreadable: $file"; done < <(find "$1" -type f -print0)
 }
 
-# And as they are in a run that nobody killed (the summary holds times).
+# Files must equal those of an undisturbed run, except the summary, which contains computing times.
 whole() {
   local file name
   for file in "$1"/*; do
@@ -51,7 +52,7 @@ tell_states() {
   kills_told "$1 ($text)"
 }
 
-# A fine trace, so that writing takes a good part of the time; in both formats.
+# Kills runs with a fine trace in both formats, so that writing takes a large part of the time.
 kill_runs() {
   local format out
   declare -A states=()
@@ -68,7 +69,7 @@ kill_runs() {
   tell_states run
 }
 
-# In $work/golden a scenario s.yaml with its golden, and in $work/changed.yaml the gait that it is changed to later.
+# Creates the scenario s.yaml with its golden in $work/golden, and the later, changed gait in $work/changed.yaml.
 make_golden() {
   mkdir -p "$work/golden"
   mv -- "$work/whole-h5/scenario.resolved.yaml" "$work/golden/s.yaml"
@@ -79,7 +80,7 @@ make_golden() {
   ! cmp -s -- "$work/golden/s.yaml" "$work/changed.yaml" || { bad "kill.sh cannot change the scenario"; return 1; }
 }
 
-# Of the changed gait, so that it fails and writes a figure, a table and XML.
+# Kills tests of the changed gait, which fail and write a figure, a table and XML.
 kill_tests() {
   local test=("$program" test "$work/changed.yaml" --golden "$work/golden/s.golden" --out "$work/figures")
   cpu_time 4 "${test[@]}"
@@ -95,7 +96,7 @@ kill_tests() {
   kills_told test
 }
 
-# The golden is the old one or the new one, never a mixture: it must pass with its own gait, and the gaits differ.
+# After a kill the golden is the old or the new golden and not a mixture: it must pass with the old or the new gait, which differ.
 kill_approvals() {
   local old=0 new=0 half=0 of
   local golden=$work/golden/s.golden
@@ -107,7 +108,7 @@ kill_approvals() {
   cp -r -- "$work/golden" "$work/newer"
   kills "$moments"
   while kills_left; do
-    # Every other kill meets what the last one left.
+    # Every second kill acts on the files that the previous kill left.
     if ((tries % 2 == 0)); then
       rm -rf -- "$golden"
       cp -r -- "$work/old/s.golden" "$golden"
@@ -126,7 +127,8 @@ kill_approvals() {
   kills_told "approve ($old left the old golden, $new the new one; $half of them with files in between)"
 }
 
-# What is left must be what an undisturbed command leaves, or less of it: kill_writer NAME ARGUMENT...; OUT stands for its folder.
+# kill_writer NAME ARGUMENT...: the files after a kill must equal those of an undisturbed command, or a part of them. OUT in the
+# arguments is replaced by the folder.
 kill_writer() {
   local name=$1 out
   declare -A states=()
@@ -142,7 +144,7 @@ kill_writer() {
   tell_states "$name"
 }
 
-# A small scenario, in a folder that holds nothing else.
+# Creates a small scenario in a folder without other files.
 make_small() {
   mkdir "$work/small" && cd "$work/small"
   cat >s.yaml <<TEXT
@@ -161,7 +163,7 @@ restore() {
   cp -r -- "$work/before/." .
 }
 
-# in_the_middle NAME COMMAND...: killed in the middle of its run, it leaves no file, and what was there is as it was.
+# in_the_middle NAME COMMAND...: a command that is killed during its run leaves no new file, and existing files are unchanged.
 in_the_middle() {
   cp -r -- . "$work/before"
   kill_in_the_middle "$@"
@@ -171,8 +173,8 @@ in_the_middle() {
   rm -rf -- "$work/before"
 }
 
-# at_every_call NAME CODE COMMAND...: killed at each call that changes files, it leaves every file as it was or as an undisturbed one
-# leaves it; the command of `after`, if any, must still succeed.
+# at_every_call NAME CODE COMMAND...: a command that is killed at each call that changes files leaves every file unchanged or as an
+# undisturbed command leaves it. The command of `after`, if any, must still succeed.
 sums() { find . -type f -exec sha256sum -- {} +; }
 at_every_call() {
   local calls file there
@@ -187,7 +189,7 @@ at_every_call() {
     while read -r _ file; do
       case $file in
         *.part | *.golden.next | ./.new.*) ;; # not a final name
-        */summary.json | */junit.xml) quietly read_it "$file" || bad "$1, killed at call $calls, left half of $file" ;; # they hold times
+        */summary.json | */junit.xml) quietly read_it "$file" || bad "$1, killed at call $calls, left half of $file" ;; # contain times
         *) bad "$1, killed at call $calls, left another $file" ;;
       esac
     done < <(sums | grep -vxFf "$work/sums")

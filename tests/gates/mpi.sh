@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Processes of mpirun do a study together: the same rows, whichever of them is killed; copies that do not know of one another are refused.
-# usage: mpi.sh PROGRAM (gaitlab-mpi stands beside it)
+# Processes of mpirun simulate a study together. The rows are the same if any process is killed, and independent copies are refused.
+# usage: mpi.sh PROGRAM (gaitlab-mpi must be in the folder of PROGRAM)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
 program=$(readlink -f -- "$1")
@@ -11,14 +11,14 @@ done
 [[ -x $mpi ]] || { skip "mpi" "gaitlab-mpi was not built (Debian: libopenmpi-dev)"; exit 77; }
 mpirun --version 2>&1 | grep -q 'Open MPI' || { skip "mpi" "mpirun is not Open MPI's"; exit 77; }
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-export TMPDIR=/tmp # sockets: their paths must be short
+export TMPDIR=/tmp # for sockets, whose paths must be short
 
 source "$root/tests/gates/two_modules.sh"
 two_modules "$work" "method: {type: random}" "budget: {runs: 160}"
-# ranks N PROGRAM ARGUMENT...
+# ranks N PROGRAM ARGUMENT...: runs PROGRAM with N processes of mpirun.
 ranks() { mpirun --oversubscribe -n "$1" "${@:2}"; }
 sweep=("$mpi" sweep "$work/study.yaml" --quiet -j 1)
-# same CASE FOLDER
+# same CASE FOLDER: compares the rows in FOLDER with those of the undisturbed study.
 same() {
   if diff <(rows "$work/whole") <(rows "$2") >"$work/difference"; then ok "$1"; else bad "$1: $(head -n 4 "$work/difference")"; fi
   [[ $(sqlite3 "$2/study.db" 'pragma integrity_check') == ok ]] || bad "$1: the journal is damaged"
@@ -30,7 +30,7 @@ for n in 1 3; do
   same "$n ranks" "$work/mpi-$n"
 done
 
-# A search: the points of a generation depend on what came out of those before.
+# A search, in which the points of a generation depend on the results of earlier generations.
 sed '/cpg.type/d; s/^method:.*/method: {type: cma, population: 8}/; s/^budget:.*/budget: {runs: 64}/' "$work/study.yaml" >"$work/search.yaml"
 echo 'guards: none' >>"$work/search.yaml"
 "$program" optimize "$work/search.yaml" --quiet --out "$work/search" -j 2 >"$work/log" 2>&1 && code=0 || code=$?
@@ -41,8 +41,8 @@ verified() { sqlite3 "$1/study.db" 'select * from verification'; }
 cmp <(rows "$work/search"; verified "$work/search") <(rows "$work/search-3"; verified "$work/search-3") || bad "optimize with three ranks: other rows"
 ok "a search by three ranks"
 
-# killed FOLDER SIGNAL WHO: starts three ranks, sends a signal to mpirun, or to one of them (by its number, from 1), and waits.
-# 100 000 runs, so that no machine is at their end before the signal comes.
+# killed FOLDER SIGNAL WHO: starts three ranks, sends a signal to mpirun or to a rank (by its number, from 1), and waits. The study has
+# 100 000 runs, so that it cannot end before the signal.
 begun() { [[ $(tr -s ' ' '\n' <"/proc/$1/task/$1/children" | grep -c .) == 3 ]] && more_than "$2" "$3/study.db"; }
 killed() {
   local before who children=()
@@ -50,7 +50,7 @@ killed() {
   mpirun --oversubscribe -n 3 "${sweep[@]}" --out "$1" --runs 100000 >"$work/log" 2>&1 &
   local job=$!
   wait_for "$job" "three ranks and a row" begun "$job" "$before" "$1"
-  read -ra children <"/proc/$job/task/$job/children" || true # it has no line end
+  read -ra children <"/proc/$job/task/$job/children" || true # read fails, because the file has no line end
   who=$job
   (($3 == 0)) || who=${children[$3 - 1]}
   kill "-$2" "$who"
@@ -76,7 +76,7 @@ expect 0 "$program" sweep "$work/study.yaml" --quiet --out "$work/stopped" -j 2
 cmp <(rows "$work/whole") <(first "$work/stopped") || bad "SIGTERM to mpirun, then one process: other rows"
 ok "SIGTERM to mpirun, then one process"
 
-# A plugin that ends its process: after two starts without an end its run is a row.
+# A plugin that ends its process. After two failed attempts, its run is a failed row.
 ln -s "$root/scenarios/modules" "$work/modules"
 cat >"$work/plugin.yaml" <<TEXT
 gaitlab: 1

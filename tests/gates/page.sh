@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# The report page: types, eslint and prettier pass, the committed bundle is what the sources give, and in a browser it does what it says.
-# usage: page.sh PROGRAM_BUILD_DIR     (exit code 77: no node, npm, Chromium or packages here; with CI=true that is an error)
+# Report page: the checks of types, eslint and prettier pass, the committed bundle equals the built sources, and the page works in a
+# browser.
+# usage: page.sh PROGRAM_BUILD_DIR     (exit code 77 without node, npm, Chromium or packages, which is an error with CI=true)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
 program=$(readlink -f -- "$1")/bin/gaitlab
 
-# left_out WHY
+# left_out WHY: ends the script as skipped, or as failed with CI=true.
 left_out() {
   [[ ${CI:-} != true ]] || fail "the report page: not tested, though this is CI: $1"
   skip "the report page" "$1"
@@ -19,7 +20,7 @@ done
 export CHROMIUM=${CHROMIUM:-$(command -v chromium || true)}
 [[ -n $CHROMIUM ]] || left_out "no Chromium (Debian: chromium)"
 
-# Outside of the sources: what is built there must not be what is compared.
+# The page is built outside the sources, so that the committed bundle is not overwritten before the comparison.
 page=$work/page
 mkdir -p "$page"
 (cd -- "$root/report/page" && cp -r -- package.json package-lock.json tsconfig.json eslint.config.mjs .prettierrc.json .prettierignore build.mjs \
@@ -49,22 +50,22 @@ expect 0 "$program" run "${walk[@]}" --set duration=8 --set 'trace.columns=[join
 expect 0 "$program" export feasible --to csv trace.csv
 fast=("${walk[@]}" --set cpg.frequency=1.2 --set cpg.amplitude=0.6 --demand)
 expect 0 "$program" run "${fast[@]}" --out infeasible
-# Motors that lack current; a robot that falls; motors that give any torque, and are told in N m.
+# Runs with too little current, with a robot that falls, and with ideal torque sources, whose commands are in N m.
 crawl=("$root/scenarios/caterpillar.yaml" --set physics.engine=articulated --quiet)
 expect 0 "$program" run "${crawl[@]}" --set actuator.i_max=0.35 --set duration=14 --out current
 expect 0 "$program" run "${crawl[@]}" --set duration=5 --set robot.position='[0, 0, 0.4]' --set robot.orientation='[0, -1.4, 0]' --set contact.on=all --out fall
 expect 0 "$program" run "${crawl[@]}" --set duration=2 --set actuator.type=torque --set 'controller={type: pid, unit: N m, Kp: 5, Kd: 0.05}' --out torque
 expect 0 "$program" run "$root/scenarios/pendulum.yaml" --set duration=2 --quiet --out open
 expect 0 "$program" check "$root/scenarios/hexapod.yaml" --quiet --page built.html
-# A module whose text would end a script, and begin a comment.
+# A module whose source would end a script element and begin a comment.
 cp -r -- "$root/scenarios" .
 sed -i 's,^source: .*,source: "</script><script>window.taken = 1</script><!--",' scenarios/modules/mtran.yaml
 expect 0 "$program" run scenarios/caterpillar.yaml --set duration=0.5 --set physics.engine=articulated --quiet --out markup
 grep -q 'window.taken' markup/scenario.resolved.yaml || fail "the scenario has no markup in it"
-# The same module with a motor that gives 1 % more: a golden strays.
+# The same module with a motor that has 1 % more torque, so that the run leaves the bands of its golden.
 sed -i 's,^  Kt: 0.00395 ,  Kt: 0.0039895 ,' scenarios/modules/mtran.yaml
 expect 4 "$program" test scenarios/caterpillar.yaml --out strayed
-# It leaves the range of numbers after a tenth of a second.
+# A robot that leaves the permitted range of positions after 0.1 s.
 away=(--set ground.type=none --set 'robot.position=[99000, 0, 1]' --set robot.on_ground=false --set 'initial.base_velocity=[9999, 0, 0]')
 expect 1 "$program" run "${walk[@]}" "${away[@]}" --set duration=1 --out failed
 expect 0 "$program" run "$root/scenarios/caterpillar.yaml" --set duration=2 --set physics.engine=articulated --set trace.period=0.02 --quiet --format csv --out csv
@@ -88,12 +89,12 @@ duration: 0.5
 END
 expect 0 "$program" run jointless.yaml --quiet --out jointless
 expect 0 "$program" check jointless.yaml --quiet --page built_ball.html
-# Hinges without a motor: joint 0 of two, and the only one.
+# Robots with hinges without a motor: joint 0 of two joints, and the only joint.
 cp -- "$root/tests/data/castor-first.yaml" castor.yaml
 sed -e '/name: arm/d' -e '/upper:/d' -e '/^cpg:/d' -e 's,^contact:,initial: {angles: 0.5}\n&,' castor.yaml >motorless.yaml
 expect 0 "$program" run castor.yaml --quiet --out castor
 expect 0 "$program" run motorless.yaml --quiet --out motorless
-# Two runs: of one robot, the other with a shorter clock and other rows; of two robots; of one without joints.
+# Pairs of runs: of one robot with different durations and rows, of two robots, of a robot without joints.
 expect 0 "$program" run "${walk[@]}" --set cpg.frequency=1 --no-report --out brisk
 expect 0 "$program" run "${walk[@]}" --set duration=3.76 --set cpg.frequency=0.8 --set trace.period=0.02 --no-report --out slow
 expect 0 "$program" report brisk slow
@@ -103,7 +104,7 @@ expect 0 "$program" report brisk slow --page pair.html
 expect 0 "$program" report feasible infeasible --page pair_second.html
 cmp brisk/compare.html pair.html || fail "the same two runs give another page"
 ! grep -q "$work" pair.html strayed/*.html || fail "a page names a folder"
-# Same run, same bytes.
+# The same run gives a page with the same bytes.
 expect 0 "$program" run "${fast[@]}" --out again
 cmp infeasible/report.html again/report.html || fail "the same run gives another page"
 
@@ -111,7 +112,7 @@ pages=(feasible=feasible/report.html infeasible=infeasible/report.html open=open
   failed=failed/report.html csv=csv/report.html old=old.html jointless=jointless/report.html built_ball=built_ball.html castor=castor/report.html motorless=motorless/report.html
   current=current/report.html fall=fall/report.html torque=torque/report.html pair=pair.html pair_second=pair_second.html robots=robots.html ball=ball.html strayed=strayed/caterpillar-8.failure.html)
 if ! node "$page/test/page_test.mjs" "${pages[@]}" trace=trace.csv >"$work/log" 2>&1; then
-  grep -A 30 '^not ok' "$work/log" | head -n 300 >&2 || show_log # passed tests would fill what show_log shows
+  grep -A 30 '^not ok' "$work/log" | head -n 300 >&2 || show_log # show_log would mostly show passed tests
   fail "the page in $("$CHROMIUM" --version 2>/dev/null || printf %s "$CHROMIUM")"
 fi
 ok "the page in a browser: $(grep -E '^# pass|^ℹ pass' "$work/log")"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Two processes write one target at once: what is there afterwards is of one of them, whole, and the other was told.
-# usage: pairs.sh PROGRAM [N] (N pairs of each kind, 5)
+# If two processes write one target at the same time, the result is complete and from one process, and the other process has an error.
+# usage: pairs.sh PROGRAM [N] (N is the number of pairs of each kind, 5 by default)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
 program=$(readlink -f -- "$1")
@@ -12,7 +12,8 @@ expect 0 "${run[@]}" --set initial.angles=0.3 --out b
 expect 0 "$program" export a --to csv a.csv
 expect 0 "$program" export b --to csv b.csv
 
-# both FIRST... -- SECOND...: at once; their exit codes are `one` and `two`, what they said first.log and second.log.
+# both FIRST... -- SECOND...: runs both commands at the same time. Sets their exit codes `one` and `two`, and writes their outputs to
+# first.log and second.log.
 both() {
   local first=()
   while [[ $1 != -- ]]; do first+=("$1") && shift; done
@@ -24,7 +25,7 @@ both() {
   one=0
   wait "$job" || one=$?
 }
-# the_loser_is_told KIND: one of them ended with 0, the other with 2 and a message.
+# the_loser_is_told KIND: expects that one command ended with 0, and the other with 2 and a message.
 the_loser_is_told() {
   if ((one == 0 && two == 2)); then [[ -s second.log ]] || bad "$1: the loser was told nothing"
   elif ((one == 2 && two == 0)); then [[ -s first.log ]] || bad "$1: the loser was told nothing"
@@ -49,7 +50,7 @@ for ((i = 0; i < pairs; ++i)); do
   ((one == 0 || two == 0)) || bad "approve: exit codes $one and $two: $(cat first.log second.log)"
   quietly "$program" test s.yaml || bad "approve: the golden is a mixture"
 done
-# Nothing of a loser stays.
+# The refused processes leave no files.
 left=$(find . -name '*.part' -o -name '.*.part')
 [[ -z $left ]] || bad "left: $left"
 ok "$pairs pairs each of export, run, new plugin and approve"

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# What docs/tutorials/optuna.md and docs/studies.md do in Python, as it stands there: with Optuna, also killed and started again, and
-# with pandas.
+# The literal Python code of docs/tutorials/optuna.md and docs/studies.md works: with Optuna, also after a kill and a restart, and with
+# pandas.
 # usage: python.sh PROGRAM
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
 program=$(readlink -f -- "$1")
-python=/usr/bin/python3 # Debian's
+python=/usr/bin/python3 # Python of Debian
 for module in optuna pandas; do
   "$python" -c "import $module" 2>/dev/null || { skip "python" "Python's module $module is missing (Debian: python3-$module)"; exit 77; }
 done
@@ -13,7 +13,7 @@ source "$root/tests/gates/two_modules.sh"
 command -v sqlite3 >/dev/null || { skip "python" "sqlite3 is missing (Debian: sqlite3)"; exit 77; }
 PATH=$(dirname -- "$program"):$PATH
 cd "$work"
-# block WORD: the indented block of the tutorial that begins with a word.
+# block WORD: prints the indented block of the tutorial that begins with WORD.
 block() { awk -v word="$1" '/^    / && !on && !blank { on = index($0, word) == 5 } /^    / || (/^$/ && on) { if (on) print substr($0, 5); blank = 1; next } { on = blank = 0 }' "$root/docs/tutorials/optuna.md"; }
 block gaitlab_study >study.yaml
 block import >tune.py
@@ -27,7 +27,7 @@ expect 0 "$python" tune.py
 cmp "$work/log" first || bad "started again with its seed, Optuna ends elsewhere"
 [[ $(sqlite3 runs/optuna/study.db 'select sum(runs) from effort') == 40 ]] || bad "started again, runs are done again"
 mv runs/optuna runs/whole
-# Killed, with a thousand batches before it, so that no machine is at their end.
+# A kill during a search of a thousand batches, which cannot end before the kill.
 grep -q 'in range(5):' tune.py || fail "docs/tutorials/optuna.md does not ask for five batches"
 sed 's/in range(5):/in range(1000):/' tune.py >endless.py
 "$python" endless.py >"$work/log" 2>&1 &

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# docs/reference and the editors' schema are written by the program: fails where a committed file differs from what it prints.
+# The program writes docs/reference and the schema for editors. Fails if a committed file differs from the output of the program.
 # usage: reference.sh PROGRAM_BUILD_DIR [--renew]
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
@@ -8,7 +8,7 @@ renew=${2:-}
 now=$work/now
 cd -- "$root"
 
-# page FILE COMMAND...
+# page FILE COMMAND...: compares FILE with the output of COMMAND, or renews FILE.
 page() {
   local file=$1
   shift

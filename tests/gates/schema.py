@@ -20,7 +20,7 @@ PROGRAM, SCENARIOS, PUBLISHED = (pathlib.Path(argument).resolve() for argument i
 
 
 def named(value):
-    """Keys are texts in JSON: {0: mtran} has the key "0"."""
+    """Value with texts as keys, as in JSON: {0: mtran} gets the key "0"."""
     if isinstance(value, dict):
         return {str(key): named(inner) for key, inner in value.items()}
     return [named(inner) for inner in value] if isinstance(value, list) else value
@@ -33,7 +33,7 @@ def load(text):
 schema = json.loads(subprocess.run([PROGRAM, "schema"], check=True, capture_output=True, text=True).stdout)
 jsonschema.Draft7Validator.check_schema(schema)
 validator = jsonschema.Draft7Validator(schema)
-# A module type in a file of its own is the same as one within a scenario.
+# The schema of a module file is that of a module type within a scenario.
 module_validator = jsonschema.Draft7Validator({"$ref": "#/definitions/module_type", "definitions": schema["definitions"]})
 failures = []
 
@@ -163,7 +163,7 @@ study_validator = jsonschema.Draft7Validator(study_schema)
 
 
 def program_takes_study(text):
-    """Without a question `evaluate` reads and checks a study, and runs nothing."""
+    """True if the program accepts a study. Without a question, `evaluate` only reads and checks the study."""
     with tempfile.TemporaryDirectory() as folder:
         for shared in ("modules", "robots"):
             (pathlib.Path(folder) / shared).symlink_to(SCENARIOS / shared)

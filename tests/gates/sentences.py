@@ -32,9 +32,9 @@ from told.record import Record
 from told.verdict import Judged, compare, hear, hear_evidence, sentence, tightest
 
 SEED = 20
-# (runs, what is said, why that is wrong): what the program has yet to be mended in.
+# Known defects of the program: (runs, sentence, reason why the sentence is wrong).
 KNOWN = []
-# What must have occurred in some run, by check: otherwise its sentences were not heard.
+# Statuses of each check that must occur in some run. Otherwise its sentences would not be tested.
 MUST = {check: ("pass", "warn", "fail") for check in (
     "voltage", "current", "speed", "heat", "gear_peak", "gear_continuous", "tracking", "stops", "dock_tension", "dock_shear",
     "dock_bending", "dock_torsion", "upright", "collision")}
@@ -53,7 +53,7 @@ def run(program, *arguments):
 
 
 def known_to(window):
-    """s: the window begins whole periods before the end, each of which is known to some share of itself."""
+    """Uncertainty of the start of the window, s. The window starts whole periods before the end, and each period is uncertain."""
     return window.cycle.doubt() * window.periods * window.cycle.period + 1e-9
 
 
@@ -64,7 +64,7 @@ class Gate:
         self.pages, self.mutants, self.survivors, self.begins, self.reasons = 0, 0, [], collections.Counter(), []
 
     def hear(self, rng, name, scenario, settings, fixed=None):
-        """One run: a draft, limits around it, the run, and all that it says."""
+        """Checks one run: a draft, limits that are drawn around its values, the run, and all of its sentences."""
         folder = self.work / re.sub(r"\W+", "-", name)
         folder.mkdir()
         source = self.scenarios / f"{scenario}.yaml"
@@ -127,7 +127,7 @@ class Gate:
         lines, seen = screen.verbose(stdout, known)
         wrong += lines
         self.lines |= seen
-        # A browser takes much of the time: pages that begin otherwise than the others.
+        # A browser takes much time, so that only pages whose headline differs from earlier pages are rendered.
         first = verdict["decided_by"] or verdict["tightest"]
         self.begins[verdict["verdict"], first] += 1
         some = self.begins[verdict["verdict"], first] == 1
@@ -139,7 +139,7 @@ class Gate:
 
 
     def any_rows(self, name):
-        """The same words, checks and lines for trace rows of 1, 5 and 50 ms, of a run that was heard."""
+        """A checked run has the same verdict, checks and lines for trace rows of 1, 5 and 50 ms."""
         folder = self.work / re.sub(r"\W+", "-", name)
         lines = lambda text: [x for x in text.splitlines()[1:] if not re.match(r"  (page|files)|            \w+\.\w+", x)]
         seen = set()
@@ -152,9 +152,9 @@ class Gate:
             self.wrong.append((name, "verdict or terminal differ with the rows of the trace"))
 
     def studies(self):
-        """The same margins and sentences with other threads and lanes; and those of `run`, point by point."""
+        """Studies have the same margins and sentences with any threads and lanes, and each point has those of `run`."""
         sets = [x for s in ("duration=3.3", "cpg.frequency=1") for x in ("--set", s)]
-        source, tables = self.work / "hexapod" / "drawn.yaml", set()  # with ratings of motors, gears and docks
+        source, tables = self.work / "hexapod" / "drawn.yaml", set()  # contains ratings of motors, gears and docks
         for k, options in enumerate((["-j", 1, "--lanes", 1], ["-j", 2, "--lanes", 1], ["-j", 2, "--lanes", 8])):
             made = run(self.program, "sweep", source, *sets, "--grid", "cpg.amplitude=0.25:0.55:3", "--grid", "actuator.i_max=0.4,1.2",
                        "--show", "margin*", *options, "--out", self.work / f"sweep-{k}", "--quiet")
@@ -179,15 +179,15 @@ class Gate:
                 self.wrong.append(("sweep", f"point {k}: message {row['message']!r}, run {verdict['reason'] or why!r}"))
 
     def mutate(self, told, check):
-        """A sentence with another number must be heard as wrong: each number of it, one after the other, a tenth and two of its last
-        digit larger."""
+        """A sentence with a changed number must be detected. Each of its numbers is increased in turn, by a tenth and by two units of
+        its last digit."""
         if hear(told, check, check["text"], ""):
             return
-        said = check["text"].split("; take physics")[0]  # advice has its own numbers
+        said = check["text"].split("; take physics")[0]  # without the advice, which contains other numbers
         for match in re.finditer(r"(?<![\w.\-/])\d+\.?\d*(?:e[-+]?\d+)?(?![\w/])", said):
             value = float(match[0])
             if 0 < value < 1e-12:
-                continue  # rounding
+                continue  # rounding error
             last = 10.0 ** -len(match[0].partition(".")[2]) if "e" not in match[0] else 0  # of a time on the edge of two digits
             larger = max(value * 1.1, value + 2 * last) + (value == 0)
             other = f"{larger:.3g}" if "." in match[0] or value > 100 else f"{value + 1:.0f}"

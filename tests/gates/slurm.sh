@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The recipes of docs/cluster.md under a Slurm of its own on loopback: shards, one of them killed and requeued, merged; MPI in a job. The
-# same rows as one process.
-# usage: slurm.sh PROGRAM (gaitlab-mpi stands beside it)
+# The recipes of docs/cluster.md work in a separate Slurm on loopback and give the rows of a single process: shards, of which one is
+# killed and requeued, their merging, and MPI in a job.
+# usage: slurm.sh PROGRAM (gaitlab-mpi must be in the folder of PROGRAM)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
 program=$(readlink -f -- "$1")
@@ -13,7 +13,7 @@ id munge >/dev/null 2>&1 || { skip "slurm" "there is no user munge (Debian: mung
 
 slurm=$work/slurm
 export SLURM_CONF=$slurm/slurm.conf
-# Ends what was started here, by pid files.
+# Ends the processes that this script started, by their pid files.
 stop() {
   [[ ! -e $slurm/slurmctld.pid ]] || scancel --user=root >/dev/null 2>&1 || true
   local file pid
@@ -85,16 +85,16 @@ daemon=$(<"$slurm/slurmd.n2.pid")
 wait_for "$daemon" "two idle nodes" idle
 ok "a Slurm with two nodes"
 
-# ended JOB: waits until none of its tasks is left.
+# ended JOB: waits until all tasks of JOB have ended.
 ended() { wait_until "$daemon" is_over "$1" || { squeue >&2 && fail "job $1 does not end"; }; }
 is_over() { left=$(squeue -h -j "$1" -t PENDING,RUNNING,COMPLETING -o %i 2>/dev/null) && [[ -z $left ]]; }
-# recipe NUMBER: a block of docs/cluster.md that is a script.
+# recipe NUMBER: prints the script number NUMBER of docs/cluster.md.
 recipe() { awk -v number="$1" '/^    #!/ { ++n } /^    / { if (n == number && !over) print substr($0, 5); next } n == number { over = 1 }' "$root/docs/cluster.md"; }
 
 source "$root/tests/gates/two_modules.sh"
 two_modules "$work" "method: {type: random}" "budget: {runs: 160}" "seed: 6"
 cd "$work"
-# Of the drawn points those wait whose cpg.wait is above 0.9: with this seed runs 66 and 67 are the first, the seventeenth of shards 2 and 3.
+# Random points with cpg.wait above 0.9 wait. With this seed the first are runs 66 and 67, the seventeenth of shards 2 and 3.
 sed -i "s,^cpg: .*,cpg: {type: waits}\nplugins: [$(plugin waits)]," two.yaml
 sed -i 's/^  cpg.type: .*/  cpg.wait: {low: 0, high: 0.95}/' study.yaml
 PATH=$(dirname -- "$program"):$PATH

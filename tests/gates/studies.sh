@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A study gives the same rows whatever threads, lanes, shards, signals and kill -9 do to it, and loses nothing.
-# usage: studies.sh PROGRAM [KILLS] (KILLS of each kind, 6; KILL_SEED, 1: other moments)
+# A study has the same rows with any number of threads, lanes and shards, and after signals and kill -9, and loses no rows.
+# usage: studies.sh PROGRAM [KILLS] (KILLS is the number of kills of each kind, 6 by default; KILL_SEED, 1 by default, selects the moments)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
 program=$(readlink -f -- "$1")
@@ -12,7 +12,7 @@ source "$root/tests/gates/two_modules.sh"
 two_modules "$work" "method: {type: random}" "budget: {runs: 96}"
 
 sweep() { "$program" sweep "$work/study.yaml" --quiet "$@"; }
-# same CASE FOLDER
+# same CASE FOLDER: compares the rows in FOLDER with those of the undisturbed study.
 same() {
   if diff <(rows "$work/whole") <(rows "$2") >"$work/difference"; then ok "$1"; else bad "$1: $(head -n 4 "$work/difference")"; fi
   [[ $(sqlite3 "$2/study.db" 'pragma integrity_check') == ok ]] || bad "$1: the journal is damaged"
@@ -34,8 +34,8 @@ expect 0 "$program" study merge "$work/shards"
 expect 0 "$program" study merge "$work/shards"
 same "three shards, merged twice" "$work/shards"
 
-# Killed at random moments, each start going on where the last was killed; the rows of one that comes to its end are compared, and the
-# next begins anew.
+# Kills at random moments. Each start continues the killed study. The rows of a completed study are compared, and the next start begins
+# with an empty folder.
 kills "$kills"
 while kills_left; do
   try_to_kill 0 $((took / 2)) "$program" sweep "$work/study.yaml" --quiet --out "$work/killed" -j 2 ||
@@ -45,7 +45,7 @@ kills_told sweep
 expect 0 sweep --out "$work/killed" -j 2
 same "killed $hits times" "$work/killed"
 
-# SIGTERM: told how to go on; exit code 1. 100 000 runs, so that no machine is at their end before the signal comes.
+# On SIGTERM the program prints how to continue, with exit code 1. The study has 100 000 runs, so that it cannot end before the signal.
 "$program" sweep "$work/study.yaml" --quiet --out "$work/stopped" -j 1 --runs 100000 >"$work/log" 2>&1 &
 process=$!
 wait_for "$process" "a row" more_than 0 "$work/stopped/study.db"
@@ -58,7 +58,7 @@ said "go on with gaitlab sweep"
 expect 0 sweep --out "$work/stopped" -j 1
 if cmp <(rows "$work/whole") <(rows "$work/stopped" | head -n 96); then ok "SIGTERM, then the same command"; else bad "SIGTERM: other rows"; fi
 
-# A second process on the folder.
+# A second process in the folder is refused.
 exec 9>>"$work/whole/lock"
 flock 9
 expect 2 sweep --out "$work/whole"
@@ -66,7 +66,7 @@ said "is writing this study"
 exec 9>&-
 ok "a second process is refused"
 
-# A larger budget goes on; another study is refused.
+# With a larger budget the study continues. A different study is refused.
 sed -i 's/runs: 96/runs: 112/' "$work/study.yaml"
 expect 0 sweep --out "$work/killed" -j 2
 expect 0 sweep --out "$work/more" -j 2
@@ -78,9 +78,9 @@ said "belongs to another study"
 sed -i 's/high: 1.3/high: 1.2/' "$work/study.yaml"
 ok "a larger budget goes on, another study is refused"
 
-# Searches: the same runs, generations and verification whatever threads, lanes and kills do; a larger budget goes on.
+# Searches have the same runs, generations and verification with any threads and lanes and after kills. A larger budget continues them.
 all_rows() { sqlite3 "$1/study.db" 'select * from run order by run; select * from search; select * from verification'; }
-# searched CASE STUDY FOLDER EXPECTED OPTIONS...: and its rows are those of FOLDER.
+# searched CASE STUDY FOLDER EXPECTED OPTIONS...: runs a search with exit code EXPECTED, and compares its rows with those of FOLDER.
 searched() {
   local name=$1 study=$2 folder=$3 code=$4
   shift 4
@@ -97,13 +97,13 @@ verify: {best: 2, change: 0.2}
 budget: {runs: 80}
 TEXT
 done
-# Without guards, motors turn faster than they are rated for, which no time undoes: the best are found, and not verified.
+# Without guards, the best points exceed the rated speed, which a longer run cannot undo. They are found but not verified.
 printf 'set: [actuator.speed_max=0.01]\nobjective: {maximize: speed}\nmethod: {type: cma, population: 8, instances: 2}\n' >>"$work/cma.yaml"
-# Three periods of the slowest gait: what nobody can judge is not verified.
+# The duration is three periods of the slowest gait, because points that cannot be judged are not verified.
 sed -i 's/low: 0.5, high: 3/low: 1.5, high: 3/' "$work/nsga2.yaml"
 printf 'set: [duration=2]\nobjective: [{minimize: torque.peak}, {maximize: distance}]\nmethod: {type: nsga2, population: 16}\n' >>"$work/nsga2.yaml"
 for kind in cma nsga2; do
-  ends=0 # with this code
+  ends=0 # expected exit code
   [[ $kind == nsga2 ]] || ends=3
   cpu_time "$ends" "$program" optimize "$work/$kind.yaml" --quiet --out "$work/$kind" -j 2
   [[ $(rows "$work/$kind" | wc -l) == 80 ]] || bad "$kind: 80 runs, $(rows "$work/$kind" | wc -l) rows"
@@ -117,7 +117,7 @@ for kind in cma nsga2; do
   kills_told "$kind"
   searched "$kind: killed $hits times" "$work/$kind.yaml" "$work/$kind" "$ends" -j 7
   rm -rf -- "$work/now"
-  "$program" optimize "$work/$kind.yaml" --quiet --out "$work/now" --runs 50 >/dev/null 2>&1 || true # its best may stand, or not
+  "$program" optimize "$work/$kind.yaml" --quiet --out "$work/now" --runs 50 >/dev/null 2>&1 || true # verification may fail
   searched "$kind: 50 runs and then 80" "$work/$kind.yaml" "$work/$kind" "$ends"
   rm -rf -- "$work/now"
 done
@@ -128,7 +128,7 @@ done
 expect 2 "$program" sweep "$work/cma.yaml"
 said "use gaitlab optimize"
 
-# A disk that fills: what is in the journal stays, and the same command goes on.
+# If the disk becomes full, rows of the journal are preserved, and the same command continues the study.
 (
   ulimit -f 150 # blocks of 1 kB
   code=0

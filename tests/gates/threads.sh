@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Commands that run threads, under ThreadSanitizer: no two touch the same memory without agreement.
+# Commands with threads have no data races, according to ThreadSanitizer.
 # usage: threads.sh PROGRAM (built with the preset tsan)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
 program=$(readlink -f -- "$1")
-# pagmo and HDF5 are not built with the sanitizer; what they do among themselves it cannot judge.
+# pagmo and HDF5 are not built with the sanitizer, which therefore cannot judge their internal accesses.
 export TSAN_OPTIONS="halt_on_error=1 exitcode=66 history_size=4 ignore_noninstrumented_modules=1"
 
 source "$root/tests/gates/two_modules.sh"
@@ -16,7 +16,7 @@ cp -r "$root/scenarios/pendulum.yaml" "$root/scenarios/pendulum.golden" "$root/s
 cp -r pendulum.yaml second.yaml
 cp -r pendulum.golden second.golden
 
-# free CODE COMMAND...: also without a data race, whose exit code is 66.
+# free CODE COMMAND...: expects this exit code, and no data race, whose exit code is 66.
 free() { expect "$@" && ok "${*:2:2} ${*: -2}"; }
 free 0 "$program" swap two.yaml --cpg phase_oscillator,hopf,sine --out swap -j 2
 free 0 "$program" test pendulum.yaml second.yaml --out test -j 2

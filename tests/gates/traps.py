@@ -16,7 +16,7 @@ import tempfile
 PROGRAM, BUILD = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WORK = pathlib.Path(tempfile.mkdtemp(prefix="traps."))
-LONGEST = int(os.environ.get("TRAPS_LONGEST", "600"))  # s: only what waits for ever is stopped
+LONGEST = int(os.environ.get("TRAPS_LONGEST", "600"))  # s; time limit for a command that does not end
 bad = 0
 
 
@@ -27,7 +27,7 @@ def wrong(text):
 
 
 def call(argv, folder, **options):
-    """Exit code (None: it waits for ever), and both outputs."""
+    """Exit code of a command (None if it does not end), and both outputs."""
     try:
         done = subprocess.run([str(word) for word in argv], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, timeout=LONGEST,
                               **options)
@@ -47,7 +47,7 @@ def expect(argv, folder):
 
 
 def elf_files(folder):
-    """Programs and shared libraries."""
+    """Paths of programs and shared libraries in a folder."""
     for path in sorted(folder.rglob("*")):
         if path.is_file() and not path.is_symlink() and path.suffix != ".o":
             with open(path, "rb") as file:
@@ -126,9 +126,9 @@ COMMANDS = {
     "test": "test golden/two.yaml --junit junit.xml",
     "new plugin": "new plugin cpg mine",
 }
-# Commands whose purpose is to write anew what lies under their names: in the folder of a study or a run, or the figure of a recipe.
+# Commands that intentionally replace files: in the folder of a study or a run, or the figure of a recipe.
 RENEWED = {"study report", "sweep --out", "shard", "study merge", "report of two", "figure"}
-# Ends of names that are SQLite's beside a journal, and that a killed `approve` leaves.
+# Endings of file names that SQLite uses next to a journal, and of files that a killed `approve` leaves.
 OURS = ("-wal", "-shm", "-journal", ".golden.next")
 
 
@@ -166,7 +166,7 @@ def copy_of(folder):
 
 
 def libraries_of(program):
-    """Names of all libraries that the loader takes, and for each the versions that are asked for of it."""
+    """Names of all libraries that the loader uses, each with the required symbol versions."""
     names = [line.split()[0] for line in expect(["ldd", program], WORK).splitlines() if "=>" in line]
     versions, of = {}, None
     for line in expect(["objdump", "--private-headers", program], WORK).splitlines():
@@ -178,7 +178,7 @@ def libraries_of(program):
 
 
 def make_library(name, versions, file, log):
-    """A library that writes its name into a file where it is loaded."""
+    """Builds a library that writes its name into a file when it is loaded."""
     (WORK / "trap.c").write_text(f"""#include <fcntl.h>
 #include <unistd.h>
 __attribute__((constructor)) static void loaded(void) {{
@@ -192,7 +192,8 @@ __attribute__((constructor)) static void loaded(void) {{
 
 
 def try_libraries(good):
-    """Each library alone, since one that lacks the symbols ends the program before others are seen; then all at once, with every command."""
+    """Tests each library alone, because a library without the required symbols ends the program before it loads others. Then tests all
+    libraries at once with every command."""
     log = WORK / "loaded"
     environment = {key: value for key, value in os.environ.items() if key != "LD_LIBRARY_PATH"}
 
@@ -217,12 +218,12 @@ def try_libraries(good):
             harmless(f"a library {name}", "--version", folder, (0,))
             (folder / name).unlink()
         if bad:
-            continue  # all at once say no more
+            continue  # a test with all libraries at once would show nothing more
         for name in libraries:
             shutil.move(WORK / name, folder / name)
         commands = COMMANDS.values() if program == PROGRAM else ["--version"]
         for words in commands:
-            harmless("libraries", words, folder, (0, 2))  # 2: what it writes is there already
+            harmless("libraries", words, folder, (0, 2))  # exit code 2 if the output exists already
         print(f"ok       {program.name}: {len(commands)} commands beside {len(libraries)} libraries", flush=True)
 
 
@@ -230,10 +231,10 @@ def try_libraries(good):
 
 
 def names_of(words, folder):
-    """The names below the folder that a command looks at, and those that it writes, as strace sees them."""
+    """Names below the folder that a command opens, and names that it writes, according to strace."""
     log = WORK / "strace"
     code, said = call(["strace", "-f", "-qq", "-e", "trace=%file", "-o", log, *gaitlab(words)], folder)
-    if code not in (0, 3):  # 3: no gait of so short a search stands
+    if code not in (0, 3):  # exit code 3 if the verification of this short search fails
         wrong(f"{words}: exit code {code}: {said.decode(errors='replace')[-300:]}")
     looked, written = set(), set()
     for line in log.read_text(errors="replace").splitlines():
@@ -265,7 +266,7 @@ def ends(what, words, folder):
 
 
 def put(folder, name):
-    """The path of a name whose folder exists and that nothing has."""
+    """Path of a name that does not exist in an existing folder."""
     path = folder / name
     path.parent.mkdir(parents=True, exist_ok=True)
     if path.is_dir() and not path.is_symlink():
@@ -282,7 +283,7 @@ def try_names(good):
     for command, words in COMMANDS.items():
         looked, written = names_of(words, copy_of(good))
         for name in sorted(looked):
-            # A name of a file that all commands read in the same way is tried with the first that does.
+            # A file that all commands read in the same way is tested only with the first of them.
             if (name, words.split()[0]) in seen:
                 continue
             seen.add((name, words.split()[0]))
@@ -320,7 +321,7 @@ def main():
     if built < 5 or installed < 1:
         wrong(f"only {built} files of the build tree and {installed} installed: this gate sees nothing")
     print(f"ok       the run paths of {built} built and {installed} installed files", flush=True)
-    resource.setrlimit(resource.RLIMIT_CPU, (300, 300))  # s, of each process: what turns round for ever
+    resource.setrlimit(resource.RLIMIT_CPU, (300, 300))  # limit of CPU time per process for endless loops, s
     prepare(good := WORK / "good")
     try_libraries(good)
     code, said = call(["strace", "-f", "-e", "trace=%file", "true"], WORK) if shutil.which("strace") else (127, b"strace is missing")

@@ -1,8 +1,8 @@
 # shellcheck shell=bash disable=SC2154 # root: of prelude.sh
-# A small study for gates: two modules, 0.4 s, three parameters, two replicates; and the rows of its journal.
+# Functions for gates: a small study (two modules, 0.4 s, three parameters, two replicates), and the rows of its journal.
 
 rows() { sqlite3 "$1/study.db" 'select * from run order by run'; }
-# count FILE: of the rows of a journal, also while it is written. more_than N FILE: whether it has more.
+# count FILE: prints the number of rows of a journal, also while it is written. more_than N FILE: succeeds if it has more than N rows.
 count() { { [[ -s $1 ]] && sqlite3 "$1" 'select count(*) from run' 2>/dev/null; } || echo 0; }
 more_than() { (($(count "$2") > $1)); }
 

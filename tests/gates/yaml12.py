@@ -1,11 +1,11 @@
-"""YAML 1.2's numbers and words, as editors and gaitlab read and write them."""
+"""Loader for numbers and words of YAML 1.2, as editors and gaitlab read and write them."""
 import re
 
 import yaml
 
 
 class Loader(yaml.SafeLoader):
-    """1e-4 is a number, `on` is a text."""
+    """YAML loader for which 1e-4 is a number and `on` is a text."""
 
 
 Loader.yaml_implicit_resolvers = {}

@@ -1,4 +1,4 @@
-// Advice on bands that are too wide. tests/app/approve_test.cpp shows that the advice for columns helps.
+// Tests of the advice on bands that are too wide. tests/app/approve_test.cpp shows that the advice for columns is effective.
 #include "golden/advice.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ Scenario scenario_of(const Integrator& integrator) {
   return scenario;
 }
 
-/// Bands of halving; numbers of 0.5 N m.
+/// Golden with these bands from halving the step, and with numbers of 0.5 N m.
 Golden golden_of(const std::vector<double>& halving) {
   Golden golden;
   for (std::size_t i = 0; i < halving.size(); ++i) {

@@ -1,4 +1,4 @@
-// Goldens as judges: only what strays fails.
+// Tests of the comparison of a run with its golden: only columns and numbers outside their bands fail.
 #include "golden/compare.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 TEST(GoldenCompare, TheSameRunPassesWithNothingLeft) {
   const Golden golden = sample_golden(walk());
   Golden read = golden;
-  read.run = unpack(pack(golden.run.trace), "x");  // as it comes from the file
+  read.run = unpack(pack(golden.run.trace), "x");  // rounded as in the file
   read.rounding = mean_squares(golden.run.trace, read.run.trace);
   EXPECT_LE(std::sqrt(read.rounding[1]), 0.5 * read.run.precision[1]);
   EXPECT_GT(read.rounding[1], 0);
@@ -23,13 +23,14 @@ TEST(GoldenCompare, TheSameRunPassesWithNothingLeft) {
   EXPECT_EQ(d.findings, Sentences{});
   for (const ColumnCheck& column : d.columns) {
     EXPECT_EQ(column.rms, 0) << column.name;
-    EXPECT_LT(column.maximum, 1e-15) << column.name;  // half a step of the grid, less itself
+    EXPECT_LT(column.maximum, 1e-15) << column.name;  // the comparison subtracts half of the quantisation step
     EXPECT_FALSE(column.outside);
   }
   EXPECT_EQ(d.numbers[0].change, 0);
 }
 
-// A fifth of the grid's step, which rounding alone would make a third of it.
+// A difference of a fifth of the quantisation step is measured, although quantisation alone causes an RMS of about a third of a
+// step.
 TEST(GoldenCompare, MeasuresBelowThePrecision) {
   std::mt19937_64 random(4);
   Trace noise = walk(1001);
@@ -41,8 +42,8 @@ TEST(GoldenCompare, MeasuresBelowThePrecision) {
   GoldenRun run = run_of(golden);
   const double by = 0.2 * read.run.precision[3];
   for (std::size_t k = 0; k < 1001; ++k) run.trace.values[k * 5 + 3] += random() % 2 == 0 ? by : -by;
-  // Rounding errors e do not cancel over 1001 rows: 2 by e / sqrt(1001) of by^2, e = precision / sqrt(12): 9 %; thrice the
-  // half.
+  // The rounding errors e = precision / sqrt(12) of 1001 rows change by^2 by 2 by e / sqrt(1001), which is 9 %. The tolerance
+  // is three times half of this.
   EXPECT_NEAR(compare(read, run).columns[2].rms * scales(read.run.trace)[3], by, 0.14 * by);
 }
 
@@ -50,8 +51,8 @@ TEST(GoldenCompare, WhatStraysFailsAlone) {
   const Golden golden = sample_golden(walk());
   GoldenRun run = run_of(golden);
   const std::size_t width = golden.run.trace.columns.size();
-  for (std::size_t k = 50; k < 101; ++k) run.trace.values[k * width + 1] += 2.6 * 1.5e-3;  // 5 bands, from 1 s on
-  run.numbers[0].value = 0.5004;                                                           // 0.8 of its band
+  for (std::size_t k = 50; k < 101; ++k) run.trace.values[k * width + 1] += 2.6 * 1.5e-3;  // 5 bands from 1 s on
+  run.numbers[0].value = 0.5004;                                                           // differs by 0.8 bands
   const GoldenDifference d = compare(golden, run);
   EXPECT_FALSE(d.passed());
   EXPECT_EQ(d.findings, Sentences{});
@@ -59,7 +60,8 @@ TEST(GoldenCompare, WhatStraysFailsAlone) {
   EXPECT_TRUE(d.columns[1].passed());
   EXPECT_TRUE(d.columns[2].passed());
   EXPECT_TRUE(d.columns[3].passed());
-  // Of 101 rows 51 are off; the range is a sine's at 50 samples a period, 0.2 % less than 2.6; the grid's step is 1.5e-5.
+  // 51 of 101 rows differ. The tolerance is for the range of a sine with 50 samples per period, which is 0.2 % less than 2.6,
+  // and for the relative quantisation step of 1.5e-5.
   EXPECT_NEAR(d.columns[0].rms, 1.5e-3 * std::sqrt(51.0 / 101), 3e-5);
   EXPECT_NEAR(d.columns[0].maximum, 1.5e-3, 3e-5);
   EXPECT_EQ(*d.columns[0].outside, 1.0);
@@ -88,7 +90,7 @@ TEST(GoldenCompare, NamesJointsAndNotTheirNumbers) {
             (Sentences{"1 column only in the golden: m0/passive torque", "1 column only in this run: joint.7.torque"}));
 }
 
-// Rounding alone is far beyond three such bands, and no difference.
+// Quantisation errors are not counted as a difference, although they are much larger than three such narrow bands.
 TEST(GoldenCompare, RoundingIsNotOutside) {
   Golden golden = sample_golden(walk());
   const Trace exact = golden.run.trace;
@@ -108,7 +110,7 @@ TEST(GoldenCompare, LateIsToldApartFromAnotherShape) {
     run.trace.values[k * 5 + 1] = 1.3 * std::sin(2 * std::numbers::pi * (static_cast<double>(k) * kSpacing - 0.013));
   const ColumnCheck torque = compare(golden, run).columns[0];
   EXPECT_FALSE(torque.passed());
-  EXPECT_NEAR(torque.time_shift, 0.013, 1e-4);  // see time_shift: wrong by (w h)^3 of a sample, 0.002 * 0.02 s
+  EXPECT_NEAR(torque.time_shift, 0.013, 1e-4);  // error of time_shift is (w h)^3 rows, 0.002 * 0.02 s
   EXPECT_LT(torque.rms_after_shift, 0.01 * torque.rms);
 }
 

@@ -1,4 +1,4 @@
-// The packed trace: what is written is read back within its precision, and every damage has its message.
+// Tests of the packed trace: a trace that is written and read is equal within its precision, and every damage has a message.
 #include "golden/file.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ TEST(GoldenFile, KeepsEveryValueWithinTheDeclaredPrecision) {
     for (std::size_t k = 0; k < trace.rows(); ++k) {
       low = std::min(low, trace.at(k, i));
       high = std::max(high, trace.at(k, i));
-      // Half a step of the grid; 1e-15: rounding of low + n * precision, at most 2.6 here.
+      // The tolerance is half of the quantisation step, and 1e-15 for the rounding error of low + n * precision, at most 2.6.
       EXPECT_NEAR(read.trace.at(k, i), trace.at(k, i), 0.5 * read.precision[i] + 1e-15) << trace.columns[i].name;
     }
     EXPECT_EQ(read.precision[i], i == 0 ? 0 : (high - low) / 65534) << trace.columns[i].name;
@@ -39,7 +39,8 @@ TEST(GoldenFile, KeepsEveryValueWithinTheDeclaredPrecision) {
 }
 
 TEST(GoldenFile, IsSmall) {
-  // 73 columns for 20 s, as the hexapod has; noise, which deflates worst, stays below 2 bytes a value and 1 % of overhead.
+  // The trace has 73 columns for 20 s, like a trace of the hexapod. Noise, which compresses worst, takes less than 2 bytes per
+  // value and 1 % of overhead.
   std::mt19937_64 random(1);
   Trace trace;
   trace.columns = {{"t", "s", {}}};
@@ -70,7 +71,7 @@ TEST(GoldenFile, RefusesWhatItCannotHold) {
   trace.values[6] = std::numeric_limits<double>::lowest();
   EXPECT_THROW(pack(trace), std::invalid_argument);
   trace = walk();
-  trace.values[5] += 0.001;  // t of the second row
+  trace.values[5] += 0.001;  // time of the second row
   EXPECT_THROW(pack(trace), std::invalid_argument);
   trace.columns.change([](auto& columns) { columns[0].name = "x"; });
   EXPECT_THROW(pack(trace), std::invalid_argument);
@@ -112,7 +113,7 @@ TEST(GoldenFile, NoTruncationAndNoFlippedByteIsTaken) {
   }
 }
 
-// A file made on purpose, with a right checksum: it must not crash, whatever it says (the sanitizers watch).
+// A damaged file with a correct checksum does not crash the reader. The sanitizers detect invalid memory accesses.
 TEST(GoldenFile, DamageBehindARightChecksumIsNoCrash) {
   const std::string bytes = pack(walk(21));
   const std::size_t start = bytes.find('\n', bytes.find('\n') + 1) + 1;
@@ -133,7 +134,7 @@ TEST(GoldenFile, DamageBehindARightChecksumIsNoCrash) {
     for (std::uint64_t n = 1 + random() % 4; n > 0; --n) damaged[random() % 120] = static_cast<char>(random());
     refusals += refused(sealed(damaged)).empty() ? 0 : 1;
   }
-  EXPECT_GT(refusals, 1000);  // many flips only change a name or a value
+  EXPECT_GT(refusals, 1000);  // other bit flips only change a name or a value
   std::string many = body;
   many.replace(4, 4, "\xFF\xFF\xFF\xFF");
   EXPECT_EQ(refused(sealed(many)), "x.golden: error: is corrupt: more rows than it can hold");

@@ -1,4 +1,4 @@
-// Shared by the tests of goldens: a run, and what a refusal says.
+// Helpers of the tests of goldens: a trace, and the message of a refused file.
 #pragma once
 #include <cmath>
 #include <functional>
@@ -18,9 +18,9 @@ using namespace golden;
 
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-inline constexpr double kSpacing = 0.02;  // s
+inline constexpr double kSpacing = 0.02;  // time between rows, s
 
-/// A torque, a smaller one, an angle, a height that stands still.
+/// Trace with a large and a small torque, an angle, and a constant height.
 inline Trace walk(std::size_t rows = 101, double amplitude = 1.3) {
   Trace trace;
   trace.columns = {{"t", "s", {}},
@@ -37,7 +37,7 @@ inline Trace walk(std::size_t rows = 101, double amplitude = 1.3) {
   return trace;
 }
 
-/// The message of an InputError, or "".
+/// Message of the InputError that `action` throws, or "".
 inline std::string refusal(const std::function<void()>& action) {
   try {
     action();

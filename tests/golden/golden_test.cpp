@@ -1,4 +1,4 @@
-// Goldens as folders and their bands: damage has its own message.
+// Tests of golden folders and their bands. Every kind of damage has a specific message.
 #include "golden/golden.h"
 
 #include <fcntl.h>
@@ -61,8 +61,8 @@ TEST(Golden, KeepsTheResolvedScenario) {
   write_golden(golden, folder.path() / "walk.golden");
   EXPECT_EQ(read_golden(folder.path() / "walk.golden").origin.resolved, kText);
   const std::string json = read_file(folder.path() / "walk.golden/golden.json", kMostJson);
-  EXPECT_NE(json.find("\n    \"Kp: 100\",\n"), std::string::npos) << json;  // a line each, for version control
-  write_golden(sample_golden(walk()), folder.path() / "walk.golden");       // as goldens were before
+  EXPECT_NE(json.find("\n    \"Kp: 100\",\n"), std::string::npos) << json;  // one line each, for version control
+  write_golden(sample_golden(walk()), folder.path() / "walk.golden");       // golden of an older form
   EXPECT_EQ(read_file(folder.path() / "walk.golden/golden.json", kMostJson).find("resolved"), std::string::npos);
   EXPECT_EQ(read_golden(folder.path() / "walk.golden").origin.resolved, "");
 }
@@ -73,12 +73,12 @@ TEST(Golden, KeepsTheVerdict) {
   golden.verdict = "not judged";
   write_golden(golden, folder.path() / "walk.golden");
   EXPECT_EQ(read_golden(folder.path() / "walk.golden").verdict, "not judged");
-  write_golden(sample_golden(walk()), folder.path() / "walk.golden");  // as goldens were before
+  write_golden(sample_golden(walk()), folder.path() / "walk.golden");  // golden of an older form
   EXPECT_EQ(read_file(folder.path() / "walk.golden/golden.json", kMostJson).find("verdict"), std::string::npos);
   EXPECT_EQ(read_golden(folder.path() / "walk.golden").verdict, "");
 }
 
-// ---- what changed, as text
+// ---- texts of the changes
 
 TEST(GoldenReport, NamesTheSettingsThatChanged) {
   Golden golden = sample_golden(walk());
@@ -109,7 +109,7 @@ TEST(GoldenReport, NamesTheVerdictWhereItChanged) {
   GoldenRun run = run_of(golden);
   run.verdict = "infeasible";
   run.why = "joint m7/passive is at a limit of its motor for 22 % of the time, and the longest stretch of it is 0.83 s";
-  EXPECT_EQ(golden::verdict_change(golden, run), "");  // of before it was kept
+  EXPECT_EQ(golden::verdict_change(golden, run), "");  // older goldens contain no verdict
   golden.verdict = "feasible";
   EXPECT_EQ(golden::verdict_change(golden, run),
             "  verdict: feasible -> infeasible: joint m7/passive is at a limit of its motor for 22 % of the time,\n"
@@ -120,7 +120,8 @@ TEST(GoldenReport, NamesTheVerdictWhereItChanged) {
   EXPECT_EQ(golden::verdict_change(golden, run).find('\x1b'), std::string::npos);
 }
 
-/// Twelve columns and two numbers; those of `strays` stray, each by one band more than the one before it.
+/// Difference with twelve columns and two numbers, of which some are outside their bands, each by one band more than the
+/// previous.
 GoldenDifference difference_of(std::size_t columns, std::size_t numbers) {
   GoldenDifference d;
   for (std::size_t i = 0; i < columns; ++i) {
@@ -155,7 +156,7 @@ TEST(GoldenReport, ShowsTheTenWorstColumnsAndTheWay) {
             "  m3/active torque    0.001 N m        0.05 %  0.01 %         5        0.06 s         -\n"
             "  m2/active torque   0.0008 N m        0.04 %  0.01 %         4        0.04 s         -\n"
             "  distance: 0.5 -> 0.51 m, 2 bands\n");
-  EXPECT_EQ(golden::left_out(d), 3U);  // two columns, a number
+  EXPECT_EQ(golden::left_out(d), 3U);  // two columns and one number
   const std::string all = golden::differences(d, Shown::strayed);
   EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 1 + 12 + 1 + 2) << all;
   EXPECT_TRUE(all.find("  m0/active torque   0.0004 N m        0.02 %  0.01 %         2         never         -\n") !=
@@ -183,7 +184,8 @@ class GoldenFolder : public ::testing::Test {
   void SetUp() override { write_golden(sample_golden(walk()), folder_.path()); }
   [[nodiscard]] std::string content(const std::string& name) const { return read_file(folder_.path() / name, kMostTrace); }
   void put(const std::string& name, const std::string& text) const {
-    // Thousands of times: without fsync, and without ext4's flush of a file that was made empty and written again.
+    // Tests call this function thousands of times. It avoids fsync, and the flush of ext4 after truncating and rewriting a
+    // file.
     std::filesystem::remove(folder_.path() / name);
     std::ofstream(folder_.path() / name, std::ios::binary) << text;
   }
@@ -192,7 +194,7 @@ class GoldenFolder : public ::testing::Test {
     text.replace(text.find(what), what.size(), by);
     put("golden.json", text);
   }
-  // Message of reading, without the folder.
+  // Message of the error on reading the golden, without the folder.
   [[nodiscard]] std::string complaint() const {
     std::string text = refusal([&] { (void)read_golden(folder_.path()); });
     const std::string path = folder_.path().string();
@@ -259,7 +261,7 @@ TEST_F(GoldenFolder, ChecksumsThatAreRightOnOtherContent) {
   const auto put_checked = [&](const std::string& changed) {
     put("golden.json", changed + ",\n  \"checksum\": \"" + hash(changed) + "\"\n}\n");
   };
-  text.replace(text.rfind("\"unit\":\"m\""), 10, "\"unit\":[1]");  // of a number
+  text.replace(text.rfind("\"unit\":\"m\""), 10, "\"unit\":[1]");  // unit of a number
   put_checked(text.substr(0, end));
   EXPECT_EQ(complaint(), "G/golden.json: error: is corrupt: an entry is missing or of another type");
   put_checked(content + ",\n  \"verdict\": [1]");
@@ -280,7 +282,8 @@ TEST_F(GoldenFolder, TheTwoFilesBelongTogether) {
   put("trace.golden", old_trace.substr(0, 100));
   EXPECT_EQ(complaint().substr(0, 46),
             "G/trace.golden: error: is truncated: 100 of " + std::to_string(old_trace.size()).substr(0, 2));
-  // Killed before golden.json was replaced: the old one holds; killed after: the new one.
+  // If the program is killed before it replaces golden.json, the old golden is valid; if it is killed afterwards, the new
+  // golden.
   put("trace.golden", old_trace);
   put("trace.golden.next", trace);
   EXPECT_NEAR(read_golden(folder_.path()).run.precision[1], 3.4 / 65534, 1e-6);
@@ -288,14 +291,15 @@ TEST_F(GoldenFolder, TheTwoFilesBelongTogether) {
   EXPECT_NEAR(read_golden(folder_.path()).run.precision[1], 2.6 / 65534, 1e-6);
 }
 
-// Twice killed: the first time golden.json was already new, the second time before it was written again.
+// The next write completes a write that was killed. The program is killed twice: after it replaced golden.json, and before it
+// writes golden.json again.
 TEST_F(GoldenFolder, TheNextWriteFinishesWhatAKillLeft) {
   const std::string old_trace = content("trace.golden");
   write_golden(sample_golden(walk(101, 1.7)), folder_.path());
   put("trace.golden.next", content("trace.golden"));
   put("trace.golden", old_trace);
   fs::rename(folder_.path() / "golden.json", folder_.path() / "json");
-  fs::create_symlink("json", folder_.path() / "golden.json");  // which is read and not written: the next write fails here
+  fs::create_symlink("json", folder_.path() / "golden.json");  // can be read but not written, so that the next write fails
   EXPECT_THROW(write_golden(sample_golden(walk(101, 1.9)), folder_.path()), RunError);
   EXPECT_NEAR(read_golden(folder_.path()).run.precision[1], 3.4 / 65534, 1e-6);
   EXPECT_FALSE(fs::exists(folder_.path() / "trace.golden.next"));
@@ -315,9 +319,9 @@ TEST_F(GoldenFolder, IsWrittenByOneAtATime) {
 TEST(GoldenBands, ScalesHaveFloors) {
   const std::vector<double> scale = scales(walk());
   EXPECT_NEAR(scale[1], 2.6, 0.01);
-  EXPECT_EQ(scale[2], 1e-3 * scale[1]);  // its own range is 2e-7
+  EXPECT_EQ(scale[2], 1e-3 * scale[1]);  // the range of this column is only 2e-7
   EXPECT_NEAR(scale[3], 1.2, 0.01);
-  EXPECT_EQ(scale[4], 1e-6);  // stands still, and nothing else is in m
+  EXPECT_EQ(scale[4], 1e-6);  // constant, and no other column is in m
   EXPECT_EQ(scales({{"a", "m", -2}, {"b", "m", 1e-9}, {"c", "N m", 0}}), (std::vector<double>{2, 2e-3, 1e-6}));
 }
 
@@ -332,7 +336,7 @@ TEST(GoldenBands, TheLargestPartIsTheBand) {
   const std::vector<GoldenRun> ensemble{shifted(1, 1e-4, 2.002), shifted(1, -3e-4, 1.998)};
   const Bands bands = calibrate(base, ensemble, shifted(3, 5e-4, 2.01));
   const std::vector<double> scale = scales(trace);
-  // 1e-12: rounding of 1.3 + 1e-4.
+  // The tolerance 1e-12 is for the rounding error of 1.3 + 1e-4.
   EXPECT_NEAR(bands.columns[1].ensemble, 10 * 3e-4 / scale[1], 1e-12);
   EXPECT_EQ(bands.columns[1].halving, 0);
   EXPECT_NEAR(bands.columns[3].halving, 3 * 5e-4 / scale[3], 1e-12);

@@ -1,4 +1,4 @@
-// A binary glTF file read back with nothing of what wrote it: its objects, its numbers, where its nodes are.
+// Reader of binary glTF files that is independent of the program's writer: objects, numbers, poses of the nodes.
 #pragma once
 #include <array>
 #include <bit>
@@ -13,7 +13,7 @@
 
 namespace gaitlab::test {
 
-/// Whatever the specification of glTF 2.0 asks of the container is checked: an exception names what is not so.
+/// Binary glTF file. Throws if the container violates the specification of glTF 2.0.
 class GlbFile {
  public:
   explicit GlbFile(std::string bytes) : bytes_(std::move(bytes)) {
@@ -46,7 +46,7 @@ class GlbFile {
   [[nodiscard]] std::size_t node(const std::string& name) const { return numbers_.at(name); }
   [[nodiscard]] bool has_node(const std::string& name) const { return numbers_.contains(name); }
 
-  /// An accessor's numbers, row by row; its least and largest are checked.
+  /// Numbers of an accessor, row by row. Throws if the accessor's `min` or `max` differs from the numbers.
   [[nodiscard]] std::vector<double> numbers(std::size_t accessor) const {
     const nlohmann::json& a = json_["accessors"][accessor];
     const nlohmann::json& view = json_["bufferViews"][a["bufferView"].get<std::size_t>()];
@@ -74,7 +74,7 @@ class GlbFile {
   [[nodiscard]] std::vector<double> times() const {
     return numbers(json_["animations"][0]["samplers"][0]["input"].get<std::size_t>());
   }
-  /// Keyframes of a node's `translation` or `rotation`; empty where it has no channel.
+  /// Keyframes of the `translation` or `rotation` of a node; empty if the animation has no such channel.
   [[nodiscard]] const std::vector<double>& channel(std::size_t node, const std::string& path) const {
     static const std::vector<double> kNone;
     const auto found = channels_.find({node, path});
@@ -84,7 +84,7 @@ class GlbFile {
     return channel(node(name), path);
   }
 
-  /// In its parent, at a keyframe (without channel: as it stands), without scale.
+  /// Pose of node n in the frame of its parent at a keyframe, without scale. Without a channel, the pose is constant.
   [[nodiscard]] Pose in_parent(std::size_t n, std::size_t frame) const {
     const nlohmann::json& node = json_["nodes"][n];
     const auto part = [&](const char* path, std::vector<double> still) {
@@ -97,9 +97,9 @@ class GlbFile {
     const std::vector<double> q = part("rotation", {0, 0, 0, 1});
     return {Quat(q[3], q[0], q[1], q[2]).normalized().toRotationMatrix(), {p[0], p[1], p[2]}};
   }
-  /// `outer`, or -1: the node has none.
+  /// Number of the parent of node n; -1 if the node has no parent.
   [[nodiscard]] int parent(std::size_t n) const { return parents_.contains(n) ? static_cast<int>(parents_.at(n)) : -1; }
-  /// In our world, which is the node `world`'s frame: z up.
+  /// Pose of a node in the world of gaitlab (z up), which is the frame of the node `world`.
   [[nodiscard]] Pose pose(const std::string& name, std::size_t frame) const {
     Pose total;
     for (std::size_t n = node(name); parent(n) >= 0; n = parents_.at(n)) total = in_parent(n, frame) * total;

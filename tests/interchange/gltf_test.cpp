@@ -1,4 +1,4 @@
-// The exported glTF read back: every body where the trace has it, at every keyframe.
+// The exported glTF file contains the poses of the trace for every body at every keyframe.
 #include "interchange/gltf.h"
 
 #include <cmath>
@@ -25,10 +25,10 @@ GlbFile exported(const Scenario& scenario, const Recording* recording = nullptr)
   return GlbFile(to_gltf(scenario, recording, kLook).bytes);
 }
 
-// A float32 is off by half its last bit: 2^-25 where a quaternion's largest component is, so 2^-24 in the length of all four,
-// which is half an angle; and 2^-24 of a coordinate.
+// Rounding errors of float32, half of the last bit. The error of a quaternion's largest component is 2^-25, that of all four
+// 2^-24, which is half of an angle. The error of a coordinate is 2^-24.
 constexpr double kTurned = 0x1p-23, kShifted = 0x1p-24;
-constexpr double kDoubles = 1e-13;  // chains of up to 30 poses in double
+constexpr double kDoubles = 1e-13;  // rounding errors of chains of up to 30 poses in double
 
 Pose traced(const Recording& recording, const std::string& name, std::size_t row) {
   const auto value = [&](const char* part) {
@@ -40,7 +40,7 @@ Pose traced(const Recording& recording, const std::string& name, std::size_t row
   return {q.toRotationMatrix(), {value("x"), value("y"), value("z")}};
 }
 
-/// Row of a keyframe: the one whose time is nearest.
+/// Number of the row whose time is closest to the time of a keyframe.
 std::size_t row_at(const Recording& recording, double time) {
   const Series t = recording.series("t");
   std::size_t best = 0;
@@ -50,10 +50,11 @@ std::size_t row_at(const Recording& recording, double time) {
   return best;
 }
 
-/// The angle between two rotations, small.
+/// Angle between two rotations, for small angles, rad.
 double angle(const Mat3& a, const Mat3& b) { return (a - b).norm() / std::sqrt(2.0); }
 
-/// Compares every body with its columns, at every frame; the most that one is off, of what rounding allows.
+/// Largest difference between the poses of a body in the file and in the trace, at any frame, relative to the permitted
+/// rounding error.
 double worst_share(const Scenario& scenario, const Recording& recording) {
   const GlbFile file = exported(scenario, &recording);
   double worst = 0;
@@ -104,7 +105,8 @@ TEST(Gltf, WorldTurnsZUpIntoYUp) {
   EXPECT_LT((world * Vec3(1, 2, 3) - Vec3(1, 3, -2)).norm(), 1e-15);
 }
 
-/// Joints turn only: whatever a reader does between two keyframes, no body leaves its hinge.
+/// Only the base has a translation channel. Joints only rotate, so that no interpolation between keyframes moves a body off its
+/// hinge.
 TEST(Gltf, OnlyTheBaseIsShifted) {
   const Scenario s = shipped("hexapod.yaml", {"duration=0.5"});
   const Recording recording = run(s);
@@ -134,7 +136,8 @@ TEST(Gltf, KeyframesAreRowsAtLeastASixtiethApartAndTheLastOne) {
   EXPECT_EQ(times("0.005", "0.05"), floats({0, 0.02, 0.04, 0.05})) << "the last row, however near";
 }
 
-/// A day is beyond what float32 tells apart in steps of 1/60 s: times must still grow (the specification asks for it).
+/// Times of keyframes increase strictly, as the specification requires, also after a day, when float32 cannot represent steps
+/// of 1/60 s.
 TEST(Gltf, TimesGrowAfterDays) {
   const Scenario s = shipped("caterpillar.yaml");
   Recording recording;
@@ -270,7 +273,7 @@ TEST(Gltf, OneMeshABodyTypeInTheColoursOfTheFigure) {
   for (const auto& material : file.json()["materials"]) {
     if (material["name"] != "active block") continue;
     const auto& factor = material["pbrMetallicRoughness"]["baseColorFactor"];
-    // #56B4E9, of whose linear values tables of sRGB have three digits.
+    // Linear values of the sRGB colour #56B4E9, from tables with three digits.
     EXPECT_NEAR(factor[0], 0.0931, 5e-4);
     EXPECT_NEAR(factor[1], 0.4564, 5e-4);
     EXPECT_NEAR(factor[2], 0.8148, 5e-4);

@@ -1,4 +1,5 @@
-// Meshes of shapes are closed, face outwards and hold what the shape holds; the ground's lie on the ground.
+// Meshes of shapes are closed, their normals point outwards, and their volumes equal those of the shapes. Meshes of the ground
+// coincide with the ground.
 #include "interchange/mesh.h"
 
 #include <gtest/gtest.h>
@@ -11,14 +12,14 @@
 namespace gaitlab::interchange {
 namespace {
 
-constexpr double kRounding = 1e-15;  // m^3, m^2: some thousand triangles of 0.1 m by 1e-17 each
+constexpr double kRounding = 1e-15;  // m^3, m^2; rounding errors of some thousand triangles, 1e-17 each
 
 struct Sums {
   double volume = 0;
-  Vec3 area = Vec3::Zero();  ///< of all triangles, as vectors: 0 of a closed surface
+  Vec3 area = Vec3::Zero();  ///< sum of the area vectors of all triangles, 0 for a closed surface
 };
 
-/// Fails where a triangle faces away from a normal of its own by more than `bent` (cosine).
+/// Volume and area of a mesh. Fails if the cosine between the normal of a triangle and a normal at its corner is below `bent`.
 Sums sums_of(const Mesh& mesh, double bent) {
   Sums sums;
   EXPECT_EQ(mesh.places.size(), mesh.normals.size());
@@ -31,7 +32,7 @@ Sums sums_of(const Mesh& mesh, double bent) {
     EXPECT_GT(area.norm(), 0) << "a triangle without area";
     for (std::size_t k = i; k < i + 3; ++k) EXPECT_GT(area.normalized().dot(mesh.normals[mesh.triangles[k]]), bent);
     sums.area += area;
-    sums.volume += a.dot(area) / 3;  // Gauss
+    sums.volume += a.dot(area) / 3;  // divergence theorem
   }
   return sums;
 }
@@ -46,9 +47,9 @@ Mesh mesh_of(Shape::Kind kind, const Vec3& size) {
 
 TEST(Mesh, ShapesAreClosedFaceOutwardsAndHaveTheirVolumes) {
   const double r = 0.1;
-  const double circle = 16 * r * r * std::sin(std::numbers::pi / 16);  // a polygon of 32 corners
+  const double circle = 16 * r * r * std::sin(std::numbers::pi / 16);  // area of a regular polygon with 32 corners
   const double flat = 1 - 1e-12;
-  const double side = std::cos(std::numbers::pi / 32) - 1e-12;  // half a side from the middle of its chord
+  const double side = std::cos(std::numbers::pi / 32) - 1e-12;  // cosine of half the angle between two sides
   const auto check = [](const Sums& sums, double volume) {
     EXPECT_NEAR(sums.volume, volume, kRounding);
     EXPECT_LT(sums.area.norm(), kRounding);
@@ -75,7 +76,7 @@ TEST(Mesh, HalfCylindersBulgeTowardsX) {
   EXPECT_NEAR(largest, 0.1, kRounding);
 }
 
-/// Light and dark tiles; fails where one is not where the world says, wherever the area begins.
+/// Meshes of the light and of the dark tiles. Fails if the colour of a tile does not follow from its position in the world.
 std::array<Mesh, 2> both_kinds(const Tiles& made) {
   std::array<Mesh, 2> both{made.light, made.light};
   both[1].triangles = made.dark;
@@ -99,7 +100,7 @@ TEST(Mesh, TilesCoverTheAreaInStepsOfOneTwoOrFive) {
     EXPECT_LT(std::min({std::abs(digits - 1), std::abs(digits - 2), std::abs(digits - 5)}), 1e-9) << made.edge;
     const double length = std::max(area.x_hi - area.x_lo, area.y_hi - area.y_lo);
     EXPECT_LE(length / made.edge, 40);
-    EXPECT_GT(length / made.edge, 15);  // 40 / 2.5
+    EXPECT_GT(length / made.edge, 15);  // at least about 40 / 2.5 tiles
     Area covered{1e9, -1e9, 1e9, -1e9};
     for (const Vec3& p : made.light.places) {
       covered = {std::min(covered.x_lo, p.x()), std::max(covered.x_hi, p.x()), std::min(covered.y_lo, p.y()),
@@ -133,10 +134,11 @@ TEST(Mesh, TilesLieOnTheHeightfieldAndReachOverTheArea) {
   EXPECT_NEAR(*ys.begin(), -0.2, kRounding);
   EXPECT_EQ(*ys.rbegin(), 2);
   for (const Vec3& n : made.light.normals) EXPECT_GT(n.z(), std::cos(std::numbers::pi / 6));
-  for (const Mesh& one : both_kinds(made)) sums_of(one, 0.5);  // no normal is farther than twice 30 degrees from a triangle's
+  for (const Mesh& one : both_kinds(made)) sums_of(one, 0.5);  // angles between normals are at most twice 30 degrees
 }
 
-// 4096 x 4096 heights would be half a gigabyte.
+// The mesh of a large heightfield contains only one height of several. (A mesh of 4096 x 4096 heights would have half a
+// gigabyte.)
 TEST(Mesh, OfALargeHeightfieldOneHeightOfEveryFewIsDrawn) {
   Heightfield field{{1, 2, 0}, 0.1, 1101, {}};
   std::vector<double> heights;
@@ -152,7 +154,7 @@ TEST(Mesh, OfALargeHeightfieldOneHeightOfEveryFewIsDrawn) {
   EXPECT_NEAR(static_cast<double>(xs.size()), 551, 551 / 10.0) << "and tiles";
   EXPECT_NEAR(*xs.begin(), 1, kRounding);
   EXPECT_NEAR(*xs.rbegin(), 111, kRounding);
-  field.columns = 2;  // long, but few
+  field.columns = 2;  // long field with few heights
   field.values = Heights(std::vector<double>(2UL * 600UL));
   EXPECT_EQ(drawn_stride(field), 1U);
 }

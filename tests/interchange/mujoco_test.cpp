@@ -1,4 +1,4 @@
-// The exported MJCF in MuJoCo: mass matrix, bias and passive motion, by a program that we did not write.
+// The exported MJCF in MuJoCo, an independent program, has the mass matrix, bias and passive motion of gaitlab.
 #include <mujoco/mujoco.h>
 
 #include <memory>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::array<Base, 3> kBases{Base::floating, Base::fixed, Base::planar};
 
-/// A scenario's robot in MuJoCo, at its keyframe `start`.
+/// Robot of a scenario in MuJoCo, at the keyframe `start` of the exported file.
 class InMujoco {
  public:
   explicit InMujoco(const Scenario& s) : scenario_(s) {
@@ -37,7 +37,8 @@ class InMujoco {
   double& q(std::size_t joint) { return data_->qpos[model_->jnt_qposadr[id(scenario_.robot->joints[joint].name)]]; }
   [[nodiscard]] int dof(std::size_t joint) const { return model_->jnt_dofadr[id(scenario_.robot->joints[joint].name)]; }
 
-  /// Our state as MuJoCo's; a planar base must have been turned and shifted from the start as a planar one can be.
+  /// Sets the state in MuJoCo to the state of gaitlab. The pose of a planar base is given by x, z and its rotation from the
+  /// start.
   void set(const RobotState& s, double x, double z, double turn) {
     const Vec3 w = s.orientation.conjugate() * s.angular_velocity;
     if (scenario_.base == Base::floating) {
@@ -59,7 +60,8 @@ class InMujoco {
     mj_forward(model_.get(), data_.get());
   }
 
-  /// MuJoCo's generalised velocity from ours: its free joint turns in body axes, its joints come depth first.
+  /// Matrix from the generalised velocity of gaitlab to the generalised velocity of MuJoCo. In MuJoCo the angular velocity of a
+  /// free joint is in body axes, and joints are in depth-first order.
   [[nodiscard]] Eigen::MatrixXd from_ours(const RobotState& s) const {
     const auto base = static_cast<Eigen::Index>(base_entries(scenario_.base).size());
     Eigen::MatrixXd T = Eigen::MatrixXd::Zero(model_->nv, model_->nv);
@@ -69,7 +71,8 @@ class InMujoco {
     return T;
   }
 
-  /// By its columns M e_i: the function for the whole matrix has other arguments in every second version.
+  /// Mass matrix, computed column by column as M e_i, because the arguments of the function for the whole matrix differ between
+  /// versions of MuJoCo.
   Eigen::MatrixXd mass() {
     const Eigen::MatrixXd units = Eigen::MatrixXd::Identity(model_->nv, model_->nv);
     Eigen::MatrixXd M(model_->nv, model_->nv);
@@ -88,7 +91,7 @@ class InMujoco {
   std::unique_ptr<mjData, Delete> data_;
 };
 
-/// Largest difference of two mass matrices, every entry over its own bound sqrt(M_ii M_jj).
+/// Largest difference of two mass matrices, with each entry relative to its bound sqrt(M_ii M_jj).
 double apart(const Eigen::MatrixXd& theirs, const Eigen::MatrixXd& ours) {
   const Eigen::VectorXd root = ours.diagonal().cwiseSqrt();
   return (theirs - ours).cwiseQuotient(root * root.transpose()).cwiseAbs().maxCoeff();
@@ -132,7 +135,7 @@ TEST(Mujoco, HasOurMassMatrixAndBiasAtRandomStatesOfRandomAssemblies) {
       }
     }
     mass_error = std::max(mass_error, apart(theirs, ours));
-    // Bounds of the entries of M a: |(M a)_i| <= sqrt(M_ii a.M a).
+    // Differences of the entries of M a are relative to their bounds, |(M a)_i| <= sqrt(M_ii a.M a).
     const double size = std::sqrt(bias.dot(ours.llt().solve(bias)));
     const Eigen::VectorXd difference = T.transpose() * mujoco.bias() - bias;
     bias_error = std::max(bias_error, difference.cwiseQuotient(ours.diagonal().cwiseSqrt()).cwiseAbs().maxCoeff() / size);
@@ -147,7 +150,7 @@ TEST(Mujoco, HasOurMassMatrixAndBiasAtRandomStatesOfRandomAssemblies) {
                  bias_error, 1e-9, reason);
 }
 
-/// Ours at a state, without rotors.
+/// Mass matrix of gaitlab at a state, without rotors.
 Eigen::MatrixXd mass_at(const Scenario& s, const RobotState& state) {
   Kinematics k(*s.robot);
   k.update(*s.robot, state);
@@ -171,7 +174,8 @@ TEST(Mujoco, HasOurMassMatrixWithRotors) {
       apart(T.transpose() * mujoco.mass() * T, ours), 1e-9, "required by the issue, as without rotors");
 }
 
-/// Published modules: genders or none, endless hinges, motors that differ, rotors.
+/// The mass matrices of all scenarios of the library agree. Their modules have faces with or without gender, hinges without
+/// stops, different motors, and rotors.
 TEST(Mujoco, HasOurMassMatrixOfTheWholeLibrary) {
   RandomRobots random(23);
   double worst = 0;
@@ -236,7 +240,7 @@ TEST(Mujoco, MovesTheSameWithoutMotorsAndContacts) {
                  worst, 1e-6, "required by the issue; both of order 4: (2.5e-4 s, the longest, * 100 rad/s)^4 is 4e-7");
 }
 
-/// RK4 stands in the place of any method of ours, and the file says of which.
+/// The exported file uses RK4 for all integrators of gaitlab and names the integrator of the scenario.
 TEST(Mujoco, NamesTheIntegratorOfEitherEngine) {
   const auto exported = [](const std::vector<std::string>& more) {
     std::vector<std::string> sets{"physics.engine=articulated"};
@@ -256,7 +260,7 @@ TEST(Mujoco, NamesTheIntegratorOfEitherEngine) {
   EXPECT_EQ(rk4.find("Integrator:"), std::string::npos);
 }
 
-/// The shipped robot as a whole: names, contact elements, motors, start.
+/// The exported hexapod is complete: names, contact elements, motors, start state.
 TEST(Mujoco, HoldsTheHexapodWithItsNames) {
   const Scenario s = shipped("hexapod.yaml");
   InMujoco mujoco(s);
@@ -264,7 +268,7 @@ TEST(Mujoco, HoldsTheHexapodWithItsNames) {
   EXPECT_EQ(m.nbody, 1 + 33);
   EXPECT_EQ(m.nv, 28);
   EXPECT_EQ(m.nu, 22);
-  EXPECT_EQ(m.nsite, 24);  // four points on each of six feet
+  EXPECT_EQ(m.nsite, 24);  // six feet with four points each
   EXPECT_DOUBLE_EQ(m.opt.timestep, s.physics.step);
   EXPECT_NE(to_mjcf(s).find("Integrator: semi_implicit, of order 1; RK4 at the same step"), std::string::npos);
   EXPECT_EQ(m.opt.integrator, mjINT_RK4);
@@ -275,11 +279,11 @@ TEST(Mujoco, HoldsTheHexapodWithItsNames) {
   for (const Body& body : s.robot->bodies) {
     const int id = mj_name2id(&m, mjOBJ_BODY, body.name.c_str());
     ASSERT_GE(id, 0) << body.name;
-    // Ten turns and sums of numbers below 1.
+    // The tolerance is for the rounding errors of ten rotations and sums of numbers below 1.
     EXPECT_LT((Eigen::Map<const Vec3>(mujoco.data().xpos + std::ptrdiff_t{3} * id) - k.point(body.link, body.in_link.p)).norm(),
               1e-14);
   }
-  // A contact element's lowest point is on the ground at the start.
+  // At the start, the lowest point of a contact element is on the ground.
   EXPECT_NEAR(mujoco.data().site_xpos[2], 0, 1e-14);
   EXPECT_DOUBLE_EQ(m.actuator_ctrlrange[1], 0.7 * 0.00395 * 594 * 1.2);  // eta Kt n i_max
 }

@@ -1,4 +1,4 @@
-// The exported URDF read back by urdfdom: masses, inertias, joint origins, limits.
+// The exported URDF, read by urdfdom, contains the masses, inertias, joint origins and limits of the robot.
 #include "interchange/urdf.h"
 
 #include <urdf_model/model.h>
@@ -15,7 +15,7 @@ using namespace interchange;
 
 namespace {
 
-// A chain of up to 30 poses, whose rotations went through roll, pitch, yaw: some 1e-16 each.
+// Rounding errors of a chain of up to 30 poses with rotations by roll, pitch and yaw, some 1e-16 each.
 constexpr double kUrdfRounding = 1e-13;
 
 Pose pose(const urdf::Pose& p) {
@@ -23,7 +23,7 @@ Pose pose(const urdf::Pose& p) {
   return {Quat(r.w, r.x, r.y, r.z).toRotationMatrix(), {p.position.x, p.position.y, p.position.z}};
 }
 
-/// Pose of a URDF link's frame in the frame of the URDF's root, all joints at 0.
+/// Pose of a URDF link in the frame of the root link, with all joints at 0.
 Pose frame(const urdf::Link& link) {
   if (link.parent_joint == nullptr) return {};
   return frame(*link.getParent()) * pose(link.parent_joint->parent_to_joint_origin_transform);
@@ -74,7 +74,7 @@ TEST(Urdf, HasOurMassesInertiasAndJointOrigins) {
       const double current = std::min(motors.i_max[j], motors.u_max[j] / motors.R[j]);
       const double eta = motors.efficiency_model == actuators::DcMotorActuator::EfficiencyModel::paper
                              ? motors.efficiency[j]
-                             : 1;  // at rest nothing is lost yet
+                             : 1;  // without gear losses at rest
       EXPECT_NEAR(read.limits->effort, eta * motors.Kt[j] * motors.gear[j] * current, 1e-13 * read.limits->effort)
           << joint.name;
     }
@@ -86,7 +86,7 @@ TEST(Urdf, HasOurMassesInertiasAndJointOrigins) {
                  worst, kUrdfRounding, "chains of up to 30 poses by roll, pitch, yaw: some 1e-16 each");
 }
 
-/// Published modules: masses, endless hinges, motors that differ.
+/// All scenarios of the library are exported, with masses, hinges without stops, and different motors.
 TEST(Urdf, HoldsTheWholeLibrary) {
   for (const Scenario& s : shipped_library()) {
     const auto model = urdf::parseURDF(to_urdf(s));
@@ -131,7 +131,7 @@ duration: 1
     EXPECT_NE(urdf.find(words), std::string::npos) << words << urdf.substr(0, 1500);
 }
 
-/// No number of XML is infinite: what has no limit has the one the comment names, or none.
+/// URDF contains no infinite number. A joint without a torque limit has the large limit that the comment states, or no limit.
 TEST(Urdf, TorqueWithoutLimit) {
   const auto drive = [](const std::string& actuator) {
     return scenario("gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 1\nactuator: " + actuator + "\n");
@@ -167,14 +167,15 @@ TEST(Urdf, StandsAsTheScenarioWhereTheBaseIsHeld) {
   }
 }
 
-/// Angles at and near a pitch of 90 degrees, where roll and yaw are one turn, come back as the same rotation.
+/// Conversion to roll, pitch, yaw and back preserves rotations at and near a pitch of 90 degrees, where roll and yaw are not
+/// unique.
 TEST(Urdf, RollPitchYawIsExactAtTheTop) {
   RandomRobots random(33);
   for (int i = 0; i < 200; ++i) {
     const double off = i % 4 == 0 ? 0 : std::pow(10.0, -(i % 17));
     const double pitch = (i % 2 == 0 ? 1 : -1) * (std::numbers::pi / 2 - off);
     const Mat3 R = rpy({random.uniform(-3, 3), pitch, random.uniform(-3, 3)});
-    EXPECT_LT((rpy(to_rpy(R)) - R).cwiseAbs().maxCoeff(), 1e-15 * 5) << i;  // a few roundings
+    EXPECT_LT((rpy(to_rpy(R)) - R).cwiseAbs().maxCoeff(), 1e-15 * 5) << i;  // some rounding errors
   }
 }
 

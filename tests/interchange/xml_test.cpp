@@ -1,4 +1,4 @@
-// The XML of the robot formats, as text.
+// Tests of the XML text of exported robot formats.
 #include "interchange/xml.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,8 @@ TEST(Xml, IsIndentedAndEscaped) {
   EXPECT_EQ(body.attribute("size"), nullptr);
 }
 
-// Of 3000 modules in a chain, indentation was 2.6 of 2.7 GB.
+// The size of nested elements is proportional to their number. (In a chain of 3000 modules, indentation once took 2.6 of 2.7
+// GB.)
 TEST(Xml, OfElementsWithinOneAnotherGrowsWithTheirNumber) {
   const auto nested = [](int levels) {
     Xml root;

@@ -1,4 +1,4 @@
-// Two uniform rods hung from one another: Lagrange's equations in the angles from the vertical.
+// Double pendulum of two uniform rods, by Lagrange's equations in the angles from the vertical.
 #pragma once
 #include <array>
 #include <cmath>
@@ -7,7 +7,8 @@
 
 namespace gaitlab::oracle {
 
-/// Rods of mass m and length l each, hinged at their ends; states: angle of rod 1, of rod 2 (from the vertical), their rates.
+/// Two rods of mass m and length l each, hinged at their ends. The state is the angles of rods 1 and 2 from the vertical and
+/// their rates, rad and rad/s.
 struct DoublePendulum {
   using State = std::array<double, 4>;
   double m = 1, l = 1, g = 9.81;
@@ -29,7 +30,7 @@ struct DoublePendulum {
     return m * l * l * kinetic - m * g * l * (1.5 * std::cos(x[0]) + 0.5 * std::cos(x[1]));
   }
 
-  /// State t after `start`; steps of at most 20 ms leave rounding.
+  /// State at time t after `start`. Steps are at most 20 ms, so that the error is of the size of rounding errors.
   [[nodiscard]] State at(double t, const State& start) const {
     return integrate([this](const State& x) { return rate(x); }, start, t, static_cast<int>(std::ceil(t / 0.02)));
   }

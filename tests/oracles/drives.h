@@ -1,4 +1,4 @@
-// Oracles of the drives: a motor that spins up an inertia, the PID of the paper by its equations, phases that lock.
+// Analytical solutions for drives: a motor that accelerates an inertia, a hinge stop, the PID of the paper, phase locking.
 #pragma once
 #include <array>
 #include <cmath>
@@ -7,8 +7,8 @@
 
 namespace gaitlab::oracle {
 
-/// Eq. 1 and 2 with constant voltage on a constant inertia J, from rest: at first the current limit binds and the speed grows
-/// in proportion to time; from the speed at which (u - Ks n w) / R = i_max on, it goes exponentially to u / (Ks n).
+/// Motor of eq. 1 and 2 at constant voltage u that accelerates an inertia J from rest. At the current limit the speed w is
+/// proportional to time. Above the speed at which (u - Ks n w) / R = i_max, w approaches u / (Ks n) exponentially.
 struct MotorSpinUp {
   double R, Kt, Ks, n, eta, i_max, u, J;
 
@@ -22,17 +22,17 @@ struct MotorSpinUp {
   }
 };
 
-/// A free inertia J runs against a hinge stop at speed v: J x'' = -ks x - cs x' until that would pull it back in.
+/// Bounce of a free inertia J that meets a hinge stop at speed v: J x'' = -ks x - cs x' until this torque changes its sign.
 struct StopBounce {
   double J, ks, cs;
 
   [[nodiscard]] double decay() const { return cs / (2 * J); }
   [[nodiscard]] double frequency() const { return std::sqrt(ks / J - decay() * decay()); }
-  /// ks x + cs x' = 0 at the end: tan(w t) = -cs w / (ks - cs decay).
+  /// Duration of the contact, s. At its end ks x + cs x' = 0, hence tan(w t) = -cs w / (ks - cs decay).
   [[nodiscard]] double lasts() const {
     return (std::numbers::pi - std::atan(cs * frequency() / (ks - cs * decay()))) / frequency();
   }
-  /// x and x' after t; with t = lasts(): what it leaves with.
+  /// Depth x and speed x' at time t after the start of the contact, 0 <= t <= lasts().
   [[nodiscard]] std::array<double, 2> at(double t, double v) const {
     const double w = frequency();
     const double size = v * std::exp(-decay() * t);
@@ -40,7 +40,7 @@ struct StopBounce {
   }
 };
 
-/// Eq. 3-6, one joint.
+/// PID of eq. 3-6 for one joint, in recursive form.
 class TextbookPid {
  public:
   TextbookPid(double kp, double ki, double kd, double n, double ts) : kp_(kp), ki_(ki), kd_(kd), n_(n), ts_(ts) {}
@@ -59,9 +59,9 @@ class TextbookPid {
   int ticks_ = 0;
 };
 
-/// Eq. 3-6 solved for the command, one joint: u_k = Kp e_k + Ki Ts sum e_i + Kd N / (Kd + N Ts) sum r^(k-i) (e_i - e_(i-1)),
-/// r = Kd / (Kd + N Ts), sums over i < k and 1 <= i <= k; of the first one, without the ticks i at which the command was beyond
-/// `limit` on the error's side.
+/// PID of eq. 3-6 for one joint, solved for the command at tick k:
+/// u_k = Kp e_k + Ki Ts sum_(i<k) e_i + Kd N / (Kd + N Ts) sum_(1<=i<=k) r^(k-i) (e_i - e_(i-1)), r = Kd / (Kd + N Ts).
+/// The first sum omits ticks at which the magnitude of the command exceeds `limit` and the command has the sign of the error.
 class PidSums {
  public:
   PidSums(double kp, double ki, double kd, double n, double ts, double limit)
@@ -79,7 +79,7 @@ class PidSums {
     u_.push_back(kp_ * e + ki_ * ts_ * integral + n_ * r * derivative);
     return u_.back();
   }
-  /// Whether tick i adds nothing to the integral.
+  /// True if the integral omits tick i.
   [[nodiscard]] bool held(std::size_t i) const {
     return std::fabs(u_[i]) > limit_ && std::signbit(u_[i]) == std::signbit(e_[i]);
   }
@@ -89,14 +89,14 @@ class PidSums {
   std::vector<double> e_, u_;
 };
 
-/// An oscillator that follows another one of frequency higher by `detuning` (rad/s, below the weight w): the lag x behind the
-/// coupling's own obeys x' = detuning - w sin(x). (Adler, Proceedings of the IRE 34, 1946.)
+/// Oscillator coupled with weight w to an oscillator whose frequency is higher by `detuning` < w, rad/s. The lag x in addition
+/// to the lag of the coupling obeys x' = detuning - w sin(x). (Adler, Proceedings of the IRE 34, 1946.)
 struct PhasePair {
   double w, detuning;
 
   [[nodiscard]] double locked() const { return std::asin(detuning / w); }
   [[nodiscard]] double decay() const { return std::sqrt(w * w - detuning * detuning); }
-  /// x(t) from x(0) = 0: with y = tan(x / 2), (y - y1) / (y - 1 / y1) falls as exp(-decay t), y1 = tan(locked / 2).
+  /// Lag x(t) with x(0) = 0. With y = tan(x / 2) and y1 = tan(locked / 2), (y - y1) / (y - 1 / y1) decays as exp(-decay t).
   [[nodiscard]] double lag(double t) const {
     const double y = std::tan(locked() / 2);
     const double e = std::exp(-decay() * t);

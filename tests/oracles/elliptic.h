@@ -1,4 +1,4 @@
-// Elliptic integral and functions by the arithmetic-geometric mean: Abramowitz and Stegun, 16.4 and 17.6.
+// Elliptic integral and elliptic functions by the arithmetic-geometric mean (Abramowitz and Stegun, 16.4 and 17.6).
 #pragma once
 #include <array>
 #include <cmath>
@@ -6,12 +6,13 @@
 
 namespace gaitlab::oracle {
 
-/// sn, cn, dn of argument u and modulus k in [0, 1).
+/// Jacobi's elliptic functions sn, cn, dn of argument u and modulus k in [0, 1).
 struct Jacobi {
   double sn, cn, dn;
 };
 
-/// a_i and c_i of the mean of 1 and sqrt(1 - k^2); eight steps reach rounding for every k below 1 - 1e-15.
+/// Sequences a_i and c_i of the arithmetic-geometric mean of 1 and sqrt(1 - k^2). For every k below 1 - 1e-15, eight steps
+/// converge to rounding errors.
 struct Mean {
   static constexpr std::size_t kSteps = 8;
   std::array<double, kSteps + 1> a{}, c{};

@@ -1,12 +1,12 @@
-// An integrator of order 16 that shares nothing with the program's: the modified midpoint rule, extrapolated (Gragg, Bulirsch,
-// Stoer; Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.9).
+// Integrator of order 16 that is independent of the program's integrators: the extrapolated modified midpoint rule of Gragg,
+// Bulirsch and Stoer (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.9).
 #pragma once
 #include <array>
 #include <cstddef>
 
 namespace gaitlab::oracle {
 
-/// x' = rate(x) from `x` over `t` in `steps` equal steps.
+/// Solution of x' = rate(x) at time t after the state `x`, by `steps` equal steps.
 template <std::size_t N, class Rate>
 std::array<double, N> integrate(const Rate& rate, std::array<double, N> x, double t, int steps) {
   using State = std::array<double, N>;
@@ -17,7 +17,7 @@ std::array<double, N> integrate(const Rate& rate, std::array<double, N> x, doubl
     for (std::size_t i = 0; i < N; ++i) to[i] += reach * slope[i];
     return to;
   };
-  // n sub-steps, with Gragg's smoothing at the end.
+  // Modified midpoint rule with n sub-steps, and with Gragg's smoothing at the end.
   const auto midpoint = [&](const State& from, int n) {
     const double sub = h / n;
     State before = from;

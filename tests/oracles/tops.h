@@ -1,4 +1,4 @@
-// Tops: the asymmetric one without torque and the symmetric heavy one.
+// Analytical motion of two tops: the asymmetric top without torque, and the symmetric heavy top.
 #pragma once
 #include <array>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 namespace gaitlab::oracle {
 
-/// Euler's equations without torque (Landau and Lifshitz, Mechanics, section 37), principal moments I1 < I2 < I3, body axes, at
-/// t = 0: w2 = 0, w1 and w3 > 0, and the spin mostly about axis 3: L^2 > 2 E I2.
+/// Asymmetric top without torque, by Euler's equations in body axes (Landau and Lifshitz, Mechanics, section 37). The principal
+/// moments are I1 < I2 < I3. At t = 0, w2 = 0 and w1, w3 > 0. The top spins mainly about axis 3: L^2 > 2 E I2.
 class FreeTop {
  public:
   using Vector = std::array<double, 3>;
@@ -24,7 +24,7 @@ class FreeTop {
     k_ = std::sqrt((b - a) * (twice_energy * c - square) / ((c - b) * (square - twice_energy * a)));
   }
 
-  /// Angular velocity in body axes.
+  /// Angular velocity at time t in body axes, rad/s.
   [[nodiscard]] Vector operator()(double t) const {
     const Jacobi j = jacobi(rate_ * t, k_);
     return {start_[0] * j.cn, w2_ * j.sn, start_[2] * j.dn};
@@ -40,21 +40,22 @@ class FreeTop {
   double w2_ = 0, rate_ = 0, k_ = 0;
 };
 
-/// The symmetric top with one point fixed (Goldstein, Classical Mechanics, 5.7): A about a cross axis through that point, C
-/// about the axis, weight mg at distance l, theta from the upward vertical.
+/// Symmetric top with one fixed point (Goldstein, Classical Mechanics, 5.7). C is the moment of inertia about the axis of the
+/// top, A that about a perpendicular axis through the fixed point. The weight mg acts at distance l from the fixed point, and
+/// theta is the angle from the upward vertical.
 struct HeavyTop {
   double A = 0, C = 0, mgl = 0;
 
-  /// Spin (component of the angular velocity along the axis) with which it precesses steadily at rate W, inclined by theta.
+  /// Spin (component of the angular velocity along the axis) for steady precession at rate W and inclination theta, rad/s.
   [[nodiscard]] double spin_for(double W, double theta) const { return (A * W * W * std::cos(theta) + mgl) / (C * W); }
 
-  /// Largest angle of the nutation after a release at theta with spin w3 and the axis at rest.
+  /// Largest inclination during the nutation after a release at inclination theta with spin w3 and the axis at rest, rad.
   [[nodiscard]] double turns_back(double theta, double w3) const {
     const double p = C * C * w3 * w3 / (4 * A * mgl);
     return std::acos(p - std::sqrt(p * p - 2 * p * std::cos(theta) + 1));
   }
 
-  /// theta'' for given theta, precession rate and spin.
+  /// Angular acceleration theta'' at inclination theta with precession rate W and spin w3, rad/s^2.
   [[nodiscard]] double lean(double theta, double W, double w3) const {
     return std::sin(theta) * (W * W * std::cos(theta) - C / A * w3 * W + mgl / A);
   }

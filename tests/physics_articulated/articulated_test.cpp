@@ -1,4 +1,4 @@
-// Engine `articulated` without Bullet: the recursion with its resistances against dense matrices.
+// Tests of engine `articulated` alone: the recursion with resistances of joints and points agrees with dense matrices.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -17,7 +17,7 @@ namespace {
 
 using articulated::vec;
 
-/// The generalised numbers that `base` has, of 6 + joints.
+/// Those of the 6 + joints generalised components that exist with this base.
 Eigen::VectorXd kept(const std::vector<double>& all, Base base) {
   const auto entries = base_entries(base);
   Eigen::VectorXd some(static_cast<Eigen::Index>(entries.size() + all.size() - 6));
@@ -27,7 +27,7 @@ Eigen::VectorXd kept(const std::vector<double>& all, Base base) {
   return some;
 }
 
-/// d(velocity of a link's point) / d(generalised velocity), column by column from the kinematics.
+/// Jacobian of a link's point, d(velocity of the point) / d(generalised velocity), column by column from the kinematics.
 Eigen::MatrixXd jacobian(const Robot& robot, const RobotState& state, Base base, std::size_t link, const Vec3& point) {
   const std::size_t size = 6 + robot.joints.size();
   std::vector<Eigen::VectorXd> rows(3);
@@ -53,7 +53,8 @@ struct Solved {
   double error = 0, respond_error = 0;  ///< relative to the largest acceleration
 };
 
-/// The recursion and the dense system on one random robot, with `resist`ances on joints and points.
+/// Errors of the recursion relative to the dense system for a random robot, with resistances of size `resist` on joints and
+/// points.
 Solved solve(RandomRobots& random, Base base, double resist) {
   const Robot robot = random.robot();
   const RobotState state = random.state(robot, base);
@@ -62,7 +63,7 @@ Solved solve(RandomRobots& random, Base base, double resist) {
   articulated::Body<double> body(tree, vec(gravity));
   std::vector<double> x(StateLayout::kAngles + 2 * robot.joints.size());
   StateLayout{robot.joints.size(), 1}.write(state, 0, x);
-  for (std::size_t e = 3; e < 7; ++e) x[e] *= 1.3;  // a quaternion of any length
+  for (std::size_t e = 3; e < 7; ++e) x[e] *= 1.3;  // the quaternion need not have the length 1
   using Load = articulated::Body<double>::Load;
   std::vector<std::pair<std::size_t, std::function<void(Load)>>> loads;
   body.forward_kinematics(x);
@@ -86,7 +87,7 @@ Solved solve(RandomRobots& random, Base base, double resist) {
     const std::size_t link = robot.bodies[w.body].link;
     loads.emplace_back(link, [=](Load load) { load.add_force(vec(w.point - state.position), vec(w.force)); });
     const Mat3 root = Vec3(random.uniform(0, 1), random.uniform(0, 1), 0).asDiagonal() * random.rotation();
-    const Mat3 G = resist * root.transpose() * root;  // positive semidefinite, singular: as sliding friction
+    const Mat3 G = resist * root.transpose() * root;  // positive semidefinite and singular, like sliding friction
     loads.emplace_back(link, [=](Load load) { load.add_resistance(vec(w.point - state.position), articulated::sym(G)); });
     const Eigen::MatrixXd J = jacobian(robot, state, base, link, w.point);
     matrix += J.transpose() * G * J;
@@ -121,7 +122,7 @@ INSTANTIATE_TEST_SUITE_P(EveryBase, ArticulatedBody, testing::Values(Base::float
 
 TEST_P(ArticulatedBody, SolvesWhatDenseMatricesSay) {
   RandomRobots random(21);
-  for (const double resist : {0.0, 1.0, 1e3}) {  // in the masses' own size; as friction does at long steps
+  for (const double resist : {0.0, 1.0, 1e3}) {  // none, of the size of the masses, as large as friction at long steps
     Solved worst;
     for (int i = 0; i < 40; ++i) {
       const Solved one = solve(random, GetParam(), resist);
@@ -135,7 +136,8 @@ TEST_P(ArticulatedBody, SolvesWhatDenseMatricesSay) {
   }
 }
 
-/// 1 kg on a plane at 1 m/s sideways: G of a sticking and a sliding contact, and who changes.
+/// Block of 1 kg that slides or sticks on a plane. Tests compare steps in which the contact sticks, slides, or changes between
+/// both.
 class BlockOnPlane : public testing::Test {
  protected:
   BlockOnPlane() {
@@ -165,23 +167,23 @@ class BlockOnPlane : public testing::Test {
     return x[StateLayout::kVelocity];
   }
   PlantSettings settings;
-  static constexpr double kRound = 1e-14;  // a few operations on numbers of 1
+  static constexpr double kRound = 1e-14;  // rounding errors of some operations with numbers of 1
 };
 
 TEST_F(BlockOnPlane, SticksByBackwardEuler) {
-  // f Fn / v_lim = 800 N s/m: v+ = v / (1 + 800 h)
+  // With f Fn / v_lim = 800 N s/m, the speed after a step is v / (1 + 800 h).
   EXPECT_NEAR(after(0.005, 1e-2), 0.005 / 9, kRound);
 }
 TEST_F(BlockOnPlane, SlidesUnderConstantFriction) { EXPECT_NEAR(after(1, 1e-2), 1 - 8 * 1e-2, kRound); }
 TEST_F(BlockOnPlane, ComesToRestWithoutTurningBack) {
-  // Sliding alone would give 0.015 - 0.08; sticking at the end gives v / (1 + 800 h).
+  // Sliding in the whole step would give 0.015 - 0.08. The contact sticks at the end, which gives v / (1 + 800 h).
   EXPECT_NEAR(after(0.015, 1e-2), 0.015 / 9, kRound);
-  // And from where sliding ends below v_lim: 0.015 - 8 h = 0.007.
+  // With the shorter step, sliding alone would end at 0.015 - 8 h = 0.007, below v_lim, so that the contact also sticks.
   EXPECT_NEAR(after(0.015, 1e-3), 0.015 / 1.8, kRound);
 }
 TEST_F(BlockOnPlane, StartsToSlideWithinAStep) {
   settings.gravity = {20, 0, -10};
-  // Sticking: (0 + 20 h) / 9 = 0.0222 is above v_lim; sliding: (20 - 8) h.
+  // Sticking would give (0 + 20 h) / 9 = 0.0222, above v_lim. The block slides, which gives (20 - 8) h.
   EXPECT_NEAR(after(0, 1e-2), 0.12, kRound);
 }
 

@@ -1,5 +1,5 @@
-// A rollout has the bits it has alone in every width of lanes, whatever the others hold: other parameters, other robots of the
-// same structure, motors at their limit, numbers that are none any more.
+// In every number of lanes, a rollout has the same bits as alone. The other lanes contain other parameters, other robots with
+// the same structure, motors at their limits, or NaN.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -24,16 +24,16 @@ class Lanes : public testing::TestWithParam<std::string> {
 };
 INSTANTIATE_TEST_SUITE_P(Of, Lanes, testing::Values("adaptive", "implicit", "extrapolated", "rk4"), method_name);
 
-/// One lane: what it is made from, its numbers and commands.
+/// Settings, state and commands of one lane.
 struct Lane {
   LaneSettings settings;
   actuators::DcMotorActuator::Settings motors;
   std::vector<double> numbers, history, command;
 };
 
-/// EffortSums over the parts of a step: what the ledger and the meter make of them.
+/// Sums over the parts of a step, as the ledger and the statistics compute them.
 struct EffortSums {
-  std::vector<double> work, torque;  ///< a joint
+  std::vector<double> work, torque;  ///< one element per joint
   double share = 0;
 };
 
@@ -51,7 +51,7 @@ EffortSums sums(const StepEffort& applied, std::size_t joints, std::size_t lane,
   return all;
 }
 
-/// A lane of another kind for every index, with a robot like `first` but of other masses and lengths.
+/// Lane with a robot like `first`, but with other masses and lengths. The index selects the kind of its settings.
 Lane lane(RandomRobots& random, const Robot& first, Base base, std::size_t index) {
   Lane one;
   auto robot = std::make_shared<Robot>(first);
@@ -64,7 +64,7 @@ Lane lane(RandomRobots& random, const Robot& first, Base base, std::size_t index
   one.settings.robot = robot;
   one.settings.gravity = random.vector(10);
   one.settings.contacts = contact_elements(*robot, ContactSet::all);
-  for (std::size_t l = 0; l < robot->links.size(); ++l) {  // made-up types have no elements of their own
+  for (std::size_t l = 0; l < robot->links.size(); ++l) {  // adds contact elements, which random types may lack
     ContactElement element;
     element.link = l;
     element.radius = random.uniform(0.02, 0.07);
@@ -75,7 +75,7 @@ Lane lane(RandomRobots& random, const Robot& first, Base base, std::size_t index
   one.settings.accuracy = random.scaled(1e-3, 3e-2);
   one.motors = random.motors(robot->joints.size());
   RobotState state = random.state(*robot, base);
-  state.position.z() = index % 3 == 2 ? 0.1 : -0.005;  // in the air there, through the ground here
+  state.position.z() = index % 3 == 2 ? 0.1 : -0.005;  // in the air, or slightly inside the ground
   const StateLayout alone{robot->joints.size(), 1};
   one.numbers.resize(alone.size());
   alone.write(state, 0, one.numbers);
@@ -85,7 +85,7 @@ Lane lane(RandomRobots& random, const Robot& first, Base base, std::size_t index
 
 const std::string kExplicit = "rk4";
 
-/// lambda at the start, 1/s.
+/// Largest decay rate lambda at the start, 1/s.
 double rate(const Engine& engine, const Lane& lane, Base base) {
   PlantSettings settings;
   static_cast<LaneSettings&>(settings) = lane.settings;
@@ -99,12 +99,13 @@ double rate(const Engine& engine, const Lane& lane, Base base) {
   return plant->stability(0, lane.command, false).rate;
 }
 
-// 5 s of CPU for `adaptive`: each rollout alone, and among others at every place of every width.
+// Every rollout has the same bits alone and in any lane of every number of lanes. The test takes 5 s of CPU time for
+// `adaptive`.
 TEST_P(Lanes, GiveEveryRolloutTheBitsItHasAlone) {
   if (engine().lanes.size() < 2) GTEST_SKIP() << "this processor has neither AVX2 nor AVX-512";
   constexpr int kSteps = 60;
   RandomRobots random(41);
-  double rubbed = 0;  // J: something slides in some lane
+  double rubbed = 0;  // friction energy of all lanes, J
   for (const std::size_t width : engine().lanes) {
     for (int i = 0; i < 4; ++i) {
       const Robot first = random.robot_of(4);
@@ -114,13 +115,13 @@ TEST_P(Lanes, GiveEveryRolloutTheBitsItHasAlone) {
       double fastest = 0;
       for (std::size_t l = 0; l < width; ++l) {
         lanes.push_back(lane(random, first, base, l));
-        if (i == 3) {  // grounds of every kind in one pack
+        if (i == 3) {  // grounds of every kind in one lane group
           const Boxes box{Box{.center = {0.1, 0, 0}, .size = {0.4, 0.4, 0.02}, .friction = 0.4}};
           lanes[l].settings.ground.shape = std::array<Ground::Shape, 3>{NoGround{}, box, Plane{}}[l % 3];
         }
         fastest = std::max(fastest, rate(engine(), lanes[l], base));
       }
-      // Explicit: far below 1 / lambda, also where a contact has become ten times as deep.
+      // The step of an explicit method is far below 1 / lambda, also if a contact becomes ten times as deep.
       const double h = GetParam() == kExplicit ? std::min(1e-6, 0.05 / fastest) : random.scaled(1e-4, 2e-3);
       if (width > 1) lanes[1].numbers[StateLayout::kVelocity] = std::numeric_limits<double>::infinity();  // diverged
 

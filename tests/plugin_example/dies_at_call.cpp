@@ -1,5 +1,6 @@
-// Preloaded (LD_PRELOAD), it ends the process as kill -9 does at call GAITLAB_DIES_AT of those that change files, counted from
-// 1; of a write the first half is done. So a gate kills a program at each of these calls, however fast or slow the machine is.
+// Library for LD_PRELOAD that ends the process, like kill -9, at call number GAITLAB_DIES_AT (counted from 1) of the functions
+// that change files. A write at this call writes its first half. A gate can thus kill a program at each of these calls on
+// machines of any speed.
 #include <dlfcn.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -19,7 +20,7 @@ bool is_the_last() {
 
 int dies() { return ::kill(::getpid(), SIGKILL); }
 
-// The function that this one hides.
+// Original function that a function of this library replaces.
 template <typename Function>
 Function* hidden(Function*, const char* name) {
   return reinterpret_cast<Function*>(::dlsym(RTLD_NEXT, name));

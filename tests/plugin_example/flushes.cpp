@@ -1,10 +1,10 @@
-// A plugin that switches denormal numbers off when it is loaded, as one linked with -ffast-math does, and when it registers.
+// Plugin that disables denormal numbers when it is loaded, like a library linked with -ffast-math, and when it is registered.
 #include <xmmintrin.h>
 
 #include "core/plugin/plugin.h"
 
 namespace {
-constexpr unsigned kFlush = 0x8040;  // flush to zero, denormals are zero
+constexpr unsigned kFlush = 0x8040;  // bits for flush to zero, and denormals are zero
 const bool kDone = (_mm_setcsr(_mm_getcsr() | kFlush), true);
 }  // namespace
 

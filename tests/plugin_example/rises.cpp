@@ -1,5 +1,5 @@
-// An actuator that breaks its contract: its torque rises with the joint's speed, and jumps where the joint turns back. An
-// implicit step may then have many solutions, or none.
+// Actuator plugin that violates the requirements: its torque increases with the speed of the joint, and jumps when the speed
+// changes sign. An implicit step may then have many solutions, or none.
 #include "core/plugin/plugin.h"
 
 namespace {

@@ -1,4 +1,4 @@
-// A plugin that takes a name which is built in.
+// Plugin with the name of a built-in CPG.
 #include "core/plugin/plugin.h"
 
 namespace {

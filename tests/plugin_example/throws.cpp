@@ -1,4 +1,4 @@
-// Plugins of every kind that throw from the function that their setting `where` names, or end the process.
+// Plugins of every kind. In the function that their setting `where` selects, they throw an exception or end the process.
 #include <cstdlib>
 #include <stdexcept>
 

@@ -1,4 +1,4 @@
-// A plugin whose static object throws: before anything of gaitlab could look at it.
+// Plugin with a static object that throws while the library is loaded, before gaitlab can check the plugin.
 #include <stdexcept>
 
 #include "core/plugin/plugin.h"

@@ -1,5 +1,5 @@
-// A CPG whose runs wait while the folder that GAITLAB_HOLD names exists, and leave a file there that is called as their
-// process: a gate that finds it kills a program that is in the middle of a run, however fast or slow the machine is.
+// CPG plugin whose runs wait while the folder GAITLAB_HOLD exists. Each run writes a file with the number of its process into
+// this folder, so that a gate can kill a program during a run on machines of any speed.
 #include <unistd.h>
 
 #include <chrono>

@@ -1,4 +1,5 @@
-// A CPG out of tree: a chain of phase oscillators with its own coupling strength. Includes one header, links against nothing.
+// Example of a CPG plugin: a chain of phase oscillators with its own coupling strength. The plugin includes one header and
+// links against no library.
 #include <cmath>
 #include <numbers>
 

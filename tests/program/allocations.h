@@ -1,9 +1,9 @@
-// Counter of the program's heap allocations.
+// Counter of the heap allocations of a test.
 #pragma once
 
 namespace gaitlab::test {
 
-/// Counts from its construction on; one at a time.
+/// Counts heap allocations from construction to destruction. Only one object may exist at a time.
 class Allocations {
  public:
   Allocations();

@@ -1,4 +1,4 @@
-// Engine `articulated` against engine `bullet`, against its own orders, and at the corners of the motor's law.
+// Tests of engine `articulated`: comparison with engine `bullet`, orders of the integrators, motors at their limits.
 #include <cmath>
 
 #include "tests/program/random_scenario.h"
@@ -46,26 +46,27 @@ TEST(Engines, AccelerateAlikeAtRandomStates) {
                  worst, 1e-9, "required by the issue; rounding times the condition of M, 1e-16 * 1e5");
 }
 
-/// Largest difference of any column over its largest magnitude, but for the first row: there the robot just touches, by
-/// rounding, of which the contact law takes a root.
+/// Largest difference in any column of two traces, relative to the column's largest magnitude. The first row is omitted: there
+/// the depth of contacts is a rounding error, and a contact law with an exponent below 1 amplifies it.
 double difference(const Trace& a, const Trace& b) {
   double worst = 0;
   for (std::size_t c = 1; c < a.columns.size(); ++c) {
-    if (a.columns[c].name.starts_with("torque_error.")) continue;  // a difference of numbers that nearly cancel
+    if (a.columns[c].name.starts_with("torque_error.")) continue;  // small difference of large numbers
     double most = 0;
     double apart = 0;
     for (std::size_t row = 1; row < a.rows(); ++row) {
       most = std::max(most, std::abs(a.at(row, c)));
       apart = std::max(apart, std::abs(a.at(row, c) - b.at(row, c)));
     }
-    if (most > 1e-6) worst = std::max(worst, apart / most);  // columns of rounding alone
+    if (most > 1e-6) worst = std::max(worst, apart / most);  // smaller columns contain only rounding errors
   }
   return worst;
 }
 
-// Everything that acts, and all that is reported, in the same explicit method: hinges in their stops, points and spheres that
-// stick, slide and bounce with exponents other than 1, rotors, gears with a directional loss, limited currents. 6 s of CPU:
-// the factor of the mass matrix with rotors at every stage of 6000 steps of three robots in bullet.
+// With the same explicit method, both engines give the same trace up to rounding. The robots have all forces: hinges in their
+// stops, points and spheres that stick, slide and bounce with exponents other than 1, rotors, directional gears, limited
+// currents. The test takes 6 s of CPU time, mostly to factorise the mass matrix with rotors in bullet, in 6000 steps of three
+// robots.
 TEST(Engines, TraceTheSameModelUnderTheSameMethod) {
   const auto thrown = [](const std::string& engine, const std::string& base, const std::string& velocity) {
     return run(scenario(fmt::format(R"(
@@ -107,14 +108,15 @@ trace: {{period: 5e-3, columns: ["*"]}}
   }
 }
 
-// Robots numbered in any order, motors at their limits and far below, grounds soft and stiff, rough and smooth. 5 s of CPU,
-// most of it in bullet.
+// With the same explicit method, both engines give the same trace of random robots up to rounding. The modules are numbered in
+// any order, motors work at or below their limits, and grounds are soft or stiff, rough or smooth. The test takes 5 s of CPU
+// time, mostly in bullet.
 TEST(Engines, TraceRandomRobotsUnderTheSameMethod) {
   RandomRobots random(71);
   double worst = 0;
   double rubbed = 0;
   double stopped = 0;
-  double limited = 0;  // joints times their share of the time
+  double limited = 0;  // sum over the joints of the share of time at a limit
   for (std::size_t i = 0; i < 40; ++i) {
     const Base base = std::array{Base::floating, Base::floating, Base::planar, Base::fixed}[i % 4];
     Scenario s = random_run(random, base, 40, random.uniform(0.05, 0.2));
@@ -143,7 +145,7 @@ TEST(Engines, JudgeAnExplicitStepAlike) {
   EXPECT_EQ(standing("articulated").index, standing("bullet").index);
 }
 
-/// Two rods of 1 kg and 1 m behind motors whose damping is as fast as they swing; angles at the end.
+/// Final angles of two rods of 1 kg and 1 m with motors, whose damping is about as fast as the swing of the rods, rad.
 std::array<double, 2> driven_rods(const std::string& engine, const std::string& integrator, double step) {
   const Recording record = run(scenario(fmt::format(R"(
 gaitlab: 1
@@ -182,7 +184,7 @@ double order(const std::string& integrator, double step, const std::array<double
 }
 
 TEST(Articulated, HasTheOrdersItIsSaidToHave) {
-  const auto exact = driven_rods("bullet", "rk4", 2.5e-4);  // order 4: wrong by 1e-12
+  const auto exact = driven_rods("bullet", "rk4", 2.5e-4);  // order 4, error about 1e-12
   const std::string source = "docs/equations.md, 7; error against bullet, rk4 at 0.25 ms";
   const auto row = [&](const std::string& integrator, const std::string& steps) {
     return Row{"order.articulated." + integrator, "two rods with motors, 1 s, " + steps + ": log2 of the errors' ratio", source,
@@ -194,7 +196,7 @@ TEST(Articulated, HasTheOrdersItIsSaidToHave) {
   validate(row("rk4", "10 and 5 ms"), order("rk4", 1e-2, exact), 4, 0.4, reason);
 }
 
-/// The last joint of a chain is sent 0.3 rad away: full current at first.
+/// Step of 0.3 rad of the last joint's set point in a chain, which at first requires the full current.
 class SetPointStep : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(At, SetPointStep, testing::Values(5e-5, 1e-4, 2.5e-4, 5e-4, 1e-3, 2.5e-3));
 
@@ -220,14 +222,14 @@ trace: {{period: {}, columns: [joint.*]}}
     for (std::size_t row = 1; row < record.trace.rows(); ++row) {
       fastest = std::max(fastest, std::abs(table.at(row, "joint.15.speed")));
       const double current = table.at(row, "joint.15.current");
-      // A new command may well ask for the opposite current: chatter is what happens under one.
+      // A change of the current's sign counts as chatter only between two control ticks, where the command is constant.
       if (std::abs(std::remainder(table.at(row - 1, "t"), 0.015)) < 1e-9) before = 0;
       if (table.at(row, "joint.15.saturation") != 2) continue;
       ++limited;
       flips += current * before < 0 ? 1 : 0;
       before = current;
     }
-    // Two steps of a stiff decay and one combine to -0.036 of the jump at worst.
+    // The extrapolation from one and two steps of a stiff decay overshoots by at most 0.036 of the jump.
     const double beyond = integrator == std::string("extrapolated") ? 0.036 : 0.02;
     EXPECT_LT(fastest, (1 + beyond) * 7.4 / (0.00395 * 594)) << integrator;
     if (integrator == std::string("implicit")) {
@@ -238,12 +240,13 @@ trace: {{period: {}, columns: [joint.*]}}
   }
 }
 
-// About 8 s of CPU each: engine bullet at 12.5 us for 6 s. All other long walks are in engine articulated and rely on these.
+// Walks of 6 s in both engines. Each takes about 8 s of CPU time in engine bullet at 12.5 us. All other tests with long walks
+// use only engine articulated and rely on this comparison.
 class WalkOfTwoEngines : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Of, WalkOfTwoEngines, testing::Values("caterpillar", "hexapod", "rubble"));
 
 TEST_P(WalkOfTwoEngines, IsOneWalk) {
-  constexpr double kFrom = 4;  // s: by then every joint has its gait
+  constexpr double kFrom = 4;  // start of the comparison, s; at this time every joint performs the gait
   const auto with = [](std::vector<std::string> sets) {
     sets.insert(sets.end(), {"duration=6", "trace.columns=[joint.*]"});
     return run(shipped(GetParam() + ".yaml", sets));
@@ -262,7 +265,8 @@ TEST_P(WalkOfTwoEngines, IsOneWalk) {
   EXPECT_LT(std::abs(ours.ledger.residual()), 0.005 * ours.ledger.electrical);
 }
 
-// A chain that swings from its first module; most motors are at their limit in every half period.
+// Torques are accurate in a chain that hangs from its first module and swings, although most motors are at a limit in every
+// half period.
 TEST(Articulated, IsRightWhereManyMotorsAreLimited) {
   const auto swung = [](const std::string& physics) {
     return run(scenario(fmt::format(R"(

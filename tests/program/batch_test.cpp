@@ -1,4 +1,4 @@
-// Rollouts side by side, in lanes and in threads: each must end as it does alone.
+// Rollouts that are simulated side by side, in lanes and in threads, have the same results as each rollout alone.
 #include "core/simulation/batch.h"
 
 #include <mutex>
@@ -11,7 +11,8 @@ namespace {
 
 const std::vector<std::string> kCommon{"physics.engine=articulated", "physics.integrator=extrapolated", "physics.step=5e-4",
                                        "duration=0.45"};
-// Parameters of every section; a lane that is done early, one that diverges, one at its current limit, other ticks.
+// Settings of the rollouts. They change every section of the scenario. One rollout ends early, one diverges, one is at its
+// current limit, and some have other control or trace ticks.
 const std::vector<std::vector<std::string>> kOwn{
     {},
     {"ground.friction=0.3", "contact.stiffness=2e4", "contact.exponent=1.2"},
@@ -21,7 +22,7 @@ const std::vector<std::vector<std::string>> kOwn{
     {"controller.period=0.03", "trace.period=0.01"},
     {"cpg.frequency=0.6", "actuator.efficiency_model=directional"},
     {"physics.gravity=[0.5, 0, -9]", "initial.angles=0.1"},
-    {"physics.integrator=implicit"},  // not in the same pack
+    {"physics.integrator=implicit"},  // cannot share a lane group with the others
     {"controller.Kp=20", "actuator.rotor_inertia=1e-8"},
     {"ground.type=none"},
 };
@@ -64,7 +65,7 @@ TEST(Batch, MixesRobotsOfOneStructureAndKeepsOthersApart) {
 }
 
 TEST(Batch, TellsOfTheOthersBesideOneThatIsRefused) {
-  // rk4 has a largest step; a motor of a tenth of the resistance needs a tenth of it.
+  // The integrator rk4 has a largest stable step. A motor with a tenth of the resistance requires a tenth of that step.
   const std::vector<std::vector<std::string>> own{{}, {"actuator.R=0.4"}, {}, {"ground.friction=0.7"}};
   const std::vector<Scenario> all = rollouts(
       kScenarios + "hexapod.yaml",

@@ -11,7 +11,7 @@
 
 namespace gaitlab::test {
 
-/// Text that shows every bit of what no row may change.
+/// Text that shows every bit of the results that must not depend on the trace rows: steps, ledger, statistics, errors, event.
 inline std::string bits(const Recording& r) {
   std::string text = fmt::format("{} steps, {:a} s, {:a} solves, {:a} off, {:a} coarse, ledger", r.steps, r.simulated,
                                  r.tally.solves, r.tally.off, r.tally.coarse);
@@ -29,13 +29,13 @@ inline std::string bits(const Recording& r) {
   return text;
 }
 
-/// All that a rollout gives.
+/// Text that shows every bit of all results of a rollout.
 inline std::string bits(const Recording& record, const std::string& outcome) {
   return fmt::format("{}: {} rows {} {} {}\n{}", outcome, record.trace.rows(), hash(record.trace), hash(record.rest),
                      hash(record.ticks), bits(record));
 }
 
-/// The same of a rollout that runs alone.
+/// Runs a scenario alone, and returns the text that shows every bit of its results.
 inline std::string alone(const Scenario& scenario) {
   Simulation simulation({&scenario, 1});
   std::string outcome = "done";

@@ -1,11 +1,11 @@
-// One block, 1 kg, on four points: what tests of contacts, grounds and loads put on the ground.
+// Robot for tests of contacts, grounds and loads: one block of 1 kg on four contact points.
 #pragma once
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 
-/// `robot: ` of it, with a COM in the plane of the points, so that friction does not tip it; `keys`: more keys of the robot,
-/// each a line of its own that begins with two spaces and ends with a newline.
+/// The setting `robot:` of the block. Its centre of mass is in the plane of the points, so that friction does not tip it.
+/// `keys` are further lines of the setting; each line begins with two spaces and ends with a newline.
 inline std::string block_robot(const std::string& keys) {
   return "robot:\n" + keys + R"(  modules:
     name: block

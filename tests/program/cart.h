@@ -1,10 +1,10 @@
-// A cart of two hinges: a castor without a motor, which is joint 0, and an arm with one.
+// Cart with two hinges: joint 0 is a castor without a motor, joint 1 an arm with a motor.
 #pragma once
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 
-/// The scenario, which the page's gate runs, too.
+/// Text of the scenario of the cart. The gate of the page (tests/gates/page.sh) also runs this scenario.
 inline const std::string kCastorFirst = read(GAITLAB_SOURCE_DIR "/tests/data/castor-first.yaml");
 
 }  // namespace gaitlab::test

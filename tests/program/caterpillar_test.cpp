@@ -1,11 +1,12 @@
-// The paper's first robot: travel, torque, energy, statics. Numbers of section 8 of the model, reproduced by three methods
-// (own RK4 at 0.01 ms, Bullet's algorithm at 0.025 ms, linearly implicit at 0.5 ms).
+// Tests of the paper's first robot: travel, torque, energy, statics. The expected numbers are those of section 8 of the model.
+// Three methods reproduced them: RK4 at 0.01 ms, Bullet's algorithm at 0.025 ms, and a linearly implicit method at 0.5 ms.
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
 
-/// In engine articulated, because bullet needs forty times the time; WalkOfTwoEngines compares the two.
+/// Run of the caterpillar. It uses engine articulated, because bullet takes forty times as long; WalkOfTwoEngines compares the
+/// two engines.
 Recording walked(int seconds, const std::string& set = "name=caterpillar") {
   return run(shipped("caterpillar.yaml", {"physics.engine=articulated", fmt::format("duration={}", seconds), set}));
 }
@@ -21,10 +22,10 @@ double travel(const Recording& record, double from, double to) {
 }
 
 TEST(Walk, CaterpillarTravelsAsThreeMethodsAgree) {
-  // 3 %: the methods differ by that much among one another (0.104 to 0.111 m).
+  // The tolerance is 3 %, because the travel of the three methods differs by this amount (0.104 to 0.111 m).
   EXPECT_NEAR(travel(walk(), 8, 12), -0.1087, 0.03 * 0.1087);
   EXPECT_NEAR(travel(walk(), 12, 16), -0.1087, 0.03 * 0.1087);
-  EXPECT_NEAR(Table(walk().trace)(16, "com.y"), 0, 1e-9);  // the robot is symmetric about its plane: rounding only
+  EXPECT_NEAR(Table(walk().trace)(16, "com.y"), 0, 1e-9);  // only rounding errors, because the robot is symmetric
 }
 
 TEST(Walk, JointSevenMovesAndWorksAsInFigureNine) {
@@ -39,13 +40,14 @@ TEST(Walk, JointSevenMovesAndWorksAsInFigureNine) {
     if (t < 12) repeat = std::max(repeat, std::abs(table(t + 4, "joint.7.torque") - table(t, "joint.7.torque")));
   }
   EXPECT_NEAR((hi_angle - lo_angle) / 2, 0.594, 0.02 * 0.594);
-  EXPECT_NEAR(lo, -0.61, 0.061);  // torque is statically indeterminate: a band of 10 %
+  EXPECT_NEAR(lo, -0.61, 0.061);  // 10 %, because the torque is statically indeterminate
   EXPECT_NEAR(hi, 0.53, 0.053);
-  EXPECT_LT(repeat, 0.2 * std::max(-lo, hi));  // 4 s is not a multiple of the control period: the cycles differ
+  EXPECT_LT(repeat, 0.2 * std::max(-lo, hi));  // cycles differ, because 4 s is not a multiple of the control period
 }
 
 TEST(Walk, MotorsDrawMoreThanTheirCopperLosesOverWholeCycles) {
-  // 12 s are 3 cycles and 800 control periods: the motion repeats exactly, so no energy is stored between the ends.
+  // The motion repeats exactly after 12 s, which are 3 cycles and 800 control periods. The stored energy is therefore equal at
+  // both ends.
   const Table table(walk().trace);
   double surplus = 0;
   double drawn = 0;
@@ -63,7 +65,7 @@ TEST(Walk, MotorsDrawMoreThanTheirCopperLosesOverWholeCycles) {
 
 TEST(Walk, ReversedLagWalksBack) {
   const Recording back = walked(8, "cpg.phase_lag=-1.2");
-  // 1 %: the start differs (which end leads), the cycle does not.
+  // The tolerance is 1 %. Only the start differs, because a different end of the robot leads; the cycle is the same.
   EXPECT_NEAR(travel(back, 4, 8), -travel(walk(), 4, 8), 0.01 * 0.1087);
 }
 
@@ -76,7 +78,7 @@ TEST(Walk, LargerLagsTravelLess) {
   EXPECT_GT(distance[1], distance[2]);
 }
 
-/// Eight modules that hold a bent posture on the ground until all has died out.
+/// Eight modules that hold a bent posture on the ground until the motion has decayed.
 const Scenario& posture() {
   static const Scenario s = scenario(R"(
 gaitlab: 1
@@ -114,7 +116,8 @@ TEST(Standing, ContactForcesCarryTheWeightAndCurrentsTheStaticTorque) {
   const double weight = robot.mass * 9.81;
   EXPECT_NEAR(total.z(), weight, 1e-3 * weight);
   for (std::size_t j = 0; j < 16; ++j) {
-    // Beyond the joint, moments of weights and contact forces about its axis balance the motor's torque.
+    // The torque of the motor balances the moments about the joint's axis of weights and contact forces on one side of the
+    // joint.
     const std::size_t moved = robot.joints[j].link;
     std::vector<bool> beyond(robot.links.size(), false);
     double moment = 0;
@@ -131,7 +134,8 @@ TEST(Standing, ContactForcesCarryTheWeightAndCurrentsTheStaticTorque) {
     }
     const std::string joint = fmt::format("joint.{}.", j);
     const double torque = table.at(last, joint + "torque");
-    // It creeps on the regularised friction at well below v_lim; accelerations are then far below 1e-4 of the weights' moments.
+    // The robot creeps, because friction is regularised. At speeds far below v_lim, the moments of the inertial forces are far
+    // below 1e-4 of the moments of the weights.
     EXPECT_NEAR(torque, -moment, 1e-4) << j;
     EXPECT_NEAR(table.at(last, joint + "current") * 0.7 * 0.00395 * 594, torque, 1e-12) << j;
   }

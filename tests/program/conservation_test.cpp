@@ -1,4 +1,5 @@
-// A floating chain without forces: momenta and energy to the integrator's order; the knobs of btMultiBody that would spoil it.
+// A free chain without external forces conserves momenta and energy to the order of the integrator. The tests also detect the
+// damping and other options of btMultiBody that violate this.
 #include <array>
 #include <cmath>
 #include <random>
@@ -9,9 +10,9 @@
 namespace gaitlab::test {
 namespace {
 
-/// Eight modules, thrown into the air with random joint speeds; no gravity, motor, ground.
+/// Chain of eight modules with random joint speeds, without gravity, motors and ground.
 Scenario chain(const std::string& engine, const std::string& integrator, double step) {
-  std::mt19937 random(7);  // the engine's numbers are fixed by the standard; the distributions' are not, so none is used
+  std::mt19937 random(7);  // the C++ standard defines the numbers of mt19937, but not those of distributions
   std::string speeds;
   for (int j = 0; j < 16; ++j)
     speeds += fmt::format("{}{:.3f}", j == 0 ? "" : ", ", static_cast<double>(random() % 4001) / 1000 - 2);
@@ -29,7 +30,7 @@ trace: {{period: 0.01, columns: [energy.*, momentum.*, angular_momentum.*]}}
                               speeds, engine, step, integrator));
 }
 
-/// Largest relative change over the run of kinetic energy, momentum, angular momentum.
+/// Largest relative changes of kinetic energy, momentum and angular momentum during the run.
 std::array<double, 3> drift(const Scenario& scenario) {
   const Recording record = run(scenario);
   const Table table(record.trace);
@@ -59,12 +60,12 @@ TEST_P(FreeChain, FirstOrderIsOfFirstOrder) {
   const auto fine = drift(chain(GetParam(), first_order(), 2.5e-4));
   for (std::size_t i = 0; i < 3; ++i) {
     std::printf("first order   %-18s 1 ms %.3e  0.5 ms %.3e  0.25 ms %.3e\n", kName[i], coarse[i], middle[i], fine[i]);
-    // The next order is of size h: twice the room at twice the step.
+    // The error of this ratio is of the next order and proportional to h, so that the coarse pair has twice the tolerance.
     EXPECT_NEAR(coarse[i] / middle[i], 2, 0.3) << kName[i];
     validate({"order.free_chain." + first_order(),
               "eight modules thrown, 0.5 and 0.25 ms: log2 of the drifts' ratio (energy, momenta)", "docs/equations.md, 7", ""},
              std::log2(middle[i] / fine[i]), 1, 0.1, "the next order is smaller by the step times the rates, 0.5 ms * 100/s");
-    // Bullet's default damping alone takes 2 % of the energy in these 0.2 s; a quarter of that would be seen here.
+    // Bullet's default damping dissipates 2 % of the energy in 0.2 s. This bound detects a quarter of that damping.
     EXPECT_LT(fine[i], 5e-3) << kName[i];
   }
 }
@@ -75,7 +76,7 @@ TEST_P(FreeChain, RungeKuttaIsOfFourthOrder) {
   const auto fine = drift(chain(GetParam(), "rk4", 1.25e-3));
   for (std::size_t i = 0; i < 3; ++i) {
     std::printf("rk4           %-18s 5 ms %.3e  2.5 ms %.3e  1.25 ms %.3e\n", kName[i], coarse[i], middle[i], fine[i]);
-    // Order 4 is a factor of 16, order 3 one of 8: 11 lies between them on the scale of factors.
+    // Order 4 gives a ratio of 16 and order 3 a ratio of 8; 11 is their geometric mean.
     EXPECT_GT(coarse[i] / middle[i], 11) << kName[i];
     validate({"order.free_chain.rk4", "eight modules thrown, 2.5 and 1.25 ms: log2 of the drifts' ratio (energy, momenta)",
               "docs/equations.md, 7", ""},

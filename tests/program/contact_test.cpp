@@ -1,4 +1,5 @@
-// A block on four points in the program: friction, sink, swing and bounce of the contact law of eq. 12.
+// Block on four contact points: the program reproduces the analytical friction, depth of rest, oscillation and bounce of
+// eq. 12.
 #include <cmath>
 
 #include "tests/oracles/blocks.h"
@@ -9,7 +10,7 @@
 namespace gaitlab::test {
 namespace {
 
-/// 1 kg, its COM in the plane of the four points, so that friction does not tip it.
+/// Block of 1 kg on four points. Its centre of mass is in the plane of the points, so that friction does not tip the block.
 Scenario block(const std::string& engine, const std::string& rest, double height, double step, double duration) {
   return scenario(fmt::format(R"(
 gaitlab: 1

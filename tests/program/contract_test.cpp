@@ -1,4 +1,4 @@
-// Contract of every registered CPG, controller and actuator.
+// Requirements that every registered CPG, controller and actuator must satisfy.
 #include <cmath>
 #include <limits>
 #include <map>
@@ -28,7 +28,7 @@ std::vector<Plugin> registered() {
   return plugins;
 }
 
-/// Every number of a Settings struct by its path, but for those of lists of structs.
+/// Lists all numbers of a Settings struct with their paths, except numbers in lists of structs.
 class Numbers final : public Fields {
  public:
   struct Found {
@@ -74,7 +74,7 @@ Numbers numbers_of(const Entry& entry, void* settings) {
   return numbers;
 }
 
-/// The CPGs with the common keys.
+/// CPGs that have the settings common to oscillators.
 std::vector<Plugin> oscillators() {
   std::vector<Plugin> some;
   for (const Plugin& plugin : registered()) {
@@ -95,17 +95,17 @@ class Contract : public ::testing::TestWithParam<Plugin> {
  protected:
   [[nodiscard]] const Entry& entry() const { return *catalog().find(GetParam().kind, GetParam().name); }
 
-  /// A scenario with the plugin; `more`: further sections.
+  /// Text of a scenario with the plugin and with the further sections `more`.
   [[nodiscard]] std::string text(const std::string& own, const std::string& more = {}) const {
-    const bool walks = GetParam().kind == Kind::cpg;  // gaits want legs
+    const bool walks = GetParam().kind == Kind::cpg;  // some gaits require legs
     return "gaitlab: 1\nrobot: {modules: mtran" + std::string(walks ? ", build: robots/hexapod.dat" : "") +
            "}\nduration: 0.06\n" + own + more;
   }
-  /// With the plugin's settings `{}` and what goes with it.
+  /// Text of a scenario in which the plugin has only its required settings.
   [[nodiscard]] std::string plain() const {
     const auto& [kind, name] = GetParam();
     std::string own = section(kind) + ": {type: " + name;
-    // So small that a stall current a little above 0 needs no efficiency above 1.
+    // The value 1e-7 is so small that a stall current slightly above 0 requires no efficiency above 1.
     for (const std::string& key : numbers_of(entry(), entry().settings().get()).required) own += ", " + key + ": 1e-7";
     own += "}\n";
     const bool volts = kind != Kind::actuator || name == "dc_motor" || name == "servo";
@@ -145,7 +145,7 @@ TEST_P(Contract, TheManualsScenarioRuns) {
   std::istringstream lines(manual.substr(begin + 1));
   std::string own;
   for (std::string line; std::getline(lines, line);) own += line.substr(std::min<std::size_t>(4, line.size())) + "\n";
-  // The longest robot that the manuals' joints ask for is two modules; legs for the gaits.
+  // The examples of the manuals refer to joints of at most two modules. CPGs get a robot with legs.
   const std::string body = GetParam().kind == Kind::cpg
                                ? text(own)
                                : "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 0.06\n" + own;
@@ -162,7 +162,7 @@ TEST_P(Contract, EveryNumberIsReachedAndRefusesNan) {
   for (const auto& [key, number] : defaults.found) {
     const std::string full = section(GetParam().kind) + "." + key;
     EXPECT_THROW((void)read_scenario(path, {full + "=.nan"}, catalog()), InputError) << full;
-    // A little away from the default, so that checks across fields still hold.
+    // The value differs only slightly from the default, so that checks between several settings still pass.
     const double away = number.whole ? 1 : 1e-3 * std::max(1e-3, std::abs(number.value));
     const double other = number.value + away <= number.spec.max ? number.value + away : number.value - away;
     const Scenario s = read_scenario(path, {full + "=" + number_text(other)}, catalog());
@@ -171,7 +171,7 @@ TEST_P(Contract, EveryNumberIsReachedAndRefusesNan) {
   }
 }
 
-/// RK4 as the host does it, without touching the heap once made.
+/// Integrates a CPG by RK4 as the program does. It allocates only in the constructor.
 struct Host {
   explicit Host(const Cpg& c, std::size_t joints)
       : cpg(c), x(c.states()), at(x.size()), k{at, at, at, at}, setpoint(joints), zeros(joints, 0.0) {
@@ -268,13 +268,13 @@ TEST_P(Contract, AllocatesNothing) {
     return;
   }
   Simulation simulation({&s, 1});
-  for (int i = 0; i < 1400; ++i) simulation.step();  // first ticks and contacts size Bullet's scratch
+  for (int i = 0; i < 1400; ++i) simulation.step();  // during the first ticks and contacts, Bullet allocates its buffers
   const Allocations allocations;
   for (int i = 0; i < 700; ++i) simulation.step();
   EXPECT_EQ(allocations.count(), 0);
 }
 
-/// Times at which a joint's set point rises through its mean, and its extremes, after `from`.
+/// Times after `from` at which the set point of a joint rises through its mean, and the extremes of the set point.
 struct Cycle {
   std::vector<double> rises;
   double lo = std::numeric_limits<double>::infinity(), hi = -lo, before = 0;
@@ -316,7 +316,7 @@ void expect_common_keys(const std::string& type, double f, double lag, const std
     const Cycle& c = joints[j];
     ASSERT_GE(c.rises.size(), 3U) << j;
     const double period = (c.rises.back() - c.rises.front()) / static_cast<double>(c.rises.size() - 1);
-    EXPECT_NEAR(period * f, 1, 0.01) << j;  // the interface's tolerances
+    EXPECT_NEAR(period * f, 1, 0.01) << j;  // tolerance of the plugin interface for CPGs
     EXPECT_NEAR((c.hi - c.lo) / 2, amplitude[j], 0.02 * amplitude[j]) << j;
     if (j == 0) continue;
     const double lead = 2 * std::numbers::pi * f * (joints[j - 1].rises[1] - c.rises[1]);

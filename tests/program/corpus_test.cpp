@@ -1,4 +1,4 @@
-// Inputs that the fuzzer kept, read again: tests/fuzz/corpus/READER/.
+// Every reader accepts or refuses the inputs that the fuzzer has kept in tests/fuzz/corpus/READER/.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ TEST(Corpus, NoFileEndsAReaderButByAMessage) {
   }
 }
 
-// Without a seed that is taken a reader is tested no further than its first check.
+// Every reader accepts its seed. Otherwise the fuzzer would test only the first check of the reader.
 TEST(Corpus, EveryReaderTakesItsSeed) {
   for (const fuzz::Reader& reader : fuzz::kReaders) {
     SCOPED_TRACE(reader.name);

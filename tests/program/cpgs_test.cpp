@@ -1,4 +1,4 @@
-// The caterpillar under every oscillator, only `cpg.type` changed.
+// The caterpillar walks with every oscillator, if only `cpg.type` is changed.
 #include <cmath>
 #include <numbers>
 
@@ -11,7 +11,8 @@ struct Gait {
   double period = 0, lag = 0, travel = 0;
 };
 
-/// Over one period of 4 s after 3.5 s, when amplitudes have grown. In engine articulated: the oscillators are the same in both.
+/// Gait of the caterpillar during the period of 4 s after t = 3.5 s, when the amplitudes have grown. Only engine articulated is
+/// used, because the oscillators do not depend on the engine.
 Gait walk_under(const std::string& type, double lag) {
   constexpr double kFrom = 3.5, kUntil = 8;
   std::vector<std::string> sets{"cpg.type=" + type, fmt::format("cpg.phase_lag={}", lag), "duration=8",
@@ -19,7 +20,7 @@ Gait walk_under(const std::string& type, double lag) {
   if (type == "wave") sets.push_back("plugins=[" + std::string(GAITLAB_BINARY_DIR) + "/plugins/wave.so]");
   const Recording record = run(shipped("caterpillar.yaml", sets));
   const Table table(record.trace);
-  std::vector<std::vector<double>> rises(16);  // of each joint's angle through 0
+  std::vector<std::vector<double>> rises(16);  // by joint: times at which the angle rises through 0
   for (std::size_t j = 0; j < 16; ++j) {
     const std::string column = fmt::format("joint.{}.angle", j);
     const auto first = static_cast<std::size_t>(kFrom / 0.005);
@@ -55,7 +56,7 @@ class WalkUnder : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(WalkUnder, TheCaterpillarTravelsAndTurnsBackWithTheLagsSign) {
   const Gait ahead = walk_under(GetParam(), 1.2);
-  EXPECT_NEAR(ahead.period, 4, 0.04);  // the tolerances of the interface
+  EXPECT_NEAR(ahead.period, 4, 0.04);  // tolerances of the plugin interface for CPGs
   EXPECT_NEAR(ahead.lag, 1.2, 0.05);
   EXPECT_LT(ahead.travel, -0.05);
   const Gait back = walk_under(GetParam(), -1.2);
@@ -69,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Walk, WalkUnder,
                                            "equations", "wave"),
                          [](const auto& param) { return std::string(param.param); });
 
-/// Outcome of a run of one module under these equations.
+/// Outcome of a run of one module with a CPG of the equations `model`.
 std::string end_of_run(const std::string& model) {
   const Scenario s =
       scenario("gaitlab: 1\nrobot: {modules: mtran}\nduration: 0.1\ncpg:\n  type: equations\n  model:\n" + model);
@@ -93,7 +94,7 @@ TEST(EquationRuns, TheFileWithItsEquationsWalksAsTheNativeModel) {
       run(shipped("caterpillar.yaml", {"duration=1", "physics.engine=articulated", "physics.accuracy=0.001"}));
   const Recording written = run(shipped("caterpillar-equations.yaml", {"duration=1"}));
   ASSERT_EQ(native.trace.rows(), 201U);
-  EXPECT_EQ(native.trace.values, written.trace.values);  // to the bit: the same operations in the same order
+  EXPECT_EQ(native.trace.values, written.trace.values);  // identical bits, because the operations have the same order
 }
 
 }  // namespace

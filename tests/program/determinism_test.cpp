@@ -1,4 +1,4 @@
-// Same build, same scenario, same bytes; and no allocation in the steady state.
+// With the same build, the same scenario gives the same bytes. After the start, steps do not allocate memory.
 #include <locale>
 
 #include "core/recording/trace.h"
@@ -18,13 +18,13 @@ TEST(Determinism, OtherFolderOtherTimeSameBytes) {
   for (const char* file : {"trace.h5", "scenario.resolved.yaml"}) {
     EXPECT_EQ(read(one / (std::string("a/") + file)), read(two / (std::string("some/where/b/") + file))) << file;
   }
-  // The resolved scenario alone, from a folder that knows no module: the same trace, and itself again.
+  // The resolved scenario gives the same trace and the same resolved scenario, also in a folder without module files.
   ASSERT_EQ(gaitlab("run '" + (one / "a/scenario.resolved.yaml") + "' --quiet --out c", two / "").code, 0);
   EXPECT_EQ(read(one / "a/trace.h5"), read(two / "c/trace.h5"));
   EXPECT_EQ(read(one / "a/scenario.resolved.yaml"), read(two / "c/scenario.resolved.yaml"));
 }
 
-/// Writes 0,5 for 0.5 and 1.000 for 1000.
+/// Number format of a locale that writes 0,5 for 0.5 and 1.000 for 1000.
 struct Comma final : std::numpunct<char> {
   [[nodiscard]] char do_decimal_point() const override { return ','; }
   [[nodiscard]] char do_thousands_sep() const override { return '.'; }
@@ -43,7 +43,7 @@ TEST(Determinism, OtherLocaleSameBytes) {
   EXPECT_EQ(plain, german);
 }
 
-/// Feels its joints: set points lean on the torques and touches that are measured.
+/// CPG with feedback, whose set points depend on the measured torques and contacts.
 struct Feeling final : Cpg {
   struct Settings {
     void fields(Fields&) {}
@@ -77,7 +77,7 @@ TEST_P(DeterminismOf, SnapshotGoesOnInAnotherWorldWhateverTheCpgMeasures) {
   EXPECT_EQ(go(second, 3000), end);
 }
 
-/// x' = cos(2 t): only the stages' own times make RK4 of fourth order.
+/// CPG with the state x' = cos(2 t). RK4 has order 4 only if each stage uses its own time.
 struct Clock final : Cpg {
   struct Settings {
     void fields(Fields&) {}
@@ -92,7 +92,7 @@ struct Clock final : Cpg {
 TEST(Simulation, CpgStatesAreIntegratedToFourthOrder) {
   add_cpg<Clock>(catalog(), "clock", "a test's");
   const Recording record = run(shipped("caterpillar.yaml", {"duration=0.6", "cpg.type=clock", "trace.columns=[cpg.*]"}));
-  // Simpson's rule at 15 ms: h^4 / 2880 * max of 16 cos(2t) * 0.6 s = 1.7e-10.
+  // For this equation RK4 is Simpson's rule. Its error at 15 ms is at most h^4 / 2880 * max |16 cos(2t)| * 0.6 s = 1.7e-10.
   EXPECT_NEAR(Table(record.trace)(0.6, "cpg.0"), 0.5 * math::sin(1.2), 2e-10);
 }
 
@@ -109,20 +109,20 @@ TEST_P(DeterminismOf, SnapshotGoesOnAsIfNothingHadHappened) {
 }
 
 TEST_P(DeterminismOf, AllocatesNothingInTheSteadyState) {
-  // Undamped feet on stiff ground chatter: steps are divided as far as they can be.
+  // Undamped feet on stiff ground chatter, so that the integrator divides steps to the smallest size.
   const std::vector<std::string> stiff{"contact.stiffness=1e6", "contact.damping=0"};
   for (const auto& [file, more] : {std::pair("caterpillar.yaml", std::vector<std::string>()),
                                    {"hexapod.yaml", {}},
                                    {"rubble.yaml", {}},
                                    {"hexapod.yaml", stiff}}) {
     for (const std::size_t lanes : catalog().engine(GetParam())->lanes) {
-      std::vector<std::string> sets{"duration=12", set()};  // of 2000 steps of 5 ms
+      std::vector<std::string> sets{"duration=12", set()};  // more than the 2000 steps of up to 5 ms below
       sets.insert(sets.end(), more.begin(), more.end());
       const std::vector<Scenario> s(lanes, shipped(file, sets));
       Simulation simulation(s);
-      for (int i = 0; i < 1000; ++i) simulation.step();  // first ticks size Bullet's scratch
+      for (int i = 0; i < 1000; ++i) simulation.step();  // during the first ticks, Bullet allocates its buffers
       const Allocations allocations;
-      for (int i = 0; i < 1000; ++i) simulation.step();  // trace rows and control ticks among them
+      for (int i = 0; i < 1000; ++i) simulation.step();  // includes trace rows and control ticks
       EXPECT_EQ(allocations.count(), 0) << file << ", " << lanes << " lanes";
     }
   }

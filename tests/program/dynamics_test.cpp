@@ -1,4 +1,4 @@
-// `gaitlab dynamics` as a user calls it, engines against core/dynamics, and reaction columns.
+// Tests of the command `gaitlab dynamics`, of the accelerations of all engines against core/dynamics, and of reaction columns.
 #include <Eigen/Cholesky>
 #include <nlohmann/json.hpp>
 
@@ -20,7 +20,7 @@ actuator: {{type: none}}
 duration: 1
 )";
 
-/// The command in a folder with a scenario `s.yaml` on that base and the shipped module types.
+/// Calls `gaitlab dynamics` in a folder with a scenario `s.yaml` and the shipped module types.
 class DynamicsCommand : public testing::Test {
  protected:
   DynamicsCommand() {
@@ -51,8 +51,8 @@ const nlohmann::json kState = {{"q", {0.3, -0.4, 0.5, 0.6, -0.7, 0.2}},
                                {"qd", {1, -2, 3, -1, 2, 0.5}},
                                {"tau", {0.1, 0.2, -0.3, 0.4, 0.5, -0.6}},
                                {"wrenches", {{{"body", "m2/link"}, {"force", {1, 2, 3}}, {"torque", {0.1, 0, -0.1}}}}}};
-// Forward by Bullet, with its principal axes, and backward by us: some hundred roundings, amplified by M^-1 (condition about
-// 1e4).
+// Tolerance for forward dynamics by Bullet, which uses principal axes, and inverse dynamics by core/dynamics: some hundred
+// rounding errors, amplified by the condition of M (about 1e4).
 constexpr double kRound = 1e-10;
 
 TEST_F(DynamicsCommand, InverseOfForwardIsTheIdentityOnEveryBase) {
@@ -86,7 +86,7 @@ TEST_F(DynamicsCommand, InverseOfForwardIsTheIdentityOnEveryBase) {
 TEST_F(DynamicsCommand, ReactionsAreNamedByJointsAndDocks) {
   base("fixed");
   const nlohmann::json out = answer({{"qd", 0}}, "--inverse");
-  // Modules of 0.4 kg at rest: what hangs on a dock is carried by it.
+  // The modules of 0.4 kg are at rest, so that a dock carries the weight of all modules that hang from it.
   EXPECT_NEAR(vector(out["reactions"]["m1/dock"]["force"])[2], 0.8 * 9.81, 1e-12);
   EXPECT_NEAR(vector(out["reactions"]["m2/dock"]["force"])[2], 0.4 * 9.81, 1e-12);
   EXPECT_NEAR(vector(out["base_wrench"]["force"])[2], 1.2 * 9.81, 1e-12);
@@ -131,7 +131,7 @@ TEST_F(DynamicsCommand, ErrorsHaveTheirPlaceAndOfferAName) {
   EXPECT_NE(missing.err.find("none.json: error: "), std::string::npos) << missing.err;
 }
 
-/// One evaluation by the engine named.
+/// Accelerations of a robot by one evaluation of an engine.
 Acceleration accelerate(const std::string& engine, const std::shared_ptr<const Robot>& robot, Base base,
                         const RobotState& state, const std::vector<double>& tau, const std::vector<BodyWrench>& wrenches,
                         const Vec3& gravity) {
@@ -172,7 +172,7 @@ TEST_P(Dynamics, AgreeWithTheInverseDynamicsAtRandomStates) {
         Eigen::Map<const Eigen::VectorXd>(tau.data(), static_cast<Eigen::Index>(tau.size()));
     MassMatrix mass(*robot, base);
     mass.update(k);
-    // As an acceleration, against the largest one.
+    // The residual of the equations of motion is converted to an acceleration and divided by the largest acceleration.
     double largest = std::max(a.linear.norm(), a.angular.norm());
     for (const double x : a.joints) largest = std::max(largest, std::abs(x));
     worst = std::max(worst, mass.matrix().llt().solve(residual).norm() / largest);
@@ -183,7 +183,7 @@ TEST_P(Dynamics, AgreeWithTheInverseDynamicsAtRandomStates) {
       worst, 1e-9, "required by the issue; rounding times the condition of M, 1e-16 * 1e5");
 }
 
-/// Two modules that hang from a fixed base: the reaction columns are the weight below, once it is at rest.
+/// The reaction columns of two modules that hang at rest from a fixed base are the weights below each place.
 TEST(ReactionColumns, HangingChainCarriesTheWeightBelow) {
   const Scenario hanging = scenario(R"(
 gaitlab: 1
@@ -196,7 +196,8 @@ trace: {period: 0.015, columns: [reaction.*, joint.*.speed]}
   const Recording record = run(hanging);
   const Table table(record.trace);
   const auto z = [&](const std::string& name) { return table.at(2, "reaction." + name + ".fz"); };
-  // Straight down from the start: nothing moves but by rounding. Links above: 0.16 active, 0.08 link, 0.16 passive.
+  // The chain hangs straight down, so that only rounding errors move it. A module consists of 0.16 kg (active block), 0.08 kg
+  // (link) and 0.16 kg (passive block).
   EXPECT_NEAR(z("base"), 0.8 * 9.81, 1e-9);
   EXPECT_NEAR(z("0"), 0.64 * 9.81, 1e-9);
   EXPECT_NEAR(z("1"), 0.56 * 9.81, 1e-9);
@@ -206,7 +207,8 @@ trace: {period: 0.015, columns: [reaction.*, joint.*.speed]}
   EXPECT_NEAR(table.at(2, "reaction.m1/dock.fx"), 0, 1e-9);
 }
 
-/// A walking robot: along the axis a hinge carries what its motor and stop give; the base floats, so nothing holds it.
+/// In a walking robot, the reaction of a hinge along its axis is the torque of motor and stop. The reaction of the free base is
+/// 0.
 TEST(ReactionColumns, CarryMotorAndStopTorquesAndNothingHoldsTheBase) {
   Scenario walking = shipped("caterpillar.yaml", {"duration=0.2", "trace.period=0.02", "controller.period=0.02"});
   walking.trace.columns = {"*"};
@@ -217,7 +219,7 @@ TEST(ReactionColumns, CarryMotorAndStopTorquesAndNothingHoldsTheBase) {
     const auto vec = [&](const std::string& name) {
       return Vec3(table.at(row, name + "x"), table.at(row, name + "y"), table.at(row, name + "z"));
     };
-    // Bullet's rounding, 1e-10 of the contact forces (about 10 N).
+    // The tolerance is for rounding errors of Bullet, about 1e-10 of the contact forces of 10 N.
     EXPECT_LT(vec("reaction.base.f").norm() + vec("reaction.base.m").norm(), 1e-8);
     for (std::size_t m = 0; m < walking.robot->modules.size(); ++m) {
       const Series load = record.series(fmt::format("load.{}", m));
@@ -236,9 +238,11 @@ TEST(ReactionColumns, CarryMotorAndStopTorquesAndNothingHoldsTheBase) {
   EXPECT_GT(touching, 0);
 }
 
-/// A rotor takes n^2 J qdd of its motor's torque for itself, and nothing from the ground.
+/// The part n^2 J qdd of a motor's torque accelerates the rotor. The reactions of the hinge contain only the rest of the
+/// torque.
 TEST(ReactionColumns, BalanceWithRotors) {
-  // A row per step: semi_implicit kicks speeds by h qdd, so two rows hold qdd, but for those between which the command changes.
+  // With one row per step, qdd follows from the speeds of two rows, because semi_implicit adds h qdd to the speeds. Rows
+  // between which the command changes are skipped.
   Scenario walking = shipped(
       "caterpillar.yaml", {"duration=0.045", "trace.period=2.5e-5", "controller.period=0.02", "actuator.rotor_inertia=1e-8"});
   ASSERT_EQ(walking.physics.step, 2.5e-5);
@@ -259,16 +263,16 @@ TEST(ReactionColumns, BalanceWithRotors) {
     const std::size_t link = walking.robot->joints[3].link;
     const Vec3 moment(table.at(row, "reaction.3.mx"), table.at(row, "reaction.3.my"), table.at(row, "reaction.3.mz"));
     const double qdd = (table.at(row + 1, "joint.3.speed") - table.at(row, "joint.3.speed")) / 2.5e-5;
-    // 1e-16 of 1 rad/s in 25 us is 1e-11 rad/s^2; the rest Bullet's rounding, as above.
+    // A rounding error of 1e-16 rad/s in 25 us is 1e-11 rad/s^2. The rest of the tolerance is for rounding errors of Bullet.
     EXPECT_NEAR(moment.dot(k.R[link] * walking.robot->links[link].axis),
                 table.at(row, "joint.3.torque") + table.at(row, "joint.3.stop_torque") - rotor * qdd, 1e-8)
         << row;
     largest = std::max(largest, std::abs(rotor * qdd));
   }
-  EXPECT_GT(largest, 1e-3);  // N m: there was something to take
+  EXPECT_GT(largest, 1e-3);  // the torque of the rotor is large enough for a test, N m
 }
 
-/// Asking for more columns changes nothing else.
+/// Further columns of the trace do not change the run.
 TEST(ReactionColumns, LeaveTheRunAsItIs) {
   Scenario plain = shipped("caterpillar.yaml", {"duration=0.06"});
   Scenario asked = plain;

@@ -1,4 +1,5 @@
-// Tests that hold for every engine: derive a fixture from EveryEngine, and instantiate it with engines() and engine_name.
+// Fixture for tests that run with every engine. Such a test derives its fixture from EveryEngine and instantiates it with
+// engines() and engine_name.
 #pragma once
 #include "tests/program/fixture.h"
 
@@ -7,7 +8,7 @@ namespace gaitlab::test {
 class EveryEngine : public testing::TestWithParam<std::string> {
  protected:
   [[nodiscard]] static std::string set() { return "physics.engine=" + GetParam(); }
-  /// The integrator of first order.
+  /// Name of the engine's integrator of first order.
   [[nodiscard]] static std::string first_order() { return catalog().engine(GetParam())->fixed().name; }
 };
 

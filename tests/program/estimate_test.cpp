@@ -1,4 +1,5 @@
-// The estimate of the torque error: a twin with commands of its own sees what steps miss, and changes no bit of the run.
+// Tests of the estimate of the torque error. A second rollout with separate commands, the twin, detects errors of the steps and
+// does not change the run.
 #include <filesystem>
 
 #include "report/analysis/collisions.h"
@@ -30,7 +31,7 @@ TEST_P(EstimateOf, ChangesNoBitOfTheRun) {
   EXPECT_EQ(bits(full, "done"), bits(off, "done"));
 }
 
-/// A run whose steps miss something at the default accuracy.
+/// Run whose torque error is too large at the default accuracy.
 struct Missed {
   const char* file;
   std::vector<std::string> sets = {};
@@ -39,8 +40,9 @@ void PrintTo(const Missed& m, std::ostream* out) { *out << m.file; }
 
 class WhatTheStepsMissed : public testing::TestWithParam<Missed> {};
 
-/// The worst with a sure reference of tests/tools/estimate.py, seed 1, and one of 2.6 %, of which a twin under the run's own
-/// commands, in windows, said 0.48. References at 50 and 20 us differ by 1.2 % of a torque's peak at most (tilted-tree).
+/// The estimate detects these errors. The runs are the worst runs with a reliable reference of tests/tools/estimate.py, seed 1,
+/// and a run with an error of 2.6 %, which a twin with the commands of the run estimated as 0.48 %. References at 50 and 20 us
+/// differ by at most 1.2 % of a torque's peak (tilted-tree).
 TEST_P(WhatTheStepsMissed, IsTold) {
   const double trace_period = 0.005;
   const auto made = [&](std::vector<std::string> sets) {
@@ -57,8 +59,8 @@ TEST_P(WhatTheStepsMissed, IsTold) {
   validate({"limits.estimate", "estimate of the torque error over the error, where steps miss events",
             "engine articulated at 50 us, order 2", ""},
            said / error, 1.75, 1.25, "required: 0.5 to 3");
-  // Between the moments at which the error exceeds a third of the accuracy and the whole: an estimate is up to 3 times the
-  // error.
+  // The time of the event is between the times at which the true error exceeds a third of the accuracy and the whole accuracy,
+  // because an estimate is up to 3 times the error.
   const double event = ours.tally.event.time;
   EXPECT_GE(event, first_error(ours, truth, s.physics.accuracy / 3) - trace_period);
   EXPECT_LE(event, first_error(ours, truth, s.physics.accuracy) + trace_period);
@@ -81,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Of, WhatTheStepsMissed,
                            return name;
                          });
 
-/// On a processor without four lanes the rollouts beside a run are simulations of one lane.
+/// On a processor without four lanes, the additional rollouts of the estimate are separate simulations with the same bits.
 TEST(Estimate, HasTheSameBitsWithoutLanes) {
   Scenario s = shipped("hexapod.yaml", {"physics.engine=articulated", "duration=1.3"});
   const std::string in_lanes = alone(s);
@@ -91,7 +93,7 @@ TEST(Estimate, HasTheSameBitsWithoutLanes) {
   EXPECT_EQ(alone(s), in_lanes);
 }
 
-/// Runs that share a pack have no lanes left for it.
+/// The torque error is estimated only for a run alone, because runs that share a lane group use all of its lanes.
 TEST(Estimate, IsOfARunAlone) {
   const std::vector<Scenario> pack(4, shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=0.1"}));
   Simulation simulation(pack);
@@ -100,7 +102,8 @@ TEST(Estimate, IsOfARunAlone) {
   EXPECT_TRUE(run(pack[0]).tally.estimated);
 }
 
-/// References at 50 and 20 us differ by 27 % here, and by as much from Bullet's: gravity times 1 + 1e-9 is enough.
+/// The program detects a run that is not predictable. References at 50 and 20 us differ by 27 %, and as much from Bullet. A
+/// factor of 1 + 1e-9 on gravity changes the torques as much.
 TEST(Estimate, FindsWhatNobodyCanPredict) {
   const std::string file = std::string(GAITLAB_SOURCE_DIR) + "/tests/data/events/unpredictable-tree.yaml";
   const Scenario s = read_scenario(file, {}, catalog());
@@ -135,7 +138,7 @@ TEST(Estimate, FindsTheWalksPredictable) {
   }
 }
 
-/// Throws where it is the second of its kind, after 0.1 s: that of the twin.
+/// CPG of which the second object, the CPG of the twin, throws after 0.1 s.
 struct SecondThrows final : Cpg {
   struct Settings {
     void fields(Fields&) {}
@@ -152,7 +155,7 @@ struct SecondThrows final : Cpg {
 TEST(Estimate, WhatTheTwinThrowsEndsNoRun) {
   add_cpg<SecondThrows>(catalog(), "second_throws", "a test's");
   const Scenario s = shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=0.6", "cpg.type=second_throws"});
-  SecondThrows::made = 0;  // the scenario's check makes one, too
+  SecondThrows::made = 0;  // the check of the scenario has constructed a CPG, too
   const Recording r = run(s);
   EXPECT_EQ(r.outcome.ended, Ended::done);
   EXPECT_GT(r.tally.event.time, 0.1);

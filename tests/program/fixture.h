@@ -1,4 +1,4 @@
-// Shared by the tests of the whole program: scenarios from text, runs in memory, the program as a user calls it.
+// Helpers of the tests of the whole program: scenarios from text, runs in memory, calls of the program's executable.
 #pragma once
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace gaitlab::test {
 
 inline const std::string kScenarios = std::string(GAITLAB_SOURCE_DIR) + "/scenarios/";
 
-/// Lives as long as the scenarios made from it.
+/// Catalog of the standard plugins, which exists until the end of the process because scenarios refer to it.
 inline Catalog& catalog() {
   static Catalog all = app::standard_catalog();
   return all;
@@ -28,7 +28,7 @@ inline Scenario shipped(const std::string& name, const std::vector<std::string>&
   return read_scenario(kScenarios + name, sets, catalog());
 }
 
-/// Every scenario of scenarios/library, by name.
+/// All scenarios of scenarios/library, in the order of their names.
 inline std::vector<Scenario> shipped_library() {
   std::vector<std::string> names;
   for (const auto& file : std::filesystem::directory_iterator(kScenarios + "library")) {
@@ -40,7 +40,7 @@ inline std::vector<Scenario> shipped_library() {
   return all;
 }
 
-/// A scenario from text, with the shipped module types.
+/// Scenario that is read from a text, which can use the shipped module types.
 inline Scenario scenario(const std::string& text, const std::vector<std::string>& sets = {}) {
   const Folder folder;
   std::filesystem::create_directory_symlink(kScenarios + "modules", folder / "modules");
@@ -56,7 +56,7 @@ inline Recording run(const Scenario& scenario) {
   return simulation.take_recording(0);
 }
 
-/// A column by name; a missing one is a test failure.
+/// Access to the columns of a trace by name. A missing column is a test failure.
 class Table {
  public:
   explicit Table(const Trace& trace) : trace_(trace) {}
@@ -85,7 +85,7 @@ struct Result {
   std::string out, err;
 };
 
-/// The program as a user calls it, in `folder`.
+/// Calls the executable gaitlab with `folder` as the working directory. Returns its exit code and outputs.
 inline Result gaitlab(const std::string& arguments, const std::string& folder) {
   const Folder capture;
   const std::string command = "cd '" + folder + "' && '" + std::string(GAITLAB_BINARY_DIR) + "/bin/gaitlab' " + arguments +

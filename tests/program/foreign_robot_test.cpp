@@ -1,4 +1,4 @@
-// Robots that are not M-TRAN: one module type of any frames, axes, tensors and bases, through YAML.
+// Robots that are not M-TRAN: module types with arbitrary frames, axes, inertia tensors and bases, read from YAML.
 #include <array>
 #include <cmath>
 
@@ -16,9 +16,10 @@ std::string list(const Mat3& m) {
                      m(1, 2));
 }
 
-/// Three bodies and two hinges on axes that are not parallel, the same robot whatever the turns of its hinge frames; thrown.
+/// Run of a thrown robot of three bodies and two hinges with axes that are not parallel. `turns` rotates the hinge frames,
+/// which changes the description but not the robot.
 Recording thrown(const std::array<Mat3, 2>& turns, const Mat3& world) {
-  const std::array<Vec3, 2> origin{Vec3(0.1, 0.05, -0.2), Vec3(-0.05, 0.3, 0.1)};  // in the frame of the body before, unturned
+  const std::array<Vec3, 2> origin{Vec3(0.1, 0.05, -0.2), Vec3(-0.05, 0.3, 0.1)};  // in the parent's frame without turns
   const std::array<Vec3, 2> axis{Vec3(0.6, 0, 0.8), Vec3(0, 1, 0)};
   const Vec3 com(0.03, -0.04, 0.1);
   const Mat3 inertia = rpy({0.5, 0.4, -0.3}) * Vec3(0.02, 0.03, 0.04).asDiagonal() * rpy({0.5, 0.4, -0.3}).transpose();
@@ -26,7 +27,7 @@ Recording thrown(const std::array<Mat3, 2>& turns, const Mat3& world) {
   std::string hinges;
   Mat3 before = Mat3::Identity();
   for (std::size_t i = 0; i < 2; ++i) {
-    // Vectors v of the unturned frame are turns[i]^T v in the turned one.
+    // A vector v in the frame without turns is turns[i]^T v in the turned frame.
     const Mat3 back = turns[i].transpose();
     bodies += fmt::format(", b{}: {{mass: 1, com: {}, inertia: {}}}", i, list(Vec3(back * com)),
                           list(Mat3(back * inertia * turns[i])));
@@ -57,7 +58,7 @@ trace: {{period: 0.1, columns: [joint.*, base.*]}}
                                   list(Vec3(world * Vec3(0, 3, -5))))));
 }
 
-/// Worst difference of the columns that match.
+/// Largest difference of the columns that match the pattern.
 double apart(const Recording& a, const Recording& b, const std::string& pattern) {
   double worst = 0;
   std::size_t compared = 0;
@@ -108,7 +109,7 @@ TEST(ForeignRobot, TheWorldMayBeTurned) {
       path, 1e-12, kRounding);
 }
 
-/// Two links thrown in the plane y = 0.
+/// Run of a robot that is thrown in the plane y = 0.
 Recording in_plane(const std::string& base) {
   return run(scenario(fmt::format(R"(
 gaitlab: 1
@@ -139,7 +140,7 @@ trace: {{period: 0.1, columns: [joint.*, base.*]}}
 TEST(ForeignRobot, APlanarBaseIsAFloatingOneInThePlane) {
   const Recording planar = in_plane("planar");
   const Recording floating = in_plane("floating");
-  // The floating one leaves the plane by rounding only: the plane of symmetry holds every COM.
+  // The robot with a floating base leaves the plane only by rounding errors, because the centres of mass are in the plane.
   validate_below(
       {"property.foreign.planar", "three bodies thrown in the plane y = 0, planar base: worst joint angle or speed in 1 s",
        "the same throw with a floating base", "rad, rad/s"},
@@ -151,7 +152,7 @@ TEST(ForeignRobot, APlanarBaseIsAFloatingOneInThePlane) {
 }
 
 TEST(ForeignRobot, TheExampleInTheManualRuns) {
-  // The indented block of docs/modules.md that is a scenario.
+  // Text of the indented block in docs/modules.md that is a scenario.
   std::istringstream page(read(std::string(GAITLAB_SOURCE_DIR) + "/docs/modules.md"));
   std::string text;
   for (std::string line; std::getline(page, line);) {
@@ -167,7 +168,7 @@ TEST(ForeignRobot, TheExampleInTheManualRuns) {
   EXPECT_EQ(run(two_rods).steps, 2000);
 }
 
-/// Output for a robot whose middle body has no mass.
+/// Output of the program for a robot whose middle body is massless.
 std::string said_of(const std::string& axis, const std::string& angle) {
   const Folder folder;
   folder.write("s.yaml", fmt::format(R"(gaitlab: 1

@@ -1,5 +1,5 @@
-// Boxes and heightfields under both engines: a block that rests, creeps and slides on them as the closed forms of eq. 12 say, a
-// ball on two at once; and what of a query must hold for any box.
+// Boxes and heightfields in every engine: a block rests, creeps and slides according to the closed forms of eq. 12, and a ball
+// touches two boxes at once. Queries of random boxes have the symmetries and the slope of a distance.
 #include "core/laws/ground.h"
 
 #include <rapidcheck.h>
@@ -15,7 +15,7 @@
 namespace gaitlab::test {
 namespace {
 
-/// 1 kg on four points, its COM in their plane; flat on what is inclined by `slope` about y.
+/// Block of 1 kg on four points, with its centre of mass in their plane, on a ground that is inclined by `slope` about y.
 Scenario block(const std::string& engine, const std::string& ground, double slope, const std::string& rest, double duration) {
   return scenario(fmt::format(R"(
 gaitlab: 1
@@ -30,10 +30,10 @@ physics: {{engine: {}, integrator: rk4, step: 5e-5}}
                               rest));
 }
 
-constexpr double kSlope = 0.2;  // rad
+constexpr double kSlope = 0.2;  // inclination of the ground, rad
 
 const std::string kTiltedBox = "{type: boxes, boxes: [{center: [0, 0, 1], size: [4, 1, 0.2], rpy: [0, 0.2, 0]}]}";
-/// The same plane as heights, z = -x tan(0.2), of 17 digits.
+/// Heightfield of the inclined plane z = -x tan(0.2), with heights of 17 digits.
 std::string tilted_field() {
   const double fall = 0.5 * std::tan(kSlope);
   std::string row;
@@ -45,7 +45,7 @@ std::string tilted_field() {
 class OnGround : public EveryEngine {};
 INSTANTIATE_TEST_SUITE_P(Of, OnGround, engines(), engine_name);
 
-// As on the plane under a tilted gravity, but for the ground's place.
+// On an inclined box or heightfield, friction holds a block as on a horizontal plane with inclined gravity.
 TEST_P(OnGround, HoldsABlockOnATiltedBoxByFriction) {
   for (const std::string& ground : {kTiltedBox, tilted_field()}) {
     const Recording record = run(block(GetParam(), ground, kSlope, "", 0.4));
@@ -62,7 +62,7 @@ TEST_P(OnGround, HoldsABlockOnATiltedBoxByFriction) {
 }
 
 TEST_P(OnGround, LetsABlockSlideWhereFrictionIsTooSmall) {
-  // f = 0.1 < tan(0.2): from v_lim on it accelerates by g (sin a - f cos a).
+  // Because f = 0.1 < tan(0.2), the block slides, and above v_lim it accelerates by g (sin a - f cos a).
   const std::string box = "{type: boxes, boxes: [{center: [0, 0, 1], size: [4, 1, 0.2], rpy: [0, 0.2, 0], friction: 0.1}]}";
   const Recording record = run(block(GetParam(), box, kSlope, "", 0.4));
   const Table table(record.trace);
@@ -72,7 +72,7 @@ TEST_P(OnGround, LetsABlockSlideWhereFrictionIsTooSmall) {
            "of the swing normal to it, 0.05 m/s at first, exp(-48 * 0.3) is left: 3e-8 m/s over 0.1 s");
 }
 
-// The forces of floor and wall add up as vectors.
+// The force on a ball in the corner of a floor and a wall is the sum of the forces of both.
 TEST_P(OnGround, CarriesABallOnAFloorAndAgainstAWall) {
   const Scenario s = scenario(fmt::format(R"(
 gaitlab: 1
@@ -90,7 +90,7 @@ physics: {{engine: {}, step: 2.5e-5, gravity: [3, 0, -9.81]}}
 )",
                                           GetParam()));
   const Recording record = run(s);
-  // Kn times the depths: 3 N against the wall, 9.81 N on the floor.
+  // The forces, Kn times the depths, are 3 N at the wall and 9.81 N on the floor.
   const std::string what = "ball pressed into the corner of floor and wall: depth ";
   validate({"closed.corner.wall", what + "in the wall, m g_x / Kn", kEq12, "m"}, end(record, "base.x") + 0.05, 3e-4, 5e-14,
            "the swing is gone (exp(-Cd p t / 2 m) = exp(-50)); rounding of 0.05 m, 7e-18, some thousand times");
@@ -112,7 +112,7 @@ TEST(GroundStart, LowersTheRobotAtItsPlace) {
   EXPECT_NEAR(start(box, "[0, 0]").z(), 0.0325, 1e-12);
   EXPECT_EQ(start(box, "[3, -1, 0.7]"), Vec3(3, -1, 0.7));
   EXPECT_EQ(start("{type: none}", "[3, -1]"), Vec3(3, -1, 0));
-  // A field that rises to the front by 0.1 a metre: the foremost points touch first.
+  // The heightfield rises by 0.1 m per metre towards the front, so that the foremost points touch first.
   const std::string row = "[0, 0.1, 0.2, 0.3]";
   const std::string field =
       "{type: heightfield, heightfield: {values: [" + row + ", " + row + ", " + row + "], origin: [0, -1, 0], spacing: 1}}";
@@ -162,7 +162,7 @@ TEST(GroundStart, LowersTheRobotOntoWhatIsBelow) {
   };
   EXPECT_NEAR(height("{type: boxes, boxes: [{center: [5, 0, 1], size: [1, 1, 1]}]}"), 0.0325, 1e-12);
   EXPECT_NEAR(height("{type: boxes, boxes: [{center: [0, 0, 0.05], size: [1, 1, 0.1]}]}"), 0.1325, 1e-12);
-  // On a box that rises to the front by 0.1 rad the vertices of the front face, 0.065 ahead of the middle, touch first.
+  // On a box that rises towards the front by 0.1 rad, the vertices of the front face, 0.065 m ahead of the middle, touch first.
   const double top = 0.5 + 0.05 / std::cos(0.1);
   EXPECT_NEAR(height("{type: boxes, boxes: [{center: [0, 0, 0.5], size: [1, 1, 0.1], rpy: [0, -0.1, 0]}]}"),
               top + 0.065 * std::tan(0.1) + 0.0325, 1e-9);
@@ -170,7 +170,8 @@ TEST(GroundStart, LowersTheRobotOntoWhatIsBelow) {
               1e-12);
 }
 
-// Whatever box, wherever: who moves with it finds the same; a step of an element moves what it finds by no more.
+// A query of a random box gives the same result if box and element are mirrored or moved together. If the element moves by d,
+// the depth changes by at most d.
 TEST(GroundProperty, ABoxIsTheSameFromEverySide) {
   const auto number = [](double lo, double hi) {
     return lo + (hi - lo) * *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, 1000001)) / 1e6;
@@ -190,7 +191,7 @@ TEST(GroundProperty, ABoxIsTheSameFromEverySide) {
     RC_ASSERT(std::abs(touch.normal.norm() - 1) < 1e-12);
     RC_ASSERT((touch.point - (centre - radius * touch.normal)).norm() < 1e-12);
     RC_ASSERT(std::abs(touch.penetration - radius - ground.query(centre, 0).penetration) < 1e-12);
-    // Mirrored in the box's own planes, and turned with it.
+    // The element is mirrored in the planes of the box and rotated with the box.
     Box turned = box;
     turned.rpy = vector(3);
     turned.R = rpy(turned.rpy);
@@ -198,7 +199,7 @@ TEST(GroundProperty, ABoxIsTheSameFromEverySide) {
     const Vec3 signs(*rc::gen::element(-1.0, 1.0), *rc::gen::element(-1.0, 1.0), *rc::gen::element(-1.0, 1.0));
     const Ground::Touch seen = other.query(box.center + turned.R * signs.cwiseProduct(local), radius);
     RC_ASSERT(std::abs(seen.penetration - touch.penetration) < 1e-12);
-    // A distance has a slope of 1.
+    // The depth is a distance, which changes by at most the length of the step.
     const Vec3 step = vector(0.01);
     RC_ASSERT(std::abs(ground.query(centre + step, radius).penetration - touch.penetration) < step.norm() + 1e-12);
   };

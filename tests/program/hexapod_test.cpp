@@ -1,5 +1,5 @@
-// The paper's second robot in its alternating tripod, and its kin with eight legs. Bounds are those a person would draw around
-// "it walks upright, on three feet, clearing the ground"; the statics are closed forms.
+// Walks of the paper's second robot, the hexapod in its alternating tripod gait, and of a similar robot with eight legs. Bounds
+// are generous limits of an upright walk with alternating supporting legs and lifted feet. The statics are closed forms.
 #include <algorithm>
 
 #include "core/plugin/legs.h"
@@ -20,7 +20,7 @@ struct Walked {
   std::vector<ContactElement> contacts = contact_elements(*scenario.robot, ContactSet::feet);
 
   [[nodiscard]] double weight() const { return kGravity * scenario.robot->mass; }
-  /// Contact elements of a leg's foot.
+  /// Numbers of the contact elements of a leg's foot.
   [[nodiscard]] std::vector<std::size_t> foot(const Leg& leg) const {
     std::vector<std::size_t> found;
     for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -33,7 +33,7 @@ struct Walked {
     for (const std::size_t c : foot(leg)) sum += table(t, fmt::format("contact.{}.fz", c));
     return sum;
   }
-  /// The links that a joint moves.
+  /// For each link, true if the joint moves it.
   [[nodiscard]] std::vector<bool> beyond(std::size_t joint) const {
     const Robot& robot = *scenario.robot;
     std::vector<bool> moved(robot.links.size(), false);
@@ -42,7 +42,7 @@ struct Walked {
     }
     return moved;
   }
-  /// Motion at a trace tick.
+  /// Positions and velocities of the links at the trace tick t.
   [[nodiscard]] Kinematics at(double t) const {
     const auto tick = static_cast<std::size_t>(std::llround(t / scenario.trace.period));
     RobotState state = record.state(*scenario.robot, tick);
@@ -59,11 +59,12 @@ struct Walked {
     for (const std::size_t c : foot(leg)) z = std::min(z, k.point(contacts[c].link, contacts[c].centre).z());
     return z;
   }
-  /// Legs that stand in the first half of a cycle: every other one, the sides opposite, as numbered from the front.
+  /// True if a leg stands in the first half of a cycle. Numbered from the front, every second leg of a side stands, and on the
+  /// other side the legs in between.
   [[nodiscard]] bool stands_first(std::size_t leg) const { return (leg / 2 + (legs[leg].left ? 1 : 0)) % 2 == 0; }
 };
 
-// In engine articulated, because bullet needs forty times the time; WalkOfTwoEngines compares the two.
+// The walks use engine articulated, because bullet takes forty times as long; WalkOfTwoEngines compares the two engines.
 const std::string kEngine = "physics.engine=articulated";
 
 const Walked& hexapod() {
@@ -83,7 +84,7 @@ void expect_walks(const Walked& w, double travel_a_second) {
     EXPECT_LT(2 * std::hypot(qx, qy), 0.2) << "roll and pitch at " << time;
     EXPECT_LT(2 * std::abs(qz), 0.2) << "heading at " << time;
   }
-  // Mid-swing: a quarter of the 2 s cycle into each half.
+  // The middle of the swing is in the middle of each half of the 2 s cycle.
   for (double mid = 4.5; mid < 12; mid += 1) {
     double carried = 0;
     for (std::size_t leg = 0; leg < w.legs.size(); ++leg) {
@@ -106,7 +107,7 @@ TEST(Walk, HexapodWalksUprightOnItsTripods) {
   std::vector<std::int64_t> modules;
   for (const Leg& leg : hexapod().legs) modules.push_back(leg.modules[0]);
   EXPECT_EQ(modules, (std::vector<std::int64_t>{9, 10, 7, 8, 5, 6}));  // from the front, left before right
-  expect_walks(hexapod(), 0.025);                                      // 0.5 m in 20 s
+  expect_walks(hexapod(), 0.025);                                      // at least 0.5 m in 20 s
 }
 
 TEST(Walk, OctopodWalksByTheSameMeasures) { expect_walks(Walked(shipped("octopod.yaml", {kEngine, "duration=12"})), 0.025); }
@@ -115,7 +116,7 @@ TEST(Walk, GaitBackwardsInTimeTravelsBack) {
   const Recording back = run(shipped("hexapod.yaml", {kEngine, "duration=6", "cpg.model.reverse=true"}));
   const Table t(back.trace);
   const double forward = hexapod().table(6, "com.x") - hexapod().table(2, "com.x");
-  // The robot is not symmetric about its middle (fronts and rears of its spine differ): 10 %.
+  // The tolerance is 10 %, because front and rear of the robot's spine differ.
   EXPECT_NEAR(t(6, "com.x") - t(2, "com.x"), -forward, 0.1 * forward);
 }
 
@@ -131,7 +132,7 @@ TEST(Walk, CentralSpineJointCarriesTheBodyAsInFigureFourteen) {
   const double sign = 2 * negative > torque.size() ? -1 : 1;
   const double same = sign < 0 ? static_cast<double>(negative) : static_cast<double>(torque.size() - negative);
   EXPECT_GE(same, 0.8 * static_cast<double>(torque.size()));
-  // One peak in every half cycle (1 s, 200 rows), and a valley between: at least two peaks a cycle with 30 % prominence.
+  // Every half cycle (1 s, 200 rows) has a peak, and the torque between peaks is lower by at least 30 %.
   for (double& x : torque) x *= sign;
   for (std::size_t half = 0; half + 200 <= torque.size(); half += 200) {
     const auto from = torque.begin() + static_cast<std::ptrdiff_t>(half);
@@ -144,7 +145,7 @@ TEST(Walk, CentralSpineJointCarriesTheBodyAsInFigureFourteen) {
   }
 }
 
-/// Angular momentum about `point` of everything that joint `joint` moves.
+/// Angular momentum about `point` of all links that a joint moves.
 Vec3 momentum_beyond(const Walked& w, double t, std::size_t joint, const Vec3& point) {
   const Robot& robot = *w.scenario.robot;
   const Kinematics k = w.at(t);
@@ -179,16 +180,17 @@ TEST(Walk, CentralSpineTorqueBalancesWeightsContactsAndInertia) {
       const Vec3 force(w.table(t, name + "fx"), w.table(t, name + "fy"), w.table(t, name + "fz"));
       moment += axis.dot((k.point(w.contacts[c].link, w.contacts[c].centre) - hinge).cross(force));
     }
-    // d/dt of the angular momentum about the point where the hinge is now, by a central difference over two rows.
+    // Time derivative of the angular momentum about the present position of the hinge, by a central difference over two rows.
     const double inertia =
         axis.dot(momentum_beyond(w, t + 0.001, kJoint, hinge) - momentum_beyond(w, t - 0.001, kJoint, hinge)) / 0.002;
     const double torque = w.table(t, "joint.5.torque");
     std::printf("t = %.1f s: joint 5 %.4f N m; weights and contacts %.4f, with inertia %.4f (static alone off by %.1f %%)\n", t,
                 torque, -moment, inertia - moment, 100 * std::abs((torque + moment) / moment));
-    // The remainder is the error of a central difference over 2 ms of a motion that a 15 ms loop shakes: 2 % of the joint's
-    // peak of 0.4 N m.
+    // The tolerance, 2 % of the joint's peak of 0.4 N m, is for the error of a central difference over 2 ms. The controller
+    // excites the motion every 15 ms.
     EXPECT_NEAR(torque, inertia - moment, 0.02 * 0.4) << t;
-    // The body falls from its highest point at 0.15 m/s^2: 1.5 % of the weights' and contacts' moments, which nearly cancel.
+    // The body accelerates downwards at 0.15 m/s^2. This is 1.5 % of the moments of weights and contacts, whose sum is much
+    // smaller.
     EXPECT_NEAR(torque, -moment, 0.15 * std::abs(moment)) << t;
   }
 }

@@ -1,4 +1,4 @@
-// Gait `keyframes`: splines against their defining properties and against a sine, errors as the user sees them.
+// Tests of the CPG `keyframes`: defining properties of the splines, approximation of a sine, error messages.
 #include "cpg/keyframes.h"
 
 #include <cmath>
@@ -36,7 +36,7 @@ double at(const Keyframes& gait, double t, std::size_t joint = 0, std::size_t co
   return setpoint[joint];
 }
 
-// Uneven times; two joints.
+// Frames at uneven times for two joints.
 std::vector<Keyframes::Frame> uneven(bool closed) {
   return {{0, {0, {0.1, -0.2}}},
           {0.3, {0, {0.5, 0.4}}},
@@ -63,7 +63,7 @@ TEST(Keyframes, BothCurvesPassThroughTheFrames) {
   }
 }
 
-// One-sided first and second derivatives of a cubic, exact but for rounding: from four of its points.
+// One-sided first and second derivatives of a cubic, computed from four of its points. Their only errors are rounding errors.
 struct Ends {
   double speed, curvature;
 };
@@ -104,7 +104,7 @@ TEST(Keyframes, ClampedSplineOfTwoFramesIsTheKnownCubic) {
   }
 }
 
-// The largest difference from sin of the periodic spline through n samples of it.
+// Largest difference between a sine and the periodic spline through n of its samples.
 double sine_error(int n) {
   constexpr double kTurn = 2 * std::numbers::pi;
   std::vector<Keyframes::Frame> frames;
@@ -116,7 +116,7 @@ double sine_error(int n) {
 }
 
 TEST(Keyframes, SplineThroughASineIsOfFourthOrder) {
-  // For cubic splines on even frames the error tends to h^4 / 384 times the fourth derivative.
+  // The error of a cubic spline with equidistant frames converges to h^4 / 384 times the fourth derivative.
   const double h = 2 * std::numbers::pi / 16;
   EXPECT_NEAR(sine_error(16), std::pow(h, 4) / 384, 0.1 * std::pow(h, 4) / 384);
   EXPECT_NEAR(sine_error(16) / sine_error(32), 16, 0.5);
@@ -126,7 +126,7 @@ TEST(Keyframes, SplineThroughASineIsOfFourthOrder) {
 TEST(Keyframes, TwoAndThreeFramesRepeat) {
   const Keyframes still(joints(1), settings({{0, {0.3}}, {2, {0.3}}}, true));
   EXPECT_DOUBLE_EQ(at(still, 1.234), 0.3);
-  // Up and down again: by symmetry the speed is zero at both frames, so each half is the known cubic.
+  // The joint moves up and back. By symmetry its speed is zero at both frames, so that each half is a known cubic.
   const Keyframes swing(joints(1), settings({{0, {0}}, {1, {1}}, {2, {0}}}, true));
   for (double t = 0; t <= 1; t += 0.1) {
     EXPECT_NEAR(at(swing, t), t * t * (3 - 2 * t), 1e-14) << t;
@@ -174,14 +174,14 @@ TEST(Keyframes, ReadFromAScenarioMovesEveryJointThroughItsFrames) {
   const Scenario s = scenario(kGaitScenario);
   const Recording r = run(s);
   const Table table(r.trace);
-  // The row at t holds the set point of the last control tick before t (every 0.015 s): 0.6 s is one, in force until 0.615 s.
+  // A row contains the set point of the last control tick before it. The tick at 0.6 s is valid until the next at 0.615 s.
   const double expected[4] = {0, 0.1, 0.2, -0.3};
   for (std::size_t j = 0; j < 4; ++j) {
     EXPECT_NEAR(table(0.61, fmt::format("joint.{}.setpoint", j)), expected[j], 1e-12) << j;
     EXPECT_NEAR(table(2.11, fmt::format("joint.{}.setpoint", j)), expected[j], 1e-12) << j;
     EXPECT_NEAR(table(1.51, fmt::format("joint.{}.setpoint", j)), j == 3 ? 0.3 : 0.1, 1e-12) << j;
   }
-  // Written out and read again: the same.
+  // The resolved scenario does not change if it is written, read and resolved again.
   const Folder folder;
   EXPECT_EQ(resolved(read_scenario(folder.write("again.yaml", resolved(s)), {}, catalog())), resolved(s));
 }

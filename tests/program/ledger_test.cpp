@@ -1,11 +1,11 @@
-// The energy ledger: what every step applied must explain where the energy went, but for the integration's own error.
+// Tests of the energy ledger: the energies of all steps balance except for the integration error.
 #include "tests/program/engines.h"
 #include "tests/validation.h"
 
 namespace gaitlab::test {
 namespace {
 
-const std::string kShort = "duration=1.5";  // past the ramps: motors drive and are driven, feet stand and slip
+const std::string kShort = "duration=1.5";  // long enough that motors drive and are driven, and feet stand and slip
 const std::string kColumns = "trace.columns=[energy.*]";
 
 Ledger ledger(const Scenario& s) { return run(s).ledger; }
@@ -33,7 +33,7 @@ TEST(Ledger, DirectionalGearsCreateNothing) {
   const Recording directional = run(shipped("hexapod.yaml", {kShort, "actuator.efficiency_model=directional"}));
   double created = 0;
   for (const JointStatistics& joint : printed.joints) created += joint.created;
-  EXPECT_GT(created, 0.05 * printed.ledger.electrical);  // measured: 0.2 of it; the reason for the model
+  EXPECT_GT(created, 0.05 * printed.ledger.electrical);  // measured 0.2, the reason for the directional model
   const double electrical = directional.ledger.electrical;
   double most = 0;
   for (const JointStatistics& joint : directional.joints) most = std::max(most, joint.created);
@@ -49,7 +49,7 @@ TEST(Ledger, DirectionalGearsCreateNothing) {
 class LedgerIn : public EveryEngine {};
 INSTANTIATE_TEST_SUITE_P(Engines, LedgerIn, engines(), engine_name);
 
-// No motor: what was kinetic and potential energy goes into stops, ground and friction.
+// The lost kinetic and potential energy of a thrown robot without motors equals the losses in stops, ground and friction.
 TEST_P(LedgerIn, ExplainsAThrownRobot) {
   const auto thrown = [](double step) {
     return ledger(scenario(fmt::format(R"(
@@ -73,7 +73,7 @@ trace: {{period: 0.01, columns: [energy.*]}}
   EXPECT_LT(std::abs(fine.residual()), 0.7 * std::abs(coarse.residual()));
 }
 
-// A hinge that swings against its stop and back, thrice: what the stop takes is what is missing, and nothing else acts.
+// The energy that a stop dissipates equals the lost kinetic energy of a hinge that bounces three times. No other force acts.
 TEST_P(LedgerIn, BooksWhatAStopTakes) {
   const Recording record = run(scenario(fmt::format(R"(
 gaitlab: 1
@@ -99,7 +99,7 @@ trace: {{period: 0.01, columns: [energy.*, joint.*]}}
   const std::size_t last = record.trace.rows() - 1;
   const double kinetic = 0.5 * 0.05 * 2 * 2;
   const double left = 0.5 * 0.05 * std::pow(table.at(last, "joint.0.speed"), 2);
-  // A stop of 50 N m/rad and 0.5 N m s/rad throws 0.05 kg m^2 back with 0.6 of its speed and less.
+  // A stop of 50 N m/rad and 0.5 N m s/rad returns an inertia of 0.05 kg m^2 with at most 0.6 of its speed.
   EXPECT_LT(left, 0.2 * kinetic);
   EXPECT_LT(std::abs(table.at(last, "joint.0.angle")), 0.2) << "between the stops, whose springs hold nothing";
   EXPECT_NEAR(record.ledger.stops, kinetic - left, 1e-3 * kinetic) << "order 1: h times the stop's 30/s, and as much again";
@@ -116,7 +116,7 @@ TEST(Ledger, RowsAndSummaryHoldTheSameSums) {
   EXPECT_EQ(table.at(last, "energy.residual"), record.ledger.residual());
   double electrical = 0;
   for (const JointStatistics& joint : record.joints) electrical += joint.electrical;
-  // The same numbers, added up in another order.
+  // Both sums have the same terms in a different order, so that they differ only by rounding errors.
   EXPECT_NEAR(table.at(last, "energy.electrical"), electrical, 1e-12 * electrical);
 }
 

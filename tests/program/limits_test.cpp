@@ -1,5 +1,5 @@
-// Motors driven into their limits, and ground so stiff that contacts chatter: engine articulated as it comes, against engine
-// bullet at a step that is fine enough.
+// Engine articulated with default settings against engine bullet at a short step: motors at their limits, and ground so stiff
+// that contacts chatter.
 #include <cmath>
 
 #include "report/verdict/trust.h"
@@ -13,7 +13,7 @@ namespace {
 
 double at_limit(const JointStatistics& joint) { return joint.saturated_voltage + joint.saturated_current; }
 
-/// Mean over all joints and time.
+/// Share of time at a limit, mean of all joints.
 double at_limit(const Recording& record) {
   double sum = 0;
   for (const JointStatistics& joint : record.joints) sum += at_limit(joint) / static_cast<double>(record.joints.size());
@@ -30,10 +30,10 @@ double travel(const Recording& r) { return r.travel().head<2>().norm(); }
 
 struct Case {
   std::string name;
-  std::string file;  ///< of the shipped ones; "": text
+  std::string file;  ///< shipped scenario; "" if `text` is the scenario
   std::string text;
   std::vector<std::string> sets;
-  double limited = 0;  ///< share of time that the joints are at least at a limit, in the mean
+  double limited = 0;  ///< least share of time at a limit, mean of all joints
 
   [[nodiscard]] Scenario with(const std::vector<std::string>& more) const {
     std::vector<std::string> all = sets;
@@ -59,8 +59,9 @@ const std::string kFourLegs =
     "robot: {modules: mtran, docks: [[1, 1, 4, 0, 1], [1, 2, 4, 1, 3], [0, 3, 3, 0, 3], [2, 4, 5, 0, 1], "
     "[0, 5, 3, 2, 3], [2, 6, 5, 2, 1]]}\n";
 
-/// Bullet's step: halved to 5 us, these figures move by 0.03 % of a torque's peak, 0.02 points of time and 0.02 % of energy at
-/// most (its method has order 1, so that is what 10 us misses but for a factor of 2), a thirtieth of what is allowed.
+/// Step of engine bullet, s. With half of this step, results change by at most 0.03 % of a torque's peak, 0.02 percentage
+/// points of time, and 0.02 % of energy. The method has order 1, so that errors at 10 us are about twice these changes. The
+/// changes are a thirtieth of the tolerances.
 constexpr double kFine = 1e-5;
 
 std::vector<Case> cases() {
@@ -134,12 +135,13 @@ TEST_P(Limits, AreMetAsByBulletAtAFineStep) {
 
 INSTANTIATE_TEST_SUITE_P(Motors, Limits, testing::ValuesIn(cases()), [](const auto& info) { return info.param.name; });
 
-/// Feet on ground of Kn 1e6 N/m and Cd 1e7 N s/m^2: an impact lasts 0.1 ms, and every step here is longer.
+/// On stiff ground (Kn 1e6 N/m, Cd 1e7 N s/m^2), where impacts last 0.1 ms, longer steps create no energy and give about the
+/// same travel.
 TEST(StiffGround, MakesNoEnergyAndTheRobotWalksAsFar) {
   const std::string text =
       "gaitlab: 1\n" + kFourLegs + "contact: {stiffness: 1e6, damping: 1e7}\ncpg: {type: tripod}\nduration: 1.5\n";
   const double far = travel(run(scenario(text, {"physics.engine=bullet", "physics.step=1e-5"})));
-  EXPECT_NEAR(far, 36.6e-3, 1e-5);  // at 2.5 us: 36.5995 mm
+  EXPECT_NEAR(far, 36.6e-3, 1e-5);  // the travel at a step of 2.5 us is 36.5995 mm
   for (const char* step : {"2.5e-3", "5e-3", "auto"}) {
     const Scenario s = scenario(text, {"physics.engine=articulated", std::string("physics.step=") + step});
     const Recording r = run(s);
@@ -147,7 +149,8 @@ TEST(StiffGround, MakesNoEnergyAndTheRobotWalksAsFar) {
         {"limits.stiff_ground", "ground of Kn 1e6 N/m at steps of 2.5 ms, 5 ms and auto: energy missing, of what is drawn",
          "conservation of energy", ""},
         std::abs(r.ledger.residual()) / r.ledger.electrical, 0.01, "required: what is said in warnings from there on");
-    // Feet that chatter take thrust away; that of whole steps is friction's, which goes by the normal force before the step.
+    // Chattering feet reduce the travel. With a fixed step, friction depends on the normal force before the step, which doubles
+    // the tolerance.
     const double allowed = s.physics.adaptive_step ? 0.03 : 0.06;
     EXPECT_NEAR(travel(r), far, allowed * far) << step;
     EXPECT_EQ(r.tally.off, 0) << step;

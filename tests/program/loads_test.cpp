@@ -1,4 +1,4 @@
-// Loads of docks and feet against closed forms, against the reaction columns, and that they change nothing else.
+// Loads of docks and feet equal closed forms and the reaction columns, and recording them does not change the run.
 #include "report/analysis/loads.h"
 
 #include <cmath>
@@ -13,7 +13,8 @@
 namespace gaitlab::test {
 namespace {
 
-// Loads are recorded with the 24 bits of a float: half a unit of the last place is 6e-8 of the value.
+// Loads are recorded with the 24 bits of a float, so that the rounding error is up to 6e-8 of the value. The tolerance is
+// double.
 constexpr double kFloat = 1.2e-7;
 
 Recording run_with_loads(const Scenario& scenario) {
@@ -27,7 +28,7 @@ double last_load(const Recording& record, const std::string& column) { return lo
 
 class LoadsOf : public EveryEngine {
  protected:
-  /// Rods of 0.5 kg, 0.2 m long, on one another's ends and sides, the first one held in the air.
+  /// Run of rods of 0.5 kg and 0.2 m that are docked at ends and sides. The first rod is fixed in the air.
   [[nodiscard]] static Recording rods(const std::string& docks, double pitch) {
     return run_with_loads(scenario(fmt::format(R"(
 gaitlab: 1
@@ -54,7 +55,7 @@ trace: {{columns: [base.*]}}
   }
   static void expect(const Recording& record, int module, double tension, double shear, double bending, double torsion) {
     const auto at = [&](const char* quantity) { return last_load(record, fmt::format("dock.{}.{}", module, quantity)); };
-    constexpr double kTolerance = 1e-6;  // kFloat of 10 N
+    constexpr double kTolerance = 1e-6;  // kFloat times 10 N, rounded
     EXPECT_NEAR(at("tension"), tension, kTolerance);
     EXPECT_NEAR(at("shear"), shear, kTolerance);
     EXPECT_NEAR(at("bending"), bending, kTolerance);
@@ -66,7 +67,7 @@ trace: {{columns: [base.*]}}
 INSTANTIATE_TEST_SUITE_P(Of, LoadsOf, engines(), engine_name);
 
 TEST_P(LoadsOf, ARodThatHangsAndOneThatStands) {
-  const Recording hangs = rods(kRow, std::numbers::pi / 2);  // x downwards
+  const Recording hangs = rods(kRow, std::numbers::pi / 2);  // the x axis points downwards
   expect(hangs, 1, 2 * kWeight, 0, 0, 0);
   expect(hangs, 2, kWeight, 0, 0, 0);
   const Recording stands = rods(kRow, -std::numbers::pi / 2);
@@ -79,14 +80,15 @@ TEST_P(LoadsOf, AnArmThatIsHeldOut) {
   expect(record, 2, 0, kWeight, kWeight * 0.1, 0);
 }
 
-/// The weight of a rod on the side of another, 0.13 m beside its axis, is held up by a turn about the outward x.
+/// The weight of a rod that is docked to the side of another rod, 0.13 m from its axis, causes torsion about the outward x
+/// axis.
 TEST_P(LoadsOf, ATwistedDock) {
   const Recording record = rods("[[0, 1, 1, 0, 0], [0, 2, 2, 1, 0]]", 0);
   expect(record, 1, 0, 2 * kWeight, 2 * kWeight * 0.1, kWeight * 0.13);
   expect(record, 2, 0, kWeight, kWeight * 0.1, 0);
 }
 
-/// 1 kg on four points.
+/// Block of 1 kg on four contact points.
 Scenario block(const std::string& engine, const std::string& rest, double height, double duration) {
   return scenario(fmt::format(R"(
 gaitlab: 1
@@ -104,7 +106,7 @@ TEST_P(LoadsOf, ABlockThatSlidesToRest) {
   const double sink = oracle::standing_sink(1, 9.81, 4, 1e4);
   const Recording record = run_with_loads(block(GetParam(), "initial: {base_velocity: [0.6, 0.8, 0]}", -sink, 0.2));
   const oracle::SlidingBlock law{0.8, 9.81, 0.01};
-  // Explicit methods of first order: h v / 2 of the way.
+  // The tolerance is for the error h v / 2 of the path of explicit methods of order 1.
   const double way = law.stops_after(1);
   EXPECT_NEAR(last_load(record, "slip"), way, 3e-5);
   EXPECT_NEAR(last_load(record, "foot.m0/block.slid"), way, 3e-5);
@@ -113,7 +115,7 @@ TEST_P(LoadsOf, ABlockThatSlidesToRest) {
   EXPECT_NEAR(last_load(record, "foot.m0/block.fz"), 9.81, 9.81 * kFloat);
   EXPECT_NEAR(last_load(record, "foot.m0/block.x"), 0.6 * way, 3e-5);
   EXPECT_NEAR(last_load(record, "foot.m0/block.y"), 0.8 * way, 3e-5);
-  EXPECT_NEAR(load(record, 1, "foot.m0/block.fx"), -0.6 * 0.8 * 9.81, 1e-5);  // f m g against the motion
+  EXPECT_NEAR(load(record, 1, "foot.m0/block.fx"), -0.6 * 0.8 * 9.81, 1e-5);  // friction against the motion
 }
 
 TEST_P(LoadsOf, ABlockThatFlies) {
@@ -124,7 +126,7 @@ TEST_P(LoadsOf, ABlockThatFlies) {
   EXPECT_EQ(record.loads.find("foot.m0/block.fz"), record.loads.columns.size()) << "it never carried a load";
 }
 
-/// A foot on an arm that a fixed robot turns about the vertical, 0.3 m away.
+/// The slid path of a foot on an arm of 0.3 m that a fixed robot turns about the vertical is the arc of the foot.
 TEST_P(LoadsOf, ADraggedFoot) {
   const Recording record = run_with_loads(scenario(fmt::format(R"(
 gaitlab: 1
@@ -150,13 +152,13 @@ trace: {{columns: [joint.*]}}
   EXPECT_GT(turned, 0.1);
   const double fn = last_load(record, "foot.m0/arm.fz");
   EXPECT_NEAR(fn, 1e4 * 1e-4, 1e-6);  // Kn p
-  // Chords for an arc: (0.015 s * 2 rad/s)^2 / 24 of the way at most.
+  // Ticks give chords of the arc, which are shorter by at most (0.015 s * 2 rad/s)^2 / 24.
   EXPECT_NEAR(last_load(record, "foot.m0/arm.slid"), 0.3 * turned, 4e-5 * 0.3 * turned);
   EXPECT_NEAR(last_load(record, "slip"), 0.3 * turned * fn / (2 * 9.81), 5e-5 * 0.3 * turned * fn / (2 * 9.81));
 }
 
-/// Without motors nothing changes at a tick, so that a row of the trace and one of the loads are the same moment: the dock's
-/// wrench from the reaction columns, along and across the CHILD's face as the pose columns have it.
+/// The loads of docks equal the reaction columns, resolved along and across the child's face by the pose columns. The robot has
+/// no motors, so that nothing jumps at a tick, and rows of trace and loads at the same time are comparable.
 TEST(Loads, AreTheReactionsInTheAxesOfTheFaces) {
   double worst = 0;
   double largest = 0;
@@ -169,7 +171,7 @@ TEST(Loads, AreTheReactionsInTheAxesOfTheFaces) {
     ASSERT_GE(record.loads.rows(), 2U);
     const Robot& robot = *s.robot;
     const Table table(record.trace);
-    for (std::size_t tick = 0; tick < record.loads.rows(); ++tick) {  // of these there are fewer
+    for (std::size_t tick = 0; tick < record.loads.rows(); ++tick) {  // loads have fewer rows than the trace
       std::size_t row = 0;
       while (row + 1 < record.trace.rows() && record.trace.at(row, 0) < record.loads.at(tick, 0)) ++row;
       ASSERT_EQ(record.trace.at(row, 0), record.loads.at(tick, 0));
@@ -183,7 +185,7 @@ TEST(Loads, AreTheReactionsInTheAxesOfTheFaces) {
         const std::string body = "body." + robot.bodies[module.first_body + face->body].name + ".q";
         const Quat turn(table.at(row, body + "w"), table.at(row, body + "x"), table.at(row, body + "y"),
                         table.at(row, body + "z"));
-        const Vec3 normal = turn * face->normal;  // out of the child, into the parent
+        const Vec3 normal = turn * face->normal;  // points out of the child into the parent
         const std::string dock = fmt::format("reaction.m{}/dock.", m);
         const Vec3 f = vec(dock + "f");
         const Vec3 moment = vec(dock + "m");
@@ -219,7 +221,7 @@ TEST(Loads, OfFeetAreThoseOfTheirContactElements) {
       for (std::size_t c = 0; c < record.trace.columns.size(); ++c) {
         if (glob(std::string("contact.*.f") + axis, record.trace.columns[c].name)) elements += record.trace.at(row, c);
       }
-      EXPECT_NEAR(feet, elements, 1e-5);  // a float's rounding of six forces of up to 40 N
+      EXPECT_NEAR(feet, elements, 1e-5);  // float rounding errors of six forces of up to 40 N
     }
   }
 }
@@ -250,7 +252,7 @@ TEST(Loads, ChangeNothingElseAndDependOnNoRowsAndNoOtherLane) {
   EXPECT_EQ(hash(together.take_recording(2).loads), hash(run_with_loads(lanes[2]).loads));
 }
 
-/// contact.law bullet: its forces are not all known, so docks are left out.
+/// With `contact.law: bullet` only loads of feet are recorded, because not all forces of Bullet's solver are known.
 TEST(Loads, OfTheSolverAreOfFeetAlone) {
   const Scenario s = shipped("caterpillar.yaml", {"duration=0.1", "physics.engine=bullet", "contact.law=bullet"});
   const Recording record = run_with_loads(s);

@@ -1,4 +1,4 @@
-// Module format 2 in whole scenarios: faces without gender, motors and controllers by type and hinge, hinges that turn freely.
+// Module format 2 in scenarios: faces without gender, motors and controllers by module type and hinge, hinges without stops.
 #include <cmath>
 
 #include "core/dynamics/dock_load.h"
@@ -10,7 +10,8 @@
 namespace gaitlab::test {
 namespace {
 
-/// A cube of two halves on a hinge, 60 mm: faces 0 behind and 1 in front. `faces`, `rest`: YAML.
+/// Module file of a 60 mm cube: two halves with a hinge, face 0 at the rear and face 1 at the front. `faces` and `rest` are
+/// YAML.
 std::string cube(const std::string& format, const std::string& name, const std::string& faces, const std::string& rest,
                  const std::string& hinge = "range: [-1.5, 1.5]") {
   return fmt::format(R"(
@@ -105,7 +106,7 @@ TEST(ModuleTypes, OnlyLikeConnectorsDock) {
       << mixed;
 }
 
-/// N m at rest under the full command.
+/// Torque of each joint at rest under the largest command, N m.
 std::vector<double> stall(const Scenario& s) {
   const auto actuator = make_actuator(s.actuator, info(*s.robot));
   const std::size_t n = s.robot->joints.size();
@@ -114,7 +115,7 @@ std::vector<double> stall(const Scenario& s) {
   return torque;
 }
 
-constexpr const char* kSmallMotor =  // 0.245 N m and 8.73 rad/s at 4.8 V
+constexpr const char* kSmallMotor =  // motor of 0.245 N m and 8.73 rad/s at 4.8 V
     "      actuator: {type: dc_motor, R: 7.53828336475, Kt: 0.00183346494442, Ks: 0.00183346494442, gear: 300, efficiency: "
     "0.7, "
     "u_max: 4.8, i_max: 0.636749743641, source: \"SG92R\"}\n"
@@ -136,10 +137,10 @@ TEST(ModuleTypes, EveryJointHasTheMotorAndTheGainsOfItsType) {
   EXPECT_TRUE(contains(full, "Kd: [0.6, 0.6, 0]")) << full;
   EXPECT_TRUE(contains(full, "gear: [594, 594, 300]")) << full;
   EXPECT_TRUE(contains(full, "efficiency: 0.7\n")) << "one value for all stays one: " << full;
-  // The resolved text alone says the same.
+  // The resolved text is sufficient to repeat the run.
   EXPECT_EQ(resolved(scenario(full)), full);
   EXPECT_EQ(run(scenario(full)).trace.values, run(s).trace.values);
-  // The scenario's own values are over those of the types.
+  // Values of the scenario override those of the module types.
   EXPECT_TRUE(contains(resolved(scenario(text, {"controller.Kp=50", "actuator.i_max=0.3"})), "Kp: 50"));
   EXPECT_NEAR(stall(scenario(text, {"actuator.i_max=0.3"}))[2], 0.7 * 0.00183346494442 * 0.3 * 300, 1e-9);
 }
@@ -158,7 +159,7 @@ TEST(ModuleTypes, DifferentKindsOfMotorsAreAQuestion) {
   const std::string models = "      actuator: {type: dc_motor, efficiency_model: directional}\n";
   const std::string one = error_of(robot(cube("2", "small", kGendered, models), "{0: mtran, 1: small}", "[[0, 1, 4, 0, 0]]"));
   EXPECT_TRUE(contains(one, "efficiency_model is one for all joints of a robot, and other hinges have another one")) << one;
-  // Types of format 1 must name one motor, as ever.
+  // Module types of format 1 must have the same motor.
   const std::string old = error_of(robot(cube("1", "small", kGendered, kMotor), "{0: mtran, 1: small}", "[[0, 1, 4, 0, 0]]"));
   EXPECT_TRUE(contains(old, "the module types have different actuators")) << old;
 }
@@ -213,7 +214,8 @@ duration: 0.1
   EXPECT_GT(run(stone).trace.rows(), 10U);
 }
 
-// Three M-TRAN level from a fixed base: a dock that carries j modules bears j m g and j^2 m g L / 2, L = 0.13 m.
+// In a horizontal cantilever of three M-TRAN modules, a dock that carries j modules has the shear j m g and the bending moment
+// j^2 m g L / 2 with L = 0.13 m.
 TEST(ModuleTypes, ACantileverLoadsItsDocks) {
   const Scenario s = scenario(R"(
 gaitlab: 1

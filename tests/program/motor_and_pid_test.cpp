@@ -1,4 +1,4 @@
-// Motor, controller and oscillators in the program against closed forms.
+// Motor, controller and oscillators of the program agree with closed forms.
 #include <cmath>
 
 #include "tests/oracles/drives.h"
@@ -8,7 +8,7 @@
 namespace gaitlab::test {
 namespace {
 
-/// A flywheel of 0.05 kg m^2 on a fixed support; `com`: weight off its axis.
+/// Scenario text of a flywheel of 0.05 kg m^2 on a fixed support. `com` is its centre of mass, which may be off the axis.
 std::string flywheel(const std::string& com) {
   return fmt::format(R"(
 gaitlab: 1
@@ -30,7 +30,7 @@ contact: {{on: none}}
 
 const std::string kMotorEquations = "closed form of eq. 1, 2 (docs/equations.md, 3)";
 
-/// Worst speed while the current is limited and afterwards, over 0.3 s at 7.4 V.
+/// Largest errors of the speed at the current limit and afterwards, during 0.3 s at 7.4 V, rad/s.
 std::array<double, 2> spin_up(const oracle::MotorSpinUp& motor, double rotor) {
   const Recording record = run(scenario(flywheel("[0, 0, 0]") + fmt::format(R"(
 physics: {{integrator: rk4, step: 1e-4}}
@@ -70,7 +70,7 @@ TEST(Motor, SpinsUpALoad) {
 }
 
 TEST(Motor, HoldsAWeight) {
-  // 2 V at rest: eta Kt n u / R = m g l sin(q).
+  // At rest under 2 V, eta Kt n u / R = m g l sin(q).
   const double torque = 0.7 * 0.00395 * 594 * 2 / 4.3;
   const double angle = std::asin(torque / (9.81 * 0.1));
   const Recording record = run(scenario(flywheel("[0, 0, -0.1]") + fmt::format(R"(
@@ -93,7 +93,7 @@ trace: {{period: 1e-3, columns: [joint.*]}}
 TEST(HingeStop, ThrowsBackWhatDampingLeaves) {
   std::string text = flywheel("[0, 0, 0]");
   text.replace(text.find("[-1000, 1000]"), 13, "[-1, 0]");
-  // Starts at the limit with 1 rad/s; a step of 1 us, because the stop's torque jumps by cs v where it is touched.
+  // The joint starts at its stop with 1 rad/s. The step is 1 us, because the torque of a stop jumps by cs v at first contact.
   const Recording record = run(scenario(text + R"(
 initial: {speeds: 1}
 actuator: {type: none}
@@ -124,7 +124,7 @@ trace: {period: 0.015, columns: [joint.*]}
   oracle::TextbookPid pid(3, 2, 0.2, 5, 0.015);
   const Table table(record.trace);
   double worst = 0;
-  // A row holds the angle at its time, and set point and command of the tick before.
+  // A row contains the angle at its time, and set point and command of the previous control tick.
   for (std::size_t row = 0; row + 1 < record.trace.rows(); ++row) {
     const double command = pid(table.at(row + 1, "joint.0.setpoint") - table.at(row, "joint.0.angle"));
     worst = std::max(worst, std::abs(table.at(row + 1, "joint.0.voltage_command") - command));
@@ -135,7 +135,7 @@ trace: {period: 0.015, columns: [joint.*]}
 }
 
 TEST(PidLoop, DoesNotWindUp) {
-  // A supply of 1 V: the command is beyond it for most of the time, also where the error changes its sign.
+  // With a supply of 1 V the command exceeds the supply most of the time, also when the error changes its sign.
   const Recording record = run(scenario(flywheel("[0, 0, -0.1]") + R"(
 physics: {integrator: semi_implicit, step: 1e-3}
 actuator: {u_max: 1}
@@ -165,7 +165,7 @@ trace: {period: 0.015, columns: [joint.*]}
 }
 
 TEST(PhaseChain, LocksAsAdlersEquationSays) {
-  // Joint 1 follows joint 0, which is faster by 0.6 Hz; weight 5/s.
+  // Joint 1 follows joint 0, whose frequency is higher by 0.6 Hz, with a coupling weight of 5/s.
   const std::string mtran = R"(
 gaitlab: 1
 robot: {modules: mtran, base: fixed, position: [0, 0, 1]}
@@ -184,13 +184,13 @@ trace: {period: 0.015, columns: [cpg.*]}
   const auto lag = [&](std::size_t row) { return table.at(row, "cpg.phi.0") + 1.2 - table.at(row, "cpg.phi.1"); };
   double worst = 0;
   for (std::size_t row = 0; row < record.trace.rows(); ++row) {
-    // A row holds the states after the control tick at its time minus one period.
+    // A row contains the states after the control tick one period before its time.
     worst = std::max(worst, std::abs(lag(row) - pair.lag(table.at(row, "t"))));
   }
   const std::string source = "Adler's equation, Proceedings of the IRE 34, 1946";
   validate_below({"closed.phases.lag", "oscillator pulled by a faster one, RK4 at 1 ms: worst lag in 3 s", source, "rad"},
                  worst, 1e-11, "order 4: (1 ms * 5/s)^4 / 120 per step, 300 steps until it has decayed");
-  const std::size_t late = 100;  // 1.5 s: the lag is within 1 % of the locked one, where the decay is exponential to 1 %
+  const std::size_t late = 100;  // 1.5 s; within 1 % of the locked lag, the decay is exponential to 1 %
   const double rate = std::log((pair.locked() - lag(late)) / (pair.locked() - lag(late + 20))) / 0.3;
   validate({"closed.phases.decay",
             "oscillator pulled by a faster one, after 1.5 s: rate at which the lag goes to the locked one", source, "1/s"},
@@ -198,7 +198,7 @@ trace: {period: 0.015, columns: [cpg.*]}
 }
 
 TEST(PhaseChain, LocksAllAlong) {
-  // Sixteen joints, each follows the one before it; the first is faster: every link of the chain lags by asin(detuning / w).
+  // Each of sixteen joints follows the joint before it, and the first is faster. Every joint then lags by asin(detuning / w).
   const Recording record = run(scenario(R"(
 gaitlab: 1
 robot: {modules: mtran, build: robots/caterpillar-8.dat, position: [0, 0, 1]}

@@ -1,4 +1,4 @@
-// The program built without Bullet: engine articulated is there, and the default engine is refused with the remedy.
+// The program without Bullet: engine articulated is available, and the error for the default engine contains a remedy.
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {

@@ -1,4 +1,5 @@
-// Modules may be numbered in any order, a parent above its child: a robot under other numbers is the same robot.
+// Modules may be numbered in any order, and the numbers do not change the robot. A parent may have a larger number than its
+// child.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -8,7 +9,7 @@
 namespace gaitlab::test {
 namespace {
 
-/// Three modules in a row, the middle one being number `middle`, the last one number `last`, through the whole program.
+/// Calls the program for a row of three modules, of which the middle has number `middle` and the last has number `last`.
 class ChainNumbered : public testing::Test {
  protected:
   struct Answers {
@@ -55,7 +56,8 @@ duration: 0.03
   Folder folder_;
 };
 
-/// The lines in some order, m1 and m2 having changed names: motors and sensors are listed by number.
+/// Lines of a text in sorted order, with m1 and m2 exchanged if `swap` is true. Exported files list motors and sensors by
+/// number.
 std::vector<std::string> swapped_lines(std::string text, bool swap) {
   for (std::size_t at = 0; swap && (at = text.find('m', at)) != std::string::npos; ++at) {
     if (text.compare(at, 3, "m1/") == 0) {
@@ -78,7 +80,7 @@ TEST_F(ChainNumbered, AgainstItsDocksIsTheSameForEveryCommand) {
   const Answers against = answers(2, 1);
   EXPECT_EQ(swapped_lines(against.mjcf, true), swapped_lines(along.mjcf, false));
   EXPECT_EQ(swapped_lines(against.urdf, true), swapped_lines(along.urdf, false));
-  // Joints 2k and 2k + 1 are module k's. The links stand in the same order, so that sums are added up in the same order.
+  // Joints 2k and 2k + 1 belong to module k. The order of the links is the same, so that sums have the same order of terms.
   const std::array<std::size_t, 6> joint{0, 1, 4, 5, 2, 3};
   for (std::size_t j = 0; j < joint.size(); ++j) {
     EXPECT_EQ(against.forward["qdd"][joint[j]], along.forward["qdd"][j]) << j;
@@ -96,7 +98,8 @@ class RenumberedWalk : public EveryEngine {};
 INSTANTIATE_TEST_SUITE_P(Engines, RenumberedWalk, engines(), engine_name);
 
 TEST_P(RenumberedWalk, IsTheSameWalk) {
-  // The hexapod with its numbers turned round: every parent but module 0 above its children, the legs before the spine.
+  // The hexapod has reversed numbers: legs have smaller numbers than the spine, and every parent except module 0 has a larger
+  // number than its children.
   const auto walk = [](const std::function<int(int)>& number) {
     constexpr std::array<std::array<int, 5>, 10> kRows{{{1, 1, 4, 0, 1},
                                                         {1, 2, 4, 1, 3},
@@ -126,7 +129,7 @@ trace: {{columns: [joint.*, com.*]}}
   const Recording against = walk([](int m) { return m == 0 ? 0 : 11 - m; });
   const Table a(along.trace);
   const Table b(against.trace);
-  // The gait's tripods are those of the first leg, front left, whatever its number.
+  // The tripods of the gait do not depend on the numbers, because the front left leg is always the first leg.
   double worst = 0;
   for (std::size_t row = 0; row < along.trace.rows(); ++row) {
     for (int j = 0; j < 22; ++j) {

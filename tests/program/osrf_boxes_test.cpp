@@ -1,4 +1,4 @@
-// OSRF's benchmark "boxes": our errors at each step of its table beside those of the best of its four engines.
+// Benchmark "boxes" of OSRF: errors of gaitlab at each step of the published table, compared with the best of its four engines.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,13 +10,13 @@
 namespace gaitlab::test {
 namespace {
 
-/// Largest over the run, sampled about every 10 ms; the last two relative to the start.
+/// Largest errors during a run, sampled about every 10 ms. Momentum and energy are relative to the start.
 struct Errors {
   double position = 0, velocity = 0, momentum = 0, energy = 0;
 };
 
 Errors errors(const std::string& scene, const std::string& integrator, double step) {
-  // Its runs last as many steps as reach 10 s.
+  // A run of the benchmark has the least number of steps that reach 10 s.
   const double steps = std::ceil(10 / step - 1e-6);
   const double every = std::round(0.01 / step);
   const Scenario box =
@@ -53,8 +53,8 @@ Errors errors(const std::string& scene, const std::string& integrator, double st
   return worst;
 }
 
-/// The smallest of ODE's, Bullet's, Simbody's and DART's errors for steps of 0.1, 0.2 ... 1 ms, and ODE's own, which steps as
-/// semi_implicit does: test_results/BENCHMARK_boxes_dt.csv.
+/// Smallest errors of ODE, Bullet, Simbody and DART at steps of 0.1, 0.2 ... 1 ms, and errors of ODE, which uses the method of
+/// semi_implicit (test_results/BENCHMARK_boxes_dt.csv).
 constexpr std::array<Errors, 10> kBestSimple{{{1.32316e-11, 0, 0, 0},
                                               {7.30504e-12, 0, 0, 0},
                                               {2.22295e-12, 0, 0, 0},
@@ -65,8 +65,8 @@ constexpr std::array<Errors, 10> kBestSimple{{{1.32316e-11, 0, 0, 0},
                                               {1.22564e-12, 0, 0, 0},
                                               {2.02443e-12, 0, 0, 0},
                                               {1.65532e-12, 0, 0, 0}}};
-/// Position on the simple throw at 0.3 ms of ODE, Bullet and DART alike, m; Simbody, worse than they at every other step, has
-/// 2.22295e-12.
+/// Position error of ODE, Bullet and DART on the simple throw at 0.3 ms, m. The error of Simbody is 2.22295e-12 at this step,
+/// and larger than the others at all other steps.
 constexpr double kThreeTenths = 8.3795e-12;
 constexpr std::array<Errors, 10> kBestComplex{{{0.00245, 1.14738e-10, 0.000634808, 0.00062358},
                                                {0.0049, 8.66436e-11, 0.0012715, 0.00124711},
@@ -92,7 +92,7 @@ constexpr std::array<Errors, 10> kOdeComplex{{{0.0049, 1.14738e-10, 0.0012715, 0
 const std::string kSource = "github.com/scpeters/benchmark, BENCHMARK_boxes_dt.csv: least of ODE, Bullet, Simbody, DART";
 
 void no_worse(const std::string& scene, int tenths, const Errors& best) {
-  // The only entry of the table that is missed: kThreeTenths.
+  // At 0.3 ms the best position error of the table is not reached; see kThreeTenths.
   const bool missed = scene == "simple" && tenths == 3;
   const Errors ours = errors(scene, "rk4", tenths * 1e-4);
   const std::string id = "published.osrf_boxes." + scene + ".";
@@ -114,7 +114,7 @@ TEST(OsrfBoxes, RungeKuttaIsNoWorseThanTheBestOnTheSimpleThrow) {
   for (int tenths = 1; tenths <= 10; ++tenths) no_worse("simple", tenths, kBestSimple[static_cast<std::size_t>(tenths - 1)]);
 }
 
-/// Error of x += h v after 33,334 additions in doubles: the velocity is constant, so that all of it is rounding.
+/// Position error at 0.3 ms. The velocity is constant, so that the error consists of the rounding errors of 33,334 additions.
 TEST(OsrfBoxes, RungeKuttaErrsAsThreeOfFourOnTheSimpleThrowAtThreeTenths) {
   validate_below({"published.osrf_boxes.simple.position_0.3_ms",
                   "thrown box of 10 kg, rk4, 0.3 ms, 10 s: worst error of position; Simbody's, the best, is 2.22e-12",

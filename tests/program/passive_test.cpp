@@ -1,4 +1,4 @@
-// Hinges without a motor, in every engine, against closed forms: a rod of 1 kg and 1 m, I = 1/3 kg m^2 about its hinge.
+// Hinges without a motor in every engine agree with closed forms for a rod of 1 kg and 1 m, I = 1/3 kg m^2 about its hinge.
 #include <cmath>
 
 #include "core/laws/passive_hinge.h"
@@ -11,7 +11,7 @@ namespace gaitlab::test {
 namespace {
 
 constexpr double kInertia = 1.0 / 3;
-constexpr double kWeight = 9.81 / 2;  // N m at the horizontal
+constexpr double kWeight = 9.81 / 2;  // moment of the weight of the horizontal rod, N m
 
 struct Rod {
   std::string engine, drive, physics = "integrator: rk4, step: 1e-4", angle = "1e-3", gravity = "[0, 0, -9.81]", contact = {};
@@ -42,7 +42,8 @@ trace: {{period: 0.005, columns: [joint.*, energy.*]}}
   }
 };
 
-/// rad/s: by the downward zero crossings, straight lines between rows. Near 0 the angle is straight to its third order.
+/// Angular frequency from the downward zero crossings of the angle, rad/s. Interpolation between rows is linear; near 0 the
+/// angle is linear up to the third order.
 double frequency(const Recording& record) {
   const Table table(record.trace);
   std::vector<double> crossings;
@@ -68,7 +69,7 @@ TEST_P(PassiveHinges, ASpringMakesAPendulumFaster) {
   for (const std::string physics : {"step: 2.5e-5"}) {
     Rod rod{GetParam(), "stiffness: 2"};
     rod.physics = physics;
-    // First order: the energy of semi_implicit is off by omega h, of implicit it falls by omega^2 h / 2 a second.
+    // The methods have order 1. The energy error of semi_implicit is omega h, and implicit loses omega^2 h / 2 per second.
     EXPECT_NEAR(frequency(run(rod.read())), omega, 1e-3);
   }
 }
@@ -87,7 +88,7 @@ TEST_P(PassiveHinges, ADamperTakesItsEnergy) {
            std::log(amplitude(0.5) / amplitude(3.5)) / 3, rate, 1e-5, "sin q - q at 1e-3 rad: 1e-7 of the frequency");
 }
 
-// A torque below F: where it stands, the rod creeps.
+// Under a torque below the dry friction F, the rod does not stop completely but creeps.
 TEST_P(PassiveHinges, DryFrictionHoldsButForACreep) {
   Rod rod{GetParam(), "friction: 5, friction_speed: 0.001"};
   rod.angle = "0.5";
@@ -96,7 +97,8 @@ TEST_P(PassiveHinges, DryFrictionHoldsButForACreep) {
   const Recording record = run(rod.read());
   const double tau = kWeight * std::sin(end(record, "joint.0.angle"));
   ASSERT_LT(tau, 5);
-  // The moving part changes tau by 5e-4 of it a second, and the following part lags by I w_s / F: 1e-7 of the speed.
+  // The creep changes tau by 5e-4 of its value per second. The speed follows with a time constant I w_s / F, which causes an
+  // error of 1e-7 of the speed.
   EXPECT_NEAR(end(record, "joint.0.speed"), -0.001 * std::atanh(tau / 5), 1e-6 * 0.001);
   EXPECT_NEAR(end(record, "joint.0.passive_torque"), tau, 1e-5);
 }
@@ -116,7 +118,7 @@ TEST_P(PassiveHinges, TheLedgerKnowsSpringDamperAndFriction) {
   EXPECT_NEAR(fine.residual() / coarse.ledger.residual(), 0.5, 0.1) << "first order";
   EXPECT_EQ(fine.stops, 0);
   EXPECT_EQ(end(coarse, "energy.hinges"), coarse.ledger.hinges);
-  // The work of a spring is stored: without gravity, damper and friction there is no other term.
+  // The work of a spring is stored energy. Without gravity, damper and friction it is the only term.
   Rod alone{GetParam(), "stiffness: 2, rest: 0.3"};
   alone.gravity = "[0, 0, 0]";
   alone.angle = "1.2";
@@ -127,7 +129,7 @@ TEST_P(PassiveHinges, TheLedgerKnowsSpringDamperAndFriction) {
   EXPECT_EQ(free.ledger.hinges, 0);
 }
 
-// Stiff springs and steep friction limit an explicit step, and the error says which joint.
+// A stiff spring or steep friction limits the step of an explicit method, and the error message contains the joint.
 TEST(PassiveHinge, SetsTheLargestExplicitStep) {
   Rod stiff{catalog().engines().front(), "stiffness: 1000, damping: 20"};
   const auto error = [&](const std::string& step) {
@@ -139,7 +141,7 @@ TEST(PassiveHinge, SetsTheLargestExplicitStep) {
     }
     return std::string("none");
   };
-  // h (D + h K) / I = 1 at h = 0.010814 s.
+  // The limit h (D + h K) / I = 1 is at h = 0.010814 s.
   EXPECT_EQ(error("0.01"), "none");
   EXPECT_TRUE(contains(error("0.0125"), "spring, damper and friction of joint m0/swing")) << error("0.0125");
 }
@@ -161,7 +163,8 @@ TEST(PassiveHinge, TheSolverHasItsRow) {
   EXPECT_NEAR(solved.ledger.hinges, reference.ledger.hinges, 1e-3);
 }
 
-// Above 19 friction_speed tanh is 1 to the last bit, and its slope 0.
+// Bullet's solver applies dry friction at high speeds. Above 19 friction_speed, tanh is exactly 1 in doubles, and its slope is
+// 0.
 TEST(PassiveHinge, TheSolverKeepsDryFrictionAtSpeed) {
   const auto engines = catalog().engines();
   if (std::ranges::find(engines, "bullet") == engines.end()) GTEST_SKIP() << "built without Bullet";
@@ -173,21 +176,21 @@ TEST(PassiveHinge, TheSolverKeepsDryFrictionAtSpeed) {
   const double w = 3 - 2 * 0.1 / kInertia;         // 2.4 rad/s
   const double lost = kInertia / 2 * (9 - w * w);  // 0.54 J
   const double rounding =
-      100 * 32 * std::numeric_limits<double>::epsilon();  // of 100 steps, some ten operations of 3 rad/s each
+      100 * 32 * std::numeric_limits<double>::epsilon();  // 100 steps of about ten operations with values of 3 rad/s
   for (const std::string way : {"", "-"}) {
     const Recording record = run(rod.read({"initial.speeds=[" + way + "3]"}));
     EXPECT_NEAR(std::abs(end(record, "joint.0.speed")), w, rounding) << way;
     EXPECT_NEAR(end(record, "energy.hinges"), lost, rounding) << "an impulse works at the mean of the speeds it joins";
     EXPECT_LT(std::abs(record.ledger.residual()), rounding);
   }
-  // One step's impulse would turn the hinge around: it stops.
+  // The friction impulse of one step would reverse the speed of the hinge. The hinge must stop instead.
   rod.drive = "friction: 2000, friction_speed: 0.1";
   const Recording stopped = run(rod.read({"initial.speeds=[3]"}));
   EXPECT_LT(std::abs(end(stopped, "joint.0.speed")), 1e-12);
   EXPECT_NEAR(end(stopped, "energy.hinges"), kInertia / 2 * 9, rounding);
 }
 
-// Lanes of other springs give the bits that each gives alone.
+// Rollouts with different springs in the lanes of one simulation have the same bits as each rollout alone.
 TEST(PassiveHinge, LanesDoNotMeet) {
   const std::vector<std::size_t> widths = catalog().engine("articulated")->lanes;
   for (const std::size_t width : widths) {
@@ -207,7 +210,7 @@ TEST(PassiveHinge, LanesDoNotMeet) {
   }
 }
 
-// A castor behind a driven hinge: columns, summary and everybody who asks of motors leaves it out.
+// Robot with a castor between two driven hinges. Columns, summary and results of motors omit the castor.
 const std::string kCart = R"(
 gaitlab: 1
 robot:
@@ -252,9 +255,9 @@ TEST(PassiveHinge, HasNoMotorAmongOthersThatHave) {
   EXPECT_EQ(r.joints[1].error_peak, 0);
   EXPECT_EQ(r.joints[1].electrical, 0);
   EXPECT_GT(r.joints[2].torque_peak, 0);
-  // The last hinge follows the first one, which is before it among those with motors.
+  // The last hinge follows the first hinge, the previous hinge with a motor.
   EXPECT_NEAR(end(r, "cpg.phi.2") - end(r, "cpg.phi.0"), 1, 1e-9);
-  // The parent's torque along the axis is the damper's.
+  // The reaction along the axis is the torque of the damper.
   EXPECT_NEAR(end(r, "reaction.1.my"), end(r, "joint.1.passive_torque"), 1e-9);
   EXPECT_NEAR(end(r, "joint.1.passive_torque"), -0.01 * end(r, "joint.1.speed"), 1e-15);
 }

@@ -1,4 +1,5 @@
-// One rod and two rods in the program, against the closed form and Lagrange's equations; the order of each integrator.
+// Pendulums of one and two rods in the program agree with the closed form and Lagrange's equations, to the order of each
+// integrator.
 #include "tests/oracles/pendulum.h"
 
 #include <cmath>
@@ -19,7 +20,8 @@ TEST_P(Pendulum, SwingsAsTheEllipticFunctionsSay) {
   const Table table(record.trace);
   double angle = 0;
   double energy = 0;
-  // Downward zero crossings of the angle; linear between rows 5 ms apart misses by less than (5 ms)^2 * curvature: 1e-6 s.
+  // Downward zero crossings of the angle. Linear interpolation between rows 5 ms apart has an error below (5 ms)^2 * curvature,
+  // which is 1e-6 s.
   std::vector<double> crossings;
   const auto total = [&](std::size_t row) { return table.at(row, "energy.kinetic") + table.at(row, "energy.potential"); };
   for (std::size_t row = 0; row < record.trace.rows(); ++row) {
@@ -40,7 +42,7 @@ TEST_P(Pendulum, SwingsAsTheEllipticFunctionsSay) {
       energy, 1e-10, "order 4 at 0.1 ms: below the rounding of 4e4 steps, 4e4 * 1e-16 * 10 J");
 }
 
-/// Two rods of 1 kg and 1 m, hinge axis y; angles of the hinges are theta1 and theta2 - theta1.
+/// Run of two rods of 1 kg and 1 m with hinges about y. The angles of the hinges are theta1 and theta2 - theta1.
 Recording two_rods(const std::string& engine, const std::string& integrator, double step, double duration) {
   return run(scenario(fmt::format(R"(
 gaitlab: 1
@@ -67,7 +69,7 @@ trace: {{period: 0.1, columns: [joint.*, energy.*]}}
                                   engine, integrator, step, duration)));
 }
 
-/// Largest error of the two angles from the vertical at the end.
+/// Largest error at the end of the two angles from the vertical, rad.
 double error(const Recording& record, double duration) {
   const oracle::DoublePendulum::State end = oracle::DoublePendulum{}.at(duration, {1, 1.5, 0.3, -1.7});
   const Table table(record.trace);

@@ -1,5 +1,5 @@
-// Properties of every robot, on random assemblies of 1 to 30 modules of the shipped type and of types made up here: laws of
-// mechanics and symmetries, which are independent of the algorithm for the accelerations. They come from engine `bullet`.
+// Laws of mechanics and symmetries for random robots of 1 to 30 modules of the shipped type and of random types. The laws do
+// not depend on the algorithm for the accelerations, which engine `bullet` computes.
 #include <rapidcheck.h>
 
 #include <cstdlib>
@@ -13,7 +13,7 @@
 namespace gaitlab::test {
 namespace {
 
-/// One robot with everything that acts on it.
+/// Robot with a state, gravity, joint torques and external forces.
 struct Acted {
   std::shared_ptr<const Robot> robot;
   RobotState state;
@@ -53,24 +53,25 @@ double largest(const Acceleration& a) {
   return size;
 }
 
-/// Largest difference of two accelerations, over the largest one.
+/// Largest difference of two accelerations, relative to the largest component.
 double difference(const Acceleration& a, const Acceleration& b) {
   double most = std::max((a.linear - b.linear).norm(), (a.angular - b.angular).norm());
   for (std::size_t j = 0; j < a.joints.size(); ++j) most = std::max(most, std::abs(a.joints[j] - b.joints[j]));
   return most / largest(a);
 }
 
-/// Before the first property of any file of this program: the same cases in every run, unless RC_PARAMS says otherwise.
+/// Sets the seed before the first property test of this executable, so that every run tests the same cases unless RC_PARAMS is
+/// set.
 [[maybe_unused]] const int kSeeded = setenv("RC_PARAMS", "seed=5 max_success=200", 0);
 
-/// The worst of `error` over 200 random cases.
+/// Largest value of `error` in 200 random cases.
 double worst(const std::function<double(std::uint32_t seed, std::size_t modules)>& error) {
   double most = 0;
   EXPECT_TRUE(rc::check([&] {
     const auto modules = static_cast<std::size_t>(*rc::gen::resize(rc::kNominalSize, rc::gen::inRange(1, 31)));
     const auto seed = *rc::gen::resize(rc::kNominalSize, rc::gen::inRange<std::uint32_t>(0, 1U << 30U));
     const double found = error(seed, modules);
-    RC_ASSERT(found < 1e-3);  // shrinks to a small robot what is wrong, not what is merely rounded
+    RC_ASSERT(found < 1e-3);  // on a large error, RapidCheck searches for the smallest robot with this error
     most = std::max(most, found);
   }));
   return most;
@@ -79,7 +80,7 @@ double worst(const std::function<double(std::uint32_t seed, std::size_t modules)
 const std::string kRecursionRounding =
     "required by the issue; rounding times the condition of the mass matrix gives 1e-16 * 1e6 = 1e-10";
 
-/// The state a time e later, to second order.
+/// State after a time e, to second order.
 RobotState later(const RobotState& s, const Acceleration& a, double e) {
   RobotState t = s;
   t.position += e * s.velocity + e * e / 2 * a.linear;
@@ -99,7 +100,7 @@ Sums sums_of(const Robot& robot, const RobotState& state, const Vec3& gravity) {
   return sums(robot, k, gravity);
 }
 
-/// Rates of change over a central difference, against what acts from outside.
+/// Momentum, angular momentum and energy change at the rate of the external forces, moments and powers (central differences).
 TEST(Property, MomentaAndEnergyChangeByWhatActs) {
   double force = 0;
   double moment = 0;
@@ -107,7 +108,7 @@ TEST(Property, MomentaAndEnergyChangeByWhatActs) {
   worst([&](std::uint32_t seed, std::size_t modules) {
     const Acted c = random_case(seed, modules);
     const Acceleration a = c.accelerate();
-    const double e = 1e-4 / (10 + std::sqrt(largest(a)));  // s; a thousandth of the motion's own time
+    const double e = 1e-4 / (10 + std::sqrt(largest(a)));  // step of the difference, much shorter than the motion, s
     const Sums before = sums_of(*c.robot, later(c.state, a, -e), c.gravity);
     const Sums after = sums_of(*c.robot, later(c.state, a, e), c.gravity);
     const Sums now = sums_of(*c.robot, c.state, c.gravity);
@@ -155,7 +156,7 @@ TEST(Property, ForwardOfInverseIsTheIdentity) {
     InverseDynamics inverse(*c.robot);
     inverse.update(k, wanted, c.gravity, c.wrenches);
     c.torque.assign(inverse.torques().begin(), inverse.torques().end());
-    // The force that holds the base acts on the body that contains it.
+    // The force that holds the base acts on the body that contains the base.
     const std::size_t root = c.robot->modules[0].reference;
     c.wrenches.push_back({root, c.state.position, inverse.base().force, inverse.base().moment});
     return difference(wanted, c.accelerate());
@@ -187,7 +188,8 @@ TEST(Property, TheWorldCanBeMovedAndTurned) {
                  kRecursionRounding);
 }
 
-/// The mirror image in the plane y = 0. Turns are pseudovectors: S Rot(axis, q) S = Rot(-S axis, q).
+/// The mirror image of a robot in the plane y = 0 has mirrored accelerations. Rotations are pseudovectors:
+/// S Rot(axis, q) S = Rot(-S axis, q).
 TEST(Property, TheMirrorImageMovesAsTheMirrorImage) {
   const double most = worst([](std::uint32_t seed, std::size_t modules) {
     const Acted c = random_case(seed, modules);
@@ -217,7 +219,8 @@ TEST(Property, TheMirrorImageMovesAsTheMirrorImage) {
                  kRecursionRounding);
 }
 
-/// Module `root` becomes module 0 and all others get new numbers; the docks between it and the old root turn round.
+/// Robot with module `root` as module 0, and with new numbers of all other modules. On the docks between the old and the new
+/// root, parent and child are exchanged.
 Robot rerooted(const Robot& robot, std::size_t root, const std::vector<std::size_t>& number) {
   std::vector<std::size_t> types(robot.modules.size());
   for (std::size_t m = 0; m < robot.modules.size(); ++m) types[number[m]] = robot.modules[m].type;
@@ -229,8 +232,8 @@ Robot rerooted(const Robot& robot, std::size_t root, const std::vector<std::size
   for (std::size_t m = 1; m < robot.modules.size(); ++m) {
     Dock d = robot.modules[m].dock;
     if (turned[m]) {
-      // The child turns by o about its outward normal. Seen from the child, the parent turns by o about the opposite direction,
-      // which is the outward normal of the parent.
+      // The child is rotated by o about its outward normal. In the frame of the child, the parent is rotated by o about the
+      // opposite direction, which is the outward normal of the parent.
       std::swap(d.child_face, d.parent_face);
       std::swap(d.child_module, d.parent_module);
     }
@@ -241,7 +244,7 @@ Robot rerooted(const Robot& robot, std::size_t root, const std::vector<std::size
   return assemble(robot.types, types, docks);
 }
 
-/// The bodies on the far side of each joint, by which its angle is counted.
+/// For each joint, the child body, whose rotation relative to the parent body is the angle of the joint.
 std::vector<std::size_t> children(const Robot& robot) {
   const BodyTree tree(robot);
   std::vector<std::size_t> child(robot.joints.size());
@@ -268,7 +271,7 @@ TEST(Property, NumbersAndRootAreNames) {
     const auto body_in_other = [&](std::size_t b) {
       return other.modules[number[robot.bodies[b].module]].first_body + robot.bodies[b].type;
     };
-    // A joint of the other robot: which one it was, and whether its angle is counted the other way.
+    // For each joint of the other robot: number of the original joint, and -1 if the sign of the angle is reversed.
     std::vector<std::size_t> joint(robot.joints.size());
     std::vector<double> sign(robot.joints.size());
     const std::vector<std::size_t> ours = children(robot);
@@ -289,7 +292,8 @@ TEST(Property, NumbersAndRootAreNames) {
     }
     for (BodyWrench& w : r.wrenches) w.body = body_in_other(w.body);
 
-    // The base frame of the other robot, fixed to its root's reference body, as that body moves in ours.
+    // The base frame of the other robot is fixed to the reference body of its root, and moves like this body of the original
+    // robot.
     Kinematics k(robot);
     k.update(robot, c.state);
     const std::size_t base_there = other.modules[0].reference;
@@ -314,7 +318,7 @@ TEST(Property, NumbersAndRootAreNames) {
       1e-9, kRecursionRounding);
 }
 
-/// Docked bodies move as one link; every body by itself gives the same momenta and energy.
+/// Momenta and energy of the fused links equal the sums over the separate bodies.
 TEST(Property, FusedIsUnfused) {
   const double most = worst([](std::uint32_t seed, std::size_t modules) {
     const Acted c = random_case(seed, modules);

@@ -1,4 +1,4 @@
-// Numbers that others have published for models of their own: tests/published/*.yaml say where each stands.
+// Comparison with published results of other programs. The files tests/published/*.yaml contain the models and their sources.
 #include <fmt/ranges.h>
 
 #include <array>
@@ -30,7 +30,7 @@ TEST(Published, ExudynKinematicTree) {
            "times less");
 }
 
-/// Joint accelerations at the start: one semi_implicit step adds h times them to the speeds, h = 2^-10 s exactly.
+/// Joint accelerations at the start, computed from the change of the speeds in one semi_implicit step of h = 2^-10 s.
 std::vector<double> accelerations(const std::string& modules, const std::vector<double>& angles,
                                   const std::vector<double>& speeds, const std::string& gravity) {
   constexpr double kStep = 0.0009765625;
@@ -71,7 +71,7 @@ TEST(Published, RbdlAccelerations) {
       {"three_dof", {1, 0, 0}, {3.301932144386186, 0, 0}},
   };
   for (const Case& one : cases) {
-    // RBDL numbers a tree depth-first, as its test adds the bodies; joints here go breadth-first: a, b1, b2, c1, c2.
+    // The test of RBDL numbers the joints depth-first. In gaitlab they are numbered breadth-first: a, b1, b2, c1, c2.
     std::vector<double> measured =
         accelerations("rbdl_" + one.model + ".yaml", one.angles, std::vector<double>(one.qdd.size(), 0.0), "[0, -9.81, 0]");
     if (one.model == "simple_tree_3d") std::swap(measured[2], measured[3]);
@@ -105,7 +105,7 @@ TEST(Published, MotionGenesisBabyboot) {
 }
 
 TEST(Published, MotionGenesisBabybootAccelerations) {
-  // At the published end state; the module type is the scenario's, in a file of its own.
+  // Accelerations at the published final state. The file of the module type is the type of the scenario.
   const double degree = std::numbers::pi / 180;
   const std::vector<double> qdd = accelerations("babyboot_module.yaml", {-61.312983340691 * degree, -929.47789677244 * degree},
                                                 {-6.7440081040646, -2.7795690128833}, "[0, 0, -9.81]");
@@ -121,9 +121,9 @@ TEST(Published, MotionGenesisBabybootAccelerations) {
 TEST(Published, ChronoRevoluteAgainstAdams) {
   struct Sample {
     double t;
-    Vec3 position, spin, force, moment;  // of the COM; of the joint on the ground
+    Vec3 position, spin, force, moment;  // position and angular velocity of the body; reaction of the joint on the ground
   };
-  // Error over the files' 501 rows each; 1e-14 and less is 0.
+  // Samples of the 501 rows of each published file. Values of 1e-14 and less are 0.
   const std::array<std::vector<Sample>, 2> adams{{
       {{0.5, {1.660810, 0, -1.114320}, {0, 2.308810, 0}, {13.27970, 0, -9.149250}, {0, 0, 0}},
        {1, {-0.8923810, 0, -1.789880}, {0, 2.926140, 0}, {-11.46120, 0, -23.22730}, {0, 0, 0}},
@@ -181,7 +181,7 @@ TEST(Published, ChronoRevoluteAgainstAdams) {
                      "six digits published of numbers from 1 to 10: half a unit of the last");
       validate_below({id + "spin", what + "angular velocity", source, "rad/s"}, worst(kinematics.omega[1], sample.spin), 5e-6,
                      "as the position");
-      // The acceleration that frees the joint of torque: what it takes is in proportion to it.
+      // Acceleration at which the torque of the joint is zero. The torque is a linear function of the acceleration.
       InverseDynamics dynamics(robot);
       Acceleration acceleration{Vec3::Zero(), Vec3::Zero(), {0}};
       dynamics.update(kinematics, acceleration, pendulum.physics.gravity);

@@ -1,5 +1,5 @@
-// Scenarios around random robots: let go in space without motors, or with motors on a ground; where they start and how fast is
-// random, too.
+// Random scenarios with random robots: released in free space without motors, or with motors on a ground. Start poses and start
+// speeds are random.
 #pragma once
 #include "controllers/pid.h"
 #include "core/simulation/start.h"
@@ -8,10 +8,10 @@
 
 namespace gaitlab::test {
 
-/// `still`: the fraction of RandomRobots' speeds it starts with.
+/// Random robot without motors in free space. `still` is a factor of the speeds at the start.
 inline Scenario random_scenario(RandomRobots& random, Base base, double still = 1) {
   Robot robot = random.robot();
-  for (Joint& joint : robot.joints) {  // nothing reaches a stop
+  for (Joint& joint : robot.joints) {  // no joint reaches a stop
     joint.lo = -100;
     joint.hi = 100;
   }
@@ -37,7 +37,7 @@ inline Scenario random_scenario(RandomRobots& random, Base base, double still = 
   return s;
 }
 
-/// Random motors under `pid`, which holds the initial angles.
+/// Adds random motors, and a PID controller that holds the initial angles.
 inline void add_motors(RandomRobots& random, Scenario& s) {
   s.actuator.entry = catalog().find(Kind::actuator, "dc_motor");
   s.actuator.settings = std::make_shared<actuators::DcMotorActuator::Settings>(random.motors(s.robot->joints.size()));
@@ -48,9 +48,10 @@ inline void add_motors(RandomRobots& random, Scenario& s) {
   s.controller = {catalog().find(Kind::controller, "pid"), pid};
 }
 
-/// On or just above random ground (a plane, or boxes on it) with random motors, hinge stops beside the angles it starts at.
-/// `ticks` of control and trace come every ten steps; a step is `share` to twice that of 1 / lambda, on the whole way, and no
-/// longer than what follows a stop's spring on a light body (50 N m/rad, 2e-5 kg m^2: 1600 rad/s).
+/// Random robot on or slightly above a random ground (a plane, with or without boxes), with random motors, and with hinge stops
+/// near its initial angles. The run has `ticks` control and trace ticks of ten steps each. The step is at most 0.1 ms and, for
+/// the largest decay rate lambda of the run, at most 2 share / lambda. It resolves a stop's spring at a light body
+/// (50 N m/rad, 2e-5 kg m^2, 1600 rad/s).
 inline Scenario random_run(RandomRobots& random, Base base, int ticks, double share) {
   constexpr int kTickSteps = 10;
   Scenario s = random_scenario(random, base);
@@ -82,7 +83,7 @@ inline Scenario random_run(RandomRobots& random, Base base, int ticks, double sh
   s.on_ground = true;
   s.position = start_state(s).position;
   s.on_ground = false;
-  s.position.z() += random.uniform(-2e-3, 2e-3);  // what just touches does so by rounding
+  s.position.z() += random.uniform(-2e-3, 2e-3);  // otherwise rounding errors decide whether the lowest point touches
   const auto set_step = [&](double h) {
     s.physics.step = h;
     s.control_period = s.cpg_step = s.trace.period = kTickSteps * h;
@@ -90,13 +91,13 @@ inline Scenario random_run(RandomRobots& random, Base base, int ticks, double sh
   };
   set_step(1e-9);
   set_step(std::min(1e-4, share / Simulation({&s, 1}).standing().rate));
-  for (;;) {  // until nothing on its way is stiffer than that
+  for (;;) {  // shortens the step until it suits the largest rate of the whole run
     s.trace.columns = {"t"};
     const double rate = run(s).worst.rate;
     if (s.physics.step * rate <= 2 * share) break;
     set_step(share / rate);
   }
-  // All but the ledger's residual, a small difference of large numbers.
+  // All columns except the residual of the ledger, which is a small difference of large numbers.
   s.trace.columns = {"joint.*", "base.*", "com.*", "contact.*", "body.*", "reaction.*", "momentum.*", "angular_momentum.*"};
   for (const char* energy :
        {"kinetic", "potential", "electrical", "copper", "gear", "stored", "contact", "friction", "stops"}) {

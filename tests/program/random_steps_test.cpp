@@ -1,5 +1,5 @@
-// Implicit steps of random robots with tight limits, stiff contacts and stops, and steps as long as one likes: each ends on the
-// law of every motor, recomputed here from the actuator at the speeds where the step ended.
+// Every implicit step ends with torques of motors and stops that satisfy their laws at the speeds at the end of the step. The
+// robots are random, with tight limits, stiff contacts and stops, and long steps. The test computes the laws independently.
 #include "core/laws/hinge_stop.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/simulation/plant.h"
@@ -8,7 +8,7 @@
 namespace gaitlab::test {
 namespace {
 
-/// On random ground, motors at their limits: commands jump between all that is allowed.
+/// Random scenario with low motor limits, stiff ground and long steps.
 Scenario at_limits(RandomRobots& random) {
   const std::array bases{Base::floating, Base::fixed, Base::planar};
   Scenario s = random_run(random, bases[random.below(3)], 1, 1);
@@ -49,8 +49,8 @@ Rollout start(const Scenario& s, const char* integrator) {
   return r;
 }
 
-/// Torque of a stop where a step of h from the angle q ends with the speed qd: spring and damper at the end, which only push;
-/// of a joint that comes from within its range the damper acts on the mean of the depth's rate over the step.
+/// Torque of a stop for a step of h from the angle q that ends with the speed qd. Spring and damper act at the end of the step
+/// and only push. If the step starts within the range, the damper acts on the depth divided by h.
 double stop(const Joint& joint, double q, double qd, double h) {
   const bool up = q > (joint.lo + joint.hi) / 2;
   const double excess = q - (up ? joint.hi : joint.lo);
@@ -78,7 +78,7 @@ TEST(RandomSteps, EndOnTheLawOfEveryStop) {
       const std::vector<double> before = r.state;
       r.plant->advance(command, h);
       const StepEffort applied = r.plant->applied();
-      if (applied.parts.size() != 2) continue;  // halved: the angles between are not seen
+      if (applied.parts.size() != 2) continue;  // the step was divided, and the angles in between are not known
       double work = 0;
       double scale = 0;
       for (std::size_t j = 0; j < joints; ++j) {
@@ -86,7 +86,7 @@ TEST(RandomSteps, EndOnTheLawOfEveryStop) {
         const double mean = (before[layout.speeds() + j] + r.state[layout.speeds() + j]) / 2;
         const double torque = stop(s.robot->joints[j], q, r.state[layout.speeds() + j], h);
         work -= h * torque * mean;
-        // 1e-9 N m, or the rounding of a speed times k h + c.
+        // The tolerance is 1e-9 N m, or the rounding error of a speed times k h + c.
         scale += h * std::abs(mean) * (1e-9 + 1e-12 * std::abs(torque));
         pushed += torque != 0;
         let_go += torque == 0 && (q > s.robot->joints[j].hi || q < s.robot->joints[j].lo);
@@ -120,7 +120,7 @@ TEST(RandomSteps, EndOnTheLawOfEveryMotor) {
         }
         r.plant->advance(command, s.physics.step);
         for (const StepEffort::Part& part : r.plant->applied().parts) {
-          if (part.instant || (part.sum[0] == 0 && part.share[0] == 0)) continue;  // a try that was taken back
+          if (part.instant || (part.sum[0] == 0 && part.share[0] == 0)) continue;  // rejected part of the step
           r.actuator->effort(command, part.speed, torque, slope);
           for (std::size_t j = 0; j < joints; ++j) {
             worst = std::max(worst, std::abs(part.torque[j] - torque[j]) / most[j]);
@@ -129,15 +129,16 @@ TEST(RandomSteps, EndOnTheLawOfEveryMotor) {
           }
           before = slope;
         }
-        // NaN, too. A base turned beyond that by a step across an impact is bad accuracy, not a law that is missed.
+        // The rollout ends if the state is NaN or very large. A long step across an impact may cause this without violating a
+        // law.
         if (!std::all_of(r.state.begin(), r.state.end(), [](double x) { return std::abs(x) < 1e4; })) break;
       }
       r.plant->tally(0, tally);
       EXPECT_EQ(tally.off, 0) << integrator << ", seed " << seed;
     }
   }
-  // The search's own tolerance; the speed of the step's end is rounded once more, which a back-EMF of 1e3 N m s/rad shows as
-  // 1e-13.
+  // The search for the end of a step has a tolerance of 1e-9. Rounding the speed at the end of the step adds 1e-13 at a
+  // back-EMF of 1e3 N m s/rad.
   EXPECT_LE(worst, 1e-9 * (1 + 1e-3));
   EXPECT_GT(limited, 1000);
   EXPECT_GT(changed, 1000);

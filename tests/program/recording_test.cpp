@@ -1,4 +1,4 @@
-// A run read back from its folder, and what it holds beside its rows.
+// Recording of a run that is read from its folder, with its statistics and tables besides the trace rows.
 #include <nlohmann/json.hpp>
 
 #include "core/files/atomic_file.h"
@@ -32,7 +32,7 @@ TEST_P(ReadBack, GivesTheSameSummaryAndFigure) {
   EXPECT_EQ(read(folder / "again/summary.json"), summary);
   EXPECT_EQ(read(folder / "again/figure.svg"), read(folder / "run/figure.svg"));
   EXPECT_TRUE(read(folder / "again/report.html") == read(folder / "run/report.html"));
-  // The terminal, but for the lines with page and files.
+  // Output of the terminal without the lines on page and files.
   const auto text = [](const std::string& out) { return out.substr(0, std::min(out.find("  page "), out.find("  files "))); };
   EXPECT_EQ(text(again.out), text(ran.out));
 }
@@ -51,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Kept{"within_a_step", "hexapod.yaml", "--set duration=0.0303 --set physics.engine=articulated"}),
     [](const auto& info) { return std::string(info.param.name); });
 
-// The base leaves the range of numbers after a tenth of a second.
+// Settings of a run that diverges: the base leaves the permitted range of positions after 0.1 s.
 constexpr const char* kDiverges =
     "--set physics.engine=articulated --set ground.type=none --set 'robot.position=[99000, 0, 1]' --set robot.on_ground=false "
     "--set 'initial.base_velocity=[9999, 0, 0]' --set duration=1";
@@ -71,7 +71,7 @@ TEST(ReadBackEarly, SaysWhyTheRunEnded) {
   EXPECT_TRUE(read(folder / "again/report.html") == read(folder / "run/report.html"));
 }
 
-/// The numbers of all steps do not depend on which rows there are.
+/// Statistics over all steps do not depend on the rows of the trace.
 TEST(Ticks, AreOfAllSteps) {
   for (const char* engine : {"bullet", "articulated"}) {
     std::string first;
@@ -91,14 +91,14 @@ TEST(Ticks, AreOfAllSteps) {
         for (std::size_t row = 0; row < r.ticks.rows(); ++row) {
           peak = std::max(peak, at(row, "torque_peak"));
           error = std::max(error, at(row, "error_peak"));
-          // Eq. 2 at i_max, on M-TRAN's motor: a torque below it is not at the current limit.
+          // Torque of M-TRAN's motor at the current limit by eq. 2. Smaller torques are not at the current limit.
           constexpr double kLimit = 0.7 * 0.00395 * 594 * 0.25;
           const bool current = at(row, "peak_limit") == 2;
           EXPECT_EQ(current, at(row, "torque_peak") > (1 - 1e-9) * kLimit) << engine << ' ' << j << ' ' << row;
         }
         EXPECT_EQ(peak, r.joints[j].torque_peak) << engine << ' ' << j;
         EXPECT_EQ(error, r.joints[j].error_peak) << engine << ' ' << j;
-        // 1e-12: rounding of a square, a root and a division.
+        // The tolerance 1e-12 is for the rounding errors of a square, a root and a division.
         EXPECT_NEAR(std::sqrt(at(60, "torque_square") / r.simulated), r.joints[j].torque_rms, 1e-12);
         EXPECT_NEAR(at(60, "current_limited") / r.simulated, r.joints[j].saturated_current, 1e-12);
         EXPECT_NEAR(at(60, "voltage_limited") / r.simulated, r.joints[j].saturated_voltage, 1e-12);
@@ -109,7 +109,8 @@ TEST(Ticks, AreOfAllSteps) {
   }
 }
 
-/// An independent way: from rows at every step, of an integrator whose torque is that at the end of the step.
+/// The sums of the ticks give the RMS of any interval. The reference is the sum over rows at every step of an integrator whose
+/// torque is constant during a step.
 TEST(Ticks, GiveTheRmsOfAnyStretch) {
   const Recording r =
       run(shipped("caterpillar.yaml", {"duration=1.5", "physics.engine=articulated", "physics.integrator=implicit",
@@ -123,7 +124,7 @@ TEST(Ticks, GiveTheRmsOfAnyStretch) {
     double square = 0;
     for (std::size_t k = 0; k < time.size(); ++k) square += time[k] > from && time[k] <= to ? torque[k] * torque[k] * 5e-4 : 0;
     const std::string name = fmt::format("joint.{}.torque_square", j);
-    // 1e-9: the difference of two sums of 1e3 terms of rounding 1e-16 each, and room.
+    // The tolerance 1e-9 exceeds the rounding errors of the difference of two sums of 1e3 terms.
     EXPECT_NEAR(ticks.at(80, name) - ticks.at(40, name), square, 1e-9 * square) << j;
   }
 }
@@ -134,7 +135,7 @@ TEST(Ticks, AreAtLeastTwoMillisecondsApart) {
   EXPECT_NEAR(r.ticks.at(1, 0), 2e-3, 1e-12);
 }
 
-/// Units and definitions, which a CSV file lacks, follow from the names of its columns.
+/// Units and definitions of columns follow from their names, because a CSV file does not contain them.
 TEST(Columns, KnownByNameAreThoseOfARun) {
   for (const char* name : {"hexapod.yaml", "rubble.yaml", "pendulum.yaml"}) {
     const Scenario s = shipped(name, {"duration=0.01", "physics.engine=articulated", "trace.columns=[\"*\"]"});
@@ -234,7 +235,7 @@ TEST(Recordings, ThatDoNotFitTogetherAreRefused) {
   EXPECT_EQ(complaint(beside), file + ": error: is corrupt: stability.index is -1");
 }
 
-/// More rows than are kept: two become one, and nothing of peaks and sums is lost.
+/// If the ticks exceed the largest number of rows, pairs of rows are merged. Peaks and sums are preserved.
 TEST(Ticks, AreHalvedWhereThereAreMany) {
   const Scenario s = scenario(R"(
 gaitlab: 1
@@ -276,7 +277,7 @@ class RunFolders : public testing::Test {
   const Folder folder_;
 };
 
-/// The recording holds its own scenario: another file in its place changes nothing.
+/// The recording contains its scenario, so that a changed scenario file in the run folder has no effect.
 TEST_F(RunFolders, NeedNoScenarioFile) {
   const std::string before = gaitlab("report run", folder_.path()).out;
   ASSERT_NE(before.find("simulated"), std::string::npos) << before;
@@ -310,7 +311,7 @@ TEST_F(RunFolders, WithADamagedSummaryAreRead) {
   EXPECT_EQ(gaitlab("report nothing", folder_.path()).err, "nothing: error: there is no such run folder or trace file\n");
 }
 
-/// Files that somebody made up, whose hashes are right.
+/// Recordings of a different robot are refused, even if their hashes are correct.
 TEST(Recordings, OfAnotherRobotAreRefused) {
   const Folder folder;
   const Recording walked = run(shipped("hexapod.yaml", {"duration=0.02", "physics.engine=articulated"}));

@@ -1,4 +1,4 @@
-// Tops in the program against Euler's equations: spatial rotation, massless bodies between hinges.
+// Tops in the program agree with Euler's equations: spatial rotation, and massless bodies between hinges.
 #include <cmath>
 
 #include "tests/oracles/tops.h"
@@ -8,7 +8,8 @@
 namespace gaitlab::test {
 namespace {
 
-/// A body without hinges, thrown; its principal axes are neither its own nor the world's.
+/// A thrown body without hinges rotates as the elliptic functions predict. Its principal axes are not parallel to its frame or
+/// to the world frame.
 TEST(Top, TurnsFreelyAsTheEllipticFunctionsSay) {
   const oracle::FreeTop top({0.02, 0.03, 0.04}, 2.2, 4);
   const Mat3 in_body = rpy({0.4, -0.3, 0.7});  // principal axes
@@ -66,7 +67,7 @@ trace: {{period: 0.05, columns: [base.*, com.*]}}
       path, 1e-10, "base frame off the COM: its error is that of the rotation, times 0.23 m");
 }
 
-/// A fixed support, hinges z, x, z with two massless bodies between them, and the top: Euler's angles.
+/// Scenario of a top on a fixed support with hinges about z, x, z (Euler angles) and two massless bodies between them.
 Scenario heavy_top(const std::array<double, 3>& speeds, double lean, double duration, double period) {
   return scenario(fmt::format(R"(
 gaitlab: 1

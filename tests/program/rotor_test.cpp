@@ -1,10 +1,10 @@
-// Rotor inertia reflected through the gear, in an engine whose own algorithm knows none.
+// Rotor inertia reflected through the gear, in engine bullet, whose algorithm has no rotor inertia.
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
 
-// Kt = 0: motors that only carry their rotors.
+// A rotor inertia equal to that of the rod reduces the frequency of a pendulum by sqrt(2). With Kt = 0 the motor has no torque.
 TEST(RotorInertia, OfARodsOwnSizeMakesThePendulumSlowerByTheRootOfTwo) {
   const auto downward_crossing = [](double rotor) {
     const Recording record = run(shipped(
@@ -18,7 +18,8 @@ TEST(RotorInertia, OfARodsOwnSizeMakesThePendulumSlowerByTheRootOfTwo) {
     }
     return 0.0;
   };
-  // m l^2 / 3 = 1/3 of the rod; 1e4 J the same. The crossing is found by a line between rows 5 ms apart: 1e-6 s.
+  // The inertia of the rod is m l^2 / 3 = 1/3 kg m^2, and the reflected inertia 1e4 J is equal. The error of the crossing by
+  // linear interpolation between rows 5 ms apart is 1e-6 s.
   EXPECT_NEAR(downward_crossing(1.0 / 3e4) / downward_crossing(0), std::sqrt(2.0), 5e-6);
 }
 
@@ -36,7 +37,7 @@ trace: {period: 0.05, columns: [energy.*, momentum.*, angular_momentum.*]}
 )"));
   const Table table(record.trace);
   const std::size_t last = record.trace.rows() - 1;
-  // Fourth order at 1 ms: 1e-10 of 1 J, 1 N s, 1 N m s (the same chain without rotors: 1e-11 at 1.25 ms).
+  // The error of order 4 at 1 ms is about 1e-10 of 1 J, 1 N s, 1 N m s. (Without rotors it is 1e-11 at 1.25 ms.)
   EXPECT_GT(table.at(0, "energy.kinetic"), 0.5);
   EXPECT_NEAR(table.at(last, "energy.stored"), 0, 1e-9);
   for (const char* axis :
@@ -45,14 +46,14 @@ trace: {period: 0.05, columns: [energy.*, momentum.*, angular_momentum.*]}
   }
 }
 
-// The motors' time constant grows with what they turn, and with it the step that the rule allows.
+// The time constant of a motor increases with its inertia, and with it the largest stable step.
 TEST(RotorInertia, AllowsALongerStep) {
   const auto rate = [](const std::string& rotor) {
     const Scenario s = shipped("caterpillar.yaml", {"actuator.rotor_inertia=" + rotor});
     return Simulation({&s, 1}).standing().rate;
   };
   EXPECT_LT(rate("1e-8"), 0.2 * rate("0"));
-  // Standing on its belly the friction is next: the motor's rate alone would be b / n^2 J = 254 / s.
+  // The motor alone has the decay rate b / n^2 J = 254 / s. For the standing robot, friction has a larger rate.
   EXPECT_GT(rate("1e-8"), 254);
 }
 

@@ -1,5 +1,5 @@
-// Rows of the trace and the end of a run may lie within a step of an integrator that chooses its steps: they must change
-// nothing.
+// Trace rows and the end of a run do not change the steps of an integrator that chooses its steps, although they may be within
+// a step.
 #include <cstring>
 #include <map>
 #include <mutex>
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 struct End {
   Recording record;
-  std::vector<double> state;  ///< all that the simulation goes by
+  std::vector<double> state;  ///< complete state of the simulation at the end
 };
 
 End simulate(const Scenario& s) {
@@ -32,7 +32,7 @@ std::vector<double> times(const Trace& trace) {
   return t;
 }
 
-/// All that a row records whatever the columns are.
+/// Values of row k that do not depend on the selected columns of the trace.
 std::vector<double> row(const Recording& r, std::size_t k) {
   std::vector<double> all;
   for (const Trace* table : {&r.trace, &r.rest}) {
@@ -44,7 +44,8 @@ std::vector<double> row(const Recording& r, std::size_t k) {
   return all;
 }
 
-/// Number of rows of two runs at equal times, exactly or up to rounding; these must have the same bits.
+/// Number of rows of two runs at equal times. Expects that times which differ by less than 1e-9 s and their rows have equal
+/// bits.
 int same_rows(const Recording& a, const Recording& b) {
   int same = 0;
   const std::vector<double> ta = times(a.trace);
@@ -71,7 +72,7 @@ std::vector<std::string> with(std::vector<std::string> sets) {
   return sets;
 }
 
-/// The hexapod at its current limit; the caterpillar as fast as its motors let it.
+/// Runs of the tests: the hexapod at its current limit, and the caterpillar at the largest speed of its motors.
 const std::vector<std::pair<std::string, std::vector<std::string>>> kRuns{
     {"hexapod.yaml", {"actuator.i_max=0.3"}},
     {"caterpillar.yaml", {"cpg.amplitude=1.5", "cpg.frequency=1", "cpg.phase_lag=0.4"}}};
@@ -136,7 +137,8 @@ TEST(Rows, ARunEndsWithARowAtItsDuration) {
   }
 }
 
-/// A shorter run is the beginning of a longer one, wherever it ends: its figures are those of the steps until then.
+/// A short run is equal to the start of a longer run, also if it ends within a step. Its statistics cover the steps until its
+/// end.
 TEST(Rows, AShortRunIsTheBeginningOfALongOne) {
   const Recording whole = run(shipped("hexapod.yaml", with({"actuator.i_max=0.3", "duration=0.36", "trace.period=1e-4"})));
   for (const double duration : {0.3127, 0.0031, 0.2}) {
@@ -146,7 +148,8 @@ TEST(Rows, AShortRunIsTheBeginningOfALongOne) {
   }
 }
 
-// Parameters of every section; ends and rows within steps, one that diverges, motors at limits, stiff contacts.
+// Settings of rollouts: changes of every section, ends and rows within steps, a run that diverges, motors at limits, stiff
+// contacts.
 const std::vector<std::vector<std::string>> kRowsOwn{
     {},
     {"duration=0.2113"},
@@ -157,13 +160,14 @@ const std::vector<std::vector<std::string>> kRowsOwn{
     {"physics.accuracy=1e-3"},
     {"duration=0.0031"},
     {"contact.stiffness=1e6", "contact.damping=1e7", "duration=0.2"},
-    {"physics.integrator=implicit", "physics.step=5e-3"},  // these two not in the same pack
+    {"physics.integrator=implicit", "physics.step=5e-3"},  // this and the next cannot share a lane group with the others
     {"physics.integrator=adaptive", "physics.step=5e-3"},
     {"initial.angles=0.1", "cpg.amplitude=1.5", "trace.period=7e-3"},
     {"actuator.u_max=2", "duration=0.2112"},
 };
 
-// 5 s of CPU: the rollouts of two robots alone, and in six choices of lanes and threads.
+// Rows have the same bits if rollouts run side by side. The test takes 5 s of CPU time: rollouts of two robots, alone and in
+// six combinations of lanes and threads.
 TEST(Rows, AreTheSameBesideOthers) {
   for (const char* file : {"hexapod.yaml", "caterpillar.yaml"}) {
     const std::vector<Scenario> all = rollouts(kScenarios + file, with({"duration=0.3"}), kRowsOwn, catalog());
@@ -191,7 +195,7 @@ TEST(Rows, AreTheSameBesideOthers) {
   }
 }
 
-/// The report of a run that ends early is that of its end, not of its last row.
+/// The report of a run that diverges describes the end of the run and does not depend on the rows.
 TEST(Rows, ChangeNothingOfARunThatDiverges) {
   std::vector<std::string> ends;
   for (const char* period : {"1e-3", "5e-3", "0.0113", "1"}) {

@@ -1,4 +1,5 @@
-// Actuator `servo`: what a data sheet implies, against its own numbers, dc_motor and the published ones.
+// Tests of the actuator `servo`: constants computed from a data sheet agree with the data sheet, dc_motor and published
+// constants.
 #include "actuators/servo.h"
 
 #include <cmath>
@@ -18,7 +19,8 @@
 namespace gaitlab::test {
 namespace {
 
-/// AX-12 at 10 V: 16.5 kgf cm, 0.196 s per 60 degrees, 0.9 A (its manual). SG92R at 4.8 V: 2.5 kgf cm, 0.12 s per 60 degrees.
+/// Servos of the tests. AX-12 at 10 V: 16.5 kgf cm, 0.196 s per 60 degrees, 0.9 A (from its manual). SG92R at 4.8 V: 2.5 kgf
+/// cm, 0.12 s per 60 degrees.
 const std::string kAx12 = "voltage: 10, stall_torque: 1.618, no_load_speed: 5.343, stall_current: 0.9";
 const std::string kSg92r = "voltage: 4.8, stall_torque: 0.24517, no_load_speed: 8.7266";
 
@@ -45,7 +47,7 @@ void expect_refused(const std::string& servo, const std::string& expected) {
 }
 
 TEST(Servo, ImpliesTheConstantsOfTheMotor) {
-  const DcMotor ax12 = motor(kAx12);   // tolerances: half of the last digit given
+  const DcMotor ax12 = motor(kAx12);   // tolerances are half of the last digit of the data
   EXPECT_NEAR(ax12.Kt, 1.8717, 1e-4);  // 10 / 5.343 = 1.87161
   EXPECT_EQ(ax12.Kt, ax12.Ks);
   EXPECT_EQ(ax12.gear, 1);
@@ -65,13 +67,13 @@ TEST(Servo, IsTheStraightLineOfItsDataSheet) {
     const double V = m.u_max;
     const double T0 = servo == kAx12 ? 1.618 : 0.24517;
     const double w0 = servo == kAx12 ? 5.343 : 8.7266;
-    const double rounding = 8 * T0 * std::numeric_limits<double>::epsilon();  // of eight operations
+    const double rounding = 8 * T0 * std::numeric_limits<double>::epsilon();  // rounding errors of eight operations
     EXPECT_NEAR(m(V, 0).torque, T0, rounding);
     EXPECT_EQ(m(V, 0).saturation(), 0) << "at rest the current is the limit, not above it";
     EXPECT_NEAR(m(V, w0).torque, 0, rounding);
     for (const double u : {-1.0, -0.3, 0.4, 1.0}) {
       for (const double w : {-0.5, 0.0, 0.25, 0.5}) {
-        const double line = u - w;  // of T0; the current limit is that of the stall
+        const double line = u - w;  // torque as a share of T0; the current limit is the stall current
         if (std::abs(line) < 1) {
           EXPECT_NEAR(m(u * V, w * w0).torque, T0 * line, rounding) << u << ", " << w;
         }
@@ -81,7 +83,7 @@ TEST(Servo, IsTheStraightLineOfItsDataSheet) {
   }
 }
 
-/// The same run, bit for bit, as dc_motor with the constants that follow.
+/// A run with a servo has the same bits as a run with a dc_motor that has the computed constants.
 TEST(Servo, IsADcMotorBitForBit) {
   const Scenario servo = scenario(worm(kAx12 + ", rotor_inertia: 1e-4"));
   const DcMotor m = make_actuator(servo.actuator, info(*servo.robot))->dc_motors()[0];
@@ -107,7 +109,7 @@ TEST(Servo, RefusesWhatNoMotorCanDo) {
   expect_refused("voltage: 10, stall_torque: {default: 1, m3/active: 1.8}, no_load_speed: 5.34, stall_current: 0.6",
                  "stall_torque 1.8 N m at 0.6 A and 5.34 rad/s at 10 V would need an efficiency of 1.6; at most 1 (joint "
                  "number 6)");
-  // XL430-W250-T: 1.5 N m, 61 rev/min at 12 V and 1.4 A, in the units of a shop.
+  // Data of the XL430-W250-T (1.5 N m, 61 rev/min at 12 V and 1.4 A) in the units of shops are refused with a hint.
   expect_refused("voltage: 12, stall_torque: 15.3, no_load_speed: 6.388, stall_current: 1.4",
                  "is the torque in kgf cm (15.3 kgf cm are 1.5 N m)");
   expect_refused("voltage: 12, stall_torque: 1.5, no_load_speed: 61, stall_current: 1.4", "(61 rev/min are 6.388 rad/s)?");
@@ -141,7 +143,7 @@ TEST(Servo, PerJointAndByPattern) {
   EXPECT_EQ(resolved(scenario(once)), once);
 }
 
-/// Limits that nobody states follow the data sheet, also where a module type gives the one and the scenario the other.
+/// Limits without a setting follow from the data sheet, also if the module type and the scenario each set a part of the data.
 TEST(Servo, DefaultLimitsFollowTheVoltage) {
   const auto limits = [](const std::string& servo, const std::vector<std::string>& sets) {
     const Scenario s = scenario(worm(servo), sets);
@@ -153,7 +155,7 @@ TEST(Servo, DefaultLimitsFollowTheVoltage) {
   EXPECT_NEAR(limits(kAx12, {"actuator.u_max=5"}).second, 5, 1e-14);
 }
 
-/// Limits of a module type with two hinges under other settings of the scenario.
+/// Motors of a module type with two hinges under settings of the scenario.
 class ServoModule : public testing::Test {
  protected:
   static std::vector<DcMotor> motors(const std::string& servo, const std::string& of_second,
@@ -187,10 +189,10 @@ duration: 0.1
 
 TEST_F(ServoModule, DefaultLimitsFollowWhereHingesHaveOthers) {
   const std::string small = "voltage: 6, stall_torque: 0.5, no_load_speed: 5, stall_current: 1";
-  const double rounding = 3 * 4 * std::numeric_limits<double>::epsilon();  // of u / (V / I0), two operations
+  const double rounding = 3 * 4 * std::numeric_limits<double>::epsilon();  // rounding errors of u / (V / I0)
   for (const DcMotor& m : motors(small, "stall_torque: 1", {"actuator.stall_current=3"})) EXPECT_NEAR(m.i_max, 3, rounding);
   for (const DcMotor& m : motors(small, "stall_torque: 1", {"actuator.voltage=12"})) EXPECT_EQ(m.u_max, 12);
-  // A setting of one hinge applies to this hinge alone.
+  // A setting of one hinge applies only to this hinge.
   const std::vector<DcMotor> one = motors(small, "i_max: 0.4", {"actuator.stall_current=3"});
   EXPECT_NEAR(one[0].i_max, 3, rounding);
   EXPECT_EQ(one[1].i_max, 0.4);
@@ -215,7 +217,7 @@ TEST(Servo, TheVerdictAsksIt) {
   EXPECT_EQ(envelope.unit, "V");
   EXPECT_EQ(envelope.command, 4.8);
   EXPECT_NEAR(*envelope.rest, 0.24517, 1e-12);
-  EXPECT_NEAR(*envelope.no_load, 8.7266, 1e-3);  // found by bisection
+  EXPECT_NEAR(*envelope.no_load, 8.7266, 1e-3);  // tolerance of the bisection
   EXPECT_EQ(envelope.continuous, 0.2);
   EXPECT_EQ(envelope.gear_peak, 0.2);
   EXPECT_EQ(envelope.gear_continuous, 0.1);
@@ -241,7 +243,8 @@ TEST(Servo, TheDemandTwinHasItsLimitsRaised) {
   EXPECT_EQ(free.efficiency, own.efficiency);
 }
 
-/// Each joint's limits, stated or not, are those that hold, 20 times; as the resolved scenario tells them, too.
+/// The second run for the demand has 20 times the limits of each joint, whether set or computed. The resolved scenario contains
+/// the same limits.
 TEST(Servo, TheDemandTwinRaisesEveryJointsOwnLimits) {
   const std::string text =
       worm("voltage: {default: 10, m0/*: 5}, stall_torque: 2, no_load_speed: 5, u_max: {m1/active: 6}, i_max: {m2/*: 0.3}");
@@ -258,7 +261,8 @@ TEST(Servo, TheDemandTwinRaisesEveryJointsOwnLimits) {
   }
 }
 
-/// Kp 100 at 15 ms: 100 * 0.015 * 8.7266 / 4.8 = 2.727 times the error; 26 takes 0.709 of it.
+/// The program warns of a gain that is too large for a servo. In 15 ms, Kp 100 turns the joint by 100 * 0.015 * 8.7266 / 4.8
+/// = 2.727 times its error, Kp 26 by 0.709 times.
 TEST(Servo, TooLargeAGainIsTold) {
   const auto told = [](const std::string& Kp) {
     return report::setup_warnings(scenario(worm(kSg92r, "controller: {type: pid, Kp: " + Kp + ", Kd: 0}\n")));
@@ -270,7 +274,7 @@ TEST(Servo, TooLargeAGainIsTold) {
   EXPECT_TRUE(told("26").empty());
 }
 
-/// Ratings of a module type are attributed to its source, and so are limits that follow from them.
+/// Ratings of a module type have the source of the module type, and so do limits that are computed from these ratings.
 TEST(Servo, SourcesAreOfWhatTheModuleTypeStates) {
   const Folder folder;
   std::string type = read(kScenarios + "modules/mtran.yaml");

@@ -1,4 +1,4 @@
-// contact.law: bullet: Bullet's own world and solver.
+// Tests of `contact.law: bullet`, which uses the world and the constraint solver of Bullet.
 #include <cmath>
 #include <limits>
 
@@ -10,7 +10,7 @@ namespace {
 
 const std::vector<std::string> kSolver{"contact.law=bullet"};
 
-/// Largest difference of any torque over the largest torque.
+/// Largest difference of any torque of two runs, relative to the largest torque.
 double torques_apart(const Recording& a, const Recording& b) {
   double most = 0;
   double apart = 0;
@@ -25,8 +25,8 @@ double torques_apart(const Recording& a, const Recording& b) {
   return apart / most;
 }
 
-// Without contacts and limits the rows of sixteen motors are a linear system: that of the implicit step, but for the place at
-// which its matrices are taken.
+// Without contacts and limits, the solver's equations of sixteen motors are the linear system of the implicit step, with
+// matrices at a slightly different state.
 TEST(Solver, MotorRowsAreTheImplicitStep) {
   const auto waved = [](const std::string& physics, const std::string& law) {
     return run(scenario(fmt::format(R"(
@@ -72,7 +72,7 @@ trace: {{period: {}, columns: [joint.*]}}
     double before = 0;
     for (std::size_t row = 1; row < record.trace.rows(); ++row) {
       fastest = std::max(fastest, std::abs(table.at(row, "joint.15.speed")));
-      // A new command may well ask for the opposite current: chatter is what happens under one.
+      // A change of the current's sign counts as chatter only between two control ticks, where the command is constant.
       if (std::abs(std::remainder(table.at(row - 1, "t"), 0.015)) < 1e-9) before = 0;
       if (table.at(row, "joint.15.saturation") != 2) continue;
       ++limited;
@@ -82,7 +82,7 @@ trace: {{period: {}, columns: [joint.*]}}
     EXPECT_LT(fastest, 1.02 * 7.4 / (0.00395 * 594)) << model << ": no-load speed";
     EXPECT_EQ(flips, 0) << model << " " << limited;
     EXPECT_NEAR(table.at(record.trace.rows() - 1, "joint.15.angle"), 0.3, 0.03) << model;
-    const double most = 0.00395 * 0.3 * 594 * (model == "paper" ? 0.7 : 1 / 0.7);  // eta, or driven backwards 1 / eta
+    const double most = 0.00395 * 0.3 * 594 * (model == "paper" ? 0.7 : 1 / 0.7);  // eta, or 1 / eta if driven backwards
     EXPECT_LE(record.joints[15].torque_peak, most * (1 + 1e-12)) << model;
   }
 }
@@ -108,7 +108,7 @@ duration: 2
       << "of the order of the step over the 10 ms of the impact";
 }
 
-/// A module that slides 0.5 m/s along its own axis, which points that way.
+/// Run of a module that slides at 0.5 m/s along its axis. `yaw` is the direction of the axis.
 Recording sliding(double yaw) {
   return run(scenario(fmt::format(R"(
 gaitlab: 1
@@ -164,7 +164,7 @@ TEST(Solver, WalksAsThePenaltyLawDoes) {
   }
 }
 
-/// Smallest distance between hinge axes of blocks of modules that are not docked to each other.
+/// Least distance between the hinge axes of blocks of different modules that are not docked to each other.
 double closest(const Recording& record, const Scenario& s) {
   double least = std::numeric_limits<double>::infinity();
   Kinematics k(*s.robot);
@@ -205,7 +205,7 @@ duration: 3
   EXPECT_GT(closest(run(stops), stops), 0.065 - 0.002) << "two half cylinders of 32.5 mm; a motor presses them 2 mm at most";
 }
 
-/// A module that slides without friction, 0.5 m/s along x, and boxes.
+/// Scenario of a module that slides at 0.5 m/s along x towards boxes.
 Scenario module_and_boxes(const std::string& friction, const std::string& x, const std::string& boxes) {
   return scenario(fmt::format(R"(
 gaitlab: 1
@@ -234,9 +234,9 @@ TEST(Solver, ABoxThatIsDroppedComesToRest) {
 }
 
 TEST(Solver, ARobotPushesABox) {
-  // 0.4 kg against 0.4 kg, no friction: momentum stays, and the box is the faster one afterwards.
+  // Module and box have 0.4 kg each. Without friction the momentum is constant, and the box is faster after the impact.
   Scenario s = module_and_boxes("0", "-0.2", "{center: [0, 0, 0.05], size: [0.1, 0.1, 0.1], mass: 0.4}");
-  s.trace.period = 1e-3;  // every step: the impact is one
+  s.trace.period = 1e-3;  // a row per step, because the impact lasts one step
   const Recording record = run(s);
   const Table table(record.trace);
   const std::size_t last = record.trace.rows() - 1;
@@ -246,7 +246,7 @@ TEST(Solver, ARobotPushesABox) {
   EXPECT_NEAR(box + robot, 0.2, 1e-3 * 0.2) << "what the solver leaves of 200 N m/s^2: 50 impulses each";
   EXPECT_GE(box, robot - 1e-3);
   EXPECT_GT(table.at(last, "box.0.x"), 0.01);
-  double pushed = 0;  // on the elements of the face that pushes
+  double pushed = 0;  // force on the contact elements of the pushing face
   for (std::size_t row = 0; row < record.trace.rows(); ++row) {
     for (std::size_t c = 0; c < 12; ++c) pushed = std::min(pushed, table.at(row, fmt::format("contact.{}.fx", c)));
   }
@@ -256,7 +256,7 @@ TEST(Solver, ARobotPushesABox) {
 TEST(Solver, ABoxSlidesDownARampByCoulomb) {
   const double slope = M_PI / 6;
   const std::string ramp = fmt::format("{{center: [0, 0, -0.5], size: [4, 1, 0.2], rpy: [0, {}, 0], friction: 0.6}}", slope);
-  // Far enough up the ramp to stay clear of the plane.
+  // The box is so high on the ramp that it does not touch the plane.
   const double up = 1.5;
   const std::string box =
       fmt::format("{{center: [{}, 0, {}], size: [0.2, 0.2, 0.1], rpy: [0, {}, 0], friction: 0.3, mass: 1}}",

@@ -1,4 +1,5 @@
-// The lambda rule: the power iteration against dense eigenvalues, and what a user is told.
+// Largest stable step of explicit methods: the power iteration for the decay rate lambda agrees with dense eigenvalues, and the
+// messages are correct.
 #include "core/simulation/stability.h"
 
 #include <Eigen/Eigenvalues>
@@ -8,7 +9,7 @@
 namespace gaitlab::test {
 namespace {
 
-/// M^-1 of a robot at zero angles, densely, from the kinetic energy of unit velocities.
+/// Dense inverse mass matrix of a robot at zero angles, computed from the kinetic energies of unit velocities.
 class DenseMass final : public InverseMass {
  public:
   DenseMass(const Robot& robot, const Kinematics& at) : size_(static_cast<Eigen::Index>(6 + robot.joints.size())) {
@@ -52,11 +53,11 @@ TEST(LambdaRule, PowerIterationFindsTheLargestEigenvalue) {
   k.update(robot, zero);
   DenseMass mass(robot, k);
   RateMonitor monitor(robot);
-  for (const double friction : {0.0, 400.0, 4000.0}) {  // motors bind, both alike, the contact binds; N s/m
+  for (const double friction : {0.0, 400.0, 4000.0}) {  // N s/m; motors, both, or the contact determine lambda
     monitor.motor.assign(robot.joints.size(), 0.896);
     monitor.contacts.assign(
         1, {0, 3, k.point(3, Vec3(0.03, 0.02, -0.03)), Vec3::UnitZ(), Vec3::UnitY(), friction, 0.3 * friction});
-    // Densely: columns of the damping matrix are what unit velocities give.
+    // Dense damping matrix, whose columns are the forces of unit velocities.
     Eigen::MatrixXd damping = Eigen::MatrixXd::Zero(22, 22);
     for (Eigen::Index j = 0; j < 16; ++j) damping(6 + j, 6 + j) = 0.896;
     Eigen::MatrixXd jacobian(3, 22);
@@ -69,15 +70,15 @@ TEST(LambdaRule, PowerIterationFindsTheLargestEigenvalue) {
       moving.update(robot, unit);
       jacobian.col(i) = moving.velocity(3, monitor.contacts[0].point);
     }
-    const Mat3 g = Vec3(friction, 0, 0.3 * friction).asDiagonal();  // 0 along the slip (y), normal slope on z
+    const Mat3 g = Vec3(friction, 0, 0.3 * friction).asDiagonal();  // slope 0 along the slip (y), normal slope along z
     damping += jacobian.transpose() * g * jacobian;
     const double largest = (mass.inverse * damping).eigenvalues().real().maxCoeff();
     const Stability found = monitor.largest(robot, k, mass, 200);
-    // 200 iterations; modes of the chain lie as close as 1 %, so what is left is below 0.98^400 and a Rayleigh quotient's
-    // square.
+    // After 200 iterations the error is below 0.98^400, because the closest modes of the chain differ by 1 % and the error of a
+    // Rayleigh quotient is quadratic.
     EXPECT_NEAR(found.rate, largest, 1e-3 * largest) << friction;
     EXPECT_EQ(found.source, friction > 1000 ? Stability::Source::contact : Stability::Source::motor) << friction;
-    // The monitor's 20 are good to 3 % from below.
+    // After the 20 iterations of the monitor, the rate is at most 3 % too small.
     const double quick = monitor.largest(robot, k, mass, 20).rate;
     EXPECT_LE(quick, largest * (1 + 1e-12));
     EXPECT_NEAR(quick, largest, 0.03 * largest) << friction;
@@ -96,7 +97,7 @@ TEST(LambdaRule, RefusesAStepThatIsTooLong) {
 }
 
 TEST(LambdaRule, JudgesTheStandingRobotByMotorsAtRest) {
-  // At 20 rad/s the current limit flattens the motors; they will not stay there.
+  // At 20 rad/s the motors are at their current limit and do not damp. The check must not rely on this, because speeds fall.
   const Folder folder;
   const Result result =
       gaitlab("check '" + kScenarios + "caterpillar.yaml' --set physics.step=1e-4 --set initial.speeds=20", folder / "");

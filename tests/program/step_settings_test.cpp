@@ -1,4 +1,4 @@
-// Settings of the steps: physics.step, integrator and accuracy, as read, printed and halved.
+// Settings of the steps: reading, printing and halving of physics.step, integrator and accuracy.
 #include <regex>
 
 #include "core/recording/convergence.h"
@@ -31,7 +31,7 @@ TEST(StepSettings, LeaveTheStepToTheAdaptiveIntegrator) {
     EXPECT_TRUE(p.adaptive_step) << keys;
     EXPECT_TRUE(p.adapts()) << keys;
     EXPECT_EQ(p.integrator->name, "adaptive") << keys;
-    EXPECT_EQ(p.step, 0.005) << keys;  // a third of the control period
+    EXPECT_EQ(p.step, 0.005) << keys;  // a third of the control period of 15 ms
     EXPECT_EQ(p.accuracy, 0.01) << keys;
   }
 }
@@ -55,7 +55,7 @@ TEST(StepSettings, TheAdaptiveIntegratorTakesANumberForItsLongestStep) {
   EXPECT_EQ(run(s).steps, 120);
 }
 
-/// The largest whole share of the control period up to 5 ms, whatever the rows.
+/// The default step is the largest integer fraction of the control period up to 5 ms. It does not depend on trace rows.
 TEST(StepSettings, AStepIsAWholeShareOfTheControlPeriod) {
   for (const auto& [period, step] : std::vector<std::pair<std::string, double>>{{"0.015", 0.005},
                                                                                 {"0.005", 0.005},
@@ -91,7 +91,8 @@ TEST(StepSettings, AutoIsRefusedWhereNothingChoosesSteps) {
 
 double h_lambda(const Scenario& s) { return s.physics.step * Simulation({&s, 1}).standing().rate; }
 
-/// Up to 5e-5 s, h lambda at most 0.8, of contacts 0.45; the next step of the series would be beyond.
+/// The default step of bullet is the longest of a series, up to 5e-5 s, with h lambda of at most 0.8, and of at most 0.45 for
+/// contacts.
 TEST(StepSettings, BulletChoosesTheLongestStepThatIsStable) {
   const Scenario caterpillar = shipped("caterpillar.yaml");
   EXPECT_EQ(caterpillar.physics.step, 5e-5);
@@ -115,7 +116,7 @@ TEST(StepSettings, AStepThatBulletChoosesDividesThePeriods) {
   EXPECT_EQ(error("engine: bullet", "trace: {period: 0.0049999999}\n").substr(0, 23), "s.yaml:5:17: error: tra");
 }
 
-/// As `sweep` makes the scenarios of its points.
+/// The default step of bullet follows from the settings of each point, as `sweep` creates them.
 TEST(StepSettings, AStepThatBulletChoosesFollowsWhatIsSet) {
   const ScenarioTemplate caterpillar(kScenarios + "caterpillar.yaml", {}, catalog());
   EXPECT_EQ(caterpillar.with({"cpg.amplitude=0.3"}).physics.step, 5e-5);
@@ -133,7 +134,7 @@ TEST(StepSettings, AccuracyIsANumberWithinItsRange) {
   EXPECT_EQ(error("engine: articulated, accuracy: 0.5"), "");
 }
 
-/// It would do nothing there.
+/// The setting `accuracy` is refused for integrators with a fixed step, because it would have no effect.
 TEST(StepSettings, AccuracyIsForIntegratorsThatChooseTheirSteps) {
   for (const char* keys : {"engine: articulated, integrator: implicit, accuracy: 0.01",
                            "engine: articulated, step: 1e-3, accuracy: 0.01", "engine: bullet, accuracy: 0.01"}) {
@@ -182,7 +183,7 @@ TEST(StepSettings, RefiningDividesWhatChoosesTheSteps) {
 }
 
 struct Converge : testing::Test {
-  /// Output of `gaitlab converge`.
+  /// Output of `gaitlab converge` with these arguments.
   [[nodiscard]] std::string of(const std::string& arguments) const {
     const Result r = gaitlab("converge " + arguments + " --quiet -j 2", folder / "");
     EXPECT_EQ(r.code, 0) << r.err;
@@ -197,7 +198,7 @@ TEST_F(Converge, HalvesTheAccuracy) {
   EXPECT_TRUE(std::regex_search(text, std::regex("\naccuracy +0[.]01 +0[.]005 +order\n"))) << text;
   EXPECT_TRUE(contains(text, "\naccuracy 0.01 is good for 1 %: the error is at most ")) << text;
   EXPECT_FALSE(contains(text, " s is good")) << text;
-  // Its errors are those of runs that were asked for these accuracies.
+  // The errors in the table equal the errors of separate runs with these accuracies.
   std::vector<Trace> traces;
   for (const char* accuracy : {"0.01", "0.005", "0.0025"}) {
     traces.push_back(run(shipped("caterpillar.yaml",
@@ -211,7 +212,8 @@ TEST_F(Converge, HalvesTheAccuracy) {
   EXPECT_TRUE(contains(text, "\n" + row)) << row << "\n" << text;
 }
 
-/// Feet on ground so stiff that a step sees an impact or not: errors that do not fall with the step follow no power of it.
+/// On stiff ground the errors do not decrease with a power of the step, because impacts are shorter than a step. The program
+/// then reports no order.
 TEST_F(Converge, SaysThatNoOrderIsSeen) {
   std::filesystem::create_directory_symlink(kScenarios + "modules", folder / "modules");
   folder.write(

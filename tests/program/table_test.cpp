@@ -1,4 +1,4 @@
-// Gait `table`: the same set points as the same keyframes, a file beside the scenario, errors as the user sees them.
+// Tests of the CPG `table`: equal set points as with keyframes, a table file next to the scenario, error messages.
 #include "cpg/table.h"
 
 #include "core/scenario/read_scenario.h"

@@ -1,4 +1,5 @@
-// Rollouts of a template are what reading the file again gives; many of them, one after the other.
+// Scenarios from a template equal scenarios that are read from the file with the same settings. Tests of streams of many
+// rollouts.
 #include <malloc.h>
 
 #include "core/scenario/read_scenario.h"
@@ -23,7 +24,8 @@ std::string errors(const std::function<void()>& work) {
 
 class Templates : public testing::TestWithParam<const char*> {};
 
-/// Every section, and what depends on another section; two at once.
+/// Settings of every section, also settings on which others depend, give the scenario, notes, places and errors of a new
+/// reading.
 TEST_P(Templates, GiveWhatReadingAgainGives) {
   const std::string file = kScenarios + GetParam();
   const Sets common{"duration=0.3", "contact.stiffness=2e4"};
@@ -60,7 +62,7 @@ TEST_P(Templates, GiveWhatReadingAgainGives) {
                               {"cpg={type: sine}"},
                               {"actuator.type=torque"},
                               {"robot.position=[0.1, 0]"},
-                              // refused
+                              // refused settings
                               {"cpg.frequencies=0.4"},
                               {"cpg.frequency=fast", "controller.Kp=-1"},
                               {"nothing=1"},
@@ -103,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(Shipped, Templates,
                            return name.substr(0, name.find('.'));
                          });
 
-/// In the order of the range, whatever runs beside; each the summary it has alone.
+/// Rollouts arrive in order, and each has the same summary as alone, for any number of lanes and threads.
 TEST(Stream, KeepsOrderAndBits) {
   const ScenarioTemplate from(kScenarios + "hexapod.yaml", {"physics.engine=articulated", "duration=0.06"}, catalog());
   constexpr int kCount = 70;  // more than a window of one thread
@@ -122,7 +124,7 @@ TEST(Stream, KeepsOrderAndBits) {
   }
 }
 
-/// One that is refused: those before it arrive, then the error.
+/// If a rollout is refused, the rollouts before it arrive, and then the error.
 TEST(Stream, EndsAtTheFirstRefused) {
   const ScenarioTemplate from(kScenarios + "hexapod.yaml", {"physics.engine=articulated", "duration=0.03"}, catalog());
   int next = 0;
@@ -138,7 +140,7 @@ TEST(Stream, EndsAtTheFirstRefused) {
   EXPECT_EQ(arrived, 3);
 }
 
-/// One that cannot be made: those before it arrive, whatever threads there are.
+/// If a scenario cannot be constructed, the rollouts before it arrive, for any number of threads.
 TEST(Stream, EndsAtTheFirstThatIsNotMade) {
   const ScenarioTemplate from(kScenarios + "hexapod.yaml", {"physics.engine=articulated", "duration=0.03"}, catalog());
   for (const int threads : {0, 1, 2}) {
@@ -152,14 +154,14 @@ TEST(Stream, EndsAtTheFirstThatIsNotMade) {
   }
 }
 
-/// Its notes, each with its place.
+/// Notes of a scenario with their places, one per line.
 std::string told(const Scenario& scenario) {
   std::string text;
   for (const Note& note : scenario.notes) text += to_string(note.place) + ": " + note.text + "\n";
   return text;
 }
 
-/// A template whose own settings chose the CPG's type.
+/// A template whose settings select the type of the CPG keeps settings that this type does not use.
 TEST(Template, KeepsWhatItsTypeDropped) {
   const Sets common{"cpg.type=hopf", "duration=0.1"};
   const ScenarioTemplate from(kScenarios + "caterpillar.yaml", common, catalog());
@@ -177,7 +179,7 @@ TEST(Template, KeepsWhatItsTypeDropped) {
   }
 }
 
-/// A source that the file states does not say what a rollout sets, and notes on motors come once.
+/// If a rollout changes values, the source that the file states for them is dropped. Notes on motors appear once.
 TEST(Template, DropsTheSourceOfOtherFigures) {
   const Folder folder;
   std::filesystem::create_directory_symlink(kScenarios + "modules", folder / "modules");
@@ -198,7 +200,8 @@ TEST(Template, DropsTheSourceOfOtherFigures) {
   }
 }
 
-/// Ten thousand rollouts of 0.5 s would take gigabytes if all were kept: the memory in use does not grow with their number.
+/// The memory in use does not increase with the number of rollouts. If all were kept, ten thousand rollouts of 0.5 s would need
+/// gigabytes.
 TEST(Stream, KeepsNothingOfWhatIsOver) {
   const ScenarioTemplate from(kScenarios + "hexapod.yaml", {"physics.engine=articulated", "duration=0.1"}, catalog());
   int next = 0;

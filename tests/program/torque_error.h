@@ -1,4 +1,4 @@
-// Torque error of one run against another.
+// Error of the torques of a run relative to the torques of a more accurate run.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 namespace gaitlab::test {
 
-/// Largest torque of each joint, at least 2 % of the largest of all, N m.
+/// Peak of each joint: its largest torque, but at least 2 % of the largest torque of all joints, N m.
 inline std::vector<double> torque_peaks(const Recording& record) {
   std::vector<double> peaks(record.joints.size());
   for (std::size_t j = 0; j < peaks.size(); ++j) {
@@ -22,7 +22,7 @@ inline std::vector<double> torque_peaks(const Recording& record) {
   return peaks;
 }
 
-/// RMS over the rows over the joint's peak, which counts as at least 2 % of the largest of all; of the worst joint.
+/// RMS of the torque difference over all rows, divided by the joint's peak (torque_peaks); value of the worst joint.
 inline double torque_error(const Recording& measured, const Recording& truth) {
   EXPECT_EQ(measured.rows(), truth.rows());
   const std::vector<double> peaks = torque_peaks(truth);
@@ -37,7 +37,7 @@ inline double torque_error(const Recording& measured, const Recording& truth) {
   return worst;
 }
 
-/// Time of the first row in which a torque is off by more than this share of its peak, s; -1: none.
+/// Time of the first row in which a torque differs by more than `share` of its joint's peak, s; -1 if there is no such row.
 inline double first_error(const Recording& measured, const Recording& truth, double share) {
   const std::vector<double> peaks = torque_peaks(truth);
   for (std::size_t row = 0; row < truth.rows(); ++row) {

@@ -7,7 +7,8 @@
 
 namespace gaitlab::test {
 
-/// RMS of the difference over the joint's largest torque in `truth`, of the worst joint; rows from `from` (s) on.
+/// RMS of the torque difference from time `from` (s) on, divided by the joint's largest torque in `truth`; value of the worst
+/// joint.
 inline double torques_off(const Recording& measured, const Recording& truth, double from = 0) {
   const Series time = truth.series("t");
   double worst = 0;

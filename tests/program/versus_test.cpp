@@ -1,4 +1,5 @@
-// The side-by-side benchmark: its error figure, MuJoCo as a plant, and that a race names everybody. Times are not tested.
+// Tests of the benchmark that compares engines: computation of the errors, MuJoCo as an engine, complete results. Computing
+// times are not tested.
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -22,13 +23,13 @@ Catalog& with_mujoco() {
 }
 
 TEST(Versus, ErrorIsTheRmsOverTheJointsPeakBehindAMoment) {
-  // Two joints, rows at 0, 1, 2 s; the first row does not count.
+  // The torques of two joints have rows at 0, 1, 2 s. The error excludes the first row.
   const versus::Torques reference{{0, 1, 2}, {100, 100, 2, -1, 1, -4}};
   const versus::Torques torques{{0, 1, 2}, {0, 0, 2.3, -1, 1.4, -4.4}};
   const versus::TorqueError error = versus::torque_error(torques, reference, 0.5);
   EXPECT_EQ(error.joint, 0U);
-  EXPECT_NEAR(error.worst, std::sqrt((0.09 + 0.16) / 2) / 2, 1e-15);  // rounding
-  EXPECT_NEAR(error.median, error.worst, 1e-15);                      // the upper one of two
+  EXPECT_NEAR(error.worst, std::sqrt((0.09 + 0.16) / 2) / 2, 1e-15);  // tolerance for rounding errors
+  EXPECT_NEAR(error.median, error.worst, 1e-15);                      // the median of two values is the larger value
   const versus::TorqueError none = versus::torque_error(reference, reference, 0.5);
   EXPECT_EQ(none.worst, 0);
 }
@@ -39,7 +40,7 @@ TEST(Versus, CourseIsTravelAndMeanContactForceBehindAMoment) {
   record.rest.columns = {{"com.x", "m", ""}, {"com.y", "m", ""}, {"com.z", "m", ""}, {"load.0", "N", ""}, {"load.1", "N", ""}};
   record.rest.values = {9, 9, 0, 50, 50, 1, 1, 0, 10, 20, 2, 0, 0, 20, 10, 4, 5, 0, 30, 30};
   const versus::Course course = versus::course(record, 0.5);
-  EXPECT_EQ(course.travel, 5);  // 3, 4, 5
+  EXPECT_EQ(course.travel, 5);  // right triangle with the sides 3, 4, 5
   EXPECT_EQ(course.force, 40);
   EXPECT_EQ(versus::course(record, 3.5).force, 0);
 }
@@ -53,12 +54,12 @@ TEST(Versus, AWalkThatDiffersFromBulletsIsNamed) {
             "travels 1.33 m, under bullet 1.2 m; the ground carries 0 N in the mean, under bullet 33 N");
   EXPECT_EQ(versus::strays({1.2, 29}, bullet), "the ground carries 29 N in the mean, under bullet 33 N");
   EXPECT_NE(versus::strays({std::nan(""), 33}, bullet), "");
-  EXPECT_EQ(versus::strays({9e-4, 33}, {1e-5, 33}), "");  // both stay
-  EXPECT_EQ(versus::strays({1.2, 0}, {1.2, 0}), "");      // in the air
+  EXPECT_EQ(versus::strays({9e-4, 33}, {1e-5, 33}), "");  // both robots hardly move
+  EXPECT_EQ(versus::strays({1.2, 0}, {1.2, 0}), "");      // both robots are in the air
   EXPECT_NE(versus::strays({1.2, 1}, {1.2, 0}), "");
 }
 
-/// It did once, and every torque error looked plausible.
+/// The benchmark omits an engine in which the robot falls through the ground. This once happened with plausible torque errors.
 TEST(Versus, ARobotThatFallsThroughTheGroundIsLeftOut) {
   Catalog catalog = app::standard_catalog();
   Engine falling = *with_mujoco().engine("mujoco");
@@ -118,7 +119,8 @@ TEST(Versus, ClangIsNamedBeforeTheStartUpFilesCompiler) {
   EXPECT_EQ(compiler_of("ELF"), "unknown compiler");
 }
 
-/// In the air there is no contact law to differ in: motors, joints' order and the base's state are all that is left.
+/// In the air the robot in MuJoCo equals ours. Contact laws differ, but without contacts only motors, the order of joints and
+/// the state of the base matter.
 TEST(Versus, MujocoInTheAirIsOurRobot) {
   const auto torques = [](const std::string& engine, const std::string& integrator, double step, double i_max = 1.2) {
     const Scenario s = read_scenario(kScenarios + "hexapod.yaml",
@@ -130,21 +132,21 @@ TEST(Versus, MujocoInTheAirIsOurRobot) {
   };
   const versus::Torques reference = torques("articulated", "extrapolated", 5e-5);
   const Engine& mujoco = *with_mujoco().engine("mujoco");
-  for (const std::string set_up : {"armature", "dcmotor"}) {  // those with the motor's own law
+  for (const std::string set_up : {"armature", "dcmotor"}) {  // variants with the law of the motor
     if (mujoco.integrator(set_up) == nullptr) continue;
     const double coarse = versus::torque_error(torques("mujoco", set_up, 1.25e-4), reference, 0).worst;
     const double fine = versus::torque_error(torques("mujoco", set_up, 6.25e-5), reference, 0).worst;
-    EXPECT_LT(fine, 0.01) << set_up;                  // half of it seen; a wrong joint, sign or frame is off by 100 %
-    EXPECT_NEAR(coarse / fine, 2.0, 0.25) << set_up;  // order 1; the next order is an eighth of that at most
+    EXPECT_LT(fine, 0.01) << set_up;                  // measured half of it; a wrong joint, sign or frame gives 100 %
+    EXPECT_NEAR(coarse / fine, 2.0, 0.25) << set_up;  // order 1; the next order contributes at most an eighth
   }
   if (mujoco.integrator("dcmotor") == nullptr) return;
-  // At the current limit, too: without contacts the two are one method. Rounding grows with the swing: seen 1e-12.
+  // Without contacts the two variants are the same method, also at the current limit. Rounding errors grow to about 1e-12.
   const versus::Torques limited = torques("mujoco", "armature", 1.25e-4, 0.05);
   EXPECT_LT(versus::torque_error(torques("mujoco", "dcmotor", 1.25e-4, 0.05), limited, 0).worst, 1e-9);
-  EXPECT_GT(versus::torque_error(torques("mujoco", "dcmotor", 1.25e-4, 1.2), limited, 0).worst, 0.1);  // it binds
+  EXPECT_GT(versus::torque_error(torques("mujoco", "dcmotor", 1.25e-4, 1.2), limited, 0).worst, 0.1);  // limit is reached
 }
 
-// 6 s of CPU: every method of three engines, and the reference of the race.
+// A benchmark run has finite errors for every method of three engines. It takes 6 s of CPU time, including the reference.
 TEST(Versus, ARaceNamesEverybodyWithFiniteErrors) {
   versus::RaceSettings settings;
   settings.scenarios = {kScenarios + "hexapod.yaml"};
@@ -161,12 +163,12 @@ TEST(Versus, ARaceNamesEverybodyWithFiniteErrors) {
       continue;
     }
     ran.insert(point["contender"]);
-    EXPECT_TRUE(point["error"]["worst"].is_number()) << where;  // what is not finite is null in JSON
+    EXPECT_TRUE(point["error"]["worst"].is_number()) << where;  // in JSON, numbers that are not finite are null
     EXPECT_GT(point["speed"]["median"].get<double>(), 0) << where;
   }
   std::vector<std::string> left_out;
   for (const versus::Contender& c : versus::field(with_mujoco(), left_out).contenders) {
-    if (c.group == versus::Group::bullet_solver) continue;  // where this Bullet has no such law
+    if (c.group == versus::Group::bullet_solver) continue;  // may be absent if this Bullet does not support the law
     EXPECT_TRUE(ran.contains(c.name)) << c.name;
   }
   const std::string table = versus::table(results, true);
@@ -176,7 +178,7 @@ TEST(Versus, ARaceNamesEverybodyWithFiniteErrors) {
     EXPECT_NE(plot.find(">" + name + "<"), std::string::npos) << name;
   }
   const versus::Point* best = results.fastest("hexapod", versus::Group::mujoco_best, versus::kGood);
-  ASSERT_NE(best, nullptr);  // 1 ms is good for 1 %, so 0.25 ms is
+  ASSERT_NE(best, nullptr);  // exists, because a step of 1 ms already gives an error of 1 %
   EXPECT_LE(best->error.worst, versus::kGood);
 }
 

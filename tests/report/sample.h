@@ -1,4 +1,4 @@
-// A robot to draw: M-TRAN-like modules written out here, so that these tests read no scenario.
+// Robot for tests of drawings. Its modules are similar to M-TRAN and defined in this file, so that the tests read no scenario.
 #pragma once
 #include <cstddef>
 #include <vector>
@@ -73,7 +73,7 @@ inline double lowest(const report::View& view) {
   return lowest;
 }
 
-// Turned about y until the first and the last link are at one height.
+// State that is rotated about y such that the first and the last link are at equal heights.
 inline RobotState level(const Robot& robot, RobotState state) {
   const Kinematics k = kinematics(robot, state);
   const Vec3 along = k.p.back() - k.p.front();
@@ -81,7 +81,7 @@ inline RobotState level(const Robot& robot, RobotState state) {
   return state;
 }
 
-// The robot with its lowest vertex on the ground.
+// Side view of the robot with its lowest vertex on the ground.
 inline report::View view(const Robot& robot, RobotState state, double time) {
   state.position.z() -= lowest({time, report::side_view(robot, kinematics(robot, state))});
   const Kinematics k = kinematics(robot, state);
@@ -100,7 +100,7 @@ inline report::View view(const Robot& robot, RobotState state, double time) {
   return view;
 }
 
-// A wave of period 4 s travelling through eight modules, drifting as the real one does; torques made up.
+// Input of a figure: a wave of period 4 s travels through eight modules, and the robot drifts. The torques are invented.
 inline report::FigureInput figure(double duration = 20) {
   report::FigureInput input;
   input.title = "caterpillar-8";

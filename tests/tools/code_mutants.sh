@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Whether the tests notice wrong physics: defects, one at a time, put into a copy of the tree; each must turn a test red. A whole run
-# writes its table into tests/validation_head.md and docs/validation.md, at its end.
+# Tests if the test suite detects wrong physics. Defects are put one at a time into a copy of the tree, and each must make a test fail.
+# A complete run writes its table into tests/validation_head.md and docs/validation.md at the end.
 # usage: tests/tools/code_mutants.sh [--clone FOLDER] [NAME...]
-#   FOLDER: a scratch clone with a finished build/release, which is edited and put back; default: a copy of this tree, which takes
-#   a full build more. NAME: only defects with this pattern in their name; the table is printed and not written
+#   FOLDER is a clone with a finished build/release, which is edited and restored. The default is a copy of this tree, which needs
+#   a full build. With NAME, only defects with this pattern in their names are tested, and the table is only printed.
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 
 clone=
@@ -21,11 +21,11 @@ fi
 build=$clone/build/release
 pages=("$root/tests/validation_head.md" "$root/docs/validation.md")
 begin='<!-- defects: written by tests/tools/code_mutants.sh -->' end='<!-- end of defects -->'
-# Whole walks and goldens see any of these, of course; what counts is that the tests which name the cause do.
+# Tests of whole walks and goldens are excluded. They detect all of these defects, but a specific test must detect each defect.
 left_out='-Walk*:*Golden*:*Determinism*:Rerun*:*Program*:*Command*:RunFolder*'
 
 names=() files=() edits=()
-# defect NAME FILE SED: an edit that finds nothing is an error, told before the first build.
+# defect NAME FILE SED: adds a defect. An edit that changes nothing is an error, which is reported before the first build.
 defect() {
   local pattern
   for pattern in "${patterns[@]:-}"; do
@@ -67,7 +67,7 @@ build() {
   [[ -f $build/build.ninja ]] || (cd -- "$clone" && expect 0 cmake --preset release)
   expect 0 cmake --build "$build" --target gaitlab core_tests program_tests
 }
-# The names of the failed tests.
+# Prints the names of the failed tests.
 red() {
   local tests
   for tests in core_tests program_tests; do
@@ -75,7 +75,7 @@ red() {
       sed -nE 's/^\[  FAILED  \] ([A-Za-z0-9_]+[.\/][A-Za-z0-9_.\/]+).*/\1/p' | sort -u || true
   done
 }
-# try NAME FILE SED: prints the defect's row of the table; the file is put back also where the defect does not compile.
+# try NAME FILE SED: prints the defect's row of the table. The file is restored, also if the defect does not compile.
 try() (
   file=$clone/$2
   cp -- "$file" "$build/whole"
@@ -89,9 +89,9 @@ try() (
     printf '| %s | 0 | NONE |\n' "$1"
   fi
 )
-# Whether the page has a place for the table.
+# Succeeds if the page has a place for the table.
 has_place() { [[ $(grep -xF -e "$begin" -e "$end" -- "$1") == "$begin"$'\n'"$end" ]]; }
-# renew PAGE: the new table instead of what stands in that place.
+# renew PAGE: replaces the table in PAGE by the new table.
 renew() {
   awk -v begin="$begin" -v end="$end" -v table="$work/table" '
     $0 == end { inside = 0 }

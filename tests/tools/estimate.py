@@ -18,8 +18,8 @@ import numpy
 LIBRARY = ["atron-drive", "ckbot-worm", "dtto-caterpillar", "linkbot-drive", "mobot-inchworm", "molecubes-arm", "polybot-worm",
            "revolve-spider", "rofi-snake", "y1-pp", "y1-rolling", "y1-sidewinding", "y1-snake", "yamor-worm"]
 WALKS = ["hexapod", "octopod", "caterpillar", "rubble"]
-ROW = 0.005  # s
-LEAST_PEAK = 0.02  # of the largest of all joints, as report/verdict/trust.cpp has it
+ROW = 0.005  # time between rows, s
+LEAST_PEAK = 0.02  # least peak, as a share of the largest of all joints, as in report/verdict/trust.cpp
 
 
 def unit(draw):
@@ -31,13 +31,13 @@ def unit(draw):
 
 
 def inertia(draw, mass):
-    """Of a box with random edges, about its own axes."""
+    """Inertia of a box with random edges about its own axes."""
     a, b, c = (draw.uniform(0.03, 0.12) for _ in range(3))
     return [mass / 12 * (b * b + c * c), mass / 12 * (a * a + c * c), mass / 12 * (a * a + b * b), 0, 0, 0]
 
 
 def tree(draw):
-    """One module of bodies in a random tree, each with a foot and a ball."""
+    """Module type: a random tree of bodies, each with a foot and a sphere."""
     bodies, hinges, contacts = {}, [], []
     for i in range(draw.randint(3, 6)):
         name = f"b{i}"
@@ -59,7 +59,7 @@ def tree(draw):
 
 
 def robot(draw, scenarios, number):
-    """What a scenario of the library has besides its gait, or a tree."""
+    """Robot, actuator and ground of a scenario of the library without its gait, or a random tree."""
     kind = number % 3
     if kind == 0:
         return tree(draw), "tree"
@@ -82,7 +82,7 @@ def boxes(draw):
 
 
 def drawn(seed, number, scenarios):
-    """(scenario file's text or its path, overrides)"""
+    """Random scenario as (text or path of the scenario file, overrides)."""
     draw = random.Random(f"{seed}/{number}")
     made, base = robot(draw, scenarios, number)
     sets = {"physics.engine": "articulated", "physics.integrator": "adaptive", "physics.step": "auto",
@@ -123,7 +123,7 @@ def set_text(key, value):
 
 
 def without_accuracy(file):
-    """Text of a scenario from which an accuracy, which means nothing to integrator `extrapolated`, is taken out."""
+    """Text of a scenario without its accuracy, which integrator `extrapolated` does not accept."""
     lines = [line for line in file.read_text().splitlines(keepends=True) if not line.strip().startswith("accuracy:")]
     return re.sub(r"(build: *)(\S+)", lambda found: found[1] + str((file.parent / found[2]).resolve()), "".join(lines))
 
@@ -133,7 +133,7 @@ class Runs:
         self.program, self.folder = program, folder
 
     def __call__(self, base, sets):
-        """(torques at rows, summary), or a text: why not."""
+        """Tuple (torques at rows, summary), or the reason for a failure as text."""
         words = [set_text(*one) for one in sets.items() if one[1] is not None]
         name = hashlib.sha256(json.dumps([str(self.program), base, words]).encode()).hexdigest()[:16]
         kept = self.folder / f"{name}.npz"
@@ -157,7 +157,7 @@ class Runs:
 
 
 def apart(a, b):
-    """RMS over rows over the joint's peak in a, of the worst joint, and which that is."""
+    """RMS of the difference over all rows, divided by the joint's peak in a, for the worst joint; and the number of this joint."""
     if a.shape != b.shape:
         return math.inf, 0
     peak = numpy.abs(a).max(axis=0)
@@ -197,7 +197,7 @@ def measure(program, reference, scenarios, folder, seed, number, ratio):
 
 
 def shares(pairs):
-    """(estimate, truth) -> what holds of them."""
+    """Statistics of pairs (estimate, truth)."""
     ratios = [estimate / truth for estimate, truth in pairs]
     within = sum(0.5 <= r <= 3 for r in ratios)
     beyond = [(e, t) for e, t in pairs if t > 0.01]

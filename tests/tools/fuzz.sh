@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Fuzzes what users and strangers write, one reader after the other (tests/fuzz/readers.h), from what is shipped and the corpus.
-# usage: tests/tools/fuzz.sh [SECONDS [READER...]]      (600 for each of all readers; builds build/fuzz with clang++ first)
-# What it found worth keeping lies in build/fuzz/corpus/READER; `--keep` as last word adds to the corpus what reaches more.
+# Fuzzes the readers of input files one after the other (tests/fuzz/readers.h), starting with shipped files and the corpus.
+# usage: tests/tools/fuzz.sh [SECONDS [READER...]]      (default 600 s for every reader; first builds build/fuzz with clang++)
+# New inputs are in build/fuzz/corpus/READER. With `--keep` as the last word, inputs that reach new code are added to the corpus.
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 
 cd -- "$root"
@@ -21,7 +21,7 @@ for reader in "${words[@]}"; do
   mkdir -p "$corpus"
   # shellcheck disable=SC2086 # a pattern
   cp -- tests/fuzz/corpus/"$reader"/* ${shipped[$reader]:-} "$corpus"
-  # Leaks are looked for by the sanitizers' tests: HDF5 keeps some blocks after an error.
+  # Leak detection is off, because HDF5 does not free some blocks after an error. Tests with sanitizers detect leaks.
   GAITLAB_READER=$reader build/fuzz/bin/input_fuzz -max_total_time="$seconds" -max_len=16384 -timeout=20 -rss_limit_mb=4096 \
     -detect_leaks=0 -print_final_stats=1 -artifact_prefix="build/fuzz/found/$reader-" "$corpus" 2>&1 | tail -n 12
   [[ -z $keep ]] ||

@@ -23,19 +23,19 @@ from changes import generate  # noqa: E402
 
 ROOT = HERE.parents[1]
 OUT = ROOT / "build/mutants"
-# Where scenarios are made or their limits printed, and all that is compiled with the constants of HEADERS.
+# Sources that create scenarios or print their limits, and sources that use the constants of HEADERS.
 WITH_DEFAULTS = ["core/scenario/read_scenario.cpp", "report/analysis/gait_period.cpp"]
-# Tests of tables and of recordings changed by hand come first; what survives them meets those that simulate.
+# Tests of tables and of changed recordings run first. Surviving mutants are then tested by tests that simulate.
 QUICK = ["report/verdict/check_table", "report/verdict/check_cases", "report/verdict/motion_cases", "report/verdict/check_evidence",
          "report/verdict/load_checks", "report/verdict/body_checks", "report/verdict/verdict_motor", "studies/study/guards",
          "report/analysis/posture"]
 SLOW = ["report/verdict/verdict", "report/verdict/warnings", "report/verdict/trust", "report/verdict/earned",
         "report/analysis/motion"]
 QUICK_FILTER = "Check*:LoadChecks*:Fall*:Upright*:InGround*:Guards*:Posture*-Posture.Shipped*"
-# What takes minutes, and is of no single check: whole programs, all shipped scenarios.
+# The filter excludes tests that take minutes and do not concern a single check: whole programs, all shipped scenarios.
 SLOW_FILTER = ("Verdict*:SetupWarnings*:RunWarnings*:Doubts*:Earned*:Motion.*:AnyRows*-*Shipped*:Verdict.IsAFile*:"
                "Motion.OfAnOlderFolder*")
-# (part of a mutant's name, the reason why no test can see it)
+# Mutants that no test can detect, as (part of the mutant's name, reason).
 EQUIVALENT = [
     ("kEqual times 1.3", "rounding of sums of the same ticks, which differ by a tick or not at all"),
     ("kRounds times 1.3", "rounding of times, of which no tick is within a millionth of a control period"),
@@ -44,7 +44,7 @@ EQUIVALENT = [
 
 
 def write(path, text):
-    """Leaves a file alone that has that text already, for the sake of ccache's and our own comparison of times."""
+    """Writes a file only if its text changes, because ccache and this script compare modification times."""
     path.parent.mkdir(parents=True, exist_ok=True)
     if not path.exists() or path.read_text() != text:
         path.write_text(text)
@@ -59,10 +59,10 @@ def flags_of(build, target):
 
 
 def link_line(build):
-    """The libraries of program_tests."""
+    """Libraries with which program_tests is linked."""
     ninja = (build / "build.ninja").read_text()
     found = re.search(r"^build bin/program_tests .*?^  LINK_LIBRARIES = (.*?)$", ninja.replace("$\n", ""), re.M | re.S)
-    return [word for word in shlex.split(found.group(1)) if not word.startswith("bench/")]  # of MuJoCo's tests
+    return [word for word in shlex.split(found.group(1)) if not word.startswith("bench/")]  # only tests with MuJoCo use bench/
 
 
 def compile_all(build, jobs, names):
@@ -97,7 +97,7 @@ def compile_all(build, jobs, names):
     if wrong:
         sys.exit("\n".join(wrong))
     program = OUT / "mutant_tests"
-    # The first definition counts: the mutants', before the libraries'.
+    # The linker uses the first definition, that of the mutants, which precede the libraries.
     subprocess.run(["g++", "-fuse-ld=lld", "-Wl,--allow-multiple-definition", "-o", str(program), *(str(t) for _, t, _ in work),
                     *link_line(build)], cwd=build, check=True)
     return mutants, program
@@ -120,7 +120,7 @@ def main():
     told = {}
 
     def run(numbers, tests, environment):
-        """Of tests that are red without a mutant the first; else empty."""
+        """Runs the mutants. Returns the first test that fails without a mutant, or an empty text."""
         command = ["nice", "-n", "3", str(program), "--gtest_brief=1", "--gtest_filter=" + tests, *map(str, numbers)]
         with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env=environment) as running:
             for line in running.stderr:
@@ -136,7 +136,7 @@ def main():
     for tests in [QUICK_FILTER] if given.quick else [QUICK_FILTER, SLOW_FILTER]:
         print(f"tests {tests}", flush=True)
         cached = [k for k in survivors if k not in mutants.fresh]
-        fresh = [k for k in survivors if k in mutants.fresh]  # each from the start: scenarios keep their limits
+        fresh = [k for k in survivors if k in mutants.fresh]  # need a new process each, because scenarios keep their limits
 
         def from_the_start(number, tests=tests):
             red = run([], tests, {**os.environ, "GAITLAB_MUTANT": str(number)})

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# What the goldens notice: a table effect/band of small changes to the shipped scenarios, each of which must fail with at least
-# twice a band, and of changes that mean nothing, which must stay below half of every band.
-# usage: tests/tools/mutants.sh PROGRAM [OTHER_PROGRAM...]   (OTHER_PROGRAM: from another compiler or with other flags; innocent)
-# Minutes. JOBS=N: simulations at once (default: all cores). ROBOTS="caterpillar hexapod": which scenarios.
+# Table of the sensitivity of goldens, as effect divided by band. Small changes of the shipped scenarios must fail by at least two bands.
+# Changes without a meaning must have less than half of every band.
+# usage: tests/tools/mutants.sh PROGRAM [OTHER_PROGRAM...]   (OTHER_PROGRAM is built by another compiler or with other flags)
+# Takes minutes. JOBS=N is the number of parallel simulations (default all cores), ROBOTS="caterpillar hexapod" selects the scenarios.
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
 program=$(readlink -f -- "$1")
@@ -15,12 +15,12 @@ least=2 most=0.5
 
 cp -r -- "$scenarios/modules" "$scenarios/robots" "$work/"
 
-# --- cases: a number, robot, kind (mutant, innocent, told), name and program each; what they are run with is $work/NUMBER.yaml
+# --- cases: each has a number, robot, kind (mutant, innocent, told), name and program; its scenario is $work/NUMBER.yaml
 
 count=0
 declare -a robot_of kind_of name_of program_of
 
-# new ROBOT KIND NAME [PROGRAM]: a copy of the scenario, which the caller then edits; its file is $file.
+# new ROBOT KIND NAME [PROGRAM]: adds a case with a copy of the scenario in $file, which the caller then edits.
 new() {
   count=$((count + 1))
   robot_of[count]=$1 kind_of[count]=$2 name_of[count]=$3 program_of[count]=${4:-$program}
@@ -28,7 +28,7 @@ new() {
   cp -- "$scenarios/$1.yaml" "$file"
 }
 
-# key SECTION KEY VALUE: sets it in $file, whose sections are block maps; an edit that finds nothing would be an innocent.
+# key SECTION KEY VALUE: sets a value in $file, whose sections are block maps. Fails if the file does not change.
 key() {
   local before
   before=$(cat -- "$file")
@@ -39,21 +39,21 @@ key() {
   [[ $(cat -- "$file") != "$before" ]] || fail "$file: nothing to edit for $1.$2"
 }
 
-# turned BUILD ROW TURNED_ROW: another build file, with one dock turned by a quarter.
+# turned BUILD ROW TURNED_ROW: writes a build file in which one dock is turned by a quarter.
 turned() {
   sed "s/^$2\$/$3/" "$work/robots/$1" >"$work/robots/turned-$1"
   ! cmp -s "$work/robots/$1" "$work/robots/turned-$1" || fail "no row $2 in $1"
   key robot build "robots/turned-$1"
 }
 
-# Compiler, and the folder of the build, which should say its flags.
+# Prints the compiler and the folder of a build. The name of the folder should indicate its flags.
 build_of() {
   local build
   build=$(basename -- "$(dirname -- "$(dirname -- "$(readlink -f -- "$1")")")")
   printf '%s: %s' "$build" "$("$1" --version | sed -E 's/.*[(]([^;)]*).*/\1/')"
 }
 
-# The first doubled step whose converge error exceeds 1 %; every doubling below that is shown, too.
+# Finds the first doubled step whose error in `converge` exceeds 1 %. All smaller doublings also appear in the table.
 doubled_steps() {
   local robot=$1 step=2.5e-5 error note
   while :; do

@@ -51,7 +51,7 @@ RULES = {  # name: (pattern, advice)
     'own-one': (r"\b(of one's own|one's own|of (its|their|your) own)\b", '`custom`, `separate`, `user-defined`'),
     'the-way': (r'\b(the )?ways? (of|it|that|they|slid|back|round)\b|\bhow far\b', '`distance`, `path`, `by how much`'),
 }
-# Random hits (at most 100, seed 1) that deserved rewriting, of those read. The other rules are right in half to two thirds of 30 hits.
+# Gates, each with the number of random hits (at most 100, seed 1) that deserved rewriting. For other rules this is half to two thirds.
 GATES = {'first-line': '92 of 92', 'free-relative': '85 of 100', 'headless-of': '88 of 100', 'is-no': '24 of 29', 'but-for': '66 of 71',
          'person': '68 of 82', 'stand': '48 of 54', 'so-many': '9 of 10'}
 PATTERNS = {name: re.compile(pattern) for name, (pattern, _) in RULES.items() if pattern}
@@ -72,7 +72,7 @@ class Text:
 
 
 def git(*arguments):
-    """Lines that git prints; none without git or a checkout."""
+    """Output lines of a git command; empty without git or a checkout."""
     try:
         return subprocess.run(['git', *arguments], cwd=ROOT, capture_output=True, text=True, check=True).stdout.splitlines()
     except (OSError, subprocess.CalledProcessError):
@@ -81,7 +81,7 @@ def git(*arguments):
 
 def files(*patterns):
     found = git('ls-files', '--cached', '--others', '--exclude-standard', '--', *patterns)
-    if not found:  # a source tree without git
+    if not found:  # the source tree is not a git checkout
         walk = (os.path.relpath(os.path.join(folder, f), ROOT) for folder, _, names in os.walk(ROOT) for f in names)
         found = [f for f in walk if not re.match(r'build/|.*/node_modules/', f) and any(fnmatch.fnmatch(f, p) for p in patterns)]
     return sorted(f for f in found if os.path.isfile(os.path.join(ROOT, f)))
@@ -103,7 +103,7 @@ BOOL = re.compile(r'\bbool(ean)?\b')
 def code_texts(path, source):
     test = path.startswith('tests/')
     lines = source.split('\n')
-    comment, literal = [], []  # runs of tokens that are one text: (line, text)
+    comment, literal = [], []  # adjacent tokens that form one text, as (line, text)
 
     def end_comment():
         if comment:
@@ -134,7 +134,7 @@ def code_texts(path, source):
         if between.strip() or between.count('\n') > 1:
             yield from end_comment()
         if text.startswith('//'):
-            # A comment beside code is a text of its own.
+            # A comment after code on the same line is a separate text.
             beside = lines[line - 1].strip()
             if comment and not beside.startswith('//'):
                 yield from end_comment()
@@ -153,7 +153,7 @@ def code_texts(path, source):
 
 
 def doc_texts(path, source):
-    code, paragraph = False, []  # (line, text)
+    code, paragraph = False, []  # paragraph contains (line, text)
 
     def end():
         for s in sentences(' '.join(t for _, t in paragraph)):

@@ -1,9 +1,8 @@
 #!/usr/bin/env bash
-# One process that simulates for long keeps its memory: a study of the caterpillar per engine, whose memory and open files are looked
-# at every ten seconds. The first fifth is its start; after that memory may grow by 2 MB, and by 1.5 kB per run up to 20 000 runs, whose
-# rows are kept to answer equal points. One more file may be open for a moment: a run
-# reads its scenario and its module types.
-# usage: tests/tools/soak.sh PROGRAM [MINUTES] (60 of each engine, one after the other; the table is on stdout)
+# Tests that the memory of a long process does not grow. A study of the caterpillar runs in each engine, and its memory and open files
+# are measured every ten seconds. After the first fifth, the memory may grow by 2 MB, and by 1.5 kB per run up to 20 000 runs, whose rows
+# are kept to answer equal points. One additional file may be open, because a run reads its scenario and its module types.
+# usage: tests/tools/soak.sh PROGRAM [MINUTES] (default 60 per engine, one engine after the other; the table goes to stdout)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
 program=$(readlink -f -- "$1")

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Writes docs/validation.md: runs every test that validates a row and sets measured beside required.
+# Writes docs/validation.md: runs all tests that validate a row, and lists measured and required values.
 # usage: tests/tools/validation.sh PROGRAM_BUILD_DIR [PAGE]     (needs jq; the same build writes the same page)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
@@ -11,8 +11,8 @@ export GAITLAB_VALIDATION=$work/rows.json
 unset GAITLAB_TOL_SCALE
 : >"$GAITLAB_VALIDATION"
 
-# The gtest filter of all suites of a test program in the folders of tests/ whose files include validation.h (but for the tests of rows
-# themselves). Every one must have a test in the program: a row that a build left out must not vanish from the page unseen.
+# Prints the gtest filter of all suites of a test program in the folders of tests/ whose files include validation.h, except the tests of
+# rows. Each suite must have a test in the program, so that a row that a build omits cannot vanish unnoticed from the page.
 filter() {
   local program=$1 suite text=
   shift
@@ -28,7 +28,7 @@ run() {
   local program=$build/bin/$1_tests chosen
   shift
   chosen=$(filter "$program" "$@")
-  [[ -n $chosen ]] || return 0 # no file there writes rows
+  [[ -n $chosen ]] || return 0 # no file in these folders writes rows
   expect 0 "$program" --gtest_filter="$chosen" --gtest_brief=1
 }
 run core core controllers cpg golden physics_articulated
@@ -37,7 +37,7 @@ run program app interchange program report
 
 {
   cat -- "$root/tests/validation_head.md"
-  # Of one id the row that is least far inside; a table a subject, in the order of the list.
+  # For each id, the row that is closest to its tolerance. There is a table per subject, in the order of the list.
   jq -rs '
     [["closed", "Closed forms and textbook systems"], ["cpg", "Pattern generators"], ["published", "Published numbers"], ["order", "Order of the integrators"],
      ["property", "Laws of mechanics and symmetries"], ["format", "Other programs"], ["ledger", "Energy"],

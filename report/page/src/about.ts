@@ -23,7 +23,7 @@ export function about(meta: Meta): string {
     .join(" · ");
 }
 
-/** Names of the runs; for two runs of the same name this name and their labels. */
+/** Title of the page: the name of the run, or the names and labels of both runs. */
 export function title(runs: readonly Run[]): string {
   const [own, second] = runs.map((r) => r.recording.meta.name);
   const overlay = runs[0].recording.meta.overlay;

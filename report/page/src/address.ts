@@ -1,11 +1,11 @@
-// Address of the page: the joint and time shown, as its fragment (#joint=m3/active&t=1.2), for copying.
+// Fragment of the page's address with the joint and time shown (#joint=m3/active&t=1.2), so that a link can be copied.
 import type { Desk } from "./panel";
 
 export class Address {
   readonly link = new URLSearchParams(location.hash.slice(1));
   private waiting = 0;
 
-  /** Writes joint and time after a pause, because browsers limit the rate of changes. */
+  /** Writes joint and time into the address after 400 ms, because browsers limit the rate of changes. */
   remember({ recording, state }: Desk): void {
     clearTimeout(this.waiting);
     if (this.link.has("paused") || !recording.ran) return;
@@ -18,7 +18,7 @@ export class Address {
       try {
         history.replaceState(null, "", `#${parts.join("&")}`);
       } catch {
-        // A page within another page has no permission.
+        // A page that is embedded in another page may not change the address.
       }
     }, 400);
   }

@@ -1,5 +1,5 @@
-// Plot of the stability margin over time (distance of the centre of mass to the edge of the support polygon), and of
-// the height of the centre of mass.
+// Plot of the stability margin and of the height of the centre of mass over time. The stability margin is the distance
+// of the centre of mass to the edge of the support polygon.
 import { element } from "./dom";
 import { keys } from "./keyline";
 import type { Desk, Panel } from "./panel";

@@ -71,7 +71,7 @@ export interface Scale {
   Y: (v: number) => number;
 }
 
-/** Draws the grid, numbers and names of two axes. Returns their scale. */
+/** Draws the grid, numbers and names of two axes. Returns the functions from values to pixels. */
 export function frame(pen: Pen, ink: Ink, box: Box, x: Span, y: Span, names: { x: string; y: string }): Scale {
   const X = (v: number) => box.left + ((v - x[0]) / (x[1] - x[0])) * (box.right - box.left);
   const Y = (v: number) => box.bottom - ((v - y[0]) / (y[1] - y[0])) * (box.bottom - box.top);
@@ -117,7 +117,7 @@ export function line(pen: Pen, x0: number, y0: number, x1: number, y1: number): 
   pen.stroke();
 }
 
-/** Draws within a box only. */
+/** Calls `draw`, clipped to a box. */
 export function clipped(pen: Pen, box: Box, draw: () => void): void {
   pen.save();
   pen.beginPath();
@@ -142,7 +142,7 @@ export function timeAxis(pen: Pen, ink: Ink, left: number, width: number, y: num
   }
 }
 
-/** Moves a playhead to a time; hides it outside of the span. */
+/** Moves a playhead to a time, or hides the playhead if the time is outside the span. */
 export function placeHead(head: HTMLElement, t: number, [from, to]: Span, left: number, width: number): void {
   const x = (t - from) / (to - from);
   head.style.display = x >= 0 && x <= 1 ? "" : "none";

@@ -40,7 +40,7 @@ function definitions(meta: Meta): HTMLElement[] {
   ];
 }
 
-/** Version of the program, hashes of the traces, and the command that repeats the run; a sentence each. */
+/** One sentence each for the version of the program, the hashes of the traces, and the command that repeats the run. */
 function origin({ recording: { meta }, runs, ghost }: Desk): string[] {
   const overlay = ghost?.overlay;
   const builds = new Set(runs.map((r) => r.recording.meta.build));

@@ -1,10 +1,10 @@
-// Decoder of the packed channels: first differences of integers in zigzag and LEB128, one channel after another, then
-// zlib and base64.
+// Decoder of the packed channels. A channel is stored as first differences of integers, in zigzag and LEB128 encoding.
+// The channels follow one another and are compressed together by zlib, then encoded in base64.
 import type { Channel } from "./format";
 
 export type Values = Float32Array;
 
-/** Channels by name; a value is integer * quantum. */
+/** Channels by name. A value is the stored integer times the quantum of its channel. */
 export function unpack(channels: readonly Channel[], bytes: Uint8Array): Map<string, Values> {
   const found = new Map<string, Values>();
   let at = 0;
@@ -12,7 +12,7 @@ export function unpack(channels: readonly Channel[], bytes: Uint8Array): Map<str
     const values = new Float32Array(count);
     let sum = 0;
     for (let i = 0; i < count; i++) {
-      // Multiplied, because << is limited to 32 bits.
+      // The code multiplies instead of shifting, because << is limited to 32 bits.
       let zigzag = 0;
       let shift = 1;
       let byte: number;

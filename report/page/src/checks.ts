@@ -34,7 +34,7 @@ const groups: Record<string, string> = {
   trust: "Are the numbers accurate?",
 };
 
-/** The same check of every run; undefined for a run without it. */
+/** One check in each run of the page. An element is undefined if its run does not have the check. */
 type Row = (Check | undefined)[];
 
 export function checks(desk: Desk): void {
@@ -48,7 +48,7 @@ export function checks(desk: Desk): void {
   element("counts").textContent = verdicts.map((v, n) => labelOf(desk, n) + counted(v)).join("; ");
 }
 
-/** All checks of the first run; then additional checks of the second run. */
+/** Rows of all checks: first the checks of the first run, then checks that only the second run has. */
 function rowsOf(verdicts: readonly Verdict[]): Row[] {
   const rows = new Map<string, Row>();
   verdicts.forEach((v, n) =>
@@ -57,7 +57,7 @@ function rowsOf(verdicts: readonly Verdict[]): Row[] {
   return [...rows.values()];
 }
 
-/** Replaces the column of values by a column per run if there are two. Returns the number of columns. */
+/** For two runs, replaces the column of values by one column per run. Returns the number of columns of the table. */
 function nameColumns({ ghost }: Desk): number {
   const head = element<HTMLTableElement>("checks").closest("table")!.tHead!.rows[0];
   if (ghost) {
@@ -70,7 +70,7 @@ function nameColumns({ ghost }: Desk): number {
   return head.cells.length;
 }
 
-/** Adds the rows group by group, and folds the checks that were not judged if there are several. */
+/** Adds the rows group by group. Two or more checks that were not judged are folded into one row. */
 function fill(desk: Desk, rows: Row[], columns: number): void {
   const body = element<HTMLTableSectionElement>("checks");
   const tried = new Set<string>();
@@ -93,7 +93,7 @@ function fill(desk: Desk, rows: Row[], columns: number): void {
   if (open.length > 1) body.append(fold(open.map(first), folded, columns));
 }
 
-/** Numbers of failed, passed and other checks of a run, as text. */
+/** Text with the number of checks of a run for each status. */
 function counted({ checks: all, counts }: Verdict): string {
   const { pass, warn, fail, "too close": close, "not judged": unknown } = counts;
   return [
@@ -136,7 +136,7 @@ const worst = (row: Row): Status =>
   "not judged";
 const aloud = (check: Check): boolean => check.status !== "pass" && check.status !== "not judged";
 
-/** Explanation of one run in an opened row; `label` names the run if there are two. */
+/** Explanation of a check of one run, for an opened row. `label` is the name of the run, "" for a page of one run. */
 function more(check: Check, label: string, called: string, text: string): HTMLElement[] {
   const { from, to, definition, source } = check;
   const where = [called, from !== null ? span(from, to ?? from) : ""].filter(Boolean).join(", ");
@@ -148,7 +148,7 @@ function more(check: Check, label: string, called: string, text: string): HTMLEl
   ];
 }
 
-/** Advice for a failed check: a setting, or else a general remedy. */
+/** Advice for a failed check: the setting that helps, or a general remedy if no such setting is known. */
 function remedy({ status, group, remedy: own, advice }: Check): string {
   const tried = (own || (group === "run" ? "" : advice)).replace(/^take /, "").replace(/[.]$/, "");
   return (status === "fail" || status === "too close") && tried ? `Try: ${tried}.` : "";
@@ -177,7 +177,7 @@ function explanation(desk: Desk, row: Row): Node[] {
   });
 }
 
-/** Sentences under a check; `tried` holds the advice that an earlier row gave. */
+/** Sentences under a check. `tried` contains the advice of earlier rows, which is not repeated. */
 function findings(c: Check, label: string, tried: Set<string>): HTMLElement[] {
   const found: HTMLElement[] = [];
   const advice = label + remedy(c);
@@ -190,7 +190,7 @@ function findings(c: Check, label: string, tried: Set<string>): HTMLElement[] {
   return found;
 }
 
-/** Rows of the table for one check: its values, and below them its findings and its explanation. */
+/** Two rows of the table for one check: a row of values, and below that a row with findings and explanation. */
 function drawn(desk: Desk, row: Row, tried: Set<string>): HTMLTableRowElement[] {
   const status = worst(row);
   const open = make("button.link", first(row).title || first(row).id);
@@ -224,7 +224,7 @@ function drawn(desk: Desk, row: Row, tried: Set<string>): HTMLTableRowElement[] 
   return [head, detail];
 }
 
-/** Mark, title, values and limits of a check; for two runs the marks are beside the values. */
+/** Row with mark, title, values and limits of a check. For two runs, each value has a mark. */
 function summary(row: Row, title: HTMLElement, two: boolean): HTMLTableRowElement {
   const mark = (c: Check) =>
     noted(c) ? [make("span.sr", "a note")] : [icon(marks[c.status]), make("span.sr", words[c.status])];

@@ -1,10 +1,10 @@
-// Colours with a meaning, from the palette of Okabe and Ito as in the figures (report/plot/svg.h), darkened for
-// contrast. style.css contains the others.
+// Colours of loads and differences, from the palette of Okabe and Ito that the figures use (report/plot/svg.h),
+// darkened for contrast. style.css contains all other colours.
 
 export type Theme = "light" | "dark";
 type Rgb = [number, number, number];
 
-/** Theme and colours of style.css for drawings. */
+/** Theme of the page, and the colours of style.css that drawings use. */
 export interface Ink {
   theme: Theme;
   ink: string;
@@ -76,7 +76,7 @@ const ramps: Record<Theme, [number, Rgb][]> = {
   ],
 };
 
-/** Colour of a share of a limit, 0 to 1. Its lightness is monotonic, so that it is also readable in grey. */
+/** Colour of a share of a limit, 0 to 1. The lightness is monotonic, so that the colours are also readable in grey. */
 export function load(theme: Theme, share: number): Rgb {
   const ramp = ramps[theme];
   const x = Math.min(Math.max(share, 0), 1);
@@ -101,7 +101,7 @@ const ends: Record<Theme, [less: Rgb, none: Rgb, more: Rgb]> = {
   ],
 };
 
-/** Colour of a difference, -1 to 1: two hues that are distinguishable with every kind of colour vision. */
+/** Colour of a difference, -1 to 1. Its two hues can be distinguished with every kind of colour vision. */
 export function difference(theme: Theme, x: number): Rgb {
   const [less, none, more] = ends[theme];
   const f = Math.min(Math.abs(x), 1) ** 0.8;
@@ -114,7 +114,7 @@ export const css = (rgb: Rgb): string => `rgb(${rgb.join(",")})`;
 const stops = (colours: [at: number, colour: Rgb][]): string =>
   `linear-gradient(90deg,${colours.map(([x, c]) => `${css(c)} ${100 * x}%`).join(",")})`;
 
-/** The ramps as gradients of CSS, for legends. */
+/** CSS gradients of the colour scales, for legends. */
 export const gradient = (theme: Theme): string => stops(ramps[theme]);
 export const differenceGradient = (theme: Theme): string =>
   stops([-1, -0.5, 0, 0.5, 1].map((x) => [(x + 1) / 2, difference(theme, x)]));

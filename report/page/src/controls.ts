@@ -1,4 +1,4 @@
-// Controls of the page: buttons, keys, and the change of its look for paper.
+// Controls of the page: buttons, keys, and the change of the theme for printing.
 import type { Theme } from "./colour";
 import { element } from "./dom";
 import type { Page } from "./page";
@@ -35,7 +35,7 @@ function press(page: Page, e: KeyboardEvent): void {
   act();
 }
 
-/** Actions by key; `coarse`: arrows move by 0.1 s, else by a row. */
+/** Actions by key. The arrow keys move by 0.1 s if `coarse` is true, otherwise by one row. */
 function keys(page: Page, coarse: boolean): Record<string, (() => void) | undefined> {
   const { state, recording, stage } = page;
   const step = coarse ? 0.1 : recording.meta.period;
@@ -68,7 +68,7 @@ function keys(page: Page, coarse: boolean): Record<string, (() => void) | undefi
   };
 }
 
-/** Paper shows the light theme, and a picture in place of the 3D view. */
+/** Switches to the light theme while the browser prints, and replaces the 3D view by a picture. */
 function print(page: Page): void {
   let before: Theme | null = null;
   addEventListener("beforeprint", () => {

@@ -1,4 +1,5 @@
-// Table of the demand of joints that reach a limit, from a second run without motor limits (report --demand).
+// Table of the demand of joints that reach a limit of their motor, from a second run without motor limits
+// (gaitlab report --demand).
 import { element, make } from "./dom";
 import { number } from "./numbers";
 import type { Desk } from "./panel";

@@ -1,4 +1,4 @@
-// Table of the docks with their loads, worst first; without loads: the two faces at each dock.
+// Table of the docks, sorted by load. If the recording has no loads, the table lists the two faces at each dock.
 import { element, make } from "./dom";
 import { number } from "./numbers";
 import type { Desk } from "./panel";
@@ -30,7 +30,7 @@ export function docks(desk: Desk): void {
   shorten(table);
 }
 
-/** A row per dock with its largest loads, by bending if it is recorded. */
+/** Rows of the docks with their largest loads, sorted by bending, or by the first recorded load without bending. */
 function loads(desk: Desk, shown: readonly Kind[]): HTMLElement {
   const { docks: all } = desk.recording.meta;
   const own = all.map((_, n) => peaks(desk.recording, n, shown));
@@ -45,7 +45,7 @@ function loads(desk: Desk, shown: readonly Kind[]): HTMLElement {
   return make("tbody", ...order.map((n) => make("tr", head(desk, n), ...cells(n))));
 }
 
-/** A load as number and bar, `largest` as the full width; for two runs both. */
+/** Cell with a load as number and bar, and for two runs with the loads of both. A full bar is the load `largest`. */
 function cell(unit: string, largest: number, own: number, second?: number): HTMLElement {
   const text = (value: number) => number(value, 3, unit);
   const bar = (value: number, ...words: HTMLElement[]): HTMLElement => {
@@ -61,7 +61,7 @@ function cell(unit: string, largest: number, own: number, second?: number): HTML
 const peaks = (recording: Recording, dock: number, shown: readonly Kind[]): number[] =>
   shown.map(([kind]) => peak(recording, dock, kind));
 
-/** Peaks at the same dock in the second run; null if that run has none. */
+/** Largest loads of the dock of that name in the second run; null if the second run has no such dock or no loads. */
 function peaksOfSecond({ ghost }: Desk, dock: number, shown: readonly Kind[]): number[] | null {
   const theirs = ghost?.number("dock", dock) ?? -1;
   return ghost && theirs >= 0 && ghost.recording.has(`dock.0.${kinds[0][0]}`)
@@ -76,7 +76,7 @@ function peak(recording: Recording, dock: number, kind: string): number {
   return most;
 }
 
-/** Shows the first dozen rows, and a button for all. */
+/** Hides all rows but the first twelve, and adds a button that shows all rows. */
 function shorten(table: HTMLTableElement): void {
   const rows = [...table.tBodies[0].rows];
   if (rows.length <= few) return;
@@ -105,7 +105,7 @@ function head(desk: Desk, n: number): HTMLTableCellElement {
   return cell;
 }
 
-/** Button that marks a dock in 3D. */
+/** Button that marks a dock in the 3D picture. */
 function marker(desk: Desk, n: number, text: string): HTMLElement {
   const button = make("button.link", text);
   button.type = "button";

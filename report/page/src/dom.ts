@@ -30,7 +30,7 @@ export function icon(paths: string, box = 16): SVGSVGElement {
   return svg;
 }
 
-/** Hides the panel around an element, and lists it with the reason at the end of the page. */
+/** Hides the panel that contains an element, and lists this panel with the reason at the end of the page. */
 export function leaveOut(host: HTMLElement, why: string): void {
   const panel = host.closest<HTMLElement>(".panel");
   if (!panel) return;

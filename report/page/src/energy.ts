@@ -1,4 +1,4 @@
-// Panel of the energy: sinks of the electrical energy, electrical power and energies over time.
+// Panel of the energy: parts into which the electrical energy divides, electrical power and energies over time.
 import type { Values } from "./channels";
 import { element, leaveOut, make } from "./dom";
 import type { Meta } from "./format";
@@ -18,7 +18,7 @@ const sinks: [key: string, name: string, colour: string][] = [
   ["residual", "unaccounted", "--muted"],
 ];
 
-/** Row of the ledger: name, bar, energy, share of the sum; empty without a sum. */
+/** Row of the ledger: name, bar, energy, share of the electrical energy `sum`. Empty if `sum` is 0 or unknown. */
 function bar(name: string, value: number, sum: number | null, colour: string, opacity: string): HTMLElement[] {
   if (!sum) return [];
   const fill = make("i");
@@ -33,7 +33,7 @@ function bar(name: string, value: number, sum: number | null, colour: string, op
   ];
 }
 
-/** Reason to leave the panel out. */
+/** Reason for which the panel of the energy is left out. */
 function lacking({ motors, summary }: Meta): string {
   if (!motors.length) return "the joints have no motors.";
   return summary.energy ? "the motors draw nothing." : "the summary has no energies.";
@@ -51,7 +51,7 @@ function total({ duration }: Meta, drawn: number | null, label?: string): HTMLEl
 
 export class Energy implements Panel {
   private plots: TimePlot[] = [];
-  private readonly powers: (Values | null)[]; // per run, by its rows
+  private readonly powers: (Values | null)[]; // electrical power, by run and row of that run, W
 
   constructor(private readonly desk: Desk) {
     this.powers = desk.runs.map((r) => power(r.recording));
@@ -60,7 +60,7 @@ export class Energy implements Panel {
     this.list();
   }
 
-  /** Lists the energies of both runs as numbers and bars. */
+  /** Lists the energies of the runs as numbers and bars. */
   private list(): void {
     const { recording, runs, ghost } = this.desk;
     const { energy } = recording.meta.summary;
@@ -137,7 +137,7 @@ export class Energy implements Panel {
     this.plots.forEach((p) => p.seek(t));
   }
 
-  // Recorded energies for the plot over time.
+  // Parts of the energy that are recorded over time, and thus appear in the plot.
   private get sums(): typeof sinks {
     return ([["electrical", "drawn", "--ink2"], ...sinks] as typeof sinks).filter(([key]) =>
       this.desk.recording.has(`energy.${key}`),
@@ -145,7 +145,7 @@ export class Energy implements Panel {
   }
 }
 
-/** Electrical power of all joints; null if a voltage or current is not recorded, or the motors draw nothing. */
+/** Electrical power of all joints, W; null if a voltage or current is not recorded, or if the motors draw nothing. */
 function power(recording: Recording): Values | null {
   const { joints } = recording.meta;
   const known = (j: number) => recording.has(`joint.${j}.voltage`) && recording.has(`joint.${j}.current`);

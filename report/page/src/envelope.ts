@@ -1,5 +1,5 @@
-// Plot of torque over speed within the envelope of the chosen joint's motor: a cloud for all joints with this motor,
-// a line for the last period of the chosen joint, a ring for its present state.
+// Plot of torque over speed within the envelope of the chosen joint's motor. Dots are states of all joints with this
+// motor, a line is the last period of the chosen joint, and a ring is the state of the chosen joint at the time shown.
 import { Board, clipped, font, frame, line, type Box, type Pen, type Scale } from "./board";
 import type { Values } from "./channels";
 import { element, leaveOut } from "./dom";
@@ -10,7 +10,7 @@ import { least, limited, most } from "./motor";
 import { number } from "./numbers";
 import type { Desk, Panel } from "./panel";
 
-/** Speed and torque of the second run's joint, from the row `from` on. */
+/** Speed and torque of a joint of the second run. The plot shows the rows from `from` on. */
 interface Second {
   speed: Values;
   torque: Values;
@@ -64,7 +64,7 @@ export class Envelope implements Panel {
     this.dot.style.transform = `translate(${this.scale.X(now("speed"))}px,${this.scale.Y(now("torque"))}px)`;
   }
 
-  // Signals of the joint of the same name in the second run.
+  // Signals of the joint in the second run that has the name of the chosen joint; null if there is none.
   private second(): Second | null {
     const { ghost, state } = this.desk;
     const j = ghost?.number("joint", state.joint) ?? -1;
@@ -138,7 +138,7 @@ export class Envelope implements Panel {
     pen.setLineDash([]);
   }
 
-  // Largest speed and torque of the axes.
+  // Largest speed and torque on the axes, rad/s and N m.
   private reach(peers: number[], second: Second | null): [number, number] {
     const { loads, recording, state } = this.desk;
     const from = recording.judged;
@@ -155,7 +155,7 @@ export class Envelope implements Panel {
     ];
   }
 
-  // Hatches the torques beyond the envelope.
+  // Fills the region outside the envelope, and draws its boundary.
   private bounds(pen: Pen, box: Box, motor: Motor, speeds: number[]): void {
     const { ink } = this.desk;
     const { X, Y } = this.scale!;
@@ -186,7 +186,7 @@ export class Envelope implements Panel {
     pen.setLineDash([]);
   }
 
-  // The cloud of all joints with this motor, thinned to 40 000 points; then the line of the chosen one.
+  // Draws dots for all joints with this motor, about 40 000 at most, and then the line of the chosen joint.
   private points(pen: Pen, peers: number[]): void {
     const { recording, ink, state } = this.desk;
     const { rows, judged: from } = recording;
@@ -241,7 +241,7 @@ export class Envelope implements Panel {
     }
   }
 
-  // The limit at low speeds at the left, the voltage near the no-load speed.
+  // Writes the current limit or the torque at rest at the left, and the largest voltage near the no-load speed.
   private writeLimits(pen: Pen, box: Box, motor: Motor): void {
     const { X, Y } = this.scale!;
     const top = most(motor, -(motor.no_load ?? 0) || 0);

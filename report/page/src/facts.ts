@@ -1,4 +1,5 @@
-// Main numbers of a run on its card: for an infeasible gait its shortfall, else its tightest check and its motion.
+// Main numbers on the card of a run: the missing torque or voltage of an infeasible gait, otherwise the tightest check
+// and the motion.
 import type { Check, Meta, Part } from "./format";
 import { make } from "./dom";
 import { inSentence, number, percent, quantity, span, time } from "./numbers";
@@ -7,7 +8,7 @@ import { firstMoment, jointAt, longestMoment, moment, partName, show } from "./p
 
 export type Fact = [name: string, value: Node | string, small?: string];
 
-/** The check of the torque within the envelope of the motors, if it was judged. */
+/** Check that the torques are within the envelopes of the motors; null if this check was not judged. */
 export const hardest = (meta: Meta): Check | null =>
   meta.verdict.checks.find(
     (c) => c.id === "envelope" && c.status !== "not judged" && c.value !== null && c.worst !== null,
@@ -17,8 +18,9 @@ const limitOf = ({ limit, unit, least }: Check): string => `limit ${least ? "≥
 const held = (check: Check): string => `${quantity(check.value, check.unit)}, ${limitOf(check)}`;
 
 /**
- * Facts of an infeasible gait, as on the terminal and in the figure: the first part beyond its limit, the part farthest
- * beyond it, the joint at a limit of its motor for the largest share of the judged time, and the missing amount.
+ * Facts of an infeasible gait, the same as on the terminal and in the figure. They are the part that first exceeds the
+ * limit of the failed check, the part that exceeds the limit most, the joint that is at a limit of its motor for the
+ * largest share of the judged time, and the missing amount.
  */
 export const shortfall = (run: Run, first: Check, failed: Check[]): Fact[] => [
   ...firstOver(run, first),
@@ -58,7 +60,8 @@ function when({ recording: { meta } }: Run, { from, to, part, worst }: Check): F
 
 function missing(first: Check, failed: Check[]): Fact[] {
   const text = failed.find((c) => c.missing)?.missing ?? "";
-  // `7.51 V at m8/passive (needs 14.9 V; 2.53 N m, 5.88 rad/s at most)`: the row of the check contains the rest.
+  // A text is `7.51 V at m8/passive (needs 14.9 V; 2.53 N m, 5.88 rad/s at most)`. The card omits the part after the
+  // semicolon, which the table of checks contains.
   const [, amount, at, need] = /^(.*?)(?: at (\S+))?(?: \((.*?)[;)].*)?$/.exec(text)!;
   if (amount) return [["Missing", amount, [at ? `at ${at}` : "", need].filter(Boolean).join(", ")]];
   const strays = failed.find((c) => c.id === "tracking");
@@ -74,7 +77,7 @@ function place(run: Run, part: Part, name: string, t: number | null): HTMLButton
   return go;
 }
 
-/** Facts of any other run. */
+/** Facts of a run that is not infeasible: its tightest check, speed, cost of transport and period. */
 export function walked(run: Run): Fact[] {
   const { meta } = run.recording;
   const { summary, cycle, ground } = meta;
@@ -87,7 +90,7 @@ export function walked(run: Run): Fact[] {
   return facts;
 }
 
-/** The tightest check, else the load of the motors, else the largest torque. */
+/** The tightest check; without one the largest load of a motor; without motor limits the largest torque. */
 function load(run: Run): Fact[] {
   const { checks, tightest: id } = run.recording.meta.verdict;
   const tightest = checks.find((c) => c.id === id);

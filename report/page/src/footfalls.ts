@@ -1,4 +1,5 @@
-// Plot of the footfalls: load of each foot over time, darker for more, and the duty factor in the judged window.
+// Plot of the footfalls: load of each foot over time, and the duty factor in the judged window. A darker colour is a
+// larger load.
 import { Board, fitted, font, placeHead, timeAxis, type Pen } from "./board";
 import type { Values } from "./channels";
 import { element, leaveOut } from "./dom";
@@ -10,7 +11,7 @@ import type { Recording } from "./recording";
 const left = 116;
 const right = 46;
 const foot = 22;
-const threshold = 0.02; // share of the weight that counts as load
+const threshold = 0.02; // least load of a foot on the ground, as a share of the robot's weight
 
 interface Foot {
   name: string;
@@ -89,7 +90,7 @@ export class Footfalls implements Panel {
     this.seek(state.t);
   }
 
-  // Two runs share a row: the lower third shows the second one.
+  // Draws the row of a foot. For two runs, the lower third of the row is the second run.
   private row(pen: Pen, { load, number }: Foot, edges: number[], y: number, each: number): void {
     const { ink, ghost } = this.desk;
     const gap = Math.min(5, each * 0.16);
@@ -107,7 +108,7 @@ export class Footfalls implements Panel {
     }
   }
 
-  // A block per column of pixels in which the load exceeds `on`.
+  // Fills each column of pixels in which the load exceeds `on`.
   private blocks(pen: Pen, load: Values, on: number, edges: number[], y: number, height: number): void {
     for (let x = 0; x + 1 < edges.length; x++) {
       let held = 0;
@@ -131,7 +132,7 @@ export class Footfalls implements Panel {
   }
 }
 
-/** Feet with a recorded load; `on`: the least load that counts for the duty factor, N. */
+/** Feet with a recorded load. A foot is on the ground if its load exceeds `on`, N. */
 function feetOf(recording: Recording, on: number): Foot[] {
   const { meta, judged } = recording;
   return meta.feet.flatMap(({ title: name }, n) => {
@@ -143,7 +144,7 @@ function feetOf(recording: Recording, on: number): Foot[] {
   });
 }
 
-/** Reason to leave the panel out. */
+/** Reason for which the plot of the footfalls is left out. */
 function lacking({ ground, contacts }: Meta): string {
   if (ground.kind === "none") return "there is no ground.";
   return contacts.length

@@ -1,4 +1,4 @@
-// Arrows in 3D for the contact forces on the feet.
+// Arrows in the 3D picture for the contact forces on the feet.
 import { ConeGeometry, CylinderGeometry, Group, Mesh, MeshBasicMaterial, Scene, Vector3 } from "three";
 import type { Theme } from "./colour";
 import type { Recording } from "./recording";
@@ -15,7 +15,7 @@ interface Arrow {
 export class Forces {
   private readonly arrows: Arrow[];
   private readonly material = new MeshBasicMaterial({ depthTest: false, transparent: true, opacity: 0.9 });
-  /** m per N. */
+  /** Length of an arrow per force, m/N. */
   private readonly scale: number;
   private readonly head: number;
 
@@ -26,8 +26,8 @@ export class Forces {
     size: number,
   ) {
     const { feet, weight } = recording.meta;
-    // A third of the weight, or the mean load of a foot of many, is as long as a few modules. The longest arrow fits
-    // into the picture.
+    // The arrow of a typical load is about as long as a few modules, and the longest arrow fits into the picture. The
+    // typical load is a third of the weight, or for more than six feet twice the weight divided by their number.
     const long = Math.min(size, 14 * unit);
     this.scale = Math.min(
       (0.18 * long) / (Math.max(weight, 1e-9) / Math.max(3, feet.length / 2)),

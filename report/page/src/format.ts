@@ -1,33 +1,36 @@
-// Types of the data in the page, which report/page/page_data.cpp writes. SI units; an unknown number is null, a list
-// that does not apply is [].
+// Types of the data in the page, which report/page/page_data.cpp writes. Numbers are in SI units. An unknown number is
+// null, and a list that does not apply to the run is [].
 
 export type Vec3 = [number, number, number];
-/** x, y, z, then the quaternion w, x, y, z. */
+/** Position x, y, z in m, then the quaternion w, x, y, z. */
 export type Pose = [number, number, number, number, number, number, number];
 
 export interface Joint {
   name: string;
   module: number;
-  body: number; // moved by the joint; index in bodies
-  lo: number | null; // null: no stops
+  body: number; // index in bodies of the body that the joint moves
+  lo: number | null; // ends of the range, rad; null if the hinge has no stops
   hi: number | null;
-  motor: number | null; // index in motors
+  motor: number | null; // index in motors; null if the joint has no motor with known data
 }
 
-/** World pose: the parent's * pre * turn(axis, angle of the joint) * post. */
+/** Body of the robot. Its world pose is (world pose of the parent) * pre * turn(axis, angle of the joint) * post. */
 export interface Body {
   name: string;
   module: number;
   type: string; // key of geometry and faces
   role: string;
-  parent: number; // index in bodies, -1: the base
-  joint: number; // -1: fixed to its parent
+  parent: number; // index in bodies; -1 if the base is the parent
+  joint: number; // index in joints; -1 if the body is fixed to its parent
   pre: Pose;
   axis: Vec3;
   post: Pose;
 }
 
-/** Sizes: box x, y, z; cylinders along y: radius, length, 0 (half_cylinder: towards +x); sphere: radius, 0, 0. */
+/**
+ * Piece of a body. The size is x, y, z of a box; radius, length, 0 of a cylinder along y; radius, 0, 0 of a sphere.
+ * A half_cylinder is the half at positive x of a cylinder.
+ */
 export interface Shape {
   kind: "box" | "cylinder" | "half_cylinder" | "sphere";
   pose: Pose;
@@ -53,10 +56,10 @@ export interface Dock {
 export interface GroundBox {
   pose: Pose;
   size: Vec3;
-  moves: number; // N of the channels box.N.*; -1: fixed
+  moves: number; // N of the channels box.N.* of a moving box; -1 for a fixed box
 }
 
-/** Heights row by row: x runs fastest. */
+/** Heights on a grid of nx by ny points. The height at point (i, k) is heights[k * nx + i], m. */
 export interface Heightfield {
   origin: [number, number];
   spacing: [number, number];
@@ -75,19 +78,22 @@ export interface Ground {
 
 export interface Foot {
   name: string; // name of the body
-  title: string; // name of the leg in figures (m5 rear left), else of the body
+  title: string; // name of the leg as in figures (m5 rear left), or of the body if the leg has no name
   module: number;
   body: number;
 }
 
-/** Available torques: from `least` to `most` at each speed; no samples: the limit is unknown. */
+/**
+ * Limits of a motor. The available torque at speed[k] is between least[k] and most[k], N m and rad/s. The lists are
+ * empty if the limit is unknown.
+ */
 export interface Motor {
   unit: "V" | "N m"; // unit of the command
-  command: number | null;
-  current: number | null;
-  continuous: number | null; // A
-  rest: number | null; // N m
-  no_load: number | null; // rad/s
+  command: number | null; // largest command
+  current: number | null; // largest current, A
+  continuous: number | null; // continuous current, A
+  rest: number | null; // torque at rest, N m
+  no_load: number | null; // speed without load, rad/s
   speed: number[];
   most: number[];
   least: number[];
@@ -96,7 +102,7 @@ export interface Motor {
 export type Status = "pass" | "warn" | "fail" | "too close" | "not judged";
 export type Part = "none" | "joint" | "body" | "dock" | "foot";
 
-/** Result of a check; value, limit, unit and margin belong to the criterion that decides it. */
+/** Result of a check. Value, limit, unit and margin belong to the criterion that decides the check. */
 export interface Check {
   id: string;
   group: string;
@@ -107,16 +113,16 @@ export interface Check {
   value: number | null;
   limit: number | null;
   least: boolean; // true for a lower limit
-  unit: string; // "" for a share
-  margin: number | null; // as a share of the limit; negative beyond it
+  unit: string; // unit of value and limit; "" for a share
+  margin: number | null; // margin as a share of the limit; negative if the value is beyond the limit
   error: number | null; // relative error of the value
-  part: Part; // kind of worst and first_part
+  part: Part; // kind of part of the names worst and first_part
   worst: string | null; // name of the worst part; for a dock the name of its module
   parts: number; // number of parts beyond the limit
-  from: number | null; // s: start of the time of the worst part beyond the limit
-  to: number | null;
-  first: number | null; // s: first time of a part beyond the limit
-  first_part: string | null;
+  from: number | null; // start of the time that the worst part is beyond the limit, s
+  to: number | null; // end of the time that the worst part is beyond the limit, s
+  first: number | null; // first time at which a part is beyond the limit, s
+  first_part: string | null; // name of the part that is beyond the limit first
   remedy: string; // setting that helps, if one is known
   advice: string; // general remedy
   missing: string;
@@ -132,10 +138,10 @@ export interface Verdict {
   why: string; // text after the verdict, as on the terminal; "" for feasible
   decided_by: string | null; // id of the check that decides `failed` or `infeasible`
   tightest: string | null; // id of the check with the smallest margin, among checks that can fail
-  rests_on: string; // evidence: `3 periods of 4 s`
+  rests_on: string; // evidence for the verdict, for example `3 periods of 4 s`
   /** Joint at limits of its motor for the largest share of the judged time. */
   longest: { joint: string; voltage: number; current: number } | null;
-  /** First joint at a limit of its motor, for however short a time; s. */
+  /** First joint that reaches a limit of its motor, and the time, s. The duration at the limit does not matter. */
   first: { joint: string; time: number } | null;
   window: { from: number; to: number };
   counts: Record<Status, number>;
@@ -145,7 +151,7 @@ export interface Verdict {
   demand?: { doubt: string; joints: Demand[] }; // only with --demand
 }
 
-/** Largest magnitudes of a joint in a run without motor limits. */
+/** Largest magnitudes of a joint in a run without motor limits, V, A, N m and rad/s. */
 export interface Demand {
   joint: string;
   voltage: number | null;
@@ -163,7 +169,7 @@ export interface Summary {
   trace_hash?: string;
 }
 
-/** Name, unit, size of a step, number of values. */
+/** Description of a channel. A value is an integer times the quantum; `count` is the number of values. */
 export type Channel = [name: string, unit: string, quantum: number, count: number];
 
 /** Amplitude and phase of a first harmonic, rad. */
@@ -174,17 +180,17 @@ export interface Stray {
   signal: string; // name of the channel
   unit: string;
   ratio: number; // RMS of the difference, in bands
-  tolerance: number; // largest permitted difference at a time, in the unit
-  from: number | null; // s: the first time beyond the tolerance
+  tolerance: number; // largest permitted difference at any time, in the unit of the signal
+  from: number | null; // first time at which the difference exceeds the tolerance, s
 }
 
-/** Second run on the page (report/page/page_overlay.h). */
+/** Second run on the page, and its differences from the first run (report/page/page_overlay.h). */
 export interface Overlay {
   labels: [own: string, second: string];
   differs: string[]; // settings that differ
-  strayed: string | null; // reason why a run failed against its golden; null: a page of two runs
+  strayed: string | null; // reason why the run failed against its golden; null on a page that compares two runs
   strays: Stray[];
-  differences: Channel[]; // second run minus first, per stray signal
+  differences: Channel[]; // second run minus first run, a channel per stray signal
   run: Meta;
 }
 
@@ -199,7 +205,7 @@ export interface Meta {
   period: number;
   rows: number;
   duration: number;
-  outcome: string; // "done"; "not run" for a robot that was only checked; else the reason of an early end
+  outcome: string; // "done", "not run" for a robot that was only assembled, or the reason for an early end
   mass: number;
   weight: number;
   modules: { name: string; type: string }[];

@@ -1,4 +1,5 @@
-// Second run of the page, by the time of the first run and by the first run's numbers of joints, feet and docks.
+// Second run of the page. Panels use times, and numbers of joints, feet and docks, of the first run; this file converts
+// these to the second run.
 import type { Values } from "./channels";
 import type { Overlay, Stray } from "./format";
 import { Loads } from "./loads";
@@ -12,7 +13,7 @@ export class Ghost {
   readonly loads: Loads;
   readonly overlay: Overlay;
   private phase = false;
-  /** Numbers in the second run by numbers in the first; -1: the second run has none of that name. */
+  /** Numbers in the second run, by number in the first run; -1 if the second run has no part of that name. */
   private readonly numbers: Record<Kind, number[]>;
   private readonly known = new Map<string, Values | null>();
 
@@ -36,12 +37,12 @@ export class Ghost {
     };
   }
 
-  /** The number of the same joint, foot or dock in the second run, -1 without one. */
+  /** Number in the second run of a joint, foot or dock of the first run; -1 if the second run does not have it. */
   number(kind: Kind, ours: number): number {
     return this.numbers[kind][ours] ?? -1;
   }
 
-  /** The number of a joint of the second run in the first, -1 without one. */
+  /** Number in the first run of a joint of the second run; -1 if the first run does not have the joint. */
   jointBack(theirs: number): number {
     return this.numbers.joint.indexOf(theirs);
   }
@@ -50,7 +51,7 @@ export class Ghost {
     return this.overlay.labels[1];
   }
 
-  /** True if both runs have a limit cycle, so that they can be shown at the same phase. */
+  /** True if both runs have a limit cycle and can therefore be shown at the same phase. */
   get periodic(): boolean {
     return this.reference >= 0;
   }
@@ -62,21 +63,24 @@ export class Ghost {
     this.known.clear();
   }
 
-  /** Time of the second run at a time of the page. */
+  /** Time in the second run that the page shows at its time t, s. */
   time(t: number): number {
     return this.phase ? this.map(this.own, this.recording, t) : t;
   }
-  /** Time of the page at a time of the second run. */
+  /** Time of the page at which the second run shows its time t, s. */
   back(t: number): number {
     return this.phase ? this.map(this.recording, this.own, t) : t;
   }
-  /** True if the second run covers a time of the page. */
+  /** True if the second run has data for a time of the page. */
   covers(t: number): boolean {
     const own = this.time(t);
     return own > -1e-9 && own < this.recording.end + 1e-6;
   }
 
-  /** Channel of the second run by the first run's name, at the page's rows; NaN beyond its end; null: no channel. */
+  /**
+   * Channel of the second run at the rows of the first run. The name uses the first run's numbers. Values after the end
+   * of the second run are NaN. Null if the second run does not have the channel.
+   */
   values(name: string): Values | null {
     const known = this.known.get(name);
     if (known !== undefined) return known;
@@ -93,22 +97,22 @@ export class Ghost {
     return made;
   }
 
-  /** Interpolates values of the second run at the page's rows. */
+  /** Values of the second run, interpolated at the rows of the first run; NaN after the end of the second run. */
   atRows(values: Values): Values {
     return Float32Array.from(this.own.times, (t) => (this.covers(t) ? this.recording.at(values, this.time(t)) : NaN));
   }
 
-  /** Difference from the golden by its rows, with a finer resolution than channels. */
+  /** Difference of a signal from the golden at its rows, with a finer resolution than channels have. */
   difference(signal: string): Values | null {
     return this.second.differences.get(signal) ?? null;
   }
 
-  /** Stray of a signal; null: the signal stayed in its band. */
+  /** Deviation of a signal that left its band; null if the signal stayed in its band. */
   stray(signal: string): Stray | null {
     return this.overlay.strays.find((s) => s.signal === signal) ?? null;
   }
 
-  /** Parts and times that only one of the runs has, a sentence each. */
+  /** Sentences on the parts and times that only one of the runs has. */
   get apart(): string[] {
     const { own, recording } = this;
     const [a, b] = this.overlay.labels;
@@ -147,7 +151,8 @@ export class Ghost {
     return told;
   }
 
-  // The joint whose phases are compared: the first that oscillates in both limit cycles; -1: none.
+  // Joint whose phase defines the common phase of the runs: the first joint that oscillates in both limit cycles; -1 if
+  // there is none.
   private get reference(): number {
     const { own, recording } = this;
     const swings = (of: Recording, j: number) =>
@@ -158,8 +163,8 @@ export class Ghost {
     );
   }
 
-  // The time of the same phase in the other run. Periods are counted so that the two times are nearest to one another
-  // when both limit cycles have begun.
+  // Converts a time of the run `from` to the time of the run `to` at the same phase. The number of periods between the
+  // times is chosen so that the times are nearest to one another when both limit cycles have begun.
   private map(from: Recording, to: Recording, t: number): number {
     const j = this.reference;
     const k = this.number("joint", j);

@@ -1,4 +1,4 @@
-// Ground in 3D: a grid on the plane, fixed and moving boxes, a heightfield.
+// Ground in the 3D picture: a grid on the plane, fixed and moving boxes, a heightfield.
 import {
   BoxGeometry,
   BufferAttribute,
@@ -26,7 +26,7 @@ const looks = {
   dark: { minor: 0x27303a, major: 0x44515e, solid: 0x323b45, edge: 0x0a0d10 },
 };
 
-/** Rectangle of the ground: x from, to; y from, to; m. */
+/** Rectangle of the ground: least and largest x, least and largest y, m. */
 export type Area = [number, number, number, number];
 
 export class Ground {
@@ -97,8 +97,8 @@ export class Ground {
     boxes.instanceMatrix.needsUpdate = points.needsUpdate = true;
   }
 
-  // Lines, not a texture: a textured floor with anisotropic filtering costs 160 ms a frame without a GPU. Each line is
-  // in pieces of ten cells, because software GL omits a line if one of its ends is behind the camera.
+  // Lines of the grid. A textured floor with anisotropic filtering would cost 160 ms a frame without a GPU. Each line
+  // is divided into pieces of ten cells, because software GL omits a line if one end is behind the camera.
   private grid([x0, x1, y0, y1]: Area, major: boolean): LineSegments {
     const { height } = this.recording.meta.ground;
     const d = this.spacing;

@@ -1,4 +1,4 @@
-// Verdict of the page: a card per run with the answer, its reasons and its main numbers.
+// Verdict of the page: a card per run with the verdict, the reasons for the verdict, and the main numbers of the run.
 import { about } from "./about";
 import { element, icon, make } from "./dom";
 import type { Fact } from "./facts";
@@ -49,7 +49,7 @@ function pair({ apart, overlay }: Ghost): void {
   both.querySelector("ul")!.append(...[...apart, settings(overlay)].map((one) => make("li", one)));
 }
 
-/** List of the settings that differ, or a sentence that they are the same. */
+/** List of the settings that differ between the runs, or a sentence that the settings are equal. */
 function settings({ differs, labels: [a, b], strayed }: Overlay): HTMLElement | string {
   if (!differs.length) {
     return strayed
@@ -101,7 +101,7 @@ function card(host: HTMLElement, run: Run, { mood, said, why, facts }: Judgement
   part("lacks").append(...missing.map((m) => make("li", sentence(m))));
 }
 
-/** Judgement of a run that left the bands of its golden: its first stray signal, and its largest deviation. */
+/** Judgement of a run that left the bands of its golden, with the first and the largest deviation of a signal. */
 function strayed(run: Run, { strays }: Overlay, text: string): Judgement {
   const worst = [...strays].sort((a, b) => b.ratio - a.ratio)[0];
   const facts: Fact[] = [];

@@ -1,5 +1,5 @@
-// Heat map of the load of every joint over time, a darker colour for more. A pixel shows the largest of its rows, so
-// that no peak is lost.
+// Heat map of the load of every joint over time. A darker colour is a larger load. A pixel shows the largest value of
+// the rows that it covers, so that no peak is lost.
 import { Board, fitted, font, placeHead, timeAxis, type Pen } from "./board";
 import type { Values } from "./channels";
 import { difference, differenceGradient, gradient, load } from "./colour";
@@ -22,7 +22,7 @@ export class HeatMap implements Panel {
   private order: Order = "number";
   private side: Side;
   private widest = 1; // value at the ends of the ramp of differences, as a share of the scale
-  private readonly apart = new Map<string, Values | null>(); // by joint: values of the second run, or differences
+  private readonly apart = new Map<string, Values | null>(); // values of the second run, or differences, by joint
 
   constructor(private readonly desk: Desk) {
     this.board = new Board(this.host, "Load of every joint over time", (pen, width, height) =>
@@ -50,7 +50,8 @@ export class HeatMap implements Panel {
     this.host.addEventListener("click", (e) => this.click(e));
   }
 
-  // Removes choices: quantities that are not recorded, and the twelve worst joints if there are at most twelve.
+  // Removes the choices of quantities that are not recorded, and the choice of the twelve worst joints if the robot has
+  // at most twelve joints.
   private offer(what: HTMLSelectElement, order: HTMLSelectElement): void {
     const { recording, loads } = this.desk;
     for (const quantity of ["torque", "current", "error"] as const) {
@@ -70,7 +71,7 @@ export class HeatMap implements Panel {
   }
 
   paint(): void {
-    if (!this.quantity) return; // the panel is hidden
+    if (!this.quantity) return; // no quantity is recorded, and the panel is hidden
     const rows = this.rows.length;
     const { loads, ink } = this.desk;
     const high = rows > 60 ? 3 : rows > 30 ? 11 : 16;
@@ -94,7 +95,10 @@ export class HeatMap implements Panel {
     element("heat-ramp").style.background = apart ? differenceGradient(ink.theme) : gradient(ink.theme);
   }
 
-  /** Values of a joint by rows, as shares of the scale; null: a run has no such joint, or the joint has no motor. */
+  /**
+   * Values of a joint by rows, as shares of the scale of the first run. Null if the selected quantity of the joint is
+   * not recorded in a run that the heat map shows, or if only one of two runs has motors with known limits.
+   */
   private values(joint: number): Values | null {
     const { loads, ghost, recording } = this.desk;
     const known = this.apart.get(String(joint));
@@ -121,7 +125,7 @@ export class HeatMap implements Panel {
     return made;
   }
 
-  // Largest difference in the judged window: during the start two runs often differ most.
+  // Largest difference in the judged window. The start is excluded, because two runs often differ most there.
   private reach(): number {
     let most = 0;
     this.desk.recording.meta.joints.forEach((_, j) =>
@@ -168,7 +172,7 @@ export class HeatMap implements Panel {
     const height = fullHeight - foot;
     const each = height / rows.length;
     if (this.side !== "own") {
-      // Shows through where one of the runs has no value.
+      // The hatching stays visible at times at which one of the runs has no value.
       pen.fillStyle = ink.hatch;
       pen.fillRect(left, 0, width, height);
     }
@@ -189,7 +193,7 @@ export class HeatMap implements Panel {
     this.seek(state.t);
   }
 
-  // One pixel high per joint; transparent where no value is known.
+  // Image of the loads, with one row of pixels per joint. Pixels without a known value are transparent.
   private image(rows: number[], width: number): HTMLCanvasElement {
     const { theme } = this.desk.ink;
     const edges = this.desk.recording.columns(this.desk.state.span, width);
@@ -210,7 +214,7 @@ export class HeatMap implements Panel {
     return made;
   }
 
-  // Names of the joints where there is room; the name of the chosen joint in any case.
+  // Writes the name of the chosen joint, and the names of other joints if they do not overlap.
   private names(pen: Pen, rows: number[], each: number, height: number): void {
     const { ink, recording, state } = this.desk;
     const middle = (r: number) => Math.min(Math.max((r + 0.5) * each, 6), height - 6);
@@ -230,7 +234,7 @@ export class HeatMap implements Panel {
   }
 }
 
-/** The value of largest magnitude in the rows from `from` to before `end`; null: none is known. */
+/** Value of largest magnitude in the rows `from` to `end` - 1; null if none of the values is known. */
 function extreme(values: Values, from: number, end: number): number | null {
   let most = 0;
   let known = false;

@@ -5,11 +5,11 @@ import { matrix } from "./kinematics";
 import { extents } from "./outline";
 
 export interface Hinge {
-  turn: Quaternion; // from y to the axis
-  size: Vector3; // radius, half length, radius
+  turn: Quaternion; // rotation from the y axis to the axis of the hinge
+  size: Vector3; // radius, half length, radius of the disc, m
 }
 
-/** Unit axis of each joint, in the frame of its pivot. */
+/** Unit vector of the axis of each joint, in the frame of the joint's pivot. */
 export function axesOf({ joints, bodies }: Meta): Vector3[] {
   const axes = joints.map(() => new Vector3(0, 1, 0));
   for (const b of bodies) {
@@ -18,14 +18,14 @@ export function axesOf({ joints, bodies }: Meta): Vector3[] {
   return axes;
 }
 
-/** Hinges on the axes; `unit`: size of a typical body, m. */
+/** Hinges on the axes. `unit` is the size of a typical body, m. */
 export const hingesOf = (meta: Meta, axes: readonly Vector3[], unit: number): Hinge[] =>
   axes.map((axis, joint) => ({
     turn: new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), axis),
     size: size(meta, joint, axis, unit),
   }));
 
-/** A little longer than the width of the pieces along the axis, and narrower than the pieces. */
+/** Size of the disc of a joint: slightly longer than the pieces around the pivot along the axis, and narrower. */
 function size({ bodies, geometry }: Meta, joint: number, axis: Vector3, unit: number): Vector3 {
   const child = bodies.find((b) => b.joint === joint);
   if (!child) return fallback(unit);
@@ -40,7 +40,7 @@ function size({ bodies, geometry }: Meta, joint: number, axis: Vector3, unit: nu
 
 const fallback = (unit: number): Vector3 => new Vector3(0.16, 0.52, 0.16).multiplyScalar(unit);
 
-/** Half widths along the axis, and largest radii of a disc, for the pieces of a body that contain the pivot. */
+/** For each piece of a body that contains the pivot: half width along the axis, and largest radius of a disc, m. */
 function crossed(
   shapes: readonly Shape[],
   fromPivot: Matrix4,

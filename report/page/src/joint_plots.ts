@@ -9,7 +9,7 @@ import { second, TimePlot, type Curve, type Level, type Tube } from "./timeplot"
 import { limited } from "./motor";
 
 type Cell = "angle" | "error" | "speed" | "torque" | "use";
-/** Channel of each number. */
+/** Channel that must be recorded for each number under the plots. */
 const SOURCE: Record<Cell, string> = {
   angle: "angle",
   error: "setpoint",
@@ -18,11 +18,11 @@ const SOURCE: Record<Cell, string> = {
   use: "torque",
 };
 
-/** A list of one curve; empty if the recording does not have its values. */
+/** List with one curve, or an empty list if the values are not recorded. */
 const curve = (values: Values | null | undefined, look: Omit<Curve, "values">): Curve[] =>
   values ? [{ values, ...look }] : [];
 
-/** Signals of the chosen joint; B: of the second run. */
+/** Signals of the chosen joint. Names that end in B are signals of the second run. */
 type Signals = Record<"angle" | "setpoint" | "torque" | "stopped" | "angleB" | "torqueB", Values | null>;
 
 export class JointPlots implements Panel {
@@ -87,7 +87,7 @@ export class JointPlots implements Panel {
     return `joint.${this.desk.state.joint}.${name}`;
   }
 
-  // Angle and set point at the left axis, torque at the right.
+  // Draws angle and set point on the left axis, and torque on the right axis.
   private motion(bands: Span[]): void {
     const { desk } = this;
     const { ink, recording } = desk;
@@ -155,7 +155,7 @@ export class JointPlots implements Panel {
     ];
   }
 
-  // Tolerance around a signal that left its band.
+  // Tolerance around a signal that left its band; empty if the signal stayed in its band.
   private tube(quantity: string, axis: Tube["axis"], colour: string): Tube[] {
     const signal = this.channel(quantity);
     const around = this.desk.recording.find(signal);
@@ -163,7 +163,7 @@ export class JointPlots implements Panel {
     return around && stray ? [{ around, by: stray.tolerance, axis, colour }] : [];
   }
 
-  // Command of the motor (voltage or torque) and its current.
+  // Draws the command of the motor (voltage or torque) and the motor's current.
   private drive(bands: Span[]): void {
     const { desk } = this;
     const { ink, recording } = desk;
@@ -193,12 +193,12 @@ export class JointPlots implements Panel {
     ]);
   }
 
-  // Channel of the command. An actuator with a command in N m has no voltage.
+  // Channel of the command; undefined if it is not recorded. An actuator with a command in N m has no voltage.
   private command(unit: Motor["unit"]): string | undefined {
     return (unit === "V" ? ["voltage", "voltage_command"] : ["voltage_command"]).find((name) => this.has(name));
   }
 
-  // Current of the chosen joint; null if no joint has a current.
+  // Current of the chosen joint; null if the current is not recorded, or if it is zero in all joints.
   private current(): Values | null {
     const { recording } = this.desk;
     const flows = recording.meta.joints.some((_, j) => recording.channel(`joint.${j}.current`).some((v) => v !== 0));
@@ -228,7 +228,7 @@ export class JointPlots implements Panel {
     ];
   }
 
-  // Spans in which the motor is at a limit.
+  // Spans of time in which the motor is at a limit.
   private saturated(): Span[] {
     const { recording } = this.desk;
     const flags = recording.find(this.channel("saturation"));
@@ -246,7 +246,7 @@ export class JointPlots implements Panel {
     return out;
   }
 
-  // Levels at the ends of the joint's range, if its angle is ever near one of them.
+  // Levels at the ends of the joint's range. Empty if the angle is never within 5 % of the range of an end.
   private stops(): Level[] {
     const { recording, state, ink } = this.desk;
     const { lo, hi } = recording.meta.joints[state.joint];

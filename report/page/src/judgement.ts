@@ -1,4 +1,4 @@
-// Judgement of a run in words: the answer, its reasons, and its limitations.
+// Judgement of a run in words: the verdict, the reasons for the verdict, and the limitations of the verdict.
 import { make } from "./dom";
 import { built, hardest, shortfall, walked, type Fact } from "./facts";
 import { folder } from "./folder";
@@ -16,7 +16,7 @@ export interface Judgement {
   facts: Fact[];
 }
 
-const few = 2; // further failed checks that the sentence lists; the table has all of them
+const few = 2; // largest number of further failed checks in the sentence; the table of checks contains all
 
 export function judgement(run: Run): Judgement {
   const { outcome, verdict } = run.recording.meta;
@@ -94,7 +94,7 @@ function feasible(run: Run): Judgement {
   };
 }
 
-/** Failed checks: first the deciding one, then checks of the run as a whole, then by margin. */
+/** Failed checks: first the check that decides the verdict, then checks of group `run`, then others by margin. */
 function failures({ verdict: { checks, decided_by } }: Meta): Check[] {
   const urgency = ({ id, group, margin }: Check) =>
     id === decided_by ? [0, 0] : [group === "run" ? 1 : 2, margin ?? -1e300];
@@ -103,8 +103,8 @@ function failures({ verdict: { checks, decided_by } }: Meta): Check[] {
 }
 
 /**
- * The check that the page shows first: the deciding check if one failed, else a check that is too close, the tightest
- * check of a feasible run, or the torque within the envelope; null: none.
+ * The check that the page shows first. It is the first of these that exists: the failed check that decides the verdict,
+ * a check that is too close, the tightest check of a feasible run, the check `envelope`. Null if none exists.
  */
 export function leading(run: Run): Check | null {
   const { meta } = run.recording;
@@ -128,7 +128,7 @@ function others(failed: Check[]): string[] {
 /** Findings of the checks, without advice. */
 const briefly = (found: Check[]): string => found.map((c) => c.text.split("; ")[0].replace(/[.]$/, "")).join("; ");
 
-/** Limitations of the answer: warnings, doubtful numbers, checks that were not judged. */
+/** Limitations of the verdict: warnings, doubtful numbers, checks that were not judged. */
 export function aside(meta: Meta, own = true): (string | Node)[] {
   if (meta.outcome === "not run") return [];
   const { verdict, counts, chosen_motors, chosen_docks, demand } = meta.verdict;

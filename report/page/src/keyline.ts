@@ -1,9 +1,9 @@
-// Legend of a drawing: its marks and colours.
+// Legend under a drawing: the marks and colours, and their meaning.
 import { element, make } from "./dom";
 
 export type Key = [kind: string, colour: string, words: string];
 
-/** Fills the line under a plot; an entry without words is left out. */
+/** Replaces the legend in the element `id`. Entries without words are omitted. */
 export function keys(id: string, entries: Key[]): void {
   element(id).replaceChildren(
     ...entries

@@ -22,7 +22,7 @@ interface Link {
 export class Kinematics {
   readonly positions: Vector3[];
   readonly turns: Quaternion[];
-  /** World positions of the joints, and the frames of their axes. */
+  /** World position of the pivot of each joint, and orientation of the frame in which the joint's axis is given. */
   readonly pivots: Vector3[];
   readonly pivotTurns: Quaternion[];
   private readonly links: Link[];

@@ -1,4 +1,4 @@
-// Labels in front of the 3D picture; of two labels that overlap the first is shown.
+// Labels in front of the 3D picture. If two labels overlap, only the first is shown.
 
 export interface Label {
   text: string;

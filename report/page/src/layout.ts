@@ -26,7 +26,7 @@ export function arrange(desk: Desk): Panel[] {
   }
   tables(desk);
   const panels = plots(desk);
-  // A golden lacks on purpose the data of some panels.
+  // Goldens omit the data of some panels intentionally. The list of omitted panels is therefore hidden.
   if (desk.ghost?.overlay.strayed) element("left-out").hidden = true;
   closeRows();
   return panels;
@@ -70,7 +70,7 @@ function plots(desk: Desk): Panel[] {
   ];
 }
 
-/** Hides the rows in which no panel is left. */
+/** Hides the rows of which all panels are hidden. */
 function closeRows(): void {
   for (const row of document.querySelectorAll<HTMLElement>(".row")) {
     const shown = [...row.children].filter((c) => !(c as HTMLElement).hidden).length;

@@ -1,4 +1,4 @@
-// Loads of the joints by rows: torque as a share of the limit of the motor, current, tracking error.
+// Loads of the joints at each row: torque as a share of the limit of the motor, current, tracking error.
 import type { Values } from "./channels";
 import type { Motor } from "./format";
 import { limited, use } from "./motor";
@@ -10,16 +10,16 @@ export class Loads {
   /** Largest torque of each joint in the judged window, N m. */
   readonly peaks: number[];
   readonly peak: number;
-  /** Largest share of all joints at each row. */
+  /** Largest value of `share` of all joints at each row. */
   readonly worst: Values;
-  /** True if shares refer to the limits of the motors, false if they refer to the largest torque of the run. */
+  /** True if shares refer to the limits of the motors, false if shares refer to the largest torque of the run. */
   readonly limited: boolean;
   private readonly cache = new Map<string, Values>();
 
   constructor(private readonly recording: Recording) {
     const { joints } = recording.meta;
     const from = recording.judged;
-    // Limits depend on the speed: without recorded speeds there are no shares of them.
+    // The limits depend on the speed. Without recorded speeds, shares of the limits cannot be computed.
     this.limited = recording.any("speed") && recording.any("torque") && joints.some((_, j) => limited(this.motor(j)));
     this.peaks = joints.map((_, j) => largest(recording.channel(`joint.${j}.torque`), from));
     this.peak = Math.max(...this.peaks, 1e-9);
@@ -37,7 +37,7 @@ export class Loads {
     return m === null || m === undefined ? null : (motors[m] ?? null);
   }
 
-  /** Share of the torque that is available at the speed, 0 to 1; see `limited`. */
+  /** Torque as a share, 0 to 1, of the torque available at the speed, or of the largest torque; see `limited`. */
   share(joint: number): Values {
     return this.of("use", joint);
   }
@@ -46,7 +46,7 @@ export class Loads {
     return this.recording.at(this.share(joint), t);
   }
 
-  /** Joint and time of the largest share in the judged window. */
+  /** Joint, value and time of the largest share in the judged window. */
   get hardest(): { joint: number; share: number; t: number } {
     const { recording } = this;
     const found = { joint: 0, share: -1, t: 0 };
@@ -59,7 +59,7 @@ export class Loads {
     return found;
   }
 
-  /** Value of the quantity at a share of 1; for `use` 1. */
+  /** Value of the quantity that `of` scales to 1, in the unit of the quantity. */
   scale(quantity: Quantity): number {
     const { recording } = this;
     if (quantity === "torque") return this.peak;

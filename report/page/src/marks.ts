@@ -1,4 +1,4 @@
-// Marks in 3D for the assembly of a robot: numbers of the faces, and axes of the hinges with their positive sense.
+// Marks in the 3D picture for the assembly of a robot: numbers of the faces, and hinge axes with their positive sense.
 import {
   CanvasTexture,
   ConeGeometry,
@@ -20,14 +20,14 @@ import type { Robot } from "./robot";
 import type { Kinematics } from "./kinematics";
 import { position } from "./kinematics";
 
-/** Decals of one kind of face, and their places. */
+/** Decals of faces with equal number, gender and orientation of the number, and the poses of these decals. */
 interface Decals {
   mesh: InstancedMesh;
   places: { body: number; local: Matrix4 }[];
 }
 
 const screenUp = new Vector3(-0.25, 0.34, 0.9); // upward direction on the screen in the first view
-const lift = 0.032; // above the face, as a share of a body's size: a hinge's disc may be on the face
+const lift = 0.032; // height of a decal above its face, in sizes of a body; the disc of a hinge may be on the face
 
 export class Marks {
   faces = false;
@@ -109,7 +109,7 @@ export class Marks {
     }
   }
 
-  /** Place of the name of a joint: beyond the cone. */
+  /** Position of the name of a joint, beyond the cone of its axis. */
   tip(joint: number): Vector3 {
     const { kinematics, robot } = this;
     return robot.axes[joint]
@@ -123,7 +123,7 @@ export class Marks {
     this.material.color.set(theme === "dark" ? 0xe39cc1 : 0x9a3f70);
   }
 
-  // Quarter turns from the reference direction that make the number upright in the start pose.
+  // Number of quarter turns from the face's reference direction after which its number is upright in the start pose.
   private quarters(body: number, face: Face): number {
     const normal = new Vector3(...face.normal);
     const reference = new Vector3(...face.reference);
@@ -137,7 +137,7 @@ export class Marks {
     return heights.indexOf(Math.max(...heights));
   }
 
-  // Pose of the decal on a face, in the size of the body across the face.
+  // Pose of the decal on a face, scaled to the width of the body across the face.
   private decal(type: string, face: Face, quarters: number): Matrix4 {
     const normal = new Vector3(...face.normal).normalize();
     const up = new Vector3(...face.reference).normalize().applyAxisAngle(normal, (quarters * Math.PI) / 2);
@@ -155,8 +155,8 @@ export class Marks {
 }
 
 /**
- * Picture of a face's number: on a filled disc for an active face, in a ring for a passive face, in a grey ring for a
- * face without gender. The wedge points along the reference direction.
+ * Picture of a face's number. It is on a filled disc for an active face, in a brown ring for a passive face, and in a
+ * grey ring for a face without gender. A wedge points along the reference direction of the face.
  */
 function plate({ id, gender }: Face, quarters: number): CanvasTexture {
   const canvas = document.createElement("canvas");

@@ -1,4 +1,4 @@
-// Envelope of a motor: largest and smallest torque over speed, interpolated between samples of the actuator.
+// Envelope of a motor: largest and least torque over speed, interpolated between samples.
 import type { Motor } from "./format";
 
 export const limited = (motor: Motor | null): motor is Motor => !!motor && motor.speed.length > 0;
@@ -20,7 +20,7 @@ function between(speed: readonly number[], torque: readonly number[], w: number)
 export const most = (motor: Motor, w: number): number => between(motor.speed, motor.most, w);
 export const least = (motor: Motor, w: number): number => between(motor.speed, motor.least, w);
 
-/** Torque as a share of the available torque in its direction at speed w, 0 to 1. */
+/** Torque at speed w as a share, 0 to 1, of the torque that the motor can reach at w in the same direction. */
 export function use(motor: Motor, w: number, torque: number): number {
   const available = torque < 0 ? -least(motor, w) : most(motor, w);
   if (torque === 0) return 0;

@@ -1,9 +1,9 @@
-// Numbers and sentences as text: few digits, a typographic minus, names in their original case.
+// Text of numbers and sentences. Numbers have few digits and a typographic minus; names keep their case.
 
-const space = "\u00a0"; // a number and its unit stay on one line
+const space = "\u00a0"; // no-break space, which keeps a number and its unit on one line
 const minus = (text: string): string => text.replace("-", "−");
 
-/** Values below these count as 0, by unit: they are rounding errors of the simulation or the page. */
+/** Magnitudes, by unit, below which a value is written as 0, because it is a rounding error of simulation or page. */
 const floors: Record<string, number> = {
   "": 1e-6,
   m: 1e-7,
@@ -18,7 +18,7 @@ const floors: Record<string, number> = {
 };
 const floored = (x: number, unit: string): number => (Math.abs(x) < (floors[unit] ?? 0) ? 0 : x);
 
-/** Number with `digits` significant digits; an exponent only below 1e-4 and from 1e6 on. */
+/** Number with `digits` significant digits. Magnitudes below 1e-4, or of 1e6 and above, have an exponent. */
 export function number(x: number | null | undefined, digits = 3, unit?: string): string {
   if (x === null || x === undefined || !Number.isFinite(x)) return "–";
   const kept = unit === undefined ? x : floored(x, unit);
@@ -32,13 +32,13 @@ export function number(x: number | null | undefined, digits = 3, unit?: string):
 export const fixed = (x: number, decimals: number): string =>
   minus((Math.abs(x) < 0.5 * 10 ** -decimals ? 0 : x).toFixed(decimals));
 
-/** Decimals that give numbers up to `peak` three digits; at least two. */
+/** Number of decimals, at least two, with which the number `peak` has three significant digits. */
 export const decimalsOf = (peak: number, unit: string): number =>
   floored(peak, unit) === 0 ? 2 : Math.max(2, Math.ceil(-Math.log10(peak)) + 1);
 
 export const percent = (share: number, digits = 3): string => `${number(100 * floored(share, ""), digits)}${space}%`;
 
-/** Value with its unit: shares (unit "") in percent, small lengths in mm, large energies in MJ. */
+/** Value with its unit. Shares (unit "") are in percent, lengths below 0.1 m in mm, large energies in MJ or GJ. */
 export function quantity(x: number | null, unit: string): string {
   if (x === null || !Number.isFinite(x)) return "–";
   if (unit === "") return percent(x);
@@ -48,7 +48,7 @@ export function quantity(x: number | null, unit: string): string {
   return `${number(floored(x, unit) / scale)}${space}${prefix}${unit.replace(" ", space)}`;
 }
 
-/** Time in s, with two decimals, or with three if it is not a multiple of 10 ms. */
+/** Time in s with two decimals, or with three decimals if the time is not a multiple of 10 ms. */
 export const time = (t: number): string =>
   `${fixed(t, Math.abs(100 * t - Math.round(100 * t)) < 0.05 ? 2 : 3)}${space}s`;
 
@@ -60,10 +60,10 @@ export function span(from: number, to: number): string {
 
 export const plural = (n: number, noun: string): string => `${n} ${noun}${n === 1 ? "" : "s"}`;
 
-/** Text with a capital at its start, unless it starts with a name (`m3/active`, `m5's dock`). */
+/** Text with a capital at the start, unless the text starts with a name (`m3/active`, `m5's dock`). */
 export const capital = (text: string): string =>
   /^\S*[\d/]/.test(text) ? text : text.charAt(0).toUpperCase() + text.slice(1);
 export const sentence = (text: string): string => (text ? capital(text) + (/[.!?]$/.test(text) ? "" : ".") : "");
-/** A title within a sentence. */
+/** Title for use within a sentence: an initial capital becomes lower case. */
 export const inSentence = (title: string): string =>
   /^[A-Z][a-z]/.test(title) ? title[0].toLowerCase() + title.slice(1) : title;

@@ -1,4 +1,4 @@
-// First view of the page: the joint, time and check that it shows when it opens.
+// First view of the page: the joint, time and check that the page shows when a browser opens it.
 import type { Check } from "./format";
 import { leading } from "./judgement";
 import type { Desk, Run } from "./panel";
@@ -8,9 +8,9 @@ import { jointOf } from "./strays";
 type Source = Pick<Desk, "recording" | "loads" | "ghost" | "runs">;
 
 export interface Opening {
-  run: Run; // the first that is not feasible, else the page's own
+  run: Run; // the first run that is infeasible or failed, or the first run if there is no such run
   check: Check | null;
-  joint: number; // -1: the robot has none
+  joint: number; // number of the joint; -1 if the robot has no joints
   t: number;
 }
 
@@ -29,7 +29,7 @@ export function opening(source: Source, link: URLSearchParams): Opening {
   };
 }
 
-/** Joint of the link, else of the first stray signal, of the check, or of the largest load. */
+/** Joint of the link, the first stray signal, the check, or the largest load: the first of these that exists. */
 function firstJoint({ recording, loads, ghost }: Source, run: Run, check: Check | null, linked: string | null): number {
   const stray = ghost?.overlay.strays[0];
   const theirs = check ? jointAt(run.recording.meta, check.part, check.worst) : -1;
@@ -41,7 +41,7 @@ function firstJoint({ recording, loads, ghost }: Source, run: Run, check: Check 
   return found.find((j) => j >= 0) ?? loads.hardest.joint;
 }
 
-/** Time of the first stray signal, else of the check, or of the largest load; s. */
+/** Time of the first stray signal, the check, or the largest load, s: the first of these that exists. */
 function firstTime({ recording, loads, ghost }: Source, run: Run, check: Check | null): number {
   const { joints, verdict } = recording.meta;
   const seen = check && moment(run, check);

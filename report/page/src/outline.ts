@@ -1,17 +1,18 @@
-// Geometry of a body: its pieces, merged if they form one convex prism (box and half cylinder of an M-TRAN block).
+// Geometry of a body from its pieces. Pieces that form one convex prism are merged, such as the box and half cylinder
+// of an M-TRAN block.
 import { BufferAttribute, BufferGeometry, SphereGeometry, Vector3 } from "three";
 import type { Pose, Shape } from "./format";
 import { matrix, position, rotation } from "./kinematics";
 
 type Point = [number, number];
 
-/** Geometry of a piece, and a simpler one for its shadow. */
+/** Geometry of a piece, and a simpler geometry for the shadow of the piece. */
 export interface Piece {
   body: BufferGeometry;
   shadow: BufferGeometry;
 }
 
-/** Prism in the frame of the body: an outline in x and z, along y from y0 to y1. */
+/** Prism in the frame of the body, from y0 to y1 along y. The points are the outline in x and z. */
 interface Prism {
   y0: number;
   y1: number;
@@ -39,7 +40,7 @@ function hull(points: readonly Point[]): Point[] {
 const area = (p: readonly Point[]): number =>
   Math.abs(p.reduce((sum, [x, y], i) => sum + x * p[(i + 1) % p.length][1] - p[(i + 1) % p.length][0] * y, 0)) / 2;
 
-/** The prism of a shape; null: it is a sphere, or its axis is not along the body's y. */
+/** Prism of a shape; null if the shape is a sphere, or if the axis of the shape is not along the body's y axis. */
 function prism({ kind, pose, size }: Shape): Prism | null {
   const turn = rotation(pose);
   const along = new Vector3(0, 1, 0).applyQuaternion(turn);
@@ -79,7 +80,7 @@ class Mesh {
     this.normals.push(normal.x, normal.y, normal.z);
   }
 
-  /** A flat end of a prism; `up`: 1 or -1, the direction of its normal. */
+  /** Adds a flat end of a prism. `up` is the y component of the end's normal, 1 or -1. */
   cap(points: readonly Point[], y: number, up: number): void {
     const normal = new Vector3(0, up, 0);
     for (let i = 1; i + 1 < points.length; i++) {
@@ -87,7 +88,7 @@ class Mesh {
     }
   }
 
-  /** A ring of quads between two outlines; `tilt`: the y of its normals before they are normalized. */
+  /** Adds a ring of quads between two outlines. `tilt` is the y component of the normals before normalization. */
   ring(
     sides: readonly Vector3[],
     low: readonly Point[],
@@ -120,14 +121,14 @@ class Mesh {
   }
 }
 
-/** Normal at the start (0) or end (1) of a side: sides that meet at less than 30 degrees share it and look round. */
+/** Normal at the start (0) or end (1) of a side. Sides at an angle below 30 degrees share a normal and look round. */
 function smooth(sides: readonly Vector3[], side: number, end: number): Vector3 {
   const n = sides.length;
   const meets = sides[(side + (end ? 1 : n - 1)) % n];
   return meets.dot(sides[side]) > Math.cos(Math.PI / 6) ? meets.clone().add(sides[side]).normalize() : sides[side];
 }
 
-/** The outline, each of its sides moved inwards by `bevel`. */
+/** Outline with each side moved inwards by `bevel`, m. */
 function inset(points: readonly Point[], sides: readonly Vector3[], bevel: number): Point[] {
   const n = points.length;
   return points.map(([x, z], i) => {
@@ -138,7 +139,7 @@ function inset(points: readonly Point[], sides: readonly Vector3[], bevel: numbe
   });
 }
 
-/** Surface of a prism; `chamfered`: at its ends. */
+/** Surface of a prism. If `chamfered` is true, the edges of the two ends are chamfered. */
 function extrude(points: readonly Point[], y0: number, y1: number, chamfered: boolean): BufferGeometry {
   const sides = points.map(([x, z], i) => {
     const [u, w] = points[(i + 1) % points.length];
@@ -187,7 +188,7 @@ export function outline(shapes: readonly Shape[]): Piece[] {
   return shapes.map(single);
 }
 
-/** Half lengths of the box around a piece in its own frame, and the box's centre there. */
+/** Centre and half lengths of the bounding box of a piece, in the frame of the piece. */
 export function extents({ kind, size: [a, b, c] }: Shape): { centre: Vector3; half: Vector3 } {
   if (kind === "box") return { centre: new Vector3(), half: new Vector3(a / 2, b / 2, c / 2) };
   if (kind === "sphere") return { centre: new Vector3(), half: new Vector3(a, a, a) };
@@ -195,7 +196,7 @@ export function extents({ kind, size: [a, b, c] }: Shape): { centre: Vector3; ha
   return { centre: new Vector3(a / 2, 0, 0), half: new Vector3(a / 2, b / 2, a) };
 }
 
-/** Corners of the box around a piece, in the body's frame. */
+/** Corners of the bounding box of a piece, in the frame of the body. */
 export function corners(shape: Shape): Vector3[] {
   const { centre, half } = extents(shape);
   const at = position(shape.pose);

@@ -1,4 +1,4 @@
-// Page of the report: its state, its panels, the time and joint they show.
+// Page of the report: the panels, and the time, joint and span of time that the panels show.
 import { Address } from "./address";
 import { captions } from "./captions";
 import { inkOf, type Ink, type Theme } from "./colour";
@@ -27,9 +27,9 @@ export class Page implements Desk {
   private readonly panels: Panel[] = [];
   private readonly stretches: Record<Stretch, number>;
   private readonly address = new Address();
-  private width: number; // s, of the stretch that turns like a page; 0: a stretch that the reader has dragged
-  private last: number | null = null; // ms, of the frame before, while playing
-  private late = 0; // frames
+  private width: number; // width of the span that the page chooses, s; 0 if the reader has selected a span
+  private last: number | null = null; // time of the frame before, ms; null while the page does not play
+  private late = 0; // number of consecutive slow frames
 
   constructor(
     readonly recording: Recording,
@@ -144,7 +144,7 @@ export class Page implements Desk {
     this.seek(on && this.state.t >= this.recording.end - 1e-9 ? 0 : this.state.t);
   }
 
-  /** Advances the time and draws; called once per frame of the browser. */
+  /** Advances the time if the page plays, and draws. The browser calls this function once per frame. */
   tick(now: number): void {
     if (this.state.playing && this.last !== null) {
       const t = this.state.t + ((now - this.last) / 1000) * this.state.rate;
@@ -173,7 +173,7 @@ export class Page implements Desk {
     for (const p of this.panels) p.seek?.(this.state.t);
   }
 
-  /** The stretch around the time shown, on a grid that ends with the run, so that plots turn like pages. */
+  /** Span of time that contains the time shown. Spans adjoin and end with the run, so that plots turn like pages. */
   private spanAround(): Span {
     const { width } = this;
     const { end } = this.recording;
@@ -200,7 +200,7 @@ export class Page implements Desk {
   }
 }
 
-/** Sets the theme of the document; returns its colours. */
+/** Sets the theme of the document. Returns the colours of this theme. */
 function painted(theme: Theme): Ink {
   document.documentElement.dataset.theme = theme;
   element("theme").textContent = theme === "dark" ? "Light" : "Dark";

@@ -1,4 +1,5 @@
-// Interfaces of the panels: the state that they show, the page as they use it, the events that they receive.
+// Interfaces of the panels: the state that panels show, the functions of the page that panels call, and the events
+// that panels receive.
 import type { Ink } from "./colour";
 import type { Ghost } from "./ghost";
 import type { Loads } from "./loads";
@@ -8,13 +9,13 @@ export type Span = [from: number, to: number];
 
 export interface State {
   t: number;
-  joint: number; // -1: the robot has none
+  joint: number; // number of the chosen joint; -1 if the robot has no joints
   playing: boolean;
   rate: number;
-  span: Span; // s, of the plots over time
+  span: Span; // span of the plots over time, s
 }
 
-/** A run on the page, and selection of a time, joint or dock in it. */
+/** A run on the page, and functions that select a time, joint or dock of the run. */
 export interface Run {
   readonly recording: Recording;
   readonly loads: Loads;
@@ -22,23 +23,26 @@ export interface Run {
   goTo(t: number): void;
   /** Selects a joint by its number in this run. */
   choose(joint: number): void;
-  /** Marks a dock in the 3D picture by its number in this run; -1: none. */
+  /** Marks a dock in the 3D picture by its number in this run; -1 removes the mark. */
   mark(dock: number): void;
 }
 
-/** The page as its panels use it; members of Run refer to its first run. */
+/** Interface of the page for its panels. The members inherited from Run refer to the first run. */
 export interface Desk extends Run {
-  /** The second run. */
+  /** The second run; null on a page of one run. */
   readonly ghost: Ghost | null;
   /** The first run, and the second run if there is one. */
   readonly runs: readonly Run[];
   readonly state: Readonly<State>;
   readonly ink: Ink;
-  /** Shows a span of time in the plots; null: the whole run. */
+  /** Shows a span of time in the plots, or the whole run if the span is null. */
   zoom(span: Span | null): void;
 }
 
-/** Events of a panel: paint for a new theme (a panel observes its size itself), the others if they concern it. */
+/**
+ * Panel of the page, and the events that it receives. The page calls `paint` after a change of the theme, `seek` of the
+ * time, `choose` of the joint, and `zoom` of the span of time. A panel observes changes of its size itself.
+ */
 export interface Panel {
   paint(): void;
   seek?(t: number): void;

@@ -1,4 +1,4 @@
-// Lists of the parts of a robot that has not run: modules, docks, hinges with their motors.
+// Lists of the parts of a robot that was only assembled: modules, docks, hinges with their motors.
 import { element, make } from "./dom";
 import { joins } from "./docks";
 import { fixed, number } from "./numbers";

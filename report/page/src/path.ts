@@ -1,4 +1,4 @@
-// Plot of the path of the centre of mass from above, with the footprints.
+// Plot of the path of the centre of mass, seen from above, with the footprints.
 import { Board, clipped, frame, type Box, type Pen, type Scale } from "./board";
 import type { Values } from "./channels";
 import { element, leaveOut } from "./dom";
@@ -33,7 +33,7 @@ export class Path implements Panel {
     );
   }
 
-  // Path of the second run, by its own rows: it does not depend on the time shown.
+  // Path of the second run at the rows of that run, independent of the time shown; null if it is not recorded.
   private get second(): [Values, Values] | null {
     const x = this.desk.ghost?.recording.find("com.x");
     const y = this.desk.ghost?.recording.find("com.y");
@@ -51,7 +51,7 @@ export class Path implements Panel {
     this.dot.style.transform = `translate(${X(recording.at(this.x, t))}px,${Y(recording.at(this.y, t))}px)`;
   }
 
-  // Smallest and largest x, smallest and largest y of paths and footprints.
+  // Least and largest x, and least and largest y, of paths and footprints, m.
   private reach(): [number, number, number, number] {
     const { weight } = this.desk.recording.meta;
     const reach: [number, number, number, number] = [Infinity, -Infinity, Infinity, -Infinity];
@@ -83,7 +83,7 @@ export class Path implements Panel {
     this.seek(desk.state.t);
   }
 
-  // Ranges of the axes around all paths, with one scale for both.
+  // Ranges of the axes around all paths. Both axes have the same scale.
   private ranges(box: Box): { x: Span; y: Span } {
     const [x0, x1, y0, y1] = this.reach();
     const room = 0.06 * Math.max(x1 - x0, y1 - y0, 0.02);

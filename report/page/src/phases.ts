@@ -4,10 +4,10 @@ import { element, leaveOut } from "./dom";
 import { keys } from "./keyline";
 import type { Desk, Panel } from "./panel";
 
-const low = -Math.PI / 2 - 0.25; // lower end of the axis, far from the lag of half a turn
+const low = -Math.PI / 2 - 0.25; // lower end of the axis of the lag, rad; the frequent lag pi is far from the ends
 const wrap = (a: number): number => a - 2 * Math.PI * Math.floor((a - low) / (2 * Math.PI));
 
-/** Places of joints and lags, and the largest radius of a disc, px. */
+/** Horizontal position of a joint, vertical position of a lag, and radius of the largest disc, px. */
 interface Place {
   X: (joint: number) => number;
   Y: (lag: number) => number;
@@ -93,7 +93,7 @@ export class Phases implements Panel {
     this.discs(pen, place);
   }
 
-  // Angles of the second run.
+  // Draws a square for the angle of each joint in the second run.
   private squares(pen: Pen, { X, Y, most }: Place): void {
     const { ghost, ink, recording } = this.desk;
     const theirs = ghost?.recording.meta.phases ?? [];
@@ -108,7 +108,7 @@ export class Phases implements Panel {
     });
   }
 
-  // Set points as filled discs, angles as rings; a dash for a joint without an oscillation.
+  // Draws set points as filled discs, and angles as rings. A joint without oscillation has a dash.
   private discs(pen: Pen, { X, Y, most }: Place): void {
     const { ink, recording, state } = this.desk;
     const { phases } = recording.meta;

@@ -1,16 +1,16 @@
-// Place of a check in a run: the name of its part, its joint or dock, and the time of its largest value.
+// Place of a check in a run: the name of the worst part, its joint or dock, and the time of the largest value.
 import type { Check, Meta, Part } from "./format";
 import type { Run } from "./panel";
 
 export const dockName = (module: string): string => `${module}'s dock`;
 
-/** Name of a part: joints and bodies by their names, docks as `m5's dock`, feet by their legs. */
+/** Name of a part in texts: for a dock `m5's dock`, for a foot the name of its leg, for other parts their own name. */
 export function partName(meta: Meta, part: Part, name: string): string {
   if (part === "dock") return dockName(name);
   return part === "foot" ? (meta.feet.find((f) => f.name === name)?.title ?? name) : name;
 }
 
-/** Number of a joint, or of the joint next to a body, foot or dock; -1: none. */
+/** Number of a joint, or of a joint next to a body, foot or dock; -1 if there is none. */
 export function jointAt({ joints, bodies, modules }: Meta, part: Part, name: string | null): number {
   if (name === null) return -1;
   if (part === "joint") return joints.findIndex((j) => j.name === name);
@@ -20,13 +20,13 @@ export function jointAt({ joints, bodies, modules }: Meta, part: Part, name: str
   return own >= 0 ? own : joints.findIndex((j) => j.module === module);
 }
 
-/** Number of a dock; -1 for other parts. */
+/** Number of a dock; -1 if the part is not a dock. */
 export const dockAt = ({ docks }: Meta, part: Part, name: string | null): number =>
   part === "dock" ? docks.findIndex((d) => d.name === name) : -1;
 
 type Measure = (row: number) => number;
 
-/** Quantity of a check by rows, largest at the worst row; null: the page has no channel of it. */
+/** Function from a row to a measure of a check that is largest at the worst row; null without a suitable channel. */
 function measure({ recording, loads }: Run, { id, part }: Check, name: string | null): Measure | null {
   const { joints } = recording.meta;
   if (part === "dock") {
@@ -64,8 +64,8 @@ function measure({ recording, loads }: Run, { id, part }: Check, name: string | 
 }
 
 /**
- * Time of the row with the largest measure between two times, s; the middle one of equal rows. Without a row between
- * the times, the time of the nearest row.
+ * Time of the row with the largest measure between two times, s. Among rows with equal measures, the middle row counts.
+ * If there is no row between the times, the result is the time of the row nearest to their middle.
  */
 function largestRow({ recording: { times, rows } }: Run, of: Measure, from: number, to: number): number {
   const within: number[] = [];
@@ -81,7 +81,7 @@ function largestRow({ recording: { times, rows } }: Run, of: Measure, from: numb
   return times[equal[equal.length >> 1] ?? nearest];
 }
 
-/** Time of the worst row of the worst part of a check, s; null: the check does not refer to a time. */
+/** Time of the worst row of the worst part of a check, s; null if the check does not refer to a time. */
 export function moment(run: Run, check: Check): number | null {
   const { window } = run.recording.meta.verdict;
   const of = measure(run, check, check.worst);
@@ -91,16 +91,16 @@ export function moment(run: Run, check: Check): number | null {
   return from === null ? largestRow(run, of, all.from, all.to) : largestRow(run, of, from, check.to ?? from);
 }
 
-/** Time of the first row beyond the limit of a check, s; null: there is none, or it is unknown. */
+/** Time of the first row beyond the limit of a check, s; null if no row is beyond the limit or the time is unknown. */
 export function firstMoment(run: Run, check: Check): number | null {
   const { first, first_part: part } = check;
   const of = first === null ? null : measure(run, check, part);
   if (first === null || !of) return first;
-  // The row follows within a few control ticks.
+  // The first row beyond the limit follows the exact time `first` within a few control ticks.
   return largestRow(run, of, first, first + Math.max(0.02, run.recording.meta.period));
 }
 
-/** Middle of the longest time of a joint at a limit of its motor, in the judged window; s. */
+/** Middle of the longest interval in the judged window in which a joint is at a limit of its motor, s. */
 export function longestMoment({ recording }: Run, joint: number): number | null {
   const at = recording.find(`joint.${joint}.saturation`);
   let best = 0;
@@ -115,7 +115,7 @@ export function longestMoment({ recording }: Run, joint: number): number | null 
   return middle;
 }
 
-/** Shows a part and a time: selects its joint, marks its dock, if it has one. */
+/** Shows a part and a time: selects the joint of the part, marks the part if it is a dock, and sets the time. */
 export function show(run: Run, part: Part, name: string | null, t: number | null): void {
   const joint = jointAt(run.recording.meta, part, name);
   if (joint >= 0) run.choose(joint);

@@ -1,9 +1,9 @@
-// Recording of a run, read from the page: its description (meta), and its channels over time.
+// Recording of a run, read from the page: the description of the run (meta), and the channels over time.
 import { inflate, unpack, type Values } from "./channels";
 import type { Channel, Meta } from "./format";
 import type { Span } from "./panel";
 
-/** Second run of the page, and its differences from the first by signal. */
+/** Second run of the page, and the differences from the first run by signal. */
 export interface Second {
   recording: Recording;
   differences: ReadonlyMap<string, Values>;
@@ -25,7 +25,7 @@ export class Recording {
     }
     const t = channels.get("t");
     this.times = Float64Array.from({ length: Math.max(meta.rows, 1) }, (_, i) => t?.[i] ?? i * meta.period);
-    // A channel in 32 bits has only 7 digits: the time of a row on the grid is computed from its number.
+    // A channel of 32-bit floats has only 7 digits. The time of a row on the grid is thus computed from its number.
     this.times.forEach((time, i) => {
       if (Math.abs(time - i * meta.period) < 1e-3 * meta.period) this.times[i] = i * meta.period;
     });
@@ -36,7 +36,7 @@ export class Recording {
     const text = (id: string) => page.getElementById(id)?.textContent?.trim() ?? "";
     const meta = JSON.parse(text("meta")) as Meta;
     const data = text("data").split("\n");
-    const format: number = meta.format; // may be another, if another version of the program wrote the page
+    const format: number = meta.format; // differs from 1 if another version of the program wrote the page
     if (format !== 1) throw new Error(`it is of format ${format}, this page reads format 1`);
     const values = async (channels: Channel[], packed: string) =>
       unpack(channels, channels.length ? await inflate(packed) : new Uint8Array());
@@ -63,7 +63,7 @@ export class Recording {
   has(name: string): boolean {
     return this.channels.has(name);
   }
-  /** True if a joint has the quantity: hinges without a motor have no set point, torque and current. */
+  /** True if a quantity is recorded for any joint. Hinges without a motor have no set point, torque and current. */
   any(quantity: string): boolean {
     return this.meta.joints.some((_, j) => this.has(`joint.${j}.${quantity}`));
   }

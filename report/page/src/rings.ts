@@ -1,4 +1,4 @@
-// Rings around the docks in 3D; the ring of the chosen dock is wider.
+// Rings around the docks in the 3D picture. The ring of the chosen dock is wider.
 import {
   CylinderGeometry,
   DoubleSide,
@@ -22,7 +22,7 @@ export class Rings {
   chosen = -1;
   private readonly places: ({ body: number; local: Matrix4 } | null)[];
   private readonly mesh: InstancedMesh;
-  // Drawn over the bodies, because a dock is hidden between two of them.
+  // Without depth test, because a dock would be hidden between its two bodies.
   private readonly material = new MeshBasicMaterial({
     side: DoubleSide,
     transparent: true,
@@ -69,7 +69,7 @@ export class Rings {
     this.material.color.set(theme === "dark" ? 0xe9edf1 : 0x1b2127);
   }
 
-  /** Place of a ring: around the face of the docked module, outside of its body; null: the page lacks the face. */
+  /** Pose of the ring of a dock, around the body of the docked module at its face; null if the face is not known. */
   private place(n: number): { body: number; local: Matrix4 } | null {
     const { bodies, faces, geometry, docks } = this.meta;
     const { module, face: id } = docks[n];

@@ -1,5 +1,5 @@
-// Robot in 3D: bodies with their edges and shadows, hinges coloured by load. Each piece of a body type is one instanced
-// mesh, so that 200 joints are drawn as fast as 20.
+// Robot in the 3D picture: bodies with their edges and shadows, hinges coloured by load. Each piece of a body type is
+// one instanced mesh, so that the time to draw hardly depends on the number of joints.
 import {
   BufferAttribute,
   BufferGeometry,
@@ -34,8 +34,8 @@ interface Kind {
   bodies: number[];
   mesh: InstancedMesh;
   shadow: InstancedMesh | null;
-  edges: Float32Array; // edges of one body, in its frame
-  first: number; // index of its first point in the edges of all kinds
+  edges: Float32Array; // ends of the edges of one body, in the frame of the body
+  first: number; // index of the first point of this kind in the edges of all kinds
 }
 
 const looks = {
@@ -88,7 +88,10 @@ export class Robot {
 
   private readonly all = new Group();
 
-  /** `light`: its position; null for the second run: translucent, in one colour, without shadows and hinges. */
+  /**
+   * Builds the meshes. `light` is the position of the light. A null `light` draws the robot of the second run:
+   * translucent, in one colour, without shadows and hinges.
+   */
   constructor(
     private readonly meta: Meta,
     private readonly kinematics: Kinematics,
@@ -99,8 +102,8 @@ export class Robot {
     const { bodies, ground } = meta;
     this.unit = typicalSize(meta);
     this.matrices = bodies.map(() => new Matrix4());
-    // Shadows: the bodies once more, pressed onto the ground along the light; opaque, so that overlaps do not show. A
-    // shadow map costs 140 ms a frame without a GPU.
+    // A shadow is a copy of a body that is projected onto the ground along the light. Shadows are opaque, so that
+    // overlaps are invisible. A shadow map would cost 140 ms a frame without a GPU.
     this.press =
       light && (ground.kind === "plane" || ground.kind === "boxes")
         ? pressed(light, ground.height + 0.0008 * this.unit)
@@ -130,7 +133,7 @@ export class Robot {
     for (const [type, members] of types) {
       this.corners.set(type, (geometry[type] ?? []).flatMap(corners));
       const { role } = bodies[members[0]];
-      // Bodies without gender take both colours in turn, so that the halves of a module can be distinguished.
+      // Body types without gender have the two colours alternately, so that the halves of a module are distinguishable.
       const look =
         role === "active" || role === "passive"
           ? role
@@ -146,11 +149,12 @@ export class Robot {
     return points;
   }
 
-  // Adds the meshes of a piece for all bodies of a type; `first`: see Kind. Returns the number of points of its edges.
+  // Adds the meshes of a piece for all bodies of a type. Returns the number of points of the added edges. `first` is
+  // defined in Kind.
   private build(piece: Piece, members: number[], material: Material, first: number): number {
     const mesh = new InstancedMesh(piece.body, material, members.length);
     const shadow = this.press ? new InstancedMesh(piece.shadow, this.shade, members.length) : null;
-    // A translucent robot is drawn twice, its depth first, so that its far side does not show through.
+    // A translucent robot is drawn twice, first only into the depth buffer, so that its far side is invisible.
     const depth = this.light ? null : new InstancedMesh(piece.body, this.unseen, members.length);
     if (depth) {
       depth.instanceMatrix = mesh.instanceMatrix;
@@ -181,7 +185,7 @@ export class Robot {
     }
   }
 
-  /** Moves the meshes to the poses of the kinematics; `shares`: load of each joint, 0 to 1. */
+  /** Moves the meshes to the poses of the kinematics. `shares` is the load of each joint, 0 to 1. */
   set(shares: readonly number[], selected: number, hovered: number): void {
     const { kinematics } = this;
     const one = new Vector3(1, 1, 1);
@@ -247,7 +251,7 @@ export class Robot {
     return this.matrices[body];
   }
 
-  /** Joint of the disc that the ray meets, else the nearest joint of the body that it meets; -1 without one. */
+  /** Joint of the first disc on the ray, or the nearest joint of the first body on the ray; -1 if there is none. */
   pick(ray: Raycaster): number {
     const hits: Intersection[] = ray.intersectObjects([this.discs, ...this.kinds.map((k) => k.mesh)], false);
     const hit = hits[0];
@@ -266,7 +270,7 @@ export class Robot {
     return near[0] ?? -1;
   }
 
-  /** Points that a view must contain: the corners of all bodies, or points around a joint. */
+  /** Points that a view must contain: points around a joint, or for joint -1 the corners of all bodies. */
   points(joint = -1): Vector3[] {
     const { positions, turns, pivots } = this.kinematics;
     if (joint < 0) {
@@ -311,7 +315,7 @@ export function lines(points: number, material: LineBasicMaterial): LineSegments
   return made;
 }
 
-/** Writes the points, transformed by m, into `out` from index `at` on. Returns the number of values written. */
+/** Writes the points, transformed by m, into `out`, starting at index `at`. Returns the number of values written. */
 export function place(points: Float32Array, m: Matrix4, out: Float32Array, at: number): number {
   const e = m.elements;
   for (let i = 0; i < points.length; i += 3) {
@@ -325,14 +329,14 @@ export function place(points: Float32Array, m: Matrix4, out: Float32Array, at: n
   return points.length;
 }
 
-/** Projection onto the plane z = height along the light. */
+/** Projection onto the plane z = height along the direction of the light. */
 function pressed(light: Vector3, height: number): Matrix4 {
   const x = light.x / light.z;
   const y = light.y / light.z;
   return new Matrix4().set(1, 0, -x, x * height, 0, 1, -y, y * height, 0, 0, 0, height, 0, 0, 0, 1);
 }
 
-/** Median of the sizes of the bodies; the size of a body is the length of its largest piece. */
+/** Median of the sizes of the bodies, m. The size of a body is the length of its largest piece. */
 function typicalSize(meta: Meta): number {
   const sizes = meta.bodies
     .flatMap((b) => {

@@ -1,5 +1,5 @@
-// Panel of the 3D picture: buttons, legends, labels; clicks on hinges. Without WebGL it contains a note, and the rest
-// of the page works.
+// Panel of the 3D picture: buttons, legends, labels, and clicks on hinges. Without WebGL 2, the panel contains only a
+// note, and the other panels work.
 import { gradient } from "./colour";
 import { element, make } from "./dom";
 import { Labels } from "./labels";
@@ -22,7 +22,7 @@ export class Stage implements Panel {
     const canvas = element<HTMLCanvasElement>("view");
     this.view = opened(canvas, desk);
     if (!this.view) {
-      // Keys do nothing if their button is hidden.
+      // Hiding the buttons also disables their keys.
       for (const part of this.host.querySelectorAll<HTMLElement>("*")) part.hidden = true;
       this.host.append(
         make("p.empty", "This browser cannot draw in 3D (it has no WebGL 2). Everything else on this page works."),
@@ -63,7 +63,7 @@ export class Stage implements Panel {
     this.view?.paint(this.desk.ink.theme);
   }
 
-  /** Marks a dock; -1: none. */
+  /** Marks a dock; -1 removes the mark. */
   mark(dock: number): void {
     this.view?.mark(dock);
     this.ringWords();
@@ -76,14 +76,14 @@ export class Stage implements Panel {
     this.view?.select(this.desk.state.joint);
   }
 
-  /** Draws if something has changed; returns true then. */
+  /** Draws the picture and its labels if something has changed. Returns true if it has drawn. */
   draw(): boolean {
     if (!this.view?.render()) return false;
     this.annotate(this.view);
     return true;
   }
 
-  /** Fills the picture with a joint and its module; -1: with the whole robot. */
+  /** Moves the camera to a joint; -1 shows the whole robot. */
   frame(joint: number): void {
     this.view?.look("iso", joint);
   }
@@ -92,7 +92,7 @@ export class Stage implements Panel {
     element(what).click();
   }
 
-  /** Replaces the canvas by a picture, for paper, or shows it again. */
+  /** Covers the canvas by a picture for printing if `on` is true, otherwise removes the picture. */
   freeze(on: boolean): void {
     this.image?.remove();
     this.image = null;
@@ -103,7 +103,7 @@ export class Stage implements Panel {
     this.host.append(this.image);
   }
 
-  /** Wires a button that switches a property. */
+  /** Connects a button to a property that it switches on and off. The button is hidden if `useful` is false. */
   private option<Key extends string>(id: string, useful: boolean, of: Record<Key, boolean>, key: Key): void {
     this.toggle(
       id,
@@ -194,7 +194,7 @@ export class Stage implements Panel {
   }
 }
 
-/** A view, or null without WebGL 2. A test with another canvas writes no error to the console. */
+/** View of the scene, or null without WebGL 2. The test uses another canvas, to avoid an error in the console. */
 function opened(canvas: HTMLCanvasElement, desk: Desk): View | null {
   if (!document.createElement("canvas").getContext("webgl2")) return null;
   return new View(desk, canvas);

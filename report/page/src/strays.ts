@@ -1,4 +1,4 @@
-// Table and plot of the signals that left their bands around the golden, in order of time.
+// Table and plot of the signals that left their bands around the golden, ordered by the time at which they did.
 import { element, make, panelOf } from "./dom";
 import type { Stray } from "./format";
 import { keys } from "./keyline";
@@ -6,14 +6,14 @@ import { fixed, number } from "./numbers";
 import type { Desk, Panel, Run } from "./panel";
 import { TimePlot } from "./timeplot";
 
-/** Name of a channel as text: `m5/active torque` for joint.9.torque. */
+/** Name of a channel in texts, for example `m5/active torque` for joint.9.torque. */
 export function signalName(run: Run, signal: string): string {
   const [, joint, quantity] = /^joint\.(\d+)\.(.*)$/.exec(signal) ?? [];
   const { joints } = run.recording.meta;
   return joint === undefined ? signal : `${joints[Number(joint)]?.name ?? `joint ${joint}`} ${quantity}`;
 }
 
-/** Number of the joint of a stray signal; -1: it has none. */
+/** Number of the joint of a stray signal; -1 if the signal does not belong to a joint. */
 export const jointOf = ({ signal }: Stray): number => Number(/^joint\.(\d+)\./.exec(signal)?.[1] ?? -1);
 
 export function signalLink(run: Run, stray: Stray): HTMLButtonElement {

@@ -1,4 +1,5 @@
-// Plot of curves over time: a click sets the time, a drag zooms all plots, a double click shows the whole run.
+// Plot of curves over time. A click sets the time, a drag selects the span of all plots over time, and a double click
+// shows the whole run.
 import uPlot from "uplot";
 import { font } from "./board";
 import type { Ink } from "./colour";
@@ -33,7 +34,7 @@ export interface Plot {
   tubes?: Tube[];
 }
 
-/** Tolerance around a curve. */
+/** Band of tolerance around a curve. */
 export interface Tube {
   around: Values;
   by: number;
@@ -230,14 +231,14 @@ const series = (c: Curve): uPlot.Series => ({
   points: { show: false },
 });
 
-/** Values for uPlot, which interrupts a curve at null. */
+/** Values with null in place of NaN, because uPlot interrupts a curve at null. */
 function gaps(values: Values): number[] {
   return (values.some(Number.isNaN)
     ? Array.from(values, (v) => (Number.isNaN(v) ? null : v))
     : values) as unknown as number[];
 }
 
-/** Ranges of both axes. Their zeros coincide, as in report/plot/ticks.h: the same share of each range is below zero. */
+/** Ranges of both axes. The same share of each range is below zero, so that the zeros of the axes coincide. */
 function ranges({ curves, levels = [] }: Plot): [Span, Span] {
   const reach = (side: Side): Span => {
     let low = 0;

@@ -1,4 +1,4 @@
-// View in 3D: scene with robot, ground, arrows, marks and rings; camera, picking, framing.
+// The 3D picture: scene with robot, ground, arrows, marks and rings; camera, and selection of joints by the pointer.
 import {
   Box3,
   BufferAttribute,
@@ -37,7 +37,7 @@ const directions: Record<Look, Vector3> = {
   front: new Vector3(1, 0, 0.14),
 };
 const looks = { light: { sky: 0xeef1f4, trail: 0x0072b2 }, dark: { sky: 0x14181d, trail: 0x5fb3e6 } };
-const trailStep = 8; // rows
+const trailStep = 8; // rows between two points of the drawn path
 
 export class View {
   selected = -1;
@@ -111,7 +111,7 @@ export class View {
     this.set(this.time);
   }
 
-  /** Moves the camera so that the robot, or a joint, fills the picture, with room for the labels above. */
+  /** Moves the camera so that the robot, or a joint, fills the picture, with space for the labels at the top. */
   look(from: Look, joint = -1): void {
     const points = joint < 0 ? this.everything() : this.robot.points(joint);
     const centre = new Box3().setFromPoints(points).getCenter(new Vector3());
@@ -165,13 +165,13 @@ export class View {
     this.set(this.time);
   }
 
-  /** Draws a wide ring around a dock; -1: none. */
+  /** Draws a wide ring around a dock; -1 removes the ring. */
   mark(dock: number): void {
     this.rings.chosen = dock;
     this.set(this.time);
   }
 
-  /** The joint under a point of the window, -1 without one. */
+  /** Number of the joint at a point of the window, CSS px; -1 if there is no joint. */
   pick(x: number, y: number): number {
     const r = this.canvas.getBoundingClientRect();
     const ray = new Raycaster();
@@ -179,7 +179,7 @@ export class View {
     return this.robot.pick(ray);
   }
 
-  /** Position of a hinge on the canvas, CSS px; null: behind the camera. */
+  /** Position of a hinge on the canvas, CSS px; null if the hinge is behind the camera. */
   place(joint: number): [number, number] | null {
     return this.project(this.kinematics.pivots[joint]);
   }
@@ -191,7 +191,7 @@ export class View {
     return v.z < 1 ? [((v.x + 1) / 2) * r.width, ((1 - v.y) / 2) * r.height] : null;
   }
 
-  /** Matrix from world to clip coordinates, column by column; for tests. */
+  /** Matrix from world to clip coordinates, in column-major order. Tests use it. */
   get projection(): number[] {
     this.camera.updateMatrixWorld();
     return this.camera.projectionMatrix.clone().multiply(this.camera.matrixWorldInverse).elements.slice();
@@ -207,7 +207,7 @@ export class View {
     this.dirty = true;
   }
 
-  /** Reduces the work per frame on a slow machine: first without shadows, then with half of the pixels. */
+  /** Reduces the work per frame on a slow machine. The first call hides the shadows, the second halves the pixels. */
   lighten(): void {
     this.lightened++;
     if (this.lightened === 1) this.robot.shadows = false;
@@ -215,7 +215,7 @@ export class View {
     this.dirty = true;
   }
 
-  /** Draws if something has changed; returns true then. */
+  /** Draws the scene if something has changed. Returns true if it has drawn. */
   render(): boolean {
     if (!this.dirty) return false;
     this.dirty = false;
@@ -223,15 +223,15 @@ export class View {
     return true;
   }
 
-  /** The present picture as a PNG (data URL). */
+  /** Data URL with the picture at the time shown, as a PNG. */
   image(): string {
     this.dirty = true;
     this.render();
     return this.canvas.toDataURL("image/png");
   }
 
-  // Centre of mass, or mean position of the bodies if it is not recorded. Its height is constant, so that a walk does
-  // not shake the picture.
+  // Point that the camera follows: the centre of mass, or the base or the mean position of the bodies if the centre of
+  // mass is not recorded. The height of a recorded point is constant, so that a walk does not shake the picture.
   private centre(t: number): Vector3 {
     const [x, y, z] = ["x", "y", "z"].map(
       (c) => this.recording.find(`com.${c}`) ?? this.recording.channel(`base.${c}`),
@@ -262,7 +262,7 @@ export class View {
         out[k] = Math.min(out[k], v);
         out[k + 1] = Math.max(out[k + 1], v);
       }
-      // Limited, because a run that diverged has no bounds.
+      // The area is limited, because positions of a run that diverged are unbounded.
       const start = values[0];
       const far = 60 * this.size;
       out[k] = Math.max(out[k], start - far);

@@ -1,4 +1,4 @@
-// Inverse dynamics and mass matrix against kinetic energy, momentum, each other, statics and a chain worked by hand.
+// Inverse dynamics and mass matrix agree with kinetic energy, momentum, each other, statics, and a chain computed by hand.
 #include <gtest/gtest.h>
 
 #include "core/dynamics/mass_matrix.h"
@@ -8,7 +8,7 @@ namespace gaitlab::test {
 namespace {
 
 constexpr int kRobots = 30;
-// Sums of some hundred terms, each rounded to 1.1e-16 of the largest.
+// Rounding errors of sums of some hundred terms, 1.1e-16 of the largest term each.
 constexpr double kDynamicsRounding = 1e-13;
 
 Kinematics moved(const Robot& robot, const RobotState& state) {
@@ -17,7 +17,7 @@ Kinematics moved(const Robot& robot, const RobotState& state) {
   return k;
 }
 
-/// The generalised velocity of a state, in the order of the mass matrix.
+/// Generalised velocity of a state, in the order of the mass matrix.
 Eigen::VectorXd generalised(const Vec3& linear, const Vec3& angular, const std::vector<double>& joints, Base base) {
   const auto entries = base_entries(base);
   Eigen::VectorXd v(static_cast<Eigen::Index>(entries.size() + joints.size()));
@@ -73,7 +73,8 @@ TEST_P(EveryBase, MassMatrixAndBiasMakeTheInverseDynamics) {
   }
 }
 
-/// d(kinetic)/dt of the motion v' = a is the power of what drives it: checks the velocity terms, which the mass matrix has not.
+/// The time derivative of the kinetic energy with v' = a equals the power of the forces. This tests the velocity terms, which
+/// the mass matrix does not contain.
 TEST_P(EveryBase, PowerIsTheRateOfKineticEnergy) {
   RandomRobots random(3);
   for (int i = 0; i < kRobots; ++i) {
@@ -92,7 +93,7 @@ TEST_P(EveryBase, PowerIsTheRateOfKineticEnergy) {
       }
       return sums(robot, moved(robot, s), Vec3::Zero()).kinetic;
     };
-    // Five-point derivative: error t^4/30 times the fifth derivative; rounding 1e-16 / t.
+    // The five-point derivative has the error t^4/30 times the fifth derivative, and the rounding error 1e-16 / t.
     constexpr double t = 2e-4;
     const double rate = (8 * (kinetic(t) - kinetic(-t)) - (kinetic(2 * t) - kinetic(-2 * t))) / (12 * t);
     InverseDynamics dynamics(robot);
@@ -102,7 +103,7 @@ TEST_P(EveryBase, PowerIsTheRateOfKineticEnergy) {
   }
 }
 
-/// All bodies of a module and of the modules docked on it.
+/// Numbers of all bodies of a module and of the modules that are docked to it, directly or indirectly.
 std::vector<std::size_t> hanging_on(const Robot& robot, std::size_t module) {
   std::vector<std::size_t> bodies;
   for (std::size_t b = 0; b < robot.bodies.size(); ++b) {
@@ -146,7 +147,8 @@ TEST(Reactions, DockOfARobotAtRestCarriesWhatHangsOnIt) {
   }
 }
 
-/// A hinge and a rod below it, twice: rod k of mass m_k, COM l_k below its hinge and y_k aside along the axis y.
+/// Chain of two rods that hang on hinges. Rod k has mass m_k, and its centre of mass is l_k below its hinge and y_k aside along
+/// the hinge axis y.
 class HangingChain : public testing::Test {
  protected:
   HangingChain() : robot_(assemble({type()}, {0}, {})) {
@@ -175,13 +177,13 @@ class HangingChain : public testing::Test {
 TEST_F(HangingChain, CarriesWeightAndCentrifugalForce) {
   InverseDynamics dynamics(robot_);
   dynamics.update(moved(robot_, state_), none_, {0, 0, -kG});
-  // Straight down at its lowest point: every COM is accelerated straight up, by w^2 r about what it turns on.
+  // At its lowest point the chain is vertical, and every centre of mass has the upward acceleration w^2 r about its hinges.
   const double lower = kM2 * (kG + kW1 * kW1 * kLength + (kW1 + kW2) * (kW1 + kW2) * kL2);
   const double upper = kM1 * (kG + kW1 * kW1 * kL1);
   EXPECT_NEAR(dynamics.hinge(1).force.z(), lower, kDynamicsRounding * lower);
   EXPECT_NEAR(dynamics.hinge(0).force.z(), lower + upper, kDynamicsRounding * lower);
   EXPECT_NEAR(dynamics.base().force.z(), lower + upper + 1 * kG, kDynamicsRounding * lower);
-  // The lower rod hangs kY2 aside along the axis: its bearing holds it against turning about x.
+  // The lower rod hangs kY2 aside along the axis, so that the bearing carries a moment about x.
   EXPECT_NEAR(dynamics.hinge(1).moment.x(), kY2 * lower, kDynamicsRounding * lower);
   EXPECT_NEAR(dynamics.hinge(0).moment.x(), kY2 * lower, kDynamicsRounding * lower);
   for (const double torque : dynamics.torques()) EXPECT_NEAR(torque, 0, kDynamicsRounding * lower);
@@ -193,7 +195,8 @@ TEST_F(HangingChain, OneMoreTorqueAndForceFromOutsideAreCarried) {
   const std::array<BodyWrench, 1> pull{{{2, {0.3, 0, -2}, {7, 0, 0}, {0, 0.5, 0}}}};
   dynamics.update(moved(robot_, state_), none_, Vec3::Zero(), pull);
   EXPECT_NEAR(dynamics.hinge(1).force.x(), -7, kDynamicsRounding);
-  // 7 N at 1 m below the lower hinge, 1.9 m below the upper one, turn about -y of (arm z) x (force x): y = z * 7.
+  // A force of 7 N along x acts 1 m below the lower and 1.9 m below the upper hinge. Its moment about y is 7 N times the
+  // distance.
   EXPECT_NEAR(dynamics.torques()[1], 7 * 1.0 - 0.5, kDynamicsRounding * 10);
   EXPECT_NEAR(dynamics.torques()[0], 7 * 1.9 - 0.5, kDynamicsRounding * 10);
 }

@@ -1,4 +1,4 @@
-// Names of figures in expressions; the grammar itself is tested with the equations (tests/cpg/equation_texts_test.cpp).
+// Tests of names of summary numbers in expressions. Tests of the grammar are in tests/cpg/equation_texts_test.cpp.
 #include "core/expression/expression.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@ namespace {
 
 Term figure(const std::string& text) { return parse(text, Names::figures); }
 
-/// `character: what` of a text that is refused.
+/// Position and message, `character: what`, of the error for a text that is refused.
 std::string refused(const std::string& text, Names names) {
   try {
     parse(text, names);
@@ -28,9 +28,9 @@ TEST(Expression, NamesOfFiguresHoldDotsAndJoints) {
   EXPECT_EQ(peak.joint, "m3/active");
   EXPECT_EQ(term.arguments[1].name, "speed");
   EXPECT_EQ(term.arguments[1].joint, "");
-  EXPECT_EQ(figure("1.5e-3").number, 1.5e-3);  // a number keeps its point
+  EXPECT_EQ(figure("1.5e-3").number, 1.5e-3);  // the point in a number does not start a name
   EXPECT_EQ(figure("a._b1.c <= 1.e2").arguments[0].name, "a._b1.c");
-  EXPECT_EQ(figure("sum(a)").kind, Term::Kind::call);  // no neighbours here: a function, which nobody knows
+  EXPECT_EQ(figure("sum(a)").kind, Term::Kind::call);  // without neighbours, `sum` is an unknown function
 }
 
 TEST(Expression, RefusesOtherNames) {
@@ -46,7 +46,7 @@ TEST(Expression, RefusesOtherNames) {
 TEST(Expression, FunctionsAreKnownByTheirNames) {
   EXPECT_EQ(find_function("clamp")->arguments, 3U);
   EXPECT_EQ(find_function("sum"), nullptr);
-  EXPECT_STREQ(functions().front().name, "sin");  // the operators come first, and are left out
+  EXPECT_STREQ(functions().front().name, "sin");  // the list omits the operators
 }
 
 }  // namespace

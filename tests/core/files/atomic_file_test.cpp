@@ -34,7 +34,8 @@ class AtomicFiles : public testing::Test {
   }
 };
 
-// The disk is full after `bytes`: the kernel refuses to grow a file beyond it, with an error as for ENOSPC.
+// Simulates a disk that is full after `bytes`: the kernel refuses to enlarge a file beyond this size, with an error like
+// ENOSPC.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -55,7 +56,7 @@ class FullDisk {
   rlimit before_ = {};
 };
 
-/// Text of the error thrown; "" for none.
+/// Text of the error that a call throws; "" if it throws none.
 template <class Call>
 std::string refusal(const Call& call) {
   try {
@@ -140,7 +141,7 @@ TEST_F(AtomicFiles, DevicesAndFifosAreWrittenIntoAndStay) {
   EXPECT_TRUE(fs::is_fifo(file_));
 }
 
-/// Target of /dev/stdout.
+/// A file that is already open, such as the target of /dev/stdout, is written in place.
 TEST_F(AtomicFiles, WhatIsOpenIsWrittenInto) {
   const int open = ::open(file_.c_str(), O_RDWR | O_CREAT, 0600);
   struct stat before {};
@@ -176,7 +177,7 @@ TEST_F(AtomicFiles, OnlyRegularFilesAreReadAndOnlySoMuch) {
   EXPECT_EQ(refusal([&] { (void)read_file(fifo, 4); }), fifo.string() + ": error: cannot be read: not a regular file");
 }
 
-/// A program that is refused often, as `test` of many goldens, must not run out of descriptors.
+/// A refused write closes its files, so that many refusals (as in `test` of many goldens) do not exhaust the file descriptors.
 TEST_F(AtomicFiles, WhatIsRefusedIsClosed) {
   const auto open_files = [] { return std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator()); };
   const auto before = open_files();
@@ -225,7 +226,7 @@ TEST_F(AtomicFiles, NamesPathAndReason) {
   } catch (const RunError& error) {
     EXPECT_EQ(std::string(error.what()), (folder_ / "absent/f").string() + ": cannot be written: No such file or directory");
   }
-  fs::create_directory(file_);  // a folder where the file should go: the rename fails
+  fs::create_directory(file_);  // a folder at the path of the file makes the rename fail
   EXPECT_THROW(write_file(file_, "x"), RunError);
   EXPECT_EQ(files(), 1U);
 }

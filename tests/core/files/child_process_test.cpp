@@ -21,9 +21,10 @@ TEST(ChildProcess, EndsWithTheCodeOfItsWork) {
   EXPECT_EQ(WEXITSTATUS(status), 7);
 }
 
-// A study that was killed while such a process of its own ran could not go on before that had ended: its lock lived there.
+// A child process ends if its parent is killed, and does not hold the parent's lock. (A killed study once could not be
+// continued before its child process had ended, because the child held the lock.)
 TEST(ChildProcess, NeitherOutlivesAKilledParentNorHoldsItsLock) {
-  // Written by both processes, as their standard output: at its end when both have ended.
+  // The pipe is the standard output of both processes, so that its end is reached when both have ended.
   std::array<int, 2> pipe{};
   ASSERT_EQ(::pipe(pipe.data()), 0);
   const test::Folder folder;
@@ -52,7 +53,7 @@ TEST(ChildProcess, NeitherOutlivesAKilledParentNorHoldsItsLock) {
   ASSERT_EQ(::waitpid(child, &status, 0), child);
   EXPECT_TRUE(FolderLock().take(folder.path()));
   pollfd end{.fd = pipe[0], .events = POLLIN, .revents = 0};
-  constexpr int kTenMinutes = 600'000;  // ms: for a process that is there for ever
+  constexpr int kTenMinutes = 600'000;  // ms; time limit for a process that does not end
   if (::poll(&end, 1, kTenMinutes) != 1) {
     ADD_FAILURE() << "it outlives its parent";
     ::kill(grandchild, SIGKILL);

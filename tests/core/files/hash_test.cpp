@@ -1,4 +1,4 @@
-// Hashes against the vectors that the authors of FNV publish.
+// Hashes equal the test vectors of the authors of FNV.
 #include "core/files/hash.h"
 
 #include <gtest/gtest.h>

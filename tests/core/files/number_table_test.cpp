@@ -1,4 +1,4 @@
-// Matrices of NumPy and grey PNGs: what other programs wrote, and what somebody made up.
+// Tests of the readers of NumPy matrices and grey PNGs, with files of other programs and with invalid files.
 #include "core/files/number_table.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kRoom = 1000;
 
-/// A header as numpy.save writes it, and the bytes behind it.
+/// Bytes of a NumPy file: a header as numpy.save writes it, followed by the bytes of the numbers.
 std::string npy(const std::string& dict, const std::string& numbers, int version = 1) {
   std::string header = dict;
   const std::size_t before = version == 1 ? 10 : 12;
@@ -68,7 +68,7 @@ std::string refused_npy(const std::string& bytes) {
 }
 
 TEST(Npy, IsReadAsNumpyWroteIt) {
-  // numpy 1.24.2: save(file, array([[0, 0.5, -0.25], [1, 2, 3]], dtype='<f4'))
+  // Bytes that numpy 1.24.2 writes for save(file, array([[0, 0.5, -0.25], [1, 2, 3]], dtype='<f4')).
   std::string file = std::string("\x93NUMPY\x01\x00v\x00", 10) + "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }";
   file.resize(127, ' ');
   file += std::string("\n\x00\x00\x00\x00\x00\x00\x00?\x00\x00\x80\xbe\x00\x00\x80?\x00\x00\x00@\x00\x00@@", 25);
@@ -123,7 +123,8 @@ TEST(Npy, OfAnotherFormIsRefusedWithWhatItIs) {
     EXPECT_EQ(refused_npy(npy(header, "")), "its header is not one of NumPy") << header;
 }
 
-// A header that promises terabytes costs nothing, and neither does one whose product is 0 beyond 64 bits.
+// A header whose size differs from the file is refused without an allocation, also if it states terabytes or its product
+// overflows 64 bits to 0.
 TEST(Npy, OfAnotherLengthThanItsHeaderSaysIsRefused) {
   EXPECT_EQ(refused_npy(npy(dict("<f8", "(1000000, 1000000)"), "")),
             "its shape is (1000000, 1000000); allowed are up to 1000 numbers");
@@ -143,7 +144,7 @@ std::string from_hex(std::string_view hex) {
   return bytes;
 }
 
-/// Rows with all five filters, the first one with that of Paeth; libpng 1.6.39 reads the same numbers from it.
+/// PNG with rows of all five filters; the first row has the filter Paeth. libpng 1.6.39 reads the same numbers.
 const std::string& picture() {
   static const std::string kBytes = from_hex(
       "89504e470d0a1a0a0000000d494844520000000400000006100000000091c2bcea0000000374455874610062dc49a23b000000144944415478da0136"
@@ -159,7 +160,7 @@ std::string refused_png(const std::string& bytes, std::size_t most = kRoom) {
   return text.substr(0, text.find("; expected a PNG of 16 bit grey values without interlacing"));
 }
 
-/// Bytes of a chunk, appended.
+/// Appends the bytes of a PNG chunk.
 void add_chunk(std::string& to, const std::string& name, const std::string& data) {
   const auto number = [&](std::uint32_t value) {
     for (int shift = 24; shift >= 0; shift -= 8) to += static_cast<char>(value >> shift);

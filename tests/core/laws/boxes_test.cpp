@@ -1,4 +1,5 @@
-// The grid of cells over the boxes of a ground: it finds all that is near, and a query has the bits of a look at every box.
+// Grid of cells for the boxes of a ground. The grid finds all boxes near a point, and a query has the same bits as a query that
+// examines every box.
 #include "core/laws/boxes.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +34,7 @@ Box drawn_box(Draw& draw, double extent, double smallest, double largest) {
   return box;
 }
 
-/// Few or many, small beside one another or a few large ones among them, in a square or along a line.
+/// Random list of few or many boxes: small boxes side by side, or with some large boxes, in a square or along a line.
 std::vector<Box> drawn_boxes(Draw& draw) {
   const auto count = static_cast<std::size_t>(std::pow(10, draw(1, 2.3)));
   const double extent = 0.05 * std::sqrt(static_cast<double>(count)) * std::pow(10, draw(-0.5, 1));
@@ -70,7 +71,7 @@ TEST(Boxes, NearAreAllWithinADistanceInTheirOrder) {
       const double distance = std::pow(10, draw(-4, 1.5));
       const Box& one = list[static_cast<std::size_t>(k) % list.size()];
       const double angle = draw(-3.15, 3.15);
-      // Anywhere, or as far from a box as it can be.
+      // The place is at a random distance, or at the largest distance at which the box must be found.
       const double far = k % 2 == 0 ? draw(0, 20) : (1 - 1e-6) * (0.5 * one.size.norm() + distance);
       const Vec3 place = one.center + far * Vec3(std::cos(angle), std::sin(angle), 0);
       const std::span<const std::uint32_t> near = boxes.near(place, distance);
@@ -83,8 +84,9 @@ TEST(Boxes, NearAreAllWithinADistanceInTheirOrder) {
   }
 }
 
-// The size of the median box is the edge of a cell: with huge boxes far away all drawn boxes share one cell, and each is looked
-// at in its order. As many boxes deep below the others make the limit of searches the same.
+// A query has the same bits as a query that examines every box. The reference uses huge boxes far away: the edge of a cell is
+// the size of the median box, so that all random boxes share one cell and are examined in order. As many boxes deep below the
+// others make the limits of the searches equal.
 TEST(Boxes, AQueryHasTheBitsOfALookAtEveryBox) {
   Draw draw(2);
   int touched = 0;
@@ -103,7 +105,7 @@ TEST(Boxes, AQueryHasTheBitsOfALookAtEveryBox) {
     ASSERT_GE(every.boxes().near(Vec3::Zero(), 0).size(), list.size());
     for (int k = 0; k < 100; ++k) {
       Vec3 place = list[static_cast<std::size_t>(draw(0, static_cast<double>(list.size())))].center;
-      if (k % 4 != 0) place += std::pow(10, draw(-3, 1)) * draw.vector(-1, 1);  // beside, above, far outside
+      if (k % 4 != 0) place += std::pow(10, draw(-3, 1)) * draw.vector(-1, 1);  // beside the box, above it, far away
       if (k % 8 == 1) place.z() = draw(-0.01, 0.5);
       const double radius = k % 2 == 0 ? 0 : draw(0.001, 0.3);
       const Ground::Touch touch = ground.query(place, radius);
@@ -132,7 +134,7 @@ TEST(Boxes, OfAPlaceThatIsNoNumberAreNone) {
   EXPECT_EQ(ground.boxes().near(Vec3::Zero(), std::nan("")).size(), 100U);
 }
 
-// Ten thousand tiles, steps along a line, or one floor under all of them: few are looked at.
+// A query examines few boxes, of ten thousand tiles, of steps along a line, and with one floor below all boxes.
 TEST(Boxes, NearAreFewOfMany) {
   const auto most = [](const std::vector<Box>& list) {
     const Boxes boxes(list);

@@ -1,4 +1,4 @@
-// The gear's efficiency, as eq. 2 prints it and as energy allows it.
+// Tests of the gear efficiency of a DC motor: as in eq. 2 of the paper, and directional, which conserves energy.
 #include "core/laws/dc_motor.h"
 
 #include <gtest/gtest.h>
@@ -11,13 +11,13 @@ constexpr double kTurn = 0.5;
 
 DcMotor motor(double turn) { return {4.3, 0.00395, 0.00395, 594, kEta, 7.4, 1.2, turn}; }
 
-/// Power of the gear alone: the shaft of the motor gives Kt i n w, the joint gets T w.
+/// Power lost in the gear: the power Kt i n w of the motor's shaft minus the power T w of the joint, W.
 double gear_loss(const DcMotor& m, double command, double speed) {
   const DcMotor::Effort e = m(command, speed);
   return (m.Kt * e.current * m.gear - e.torque) * speed;
 }
 
-/// Commands and speeds of all signs, through both saturations.
+/// Calls `visit` for commands and speeds of both signs, including both saturations.
 template <class Visit>
 void everywhere(Visit visit) {
   for (double command = -9; command <= 9; command += 0.75) {
@@ -27,7 +27,7 @@ void everywhere(Visit visit) {
 
 TEST(DcMotor, AsPrintedTheGearCreatesEnergyWhenDriven) {
   const DcMotor paper = motor(0);
-  // 0 V at 1 rad/s: the joint drives the motor against its back-EMF. eq. 2 takes eta off the torque that brakes it.
+  // At 0 V and 1 rad/s the joint drives the motor against its back-EMF. Eq. 2 multiplies the braking torque by eta.
   const DcMotor::Effort e = paper(0, 1);
   EXPECT_LT(e.current, 0);
   EXPECT_DOUBLE_EQ(e.torque, kEta * paper.Kt * e.current * paper.gear);
@@ -37,7 +37,7 @@ TEST(DcMotor, AsPrintedTheGearCreatesEnergyWhenDriven) {
 TEST(DcMotor, DirectionalGearNeverCreatesEnergy) {
   const DcMotor directional = motor(kTurn);
   everywhere([&](double command, double speed) {
-    EXPECT_GE(gear_loss(directional, command, speed), -1e-15) << command << " V, " << speed << " rad/s";  // rounding of 0
+    EXPECT_GE(gear_loss(directional, command, speed), -1e-15) << command << " V, " << speed << " rad/s";  // 0 up to rounding
   });
 }
 
@@ -47,7 +47,7 @@ TEST(DcMotor, DirectionalTakesEtaFromWhoeverDrives) {
     const DcMotor::Effort e = directional(command, speed);
     if (std::abs(speed) < kTurn || e.current == 0) return;
     const double through = directional.Kt * e.current * directional.gear;
-    // 1 ulp each of exp and log.
+    // The tolerance is for errors of 1 ulp of exp and of log.
     EXPECT_NEAR(e.torque / through, e.current * speed > 0 ? kEta : 1 / kEta, 1e-14) << command << " V, " << speed << " rad/s";
   });
 }
@@ -57,10 +57,11 @@ TEST(DcMotor, SlopeIsTheDerivative) {
     const DcMotor m = motor(turn);
     everywhere([&](double command, double speed) {
       constexpr double kStep = 1e-6;
-      const double middle = speed + 0.03;  // off the grid, where no corner of the law lies within the step
+      const double middle = speed + 0.03;  // between the speeds of the grid, so that no corner of the law is near
       const DcMotor::Effort before = m(command, middle - kStep);
       const DcMotor::Effort after = m(command, middle + kStep);
-      // Central difference: rounding of 1e-16 * 2 N m over 2e-6 rad/s, and its own second-order error, below 1e-8.
+      // Errors of the central difference are the rounding error 1e-16 * 2 N m / 2e-6 rad/s, and the error of order 2, below
+      // 1e-8.
       EXPECT_NEAR(m(command, middle).slope, (before.torque - after.torque) / (2 * kStep), 1e-7)
           << command << " V, " << middle << " rad/s, turn " << turn;
     });

@@ -1,4 +1,4 @@
-// Ground queries against closed forms and against places found by sampling.
+// Ground queries agree with closed forms and with the nearest of sampled points.
 #include "core/laws/ground.h"
 
 #include <gtest/gtest.h>
@@ -21,26 +21,26 @@ Ground boxes(std::vector<Box> list) {
   return ground;
 }
 
-/// A table in the air, so that the plane is far.
+/// Centre and size of a box in the air, far above the plane, m.
 const Vec3 kMiddle(0.2, -0.1, 5);
 const Vec3 kSize(0.4, 0.2, 0.1);
 
-constexpr double kGroundRounding = 1e-12;  // m: some sums of numbers up to 5, 1e-16 each, and room
+constexpr double kGroundRounding = 1e-12;  // m; more than the rounding errors of some sums of numbers up to 5
 
 void expect_touch(const Ground::Touch& touch, double penetration, const Vec3& normal) {
   EXPECT_NEAR(touch.penetration, penetration, kGroundRounding);
-  EXPECT_LT((touch.normal - normal).norm(), kGroundRounding / 1e-3) << touch.normal.transpose();  // over the smallest distance
+  EXPECT_LT((touch.normal - normal).norm(), kGroundRounding / 1e-3) << touch.normal.transpose();  // divided by least distance
 }
 
 TEST(GroundBox, IsANearestPointOutside) {
   const Ground ground = boxes({box(kMiddle, kSize)});
   const Vec3 top = kMiddle + Vec3(0.1, 0.05, 0.05);
-  expect_touch(ground.query(top + Vec3(0, 0, 0.01), 0.03), 0.02, Vec3::UnitZ());  // a face
+  expect_touch(ground.query(top + Vec3(0, 0, 0.01), 0.03), 0.02, Vec3::UnitZ());  // contact with a face
   expect_touch(ground.query(top + Vec3(0, 0, 0.04), 0.03), -0.01, Vec3::UnitZ());
   const Vec3 edge = kMiddle + Vec3(0.2, 0.05, 0.05);
-  expect_touch(ground.query(edge + Vec3(0.003, 0, 0.004), 0.03), 0.025, Vec3(0.6, 0, 0.8));  // an edge
+  expect_touch(ground.query(edge + Vec3(0.003, 0, 0.004), 0.03), 0.025, Vec3(0.6, 0, 0.8));  // contact with an edge
   const Vec3 corner = kMiddle + Vec3(-0.2, 0.1, -0.05);
-  expect_touch(ground.query(corner + Vec3(-0.001, 0.002, -0.002), 0.01), 0.007, Vec3(-1, 2, -2) / 3);  // a corner
+  expect_touch(ground.query(corner + Vec3(-0.001, 0.002, -0.002), 0.01), 0.007, Vec3(-1, 2, -2) / 3);  // contact with a corner
   const Ground::Touch touch = ground.query(edge + Vec3(0.003, 0, 0.004), 0.03);
   EXPECT_LT((touch.point - (edge + Vec3(0.003, 0, 0.004) - 0.03 * touch.normal)).norm(), kGroundRounding);
 }
@@ -53,7 +53,7 @@ TEST(GroundBox, IsTheFaceOfLeastDepthInside) {
   EXPECT_EQ(ground.query(kMiddle + Vec3(0.1, 0.05, 0.049), 0).friction, 0.3);
 }
 
-/// Nearest of many places on the surface of a box, each face a grid of n by n: at most size / n off.
+/// Distance to the nearest of many points on the surface of a box, n by n per face. The error is at most size / n.
 double sampled_distance(const Box& b, const Vec3& place, int n) {
   double least = 1e9;
   for (int axis = 0; axis < 3; ++axis) {
@@ -86,13 +86,13 @@ TEST(GroundBox, TurnedAgreesWithSampledSurfaces) {
     inside += in ? 1 : 0;
     EXPECT_EQ(found > 0, in);
     EXPECT_LE(std::abs(found), sampled + kGroundRounding);
-    EXPECT_GE(std::abs(found), sampled - 0.4 / 60);  // half a diagonal of the sampling grid, 0.7 * 0.4 / 60, is the most
+    EXPECT_GE(std::abs(found), sampled - 0.4 / 60);  // the error is at most half a diagonal of the grid, 0.7 * 0.4 / 60
   }
   EXPECT_GT(inside, 10);
   EXPECT_LT(inside, 90);
 }
 
-// A common motion of point and box changes neither the gap nor the normal in the box's own axes.
+// A common motion of point and box changes neither the distance nor the normal in the frame of the box.
 TEST(GroundBox, TurnsAndMovesWithItsBox) {
   const Box still = box({0, 0, 5}, kSize);
   const Vec3 turn(0.3, -1.1, 2.0);
@@ -111,12 +111,12 @@ TEST(GroundBoxes, StandOnThePlane) {
   expect_touch(ground.query(Vec3(1, 1, -0.002), 0), 0.002, Vec3::UnitZ());
   expect_touch(ground.query(Vec3(1, 1, 0.5), 0.1), -0.4, Vec3::UnitZ());
   expect_touch(ground.query(Vec3(0.02, 0.01, 0.0098), 0), 0.0002, Vec3::UnitZ());
-  // Nearer to its lower face, which leads into the ground.
+  // The element is closer to the lower face of the box, but the way through this face leads into the ground.
   expect_touch(ground.query(Vec3(0.02, 0.01, 0.001), 0), 0.009, Vec3::UnitZ());
   expect_touch(boxes({box({0, 0, 0.0001}, {0.1, 0.1, 0.0002})}).query(Vec3(0, 0, 0.00005), 0), 0.00015, Vec3::UnitZ());
 }
 
-// A foot that slides over tiles of one height finds a plane, wherever the seams are and whether or not they overlap.
+// Tiles of equal height are a plane for a sliding foot, at all positions of seams, with or without overlap of the tiles.
 TEST(GroundBoxes, HaveNoSeamsWhereTheyStandFlush) {
   for (const double overlap : {0.0, 0.002}) {
     std::vector<Box> tiles;
@@ -136,20 +136,20 @@ TEST(GroundBoxes, HaveNoSeamsWhereTheyStandFlush) {
   }
 }
 
-// Floor and wall: the springs of both, as a vector.
+// The contact force of a floor and a wall is the vector sum of both springs.
 TEST(GroundBoxes, AddWhatAnElementTouches) {
   const Ground ground = boxes({box({0.05, 0, 0.05}, {0.1, 0.1, 0.1})});
   expect_touch(ground.query(Vec3(0.0003, 0, -0.0004), 0), 0.0005, Vec3(-0.6, 0, 0.8));
   expect_touch(ground.query(Vec3(-0.01 + 0.0003, 0, 0.01 - 0.0004), 0.01), 0.0005, Vec3(-0.6, 0, 0.8));
-  // Two surfaces at one place carry like one.
+  // Two coinciding surfaces carry like one surface.
   expect_touch(boxes({box({0, 0, -0.1}, {1, 1, 0.2})}).query(Vec3(0.1, 0.1, -0.0003), 0), 0.0003, Vec3::UnitZ());
   Ground slippery = boxes({box({0.05, 0, 0.05}, {0.1, 0.1, 0.1}, Vec3::Zero(), 0.1)});
   slippery.friction = 0.5;
   EXPECT_NEAR(slippery.query(Vec3(0.0003, 0, -0.0004), 0).friction, (3 * 0.1 + 4 * 0.5) / 7, kGroundRounding);
 }
 
-// penetration * normal is what a linear spring pushes along: nowhere may it jump, but inside a box where two ways out are
-// equally far.
+// The force of a linear spring, proportional to penetration * normal, is continuous. The only exception is inside a box, at
+// points with two equally short ways out.
 TEST(GroundBoxes, PushContinuously) {
   const Ground ground =
       boxes({box({0.05, 0, 0.02}, {0.1, 0.4, 0.04}), box({-0.15, 0, 0.01}, {0.2, 0.2, 0.05}, {0.1, 0.3, 0.2})});
@@ -165,16 +165,16 @@ TEST(GroundBoxes, PushContinuously) {
     for (int i = 0; i < 50000; ++i) {
       const Vec3 a(-0.35 + i * step, 0.01, height);
       const Vec3 b = a + Vec3(step, 0, 0);
-      if (ground.query(a, 0.02).penetration > 0.01) continue;  // near its centre the normal turns at any speed
+      if (ground.query(a, 0.02).penetration > 0.01) continue;  // near the centre of a box the normal turns arbitrarily fast
       most = std::max(most, (push(b) - push(a)).norm() / step);
       const Vec3 normal = ground.query(a, 0.02).normal;
       several += ground.query(a, 0.02).penetration > 0 && normal.z() > 0.05 && normal.z() < 0.95 ? 1 : 0;
     }
   }
-  EXPECT_GT(several, 1000);  // it does touch edges, corners, and two at once
+  EXPECT_GT(several, 1000);  // edges, corners and two boxes at once are touched
   EXPECT_GT(most, 0.5);
   EXPECT_LT(most,
-            10);  // each solid's push turns and grows by the step's size, and the shares of two at 60 degrees by four times it
+            10);  // one box changes the force by the length of the step, two boxes at 60 degrees by four times this
 }
 
 Ground field(std::size_t columns, std::vector<double> values, double spacing = 0.1) {
@@ -195,7 +195,7 @@ TEST(GroundField, OfAPlaneIsThePlane) {
       const Vec3 on(x, y, 0.05 + 0.2 * (x + 0.2) - 0.3 * (y - 0.1));
       if (x < -0.19 || y < 0.11 || x > 0.09 || y > 0.49) {
         EXPECT_NEAR(ground.relief()->at(x, y).z, on.z(),
-                    kGroundRounding);  // beside it, where a foot lies outside, the normal is another
+                    kGroundRounding);  // near the edge of the field the normal differs
         continue;
       }
       expect_touch(ground.query(on - 0.001 * normal, 0), 0.001, normal);
@@ -217,14 +217,14 @@ TEST(GroundField, PassesThroughItsHeightsAndGoesOnOutside) {
   EXPECT_NEAR(f.at(3, 9).z, 2.05, kGroundRounding);
 }
 
-// Its normal is that of the surface, and turns continuously over the edges of cells.
+// The normal of a contact is the normal of the heightfield's surface, and is continuous across the edges of cells.
 TEST(GroundField, NormalIsTheSlopeOfTheSurface) {
   std::mt19937 engine(3);
   std::uniform_real_distribution<double> unit(-0.02, 0.02);
   std::vector<double> values(36);
   for (double& v : values) v = unit(engine);
   const Heightfield f = *field(6, values).relief();
-  const double e = 1e-6;  // m; a central difference errs by e^2 z''' = 1e-12 * 100, and by 1e-17 / e
+  const double e = 1e-6;  // m; errors of a central difference are e^2 z''' = 1e-12 * 100 and 1e-17 / e
   for (int i = 0; i < 400; ++i) {
     const double x = -0.2 + e + 0.4999 * (i % 20) / 20;
     const int row = i / 20;
@@ -234,11 +234,12 @@ TEST(GroundField, NormalIsTheSlopeOfTheSurface) {
   }
   for (int cell = 1; cell < 5; ++cell) {
     const double x = -0.2 + 0.1 * cell;
-    EXPECT_LT((f.at(x - 1e-9, 0.27).normal - f.at(x + 1e-9, 0.27).normal).norm(), 1e-7);  // z'' of 10/m times 2e-9, and room
+    EXPECT_LT((f.at(x - 1e-9, 0.27).normal - f.at(x + 1e-9, 0.27).normal).norm(), 1e-7);  // more than z'' (10/m) times 2e-9 m
   }
 }
 
-// A run that diverges asks for places that are none; it ends with an error after the step.
+// A query at NaN finds no contact and does not crash. In a run that diverges, such queries precede the error at the end of the
+// step.
 TEST(GroundField, StandsPlacesThatAreNone) {
   const double none = std::nan("");
   EXPECT_FALSE(field(2, {0, 1, 2, 3}).query(Vec3(none, none, none), 0.1).penetration > 0);
@@ -246,7 +247,8 @@ TEST(GroundField, StandsPlacesThatAreNone) {
   EXPECT_NEAR(field(2, {0, 0, 0, 0}).query(Vec3(1e300, -1e300, 0.05), 0.1).penetration, 0.1, kGroundRounding);
 }
 
-// A sphere on a ball: z = -(x^2 + y^2) / 2 R near the top, whose curvature the cubic cells have exactly at the nodes' spacing.
+// Contact of a sphere with a curved heightfield, a ball of radius R with z = -(x^2 + y^2) / 2 R near the top. The cubic cells
+// represent this curvature exactly.
 TEST(GroundField, FindsTheNearestPointOfACurvedSurface) {
   const double R = 0.5;
   const double spacing = 0.01;
@@ -260,14 +262,14 @@ TEST(GroundField, FindsTheNearestPointOfACurvedSurface) {
     const Vec3 normal(std::sin(angle), 0, std::cos(angle));
     const Vec3 centre = Vec3(0, 0, -R) + (R + 0.03) * normal;
     const Ground::Touch touch = ground.query(centre, 0.0325);
-    // Interpolation errs by spacing^3 z''' / 20 = 1e-6 * 6 / 20 in z; three steps of the foot by (0.03 / 0.5)^4 of its way, 7
-    // mm.
+    // The interpolation error in z is spacing^3 z''' / 20 = 1e-6 * 6 / 20. The error of three iterations for the nearest point
+    // is (0.03 / 0.5)^4 of its distance of 7 mm.
     EXPECT_NEAR(touch.penetration, 0.0025, 1e-6) << angle;
     EXPECT_LT((touch.normal - normal).norm(), 2e-3) << angle;
   }
 }
 
-// More solids than one touch can have at once: the nearest counts, whatever stands before it in the list.
+// If more boxes are near than a query can combine, the nearest box counts, at any position in the list.
 TEST(GroundOfBoxes, GapIsThatToTheNearestOfMany) {
   Ground ground;
   std::vector<Box> list;
@@ -280,7 +282,7 @@ TEST(GroundOfBoxes, GapIsThatToTheNearestOfMany) {
   }
 }
 
-/// The highest place of a vertical that is in a box, by looking from above in steps of `step`; 0 where none is.
+/// Height of the highest point in a box on a vertical line, found from above in steps of `step`; 0 if there is no box.
 double sampled_top(const std::vector<Box>& list, const Vec3& point, double step) {
   for (double z = 2; z > 0; z -= step) {
     for (const Box& b : list) {
@@ -305,7 +307,7 @@ TEST(GroundSurfaceBelow, OfTurnedBoxesAgreesWithSampledVerticals) {
     const Vec3 above(unit(engine), unit(engine), 3);
     const double top = boxes(list).surface_below(above, 0);
     found += top > 0 ? 1 : 0;
-    EXPECT_NEAR(top, sampled_top(list, above, kStep), 2 * kStep) << i;  // a corner thinner than a step is missed by as much
+    EXPECT_NEAR(top, sampled_top(list, above, kStep), 2 * kStep) << i;  // sampling misses corners thinner than a step
   }
   EXPECT_GT(found, 30);
 }
@@ -349,7 +351,7 @@ TEST(GroundTypes, AnswerTheirQueries) {
 }
 
 TEST(GroundTypes, AFieldEndsAtItsBorder) {
-  const Ground ground = field(3, {0, 0, 0, 0, 0, 0});  // x -0.2 to 0, y 0.1 to 0.2
+  const Ground ground = field(3, {0, 0, 0, 0, 0, 0});  // x from -0.2 to 0, y from 0.1 to 0.2
   EXPECT_FALSE(ground.beyond_border(-0.1, 0.15));
   EXPECT_TRUE(ground.beyond_border(0.01, 0.15));
   EXPECT_TRUE(ground.beyond_border(-0.1, 0.21));

@@ -1,4 +1,4 @@
-// Draws against published values and moments.
+// Random draws agree with published values and have the correct moments.
 #include "core/math/random.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace gaitlab::math {
 namespace {
 
-/// Outputs of the authors' splitmix64.c from the state 0.
+/// Hashes equal the outputs of splitmix64.c by its authors from the state 0.
 TEST(Draws, AreThePublishedHashes) {
   EXPECT_EQ(hash64({0}), 0xe220a8397b1dcdafU);
   EXPECT_EQ(hash64({kGolden}), 0x6e789e6aa1b965f4U);
@@ -25,7 +25,8 @@ TEST(Draws, OfOneWordCoverTheirInterval) {
 
 TEST(Draws, OrderOfWordsCounts) { EXPECT_NE(hash64({1, 2}), hash64({2, 1})); }
 
-/// Moments of n draws lie within four standard errors: of the mean sqrt(v / n), of the variance about v sqrt(2 / n).
+/// Moments of n draws are within four standard errors, which are sqrt(v / n) for the mean and about v sqrt(2 / n) for the
+/// variance.
 TEST(Draws, HaveTheirMoments) {
   constexpr std::uint64_t kDraws = 100000;
   double u = 0;

@@ -1,4 +1,4 @@
-// The Runge-Kutta step against closed forms, and its order.
+// The Runge-Kutta step agrees with closed forms and has order 4.
 #include "core/math/runge_kutta.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 using In = std::span<const double>;
 using Out = std::span<double>;
 
-/// Error at t = 1 of x' = x, x(0) = 1, in n steps.
+/// Error at t = 1 of the solution of x' = x, x(0) = 1, with n steps.
 template <class Sum>
 double error_of_growth(int n, const Sum& sum) {
   RungeKutta method(1);
@@ -24,12 +24,12 @@ double error_of_growth(int n, const Sum& sum) {
 }
 
 TEST(RungeKuttaStep, IsOfOrder4) {
-  // The error's next term is of order 5: 3 % of it at 20 steps.
+  // The tolerance is for the next term of the error, of order 5, which is 3 % of the error with 20 steps.
   EXPECT_NEAR(error_of_growth(20, RungeKutta::paired) / error_of_growth(40, RungeKutta::paired), 16, 0.8);
   EXPECT_NEAR(error_of_growth(20, RungeKutta::in_order), error_of_growth(20, RungeKutta::paired), 1e-14) << "rounding of e";
 }
 
-/// Exact for polynomials of degree 3 in t, as Simpson's rule is.
+/// The step is exact for polynomials of degree 3 in t, as Simpson's rule is.
 TEST(RungeKuttaStep, IntegratesCubicsOfTimeExactly) {
   RungeKutta method(2);
   std::array<double, 2> x{1, 0};

@@ -1,4 +1,4 @@
-// Module geometry, docking and fusion, against closed forms and the table of the hexapod in docs/conventions.md.
+// Module geometry, docking and fusion agree with closed forms and with the table of the hexapod in docs/conventions.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ const std::vector<std::array<int, 5>> kHexapod = {{1, 1, 4, 0, 1}, {1, 2, 4, 1, 
                                                   {0, 5, 3, 0, 3}, {2, 6, 5, 0, 1}, {0, 7, 3, 2, 3}, {2, 8, 5, 2, 1},
                                                   {0, 9, 3, 4, 3}, {2, 10, 5, 4, 1}};
 
-constexpr double kPoseRounding = 1e-15;  // m: a few sums of numbers below 1
+constexpr double kPoseRounding = 1e-15;  // m; rounding errors of some sums of numbers below 1
 
 void expect_near(const std::array<double, 3>& a, const Vec3& b, const std::string& what) {
   for (std::size_t i = 0; i < 3; ++i)
@@ -55,7 +55,7 @@ TEST(Mtran, MassSizeAndInertiaAreThoseOfTheShape) {
   double mass = 0;
   for (const BodyType& body : mtran().bodies) mass += body.mass;
   EXPECT_DOUBLE_EQ(mass, 0.400);
-  // Box (b) and half cylinder (c) of uniform density, from the hinge axis; closed forms.
+  // Closed forms for a box (b) and a half cylinder (c) of uniform density, relative to the hinge axis.
   const double r = 0.0325;
   const double w = 0.065;
   const double pi = 3.14159265358979323846;
@@ -94,7 +94,7 @@ TEST(Docking, HexapodStandsAsThePaperDraws) {
     EXPECT_NEAR(m.position[0], kX[leg / 2], kPoseRounding) << name;
     EXPECT_NEAR(m.position[1], leg % 2 == 0 ? 0.065 : -0.065, kPoseRounding) << name;
     EXPECT_NEAR(column(m, 0).z(), -1, kPoseRounding) << name << " points down";
-    // A positive hip angle moves the foot to +x: axis x (foot - hip) points to +x.
+    // A positive hip angle moves the foot to +x, because the cross product of axis and (foot - hip) points to +x.
     const JointInfo& hip = about.joints[static_cast<std::size_t>(m.joints[0])];
     const Vec3 axis(hip.axis[0], hip.axis[1], hip.axis[2]);
     EXPECT_GT(axis.cross(Vec3(0, 0, -1)).x(), 0.99) << name;
@@ -120,15 +120,15 @@ TEST(Docking, CaterpillarHas96Elements) {
 
 TEST(Docking, HingesTurnTheOtherWayWhereTheModuleIsDockedByItsPassiveBlock) {
   const Robot robot = robot_of({{4, 1, 1, 0, 0}});
-  EXPECT_EQ(robot.joints[2].name, "m1/passive");  // breadth-first from the reference body, the passive block
+  EXPECT_EQ(robot.joints[2].name, "m1/passive");  // order is breadth-first from the reference body, the passive block
   EXPECT_EQ(robot.joints[3].name, "m1/active");
-  // Positive = right-hand turn of the farther body about the file's axis, in the file's frame of the hinge.
+  // A positive angle is a right-hand rotation of the child body about the axis of the file, in the frame of the hinge.
   const JointInfo joint = info(robot).joints[2];
   const ModuleInfo module = info(robot).modules[1];
   EXPECT_NEAR(joint.axis[1], column(module, 1).y(), kPoseRounding);
 }
 
-/// The rows with module m under number[m].
+/// Rows of docks in which module m has the number number[m].
 std::vector<std::array<int, 5>> renumbered(std::vector<std::array<int, 5>> rows, const std::vector<int>& number) {
   for (auto& row : rows) {
     for (const std::size_t i : {1U, 3U}) row[i] = number[static_cast<std::size_t>(row[i])];
@@ -136,8 +136,8 @@ std::vector<std::array<int, 5>> renumbered(std::vector<std::array<int, 5>> rows,
   return rows;
 }
 
-/// Information for plugins about a robot, and about the same robot with other numbers of its modules. Rounding depends on the
-/// order of sums only: none.
+/// Expects equal information for plugins about a robot and about the robot with other numbers of its modules. The numbers must
+/// be identical, because sums have the same order of terms.
 void expect_same(const RobotInfo& a, const RobotInfo& b, const std::vector<int>& number) {
   ASSERT_EQ(a.modules.size(), b.modules.size());
   ASSERT_EQ(a.joints.size(), b.joints.size());
@@ -193,7 +193,7 @@ TEST(Fusion, EqualsTheSumOfTheBodies) {
   state.velocity = {0.1, 0.2, -0.3};
   k.update(robot, state);
   const Sums fused = sums(robot, k, Vec3(0, 0, -9.81));
-  // Body by body, each moving with its link.
+  // Sums over the bodies, each of which moves with its link.
   double kinetic = 0;
   Vec3 momentum = Vec3::Zero();
   Vec3 spin = Vec3::Zero();
@@ -241,7 +241,7 @@ TEST(DockingErrors, NameTheRowTheMistakeAndARemedy) {
 }
 
 TEST(DockingErrors, OverlappingCells) {
-  // Modules bent round by side docks until the last one comes back into the first one's cell.
+  // Side docks bend the row of modules until the last module reaches the cell of the first.
   EXPECT_EQ(error_of({{1, 1, 3, 0, 0}, {1, 2, 5, 1, 0}, {1, 3, 5, 2, 0}, {1, 4, 5, 3, 0}}),
             "robot.dat:4:1: error: overlapping cells: m0/active and m4/active are in the same lattice cell at zero angles");
 }

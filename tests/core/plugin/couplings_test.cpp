@@ -1,4 +1,4 @@
-// Coupling rules on a hexapod: whom each joint follows, by which lag, and that no rule contradicts itself.
+// Tests of the coupling rules with a hexapod: the joint that each joint follows, its lag, and the consistency of each rule.
 #include "core/plugin/couplings.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ using Lags = std::map<std::int64_t, double>;
 TEST(Couplings, ChainAndParent) {
   EXPECT_EQ(followed_by(CouplingRule::chain, 0), Lags{});
   EXPECT_EQ(followed_by(CouplingRule::chain, 12), (Lags{{11, 0.5}}));
-  const std::int64_t hip = hexapod().modules[7].joints[0];  // of the middle left leg, docked on the passive block of module 2
+  const std::int64_t hip = hexapod().modules[7].joints[0];  // middle left leg, docked to the passive block of module 2
   const std::int64_t spine = hexapod().joints[static_cast<std::size_t>(hip)].parent;
   EXPECT_EQ(hexapod().joints[static_cast<std::size_t>(spine)].module, 2);
   EXPECT_EQ(followed_by(CouplingRule::parent, hip), (Lags{{spine, 0.5}}));
@@ -49,7 +49,7 @@ TEST(Couplings, SiblingsHoldOneAnother) {
   const std::int64_t right = hexapod().modules[8].joints[0];
   const Lags from = followed_by(CouplingRule::siblings, right);
   ASSERT_TRUE(from.contains(left));
-  EXPECT_EQ(from.at(left), 0);  // both lead their parent by the same
+  EXPECT_EQ(from.at(left), 0);  // both joints lead their parent by equal phases
 }
 
 TEST(Couplings, TheRightLegsFollowTheLeftOnes) {
@@ -66,7 +66,7 @@ TEST(Couplings, TheRightLegsFollowTheLeftOnes) {
   }
 }
 
-// A hinge without a motor is passed over: who followed it follows whom it would.
+// A hinge without a motor is skipped: the joints after it follow the joint that the hinge would follow.
 TEST(Couplings, PassOverJointsWithoutAMotor) {
   RobotInfo robot = hexapod();
   robot.joints[5].driven = false;
@@ -94,7 +94,7 @@ TEST(Couplings, AllPullTogetherAsHardAsOne) {
   for (const Coupling& c : couple(hexapod(), CouplingRule::all, 2, {0.5})) {
     if (c.to == 5) pull += c.weight;
   }
-  EXPECT_NEAR(pull, 2, 1e-14);  // 21 terms of 2/21: rounding
+  EXPECT_NEAR(pull, 2, 1e-14);  // rounding errors of a sum of 21 terms 2/21
   EXPECT_EQ(followed_by(CouplingRule::all, 5).at(2), 1.5);
 }
 

@@ -1,4 +1,4 @@
-// Columns and numbers by the names of joints.
+// Tests of texts in which columns and numbers have the names of joints.
 #include "core/recording/column_names.h"
 
 #include <gtest/gtest.h>

@@ -20,7 +20,7 @@ Signal sine(double frequency, double late = 0, double amplitude = 1) {
   return [=](double t) { return amplitude * std::sin(2 * std::numbers::pi * frequency * (t - late)); };
 }
 
-// One column a signal: named x0, x1 ... in rad.
+// Trace with one column per signal, named x0, x1 ..., in rad.
 Trace sampled(const std::vector<Signal>& signals, double duration = 20, double spacing = kSpacing) {
   Trace trace;
   trace.columns = {{"t", "s", "time"}};
@@ -63,12 +63,13 @@ TEST(Compare, LateSineHasItsShift) {
   for (const double frequency : {0.25, 1.0, 4.0}) {
     for (const double late : {0.0123, -0.0123, 0.0004, 0.105}) {
       const ColumnDifference d = difference(sine(frequency), sine(frequency, late));
-      // Parabola and cubic are wrong by (w h)^3 and (w h)^4 of a sample, at most 2e-3 (4 Hz).
+      // The errors of parabola and cubic are (w h)^3 and (w h)^4 of a sample, at most 2e-3 (at 4 Hz).
       const double wrong = 2e-3 * kSpacing;
       EXPECT_NEAR(d.time_shift, late, wrong) << frequency << " Hz";
       const double w = 2 * std::numbers::pi * frequency;
       EXPECT_LT(d.rms_after_shift, w * wrong) << frequency << " Hz, late by " << late;
-      // sin(w t) - sin(w (t - s)) has the amplitude 2 sin(w s / 2); one row more than whole periods: 1/4001.
+      // sin(w t) - sin(w (t - s)) has the amplitude 2 sin(w s / 2). The trace has one row more than whole periods, an error of
+      // 1/4001.
       EXPECT_NEAR(d.rms, std::numbers::sqrt2 * std::abs(std::sin(w * late / 2)), 5e-4 * d.rms);
     }
   }
@@ -85,7 +86,7 @@ TEST(Compare, LateByAPeriodLessABitIsABitEarly) {
 }
 
 TEST(Compare, StillFallingAtTheEdgeOfTheReachIsATrendAndNoShift) {
-  // 2 s: the reach is 0.1 s.
+  // For a trace of 2 s, the largest time shift that is searched is 0.1 s.
   const auto ramp = [](double t) { return t; };
   const auto late = [](double t) { return t - 0.3; };
   EXPECT_EQ(difference(ramp, late, 2).time_shift, 0.0);
@@ -95,7 +96,7 @@ TEST(Compare, LargerIsNotLate) {
   const ColumnDifference d = difference(sine(1), sine(1, 0, 1.1));
   EXPECT_EQ(d.time_shift, 0);
   EXPECT_EQ(d.rms_after_shift, d.rms);
-  EXPECT_NEAR(d.range, 2, 1e-12);  // rows fall on the crests
+  EXPECT_NEAR(d.range, 2, 1e-12);  // rows coincide with the extremes of the sine
   EXPECT_EQ(d.scale, d.range);
   EXPECT_NEAR(d.maximum, 0.1, 1e-12);
   EXPECT_NEAR(d.relative_maximum, 0.05, 1e-12);
@@ -114,7 +115,7 @@ TEST(Compare, FirstDivergenceIsAboveTheThreshold) {
   const Trace a = sampled({sine(1)});
   const Trace b = sampled({parting});
   EXPECT_NEAR(*compare(a, b).columns[0].first_divergence, 7.005, 1e-9);
-  EXPECT_NEAR(*compare(a, b, {{"*"}, 1e-3}).columns[0].first_divergence, 9.005, 1e-9);  // 2e-3 of 1e-3 per second
+  EXPECT_NEAR(*compare(a, b, {{"*"}, 1e-3}).columns[0].first_divergence, 9.005, 1e-9);  // first row beyond the tolerance
   EXPECT_FALSE(compare(a, b, {{"*"}, 0.1}).columns[0].first_divergence);
 }
 
@@ -185,7 +186,7 @@ TEST(Compare, ManyMissingColumnsAreShortened) {
 }
 
 TEST(Compare, RowsArePairedByTime) {
-  // Other length, other period: what is there at the same time is compared.
+  // Traces of different lengths or periods are compared at common times.
   const TraceDifference shorter = compare(sampled({sine(1)}, 20), sampled({sine(1)}, 10));
   EXPECT_EQ(shorter.findings, Sentences{"A has 4001 rows, B has 2001"});
   EXPECT_EQ(shorter.rows, 2001U);
@@ -197,7 +198,8 @@ TEST(Compare, RowsArePairedByTime) {
   EXPECT_NEAR(coarser.columns[0].time_shift, 0.01, 2e-3 * 0.015);
 }
 
-/// A walk straight on has rounding in y: 1e-17 m must not head a report with a hundred percent of its range.
+/// Rounding errors are not a difference. In a straight walk, y is about 1e-17 m and must not count as a difference of 100 % of
+/// its range.
 TEST(Compare, RoundingIsNoDifference) {
   const TraceDifference d =
       compare(table({"t", "base.y"}, {0, 0, 1, 3e-18, 2, -2e-18}), table({"t", "base.y"}, {0, 1e-18, 1, -4e-18, 2, 5e-18}));

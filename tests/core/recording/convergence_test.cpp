@@ -1,4 +1,4 @@
-// convergence() on figures whose order is known because we make them.
+// Tests of convergence() with traces of a known order.
 #include "core/recording/convergence.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace gaitlab {
 namespace {
 
-/// u(h) = cos t + 0.1 h^p sin t.
+/// Trace of u(h) = cos t + 0.1 h^p sin t with the step h and the order p.
 Trace wave(double h, double order) {
   Trace trace{{{"t", "s", ""}, {"u", "m", ""}, {"still", "m", ""}}, {}};
   for (int k = 0; k <= 1000; ++k) {
@@ -31,7 +31,7 @@ TEST(Convergence, FindsOrderErrorAndTheStepThatIsGood) {
     double peak = 0;
     for (std::size_t k = 0; k < traces[2].rows(); ++k) peak = std::max(peak, std::abs(traces[2].at(k, 1)));
     const double rms = 0.1 * std::sqrt(square) / peak;
-    // All but rounding: the error is exactly C h^p.
+    // The error is exactly C h^p, so that the tolerances are only for rounding errors.
     EXPECT_NEAR(row.order.value(), order, 1e-9);
     EXPECT_NEAR(row.error[0], rms * (std::pow(0.5, order) - std::pow(0.125, order)), 1e-12);
     EXPECT_NEAR(row.left, rms * std::pow(0.125, order), 1e-12);
@@ -56,13 +56,13 @@ TEST(Convergence, TwoStepsHaveNoOrder) {
   EXPECT_FALSE(row.order);
 }
 
-// Rounding of a column that should be 0 is measured by what its unit holds elsewhere.
+// Rounding errors of a column that should be 0 are relative to other columns with the same unit.
 TEST(Convergence, RoundingIsNoError) {
   std::vector<Trace> traces = halved(0.5, 1);
   for (std::size_t i = 0; i < traces.size(); ++i) {
     for (std::size_t k = 0; k < traces[i].rows(); ++k) traces[i].values[3 * k + 2] = 1e-15 * static_cast<double>((k + i) % 3);
   }
-  // 2e-15 of 1e-9 of the 1 m that `u` holds.
+  // The rounding error is 2e-15 m, relative to 1e-9 of the 1 m of column `u`.
   EXPECT_LT(convergence(traces, {"still"})[0].error[0], 3e-6);
 }
 

@@ -24,7 +24,7 @@ class Csv : public testing::Test {
  protected:
   void put(const std::string& text) const { std::ofstream(file_, std::ios::binary) << text; }
   [[nodiscard]] std::string text() const { return test::read(file_); }
-  // Error of reading `text`, as `LINE:COL: error: ...`.
+  // Message of the error on reading `text`, as `LINE:COL: error: ...`.
   [[nodiscard]] std::string complaint(const std::string& text) const {
     put(text);
     try {
@@ -80,7 +80,7 @@ TEST_F(Csv, QuotesNamesThatNeedIt) {
   EXPECT_THROW(write_csv({{{"", "", ""}}, {1}}, file_), RunError);
 }
 
-// A decimal comma and grouped thousands, whatever locales the machine has.
+// Number format with a decimal comma and grouped thousands, independent of the installed locales.
 class Comma : public std::numpunct<char> {
   [[nodiscard]] char do_decimal_point() const override { return ','; }
   [[nodiscard]] char do_thousands_sep() const override { return '.'; }
@@ -89,7 +89,7 @@ class Comma : public std::numpunct<char> {
 
 TEST_F(Csv, DoesNotCareForTheLocale) {
   const std::string of_c = std::setlocale(LC_ALL, nullptr);
-  (void)std::setlocale(LC_ALL, "de_DE.UTF-8");  // C's, where it is installed
+  (void)std::setlocale(LC_ALL, "de_DE.UTF-8");  // locale of C functions, if it is installed
   const std::locale before = std::locale::global(std::locale(std::locale(), new Comma));
   std::ostringstream felt;
   felt << 1234.5;

@@ -14,7 +14,7 @@
 #include "core/errors.h"
 #include "tests/folder.h"
 
-// Objects of a damaged file stay open in HDF5: the library does not clean up at the program's end.
+// HDF5 leaves objects of a damaged file open at the end of the program, which LeakSanitizer must ignore.
 extern "C" const char* __lsan_default_suppressions();  // NOLINT(bugprone-reserved-identifier): LeakSanitizer's name
 extern "C" const char* __lsan_default_suppressions() { return "leak:libhdf5"; }  // NOLINT(bugprone-reserved-identifier)
 
@@ -33,7 +33,7 @@ class H5 : public testing::Test {
     write_h5(trace, kOrigin, file_);
     return bytes();
   }
-  // Error of reading these bytes, without the file's name; "" if there is none.
+  // Message of the error on reading these bytes, without the name of the file; "" if there is no error.
   [[nodiscard]] std::string complaint(const std::string& bytes) const {
     put(bytes);
     try {
@@ -46,7 +46,7 @@ class H5 : public testing::Test {
       return text.substr(prefix.size());
     }
   }
-  // Bytes whose header is right for them again: what reaches HDF5.
+  // Bytes with a corrected hash in the header, so that HDF5 reads them.
   [[nodiscard]] static std::string sealed(std::string bytes) {
     const std::string from = "from byte 512 on: ";
     return bytes.replace(bytes.find(from) + from.size(), 16, hash_words(std::string_view(bytes).substr(kHeader)));
@@ -81,7 +81,7 @@ void expect_same(const Trace& a, const Trace& b) {
 
 TEST_F(H5, KeepsEveryBit) {
   using Limits = std::numeric_limits<double>;
-  Trace trace = sample(5000);  // more than one chunk a column
+  Trace trace = sample(5000);  // more than one chunk per column
   const std::vector<double> special{0.0,
                                     -0.0,
                                     Limits::infinity(),
@@ -102,7 +102,7 @@ TEST_F(H5, KeepsEveryBit) {
 }
 
 TEST_F(H5, SmallAndLargeShapes) {
-  Trace wide;  // more names than fit into an attribute of the old kind, 64 kB
+  Trace wide;  // more names than fit into an attribute of the older format, 64 kB
   for (int i = 0; i < 6000; ++i) wide.columns.push_back({"body.m" + std::to_string(i), "m", "a long enough definition of it"});
   wide.values.assign(2 * wide.columns.size(), 1.5);
   for (const Trace& trace : {sample(1), sample(0), Trace{}, wide}) {
@@ -113,7 +113,7 @@ TEST_F(H5, SmallAndLargeShapes) {
 
 TEST_F(H5, SameTraceSameBytes) {
   const std::string first = written(sample(300));
-  usleep(1100000);  // HDF5's own times have a resolution of a second
+  usleep(1100000);  // times in HDF5 files have a resolution of a second
   EXPECT_EQ(written(sample(300)), first);
 }
 
@@ -160,7 +160,7 @@ TEST_F(H5, TruncatedAnywhere) {
 TEST_F(H5, EveryFlippedByteIsSeen) {
   const std::string whole = written(sample(60));
   const std::size_t stride = whole.size() / 300 + 1;
-  // In place: a file that is truncated and written anew waits for the disk.
+  // The test writes in place, because truncating and rewriting a file waits for the disk.
   std::fstream file(file_, std::ios::binary | std::ios::in | std::ios::out);
   const auto put_byte = [&](std::size_t at, int byte) {
     file.seekp(static_cast<std::streamoff>(at)).put(static_cast<char>(byte)).flush();
@@ -207,12 +207,12 @@ TEST_F(H5, KeepsTablesBesideTheTrace) {
 }
 
 TEST_F(H5, ScenariosOfAnySize) {
-  const std::string long_text(300000, 'x');  // beyond 64 kB, the limit of an attribute of the old kind
+  const std::string long_text(300000, 'x');  // longer than 64 kB, the limit of an attribute of the older format
   write_h5(sample(1), {long_text, 1, "build", "done"}, file_);
   EXPECT_EQ(read_h5(file_).origin.scenario, long_text);
 }
 
-// Written by the program before format 2: a robot of two modules, 0.2 s.
+// A recording of format 1 is read: a robot of two modules for 0.2 s, written by an older version of the program.
 TEST_F(H5, ReadsFormat1) {
   const StoredTrace stored = read_h5(std::string(GAITLAB_SOURCE_DIR) + "/tests/data/run-of-format-1/trace.h5");
   ASSERT_EQ(stored.trace.rows(), 41U);
@@ -248,7 +248,7 @@ TEST_F(H5, ContentThatDoesNotFitTogether) {
     return sealed(bytes.replace(at, to.size(), to));
   };
   ASSERT_EQ(complaint(sealed(whole)), "");
-  // HDF5 has a checksum of its own for names and attributes of format 2.
+  // HDF5 detects changes of names and attributes of format 2 by a separate checksum.
   for (const auto& [from, to] : {std::pair<std::string, std::string>{hash(sample(3)), "0123456789abcdef"},
                                  {"joint.0.angle", "joint.1.angle"},
                                  {"gaitlab-trace-2", "gaitlab-trace-3"},

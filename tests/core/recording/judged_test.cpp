@@ -7,9 +7,10 @@
 namespace gaitlab {
 namespace {
 
-constexpr double kTick = 0.1;  // s
+constexpr double kTick = 0.1;  // time between rows of ticks, s
 
-/// A run of two joints, 10 s, a row of ticks every 0.1 s: joint 0 has 1 N m, joint 1 2 N m, and what the test adds.
+/// Recording of two joints with a row of ticks every 0.1 s for 10 s. Joint 0 has 1 N m and joint 1 has 2 N m; tests change
+/// further values.
 Recording ticks_of_ten_seconds() {
   Recording r;
   r.simulated = 10;
@@ -27,7 +28,7 @@ double& cell(Recording& r, int row, std::size_t joint, std::size_t which) {
   return r.ticks.values[static_cast<std::size_t>(row) * r.ticks.columns.size() + 1 + joint * kTickColumns + which];
 }
 
-/// Time at a limit that grows from row `from` to row `to` at the rate of 1.
+/// Sets a joint at a limit from row `from` to row `to`.
 void limit(Recording& r, std::size_t joint, std::size_t which, int from, int to) {
   for (int k = 0; k <= 100; ++k) cell(r, k, joint, which) = kTick * (std::clamp(k, from, to) - from);
 }
@@ -44,12 +45,12 @@ TEST(Judged, KnowsWhatAMotorGaveAndTook) {
   EXPECT_DOUBLE_EQ(j.envelope_peak_time, 3);
   EXPECT_EQ(j.speed_peak, 7);
   EXPECT_DOUBLE_EQ(j.speed_peak_time, 4);
-  EXPECT_NEAR(j.current_rms, std::sqrt(0.8), 1e-12);  // rounding of sums of about 10
+  EXPECT_NEAR(j.current_rms, std::sqrt(0.8), 1e-12);  // rounding errors of sums of about 10
   EXPECT_EQ(j.voltage_peak, 4);
   EXPECT_EQ(j.current_peak, 0.8);
 }
 
-/// A folder of before the columns from speed_peak on: what it has is found, what it has not is not a number.
+/// In an older recording without the columns from speed_peak on, the existing values are found and the missing values are NaN.
 TEST(Judged, ReadsOlderTicks) {
   const Recording now = ticks_of_ten_seconds();
   Recording old = now;
@@ -72,11 +73,11 @@ TEST(Judged, ReadsOlderTicks) {
 
 TEST(Judged, ForgivesAtMostOnePeriodOfAStart) {
   const Recording r = ticks_of_ten_seconds();
-  const Judged early = judge(r, cycle(1, 2.5), true);  // 9 s hold three periods
+  const Judged early = judge(r, cycle(1, 2.5), true);  // 9 s contain three whole periods
   EXPECT_DOUBLE_EQ(early.from, 2.5);
   EXPECT_DOUBLE_EQ(early.to, 10);
   EXPECT_EQ(early.periods, 3U);
-  const Judged late = judge(r, cycle(7, 2.5), true);  // the limit cycle begins late: the window does not
+  const Judged late = judge(r, cycle(7, 2.5), true);  // a late start of the limit cycle does not delay the window
   EXPECT_DOUBLE_EQ(late.from, 2.5);
   EXPECT_EQ(late.periods, 3U);
   const Judged whole = judge(r, cycle(0, 2.5), true);
@@ -84,7 +85,7 @@ TEST(Judged, ForgivesAtMostOnePeriodOfAStart) {
   EXPECT_EQ(whole.periods, 4U);
 }
 
-/// Whole periods that would leave out more than one are one more.
+/// The window omits at most one period of the start.
 TEST(Judged, NeverLeavesOutMoreThanOnePeriod) {
   Recording r = ticks_of_ten_seconds();
   for (double end = 5; end < 10; end += 0.1) {
@@ -97,7 +98,7 @@ TEST(Judged, NeverLeavesOutMoreThanOnePeriod) {
   }
 }
 
-/// Motors at one limit differ by rounding alone: the first counts.
+/// Peaks of a motor at its limit differ only by rounding errors. The time of the first peak counts.
 TEST(Judged, RoundingIsNoPeak) {
   Recording r = ticks_of_ten_seconds();
   for (int k = 0; k <= 100; ++k) cell(r, k, 0, kTorquePeak) = 3 * (1 + 1e-16 * k);
@@ -117,7 +118,7 @@ TEST(Judged, WithoutALimitCycleTheStartIsAFifthOrTwoSeconds) {
   EXPECT_DOUBLE_EQ(judge(r, {}, true).from, 2);
 }
 
-/// Frames that are played once at the start are the gait.
+/// If the set points do not repeat (keyframes that are played once), the whole run is judged.
 TEST(Judged, WithoutSetPointsThatRepeatTheWholeRunCounts) {
   const Recording r = ticks_of_ten_seconds();
   const Judged whole = judge(r, {}, false);
@@ -126,19 +127,20 @@ TEST(Judged, WithoutSetPointsThatRepeatTheWholeRunCounts) {
   EXPECT_EQ(whole.periods, 0U);
 }
 
-/// An error of the first edition: all peaks of joints at their limit are equal, and the joint with the lowest number won.
+/// The first of the joints at a limit is the joint with the longest time at the limit. (All have equal peaks, and the joint
+/// with the lowest number was once first.)
 TEST(Judged, TheJointThatIsLongestAtALimitComesFirst) {
   Recording r = ticks_of_ten_seconds();
   for (int k = 0; k <= 100; ++k) cell(r, k, 0, 0) = cell(r, k, 1, kTorquePeak) = 2;
   EXPECT_EQ(judge(r, {}, true).order.front(), 1U) << "without limits: by RMS";
   EXPECT_EQ(Judged::limited(judge(r, {}, true).joints), 0U);
-  limit(r, 0, kCurrentLimited, 50, 60);  // current, 1 s of 8
+  limit(r, 0, kCurrentLimited, 50, 60);  // current limit for 1 s of 8 s
   const Judged j = judge(r, {}, true);
   EXPECT_EQ(j.order.front(), 0U);
   EXPECT_EQ(Judged::limited(j.joints), 1U);
   EXPECT_NEAR(j.joints[0].current_limited, 1.0 / 8, 1e-12);
   EXPECT_EQ(j.joints[0].voltage_limited, 0);
-  limit(r, 1, kVoltageLimited, 20, 100);  // voltage, all of it
+  limit(r, 1, kVoltageLimited, 20, 100);  // voltage limit in the whole window
   EXPECT_EQ(judge(r, {}, true).order.front(), 1U);
   EXPECT_NEAR(judge(r, {}, true).joints[1].limited(), 1, 1e-12);
 }
@@ -163,7 +165,7 @@ TEST(Judged, PeaksHaveTheirTimesAndSayWhetherTheyAreTheLimit) {
   cell(r, 40, 0, 0) = 3;
   cell(r, 70, 0, 1) = 0.5;
   EXPECT_EQ(judge(r, {}, true).joints[0].peak_limit, MotorLimit::none);
-  cell(r, 40, 0, kPeakLimit) = 2;  // for an instant: no time passes
+  cell(r, 40, 0, kPeakLimit) = 2;  // at the limit for an instant without a duration
   EXPECT_EQ(Judged::limited(judge(r, {}, true).joints), 1U);
   const Judged j = judge(r, {}, true);
   EXPECT_DOUBLE_EQ(j.joints[0].torque_peak, 3);

@@ -15,7 +15,7 @@ namespace gaitlab {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kDt = 0.005;  // s, the default trace period
+constexpr double kDt = 0.005;  // the default trace period, s
 
 using Motion = std::function<double(double t)>;
 
@@ -34,12 +34,12 @@ MotionCycle find(const std::vector<Motion>& columns, double duration = 20, doubl
   return find_limit_cycle(sample(columns, duration, dt), columns.size(), dt);
 }
 
-// The set point as the trace sees it: held between control ticks, a row on a tick shows what was in force before it.
+// Set point as in a trace: constant between control ticks. A row at a tick contains the value before the tick.
 Motion held(const Motion& motion, double tick) {
   return [=](double t) { return motion(tick * std::max(0.0, std::ceil(t / tick - 1e-9) - 1)); };
 }
 
-// Eight modules' angles and set points: sixteen joints, each leading its predecessor, the amplitude growing from 0.
+// Motions of the sixteen joints of eight modules. Each joint leads its predecessor, and the amplitude grows from 0.
 std::vector<Motion> chain(double period, double rate) {
   std::vector<Motion> columns;
   for (int joint = 0; joint < 16; ++joint) {
@@ -77,8 +77,8 @@ TEST(LimitCycle, ChainSettles) {
   EXPECT_LT(cycle.from, 2.0);
 }
 
-// The search takes as many lags and points whatever the length, the rest is linear. A search over all lags would be a hundred
-// times as long for ten times the rows; thirty leaves room for caches.
+// The CPU time of the search is proportional to the number of rows, because the number of lags and points is limited. A search
+// over all lags would take a hundred times as long for ten times the rows. The bound of thirty allows for effects of caches.
 TEST(LimitCycle, CostGrowsLinearly) {
   const std::vector<double> values = sample(chain(4, 2));
   const std::vector<double> longer = sample(chain(4, 2), 200);
@@ -87,7 +87,7 @@ TEST(LimitCycle, CostGrowsLinearly) {
 }
 
 TEST(LimitCycle, FromIsTheEarliestWindowThatHoldsOn) {
-  // A transient on one of two joints, and its definition written out with a period of whole samples.
+  // One of two joints has a transient. The test evaluates the definition of the limit cycle with a period of whole samples.
   const std::vector<Motion> columns = {[](double t) { return 0.6 * swing(t, 2); },
                                        [](double t) { return 0.3 * swing(t, 2, 1) + 0.5 * math::exp(-t) * swing(t, 0.7); }};
   const MotionCycle cycle = find(columns);
@@ -117,7 +117,7 @@ TEST(LimitCycle, ALateDisturbanceMovesFrom) {
 }
 
 TEST(LimitCycle, HeldSetPointsDoNotHideThePeriod) {
-  for (const double period : {0.5, 1.0, 4.0}) {  // none a multiple of 15 ms: the steps repeat after three periods only
+  for (const double period : {0.5, 1.0, 4.0}) {  // no multiples of 15 ms; control ticks repeat only after three periods
     const Motion angle = [=](double t) { return 0.6 * swing(t, period); };
     const MotionCycle cycle = find({held(angle, 0.015)});
     EXPECT_TRUE(cycle.found);
@@ -137,12 +137,12 @@ TEST(LimitCycle, HarmonicsAndSubharmonics) {
     return cycle.found ? cycle.period : 0.0;
   };
   EXPECT_NEAR(period({[](double t) { return swing(t, 4) + 0.7 * swing(t, 2, 1) + 0.3 * swing(t, 0.8); }}), 4, 1e-3);
-  EXPECT_NEAR(period({[](double t) { return swing(t, 2) + 0.05 * swing(t, 4); }}), 4, 1e-3);  // half of it repeats to 7 % only
+  EXPECT_NEAR(period({[](double t) { return swing(t, 2) + 0.05 * swing(t, 4); }}), 4, 1e-3);  // at 2 s the error is 7 %
   EXPECT_NEAR(period({[](double t) { return swing(t, 4) + 0.1 * swing(t, 0.2); }}), 4, 1e-3);
-  // Joints with different frequencies: the common period.
+  // If joints have different frequencies, the result is the common period.
   EXPECT_NEAR(period({[](double t) { return swing(t, 2); }, [](double t) { return swing(t, 3); }}), 6, 1e-3);
   EXPECT_NEAR(period({[](double t) { return swing(t, 4); }, [](double t) { return 0.1 * swing(t, 0.4); }}), 4, 1e-3);
-  // Two tripods half a period apart look alike after half a period, joint by joint they do not.
+  // Two tripods in antiphase exchange their motions after half a period, but each joint repeats only after a whole period.
   EXPECT_NEAR(period({[](double t) { return swing(t, 2); }, [](double t) { return swing(t + 1, 2); }}), 2, 1e-3);
 }
 
@@ -156,7 +156,7 @@ TEST(LimitCycle, JointsThatHoldDoNotCount) {
 }
 
 TEST(LimitCycle, LittleNoiseIsBorneMuchIsNot) {
-  for (const double sigma : {0.002, 0.03}) {  // of the amplitude; the error is sqrt(2) times it
+  for (const double sigma : {0.002, 0.03}) {  // noise relative to the amplitude; the error is sqrt(2) sigma
     std::mt19937 random(1);
     std::normal_distribution<double> noise(0, 0.6 * sigma);
     const MotionCycle cycle = find({[&](double t) { return 0.6 * swing(t, 4) + noise(random); }});
@@ -172,7 +172,7 @@ TEST(LimitCycle, NoiseAloneChirpsAndDecaysAreNone) {
   EXPECT_FALSE(find({[&](double) { return noise(random); }}).found);
   EXPECT_FALSE(find({[](double t) { return swing(t * (1 + 0.05 * t), 4); }}).found);
   EXPECT_FALSE(find({[](double t) { return math::exp(-0.1 * t) * swing(t, 2); }}).found);
-  EXPECT_FALSE(find({[](double t) { return math::exp(-2 * t) * swing(t, 2); }}).found);  // and then it stands still
+  EXPECT_FALSE(find({[](double t) { return math::exp(-2 * t) * swing(t, 2); }}).found);  // the motion decays to rest
   EXPECT_FALSE(find({[](double t) { return 0.1 * t; }}).found);
   EXPECT_FALSE(find({[](double t) { return 0.1 * t + 0.3 * swing(t, 2); }}).found);
 }

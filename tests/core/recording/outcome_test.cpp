@@ -33,7 +33,7 @@ class StoredOutcomes : public testing::Test {
     return read_h5(own_.path() / (format == "h5" ? "trace.h5" : kBesideCsv));
   }
   [[nodiscard]] Outcome read() const { return read_recording(own_.path()).recording.outcome; }
-  /// Message about a recording that is written anew with another end.
+  /// Outcome of a recording that is written again with the value `ended`.
   [[nodiscard]] Outcome read_with(const StoredTrace& stored, double ended) const {
     std::vector<Beside> beside = stored.beside;
     Trace& run = std::ranges::find(beside, "run", &Beside::name)->table;

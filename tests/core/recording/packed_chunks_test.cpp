@@ -15,11 +15,11 @@ struct Chunk {
   std::vector<double> values;
 };
 
-// The values unpacked by zlib and the inverse of shuffle: an implementation that shares nothing with the writer's.
+// Chunks unpacked by zlib and the inverse of shuffle, independently of the writer.
 std::vector<Chunk> unpacked(const Trace& table, std::size_t rows) {
   std::vector<Chunk> all;
   pack_chunks(table, rows, [&](std::size_t row, std::size_t column, std::span<const std::byte> packed) {
-    std::vector<unsigned char> shuffled(rows * sizeof(double) + 1);  // a byte more, which must stay unused
+    std::vector<unsigned char> shuffled(rows * sizeof(double) + 1);  // one byte too many, which must remain unused
     uLongf size = shuffled.size();
     ASSERT_EQ(uncompress(shuffled.data(), &size, reinterpret_cast<const Bytef*>(packed.data()), packed.size()), Z_OK);
     ASSERT_EQ(size, rows * sizeof(double));
@@ -34,7 +34,7 @@ std::vector<Chunk> unpacked(const Trace& table, std::size_t rows) {
   return all;
 }
 
-// `noise` random columns (every byte is) beside t and a constant.
+// Table with t, a constant column, and `noise` columns of which every byte is random.
 Trace table(std::size_t rows, std::size_t noise) {
   std::mt19937_64 random(1);
   Trace made;
@@ -43,7 +43,7 @@ Trace table(std::size_t rows, std::size_t noise) {
   for (std::size_t k = 0; k < rows; ++k) {
     made.values.insert(made.values.end(), {0.005 * static_cast<double>(k), -0.0325});
     for (std::size_t c = 0; c < noise; ++c) {
-      const std::uint64_t bits = random() & ~(std::uint64_t{1} << 62U);  // no NaN, which is not equal to itself
+      const std::uint64_t bits = random() & ~(std::uint64_t{1} << 62U);  // avoids NaN, which is not equal to itself
       double value = 0;
       std::memcpy(&value, &bits, sizeof value);
       made.values.push_back(value);
@@ -54,7 +54,7 @@ Trace table(std::size_t rows, std::size_t noise) {
 
 TEST(PackedChunks, HoldEveryValueOfTheirColumnByRowThenColumn) {
   constexpr std::size_t kRows = 100;
-  for (const std::size_t noise : {0U, 5U, 6U, 7U, 15U}) {  // up to whole groups of columns, and beside them
+  for (const std::size_t noise : {0U, 5U, 6U, 7U, 15U}) {  // whole groups of columns, and one more or less
     const Trace whole = table(250, noise);
     const std::vector<Chunk> chunks = unpacked(whole, kRows);
     ASSERT_EQ(chunks.size(), 3 * whole.columns.size());
@@ -73,8 +73,8 @@ TEST(PackedChunks, AreSmallWhereTheyCanBeAndBarelyLargerWhereNot) {
   constexpr std::size_t kRows = 4096;
   const std::vector<Chunk> chunks = unpacked(table(kRows, 1), kRows);
   ASSERT_EQ(chunks.size(), 3U);
-  EXPECT_LT(chunks[1].packed, kRows * sizeof(double) / 100);  // a constant
-  // Two bytes of head, four of checksum, five of each stored block of at most 65535 bytes.
+  EXPECT_LT(chunks[1].packed, kRows * sizeof(double) / 100);  // constant column
+  // The overhead is two bytes of header, four of checksum, and five per stored block of at most 65535 bytes.
   EXPECT_LE(chunks[2].packed, kRows * sizeof(double) + 2 + 4 + 2 * 5);
 }
 

@@ -1,4 +1,5 @@
-// Results of the rollouts beside a run, in its folder: they are read back as written, and impossible ones are refused.
+// Results of the additional rollouts of a run, which its folder contains: they are read as written, and invalid results are
+// refused.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,7 +53,7 @@ TEST_F(StoredPartings, NameAJointThatThereIs) {
   }
 }
 
-/// Folders of the time before have neither.
+/// Older run folders contain no such results.
 TEST_F(StoredPartings, AreNoneInOlderFolders) {
   write_recording(made, {"", 0, "", "done"}, "h5", own.path());
   const StoredTrace stored = read_h5(own.path() / "trace.h5");

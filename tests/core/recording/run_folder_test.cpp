@@ -119,7 +119,7 @@ TEST_F(RunFolders, NoRightToWriteNamesPathAndReason) {
   fs::permissions(".", static_cast<fs::perms>(0755));
   const uid_t user = geteuid();
   if (user == 0) {
-    ASSERT_EQ(seteuid(65534), 0);  // the superuser may write everywhere
+    ASSERT_EQ(seteuid(65534), 0);  // because root may write into any folder
   }
   const std::string used = complaint("locked");
   const std::string made = complaint("locked/new/run");

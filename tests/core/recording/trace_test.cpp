@@ -15,7 +15,8 @@ TEST(Trace, FindsAColumnByItsWholeName) {
   EXPECT_EQ(trace.find("joint.0"), trace.columns.size());
 }
 
-// Few names are compared one by one, more have places by their hash, which grow with them.
+// A trace finds every column, and the first of two columns with equal names. Few names are compared one by one; many names are
+// in a hash table.
 TEST(Trace, FindsEachOfManyColumnsAndTheFirstOfTwoOfOneName) {
   Trace trace;
   EXPECT_EQ(trace.find(""), 0U);
@@ -56,7 +57,7 @@ TEST(Trace, HashKeepsNamesApart) {
   EXPECT_NE(hash(a), hash(b));
 }
 
-// Numbers of a program of its own, in Python (tests/gates/h5py.sh has it for a whole file).
+// The hashes equal the hashes of an independent program in Python (for a whole file: tests/gates/h5py.sh).
 TEST(Trace, HashIsPinned) {
   EXPECT_EQ(hash(Trace{}), "2-68853b6a3912cca3");
   EXPECT_EQ(hash(Trace{{{"a", "", ""}}, {}}), "2-a4ba087e50356aa8");
@@ -66,8 +67,8 @@ TEST(Trace, HashIsPinned) {
 TEST(Trace, HashesOfBothFormatsAreItsOwn) {
   const Trace trace{{{"a", "", ""}}, {}};
   EXPECT_TRUE(is_hash("2-a4ba087e50356aa8", trace));
-  EXPECT_TRUE(is_hash("089be207b544f1e4", trace));    // FNV-1a of "a" is published; a NUL follows every name
-  EXPECT_TRUE(is_hash("cbf29ce484222325", Trace{}));  // FNV-1a's value for no bytes
+  EXPECT_TRUE(is_hash("089be207b544f1e4", trace));    // FNV-1a of "a" and a NUL, which follows every name
+  EXPECT_TRUE(is_hash("cbf29ce484222325", Trace{}));  // FNV-1a of zero bytes
   for (const char* other : {"", "2-", "2-089be207b544f1e4", "a4ba087e50356aa8", "089be207b544f1e5", "1-089be207b544f1e4"})
     EXPECT_FALSE(is_hash(other, trace)) << other;
 }

@@ -9,7 +9,7 @@ namespace {
 
 class ModuleFileTest : public testing::Test {
  protected:
-  /// Error of the two-body module with one text replaced.
+  /// Message of the error for the module of two bodies with one text replaced.
   std::string error(const std::string& from, const std::string& to) {
     std::string text = fakes::kDuo;
     const std::size_t at = text.find(from);
@@ -30,7 +30,7 @@ TEST_F(ModuleFileTest, ReadsAModule) {
   EXPECT_EQ(type.bodies[1].mass, 0.5);
   EXPECT_EQ(type.bodies[1].inertia(1, 1), 2);
   EXPECT_EQ(type.bodies[1].shapes.at(0).size.x(), 0.1);
-  EXPECT_EQ(type.hinges.at(0).axis, Vec3::UnitY());  // normalised
+  EXPECT_EQ(type.hinges.at(0).axis, Vec3::UnitY());  // axes are normalised
   EXPECT_EQ(type.hinges.at(0).in_parent.p.x(), 0.05);
   EXPECT_EQ(type.hinges.at(0).hi, 1.5);
   EXPECT_EQ(type.faces.at(1).gender, Gender::passive);
@@ -113,7 +113,7 @@ TEST_F(ModuleFileTest, Format2) {
             "DIR/m.yaml:14:46: error: turns[0] is 4; allowed are 0 to 3");
   EXPECT_EQ(wrong("faces:", "connectors: {hook: {tension: 0}}\nfaces:"),
             "DIR/m.yaml:13:30: error: tension is 0 N; allowed are more than 0 N");
-  // A key of format 2 alone gets a message in format 1 that says so.
+  // In a file of format 1, the message for a key of format 2 states the required format.
   const std::string old = "is a key of module format 2, and this is format 1; write gaitlab_module: 2";
   EXPECT_EQ(error(range, range + ", drive: none"), "DIR/m.yaml:12:102: error: 'drive' " + old);
   EXPECT_EQ(error("faces:", "connectors: {}\nfaces:"), "DIR/m.yaml:13:13: error: 'connectors' " + old);

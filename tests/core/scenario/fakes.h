@@ -1,4 +1,4 @@
-// Stand-ins for what a scenario names: plugins, an engine, a two-body module, files in a folder of their own.
+// Fakes for tests of scenarios: plugins, an engine, a module of two bodies, and a temporary folder.
 #pragma once
 #include <filesystem>
 #include <stdexcept>
@@ -139,7 +139,7 @@ inline void fill(Catalog& catalog, const char* engine_name = "bullet") {
   catalog.add(engine);
 }
 
-/// A module of two bodies and a hinge; face 1 (active) at -x, face 4 (passive) at +x.
+/// Module file of two bodies and a hinge. Face 1 (active) is at -x, face 4 (passive) at +x.
 inline constexpr const char* kDuo = R"(gaitlab_module: 1
 name: duo
 bodies:
@@ -160,7 +160,7 @@ contacts:
   all: [{body: a, sphere: [0, 0, 0], radius: 0.1}]
 )";
 
-/// A folder with a module type; errors show it as DIR.
+/// Temporary folder with a module type. `shown` replaces the folder's path in error messages by DIR.
 class Folder : public test::Folder {
  public:
   Folder() {
@@ -177,7 +177,7 @@ class Folder : public test::Folder {
   }
 };
 
-/// Text of the InputError thrown by `act`, or "no error".
+/// Text of the InputError that `act` throws, or "no error".
 template <class Act>
 std::string error_of(Act act) {
   try {

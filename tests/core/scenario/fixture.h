@@ -1,4 +1,4 @@
-// A folder, a catalog of fakes, and scenarios read from texts.
+// Fixture of the tests of scenarios: a temporary folder, a catalog of fakes, and scenarios that are read from texts.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ class ScenarioTest : public testing::Test {
   std::string error(const std::string& text, const std::vector<std::string>& sets = {}) {
     return folder_.shown(error_of([&] { read(text, sets); }));
   }
-  /// resolved(read(resolved(s))) == resolved(s), from another folder.
+  /// Expects resolved(read(resolved(s))) == resolved(s) if the resolved scenario s is read from a different folder.
   void expect_stable(const Scenario& scenario) {
     const std::string once = resolved(scenario);
     EXPECT_EQ(once.find(folder_.path()), std::string::npos);

@@ -1,4 +1,4 @@
-// The section `ground`: what is read, what is refused and where, and that the resolved scenario holds all of it.
+// Tests of the section `ground`: accepted and refused settings, places of errors, and complete resolved scenarios.
 #include <fmt/format.h>
 #include <sys/stat.h>
 
@@ -36,7 +36,7 @@ TEST_F(GroundSection, ReadsBoxes) {
   EXPECT_EQ(s.ground.boxes()[0].center, Vec3(1, 2, 3));
   EXPECT_EQ(s.ground.boxes()[0].size, Vec3(0.1, 0.2, 0.3));
   EXPECT_EQ(s.ground.boxes()[0].R, rpy({0, 0, 0.1}));
-  EXPECT_EQ(s.ground.boxes()[0].friction, 0.5);  // the ground's
+  EXPECT_EQ(s.ground.boxes()[0].friction, 0.5);  // friction of the ground
   EXPECT_EQ(s.ground.boxes()[1].friction, 0.2);
   EXPECT_NE(resolved(s).find("ground:\n  type: boxes\n  friction: 0.5\n  boxes:\n"
                              "    - {center: [1, 2, 3], size: [0.1, 0.2, 0.3], rpy: [0, 0, 0.1], friction: 0.5, mass: 0}\n"
@@ -111,7 +111,7 @@ TEST_F(GroundSection, RefusesHeightfieldsAtTheirPlace) {
             "a.csv:3:4: error: row[2][1] is 0x1; expected a decimal number in m");
 }
 
-/// As numpy.save writes a matrix of '<f8'.
+/// Bytes of a matrix of '<f8' as numpy.save writes it.
 std::string matrix(std::size_t rows, std::size_t columns, const std::vector<double>& numbers) {
   std::string header = fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}", rows, columns);
   header.resize(117, ' ');
@@ -151,7 +151,8 @@ TEST_F(HeightFiles, OfBinaryNumbersHaveTheBitsOfText) {
   EXPECT_EQ(read(ground("file: hills.npy, scale: 0.5")).ground.relief()->values[5], 500);
 }
 
-// A run's record names their file and its hash, so that it has at most 1 MB.
+// If there are many heights, the resolved scenario contains the name and hash of their file instead, so that it has at most 1
+// MB.
 TEST_F(HeightFiles, OfMoreHeightsThanARecordHoldsAreNamedInIt) {
   std::vector<double> numbers(250UL * 300UL);
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<double>(i % 977) * 1e-3;

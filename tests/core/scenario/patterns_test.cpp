@@ -1,4 +1,4 @@
-// Patterns in a scenario as a whole: in every value per joint, on the command line, in lists of names, written out again.
+// Tests of patterns in scenarios: in all values per joint, on the command line, in lists of names, and in resolved scenarios.
 #include <gtest/gtest.h>
 
 #include "core/settings/joint_patterns.h"
@@ -31,12 +31,12 @@ TEST_F(ScenarioTest, PatternsOnTheCommandLine) {
   EXPECT_EQ(error(text, {"actuator.R.m2/h=5"}), "--set actuator.R.m2/h=5: error: no joint 'm2/h'; did you mean 'm0/h'?");
   EXPECT_EQ(error(text, {"actuator.R.m2/*=5"}),
             "--set actuator.R.m2/*=5: error: no joint matches 'm2/*'; did you mean 'm0/*'?");
-  // A clash of the file and the command line shows both.
+  // The message of a conflict between file and command line contains both places.
   EXPECT_EQ(
       error(kTwo + "actuator: {R: {\"*/h\": 2}}\n", {"actuator.R.m1/*=5"}),
       "--set actuator.R.m1/*=5: error: joint 'm1/h' is given 2 by '*/h' and 5 by 'm1/*'; give it by its name, which beats "
       "patterns\nDIR/s.yaml:5:16: note: '*/h' is here");
-  // A setting that is not per joint gets a message that says so.
+  // The message for a setting that is not per joint states this.
   EXPECT_EQ(error(kTwo, {"duration.m1/h=5"}), "DIR/s.yaml:4:11: error: duration is a map; expected a number in s");
 }
 

@@ -1,4 +1,4 @@
-// read_scenario as a whole.
+// Tests of read_scenario with complete scenarios.
 #include "core/scenario/read_scenario.h"
 
 #include <gtest/gtest.h>
@@ -167,7 +167,7 @@ TEST_F(ScenarioTest, APositionOfTwoNumbersKeepsOnGround) {
   EXPECT_FALSE(high.on_ground);
   EXPECT_EQ(high.position, Vec3(0.5, -2, 3));
   EXPECT_NE(resolved(high).find("\n  on_ground: false\n  position: [0.5, -2, 3]\n"), std::string::npos);
-  // At the origin, as without: nothing to write.
+  // A position at the origin is the default, so that the resolved scenario is the same.
   const Scenario origin = read("robot: {modules: duo, position: [0, 0]}\nduration: 1\n");
   EXPECT_TRUE(origin.on_ground);
   EXPECT_EQ(resolved(origin), resolved(read("robot: {modules: duo}\nduration: 1\n")));
@@ -195,7 +195,7 @@ TEST_F(ScenarioTest, ErrorsOfAPositionNameBothForms) {
 }
 
 TEST_F(ScenarioTest, LimitsThatContradictOneAnother) {
-  EXPECT_EQ(read(kShort + "limits: {touch: 0.002}\n").limits.touch, 0.002);  // the same: no warning, then a failure
+  EXPECT_EQ(read(kShort + "limits: {touch: 0.002}\n").limits.touch, 0.002);  // equal to limits.collision, thus no warnings
   const std::string text = "limits.touch, above which bodies that touch are a warning, is ";
   EXPECT_EQ(error(kShort + "limits: {touch: 0.02, collision: 0.01}\n"),
             "DIR/s.yaml:3:17: error: " + text +
@@ -209,7 +209,7 @@ TEST_F(ScenarioTest, LimitsThatContradictOneAnother) {
             "--set limits.collision=1e-4: error: " + text +
                 "0.0005 m by default, and limits.collision, above which they are a failure, is 0.0001 m; expected limits.touch "
                 "of at most 0.0001 m");
-  // A run that was made is a record.
+  // The resolved scenario of an old run is read as a record, which permits touch above collision.
   const std::string old = folder_.write("old.yaml", kShort + "limits: {touch: 0.02, collision: 0.01}\n");
   EXPECT_EQ(read_scenario(old, {}, catalog_, ReadAs::record).limits.touch, 0.02);
   EXPECT_EQ(read_scenario(old, {}, catalog_, ReadAs::record).limits.meeting(), 0.01);
@@ -228,7 +228,7 @@ TEST_F(ScenarioTest, LimitsBeyondWhatTheyAreSharesOf) {
 TEST_F(ScenarioTest, AnOldNameAndThePresentOne) {
   const std::string old = kShort + "limits: {margin: 0.7}\n";
   EXPECT_EQ(read(old).limits.warn_share, 0.7);
-  // --set replaces the value of the file, under either name.
+  // --set replaces the value of the file, with the old and with the new name of the setting.
   EXPECT_EQ(read(old, {"limits.margin=0.6"}).limits.warn_share, 0.6);
   EXPECT_EQ(read(old, {"limits.warn_share=0.6"}).limits.warn_share, 0.6);
   EXPECT_EQ(read(kShort + "limits: {warn_share: 0.7}\n", {"limits.margin=0.6"}).limits.warn_share, 0.6);

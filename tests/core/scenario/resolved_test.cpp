@@ -1,4 +1,4 @@
-// resolved and the manuals.
+// Tests of resolved scenarios and of the manuals.
 #include "core/scenario/resolved.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Lines in which two texts differ.
+// Tests of the list of lines in which two texts differ.
 #include "core/settings/changed_lines.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ TEST(ChangedLines, CountsThoseThatAreTooMany) {
             (Sentences{"line 1: \"1\", was \"a\"", "line 2: \"2\", was \"b\"", "... and 1 more line"}));
 }
 
-// 3000 x 3000 lines would take too long to match: each is compared with the one in its place.
+// In long texts, lines are compared by their line numbers, because matching 3000 x 3000 lines would take too long.
 TEST(ChangedLines, ManyLinesAreComparedInTheirPlaces) {
   std::string then;
   std::string now;
@@ -48,7 +48,7 @@ TEST(ChangedLines, LongLinesAreShownFromTheChangeOn) {
             Sentences{"line 1: ...\"--------------------new\", was ...\"--------------------old\""});
 }
 
-// A golden may come from anywhere: no control character of it reaches the terminal.
+// Control characters of a golden, whose origin may be unknown, are escaped before they reach the terminal.
 TEST(ChangedLines, ControlCharactersAreWrittenOut) {
   EXPECT_EQ(changed_lines("a\x1b[2J\n", "a\n"), Sentences{"line 1: \"a\", was \"a\\x1b[2J\""});
 }

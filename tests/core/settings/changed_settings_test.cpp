@@ -1,4 +1,4 @@
-// The settings in which two texts differ.
+// Tests of the list of settings in which two texts differ.
 #include "core/settings/changed_settings.h"
 
 #include <gtest/gtest.h>
@@ -61,7 +61,7 @@ TEST(ChangedSettings, LinesWhereThereIsNoSetting) {
   EXPECT_EQ(changed_settings("a: 1\n", "a: 1 # why\n"), Sentences{"line 1: \"a: 1 # why\", was \"a: 1\""});
 }
 
-// A golden may come from anywhere: no control character of it reaches the terminal.
+// Control characters of a golden, whose origin may be unknown, are escaped before they reach the terminal.
 TEST(ChangedSettings, ControlCharactersAreWrittenOut) {
   for (const std::string& text : changed_settings("a: 1\n", "a: \"\\x1b[2J\"\n\"\\x1b\": 2\n"))
     EXPECT_EQ(text.find('\x1b'), std::string::npos) << text;

@@ -1,4 +1,4 @@
-// Places within scalars, and texts of several lines printed as blocks.
+// Tests of places within scalars, and of texts of several lines that are printed as blocks.
 #include "core/settings/node_places.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace gaitlab {
 namespace {
 
-/// The character of a YAML text at a place.
+/// Character of a YAML text at a place.
 char character(const std::string& yaml, const SourceLocation& place) {
   std::size_t line = 0;
   for (int k = 1; k < place.line; ++k) line = yaml.find('\n', line) + 1;
@@ -28,7 +28,7 @@ std::string repeated(const std::string& text, char c) {
   return out;
 }
 
-/// Every character but line ends is found where it stands.
+/// Expects the correct place of every character except line ends.
 void expect_places(const std::string& yaml, const Node& node, const std::string& text) {
   ASSERT_EQ(node.text, text) << yaml;
   for (std::size_t k = 0; k < text.size(); ++k) {
@@ -48,7 +48,7 @@ TEST(NodePlaces, EveryCharacterOfManyTexts) {
     Node map{Node::Kind::map};
     map.keys = {{"k", {}}, {"after", {}}};
     map.items = {scalar(text), scalar("z")};
-    // Printed: in double quotes or as a block.
+    // The tree is printed in double quotes or as a block, and read again.
     const std::string printed = "top:\n" + print_yaml(map, 2);
     const Node back = parse_yaml(printed, "f");
     expect_places(printed, back.items[0].items[0], text);

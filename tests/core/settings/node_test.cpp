@@ -1,4 +1,4 @@
-// The guards against yaml-cpp 0.7 (docs/decisions/0003-strict-yaml.md), and print_yaml.
+// Tests of the checks that yaml-cpp 0.7 requires (docs/decisions/0003-strict-yaml.md), and of print_yaml.
 #include "core/settings/node.h"
 
 #include <fmt/format.h>
@@ -62,7 +62,7 @@ TEST(Node, ASecondDocumentIsRefused) {
 }
 
 TEST(Node, TheRootIsAMap) {
-  EXPECT_EQ(error(","), "f:1:1: error: found empty; expected a map (KEY: VALUE lines)");  // LoadAll(",") never returns
+  EXPECT_EQ(error(","), "f:1:1: error: found empty; expected a map (KEY: VALUE lines)");  // LoadAll(",") would never return
   EXPECT_EQ(error("- 1\n"), "f:1:1: error: found a list; expected a map (KEY: VALUE lines)");
   EXPECT_EQ(error("word\n"), "f:1:1: error: found 'word'; expected a map (KEY: VALUE lines)");
   EXPECT_EQ(error(""), "f: error: the file is empty; expected a map (KEY: VALUE lines)");
@@ -121,7 +121,7 @@ TEST(Node, AMissingFileIsReportedWhereItWasAskedFor) {
   EXPECT_EQ(error_of([] { read_yaml("/dev/zero"); }), "/dev/zero: error: cannot be read: not a regular file");
 }
 
-// The same kinds, texts and flags; places apart.
+// Expects equal kinds, texts and flags of two trees; places may differ.
 void expect_same(const Node& a, const Node& b) {
   EXPECT_EQ(a.kind, b.kind);
   EXPECT_EQ(a.text, b.text);
@@ -171,7 +171,8 @@ TEST(Node, HostileTextsEndSoon) {
         while (text.size() + part.size() < size) text += part;
         return test::cost_of([&] { error(text); });
       };
-      // 16 times if linear, 256 if quadratic. Another process can multiply a single cost, but not the least of several.
+      // The ratio is 16 if the cost is linear and 256 if it is quadratic. Other processes may increase a single measurement,
+      // but not the least of several.
       double large = cost(1U << 16);
       double small = cost(1U << 12);
       for (int again = 0; again < 9 && !(large < 128 * small); ++again) {

@@ -79,7 +79,7 @@ class Retyping : public testing::Test {
  protected:
   Retyping() { fakes::fill(catalog_); }
 
-  /// The notes, then the tree.
+  /// Text of the notes, and then of the tree with the settings.
   std::string after(const std::string& text, const std::vector<std::string>& sets) {
     Node root = parse_yaml(text, "f");
     Problems problems;

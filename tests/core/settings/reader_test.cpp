@@ -1,4 +1,4 @@
-// Reader, Writer and Explainer over the same settings structs.
+// Tests of Reader, Writer and Explainer with the same settings structs.
 #include "core/settings/reader.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ struct Gains {
   }
 };
 
-/// Messages of reading `text` into settings, which keep the values read before an error.
+/// Messages on reading `text` into settings. The settings keep the values that are read before an error.
 template <class T>
 std::string read(const std::string& text, T& settings, JointNames joints = &kJoints) {
   const Node node = parse_yaml(text, "f");
@@ -117,11 +117,11 @@ TEST(Reader, PerJointErrors) {
 
 TEST(Reader, PatternsOfJoints) {
   fakes::CommonKeys s;
-  // A name beats patterns, and patterns beat the default, whatever their order.
+  // A name overrides patterns, and patterns override the default, in any order.
   EXPECT_EQ(read("frequency: {m0/active: 3, \"*/active\": 2, default: 1}\namplitude: {\"m?/active\": 0.25}\n", s), "no error");
   EXPECT_EQ(s.frequency.each, (std::vector<double>{3, 1, 2}));
   EXPECT_EQ(s.amplitude.each, (std::vector<double>{0.25, 0.6, 0.25}));
-  // Patterns that agree, or disagree only where a name decides.
+  // Patterns may give equal values, or different values for a joint whose name is also given.
   EXPECT_EQ(read("frequency: {\"*/active\": 2, m0/*: 2, m0/passive: 5}\n", s), "no error");
   EXPECT_EQ(s.frequency.each, (std::vector<double>{2, 5, 2}));
   EXPECT_EQ(read("frequency: {\"*/active\": 2, m0/*: 4, m0/active: 3}\n", s), "no error");
@@ -139,7 +139,7 @@ TEST(Reader, PatternErrors) {
       read("frequency: {\"*/active\": 2, \"*\": 3}\n", s),
       "f:1:28: error: joint 'm0/active' is given 2 by '*/active' and 3 by '*' (and so 1 joint more); give it by its name, "
       "which beats patterns\nf:1:13: note: '*/active' is here");
-  // Three that disagree pairwise: each with the first that was there.
+  // If three patterns conflict, each later pattern is reported together with the first.
   EXPECT_EQ(read("frequency: {\"*/p*\": 1, m0/p*: 2, \"*ssive\": 3}\n", s),
             "f:1:24: error: joint 'm0/passive' is given 1 by '*/p*' and 2 by 'm0/p*'; give it by its name, which beats "
             "patterns\nf:1:13: note: '*/p*' is here\n"
@@ -162,7 +162,7 @@ TEST(Reader, PatternErrors) {
   EXPECT_EQ(read("leader: \"*/active\"\n", gains), "f:1:9: error: '*/active' is a pattern; expected the name of one joint");
 }
 
-/// A motor without which nothing runs.
+/// Settings with a required value.
 struct Required {
   PerJoint torque;
   void fields(Fields& f) { f.required("torque", torque, {"N m", kPositive, 10, "At rest; required."}); }

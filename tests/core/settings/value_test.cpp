@@ -86,7 +86,7 @@ TEST(Value, NumbersAreWrittenShortestAndReadBack) {
 
 TEST(Value, TheLocaleDoesNotMatter) {
   const std::string before = std::setlocale(LC_ALL, nullptr);
-  for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "de_DE"}) std::setlocale(LC_ALL, name);  // where installed
+  for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "de_DE"}) std::setlocale(LC_ALL, name);  // if installed
   EXPECT_EQ(number_text(1234.5), "1234.5");
   EXPECT_EQ(read_number(plain("1234.5"), "").value, 1234.5);
   std::setlocale(LC_ALL, before.c_str());
@@ -107,7 +107,7 @@ TEST(Value, MessagesShowNoControlCharactersAndStayShort) {
   EXPECT_EQ(clipped(std::string(500, 'x')), std::string(60, 'x') + "...");
   EXPECT_EQ(clipped(std::string(60, 'x')), std::string(60, 'x'));
   EXPECT_EQ(clipped("\xc2\x9b!"), "\\xc2\\x9b!");
-  // Bidirectional marks: the first and last of each group, and their neighbours.
+  // The first and last bidirectional mark of each group is escaped, but not the characters before and after the group.
   for (const char* mark : {"\u061c", "\u200e", "\u200f", "\u202a", "\u202e", "\u2066", "\u2069"}) {
     EXPECT_TRUE(clipped(mark).starts_with("\\x")) << clipped(mark);
     EXPECT_EQ(clipped(mark), one_line(mark));
@@ -115,7 +115,7 @@ TEST(Value, MessagesShowNoControlCharactersAndStayShort) {
   for (const char* letter :
        {"\u061b", "\u061d", "\u200d", "\u2010", "\u2029", "\u202f", "\u2065", "\u206a", "\u00e9", "\u05d0"})
     EXPECT_EQ(clipped(letter), letter);
-  EXPECT_EQ(clipped("a\xe2\x80"), "a\xe2\x80");  // cut within a mark
+  EXPECT_EQ(clipped("a\xe2\x80"), "a\xe2\x80");  // text that is cut within a mark
 }
 
 }  // namespace

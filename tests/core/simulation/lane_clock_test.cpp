@@ -1,4 +1,5 @@
-// When a rollout commands, records and ends: at whole steps, and within steps where the integrator chooses them.
+// Tests of the times at which a rollout computes commands, records rows and ends: at whole steps, or within steps if the
+// integrator chooses them.
 #include "core/simulation/lane_clock.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ Scenario scenario(double step, double duration, double period, bool adaptive) {
   return s;
 }
 
-/// Times of all rows, s, and of the end last.
+/// Times of all rows, s; the last is the end of the run.
 std::vector<double> rows(const Scenario& s) {
   const LaneClock clock(s);
   std::vector<double> times;
@@ -42,7 +43,7 @@ TEST(LaneClock, RowsAreMultiplesOfThePeriodAndTheEnd) {
       ASSERT_EQ(times.size(), static_cast<std::size_t>(whole) + 1) << duration << " " << period;
       EXPECT_NEAR(times.back(), duration, 1e-12);
       for (std::size_t k = 0; k + 1 < times.size(); ++k) {
-        EXPECT_NEAR(times[k], static_cast<double>(k) * period, 1e-12);  // to a picosecond
+        EXPECT_NEAR(times[k], static_cast<double>(k) * period, 1e-12);  // exact to 1 ps
       }
     }
   }
@@ -62,18 +63,18 @@ TEST(LaneClock, NothingIsWithinAStepThatWasGiven) {
     EXPECT_EQ(clock.commands(step), step % 15 == 0 && step < 300) << step;
     EXPECT_EQ(clock.ends(step), step == 300);
   }
-  // 1/40000 s is not a binary number: the count of steps is rounded, not their sum.
+  // 1/40000 s is not exact in binary. The number of steps is rounded once, so that errors do not accumulate.
   EXPECT_EQ(LaneClock(scenario(2.5e-5, 20, 5e-3, false)).steps(), 800000);
 }
 
-/// Without rows the end alone is recorded, at a step or within one.
+/// Without trace rows only the end of the run is recorded, at a step or within a step.
 TEST(LaneClock, RecordsNothingButTheEnd) {
   const LaneClock at_step(scenario(5e-4, 0.15, 2.5e-3, false), false);
   for (std::int64_t step = 0; step <= 300; ++step) EXPECT_EQ(at_step.records(step), step == 300) << step;
   const LaneClock within(scenario(5e-3, 0.0517, 2.5e-3, true), false);
   for (std::int64_t step = 0; step <= 11; ++step) EXPECT_FALSE(within.records(step)) << step;
   for (std::int64_t step = 0; step < 10; ++step) EXPECT_TRUE(std::isinf(within.row_within(step, 0))) << step;
-  EXPECT_NEAR(within.row_within(10, 0), 1.7e-3, 1e-12);  // a picosecond
+  EXPECT_NEAR(within.row_within(10, 0), 1.7e-3, 1e-12);  // exact to 1 ps
   EXPECT_TRUE(within.ends_within(10, within.row_within(10, 0)));
   EXPECT_TRUE(std::isinf(within.row_within(10, within.row_within(10, 0))));
 }

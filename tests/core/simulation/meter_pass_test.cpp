@@ -1,4 +1,5 @@
-// The pass of the meter: the bits do not depend on the registers, and peaks, times and shares are those of their definition.
+// Tests of the statistics over steps (meter pass): the bits do not depend on the width of registers, and peaks, times and
+// shares agree with their definitions.
 #include "core/simulation/meter_pass.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +17,8 @@ namespace {
 constexpr std::size_t kEntries = 2 * kMeterBlock;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Arrays of a pass: the inputs in the order of MeterPass, then lo, hi, driven, weight, share, seen; sums; peaks.
+/// Arrays of a pass. The inputs are in the order of MeterPass, followed by lo, hi, driven, weight, share and seen; the outputs
+/// are sums and peaks.
 struct Arrays {
   std::array<std::vector<double>, 17> in;
   std::array<std::vector<double>, kJointStatistics.size() + 7> out;
@@ -96,8 +98,8 @@ TEST(MeterPass, PeaksTimesAndShares) {
   one.in[0][9] = 1.5;  // angle
   one.in[2][9] = -3;   // torque
   one.in[3][9] = 0.5;  // set point
-  one.in[6][9] = 2;    // at its current
-  one.in[10][9] = 4;   // available
+  one.in[6][9] = 2;    // at the current limit
+  one.in[10][9] = 4;   // available torque
   add_pass(one.pass(0.5, false));
   one.in[2][9] = 2;
   one.in[6][9] = 1;

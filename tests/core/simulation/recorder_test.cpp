@@ -1,4 +1,4 @@
-// Rows that a recorder adds, and those that it leaves out.
+// Tests of the rows that a recorder adds and of the rows that it omits.
 #include "core/simulation/recorder.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace gaitlab {
 namespace {
 
-/// A scenario that ticks every 15 ms, and its recorder.
+/// Scenario with a control tick every 15 ms, and its recorder.
 struct Recorded {
   explicit Recorded(Records wanted = {}) {
     scenario.robot = std::make_shared<const Robot>(test::RandomRobots(3).robot_of(2));

@@ -1,4 +1,5 @@
-// Which robots have a joint that moves nothing: gimbal lock, also across other joints, but no chain however long.
+// Tests of the check for joints that move nothing: it finds gimbal lock, also across other joints, and accepts chains of any
+// length.
 #include "core/simulation/start_check.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@
 namespace gaitlab::test {
 namespace {
 
-/// Links 0.1 m apart along x, each about its axis.
+/// Chain of links 0.1 m apart along x, each with a joint about a given axis.
 class Chain {
  public:
   Chain() { robot_.links.push_back(body(Vec3::UnitY(), 1)); }
@@ -23,7 +24,7 @@ class Chain {
     robot_.joints.push_back({.name = "j" + std::to_string(robot_.joints.size()), .link = robot_.links.size()});
     robot_.links.push_back(link);
   }
-  /// "" or what is said.
+  /// Message of the check; "" if the robot is accepted.
   [[nodiscard]] std::string said() const {
     Scenario scenario;
     scenario.robot = std::make_shared<const Robot>(robot_);

@@ -1,4 +1,4 @@
-// The estimate of the torque error, against numbers computed by hand.
+// The estimate of the torque error agrees with numbers computed by hand.
 #include "core/simulation/step_error.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-/// An estimate with its numbers.
+/// Estimate of the torque error with its buffers.
 struct Estimate {
   StateLayout layout;
   Numbers numbers;
@@ -37,9 +37,9 @@ struct Estimate {
 TEST(StepError, IsAWeightedRmsTimesTheFactor) {
   Estimate one({2, 1}, {0.5});
   one.see({3, -4});
-  one.compare(Companion::twin, {1, -4}, 0.1, 2, 1);  // differences 4, 0
+  one.compare(Companion::twin, {1, -4}, 0.1, 2, 1);  // the differences are 4 and 0
   one.see({1, 0});
-  one.compare(Companion::twin, {1, 3}, 0.2, 2, 3);  // 0, 6
+  one.compare(Companion::twin, {1, 3}, 0.2, 2, 3);  // the differences are 0 and 6
   const StepTally tally = one.tally();
   EXPECT_EQ(tally.torque_error, (Numbers{std::sqrt(16.0 / 4), std::sqrt(3 * 36.0 / 4)}));
   EXPECT_EQ(tally.torque_peak, (Numbers{3, 4}));
@@ -51,7 +51,7 @@ TEST(StepError, IsAWeightedRmsTimesTheFactor) {
 TEST(StepError, NeedsASlopeOrADifference) {
   Estimate lanes({1, 3}, {0.1, 0.1, 0.1});
   lanes.error.see(Numbers{1, 1, 1}, Numbers{0, -1, 0});
-  lanes.compare(Companion::coarse, {2, 1, 1}, 0.1);  // a coarse companion alone is not enough
+  lanes.compare(Companion::coarse, {2, 1, 1}, 0.1);  // the coarse companion alone is not sufficient
   lanes.compare(Companion::twin, {1, 1, 2}, 0.1);
   EXPECT_FALSE(lanes.tally(0).estimated);
   EXPECT_TRUE(lanes.tally(1).estimated);
@@ -66,7 +66,7 @@ TEST(StepError, AnEventIsBeyondThePeakOfTheWholeRun) {
   one.see({1});
   one.compare(Companion::twin, {1.25}, 1);
   EXPECT_EQ(one.tally().event.time, 1);
-  one.see({10});  // a quarter is now less than a tenth of the peak
+  one.see({10});  // the difference of a quarter becomes less than a tenth of the peak
   one.compare(Companion::twin, {10}, 2);
   EXPECT_LT(one.tally().event.time, 0);
   one.compare(Companion::twin, {12}, 3);
@@ -77,9 +77,9 @@ TEST(StepError, AnEventIsBeyondThePeakOfTheWholeRun) {
 TEST(StepError, ASmallPeakCountsAsAShareOfTheLargest) {
   Estimate one({2, 1}, {0.1});
   one.see({100, 0.01});
-  one.compare(Companion::twin, {100, 0.135}, 1);  // 0.125 of 2 N m: below a tenth
+  one.compare(Companion::twin, {100, 0.135}, 1);  // the difference 0.125 is below a tenth of 2 N m
   EXPECT_LT(one.tally().event.time, 0);
-  EXPECT_NEAR(one.tally().event.share, 0.125 / 2, 1e-15);  // one rounding of numbers of size 0.1
+  EXPECT_NEAR(one.tally().event.share, 0.125 / 2, 1e-15);  // one rounding error of numbers of size 0.1
 }
 
 TEST(StepError, TheCompanionThatPartsFirstCounts) {

@@ -19,7 +19,7 @@ TEST(Support, GrowsUntilItHoldsTheCentreOfMass) {
   const std::vector<SupportElement> legs = {
       {0, 0.0, {1, 1, 0}}, {1, 0.0, {1, -1, 0}}, {2, 0.02, {-1, 0, 0}}, {3, 0.5, {-2, 0, 0}}};
   EXPECT_EQ(names(support_elements(legs, Vec3(0, 0, 1))), (std::vector<std::size_t>{0, 1, 2}));
-  // It would topple whatever it stood on: the lowest carry it for now.
+  // The robot would topple on any of its elements. The lowest elements then count as support.
   EXPECT_EQ(names(support_elements(legs, Vec3(5, 0, 1))), (std::vector<std::size_t>{0, 1}));
   EXPECT_TRUE(support_elements({}, Vec3::Zero()).empty());
 }
@@ -47,8 +47,8 @@ TEST(SupportMargin, OfFewerThanThreeFeetIsNeverInside) {
   EXPECT_TRUE(std::isnan(support_margin({}, Vec3::Zero())));
 }
 
-/// By the support function: the margin of a convex set is the least of max_p (p - c).u over all directions u. Outside of the
-/// set that is minus the distance, inside of it the way to the edge.
+/// The margin equals that of the support function, the least of max_p (p - c).u over all directions u. Outside the set this is
+/// minus the distance, and inside it is the distance to the edge.
 TEST(SupportMargin, IsThatOfTheSupportFunction) {
   std::mt19937 bits(7);
   const auto uniform = [&] { return static_cast<double>(bits()) / 2147483648.0 - 1; };
@@ -65,7 +65,7 @@ TEST(SupportMargin, IsThatOfTheSupportFunction) {
         most = std::max(most, std::cos(angle) * (p.x() - com.x()) + std::sin(angle) * (p.y() - com.y()));
       least = std::min(least, most);
     }
-    // The nearest direction is at most pi / kDirections off; the points are at most 3 m away.
+    // The nearest sampled direction is within pi / kDirections, and the points are at most 3 m away.
     EXPECT_NEAR(support_margin(points, com), least, 3 * std::numbers::pi / kDirections) << k;
   }
 }

@@ -5,7 +5,7 @@ from paper import gaits, laws
 from paper.laws import EPS
 from paper.robot import from_quaternion, rpy
 
-# key: what is compared, tolerance, why that much. Residuals are relative to the terms that are added, unless said otherwise.
+# Lines by key: compared quantity, tolerance, reason for the tolerance. Residuals are relative to the added terms unless stated otherwise.
 FEW = 16 * EPS, "at most eight operations a side, each of which rounds by half of 2.2e-16"
 CHAIN = 4e-14, "up to 17 hinges between base and body, ten roundings of 2.2e-16 at each, of lengths below 1 m"
 SUMS = 4e-14, "as the poses; the sums over bodies are of positive terms or relative to these"
@@ -60,7 +60,7 @@ LINES = {
 
 
 class Gate:
-    """The worst residual seen on every line, where, and how many samples."""
+    """Largest residual of every line, its place, and the number of samples."""
 
     def __init__(self):
         self.worst, self.where, self.count, self.seen = {}, {}, {}, {}
@@ -80,7 +80,7 @@ class Gate:
             self.worst[key], self.where[key] = float(residual.max()), run.name
 
     def cover(self, key, run, count):
-        """Something that must happen somewhere, or the gate would pass without having looked."""
+        """Counts samples of a situation that must occur in some run, because the gate would otherwise pass without a test."""
         self.seen[key] = self.seen.get(key, 0) + int(count)
 
     def red(self, key):
@@ -99,7 +99,7 @@ def motors(gate, run, rules):
     emf = np.abs(motor.Ks * motor.n * w)
     i, saturation = motor.current(command, w)
     gate.see("eq. 1", run, run.joints("current") - i, (np.minimum(np.abs(command), motor.u_max) + emf) / motor.R)
-    # A current within rounding of its limit may count as either.
+    # A current that equals its limit up to rounding errors may count as limited or not.
     clear = np.abs(np.abs(motor.R * i) - motor.R * motor.i_max) > 64 * EPS * (np.abs(command) + emf)
     clear |= saturation == 2
     gate.see("eq. 1, limits", run, run.joints("saturation") != saturation, where=clear)
@@ -180,13 +180,13 @@ def patterns(gate, run, rules):
 
 
 def state_columns(run, network, ticks):
-    """(ticks, names, joints)"""
+    """Array (ticks, names, joints) of the state columns."""
     return np.stack([np.stack([run[f"cpg.{name}.{j}"] for j in range(run.n)], -1)[ticks] for name in network.names], 1)
 
 
 class Touch:
     """One contact element in all rows: material point, its velocity, penetration, normal and friction coefficient.
-    plain: rows in which it meets one solid alone, the plane or one box (several at once: docs/equations.md, 6, Boxes)."""
+    plain: rows in which the element touches only the plane or only one box (several boxes: docs/equations.md, 6, Boxes)."""
 
     def __init__(self, run, body, centre, radius):
         p, rotation, v, w = run.motion()[body]
@@ -198,13 +198,13 @@ class Touch:
         for box in ground.get("boxes", []):
             turned, size = rpy(box["rpy"]), np.array(box["size"], float)
             local = (c - np.array(box["center"], float)) @ turned
-            depth = np.stack([size / 2 - local, size / 2 + local], 1)  # of the centre below the faces +x, +y, +z; -x ...
+            depth = np.stack([size / 2 - local, size / 2 + local], 1)  # depth of the centre below the faces +x, +y, +z; -x ...
             inside = (depth > 0).all((1, 2))
-            depth[:, 1, 2] = np.where(inside, np.inf, depth[:, 1, 2])  # the face that looks down into the plane
+            depth[:, 1, 2] = np.where(inside, np.inf, depth[:, 1, 2])  # excludes the lower face if it is inside the plane
             flat = depth.reshape(-1, 6)
             face = flat.argmin(1)
             direction = np.concatenate([turned.T, -turned.T])[face]
-            # Left out: in several solids, near an edge where two faces are equally deep, and spheres near a box.
+            # Omitted are elements in several boxes, near an edge with equal depths below two faces, and spheres near a box.
             near = (np.abs(local) < size / 2 + radius).all(1)
             self.plain &= ~near | (inside & (self.p <= 0) & (radius == 0))
             self.p = np.where(inside, flat.min(1), self.p)
@@ -219,7 +219,7 @@ class Touch:
 
 
 def elements(run):
-    """(number, name, Touch) of all contact columns."""
+    """List of (number, name, Touch) for all contact columns."""
     known = run.robot.contacts(run.scenario["contact"]["on"])
     number = 0
     while f"contact.{number}.fn" in run.index:
@@ -255,7 +255,7 @@ def stops(gate, run, rules):
     q, qd, ranges = run.joints("angle"), run.joints("speed"), np.array(run.robot.ranges)
     torque = laws.stop(q, qd, ranges, **rules.get("stop", {}))
     excess = np.maximum(np.maximum(q - ranges[:, 1], ranges[:, 0] - q), 0)
-    # The excess is a difference of two angles.
+    # The rounding error of the excess is that of a difference of two angles.
     scale = laws.STOP_STIFFNESS * (excess + np.abs(q)) + laws.STOP_DAMPING * np.abs(qd)
     gate.see("hinge stop", run, run.joints("stop_torque") - torque, scale)
     gate.cover("stops that push", run, (torque != 0).sum())

@@ -3,7 +3,7 @@ import numpy as np
 
 
 class Network:
-    """The phase oscillators of a resolved scenario: frequencies, couplings, start."""
+    """Phase oscillators of a resolved scenario: frequencies, couplings, start."""
 
     names = ("phi", "r", "x")
 
@@ -24,7 +24,7 @@ class Network:
         self.weight, self.lag = (np.array([edge[k] for edge in self.edges], float) for k in (2, 3))
 
     def phases(self, n):
-        """Sums of lags along the couplings; 0 everywhere where these contradict one another."""
+        """Sums of lags along the couplings; all 0 if the lags contradict one another."""
         phase = [None] * n
         for root in range(n):
             if phase[root] is not None or any(j == root for _, j, _, _ in self.edges) and root:
@@ -44,12 +44,12 @@ class Network:
         return np.array([p or 0.0 for p in phase])
 
     def pull(self, phi, strength):
-        """sum_j w_ij strength_j sin(phi_j - phi_i - psi_ij), psi_ij = -lag."""
+        """Coupling sum_j w_ij strength_j sin(phi_j - phi_i - psi_ij) with psi_ij = -lag."""
         terms = self.weight * strength[self.source] * np.sin(phi[self.source] - phi[self.target] + self.lag)
         return np.bincount(self.target, terms, len(phi))
 
     def rates(self, state):
-        """Eq. 7-9; state: (3, joints) of phi, r, x."""
+        """Rates of the states by eq. 7-9. The state is an array (3, joints) of phi, r, x."""
         phi, r, x = state
         d_phi = self.omega + self.pull(phi, r if self.weighted else np.ones_like(r))
         return np.stack([d_phi, self.a_r * (self.R - r), self.a_x * (self.X - x)])
@@ -58,7 +58,7 @@ class Network:
         return np.stack([self.start, np.zeros_like(self.start), self.X])
 
     def output(self, state, sin=np.sin):
-        """Eq. 10; state: (names, ...)."""
+        """Set points by eq. 10. The state is an array (names, ...)."""
         phi, r, x = state
         return x + r * sin(phi)
 
@@ -79,7 +79,7 @@ class Network:
 
 
 class Kuramoto(Network):
-    """`kuramoto_amplitude`: couplings weighted with amplitudes, amplitudes and offsets of second order."""
+    """CPG `kuramoto_amplitude`: couplings are weighted with amplitudes; amplitudes and offsets obey equations of order 2."""
 
     names = ("phi", "r", "dr", "x", "dx")
 
@@ -98,8 +98,8 @@ class Kuramoto(Network):
 
 
 class Hopf(Network):
-    """`hopf` with a duty factor of 0.5: circles, coupled by the difference to the other's state turned by the lag. Phase 0 is
-    where the set point rises through its mean, a quarter turn before x = 1."""
+    """CPG `hopf` with a duty factor of 0.5. The limit cycles are circles; a coupling is the difference to the state of the other
+    oscillator, rotated by the lag. At phase 0 the set point rises through its mean, a quarter turn before x = 1."""
 
     names = ("x", "y")
 
@@ -119,7 +119,7 @@ class Hopf(Network):
 
 
 def edges(run, rule, lag, weight):
-    """Couplings (from, to, weight, lag) of a rule or a list: docs/equations.md, 5."""
+    """Couplings (from, to, weight, lag) of a rule or a list (docs/equations.md, 5)."""
     n, robot = run.n, run.robot
     if not isinstance(rule, str):
         number = lambda name: robot.joint_names.index(name) if name in robot.joint_names else int(name)
@@ -144,22 +144,22 @@ def ramp(t, time):
 
 
 def sine(run, t):
-    """The limit cycle, prescribed."""
+    """Set points of the CPG `sine`, which prescribes the limit cycle."""
     net, cpg = Network(run), run.scenario["cpg"]
     t = t[:, None]
     return ramp(t, cpg["model"]["ramp"]) * (net.X + net.R * np.sin(net.omega * t + net.start))
 
 
 def tripod(run, t):
-    """Figure 11, for order alternate and duty factor 0.5: one group stands while the other swings, in turns.
-    Leg modules are those docked sideways to the spine; front legs are those with the largest x."""
+    """Set points of figure 11, for the order `alternate` and a duty factor of 0.5: two groups of legs stand and swing alternately.
+    Leg modules are docked sideways to the spine; front legs have the largest x."""
     cpg = run.scenario["cpg"]
     model = cpg["model"]
     assert model["order"] == "alternate" and model["duty_factor"] == 0.5 and not model["reverse"]
     grow = ramp(t, model["ramp"])
     amplitude, tilt = cpg["amplitude"] * grow, model["tilt"] * grow
     turns = cpg["frequency"] * t
-    # The resting robot: where the legs sit, and how deep and long their feet are.
+    # Positions of the legs on the resting robot, and depths and lengths of their feet.
     robot = run.robot
     zero = np.zeros((1, run.n))
     origin = np.zeros((1, 3))
@@ -172,27 +172,27 @@ def tripod(run, t):
     out = np.zeros((len(t), run.n))
     for side, legs in sides.items():
         for place, (_, module) in enumerate(sorted(legs)):
-            # As in the first picture of figure 11: right front, left middle and right rear stand first.
+            # As in the first picture of figure 11, the legs right front, left middle and right rear stand first.
             second = (place % 2 == 0) == (side > 0)
             phase = (turns + (0.5 if second else 0.0)) % 1.0
             standing = phase < 0.5
             u, s = 2 * phase, 2 * phase - 1
             stance = 1 - 2 * u
             swing = -np.cos(np.pi * s)
-            swing_least = -(1 - 2 * s)  # what the stance of the other group has, in magnitude
+            swing_least = -(1 - 2 * s)  # magnitude equal to that of the stance of the other group
             swing = np.where(np.abs(swing) < np.abs(swing_least), swing_least, swing)
             angle = amplitude * np.where(standing, stance, swing)
             lift = tilt * np.where(standing, np.sin(np.pi * u) ** 2, 0)
             hip, ankle = sorted((b for b in robot.bodies if b.joint is not None and b.name.startswith(f"m{module}/")),
                                 key=lambda b: b.joint)
-            # hip towards +x: a positive turn about world y moves what hangs down to -x.
+            # The hip moves towards +x. A positive rotation about world y moves a hanging leg towards -x.
             out[:, hip.joint] = -np.sign(rest.hinge[hip.joint][1][0, 1]) * angle
             out[:, ankle.joint] = -np.sign(rest.hinge[ankle.joint][1][0, 1]) * (lift - angle)
     return out
 
 
 def keyframes(run, t):
-    """Straight lines or the periodic or resting cubic spline through the frames."""
+    """Set points of the CPG `keyframes`: straight lines, a periodic cubic spline, or a cubic spline at rest at both ends."""
     model = run.scenario["cpg"]["model"]
     frames = model["frames"]
     times = np.array([float(frame["time"]) for frame in frames])
@@ -203,7 +203,7 @@ def keyframes(run, t):
     for k in range(1, n - 1):
         A[k, k - 1:k + 2] = h[k - 1], 2 * (h[k - 1] + h[k]), h[k]
         b[k] = 6 * (slope[k] - slope[k - 1])
-    if model["repeat"]:  # M_0 = M_last, and the speed goes on over the seam
+    if model["repeat"]:  # M_0 = M_last, and the speed is continuous at the seam
         A[0, 0], A[0, -1] = 1, -1
         A[-1, 0], A[-1, 1], A[-1, -2], A[-1, -1] = 2 * h[0], h[0], h[-1], 2 * h[-1]
         b[-1] = 6 * (slope[0] - slope[-1])

@@ -29,27 +29,27 @@ class Motor:
             self.i_max = np.where(i > 0, i, self.u_max / self.R)
             self.directional, self.turn_speed = False, None
         motor = self.type in ("dc_motor", "servo")
-        self.reflected = self.n**2 * self.rotor if motor else np.zeros(run.n)  # on the joint's inertia
+        self.reflected = self.n**2 * self.rotor if motor else np.zeros(run.n)  # adds to the joint's inertia
         self.command_limit = self.u_max if motor else self.limit if self.type == "torque" else np.full(run.n, np.inf)
 
     def current(self, command, w):
-        """Eq. 1 with both limits: the current, and 0, 1 or 2 for none, the voltage limit, the current limit."""
+        """Current by eq. 1 with both limits, and the active limit: 0 for none, 1 for the voltage, 2 for the current."""
         free = (np.clip(command, -self.u_max, self.u_max) - self.Ks * self.n * w) / self.R
         saturation = np.where(np.abs(free) > self.i_max, 2, np.where(np.abs(command) > self.u_max, 1, 0))
         return np.clip(free, -self.i_max, self.i_max), saturation
 
     def efficiency(self, i, w):
-        """eta, or eta^s of docs/equations.md, 3."""
+        """Efficiency eta, or eta^s of docs/equations.md, 3."""
         if not self.directional:
             return np.broadcast_to(self.eta, i.shape)
         return self.eta ** np.clip(w * np.sign(i) / self.turn_speed, -1, 1)
 
     def torque(self, i, w):
-        """Eq. 2."""
+        """Torque by eq. 2."""
         return self.efficiency(i, w) * self.Kt * i * self.n
 
     def damping(self, command, i, w):
-        """-dT/dw, 0 while the current is limited."""
+        """Slope -dT/dw of the torque; 0 while the current is limited."""
         b = self.eta * self.Kt * self.Ks * self.n**2 / self.R
         if self.directional:
             e = self.efficiency(i, w)
@@ -59,8 +59,8 @@ class Motor:
 
 
 def pid(error, gains, period, limit, anti_windup=True, rule="last", sign=1):
-    """Eq. 3-6 for (ticks, joints) of errors: P, I, D and their sum, one row per tick.
-    rule: which error the condition of anti-windup compares; "this", "off" and sign -1 are mutants."""
+    """P, I, D and their sum by eq. 3-6 for an array (ticks, joints) of errors, one row per tick.
+    `rule` selects the error that the condition of anti-windup compares; "this", "off" and sign -1 are mutants."""
     Kp, Ki, Kd, N = gains
     ticks, joints = error.shape
     I, D, u = (np.zeros((ticks, joints)) for _ in range(3))
@@ -77,21 +77,21 @@ def pid(error, gains, period, limit, anti_windup=True, rule="last", sign=1):
 
 
 def stop(q, qd, ranges, stiffness=STOP_STIFFNESS, damping=STOP_DAMPING):
-    """Docs/equations.md, 2: torque outside [lo, hi], never pulling back into the stop."""
+    """Torque of a hinge stop outside [lo, hi] (docs/equations.md, 2). The torque never pulls the joint towards the stop."""
     low, high = ranges[:, 0], ranges[:, 1]
     torque = np.where(q > high, np.minimum(-stiffness * (q - high) - damping * qd, 0), 0)
     return np.where(q < low, np.maximum(-stiffness * (q - low) - damping * qd, 0), torque)
 
 
 def normal_force(p, rate, law):
-    """Eq. 12, first line. rate: that of the penetration."""
+    """Normal force by the first line of eq. 12, for a penetration p and its rate."""
     spring = law["stiffness"] * np.maximum(p, 0) ** law["exponent"]
     damper = law["damping"] * np.maximum(p, 0) ** law["damping_exponent"]
     return np.where(p > 0, np.maximum(spring + damper * rate, 0), 0), np.where(p > 0, spring, 0), np.where(p > 0, damper, 0)
 
 
 def friction(fn, v, f, slip_speed):
-    """Eq. 12, second line: v (rows, 3) is the tangential velocity."""
+    """Friction force by the second line of eq. 12, for the tangential velocity v (rows, 3)."""
     speed = np.linalg.norm(v, axis=-1)
     sticking = -(f * fn / slip_speed)[..., None] * v
     sliding = -(f * fn / np.maximum(speed, slip_speed))[..., None] * v

@@ -25,7 +25,7 @@ def rpy(angles):
 
 
 def from_quaternion(q):
-    """q: (rows, 4) as w, x, y, z, of any length; body axes into world axes."""
+    """Rotation matrices from body to world axes of quaternions q (rows, 4) as w, x, y, z, which need not be normalised."""
     q = q / np.linalg.norm(q, axis=-1, keepdims=True)
     w, x, y, z = np.moveaxis(q, -1, 0)
     return np.stack([
@@ -35,7 +35,7 @@ def from_quaternion(q):
 
 
 class Body:
-    """A body, how it hangs on the one before it, and what is known of it in its own frame."""
+    """Body with its connection to the parent body, and its properties in its own frame."""
 
     def __init__(self, name, data):
         self.name, self.parent, self.joint = name, None, None
@@ -67,7 +67,7 @@ class Robot:
             else:
                 self.reference[k] = self.face(k, docks[k][0])["body"]
             self.add_module(k)
-        # Modules are numbered in any order: a parent's place may come later in the list.
+        # Modules may be numbered in any order, so that a parent may appear later in the list.
         for k, (child_face, _, parent_face, parent, orientation) in docks.items():
             self.dock(k, child_face, int(parent), parent_face, int(orientation))
         self.order = []
@@ -110,7 +110,8 @@ class Robot:
                 self.ranges.append((-high, -low) if backwards else (low, high))
 
     def dock(self, k, child_face, parent, parent_face, orientation):
-        """Faces coincide, normals are opposite; the child turns about its own outward normal, from aligned references."""
+        """Docks a module: faces coincide and normals are opposite. The child is rotated about its outward normal, starting with
+        aligned reference directions."""
         own, other = self.face(k, child_face), self.face(parent, parent_face)
 
         def frame(normal, reference):
@@ -126,7 +127,7 @@ class Robot:
         body.origin = np.array(other["origin"], float) - body.rest @ np.array(own["origin"], float)
 
     def move(self, p, rotation, v, w, q, qd):
-        """Poses and velocities of every body, and hinges in the world, for the base's and the joints' (docs/equations.md, 1)."""
+        """Poses and velocities of all bodies, and hinges in the world, from those of base and joints (docs/equations.md, 1)."""
         out = Motion(self)
         for body in self.order:
             if body.parent is None:
@@ -142,7 +143,7 @@ class Robot:
                 d, axis = r_p @ body.origin, r_p @ body.rest @ body.axis
                 r = r_p @ body.rest @ turn(body.axis, angle)
                 beyond = np.zeros_like(d)
-            else:  # The hinge sits at the nearer body's frame; the farther one's frame lies beyond it.
+            else:  # The hinge is at the frame of the parent body; the frame of the child body is displaced from it.
                 d, axis = np.zeros_like(p_p), r_p @ body.axis
                 r = r_p @ turn(body.axis, angle) @ body.rest.T
                 beyond = -(r @ body.origin)
@@ -152,7 +153,7 @@ class Robot:
         return out
 
     def contacts(self, on):
-        """{name: (body, centre, radius)} of all elements of the list that contact.on chooses."""
+        """Dictionary {name: (body, centre, radius)} of all elements of the list that contact.on selects."""
         out = {}
         for k in range(self.count):
             count = {}
@@ -165,7 +166,7 @@ class Robot:
         return out
 
     def joints_to(self, body):
-        """Numbers of the joints between the base and a body, its own included."""
+        """Numbers of the joints between the base and a body, including the joint of the body."""
         out = []
         while body is not None:
             out += [] if body.joint is None else [body.joint]
@@ -174,7 +175,7 @@ class Robot:
 
 
 class Motion:
-    """Poses and velocities of all bodies in world axes, and what follows from them; arrays begin with the row."""
+    """Poses and velocities of all bodies in world axes, and derived quantities. The first index of arrays is the row."""
 
     def __init__(self, robot):
         self.robot, self.pose, self.hinge = robot, {}, {}
@@ -183,7 +184,7 @@ class Motion:
         self.pose[body.name] = pose
 
     def __getitem__(self, body):
-        """(p, R, v, w), v that of the origin of the body's frame."""
+        """Tuple (p, R, v, w) of a body. p and v are position and velocity of the origin of the body's frame."""
         return self.pose[body if isinstance(body, str) else body.name]
 
     def com(self, body):
@@ -193,13 +194,13 @@ class Motion:
         return p + d, v + np.cross(w, d)
 
     def spin(self, body):
-        """R I R^T omega and R I R^T"""
+        """Angular momentum R I R^T omega and inertia tensor R I R^T of a body."""
         _, r, _, w = self[body]
         inertia = r @ body.inertia @ np.swapaxes(r, -1, -2)
         return np.einsum("nij,nj->ni", inertia, w), inertia
 
     def jacobian(self, body, x):
-        """(rows, 3, 6 + joints) twice: of the velocity of the body's material point at x, and of its angular velocity."""
+        """Jacobians (rows, 3, 6 + joints) of the velocity of the body's material point at x, and of its angular velocity."""
         base = self.robot.order[0]
         p = self[base][0]
         linear = np.zeros((len(x), 3, 6 + len(self.robot.joint_names)))
@@ -211,12 +212,12 @@ class Motion:
         return linear, angular
 
     def equations(self, gravity, qd):
-        """Mass matrix and bias of M v' + c = generalised forces, gravity among the bias: Newton and Euler for every body,
-        projected by its Jacobians (Kane); no recursion."""
+        """Mass matrix and bias of M v' + c = generalised forces, with gravity in the bias. The equations of Newton and Euler for every
+        body are projected by its Jacobians (Kane), without recursion."""
         size = 6 + qd.shape[1]
         mass, bias = np.zeros((len(qd), size, size)), np.zeros((len(qd), size))
         zero = np.zeros((len(qd), 3))
-        drift = {}  # accelerations at v' = 0: of the frame's origin, and angular
+        drift = {}  # accelerations at v' = 0 of the frame's origin, and angular accelerations
         for body in self.robot.order:
             p, _, _, w = self[body]
             a, alpha = zero, zero

@@ -7,7 +7,7 @@ from paper.robot import from_quaternion, skew
 
 
 def steps(gate, run, rules):
-    """Every step of the integrator, and what it adds to the ledger; a row per step."""
+    """Checks every step of the integrator, and its contribution to the ledger, for a trace with a row per step."""
     physics, law, motor, robot = run.scenario["physics"], run.scenario["contact"], laws.Motor(run), run.robot
     h, implicit = physics["step"], physics["integrator"] == "implicit"
     assert run.scenario["trace"]["period"] == h and run.scenario["robot"]["base"] == "floating"
@@ -27,7 +27,7 @@ def steps(gate, run, rules):
     spun = turned_by(h * after[:, 3:6]) @ rotation[:-1]
     gate.see("motion, positions", run, spun - rotation[1:])
 
-    # Forces on the joints: at the state, or at the velocity of the step's end.
+    # Forces on the joints at the start of the step, or for implicit methods with the velocity at its end.
     speed = after[:, 6:] if implicit else qd
     i, saturation = motor.current(command, speed)
     torque = motor.torque(i, speed)
@@ -38,14 +38,14 @@ def steps(gate, run, rules):
     terms = np.abs(force)
     plain = np.ones(len(v), bool)
 
-    # An implicit step has its matrices, and what touches, where the start's velocity leads within it.
+    # The matrices and contacts of an implicit step are those at the pose to which the velocity at the start leads.
     if implicit:
         ahead = run.robot.move(run.vector("base.", "xyz")[:-1] + h * v[:, :3], turned_by(h * v[:, 3:6]) @ rotation[:-1], v[:, :3],
                                v[:, 3:6], q + h * qd, qd)
         mass, bias = ahead.equations(np.array(physics["gravity"], float), qd)
         mass[:, joints, joints] += motor.reflected
 
-    # The ground's.
+    # Forces of the ground.
     ground, rubbed, moved = 0, 0, (v + after) / 2 if implicit else v
     worked, fast = 1e-30, np.linalg.norm(v[:, :3], axis=1) + np.abs(v[:, 3:]).sum(1) + np.abs(after[:, 3:]).sum(1)
     for _, name, touch in checks.elements(run):
@@ -67,18 +67,18 @@ def steps(gate, run, rules):
         force += np.einsum("nki,nk->ni", linear, pushed)
         terms += np.einsum("nki,nk->ni", np.abs(linear), np.abs(pushed))
         along = np.einsum("nki,ni->nk", linear, moved)
-        # p comes from the pose here: its error counts like that of a millimetre.
+        # The penetration p is computed from the pose, so that its rounding error is that of a length of about 1 mm.
         _, spring, damper = laws.normal_force(np.where(p > 0, p + 1e-3, 0), 0, law)
         slip = 1 + touch.f[rows] * (1 + fast / np.maximum(np.linalg.norm(at[:, :2], axis=1), law["slip_speed"]))
         worked = worked + ((spring + damper * fast) * np.linalg.norm(along, axis=1) + push * fast) * slip * h
         ground, rubbed = ground - push * along[:, 2] * h, rubbed - (tangential * along).sum(1) * h
     needed = np.einsum("nij,nj->ni", mass, (after - v) / h)
     terms += np.abs(bias) + np.einsum("nij,nj->ni", np.abs(mass), np.abs(after) + np.abs(v)) / h
-    # Of the whole robot's size: an error of one body's force reaches the equations of all.
+    # Residuals are relative to the largest term of the robot, because the rounding error of a force affects the equations of all bodies.
     gate.see("motion, implicit" if implicit else "motion, velocities", run, needed + bias - force, terms.max(1)[:, None], plain[:, None])
     gate.cover("implicit steps away from corners" if implicit else "explicit steps", run, plain.sum())
 
-    # What the step adds to the ledger.
+    # Contributions of the step to the ledger.
     voltage = motor.R * i + motor.Ks * motor.n * speed
     drawn, copper = voltage * i, motor.R * i**2
     size = (np.abs(drawn) + copper + np.abs(torque * speed)).sum(1) * h
@@ -100,7 +100,7 @@ def turned_by(vector):
 
 
 def implicit_stop(q, end, h, ranges):
-    """Docs/equations.md, 7: torque of the hinge stops at the speed of the step's end."""
+    """Torque of the hinge stops at the speed at the end of the step (docs/equations.md, 7)."""
     reached = q + h * end
     high = q > ranges.mean(1)
     excess = reached - np.where(high, ranges[:, 1], ranges[:, 0])
@@ -110,8 +110,8 @@ def implicit_stop(q, end, h, ranges):
 
 
 def implicit_touch(law, f, h, p, fn, start, end):
-    """Docs/equations.md, 7, for k = d = 1: normal force, friction, and in which rows both are solved to rounding: where the
-    element rests, or is in the air. A landing and a slide are curved laws, which the solve meets to a tolerance."""
+    """Normal force and friction for k = d = 1 (docs/equations.md, 7), and the rows in which both are exact up to rounding: the
+    element rests or is in the air. Landing and sliding are nonlinear, and the solve satisfies them to a tolerance."""
     assert law["exponent"] == law["damping_exponent"] == 1
     depth, damping = p + h * start[:, 2], law["damping"] * np.maximum(p, 0)
     reached = depth - h * end[:, 2]
@@ -126,7 +126,7 @@ def implicit_touch(law, f, h, p, fn, start, end):
 
 
 def runge_kutta(gate, run, rules):
-    """The classical method on all of the state, the orientation as a quaternion with q' = (0, omega) q / 2."""
+    """Checks the classical Runge-Kutta method for the complete state, with the orientation as a quaternion, q' = (0, omega) q / 2."""
     h, n = run.scenario["physics"]["step"], run.n
     assert run.scenario["trace"]["period"] == h and run.scenario["physics"]["integrator"] == "rk4"
     places = np.concatenate([run.vector("base.", "xyz"), run.vector("base.q", "wxyz"), run.joints("angle")], -1)
@@ -151,7 +151,7 @@ def runge_kutta(gate, run, rules):
 
 
 def accelerations(run, place, velocity, command):
-    """v' of M v' + c = forces at any state."""
+    """Accelerations v' of M v' + c = forces at a state."""
     motor, law, gravity = laws.Motor(run), run.scenario["contact"], np.array(run.scenario["physics"]["gravity"], float)
     q, qd = place[:, 7:], velocity[:, 6:]
     motion = run.robot.move(place[:, :3], from_quaternion(place[:, 3:7]), velocity[:, :3], velocity[:, 3:6], q, qd)

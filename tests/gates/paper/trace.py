@@ -11,7 +11,7 @@ from yaml12 import Loader
 
 
 class Run:
-    """columns by name, the scenario as a dict, and the robot with its motion in every row (computed once)."""
+    """Run with its columns by name, the scenario as a dict, and the robot with its motion in every row (computed once)."""
 
     def __init__(self, name, folder):
         folder = pathlib.Path(folder)
@@ -29,14 +29,14 @@ class Run:
         return self.rows[:, self.index[name]]
 
     def joints(self, what):
-        """(rows, joints)"""
+        """Array (rows, joints) of a quantity of the joints."""
         return np.stack([self[f"joint.{j}.{what}"] for j in range(self.n)], -1)
 
     def vector(self, prefix, names):
         return np.stack([self[prefix + name] for name in names], -1)
 
     def per_joint(self, value):
-        """A number, a list, or {default: x, NAME: y} for every joint."""
+        """Array with the value of each joint, from a number, a list, or {default: x, NAME: y}."""
         if isinstance(value, dict):
             return np.array([float(value.get(name, value.get("default", 0))) for name in self.robot.joint_names])
         return np.broadcast_to(np.array(value, float), (self.n,)).copy()
@@ -57,10 +57,10 @@ class Run:
         return self.motion_
 
     def velocity(self):
-        """(rows, 6 + joints): of the base's origin, angular, of the joints."""
+        """Array (rows, 6 + joints): velocity of the base's origin, angular velocity of the base, speeds of the joints."""
         return np.concatenate([self.vector("base.v", "xyz"), self.vector("base.w", "xyz"), self.joints("speed")], -1)
 
     def ticks(self):
-        """Rows at the control ticks, but for a last one that no row follows; the rows after them show what was commanded."""
+        """Rows at the control ticks, except a tick at the last row. The row after a tick contains the command of the tick."""
         every = round(self.scenario["controller"]["period"] / self.scenario["trace"]["period"])
         return np.arange(0, len(self.rows) - 1, every)

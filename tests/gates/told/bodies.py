@@ -5,19 +5,19 @@ from paper.robot import rpy
 from told.check import SAME, Told, graded, margin, widen
 from told.legs import Legs
 
-LEAST_WAY = 0.01  # m: who goes less does not walk
+LEAST_WAY = 0.01  # least distance of a walk, m
 QUARTER, NEARLY = np.pi / 2, np.pi / 4
 
 
 # ---- ground
 def field_height(ground, x, y):
-    """The surface of a heightfield: Catmull and Rom in both directions, the border's heights beyond it."""
+    """Height of a heightfield: Catmull-Rom interpolation in both directions, and the heights of the border outside."""
     field = ground["heightfield"]
     values, (x0, y0, z0), d = np.array(field["values"], float), field.get("origin", [0, 0, 0]), field["spacing"]
 
     def axis(u, count):
-        """The four nodes around a coordinate and their weights. A node beyond the border is on the line through the two before it
-        (that much stands in core/laws/heightfield.h alone)."""
+        """Four nodes around a coordinate and their weights. A node outside the border is extrapolated linearly from the two nodes
+        before it (documented only in core/laws/heightfield.h)."""
         u = np.clip(u, 0, count - 1)
         cell = np.minimum(np.floor(u), count - 2).astype(int)
         f = u - cell
@@ -32,14 +32,14 @@ def field_height(ground, x, y):
 
 
 def carried(record, at):
-    """Heights of what carries points (rows, 3): the highest surface on the vertical that is at most limits.sink above them."""
+    """Heights of the ground below points (rows, 3): the highest surface on the vertical that is at most limits.sink above the point."""
     ground, kind = record.scenario["ground"], record.ground
     if kind == "heightfield":
         return field_height(ground, at[:, 0], at[:, 1])
     surface = np.zeros(len(at))
     for box in ground.get("boxes", []) if kind == "boxes" else []:
         r, half = rpy(box.get("rpy", [0, 0, 0])), np.array(box["size"], float) / 2
-        # The vertical in the box's frame, cut by its three pairs of faces.
+        # The vertical line in the frame of the box, intersected with the three pairs of faces.
         origin = (np.concatenate([at[:, :2], np.zeros((len(at), 1))], 1) - np.array(box["center"], float)) @ r
         up = r[2]
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -53,7 +53,7 @@ def carried(record, at):
 
 
 def elements(record):
-    """Contact elements that touch: all, or those of the free blocks of modules without children (docs/conventions.md)."""
+    """Contact elements that can touch the ground: all, or those of free blocks of modules without children (docs/conventions.md)."""
     on, robot = record.scenario["contact"]["on"], record.robot
     found = robot.contacts(on) if on != "none" else {}
     docked = {f"m{k}/{robot.reference[k]}" for k in range(1, robot.count)}
@@ -62,14 +62,14 @@ def elements(record):
 
 
 def heights(record):
-    """Of the centre of mass above the mean height of what carries the contact elements."""
+    """Heights of the centre of mass above the mean height of the ground below the contact elements."""
     com, motion = record.com(), record.motion()
     points = [motion[body][0] + motion[body][1] @ centre for body, centre, _ in elements(record).values()]
     return com[:, 2] - np.mean([carried(record, at) for at in points or [com]], axis=0)
 
 
 def standing(record):
-    """Height at the start, lowered onto the ground; not a number where that is not recomputed here."""
+    """Height at the start after lowering the robot onto the ground; NaN if this function does not recompute it."""
     height = heights(record)[0]
     if record.scenario["robot"].get("on_ground", True) and len(record.scenario["robot"].get("position", [0, 0])) < 3:
         return height
@@ -99,14 +99,14 @@ def fall(record, window):
 
 # ---- the base
 def turned(record):
-    """Angles of the axis that pointed upwards from the vertical, at control ticks."""
+    """Angles at control ticks between the vertical and the axis that pointed upwards at the start."""
     r = record.rotation()
     axis = r[0].T @ np.array([0, 0, 1.0])
     return np.arccos(np.clip((r @ axis)[:, 2], -1, 1))
 
 
 def steps_of_turn(record):
-    """Rotation vectors from tick to tick, world axes."""
+    """Rotation vectors of the base from tick to tick, in world axes."""
     r = record.rotation()
     d = r[1:] @ np.swapaxes(r[:-1], -1, -2)
     axis = np.stack([d[:, 2, 1] - d[:, 1, 2], d[:, 0, 2] - d[:, 2, 0], d[:, 1, 0] - d[:, 0, 1]], -1) / 2
@@ -116,17 +116,17 @@ def steps_of_turn(record):
 
 
 def heading(record):
-    """Turn about world z from tick to tick: the twist of the rotation."""
+    """Rotation about world z from tick to tick: the twist of the rotation."""
     r = record.rotation()
     d = r[1:] @ np.swapaxes(r[:-1], -1, -2)
-    # Of a quaternion the twist is 2 atan2(z, w); 4 w z = d10 - d01 and 4 w w = 1 + trace.
+    # The twist of a quaternion is 2 atan2(z, w), with 4 w z = d10 - d01 and 4 w w = 1 + trace.
     wz, ww = d[:, 1, 0] - d[:, 0, 1], 1 + np.trace(d, axis1=1, axis2=2)
     return 2 * np.arctan2(wz, ww)
 
 
 def rolls(record, window, period):
-    """Whether the base makes at least one whole turn about level axes, to the nearest number, in every period, and its axis comes
-    within 45 degrees of up and of down."""
+    """True if the base makes at least one turn (rounded) about horizontal axes in every period, and its axis comes within 45 degrees
+    of the upward and of the downward vertical."""
     t, turn, tilt = record.poses["t"], steps_of_turn(record)[:, :2], turned(record)[1:]
     if window.periods:
         edges = window.end - window.cycle.period * np.arange(window.periods, -1, -1)
@@ -134,7 +134,7 @@ def rolls(record, window, period):
         edges = np.array([record.end - period, record.end])
     else:
         edges = np.linspace(window.start, window.end, 3)
-    # Level axes turn with the base: a roll that comes about is a roll all the same.
+    # The horizontal axes rotate with the heading of the base, so that a robot that turns while it rolls is also rolling.
     yaw = np.concatenate([[0], np.cumsum(heading(record))])[:-1]
     c, s = np.cos(yaw), np.sin(yaw)
     own = np.stack([c * turn[:, 0] + s * turn[:, 1], -s * turn[:, 0] + c * turn[:, 1]], -1)
@@ -167,7 +167,7 @@ def upright(record, window, period):
 
 
 def extent(record):
-    """Diagonal of the box around the robot at the start: its bodies' origins and all contact elements."""
+    """Diagonal of the bounding box of the origins of all bodies and of all contact elements at the start."""
     motion = record.motion()
     at = [motion[body][0][0] for body in record.robot.order]
     at += [(motion[body][0] + motion[body][1] @ centre)[0] for body, centre, _ in record.robot.contacts("all").values()]
@@ -175,8 +175,9 @@ def extent(record):
 
 
 def halves(window, period):
-    """Where the first of two stretches up to the end begins and how long they are: whole periods, of an odd number the middle one in
-    both, and of one alone that before it, too; without periods halves of what is behind the start. 0 long: the run has no two."""
+    """Start of the first of two intervals up to the end, and their length. They consist of whole periods. The middle of an odd number
+    is in both, and a single period is compared with the period before it. Without periods, they are halves of the time after the
+    start. The length is 0 if the run does not contain two intervals."""
     start = window.start if window.periods else max(window.start, min(2.0, 0.2 * window.end))
     length = window.end - start
     unit = (length / window.periods if window.periods else period) or length / 2
@@ -221,7 +222,7 @@ def progress(record, window, borne, long_enough, period):
 
 # ---- docks
 def dock_limits(record, quantity):
-    """What docks hold, by module: the smaller limit of the connectors of both faces; not a number where neither states it."""
+    """Limits of docks by module: the smaller limit of the connectors of both faces; NaN if neither states a limit."""
     out, sources = {}, {}
     for row in record.scenario["robot"].get("docks", []):
         own, child, theirs, parent, _ = row
@@ -248,7 +249,7 @@ def dock(record, quantity):
         load = load if quantity == "tension" else np.abs(load)
         if np.isnan(load).all():
             return None
-        k = int(np.nanargmax(load))  # the last row of a run that ended early has no accelerations
+        k = int(np.nanargmax(load))  # the last row of a run that ended early is NaN
         beyond = np.flatnonzero(load > limit)
         peaks[m] = (max(load[k], 0) if abs(load[k]) < 1e-9 else load[k], t[k], t[beyond[0]] if len(beyond) else np.nan)
     stated = {m: peaks[m][0] / limits[m] for m in peaks if limits[m] > 0}
@@ -298,7 +299,7 @@ def slip(record, window):
 
 
 def borne(record, window):
-    """Shares of the weight on the ground at the control ticks in the window; none where that is not asked."""
+    """Shares of the weight on the ground at the control ticks in the window; None if they are not required."""
     if not record.floating or not record.weight > 0 or not elements(record) or record.ground == "none":
         return None
     t = record.poses["t"]

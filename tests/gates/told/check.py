@@ -1,24 +1,25 @@
-"""What a check must say: status, number, limit, part and times, recomputed."""
+"""Recomputed result of a check: status, number, limit, part and times."""
 import copy
 
 import numpy as np
 
-SAME = 1e-9  # two parts whose numbers differ by less are equal: the worst is then either of them
+SAME = 1e-9  # numbers that differ by less are equal; either of two parts with equal numbers may be the worst
 
 
 class Told:
-    """A check that was judged has a status; `also`: further numbers of its sentence. `ties`: parts that are as bad as the worst."""
+    """Result of a check; it has a status if it is judged. `also` are further numbers of its sentence, `ties` parts that are as bad as
+    the worst."""
 
     def __init__(self, status="not judged", value=np.nan, limit=np.nan, **more):
         self.status, self.value, self.limit, self.margin = status, value, limit, np.nan
         self.worst, self.ties, self.parts, self.least, self.unit = None, (), 0, False, None
         self.start = self.end = self.first = np.nan
         self.first_part, self.span, self.can_fail, self.error, self.also = None, None, None, 0.0, {}
-        self.undecided = ()  # other statuses that rounding allows
+        self.undecided = ()  # other statuses that are possible with rounding errors
         self.__dict__.update(more)
 
     def of(self, part):
-        """The same with the numbers of another part that is as bad."""
+        """Result with the numbers of a different part that is as bad as the worst."""
         other = self.__dict__.get("others", {}).get(part)
         if other is None:
             return self
@@ -28,7 +29,7 @@ class Told:
         return out
 
     def plateau(self, start, end):
-        """Whether another row is as bad as the worst, but for rounding: where motors keep a steady state, many are."""
+        """True if another row is as bad as the worst row up to rounding errors, as in a steady state of the motors."""
         rows = self.__dict__.get("rows")
         return rows is not None and None not in (start, end) and any(abs(a - start) + abs(b - end) < 1e-6 for a, b in rows)
 
@@ -43,12 +44,12 @@ def margin(value, limit, least=False):
 
 
 def graded(value, warns, fails):
-    """Beyond `warns` a warning, beyond `fails` a failure."""
+    """Status of a value: `warn` beyond the limit `warns`, `fail` beyond the limit `fails`."""
     return "fail" if value > fails else "warn" if value > warns else "pass"
 
 
 def worst_of(values):
-    """The first of the largest numbers, equal ones being those that differ by rounding; and all of these."""
+    """Index of the first largest number, and indices of all numbers that equal it up to rounding errors."""
     values = np.asarray(values, float)
     most = np.nanmax(values)
     near = [k for k in range(len(values)) if values[k] >= most - SAME * max(abs(most), 1e-300)]
@@ -56,7 +57,7 @@ def worst_of(values):
 
 
 def widen(told, error):
-    """A number whose error reaches across its limit is too close."""
+    """Sets the status `too close` if the limit is within the error of the number."""
     told.error = error
     low, high = told.value * (1 - error), told.value * (1 + error)
     if error > 0 and low < told.limit < high:

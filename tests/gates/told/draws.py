@@ -1,4 +1,5 @@
-"""Runs to hear: shipped and library robots, and random ones, with random gaits, limits and ratings. Seeded: the same every time.
+"""Runs whose sentences are checked: shipped robots, robots of the library, and random robots, with random gaits, limits and ratings.
+A seed makes them reproducible.
 
 A draft run shows what happens; ratings and limits are then drawn around that, so that each fails in some runs, warns in others
 and is kept in others. The file that runs is the draft's resolved scenario with these, as JSON, which is YAML."""
@@ -19,7 +20,7 @@ contact: {{on: all}}
 cpg: {{type: {cpg}, frequency: 1, amplitude: 0.4, phase_lag: {lag}}}
 duration: 4
 """
-# name: scenario (of the folder, or its text), settings, and limits that are not drawn.
+# Runs by name: scenario (file of the folder, or text), settings, and limits that are not random.
 RUNS = {
     "caterpillar": ("caterpillar", FAST + ["duration=12"]),
     "caterpillar, little current": ("caterpillar", FAST + ["duration=12", "actuator.i_max=0.33"]),
@@ -92,7 +93,7 @@ RUNS = {
     "back-driven": ("caterpillar", FAST + ["duration=3.2", "cpg.frequency=1", "actuator.efficiency=0.35",
         "actuator.efficiency_model=directional"]),
 }
-# Robots that nothing bears.
+# Robots that no ground carries.
 SLOW = ["cpg.frequency=0.5", "cpg.amplitude=0.2", "duration=6"]
 EASY = {"saturated_share": 0.99, "saturated_periods": 1000, "tilt": 1.5, "tracking_error": 1, "torque_error": 0.9}
 UNBORNE = {
@@ -105,7 +106,7 @@ GAITS = {"frequency": (0.8, 1.25), "amplitude": (0.75, 1.2)}
 
 
 def random_tree(rng, count):
-    """Docks of a random M-TRAN robot."""
+    """Docks of a random robot of M-TRAN modules."""
     rows, free = [], [(0, face) for face in (0, 1, 2, 3, 4, 5)]
     for k in range(1, count):
         parent, face = rng.choice([f for f in free if f[0] == k - 1 or rng.random() < 0.5] or free)
@@ -120,13 +121,13 @@ LEVELS = {"fail": (0.55, 0.93), "warn": (1.03, 1.2), "pass": (1.5, 4), "close": 
 
 
 def level(rng, mild):
-    """A factor for a rating: what was seen times it is the limit."""
+    """Random factor of a rating. The limit is this factor times the value in the draft run."""
     name = rng.choices(list(LEVELS), [0, 0.2, 0.8, 0] if mild else [0.22, 0.28, 0.44, 0.06])[0]
     return rng.uniform(*LEVELS[name])
 
 
 def limits(rng, record, judged, mild):
-    """Random limits, around what the draft shows."""
+    """Random limits around the values of the draft run."""
     seen = lambda check: judged.checks[check].value if judged.checks[check] is not None else np.nan
     out = dict(LIMITS)
     out["warn_share"] = rng.choice([0.5, 0.8, 0.8, 0.9])
@@ -153,7 +154,7 @@ def limits(rng, record, judged, mild):
 
 
 def ratings(rng, record, judged, scenario, mild):
-    """What motors, gears and docks are said to bear; of each not always."""
+    """Random ratings of motors, gears and docks, some of which may be absent."""
     actuator = scenario["actuator"]
     if actuator["type"] in ("dc_motor", "servo"):
         window = judged.window
@@ -183,7 +184,7 @@ def ratings(rng, record, judged, scenario, mild):
 
 
 def drawn(rng, draft, name, fixed):
-    """The text of the scenario that runs, of a draft's folder."""
+    """Text of the final scenario, from the folder of a draft run."""
     record = Record(draft / "trace.h5")
     judged, scenario = Judged(record, whole=False), json.loads(json.dumps(record.scenario))
     scenario["name"] = name
@@ -195,11 +196,11 @@ def drawn(rng, draft, name, fixed):
 
 
 def plan(seed):
-    """[(name, scenario or texts, settings, limits)]"""
+    """List of all runs as (name, scenario or texts, settings, limits)."""
     rng, out = random.Random(seed), []
     for name, (scenario, settings, *fixed) in RUNS.items():
         out.append((name, scenario, settings, *fixed))
-    for k in range(4):  # several texts each: the first whose blocks do not share a cell
+    for k in range(4):  # each has several texts, of which the first without overlapping blocks runs
         texts = [TREE.format(name=f"random-{k}", docks=random_tree(rng, rng.randint(3, 6)), cpg=rng.choice(CPGS),
                              lag=f"{rng.uniform(0, 2):.3f}") for _ in range(20)]
         out.append((f"random {k}", texts, FAST))

@@ -2,11 +2,11 @@
 A leg is a chain without branches that is docked sideways to the spine and ends in feet below its last joint about y."""
 import numpy as np
 
-SIDEWAYS, ABOUT_Y, BESIDE = 0.7, 0.9, 1e-3  # cosines; m, of two legs side by side
+SIDEWAYS, ABOUT_Y, BESIDE = 0.7, 0.9, 1e-3  # two cosines; tolerance for two legs side by side, m
 
 
 class Legs:
-    """of: {module: the name of its leg}; modules of no leg are not in it."""
+    """Legs of a robot. `of` is {module: name of its leg} and omits modules that belong to no leg."""
 
     def __init__(self, record):
         self.robot, self.of = record.robot, {}
@@ -33,7 +33,7 @@ class Legs:
             self.name(found)
 
     def outwards(self, children):
-        """Modules, every parent before its children."""
+        """Modules ordered so that every parent is before its children."""
         out, queue = [], [0]
         while queue:
             out.append(queue.pop(0))
@@ -44,12 +44,12 @@ class Legs:
         return {module}.union(*(self.below(child, children) for child in children[module]))
 
     def normal(self, row):
-        """Outwards from the parent, base frame."""
+        """Outward normal of the parent's face at a dock, in the frame of the base."""
         face = self.robot.face(int(row[3]), row[2])
         return self.motion[f"m{int(row[3])}/{face['body']}"][1][0] @ np.array(face["normal"], float)
 
     def joints(self, chain):
-        """Places of driven joints about y, from the spine outwards."""
+        """Positions of the driven joints about y of a leg, from the spine outwards."""
         at = []
         for k, name in enumerate(self.robot.joint_names):
             origin, axis = self.motion.hinge[k]
@@ -70,7 +70,7 @@ class Legs:
                 self.of |= {module: f"m{chain[0]} {place} {'left' if left else 'right'}" for module in chain}
 
     def foot(self, body, feet):
-        """As a sentence calls a foot, of those that were recorded: the leg, and the body where its leg has several feet."""
+        """Name of a recorded foot in sentences: the leg, and also the body if the leg has several feet."""
         leg = lambda one: self.of.get(int(one[1:].split("/")[0]))
         if leg(body) is None:
             return body

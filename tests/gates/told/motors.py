@@ -5,15 +5,15 @@ from told.check import SAME, Told, graded, margin, worst_of, widen
 
 
 def grown(record, what, window):
-    """What sums from t = 0 have grown by in the window, by joint."""
+    """Growth in the window of sums from t = 0, by joint."""
     sums = record.tick(what)
     return sums[-1] - sums[window.first]
 
 
 def stretches(limited, t, first):
-    """The longest stretch at a limit: whole rows, and what the rows next to them were at it for; all that are as long.
+    """Longest intervals at a limit: whole rows, and the times at the limit in the rows before and after. All equally long intervals.
 
-    A row knows for how long it was at the limit, not when: it may be the end of one stretch and the start of another."""
+    A row contains the duration at the limit, but not when: it may contain the end of one interval and the start of the next."""
     part = np.diff(limited)[first:]
     left, right = t[first:-1], t[first + 1:]
     begun, seen = None, []
@@ -31,7 +31,7 @@ def stretches(limited, t, first):
 
 
 def at_limit(record, window, kind):
-    """`voltage` and `current` (of other actuators: their limit)."""
+    """Checks `voltage` and `current`; for other actuators, the check of their limit."""
     if not record.driven.any():
         return Told()
     column = f"{kind}_limited"
@@ -44,7 +44,7 @@ def at_limit(record, window, kind):
     longest = [stretches(table[:, j], record.t, window.first) if share[j] > 0 else (0.0, [])
                for j in range(record.count)]
     by_share = np.array([margin(s, limits["saturated_share"]) for s in share])
-    # A stretch is a sum of rows: a whole number of control periods is kept.
+    # An interval is a sum of rows. The tolerance lets a whole number of control periods pass.
     by_time = np.array([margin(one[0], most * (1 + 1e-6)) for one in longest])
     both = np.where(record.driven, np.minimum(by_share, by_time), np.inf)
     least = both.min()
@@ -74,7 +74,7 @@ def at_limit(record, window, kind):
     told.worst = told.worst if parts else None
     if parts:
         first_in(told, record, window.first, np.diff(table, axis=0) > 0)
-    # Within the error of the torques: rows at no limit whose torque, as the motor has it there, comes that near, count whole.
+    # Rows that are not at a limit, but with a torque within the torque error of the limit, count with their whole time.
     errors = record.torque_errors()
     peak, amperes = record.tick("envelope_peak"), record.tick("current_peak")
     busy = (np.diff(record.tick("voltage_limited"), axis=0) > 0) | (np.diff(record.tick("current_limited"), axis=0) > 0)
@@ -100,7 +100,7 @@ def at_limit(record, window, kind):
 
 
 def first_in(told, record, row, beyond):
-    """When, and which, joint was beyond first, behind a row of ticks: the end of that row."""
+    """Time (end of the row) and name of the joint that was first beyond its limit after a row of ticks."""
     beyond = beyond & record.driven[None, :]
     rows = np.flatnonzero(beyond[row:].any(axis=1))
     if len(rows):
@@ -110,9 +110,9 @@ def first_in(told, record, row, beyond):
 
 
 def peaks(record, what, first):
-    """Largest magnitude behind a row, and the row of ticks in which it was."""
+    """Largest magnitude after a row, and the row of ticks that contains it."""
     table = record.tick(what)[first + 1:]
-    at = np.argmax(table >= table.max(axis=0) * (1 - SAME), axis=0)  # the first of those that rounding makes largest
+    at = np.argmax(table >= table.max(axis=0) * (1 - SAME), axis=0)  # first row that equals the largest up to rounding errors
     return table[at, np.arange(record.count)], first + 1 + at
 
 
@@ -121,13 +121,13 @@ def at_row(told, record, row):
 
 
 def alike(record, what, joint, most):
-    """Starts and ends of the rows in which a peak is reached, but for rounding."""
+    """Starts and ends of the rows in which a peak is reached up to rounding errors."""
     rows = np.flatnonzero(record.tick(what)[1:, joint] >= most * (1 - 1e-7))
     return {(record.t[k], record.t[k + 1]) for k in rows}
 
 
 def rated(record, values, limits, warns, fails, rows=None):
-    """The joint that is nearest to its limit, or farthest beyond it."""
+    """Result for the joint with the least margin."""
     limits = np.where(record.driven & (limits > 0), limits, np.nan)
     if not np.isfinite(limits).any():
         return Told(), None
@@ -182,7 +182,7 @@ def of_rating(record, values, key, rows=None, first=None):
     widen(told, errors[j])
     across = (errors > 0) & (share * (1 - errors) < 1) & (share * (1 + errors) > 1)
     beyond = (share > 1) & (share * (1 - errors) >= 1)
-    if beyond.any():  # one is enough
+    if beyond.any():  # one joint suffices
         told.status = "fail"
     elif across.any() and not across[j]:
         k = int(np.argmax(np.where(across, share * (1 + errors), 0)))

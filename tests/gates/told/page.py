@@ -1,4 +1,4 @@
-"""The facts of report.html: its JSON, and what Chromium shows of it. Definitions: docs/report.md."""
+"""The facts of report.html: its JSON, and the text that Chromium displays. Definitions: docs/report.md."""
 import html
 import json
 import math
@@ -20,7 +20,7 @@ def meta(file):
 
 
 def rendered(file, home):
-    """The page in a browser without a network: {headline, why, facts}; none without a browser."""
+    """Texts {headline, why, facts} of the page in a browser without a network; None if there is no browser."""
     chromium = shutil.which("chromium")
     if chromium is None:
         return None
@@ -37,7 +37,7 @@ def rendered(file, home):
             "why": text(re.search(r'id="why"[^>]*>(.*?)</p>', dom, re.S)[1]), "facts": {name: text(value) for name, value in rows}}
 
 
-# ---- numbers as the page writes them
+# ---- number formats of the page
 def number(x, digits=3, unit=None):
     if unit is not None and abs(x) < FLOORS.get(unit, 0):
         x = 0
@@ -48,7 +48,7 @@ NUMBER = re.compile(r"^([−-]?[\d.]+(?:e[−-]?\d+)?)")
 
 
 def agrees(text, value, digits):
-    """The number that a text begins with is that value to so many digits."""
+    """True if the number at the start of a text equals the value to this number of digits."""
     match = NUMBER.match(text)
     if not match:
         return False
@@ -60,7 +60,7 @@ def agrees(text, value, digits):
 
 
 def quantity(text, value, unit):
-    """`17.2 mm`, `98 %`, `1.02 N m`: of a value in its unit."""
+    """True if a text such as `17.2 mm`, `98 %` or `1.02 N m` agrees with a value in its unit."""
     if unit == "":
         return agrees(text, 100 * value, 3) and text.endswith("%")
     if unit == "m" and abs(value) < 0.1:
@@ -69,7 +69,7 @@ def quantity(text, value, unit):
 
 
 def moment(text, at):
-    """`3.99 s`: hundredths, thousandths where these do not say it."""
+    """Text of a time, such as `3.99 s`, with two decimals, or three if two are not exact."""
     return abs(float(text.split(SPACE)[0].replace("−", "-")) - at) <= 0.5005e-2 and text.endswith("s")
 
 
@@ -84,7 +84,7 @@ def stretch(text, start, end):
 
 
 def part(meta_, told, names):
-    """Names as people call them."""
+    """Displayed names of parts."""
     out = set()
     for name in names:
         if told["part"] == "dock":
@@ -97,7 +97,8 @@ def part(meta_, told, names):
 
 
 def longest(judged):
-    """The joint that is at any limit for most of the judged time: names that tie, shares of voltage and current; none: no joint."""
+    """Joint that is at a limit for the largest share of the judged time: equally good names, and shares of voltage and current. None if
+    no joint is at a limit."""
     r, w = judged.record, judged.window
     if not r.driven.any():
         return None
@@ -110,7 +111,7 @@ def longest(judged):
 
 
 def hear(shown, meta_, verdict, judged, known):
-    """What the page's headline and facts say otherwise. Numbers of the record where a check is recomputed, else of verdict.json."""
+    """Differences of the page's headline and facts. Expected numbers are recomputed from the record if possible, or from verdict.json."""
     facts, wrong, checks = dict(shown["facts"]), [], {c["id"]: c for c in verdict["checks"]}
 
     def must(ok, name, expected, of=""):
@@ -203,7 +204,7 @@ def shortfall(facts, first, judged, meta_, must, failing):
 
 
 def same_numbers(a, b):
-    """Two texts that differ by the last digit of a number at most."""
+    """True if two texts differ at most by the last digit of a number."""
     split = lambda s: re.split(r"([\d.]+)", s)
     one, two = split(a), split(b)
     return len(one) == len(two) and all(x == y or re.fullmatch(r"[\d.]+", x) and agrees(x, float(y), 3) for x, y in zip(one, two))
@@ -238,7 +239,7 @@ def walked(facts, verdict, checks, judged, meta_, must, known):
         own = judged.checks["envelope"]
         match = re.fullmatch(r"(\S+) (\S+)" + SPACE + r"% of its motor at (.*)", hardest)
         must(match and match[1] in own.ties and agrees(match[2], 100 * own.value, 2), "Hardest worked", (own.ties, own.value))
-    if largest is not None:  # of the rows of the page
+    if largest is not None:  # largest of the rows of the page
         rows = max(np.abs(judged.record.trace[f"joint.{j}.torque"]).max() for j in range(judged.record.count))
         must(abs(float(largest.split(" ")[0]) - rows) <= 2e-3 + 5e-3 * rows, "Largest torque", rows)
     for name, key, scale, digits in (

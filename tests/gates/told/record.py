@@ -1,4 +1,4 @@
-"""A trace.h5 and nothing else: its tables by the names of their columns, the scenario that is stored in it, and its motors.
+"""Reader of a trace.h5: its tables by the names of their columns, the stored scenario, and its motors.
 
 Written from docs/conventions.md (the trace, its tables) and docs/reference/plugins.md (motors); shares no code with the program."""
 import h5py
@@ -8,7 +8,7 @@ import yaml
 from paper.robot import Robot, from_quaternion
 from yaml12 import Loader
 
-# docs/reference/scenario.md: what a scenario that states no limit has.
+# Default limits of a scenario (docs/reference/scenario.md).
 LIMITS = {"warn_share": 0.8, "tracking_error": 0.1, "saturated_share": 0.01, "saturated_periods": 3, "height": 0.5,
           "tilt": 1.0471975511965976, "beyond_range": 0.01, "beyond_range_share": 0.01, "start_jump": 0.05, "touch": 0.0005,
           "collision": 0.002, "sink": 0.005, "energy_residual": 0.01, "energy_created": 0.05, "slip": 0.2, "torque_error": 0.05,
@@ -16,7 +16,7 @@ LIMITS = {"warn_share": 0.8, "tracking_error": 0.1, "saturated_share": 0.01, "sa
 
 
 class Table:
-    """Columns by name; a column that the table does not have is none."""
+    """Table with columns by name; a missing column is None."""
 
     def __init__(self, dataset):
         self.rows = dataset[:]
@@ -59,14 +59,14 @@ class Record:
         self.mass = sum(body.mass for body in self.robot.bodies)
         self.gravity = np.array(self.scenario["physics"]["gravity"], float)
         self.weight = self.mass * np.linalg.norm(self.gravity)
-        self.solver = self.scenario["contact"].get("law") == "bullet"  # Bullet's own solver holds bodies apart
+        self.solver = self.scenario["contact"].get("law") == "bullet"  # Bullet's solver also separates bodies
         self.adaptive = self.scenario["physics"]["integrator"] == "adaptive"
         self.motors()
         self.motion_ = None
 
     # ---- columns
     def tick(self, what):
-        """(rows, joints), of all steps."""
+        """Array (rows, joints) of a tick column, which covers all steps."""
         return np.stack([self.ticks[f"joint.{j}.{what}"] for j in range(self.count)], -1)
 
     def pose(self, what):
@@ -87,7 +87,7 @@ class Record:
         return self.motion_
 
     def per_joint(self, section, key, missing=np.nan):
-        """A number of every joint; what is not stated, and 0 where that means so, is `missing`."""
+        """Setting of every joint. The value is `missing` if it is not stated, or if it is 0 and 0 means not stated."""
         value = section.get(key)
         if value is None:
             return np.full(self.count, missing)
@@ -97,11 +97,11 @@ class Record:
 
     # ---- motors
     def motors(self):
-        """Speed without load and torque at rest at the largest command, and whether there is a limit of it at all."""
+        """Speed without load, torque at rest at the largest command, and True if such a limit exists."""
         a, kind, of = self.actuator, self.actuator["type"], lambda key: self.per_joint(self.actuator, key)
         self.voltages = kind in ("dc_motor", "servo")
         nothing = np.full(self.count, np.nan)
-        self.torque_constant = self.speed_constant = nothing  # efficiency Kt and Ks, of what could make energy
+        self.torque_constant = self.speed_constant = nothing  # efficiency Kt, and Ks, of motors that could create energy
         self.no_load, self.at_rest, self.limited, self.i_max = nothing, nothing, np.zeros(self.count, bool), nothing
         with np.errstate(divide="ignore", invalid="ignore"):
             if kind == "dc_motor":
@@ -133,7 +133,7 @@ class Record:
         self.all_limited = bool(np.all(self.limited[self.driven]))
 
     def torque_errors(self):
-        """Share by which the torque of every joint may be off, of its peak (at least 2 % of the largest of all); 0: no estimate."""
+        """Torque error of every joint relative to its peak (at least 2 % of the largest of all peaks); 0 without an estimate."""
         if not self.run["torque_error.estimated"] or not self.count:
             return np.zeros(self.count)
         peak, error = self.joints["torque_error_peak"], self.joints["torque_error"]
@@ -141,13 +141,13 @@ class Record:
         return error / np.maximum(peak, 0.02 * largest) if largest > 0 else np.zeros(self.count)
 
     def chaotic(self):
-        """Whether gravity times 1 + 1e-9 changes the torques by more than they may be off."""
+        """True if a factor of 1 + 1e-9 on gravity changes the torques by more than their permitted error."""
         accuracy = self.scenario["physics"].get("accuracy", 0) if self.adaptive else 0
         share = self.run.get("parting.chaotic.share", 0)
         return bool(self.adaptive and self.run["torque_error.estimated"] and not share <= max(0.01, accuracy))
 
     def spread_numbers(self):
-        """Least and largest of the rollouts that differ by next to nothing."""
+        """Least and largest values of the rollouts with slightly disturbed gravity."""
         if self.spread is None:
             return {}
         out = {"rollouts": len(self.spread["distance"])}
@@ -157,7 +157,7 @@ class Record:
 
     # ---- energies
     def residual(self):
-        """Of the ledger (docs/equations.md, 8): drawn, less where it went."""
+        """Residual of the ledger (docs/equations.md, 8): drawn energy minus all other terms."""
         e = self.run
         return e["energy.electrical"] - sum(e["energy." + name] for name in (
             "copper", "gear", "stored", "contact", "friction", "stops", "hinges"))

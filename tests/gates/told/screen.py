@@ -1,4 +1,4 @@
-"""What the terminal says: its first screen, and the numbers behind --verbose. Definitions: docs/conventions.md (the summary)."""
+"""Output on the terminal: the first screen, and the numbers with --verbose. Definitions: docs/conventions.md (the summary)."""
 import re
 
 import numpy as np
@@ -51,7 +51,7 @@ HEAD = Expression(r".*: {simulated:.6g} s simulated in \S+ s")
 
 
 def sections(text):
-    """[(title, its lines as one)]"""
+    """List of the sections of an output as (title, lines joined to one)."""
     out = []
     for line in text.splitlines():
         match = re.match(r"  (too close(?= )|\S(?:.*?\S)??(?=  )) +(\S.*)$", line)
@@ -63,7 +63,7 @@ def sections(text):
 
 
 def numbers(judged):
-    """Everything that the lines behind --verbose print, by the names in LINES; a set of names are parts that tie."""
+    """All values that --verbose prints, by the names in LINES. A set of names contains parts with equal values."""
     r, w = judged.record, judged.window
     n, run = {}, r.run
     n |= {"modules": r.robot.count, "bodies": len(r.robot.bodies), "joints": r.count, "mass": r.mass, "simulated": r.end,
@@ -107,14 +107,14 @@ def numbers(judged):
 
 
 def reached(r, first):
-    """Rows x joints, behind a row: at a limit for some time, or in the instant of the tick's largest torque; and which."""
+    """Arrays (rows, joints) after a row: True if a joint is at a limit for some time or at the tick's largest torque, and the limit."""
     v, c = np.diff(r.tick("voltage_limited"), axis=0) > 0, np.diff(r.tick("current_limited"), axis=0) > 0
     instant = r.tick("peak_limit")[1:]
     return (v | c | (instant > 0))[first:]
 
 
 def times(r, what, joint, most):
-    """Ends of the rows in which a peak is reached, but for rounding: where motors keep a steady state, many."""
+    """Ends of the rows in which a peak is reached up to rounding errors. In a steady state of the motors these are many."""
     return tuple(r.t[r.tick(what)[:, joint] >= most * (1 - 1e-7)])
 
 
@@ -123,7 +123,7 @@ def motor_numbers(r, w, n):
     share, effective = share_v + share_c, rms(r, "torque_square", w)
     peak, rows = peaks(r, "torque_peak", w.first)
     ever_peak, ever_rows = peaks(r, "torque_peak", 0)
-    # Longest at a limit, then of the largest RMS, then of the largest peak.
+    # Order of joints: longest time at a limit, then largest RMS, then largest peak.
     order = max(range(r.count), key=lambda j: (share[j], effective[j], peak[j]))
     near = {j for j in range(r.count) if share[j] >= share[order] * (1 - SAME) and effective[j] >= effective[order] * (1 - SAME)
             and peak[j] >= peak[order] * (1 - SAME)}
@@ -155,7 +155,7 @@ def motor_numbers(r, w, n):
 
 
 def loose(name, known):
-    """By how much a number may differ for the period from which it follows."""
+    """Tolerance of a number that is computed from the estimated period."""
     doubt = known["doubt"]
     return {"repeats": 2 * np.pi * doubt, "cycle_from": 0.04, "from": doubt * known["period"] * max(1, known["periods"]),
             "period": doubt * known["period"], "per_period": doubt * known.get("per_period", 0)}.get(name, 0)
@@ -179,7 +179,7 @@ def hear(expression, text, known, who):
 
 
 def first_screen(text, verdict, judged, known):
-    """The first screen against the checks of verdict.json, whose numbers are recomputed elsewhere, and against the record."""
+    """Compares the first screen with the record and with the checks of verdict.json, whose numbers are recomputed elsewhere."""
     parts, wrong, checks = sections(text), [], verdict["checks"]
     said = {}
     for title, line in parts:
@@ -191,7 +191,7 @@ def first_screen(text, verdict, judged, known):
 
     of = {status: [c for c in checks if c["status"] == status] for status in ("fail", "too close", "warn", "not judged")}
     word = verdict["verdict"]
-    fails = sorted(by_urgency(of["fail"]), key=lambda c: c["id"] != verdict["decided_by"])  # stable
+    fails = sorted(by_urgency(of["fail"]), key=lambda c: c["id"] != verdict["decided_by"])  # sorted() is stable
     if word == "feasible":
         chosen = " (chosen figures)" if verdict["chosen_motors"] else ""
         must("verdict", f"feasible with these motors{chosen}, over {verdict['rests_on']}")

@@ -1,4 +1,4 @@
-"""The sentences: one expression per check, and what a printed number allows.
+"""Sentences of the program: one regular expression per check, and the tolerance of printed numbers.
 
 In an expression {name:format} is a number, {name} a part or a word, {name:words} several. Formats are those of printf, and pct
 (percent, three digits), rough (percent, two digits below 10 %, else three), length (mm, m or km), th (three decimals; of a thousand
@@ -29,7 +29,7 @@ def rough_percent(value):
 
 
 def length(metres):
-    """Three digits, in the unit in which these are less than a thousand."""
+    """Length with three digits, in the unit in which the number is below a thousand."""
     for scale, unit in ((1e3, "mm"), (1, "m"), (1e-3, "km")):
         if abs(metres) * scale < 999.5:
             return f"{metres * scale:.3g} {unit}"
@@ -37,7 +37,7 @@ def length(metres):
 
 
 def printed(kind, value):
-    """As the sentence must have it."""
+    """Text of a value in a sentence, for this format."""
     if kind in WITH_UNIT:
         return {"pct": percent, "rough": rough_percent, "length": length}[kind](value)
     if kind == "th":
@@ -46,7 +46,7 @@ def printed(kind, value):
 
 
 def same(kind, text, value, loose=0.0):
-    """A printed number is the recomputed one rounded, which is known to `loose`, and to 1e-9 of itself (sums of doubles)."""
+    """True if a printed number is the rounded recomputed value, which has the tolerance `loose` plus 1e-9 relative (sums of doubles)."""
     value = float(value)
     if value != value:
         return text == "nan"
@@ -58,7 +58,7 @@ def same(kind, text, value, loose=0.0):
     if not (said and low and high and said[2] == low[2] == high[2]):
         return False
     rounded = said[1] == (printed(kind, float(said[1])) if kind not in WITH_UNIT else said[1])
-    return rounded and float(low[1]) <= float(said[1]) <= float(high[1])  # rounding keeps the order
+    return rounded and float(low[1]) <= float(said[1]) <= float(high[1])  # rounding preserves the order of numbers
 
 
 class Expression:
@@ -77,7 +77,7 @@ class Expression:
         self.expression = re.compile(re.sub(r"\{([a-z_]+(?::[^}]*)?)\}", place, text))
 
     def read(self, text):
-        """[(name, kind, printed)], or nothing where the sentence is another one."""
+        """List of (name, kind, printed text), or None if the sentence does not match."""
         match = self.expression.fullmatch(text)
         if not match:
             return None
@@ -163,7 +163,7 @@ JUDGED = {
     "law": r"every joint-step ends on the law of its motor and stop|{value:.0f} joint-steps ended off the law of their motor or "
            r"stop: the torques there are wrong",
 }
-# What is missing: of the check `evidence`, and of a verdict that is not judged.
+# Sentences on missing evidence: of the check `evidence`, and of a verdict that is not judged.
 MISSING = (r"{simulated:.3g} s are {held:.2g} of a gait's 3 periods of {period:.4g} s; take duration: {take:.4g}"
            r"|{simulated:.3g} s are less than {least:g} s; take a longer duration"
            r"|the ground carries {borne:pct} of the weight on average, less than {half:pct}: the robot is not on it"
@@ -178,7 +178,7 @@ MISSING = (r"{simulated:.3g} s are {held:.2g} of a gait's 3 periods of {period:.
            r"|the error of the torques is not estimated; take physics\.estimate: full"
            r"|{residual:pct} of the energy is unaccounted for, more than {kept:pct}; take .*"
            r"|in {coarse:rough} of the time the shortest steps do not reach the accuracy {accuracy:rough}; look for .*")
-# A check that is not judged says why; a number in such a sentence is recomputed, too.
+# Sentences with the reason for which a check is not judged. Numbers in these sentences are also recomputed.
 NOT_JUDGED = (
     r"judged of a floating base(?: above a ground| on a ground| that gravity holds on a ground, where the ground's forces are recorded)?"
     r"|the base rolls: it makes a whole turn in every period"

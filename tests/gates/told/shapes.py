@@ -15,12 +15,12 @@ class Shape:
         self.kind = next(k for k in ("box", "cylinder", "half_cylinder", "sphere") if k in data)
         self.size = np.atleast_1d(np.array(data[self.kind], float))
         self.origin, self.turn = np.array(data.get("origin", [0, 0, 0]), float), rpy(data.get("rpy", [0, 0, 0]))
-        half = self.kind == "half_cylinder"  # the half on the side of +x
+        half = self.kind == "half_cylinder"  # the half at positive x
         at = CORNERS[np.cos(CORNERS) > -1e-9] if half else CORNERS
         self.corners = self.size[0] * np.stack([np.cos(at), np.sin(at)])
 
     def support(self, d):
-        """Of directions (n, 3) in the body's frame: how far the shape reaches."""
+        """Support function of the shape for directions (n, 3) in the body's frame."""
         local = d @ self.turn
         if self.kind == "box":
             reach = np.abs(local) @ (self.size / 2)
@@ -34,7 +34,7 @@ class Shape:
 
 
 def shapes(record):
-    """By body, of those that have any."""
+    """Shapes by body, for all bodies with shapes."""
     out = {}
     for k in range(record.robot.count):
         for name, body in record.robot.type_of[k]["bodies"].items():
@@ -44,7 +44,7 @@ def shapes(record):
 
 
 def depths(record):
-    """{body: depth below the plane z = 0 by control tick}"""
+    """Dictionary {body: depths below the plane z = 0 at the control ticks}."""
     out, motion, down = {}, record.motion(), np.array([0, 0, -1.0])
     for body, parts in shapes(record).items():
         p, r, _, _ = motion[body]
@@ -62,15 +62,15 @@ EVERYWHERE, NEAR = directions(500), directions(80)
 
 
 def penetration(parts_a, parts_b, pose_a, pose_b, ignored):
-    """m: the shortest way that takes any shape of one body out of any of the other; 0 where it is `ignored` or less. Directions all
-    round, then ever closer about the best ones: 0.4^9 of 0.1 rad at the end."""
+    """Depth of overlap of two bodies, m: the largest of the shortest ways out of each other of any two shapes; 0 if it is at most
+    `ignored`. The search samples all directions, then finer ones about the best, down to 0.4^9 of 0.1 rad."""
     (pa, ra), (pb, rb) = pose_a, pose_b
     deepest = ignored
     for a in parts_a:
         for b in parts_b:
             overlap = lambda d: a.support(d @ ra) + b.support(-d @ rb) + d @ (pa - pb)
             values = overlap(EVERYWHERE)
-            best, at, spread = values.min(), EVERYWHERE[np.argsort(values)[:6]], 0.1  # the least may be beside another one
+            best, at, spread = values.min(), EVERYWHERE[np.argsort(values)[:6]], 0.1  # the minimum may be near any of the six best
             for _ in range(9):
                 if best <= deepest:
                     break
@@ -85,7 +85,7 @@ def penetration(parts_a, parts_b, pose_a, pose_b, ignored):
 
 
 def bound(parts_a, parts_b, pose_a, pose_b):
-    """At least the penetration, for all rows at once: by the axes of both bodies and the line between them."""
+    """Upper bound of the penetration for all rows, from the axes of both bodies and the line between them."""
     (pa, ra), (pb, rb) = pose_a, pose_b
     most = np.full(len(pa), -np.inf)
     between = (pa - pb) / np.maximum(np.linalg.norm(pa - pb, axis=1), 1e-9)[:, None]
@@ -101,14 +101,14 @@ def bound(parts_a, parts_b, pose_a, pose_b):
 
 
 class Collisions:
-    """Of bodies that no hinge joins and that can move against each other. pairs: {(a, b): (depth, time)}, of pairs
-    deeper than limits.touch; first: when any was, and which bodies."""
+    """Collisions of bodies that no hinge connects and that can move relative to each other. `pairs` is {(a, b): (depth, time)} for
+    pairs deeper than limits.touch; `first` is the time of the first collision with its bodies."""
 
     def __init__(self, record):
         found, motion, robot, t = shapes(record), record.motion(), record.robot, record.poses["t"]
         touch, link = record.limits["touch"], {}
         self.shaped, self.pairs, self.first, self.first_bodies = len(found), {}, np.inf, set()
-        for body in robot.order:  # docked bodies are one link
+        for body in robot.order:  # docked bodies belong to one link
             link[body.name] = link[body.parent.name] if body.parent is not None and body.joint is None else body.name
         hinged = {frozenset((b.name, b.parent.name)) for b in robot.order if b.joint is not None}
         names = [b.name for b in robot.order if b.name in found]
@@ -136,7 +136,7 @@ class Collisions:
         if best <= touch:
             return
         self.pairs[a, b] = best, when
-        for k in np.argsort(rows):  # in the order of time
+        for k in np.argsort(rows):  # ordered by time
             if t[rows[k]] > self.first:
                 break
             d = seen.get(k)

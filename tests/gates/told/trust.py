@@ -1,4 +1,4 @@
-"""Evidence, accuracy, and the word: docs/reference/verdict.md."""
+"""Evidence, accuracy and predictability of a run (docs/reference/verdict.md)."""
 import math
 import re
 from fractions import Fraction
@@ -10,13 +10,13 @@ from told.check import Told, graded, margin
 from told.window import set_point_cycle
 
 SETTLED, PERIODS, LEAST_TIME, BORNE, RESIDUAL, COARSE = 0.01, 3, 2.0, 0.5, 0.05, 0.10
-ESTIMATE = 1e-3  # of a period: what three may miss
+ESTIMATE = 1e-3  # share of a period that may be missing from three periods
 
 
 def read_by_output(model):
-    """The texts of equations on which set points depend: that of the output, and of the states that these read."""
+    """Texts of the equations on which set points depend: the output, and all states that it uses directly or indirectly."""
     states, texts, seen = {name: str(text) for name, text in model.get("states", {}).items()}, [str(model["output"])], set()
-    for text in texts:  # grows
+    for text in texts:  # the list grows during the loop
         for name in states.keys() & set(re.findall(r"\w+", text)) - seen:
             seen.add(name)
             texts.append(states[name])
@@ -24,7 +24,7 @@ def read_by_output(model):
 
 
 def frequencies(record):
-    """Hz, of driven joints, where the CPG makes its set points repeat by it."""
+    """Frequencies of the driven joints, Hz, if they determine the period of the CPG's set points."""
     cpg = record.scenario.get("cpg") or {}
     if "frequency" not in cpg:
         return []
@@ -36,14 +36,14 @@ def frequencies(record):
 
 
 def common_period(frequencies_):
-    """s, after which all of them have made whole turns."""
+    """Common period of all frequencies, s."""
     f = [Fraction(one).limit_denominator(10000) for one in frequencies_]
     return float(Fraction(math.lcm(*(one.denominator for one in f)), math.gcd(*(
         one.numerator * (math.lcm(*(o.denominator for o in f)) // one.denominator) for one in f))))
 
 
 def set_point_period(record):
-    """s: as the run shows it, else as its settings state it; 0: the set points do not repeat."""
+    """Period of the set points, s, from the run, or from the settings if the run is too short; 0 if the set points do not repeat."""
     found, cpg = set_point_cycle(record), record.scenario.get("cpg") or {}
     if found.found:
         return found.period
@@ -75,7 +75,7 @@ class Evidence:
         self.unknown = self.nobody_knows(record)
 
     def support(self, record, window):
-        """Why no ground bears a robot that floats; empty: one does, or nobody can know."""
+        """Reason for which no ground carries a robot with a floating base; empty if a ground does, or if this is unknown."""
         shares = borne(record, window)
         self.share = float(shares.mean()) if shares is not None and len(shares) else np.nan
         if not record.floating:
@@ -87,14 +87,14 @@ class Evidence:
         return "not on it" if self.share < BORNE else ""
 
     def nobody_knows(self, record):
-        """What is no evidence for or against the word, in the order in which it is named."""
+        """Reasons for which the run is no evidence for a verdict, in the order in which they are reported."""
         ground = record.floating and not self.unborne and np.isnan(self.share)
         off = record.scenario["physics"].get("estimate") == "off"
         torques = not off and record.driven.any() and not record.torque_errors().max(initial=0) > 0 and self.untrusted != "makes energy"
         return ["the ground's share of the weight"] * bool(ground) + ["the error of the torques"] * bool(torques)
 
     def distrust(self, record):
-        """Which of the accuracies is missing; empty: none."""
+        """Name of the missing accuracy; empty if the run is accurate."""
         if record.driven.any() and record.makes_energy.any():
             return "makes energy"
         asked = record.pose("setpoint")[:, record.driven] if record.driven.any() else np.zeros((1, 0))
@@ -121,8 +121,8 @@ def periodic(record, window, evidence):
     if not found.found and (not evidence.repeats or not evidence.long_enough):
         return Told()
     told = Told("pass" if found.found else "warn", found.error, 0.02, margin=margin(found.error, 0.02), also={"period": found.period})
-    # The error changes with the period at which it is taken, by up to 2 pi of the share by which that is off. Of a motion that does
-    # not repeat no period is sharp.
+    # The error depends on the period and changes by up to 2 pi times the relative error of the period. For a motion that does not
+    # repeat, the period is not well defined.
     told.loose = 2 * np.pi * found.doubt() / found.error if found.found else 0.05
     return told
 
@@ -142,7 +142,7 @@ def torque_error(record):
 
 
 def predictable(record):
-    """What rollouts under a disturbed gravity changed: of 1e-9, where that is more than the limit, else of 1e-6."""
+    """Change of the torques by a disturbed gravity: by 1e-9 if that change exceeds the limit, otherwise by 1e-6."""
     if not record.adaptive or not record.run["torque_error.estimated"] or not record.run["parting.chaotic.share"] > 0:
         return Told()
     limit = max(0.01, record.scenario["physics"].get("accuracy", 0))

@@ -1,4 +1,4 @@
-"""All checks of a record, the word that follows from them, and what a verdict.json says otherwise."""
+"""All checks of a record, the verdict that follows from them, and differences of a verdict.json."""
 import math
 
 import numpy as np
@@ -16,11 +16,11 @@ WHOLE = {"outcome", "fall", "upright", "gear_peak", "stops", "setpoints", "start
 CAN_FAIL = {"outcome", "fall", "progress", "upright", "voltage", "current", "speed", "heat", "gear_peak", "gear_continuous",
             "tracking", "stops", "collision", "dock_tension", "dock_shear", "dock_bending", "dock_torsion", "in_ground"}
 
-# What is missing, and words of its sentence.
+# Kinds of missing evidence, and words of their sentences.
 LACK = {"makes energy": ["makes energy"], "moves nothing": ["moves no joint"], "torque error": ["the torque of joint"],
         "energy": ["the energy is unaccounted"], "coarse": ["the shortest steps"], "short": ["a gait's", "are less than"],
         "not on it": ["the robot is not on it"], "no gravity": ["there is no gravity"], "falls freely": ["falls freely"]}
-INSTANT = 0.1  # s: a stretch that is told by its start
+INSTANT = 0.1  # an interval shorter than this is reported by its start, s
 
 
 def outcome(record):
@@ -30,7 +30,7 @@ def outcome(record):
 
 
 def in_ground(record):
-    """Above a plane; of other grounds and of what touches it, nothing is recomputed here: none."""
+    """Check `in_ground` on a plane. For other grounds the result is None, because they are not recomputed."""
     if record.solver or record.ground == "none":
         return Told()
     found = depths(record)
@@ -54,7 +54,7 @@ def in_ground(record):
 
 
 def some_shaped(record, shaped):
-    """What is not judged where nothing was found and bodies without a shape may have done it; none: all have one."""
+    """Result `not judged` if nothing was found, but bodies without shapes might collide; None if all bodies have shapes."""
     bodies_ = len(record.robot.bodies)
     return Told(also={"shaped": shaped, "bodies": bodies_}) if shaped < bodies_ else None
 
@@ -71,7 +71,7 @@ def collision(record):
         return some_shaped(record, found.shaped) or told
     depth, when = max(found.pairs.values())
     told = Told(graded(depth, limits["touch"], limits["collision"]), depth, limits["collision"], start=when, end=when)
-    told.margin, told.loose = margin(depth, limits["collision"]), 3e-6 / depth  # m, of the search for the way out
+    told.margin, told.loose = margin(depth, limits["collision"]), 3e-6 / depth  # 3e-6 m is the tolerance of the search
     told.undecided = tuple({graded(depth - 3e-6, limits["touch"], limits["collision"])} - {told.status})
     told.ties = tuple({name for pair, (d, _) in found.pairs.items() if d >= depth - 3e-6 for name in pair})
     told.worst, told.parts, told.first = told.ties[0], len(found.pairs), found.first
@@ -82,7 +82,7 @@ def collision(record):
 
 
 class Judged:
-    """checks: {id: Told, or none where nothing is recomputed}; word, and `lacks`, what is missing for it."""
+    """Recomputed verdict. `checks` is {id: Told, or None if the check is not recomputed}; `lacks` is the missing evidence."""
 
     def __init__(self, record, start=None, whole=True):
         self.record = r = record
@@ -119,8 +119,8 @@ class Judged:
             self.spread(check, told)
 
     def spread(self, check, told):
-        """Of a motion that nobody can predict: too close, where rollouts as good as the run come to both sides of the limit, or to
-        no judgement."""
+        """Sets `too close` for a motion that is not predictable, if disturbed rollouts are on both sides of the limit or are not
+        judged."""
         margins = None if self.record.spread is None else self.record.spread[f"margin.{check}"]
         if margins is None or told.status == "not judged" or not told.can_fail or np.isnan(margins[0]):
             return
@@ -130,7 +130,7 @@ class Judged:
             told.also = told.also | {"rollouts": len(margins), "without": without, "margin_low": margins.min(), "margin_high": margins.max()}
 
     def missing(self):
-        """The numbers of the sentence on what is missing."""
+        """Numbers of the sentence on missing evidence."""
         r, e = self.record, self.evidence
         errors = r.torque_errors()
         j = int(np.argmax(errors)) if len(errors) else 0
@@ -148,7 +148,7 @@ class Judged:
             "y": r.speed_constant[creators[0]] if len(creators) else np.nan}
 
     def word(self, checks):
-        """The word that follows from these checks (as the program has them, so that one difference is one), in words of the manual."""
+        """Verdict that follows from these checks. They are those of the program, so that one difference is reported only once."""
         e, record = self.evidence, self.record
         of = {c["id"]: c for c in checks}
         status = {name: c["status"] for name, c in of.items()}
@@ -168,7 +168,8 @@ class Judged:
 
 
     def decided_by(self, checks, word):
-        """Ids of what infeasible and failed rest on: of what fails the robot as a whole, else the least margin, in a run that is too short of the whole run's."""
+        """Ids of the checks that may decide `infeasible` or `failed`: failed checks of the robot as a whole, or those with the least
+        margin. In a run that is too short, only checks of the whole run count."""
         if word not in ("infeasible", "failed"):
             return [None]
         short = word == "infeasible" and not self.evidence.long_enough
@@ -176,32 +177,32 @@ class Judged:
 
 
 def sentence(check):
-    """The text with the time, where a part was worst at one instant, and what is missing."""
+    """Text of a check with the missing amount, and with the time if a part was worst at an instant."""
     times = check["from"], check["to"]
     instant = check["part"] != "none" and check["status"] != "pass" and None not in times and times[1] - times[0] < INSTANT
     return check["text"] + (f", at {times[0]:.2f} s" if instant else "") + ("; missing: " + check["missing"] if check["missing"] else "")
 
 
 def by_urgency(checks):
-    """What concerns the robot as a whole first, then the least margin, and before it what has none."""
+    """Checks in order of urgency: checks of the robot as a whole, then checks without a margin, then checks by margin."""
     return sorted(checks, key=lambda c: (c["group"] != "run", -math.inf if c["margin"] is None else c["margin"]))
 
 
 def tightest(checks):
-    """Ids of the checks that can fail and have the least margin."""
+    """Ids of the checks with the least margin, among the checks that can fail."""
     may = [c for c in checks if c["can_fail"] and c["margin"] is not None and (c["limit"] != 0 or c["status"] == "fail")]
     least = min((c["margin"] for c in may), default=None)
     return [c["id"] for c in may if c["margin"] <= least + 1e-12 * max(1, abs(least))] if may else [None]
 
 
 def close(a, b, loose=1e-9):
-    """Doubles of one file, summed in another order: 1e-9. What is null is not a number here."""
+    """True if two numbers agree to 1e-9, the tolerance for sums in a different order. A null in the file is NaN here."""
     a, b = (math.nan if x is None else float(x) for x in (a, b))
     return (math.isnan(a) and math.isnan(b)) or abs(a - b) <= loose * max(abs(a), abs(b)) + 1e-12
 
 
 def compare(told, check):
-    """What verdict.json has otherwise, as texts."""
+    """Texts of the differences between verdict.json and the recomputed check."""
     told, wrong = told.of(check["worst"]), []
 
     def must(ok, what, expected, found):
@@ -218,7 +219,7 @@ def compare(told, check):
     loose = getattr(told, "loose", 1e-9)
     for name, expected in (("value", told.value), ("limit", told.limit), ("margin", told.margin), ("error", told.error)):
         allowed = loose * abs(told.value)
-        if name == "margin":  # follows from the value; that of a stretch of rows counts the control periods to 1e-6
+        if name == "margin":  # follows from the value; the margin of an interval has a tolerance of 1e-6
             allowed = allowed / abs(told.limit or 1) + (2e-6 if check["id"] in GROUPS["motor"][:2] else 0) * (1 + abs(expected))
         must(close(check[name], expected) or check[name] is not None and abs(check[name] - expected) <= allowed + 2e-6 * abs(
             expected) * (told.unit == "s"), name, expected, check[name])
@@ -236,7 +237,7 @@ def compare(told, check):
 
 
 def hear(told, check, text, who):
-    """What a sentence says otherwise."""
+    """Texts of the differences between a sentence and the recomputed check."""
     found = read(check["id"], check["status"], text)
     if found is None:
         return [f"{who}: no expression reads this sentence of {check['id']}: {text!r}"]
@@ -264,7 +265,8 @@ def hear(told, check, text, who):
 
 
 def hear_evidence(judged, verdict):
-    """`rests_on`, and the reason of a verdict that is not judged: what is missing, what fails so far, or what is too close."""
+    """Differences of `rests_on`, and of the reason of a verdict `not judged`: missing evidence, present failures, or checks that are too
+    close."""
     lacks, wrong = judged.missing(), []
 
     def numbers(found, text):

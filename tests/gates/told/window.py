@@ -2,19 +2,20 @@
 import numpy as np
 
 REPEATS, STILL, SHORTEST = 0.02, 1e-3, 5
-START = 2.0  # s, of a run without a limit cycle, a fifth of it at most
+START = 2.0  # omitted start of a run without a limit cycle, s; at most a fifth of the run
 
 
 class Cycle:
     found, start, period, error = False, 0.0, 0.0, 1.0
 
     def doubt(self):
-        """Share of a period by which two searches for it may differ: its minimum is flat, the flatter the less a motion repeats."""
+        """Relative difference that two searches for the period may have. The minimum of the error is flatter for a motion that repeats
+        less accurately."""
         return max(3e-5, 0.01 * self.error)
 
 
 def shifted(x, lag):
-    """x at i + lag, lag of any size, by the cubic through four neighbours (Lagrange); as long as the data reach."""
+    """Values of x at i + lag for a non-integer lag, by cubic interpolation between four neighbours (Lagrange), up to the end of x."""
     whole = int(np.floor(lag))
     f = lag - whole
     padded = np.concatenate([x[:1], x, x[-1:], x[-1:]])
@@ -25,17 +26,17 @@ def shifted(x, lag):
 
 
 def scales(x, samples):
-    half = np.ptp(x[-samples:], axis=0) / 2  # of each column
+    half = np.ptp(x[-samples:], axis=0) / 2  # half of the range of each column
     return np.maximum(half, max(0.1 * half.max(), STILL)), half.max() > STILL
 
 
 def cycle(x, spacing):
-    """x: rows x columns. The shortest period with an error below 2 % two periods before the end; else the best candidate."""
+    """Limit cycle of x (rows, columns): the shortest period with an error below 2 % two periods before the end, or the best candidate."""
     best, n = Cycle(), len(x)
     if n < 12 or x.shape[1] == 0:
         return best
     errors = np.full(n // 2 + 2, np.inf)
-    for lag in range(SHORTEST, n // 2 + 1):  # a first look, at 100 to 200 points of a period
+    for lag in range(SHORTEST, n // 2 + 1):  # coarse search with 100 to 200 points per period
         scale, moves = scales(x, 2 * lag)
         some = slice(None, None, max(1, lag // 100))
         if moves:
@@ -77,7 +78,7 @@ def cycle(x, spacing):
 
 
 def grid(record):
-    """Rows of the poses that are evenly spaced: all but, where the run ends between two, the last."""
+    """Equidistant rows of the poses: all rows, except the last row if the run ends between two ticks."""
     t = record.poses["t"]
     if len(t) < 3:
         return len(t), 0
@@ -99,22 +100,22 @@ def set_point_cycle(record):
 
 
 class Window:
-    """start, end, s; periods; first: the row of ticks that it begins behind."""
+    """Judged window: start and end, s; number of periods; `first` is the last row of ticks before the window."""
 
     def __init__(self, record, found, repeats):
         self.cycle, self.end, self.periods = found, record.end, 0
         if found.found:
-            eps = 1e-3  # of a period: what it may miss and be whole
+            eps = 1e-3  # share of a period that may be missing from a whole period
             held = self.end / found.period
-            least = int(np.ceil(held - 1 - eps))  # at most one period is left out
+            least = int(np.ceil(held - 1 - eps))  # at most one period is omitted
             self.periods = max(int(np.floor((self.end - found.start) / found.period + eps)), least)
             self.periods = min(self.periods, int(np.floor(held + eps)))
-        left_out = START if repeats else 0.0  # what is played once counts
+        left_out = START if repeats else 0.0  # set points that do not repeat count from the start
         self.start = max(0.0, self.end - self.periods * found.period) if self.periods else min(left_out, 0.2 * self.end)
         self.set(record, self.start)
 
     def set(self, record, start):
-        """The period is an estimate: a row that is nearer to the start than a thousandth of it is at the start."""
+        """Sets the start of the window. Because the period is an estimate, a row within a thousandth of a period is at the start."""
         self.start = start
         near = max(1e-9, 1e-3 * self.cycle.period if self.periods else 0)
         self.first = max(0, int(np.searchsorted(record.t, start + near, "right")) - 1)

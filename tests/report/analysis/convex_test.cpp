@@ -18,7 +18,7 @@ Convex at(const Shape& shape, const Vec3& p, const Vec3& axis = Vec3::UnitX(), d
 Shape box(double x, double y, double z) { return {Shape::Kind::box, {}, {x, y, z}}; }
 Shape ball(double radius) { return {Shape::Kind::sphere, {}, {radius, 0, 0}}; }
 
-// 1e-15, 1e-14: rounding of lengths of about 1, of one product and of some.
+// The tolerances 1e-15 and 1e-14 are for the rounding errors of one and of several products of lengths of about 1.
 
 TEST(Convex, BoxesFaceToFace) {
   EXPECT_NEAR(penetration(at(box(2, 2, 2), {0, 0, 0}), at(box(1, 1, 1), {1.4, 0, 0}), 0), 0.1, 1e-15);
@@ -26,7 +26,8 @@ TEST(Convex, BoxesFaceToFace) {
   EXPECT_EQ(penetration(at(box(2, 2, 2), {0, 0, 0}), at(box(1, 1, 1), {1.4, 0, 0}), 0.2), 0) << "ignored";
 }
 
-/// An edge along y, sqrt(1/2) right of the left box's middle, against one along z: neither has a face that separates them.
+/// Edges of two boxes that touch: an edge along y, sqrt(1/2) to the right of the centre of the left box, and an edge along z.
+/// No face of a box separates the boxes.
 TEST(Convex, BoxesEdgeToEdge) {
   const double reach = std::sqrt(0.5);
   const Convex left = at(box(1, 8, 1), {0, 0, 0}, Vec3::UnitY(), kPi / 4);
@@ -40,13 +41,13 @@ TEST(Convex, SpheresWithSpheresFacesEdgesAndCorners) {
   EXPECT_NEAR(penetration(at(ball(1), {0, 0, 0}), at(ball(2), {1, 2, 2}, Vec3::UnitX(), 1), 0), 0, 1e-15);
   EXPECT_NEAR(penetration(at(ball(1), {0, 0, 0}), at(ball(2), {0.9, 1.8, 1.8}), 0), 0.3, 1e-15);
   EXPECT_NEAR(penetration(at(ball(1), {1.9, 0, 0}), at(box(2, 2, 2), {0, 0, 0}), 0), 0.1, 1e-15);
-  // Middle at (1 + d, 1 + d): sqrt(2) d from the edge.
+  // A centre at (1 + d, 1 + d) is sqrt(2) d from the edge.
   EXPECT_NEAR(penetration(at(ball(1), {1.7, 1.7, 0}), at(box(2, 2, 2), {0, 0, 0}), 0), 1 - 0.7 * std::sqrt(2), 1e-14);
   EXPECT_NEAR(penetration(at(ball(1), {1.5, 1.5, 1.5}), at(box(2, 2, 2), {0, 0, 0}), 0), 1 - 0.5 * std::sqrt(3), 1e-14);
   EXPECT_EQ(penetration(at(ball(1), {1.6, 1.6, 1.6}), at(box(2, 2, 2), {0, 0, 0}), 0), 0);
 }
 
-/// Two M-TRAN blocks back to back: their half cylinders touch at any angles of the hinges, and never meet.
+/// The half cylinders of two M-TRAN blocks of a module touch at all hinge angles and never overlap.
 TEST(Convex, HalfCylindersOfOneModuleTouch) {
   const Shape half{Shape::Kind::half_cylinder, {}, {0.0325, 0.065, 0}};
   for (int tenths = -15; tenths <= 15; ++tenths) {
@@ -57,7 +58,7 @@ TEST(Convex, HalfCylindersOfOneModuleTouch) {
   }
 }
 
-/// The axis that showed two boxes apart shows it still when one has moved a little, and no more when they meet.
+/// The axis that separates two boxes still separates them after a small motion, but not if the boxes overlap.
 TEST(Convex, TheAxisThatShowsTwoApartServesAgain) {
   const Convex one = convex(box(2, 2, 2));
   const Convex other = convex(box(1, 1, 1));
@@ -72,7 +73,8 @@ TEST(Convex, TheAxisThatShowsTwoApartServesAgain) {
   EXPECT_NEAR(overlap_along(Extent(one), here, Extent(other), there(-0.02), apart), 0.02, 1e-15);
 }
 
-/// The depth is the least value of the support function of the Minkowski difference, which 20 000 directions find from above.
+/// The depth equals the least value of the support function of the Minkowski difference, approximated from above by 20 000
+/// directions.
 TEST(Convex, AgreesWithSampledDirections) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -81,7 +83,7 @@ TEST(Convex, AgreesWithSampledDirections) {
       box(1, 0.6, 0.3), {Shape::Kind::cylinder, {}, {0.4, 0.9, 0}}, {Shape::Kind::half_cylinder, {}, {0.5, 0.7, 0}}, ball(0.4)};
   std::vector<Vec3> directions;
   constexpr int kDirections = 20000;
-  for (int k = 0; k < kDirections; ++k) {  // a spiral on the sphere
+  for (int k = 0; k < kDirections; ++k) {  // directions on a spiral on the sphere
     const double z = 1 - (2.0 * k + 1) / kDirections;
     const double turn = kPi * (3 - std::sqrt(5.0)) * k;
     directions.emplace_back(std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z);
@@ -100,7 +102,8 @@ TEST(Convex, AgreesWithSampledDirections) {
     }
     const double depth = penetration(a, b, 0);
     met += depth > 0 ? 1 : 0;
-    // A direction is at most 0.02 rad from a sampled one, and the slope is at most the distance of two vertices, 2.5.
+    // Every direction is within 0.02 rad of a sample, and the slope of the support function is at most the distance of two
+    // vertices, 2.5.
     EXPECT_LE(depth, std::max(least, 0.0) + 1e-12) << trial;
     EXPECT_GE(depth, least - 0.02 * 2.5) << trial;
   }

@@ -1,4 +1,4 @@
-// The envelope of a verdict against closed forms: a motor that holds a pendulum, and one that spins up a wheel.
+// The check `envelope` agrees with closed forms for a motor that holds a pendulum and a motor that accelerates a wheel.
 #include <cmath>
 
 #include "report/verdict/verdict.h"
@@ -13,8 +13,8 @@ constexpr double kGearing = 594;
 constexpr double kK = 0.7 * 0.00395 * kGearing;  // N m/A: eta Kt n
 constexpr double kVolts = 0.00395 * kGearing;    // V s/rad: Ks n
 
-/// The value of `envelope`, and of the row of ticks that ends at `at` s: 1 kg with its centre of mass `arm` m below the axle,
-/// turned by 90 degrees, under a constant voltage.
+/// Value of the check `envelope` in the whole run, and in the row of ticks that ends at a given time. The body of 1 kg has its
+/// centre of mass `arm` m below the axle, is rotated by 90 degrees, and has a constant voltage.
 struct Reached {
   double whole, row;
 };
@@ -50,7 +50,7 @@ trace: {{period: 0.01}}
 
 const std::string kEnvelopeLaw = "closed form of eq. 1, 2: T over eta Kt n min(i_max, (u_max - Ks n w) / R)";
 
-/// T = m g l at rest, which takes u = R T / (eta Kt n).
+/// At rest, T = m g l requires the voltage u = R T / (eta Kt n).
 TEST(EnvelopeCheck, OfAPendulumHeldAt90Degrees) {
   const double torque = 9.81 * 0.1;
   const double voltage = 4.3 * torque / kK;
@@ -63,8 +63,8 @@ TEST(EnvelopeCheck, OfAPendulumHeldAt90Degrees) {
            "rounding; it turns by less than 1e-13 rad");
 }
 
-/// 5 V on a wheel: (5 V - Ks n w) / (7.4 V - Ks n w), which falls as it turns faster: the largest of a run is at its
-/// start, that of a tick at the start of the tick.
+/// For a wheel at 5 V the envelope ratio is (5 V - Ks n w) / (7.4 V - Ks n w), which decreases with the speed w. The largest
+/// value of the run is at its start, and that of a tick at the start of the tick.
 TEST(EnvelopeCheck, OfAWheelThatSpinsUp) {
   const double i_max = 5;
   const oracle::MotorSpinUp motor{4.3, 0.00395, 0.00395, kGearing, 0.7, i_max, 5, 0.05};

@@ -9,7 +9,7 @@ namespace gaitlab::test {
 namespace {
 
 TEST(FirstHarmonic, IsThatOfASineWithAMean) {
-  // A period that the rows do not divide; the window is its last two.
+  // The period is not a multiple of the time between rows. The window contains the last two periods.
   Trace table;
   table.columns = {{"t", "s", ""}, {"x", "rad", ""}, {"y", "rad", ""}};
   const double period = 1.2345;

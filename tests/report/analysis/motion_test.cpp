@@ -1,4 +1,4 @@
-// The judged motion of a gait is that of control ticks: the rows of the trace do not change it.
+// The verdict uses the motion at control ticks, so that it does not depend on the rows of the trace.
 #include "report/analysis/motion.h"
 
 #include <nlohmann/json.hpp>
@@ -17,14 +17,14 @@ namespace {
 using namespace report;
 using Json = nlohmann::ordered_json;
 
-/// Four legs below a spine of three modules, 1 Hz.
+/// Scenario of a robot with four legs and a spine of three modules, with a gait of 1 Hz.
 constexpr const char* kQuadruped =
     "gaitlab: 1\nname: quadruped\n"
     "robot: {modules: mtran, docks: [[1, 1, 4, 0, 1], [1, 2, 4, 1, 3], [0, 3, 3, 0, 3], [2, 4, 5, 0, 1], [0, 5, 3, 2, 3], "
     "[2, 6, 5, 2, 1]]}\n"
     "cpg: {type: tripod, frequency: 1, amplitude: 0.3}\nphysics: {engine: articulated}\nduration: 3\n";
 
-/// All numbers of the run but the clock's and the hash of the rows, and the verdict.
+/// Text of the verdict and of all summary numbers, except computing times and the hash of the rows.
 std::string all_numbers(const Scenario& s, const Recording& r) {
   const Summary summary = summarise(s, r, 1);
   Json json = Json::parse(to_json(summary, s, r));
@@ -41,13 +41,14 @@ std::vector<std::string> with_rows(std::vector<std::string> sets, const char* pe
   return sets;
 }
 
-/// Rows of 50 ms did not show the limit cycle: the window was 0.6 to 3 s.
+/// The judged window does not depend on the period of the rows. (From rows every 50 ms, the program once found no limit cycle,
+/// and a window from 0.6 to 3 s.)
 TEST(Motion, OfSparseRowsHasTheWindowOfFineOnes) {
   for (const char* period : {"0.001", "0.05"}) {
     const Scenario s = scenario(kQuadruped, with_rows({}, period));
     const Summary summary = summarise(s, run(s), 1);
     EXPECT_TRUE(summary.limit_cycle.found) << period;
-    EXPECT_NEAR(summary.judged.from, 1, 1e-3) << period;  // the period is an estimate
+    EXPECT_NEAR(summary.judged.from, 1, 1e-3) << period;  // tolerance for the estimate of the period
     EXPECT_EQ(summary.judged.to, 3) << period;
     EXPECT_EQ(summary.judged.periods, 2U) << period;
   }
@@ -56,7 +57,7 @@ TEST(Motion, OfSparseRowsHasTheWindowOfFineOnes) {
 struct Walker {
   const char *name, *scenario;
   std::vector<std::string> sets;
-  bool settles;  ///< within the run, which in engine bullet is short
+  bool settles;  ///< true if the gait settles within the run; runs in engine bullet are short
 };
 
 class AnyRows : public testing::TestWithParam<Walker> {};
@@ -83,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(
         Walker{"bullet_hexapod", "hexapod.yaml", {"duration=0.6", "cpg.frequency=2", "physics.engine=bullet"}, false}),
     [](const auto& info) { return std::string(info.param.name); });
 
-/// Quantities of stop rules during a run.
+/// The quantities of stop rules during a run do not depend on the rows.
 TEST(Motion, SoFarIsTheSameForAnyRows) {
   std::string first;
   for (const char* period : {"0.001", "0.05", "0.7"}) {
@@ -102,8 +103,8 @@ TEST(Motion, SoFarIsTheSameForAnyRows) {
   EXPECT_TRUE(contains(first, "\n2"));
 }
 
-/// Control periods that no round number divides, an end within a step, and rows thinned because they are many: the ticks are
-/// evenly spaced but for the last.
+/// The limit cycle is found with unusual control periods, with an end within a step, and with merged ticks. Ticks are
+/// equidistant except for the last tick.
 TEST(Motion, FindsTheCycleOnAnyGrid) {
   const auto one = [](const char* control, const char* duration, const char* rest) {
     return scenario(
@@ -126,7 +127,7 @@ TEST(Motion, FindsTheCycleOnAnyGrid) {
   }
 }
 
-/// A row of the trace at a control tick has the values of the tick; the load is the sum of those of the modules.
+/// The values at a control tick equal those of a trace row at its time. The load is the sum of the loads of the modules.
 TEST(Motion, AtTicksIsThatOfTheRows) {
   for (const char* engine : {"articulated", "bullet"}) {
     const Scenario s = shipped("hexapod.yaml", {"duration=0.6", "trace.period=0.015", "trace.columns=[\"*\"]",
@@ -146,14 +147,14 @@ TEST(Motion, AtTicksIsThatOfTheRows) {
       for (std::size_t m = 0; m < s.robot->modules.size(); ++m) {
         if (const Series one = r.series(fmt::format("load.{}", m)); !one.empty()) load += one[k];
       }
-      ASSERT_NEAR(r.pose("load")[k], load, 1e-9 * (1 + load)) << engine;  // another order of the sum
+      ASSERT_NEAR(r.pose("load")[k], load, 1e-9 * (1 + load)) << engine;  // the sums have different orders of terms
       most = std::max(most, load);
     }
     EXPECT_GT(most, 0.5 * s.robot->mass * 9.81) << engine;
   }
 }
 
-/// As a folder was before: its poses had pose and angles alone.
+/// Recording in an older form, in which the table of poses contains only base pose and angles.
 Recording older(const Recording& r, std::size_t joints) {
   Recording old = r;
   const std::size_t columns = old_pose_columns(joints);
@@ -201,7 +202,7 @@ TEST(Motion, HasTheCentreOfMassOfTheStates) {
     k.update(*s.robot, states(row));
     const Vec3 com = sums(*s.robot, k, s.physics.gravity).com;
     const Vec3 of_motion(recorded.x[row], recorded.y[row], recorded.z[row]);
-    ASSERT_LT((of_motion - com).norm(), 1e-12) << row;  // m: rounding of a mean over 33 bodies
+    ASSERT_LT((of_motion - com).norm(), 1e-12) << row;  // m; rounding errors of a mean over 33 bodies
   }
 }
 

@@ -1,4 +1,4 @@
-// Whose figures the motors have: of module types, of the scenario instead, of another type of actuator.
+// Tests of the source of motor data: module types, the scenario, or defaults of an actuator.
 #include "report/analysis/motors.h"
 
 #include <algorithm>
@@ -18,7 +18,8 @@ constexpr const char* kServo = "type: servo, voltage: 5, stall_torque: 1, no_loa
 const std::string kDefaults =
     "R 4.3 ohm, Kt 0.00395 N m/A, Ks 0.00395 V s/rad, gear 594, efficiency 0.7, u_max 7.4 V, i_max 1.2 A";
 
-/// A module type of format 2: two bodies on a hinge; `motor`: its actuator, `hinge`: more keys of its hinge, both in YAML.
+/// Module type of two bodies and a hinge, by default of format 2. `motor` is its actuator and `hinge` further keys of its
+/// hinge, both in YAML.
 std::string type_with(const std::string& name, const std::string& motor, const std::string& hinge = "", int format = 2) {
   return fmt::format(R"(    {0}:
       gaitlab_module: {3}
@@ -35,7 +36,7 @@ std::string type_with(const std::string& name, const std::string& motor, const s
                      name, motor.empty() ? "" : "      actuator: {" + motor + "}\n", hinge, format);
 }
 
-/// A scenario with a row of modules, one of each type. `more`: sections.
+/// Scenario text of a row of modules, one of each type. `more` is further sections.
 std::string row_of(const std::vector<std::string>& types, const std::string& modules, const std::string& more = "") {
   std::string docks;
   for (std::size_t m = 1; m < types.size(); ++m) docks += fmt::format("{}[0, {}, 1, {}, 0]", m > 1 ? ", " : "", m, m - 1);
@@ -54,7 +55,7 @@ Scenario with_type(const std::string& motor, const std::string& actuator, const 
 
 std::string source(const std::string& text) { return motor_source(scenario(text)); }
 
-/// Notes as they are printed, but for the folder.
+/// Notes of a scenario as printed, without the folder.
 std::vector<std::string> notes(const Scenario& s) {
   std::vector<std::string> all;
   for (const Note& note : s.notes) {
@@ -95,7 +96,7 @@ TEST(MotorSource, TheNoteStandsWhereTheTypeDoes) {
                 line, kDefaults)}));
 }
 
-/// A given value is not asked for again, and a complete set has no note.
+/// If the scenario states all motor data, there is no note.
 TEST(MotorSource, OfFiguresThatTheScenarioGivesThereIsNoNote) {
   EXPECT_EQ(
       notes(with_type(kServo, "type: dc_motor, R: 2, Kt: 0.01, Ks: 0.01, gear: 50, efficiency: 0.8, u_max: 12")),
@@ -115,7 +116,7 @@ TEST(MotorSource, OfFiguresThatTheScenarioGivesThereIsNoNote) {
   EXPECT_EQ(motor_source(with_type(kServo, "type: none")), "");
 }
 
-/// A source that the scenario states says what the scenario gives, and not what the actuator assumes.
+/// A source in the scenario applies to the values of the scenario. Defaults of the actuator count as chosen.
 TEST(MotorSource, DefaultsOfAnotherTypeAreChosen) {
   const Scenario s = with_type(kServo, "type: dc_motor, R: 2, Kt: 0.01, Ks: 0.01, u_max: 12, i_max: 2, source: maxon 118752");
   EXPECT_EQ(motor_source(s), "chosen: gear, efficiency by default of dc_motor; the rest: maxon 118752");
@@ -140,7 +141,7 @@ TEST(MotorSource, OfFiguresThatTheScenarioGivesInstead) {
   EXPECT_FALSE(judged(with_type(stated, "u_max: 4, source: supply X")).chosen_motors);
 }
 
-/// A source of the file does not say what --set gives.
+/// A source in the file does not apply to values of --set.
 TEST(MotorSource, OfTheFileIsNotThatOfSet) {
   const std::string stated = std::string(kServo) + ", source: data sheet 17";
   const Scenario other = with_type(stated, "u_max: 4, source: supply X", {"actuator.u_max=5"});
@@ -154,7 +155,7 @@ TEST(MotorSource, OfTheFileIsNotThatOfSet) {
             "u_max of the scenario: supply X; the rest: data sheet 17");
 }
 
-/// A servo without a source counted as a maker's.
+/// Data without a source count as chosen. (Data of a servo without a source once counted as the manufacturer's.)
 TEST(MotorSource, AMissingOneMeansChosen) {
   EXPECT_TRUE(chosen(""));
   EXPECT_EQ(source(one(kServo)), "chosen: no source stated");
@@ -166,7 +167,7 @@ TEST(MotorSource, AMissingOneMeansChosen) {
   EXPECT_EQ(made.figures, "motors: data sheet 17");
 }
 
-/// In format 2 the motor of a hinge replaces that of its type, key by key.
+/// In format 2 the settings of a hinge replace those of its module type key by key, and sources follow the values.
 TEST(MotorSource, OfHingesIsTheirTypesWhereTheyHaveNone) {
   const std::string stated = std::string(kServo) + ", source: data sheet 17";
   EXPECT_EQ(source(one(stated, "", ", actuator: {stall_torque: 2}")), "data sheet 17");
@@ -187,7 +188,7 @@ TEST(MotorSource, OfHingesIsTheirTypesWhereTheyHaveNone) {
           "torque takes its own default limit 0 N m; give this and source under actuator, or leave type out"});
 }
 
-/// Whose module types state no motor gets all of it from the scenario.
+/// If the module types state no motor, all motor data have the source of the scenario.
 TEST(MotorSource, OfTheScenarioAlone) {
   const std::string most = "R: 2, Kt: 0.01, Ks: 0.01, gear: 50, efficiency: 0.7, u_max: 12";
   EXPECT_EQ(motor_source(with_type("", most + ", i_max: 2, source: maxon 118752")), "maxon 118752") << "0.7 is stated";
@@ -213,7 +214,8 @@ TEST(MotorSource, OfSeveralModuleTypes) {
   EXPECT_TRUE(contains(both[1], "the module type b states voltage, stall_torque, no_load_speed for actuator servo"));
 }
 
-/// If the types disagree, the figures of all are dropped, also of those that have the scenario's actuator.
+/// If the module types have different actuators and the scenario another one, the data of all types are dropped, also of types
+/// with the actuator of the scenario.
 TEST(MotorSource, OfModuleTypesThatDisagree) {
   const Scenario s = scenario(row_of({type_with("a", std::string(kServo) + ", source: data sheet 17"),
                                       type_with("b", "type: dc_motor, gear: 50, source: maxon 118752")},
@@ -229,7 +231,7 @@ TEST(MotorSource, OfModuleTypesThatDisagree) {
           kDefaults + "; give these and source under actuator");
 }
 
-/// The run folder has the same motors, without a note.
+/// The resolved scenario has the same motor data and sources, and no note.
 TEST(MotorSource, SurvivesTheResolvedScenario) {
   const std::string stated = std::string(kServo) + ", source: data sheet 17";
   for (const char* actuator : {"u_max: 4", "u_max: 4, source: supply X", "type: dc_motor", "type: torque, source: 'bench: 2'",
@@ -243,7 +245,7 @@ TEST(MotorSource, SurvivesTheResolvedScenario) {
   EXPECT_FALSE(contains(resolved(scenario(one(stated, "actuator: {u_max: 4}\n"))), "  source: ''"));
 }
 
-/// An actuator of somebody's own, without figures that it assumes.
+/// Actuator of a plugin, without default data of a real motor.
 struct Pushes final : Actuator {
   struct Settings {
     double most = 2;

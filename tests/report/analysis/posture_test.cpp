@@ -1,4 +1,4 @@
-// Numbers of how a robot holds itself, against motions that are known in closed form.
+// Tests of the numbers on the posture of a robot (height, tilt, time in the air) with motions that are known in closed form.
 #include "report/analysis/posture.h"
 
 #include <nlohmann/json.hpp>
@@ -23,7 +23,8 @@ Posture posture_of(const Scenario& s) {
   return posture(s, r, summarise(s, r, 0).judged);
 }
 
-/// Down from z0 for t: z0 - g t^2 / 2 at the last tick; the first of the window is that behind its start, a fifth of the run.
+/// A falling module is airborne all the time. Its height is z0 - g t^2 / 2. The window starts after a fifth of the run, and its
+/// first tick is the next tick.
 TEST(Posture, AFallIsAirborneAllTheTime) {
   const Scenario s = one_module({"robot.position=[0, 0, 10]", "duration=1"});
   const Recording r = run(s);
@@ -32,7 +33,7 @@ TEST(Posture, AFallIsAirborneAllTheTime) {
   EXPECT_EQ(p.airborne_share, 1);
   const double g = s.physics.gravity.norm();
   const double start = r.com(0).z();
-  constexpr double kIntegration = 1e-4;  // m: of the adaptive steps, 1 % of torques that are 0
+  constexpr double kIntegration = 1e-4;  // integration error of adaptive steps, m; torques of 0 do not limit the steps
   EXPECT_NEAR(p.height_min, start - g / 2, kIntegration);
   const double first = (std::floor(judged.from / s.control_period + 1e-9) + 1) * s.control_period;
   EXPECT_NEAR(p.height_max, start - g * first * first / 2, kIntegration);
@@ -41,42 +42,42 @@ TEST(Posture, AFallIsAirborneAllTheTime) {
 TEST(Posture, AtRestIsNeverAirborne) {
   const Posture p = posture_of(one_module({"duration=1"}));
   EXPECT_EQ(p.airborne_share, 0);
-  EXPECT_LT(p.height_max - p.height_min, 1e-3);  // m: it settles into its contacts
+  EXPECT_LT(p.height_max - p.height_min, 1e-3);  // m; the module settles on its contacts
 }
 
-/// A robot that weighs nothing is not known to fly.
+/// Without gravity the time in the air is unknown.
 TEST(Posture, IsNotKnownWhereNothingCarries) {
   EXPECT_TRUE(std::isnan(posture_of(one_module({"duration=0.2", "physics.gravity=[0, 0, 0]"})).airborne_share));
 }
 
 TEST(Posture, TiltIsOfTheBaseAgainstTheVertical) {
   constexpr double kTilt = 0.3;  // rad
-  // In the air, where nothing turns it.
+  // The module is in the air, where no moment acts on it.
   const Posture p = posture_of(one_module({"robot.position=[0, 0, 10]", "robot.orientation=[0.3, 0, 1]", "duration=0.5"}));
-  EXPECT_NEAR(p.tilt_max, kTilt, 1e-6);  // the acos of a double near it
+  EXPECT_NEAR(p.tilt_max, kTilt, 1e-6);  // tolerance for the rounding error of acos
 }
 
-/// The way from the first tick of the window to its last, where the window's ends are ticks.
+/// The speed is the distance between the ends of the window divided by its length, here with ends at ticks.
 TEST(Posture, CycleSpeedIsThatOfTheWindow) {
   Recording r;
   r.trace.columns = {{"t", "s", ""}, {"com.x", "m", ""}, {"com.y", "m", ""}};
   for (int k = 0; k <= 100; ++k) {
     const double t = 0.1 * k;
-    const double v = t < 4 ? 7 : 0.3;  // m/s, of its start and of its gait
+    const double v = t < 4 ? 7 : 0.3;  // speeds of start and gait, m/s
     const double x = t < 4 ? v * t : 28 + v * (t - 4);
     for (const double value : {t, x, -x}) r.trace.values.push_back(value);
   }
   Judged judged;
   judged.from = 5.55;
   judged.to = 9.95;
-  EXPECT_TRUE(std::isnan(cycle_speed(r, judged)));  // no limit cycle
+  EXPECT_TRUE(std::isnan(cycle_speed(r, judged)));  // unknown without a limit cycle
   judged.periods = 2;
   EXPECT_NEAR(cycle_speed(r, judged), 0.3 * std::sqrt(2.0), 1e-12);
-  judged.to = 9.92;  // another part of the way between two rows than at the start
+  judged.to = 9.92;  // divides the interval between two rows differently from the start
   EXPECT_NEAR(cycle_speed(r, judged), 0.3 * std::sqrt(2.0), 1e-12);
 }
 
-/// The last row within a window that ends between two rows.
+/// If the window ends between two rows, the numbers use the last row within the window.
 TEST(Posture, EndsWithTheWindow) {
   const Scenario s = one_module({"robot.position=[0, 0, 10]", "duration=1"});
   const Recording r = run(s);
@@ -84,11 +85,11 @@ TEST(Posture, EndsWithTheWindow) {
   judged.from = 0.2;
   judged.to = 0.5;
   const double last = std::floor(judged.to / s.control_period) * s.control_period;
-  constexpr double kIntegration = 1e-4;  // m: as above
+  constexpr double kIntegration = 1e-4;  // integration error of adaptive steps, m
   EXPECT_NEAR(posture(s, r, judged).height_min, r.com(0).z() - s.physics.gravity.norm() * last * last / 2, kIntegration);
 }
 
-/// The guard: gaits that are shipped as walking keep to the ground, and a hop is told.
+/// The shipped walking gaits are never airborne for long, and a hopping gait is.
 TEST(Posture, ShippedGaitsKeepToTheGround) {
   const auto share = [](const char* file, const char* duration) {
     return posture_of(shipped(file, {"physics.engine=articulated", duration})).airborne_share;

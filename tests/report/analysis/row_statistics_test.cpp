@@ -1,4 +1,4 @@
-// Verdicts of folders that hold rows and nothing else, against those of the same runs from all steps.
+// Verdicts from trace rows alone agree with verdicts of the same runs from all steps.
 #include "report/analysis/row_statistics.h"
 
 #include <nlohmann/json.hpp>
@@ -11,7 +11,7 @@ namespace {
 
 using namespace report;
 
-/// A folder without statistics, which has rows alone. `left_out`: a column that it does not have either.
+/// Recording that contains only the trace rows of a run, without statistics and without the column `left_out`.
 Recording rows_only(const Scenario& scenario, const Recording& whole, const std::string& left_out = "") {
   Recording bare;
   bare.simulated = whole.simulated;
@@ -35,10 +35,9 @@ Verdict verdict_of(const Scenario& scenario, const Recording& record) {
 
 const Check& check_of(const Verdict& verdict, const char* id) { return *std::ranges::find(verdict.checks, id, &Check::id); }
 
-/// A row at every step. The engine takes torques at the start of a step under the command that begins there: peaks
-/// are those numbers, but for rounding, or what the row at the end of a hold has, which no step took: between two steps torques
-/// differ by the acceleration times a step, below 1 % of the peak here. Integrals are by trapezoids instead of rectangles,
-/// whose ends differ by half a step of the window, 5e-4 s of 3 s or more.
+/// With a row per step, the verdict from rows equals that from all steps, with values within 1 %. A row before a new command
+/// contains a torque that no step uses; it differs by less than 1 % of the peak. Integrals over rows use trapezoids, those over
+/// steps rectangles, which differ by half a step at the ends of the window (5e-4 s of 3 s or more).
 TEST(RowStatistics, OfEveryStepAreThoseOfAllSteps) {
   const std::vector<std::pair<const char*, std::vector<std::string>>> runs{
       {"caterpillar.yaml", {}},
@@ -64,10 +63,10 @@ TEST(RowStatistics, OfEveryStepAreThoseOfAllSteps) {
   }
 }
 
-/// A row of a control tick holds the command before it, and the torque is largest under the one that begins there: rows 15 ms
-/// apart, one per control tick, show less than half of some joint's peak unless the actuator is asked. Peaks between ticks are
-/// missed, by less than a tenth here. A step takes its law at its end, too, where it is up to h times the motor's rate (18/s *
-/// 5e-4 s) smaller.
+/// The peak at the start of a command is known from rows at control ticks. Such a row contains the previous command, but the
+/// torque is largest under the new command, so that the program evaluates the actuator with the new command. Without this, rows
+/// 15 ms apart show less than half of some peaks. Peaks between ticks are missed by less than a tenth. The law at the end of a
+/// step is smaller by up to h times the rate of the motor (18/s * 5e-4 s).
 TEST(RowStatistics, SeeThePeakWhereACommandBegins) {
   const Scenario s = shipped("caterpillar.yaml", {"duration=4", "physics.engine=articulated", "trace.period=0.015"});
   const Recording whole = run(s);
@@ -88,7 +87,7 @@ TEST(RowStatistics, SeeThePeakWhereACommandBegins) {
   EXPECT_EQ(verdict_of(s, bare).word, verdict_of(s, whole).word);
 }
 
-/// A check without its column is not judged and names the column; the others are judged.
+/// A check without its column is not judged, and its text names the column. All other checks are judged.
 TEST(RowStatistics, NameTheColumnThatIsNotThere) {
   const Scenario s = shipped("caterpillar.yaml", {"duration=1", "physics.engine=articulated"});
   const Recording whole = run(s);
@@ -116,7 +115,7 @@ TEST(RowStatistics, NameTheColumnThatIsNotThere) {
             "share of the window at the limit of the voltage, over the rows of the trace");
 }
 
-/// A hinge without a motor has none of the columns of a motor, and takes nothing from the joints that have one.
+/// A hinge without a motor has no columns of a motor. This does not affect the results of joints with motors.
 TEST(RowStatistics, LeaveOutHingesWithoutAMotor) {
   const Scenario s = scenario(kCastorFirst, {"duration=4", "physics.step=5e-4", "trace.period=5e-4"});
   const Recording whole = run(s);
@@ -147,7 +146,7 @@ TEST(RowStatistics, OfNothingAreNothing) {
   EXPECT_FALSE(whole.ticks_of_rows) << "all steps are known";
 }
 
-/// A CSV file alone.
+/// A run folder with only a CSV file is judged from its rows.
 TEST(RowStatistics, JudgeFoldersOfCsv) {
   const Folder folder;
   const std::string run =

@@ -1,4 +1,4 @@
-// Which curves are said to lie on each other.
+// Tests of the detection of curves that coincide in a figure.
 #include "report/figures/run/coincide.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 using namespace report;
 using Groups = std::vector<std::vector<std::size_t>>;
 
-/// Eleven rows, a second apart, of which the last five are shown.
+/// Groups of coinciding curves with eleven rows one second apart. The figure shows the last five rows.
 Groups groups(const std::vector<std::vector<double>>& values, double from = 6) {
   std::vector<double> time;
   for (int k = 0; k <= 10; ++k) time.push_back(k);
@@ -30,7 +30,7 @@ TEST(Coincide, WithinHalfAPercentOfTheRangeOfThePair) {
   EXPECT_EQ(groups({wave(1), wave(1, 0.0099)}), (Groups{{0, 1}}));
   EXPECT_EQ(groups({wave(1), wave(1, 0.0101)}), Groups{});
   EXPECT_EQ(groups({wave(10), wave(10, 0.099), wave(1)}), (Groups{{0, 1}}));
-  // A wide curve beside them does not make narrow ones coincide.
+  // The tolerance for small curves does not increase with a large curve in the same panel.
   EXPECT_EQ(groups({wave(0.1), wave(0.1, 0.01), wave(100)}), Groups{});
 }
 
@@ -39,7 +39,7 @@ TEST(Coincide, OnlyWhatIsShownCounts) {
   EXPECT_EQ(groups({wave(1), wave(1, 0, 5)}, 0), Groups{});
 }
 
-/// 0 and 2 are too far apart for one group, though 1 coincides with both.
+/// Any two curves of a group coincide. Curves 0 and 2 are not in one group, although curve 1 coincides with both.
 TEST(Coincide, AnyTwoOfAGroupDo) {
   EXPECT_EQ(groups({wave(1), wave(1, 0.0075), wave(1, 0.015), wave(1, 0.008)}), (Groups{{0, 1, 3}}));
   EXPECT_EQ(groups({wave(1), wave(2), wave(2), wave(1)}), (Groups{{0, 3}, {1, 2}}));
@@ -59,7 +59,7 @@ TEST(Coincide, WhatHasNoValuesCoincidesWithNothing) {
   EXPECT_EQ(coinciding({{0, 1}, {0, 1}}, {}), Groups{});
 }
 
-/// One panel in which they part is enough.
+/// Curves coincide only if they coincide in all panels.
 TEST(Coincide, InAllPanels) {
   CurvesPanel same{""};
   same.values = {{1, 2}, {1, 2}};

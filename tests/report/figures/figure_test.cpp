@@ -19,7 +19,7 @@ std::size_t count(const std::string& text, const std::string& part) {
   return found;
 }
 
-// Every tag closed in its order, every attribute quoted: all that this writer could get wrong.
+// True if all tags are closed in the correct order and all attributes are quoted. The writer cannot make other errors.
 bool well_formed(const std::string& xml) {
   std::vector<std::string> open;
   for (std::size_t at = xml.find('<'); at != std::string::npos; at = xml.find('<', at)) {

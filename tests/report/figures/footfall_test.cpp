@@ -1,4 +1,4 @@
-// The footfall diagram, and what the figure of a legged robot shows. Expected values are counted by hand.
+// Tests of the footfall diagram and of the figure of a legged robot. The expected values are counted by hand.
 #include "report/figures/run/footfall.h"
 
 #include <limits>
@@ -24,7 +24,7 @@ TEST(Footfall, StancesLastFromOneSampleToTheNext) {
   const std::vector<double> time{0, 1, 2, 3, 4, 5};
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto found = stances(time, std::vector<double>{2, 1, 3, nan, 4, 5}, 1);
-  ASSERT_EQ(found.size(), 3U);  // 1 does not exceed 1
+  ASSERT_EQ(found.size(), 3U);  // a load equal to the threshold does not count
   EXPECT_EQ(found[0].from, 0);
   EXPECT_EQ(found[0].to, 1);
   EXPECT_EQ(found[1].from, 2);
@@ -66,14 +66,14 @@ TEST(Footfall, LegsHaveNames) {
 TEST(Footfall, DrawsABarAStanceAndJoinsWhatNobodySees) {
   Svg svg(1000, 100);
   const Ticks time = ticks_within(10, 18, 8);
-  // Before the panel, over its edge, two that 1 ms parts, one to the end.
+  // One footfall before the panel, one across its edge, two separated by 1 ms, and one near the end.
   const Footfall row{"m9 front left", {{8, 9}, {9.5, 11}, {12, 13}, {13.001, 14}, {17, 19}}, 0.625};
   const std::vector<Footfall> rows{row};
   draw_footfalls(svg, {rows, "footfall", "note"}, {.ticks = time, .texts = false}, {120, 920, 30, 54});
   const std::string text = svg.finish();
   EXPECT_EQ(count(text, "height=\"12\""), 3U);
-  EXPECT_NE(text.find("width=\"100\" height=\"12\""), std::string::npos);  // 10 to 11 s, 17 to 18 s
-  EXPECT_NE(text.find("width=\"200\" height=\"12\""), std::string::npos);  // 12 to 14 s
+  EXPECT_NE(text.find("width=\"100\" height=\"12\""), std::string::npos);  // from 10 to 11 s
+  EXPECT_NE(text.find("width=\"200\" height=\"12\""), std::string::npos);  // from 12 to 14 s
   for (const std::string part : {">m9 front left<", ">0.62<", ">note<"}) EXPECT_NE(text.find(part), std::string::npos) << part;
 }
 
@@ -105,7 +105,7 @@ TEST(Footfall, AJointAtRestHasASensibleAngleAxis) {
 TEST(Footfall, CentralSpineJointIsThePapers) {
   const RobotInfo robot = info(*shipped("hexapod.yaml").robot);
   const std::vector<Leg> legs = find_legs(robot);
-  EXPECT_EQ(central_spine_joint(robot, legs), 5U);  // the paper's; joint 4 is as near to the middle, further to the rear
+  EXPECT_EQ(central_spine_joint(robot, legs), 5U);  // joint of the paper; joint 4 is as close to the middle, but behind it
   RobotInfo turned = robot;
   for (JointInfo& joint : turned.joints) joint.axis = {0, 0, 1};
   EXPECT_EQ(central_spine_joint(turned, legs), 5U) << "no joint bends it up and down: the middle one";
@@ -153,7 +153,7 @@ TEST(Footfall, FigureOfAHexapodShowsItsGait) {
         ", most loaded", "arrow: m", "centre of mass", "far side"}) {
     EXPECT_NE(svg.find(part), std::string::npos) << part;
   }
-  // Five views, a fifth of the 2 s cycle apart; without a limit cycle (a ramp of 1 s, 4 s) likewise.
+  // The figure has five views a fifth of the 2 s cycle apart, also without a limit cycle (ramp of 1 s, duration of 4 s).
   for (const std::string part : {">2 s<", ">2.4 s<", ">2.8 s<", ">3.2 s<", ">3.6 s<"})
     EXPECT_NE(svg.find(part), std::string::npos) << part;
   EXPECT_EQ(count(svg, "paint-order"), 5U * 33U);
@@ -162,11 +162,11 @@ TEST(Footfall, FigureOfAHexapodShowsItsGait) {
 TEST(Footfall, LongPeriodsAreCutAndEarlyEndsDrawn) {
   const auto& [scenario, record] = shown_hexapod();
   Summary summary = summarise(scenario, record, 0);
-  summary.limit_cycle = {true, 0, 6, 0.001};  // a multiple of the gait's period
+  summary.limit_cycle = {true, 0, 6, 0.001};  // limit cycle of three periods of the gait
   const std::string svg = run_figure(scenario, record, summary);
   for (const std::string part : {">0 s<", ">0.8 s<", ">3.2 s<", "side view over the last 4 s"})
     EXPECT_NE(svg.find(part), std::string::npos) << part;
-  Recording first = record;  // a run that ended at its first row
+  Recording first = record;  // becomes a run that ends at its first row
   for (Trace* table : {&first.trace, &first.rest}) table->values.resize(table->columns.size());
   summary.simulated = 0;
   summary.limit_cycle = {};

@@ -1,4 +1,4 @@
-// Figures of studies with any number of parameters: what is drawn, corners, limits, and the same bytes twice.
+// Tests of figures of studies with any number of parameters: drawn elements, special cases, limits, reproducible bytes.
 #include "report/figures/study/many_figure.h"
 
 #include <gtest/gtest.h>
@@ -43,13 +43,13 @@ TEST(ManyFigure, EveryPointIsALine) {
   const ManyFigure figure = three(9);
   const std::string svg = parallel_svg(figure);
   EXPECT_EQ(svg, parallel_svg(figure));
-  EXPECT_EQ(number_of_parts(svg, "stroke-linejoin"), 9U + 2);  // the best in black, on white
+  EXPECT_EQ(number_of_parts(svg, "stroke-linejoin"), 9U + 2);  // the best point has a black line on a white line
   for (const char* part : {"a &lt;study&gt;", ">cpg.frequency<", ">hopf<", ">best<", ">not kept or failed<", "speed (m/s)"})
     EXPECT_EQ(number_of_parts(svg, part) > 0, true) << part;
   EXPECT_EQ(many_csv(figure).substr(0, 78), "cpg.frequency,cpg.phase_lag,cpg.type,speed,state,best\n0.1,1,hopf,-0.2,kept,0\n0");
 }
 
-/// None, one, all failed, one value everywhere: nothing that is not a number.
+/// Figures of special cases contain no NaN: no points, one point, only failed points, equal values.
 TEST(ManyFigure, ItsCornersAreDrawn) {
   for (const std::size_t points : {0U, 1U, 9U}) {
     ManyFigure figure = three(points);
@@ -90,7 +90,7 @@ TEST(BarFigure, DrawsNoBarOfWhatIsNotKnown) {
   EXPECT_EQ(svg, bar_svg(figure));
 }
 
-/// Type 7 of Hyndman and Fan: what numpy.percentile gives.
+/// Quartiles are those of type 7 of Hyndman and Fan, as numpy.percentile computes them.
 TEST(BoxFigure, QuartilesAreLinearBetweenValues) {
   const std::vector<double> values{1, 2, 4, 8};
   EXPECT_EQ(quartile(values, 0), 1);

@@ -19,7 +19,7 @@ double area(const Polygon& polygon) {
   return twice / 2;
 }
 
-// The only body of a robot of one body, seen at `pose`.
+// Side view of a robot of one body with this shape at `pose`.
 Outline seen(const Shape& shape, const Pose& pose) {
   ModuleType type;
   type.name = "thing";
@@ -34,18 +34,19 @@ Outline seen(const Shape& shape, const Pose& pose) {
 TEST(ConvexHull, LeavesOutInnerPointsAndEdges) {
   const Polygon hull = convex_hull({{0, 0}, {1, 1}, {1, 0}, {0.5, 0.5}, {0, 1}, {0.5, 0}, {0, 0}});
   ASSERT_EQ(hull.size(), 4U);
-  EXPECT_DOUBLE_EQ(area(hull), 1);  // counter-clockwise
+  EXPECT_DOUBLE_EQ(area(hull), 1);  // positive, because the corners are counter-clockwise
 }
 
 TEST(SideView, ShapesHaveTheirAreas) {
   const Pose upright{Mat3::Identity(), {3, 4, 5}};
   const double r = 0.1;
-  const double round = 12 * r * r * math::sin(sample::kPi / 12);  // a polygon of 24 corners
+  const double round = 12 * r * r * math::sin(sample::kPi / 12);  // area of a regular polygon with 24 corners
   EXPECT_NEAR(area(seen({Shape::Kind::box, {}, {0.3, 0.2, 0.1}}, upright).polygons.at(0)), 0.03, 1e-12);
   EXPECT_NEAR(area(seen({Shape::Kind::cylinder, {}, {r, 0.2, 0}}, upright).polygons.at(0)), round, 1e-12);
   EXPECT_NEAR(area(seen({Shape::Kind::half_cylinder, {}, {r, 0.2, 0}}, upright).polygons.at(0)), round / 2, 1e-12);
   EXPECT_NEAR(area(seen({Shape::Kind::sphere, {}, {r, 0, 0}}, upright).polygons.at(0)), round, 1e-12);
-  // A box turned by 45 degrees about the vertical shows its diagonal; a cylinder on its side a rectangle.
+  // The outline of a box that is rotated by 45 degrees about the vertical has the width of its diagonal. The outline of a
+  // cylinder on its side is a rectangle.
   const Pose turned{rpy({0, 0, sample::kPi / 4}), Vec3::Zero()};
   EXPECT_NEAR(area(seen({Shape::Kind::box, {}, {0.1, 0.1, 0.3}}, turned).polygons.at(0)), 0.3 * 0.1 * std::sqrt(2.0), 1e-12);
   const Pose aside{rpy({0, 0, sample::kPi / 2}), Vec3::Zero()};
@@ -82,7 +83,7 @@ TEST(SideView, CaterpillarIsFlatAtZeroAngles) {
   EXPECT_EQ(roles[Role::active], 8);
   EXPECT_EQ(roles[Role::passive], 8);
   EXPECT_EQ(roles[Role::link], 8);
-  // Blocks hide the links that run inside them: all links come first.
+  // All links are drawn before the blocks, which hide the links inside them.
   for (std::size_t k = 0; k < 8; ++k) EXPECT_EQ(outlines[k].role, Role::link);
 }
 

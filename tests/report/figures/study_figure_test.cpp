@@ -1,4 +1,4 @@
-// Figures of studies: what is marked, and the same bytes twice.
+// Tests of figures of studies: marks and legends are correct, and the bytes are reproducible.
 #include "report/figures/study/study_figure.h"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ TEST(StudyFigure, AMapMarksWhatIsNotKeptAndTheBest) {
             "cpg.amplitude,cpg.phase_lag,speed,least,largest,state,best\n0.2,1,0,0,0,kept,0\n0.30000000000000004,1,0.1,0.1");
 }
 
-/// A gait that the verdict does not call infeasible is not called so, whatever guard it breaks.
+/// The legend distinguishes points that violate a guard from points with the verdict `infeasible`.
 TEST(StudyFigure, ItsLegendTellsGuardsFromVerdicts) {
   StudyFigure figure = small_map();
   figure.points[1].state = PointState::broken;
@@ -67,7 +67,7 @@ TEST(StudyFigure, ItsLegendTellsGuardsFromVerdicts) {
   EXPECT_TRUE(contains(study_svg(figure), ">infeasible or guard broken<"));
 }
 
-/// A point alone, one value everywhere, nothing known, no kept point: no figure is not a number.
+/// Figures of special cases contain no NaN: a single point, equal values, unknown values, no kept point.
 TEST(StudyFigure, ItsCornersAreDrawn) {
   for (const bool two : {false, true}) {
     for (const std::size_t points : {0U, 1U, 6U}) {
@@ -112,7 +112,7 @@ TEST(Quantities, AreTheNumbersOfTheSummary) {
     if (quantity.name == "limit_cycle.found") {
       EXPECT_EQ(quantity.value(data), summary.limit_cycle.found ? 1 : 0);
     }
-    // The whole robot's, not the largest of the joints.
+    // The value is the electrical energy of the whole robot, and not the largest energy of a joint.
     if (quantity.name == "energy.electrical") {
       EXPECT_EQ(quantity.value(data), record.ledger.electrical);
     }

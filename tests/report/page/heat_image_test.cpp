@@ -1,4 +1,4 @@
-// The picture of a run, read back with zlib.
+// Tests of the heat image of a run, which zlib decompresses.
 #include "report/page/heat_image.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace gaitlab::report {
 namespace {
 
-/// RFC 4648.
+/// Bytes of a text in base64 (RFC 4648).
 std::string decoded(std::string_view text) {
   constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string bytes;
@@ -40,8 +40,8 @@ TEST(HeatImage, HoldsTheLargestShares) {
   for (int k = 0; k <= 400; ++k) {
     std::vector<double> row(run.ticks.columns.size(), 0.0);
     row[0] = 0.01 * k;
-    row[1 + kEnvelopePeak] = k == 150 ? 1 : 0;                  // 1.49 to 1.5 s of 4 s: part 2 of 0 to 7
-    row[1 + kTickColumns + kEnvelopePeak] = k > 200 ? 0.5 : 0;  // the second half
+    row[1 + kEnvelopePeak] = k == 150 ? 1 : 0;                  // from 1.49 to 1.5 s of 4 s, column 2 of 0 to 7
+    row[1 + kTickColumns + kEnvelopePeak] = k > 200 ? 0.5 : 0;  // in the second half of the run
     run.ticks.values.insert(run.ticks.values.end(), row.begin(), row.end());
   }
   const std::string url = heat_image(run, 8);

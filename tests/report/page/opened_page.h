@@ -1,4 +1,4 @@
-// A page opened by code that is not the program's: what its texts hold.
+// Reader of the data in a page that is independent of the program's writer.
 #pragma once
 #include <zlib.h>
 
@@ -40,7 +40,7 @@ inline std::string inflated(const std::string& bytes) {
   return all;
 }
 
-/// The channels of a page, by name.
+/// Decodes the channels of a page. Returns them by name.
 inline std::map<std::string, std::vector<double>> unpacked(const nlohmann::json& channels, const std::string& bytes) {
   std::map<std::string, std::vector<double>> all;
   std::size_t at = 0;
@@ -63,7 +63,7 @@ inline std::map<std::string, std::vector<double>> unpacked(const nlohmann::json&
   return all;
 }
 
-/// A page and what is in it.
+/// Content of a page: the JSON object `meta`, and the decoded channels by name.
 struct Opened {
   nlohmann::json meta;
   std::map<std::string, std::vector<double>> channels;

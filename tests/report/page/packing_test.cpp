@@ -1,4 +1,4 @@
-// Numbers as a page holds them, byte by byte.
+// Tests of the encoding of numbers in a page, byte by byte.
 #include "report/page/packing.h"
 
 #include <limits>
@@ -16,8 +16,8 @@ std::vector<unsigned> bytes_of(const report::Packing& packing) {
   return all;
 }
 
-/// The same numbers as in the test of the page's own reader: written down by hand, from differences 0, 1, -2, 65, -128, 8255,
-/// -16383, 1008192.
+/// Bytes of a channel, computed by hand from the differences 0, 1, -2, 65, -128, 8255, -16383, 1008192. The test of the page's
+/// decoder uses the same numbers.
 TEST(Packing, BytesAreThese) {
   report::Packing packing;
   packing.add("x", "", 1, {0, 1, -1, 64, -64, 8191, -8192, 1000000});
@@ -37,7 +37,7 @@ TEST(Packing, WhatIsNoNumberRepeatsTheOneBefore) {
   EXPECT_EQ(unpacked(channels, huge.bytes()).at("x"), (std::vector<double>{0x1p50, -0x1p50}));
 }
 
-TEST(Packing, Base64IsThatOfTheRfc) {  // RFC 4648, 10
+TEST(Packing, Base64IsThatOfTheRfc) {  // examples of RFC 4648, section 10
   for (const auto& [bytes, text] : {std::pair("", ""),
                                     {"f", "Zg=="},
                                     {"fo", "Zm8="},

@@ -1,4 +1,4 @@
-// Data of a page: numbers, robot, and runs that are large, small or have hostile names.
+// Tests of the data of a page: numbers, robot, large and small runs, hostile names.
 #include "report/page/page_data.h"
 
 #include "report/analysis/start_row.h"
@@ -21,12 +21,12 @@ TEST(PageData, EverySignalComesBackToHalfAQuantum) {
   for (const json& channel : page.meta["channels"]) {
     const std::string name = channel[0];
     const Series told = r.series(name);
-    if (told.empty()) continue;  // a foot
+    if (told.empty()) continue;  // channel of a foot, which is not a trace column
     ++compared;
     const std::vector<double>& values = page.channels.at(name);
     ASSERT_EQ(values.size(), told.size()) << name;
     const double half = 0.5 * channel[2].get<double>();
-    // Rounding: of the quotient and of the product, 2^-53 of the number each.
+    // The tolerance is half a quantum, and the rounding errors of a quotient and a product, 2^-53 of the number each.
     for (std::size_t k = 0; k < values.size(); ++k) EXPECT_NEAR(values[k], told[k], half + 4e-16 * std::abs(told[k])) << name;
   }
   EXPECT_GT(compared, 22U * 6);
@@ -38,7 +38,7 @@ TEST(PageData, EverySignalComesBackToHalfAQuantum) {
 Quat quaternion_of(const json& pose) { return {pose[3], pose[4], pose[5], pose[6]}; }
 Vec3 vector_of(const json& list) { return Vec3(list[0].get<double>(), list[1].get<double>(), list[2].get<double>()); }
 
-/// Poses of the bodies of a page, by name, as a page computes them.
+/// Poses of the bodies by name, computed from the data of a page as the page does.
 std::map<std::string, std::pair<Vec3, Quat>> placed_bodies(const json& bodies, const Vec3& position, const Quat& orientation,
                                                            const std::vector<double>& angles) {
   std::vector<std::pair<Vec3, Quat>> at;
@@ -60,10 +60,10 @@ std::map<std::string, std::pair<Vec3, Quat>> placed_bodies(const json& bodies, c
   return named;
 }
 
-/// A turn by so little is all that lies between them.
+/// Half of the angle between two orientations, for small angles, rad.
 double turned_apart(const Quat& a, const Quat& b) { return (a.conjugate() * b).vec().norm(); }
 
-constexpr double kPlaces = 1e-12;  // m, rad: rounding (2^-53) of a product of up to 100 poses, some m from the origin
+constexpr double kPlaces = 1e-12;  // m, rad; rounding errors of a product of up to 100 poses, some m from the origin
 
 TEST(PageData, BodiesAreWhereTheTraceHasThem) {
   std::size_t scenarios = 0;
@@ -183,7 +183,7 @@ TEST(PageData, ARobotThatHasNotRun) {
     EXPECT_EQ(page.channels.at(channel)[0], ran.channels.at(channel)[0]) << channel << " is that of the first row of a run";
 }
 
-/// The joint that a page says is longest at a limit, and what it says of it.
+/// Entry `longest` of a page: the joint that is at a limit for the largest share of time.
 json longest_of(const Scenario& s) { return json::parse(data_of(s, run(s)).meta)["verdict"]["longest"]; }
 
 TEST(PageData, TheJointThatIsLongestAtALimitIsThatOfBothLimitsTogether) {

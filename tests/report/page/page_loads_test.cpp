@@ -1,4 +1,4 @@
-// Data of motors, feet and docks in a page.
+// Tests of the data of motors, feet and docks in a page.
 #include "actuators/dc_motor.h"
 #include "report/analysis/envelope.h"
 #include "tests/report/page/opened_page.h"
@@ -59,7 +59,7 @@ TEST(PageMotors, OfATorqueSource) {
   EXPECT_TRUE(free.kinds[0].most.empty());
 }
 
-/// A robot that stands: the ground carries its weight, below its centre of mass.
+/// The forces on the feet of a standing robot carry its weight, and their resultant is below the centre of mass.
 TEST(PageFeet, CarryTheWeightBelowTheCentreOfMass) {
   const std::vector<std::string> stands{"duration=1.5", "physics.engine=articulated", "cpg={type: sine, amplitude: 0}",
                                         "trace.columns=[joint.*, base.*, com.*, contact.*]"};
@@ -102,7 +102,7 @@ TEST(PageLoads, AreThoseAtControlTicks) {
   EXPECT_EQ(page.meta["missing"], json::array());
   ASSERT_EQ(page.meta["feet"].size(), 6U);
   ASSERT_EQ(page.meta["docks"].size(), 10U);
-  // 0.15 s is a control tick and a trace tick: there nothing lies between.
+  // At 0.15 s a control tick and a trace tick coincide, so that no interpolation is necessary.
   const std::size_t tick = 10;
   const std::size_t row = 30;
   ASSERT_NEAR(r.loads.at(tick, 0), 0.15, 1e-9);

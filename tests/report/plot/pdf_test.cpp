@@ -11,7 +11,7 @@
 namespace gaitlab::report {
 namespace {
 
-/// The number behind `key`.
+/// Number that follows `key` in a text.
 std::size_t number_after(const std::string& text, const std::string& key, std::size_t from = 0) {
   const std::size_t at = text.find(key, from);
   return at == std::string::npos ? 0 : std::stoul(text.substr(at + key.size()));
@@ -49,7 +49,7 @@ TEST(Pdf, OffsetsAndLengthsAreRight) {
   }
   const std::size_t start = file.find("stream\n") + 7;
   EXPECT_EQ(file.substr(start + number_after(file, "/Length "), 10), "\nendstream");
-  // 100 px of 0.2 mm are 20 mm, 56.69 pt.
+  // The width of 100 px of 0.2 mm is 20 mm or 56.69 pt.
   EXPECT_NE(file.find("/MediaBox [0 0 56.69 28.35]"), std::string::npos);
   EXPECT_EQ(file.find("Date"), std::string::npos);
 }
@@ -62,7 +62,7 @@ TEST(Pdf, PathsAreThoseOfSvg) {
   const std::string page = stream_of(pdf.finish());
   EXPECT_NE(page.find("0 0.447 0.698 RG 1.6 w [8 3] 0 d 1 j 0 0 m 10 20.13 l\n30 3 m 40 3 l\nS Q\n"), std::string::npos)
       << page;
-  // The stroke first, the filling over it.
+  // The stroke is drawn before the filling.
   const std::string triangle = "1 1 m 2 1 l\n2 2 l\nh ";
   EXPECT_NE(page.find(triangle + "S\n" + triangle + "f Q\n"), std::string::npos) << page;
   EXPECT_EQ(page.find("nan"), std::string::npos);
@@ -80,7 +80,7 @@ TEST(Pdf, GreekAndMinusAreInSymbolAndWhatIsMissingIsTold) {
   pdf.text({5, 5},
            "\xE2\x88\x92"
            "2 \xCF\x84\xE2\x9C\x93",
-           {});  // minus, tau, a tick
+           {});  // contains a minus, a tau and a check mark
   EXPECT_NE(stream_of(pdf.finish()).find("/F3 13 Tf (-) Tj /F1 13 Tf (2 ) Tj /F3 13 Tf (t) Tj /F1 13 Tf (?) Tj"),
             std::string::npos);
   EXPECT_EQ(pdf.missing(), (std::set<char32_t>{0x2713}));
@@ -91,11 +91,11 @@ TEST(Pdf, AnchorsUseTheWidthOfTheText) {
   pdf.text({50, 20}, "WW", {.size = 10, .anchor = Anchor::end});
   pdf.text({50, 20}, "WW", {.size = 10, .anchor = Anchor::middle, .upwards = true});
   const std::string page = stream_of(pdf.finish());
-  EXPECT_NE(page.find("1 0 0 -1 31.12 20 Tm"), std::string::npos) << page;   // 2 * 9.44 to the left
-  EXPECT_NE(page.find("0 -1 -1 0 50 29.44 Tm"), std::string::npos) << page;  // 9.44 below
+  EXPECT_NE(page.find("1 0 0 -1 31.12 20 Tm"), std::string::npos) << page;   // moved by 2 * 9.44 to the left
+  EXPECT_NE(page.find("0 -1 -1 0 50 29.44 Tm"), std::string::npos) << page;  // moved down by 9.44
 }
 
-/// Adobe's metrics: Core14_AFMs, Helvetica.afm, Helvetica-Bold.afm, Symbol.afm.
+/// Widths of characters equal the metrics of Adobe (Core14_AFMs: Helvetica.afm, Helvetica-Bold.afm, Symbol.afm).
 TEST(Helvetica, HasItsPublishedWidths) {
   const auto width = [](const char* text, bool bold = false) { return std::lround(helvetica_width(text, 1000, bold)); };
   EXPECT_EQ(width(" "), 278);
@@ -107,7 +107,7 @@ TEST(Helvetica, HasItsPublishedWidths) {
   EXPECT_EQ(width("\xC3\x86"), 1000);      // AE
   EXPECT_EQ(width("\xE2\x80\x94"), 1000);  // em dash
   EXPECT_EQ(width("@", true), 975);
-  EXPECT_EQ(width("\xCE\xA9"), 768);      // Omega, of Symbol
+  EXPECT_EQ(width("\xCE\xA9"), 768);      // Omega of the font Symbol
   EXPECT_EQ(width("\xE2\x88\x92"), 549);  // minus
 }
 

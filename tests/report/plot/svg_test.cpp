@@ -54,10 +54,10 @@ TEST(Svg, TextIsEscaped) {
   const std::string bad = "\xEF\xBF\xBD";
   EXPECT_EQ(xml_escaped(std::string_view("\0\x01", 2)), bad + bad);
   EXPECT_EQ(xml_escaped("x\xFF\xC3"), "x" + bad + bad);
-  EXPECT_EQ(xml_escaped("\xC0\x80"), bad + bad);                      // overlong
-  EXPECT_EQ(xml_escaped("\xED\xA0\x80"), bad + bad + bad);            // a surrogate
+  EXPECT_EQ(xml_escaped("\xC0\x80"), bad + bad);                      // overlong encoding
+  EXPECT_EQ(xml_escaped("\xED\xA0\x80"), bad + bad + bad);            // surrogate
   EXPECT_EQ(xml_escaped("\xEF\xBF\xBE"), bad + bad + bad);            // U+FFFE, which XML forbids
-  EXPECT_EQ(xml_escaped("\xF4\x90\x80\x80"), bad + bad + bad + bad);  // beyond Unicode
+  EXPECT_EQ(xml_escaped("\xF4\x90\x80\x80"), bad + bad + bad + bad);  // larger than the last code point of Unicode
 }
 
 TEST(Axes, StepsAreOneTwoOrFive) {
@@ -73,7 +73,7 @@ TEST(Axes, StepsAreOneTwoOrFive) {
 TEST(Axes, TicksCoverTheRange) {
   EXPECT_EQ(labels(ticks_around(-0.61, 0.51, 6)),
             (std::vector<std::string>{"\u22120.8", "\u22120.6", "\u22120.4", "\u22120.2", "0.0", "0.2", "0.4", "0.6"}));
-  // A peak that sticks out by a hair costs no step.
+  // A peak that slightly exceeds the last tick does not add a tick.
   EXPECT_EQ(labels(ticks_around(-0.6001, 0.6001, 6)).size(), 7U);
   EXPECT_EQ(labels(ticks_within(12, 20, 8)).front(), "12");
   EXPECT_EQ(labels(ticks_within(0.13, 0.41, 5)), (std::vector<std::string>{"0.2", "0.3", "0.4"}));
@@ -96,7 +96,7 @@ TEST(Axes, LogarithmicTicksAreOneTwoFive) {
   EXPECT_EQ(over(0.1, 5, 8), (std::vector<std::string>{"0.1", "0.2", "0.5", "1", "2", "5"}));
   EXPECT_EQ(over(1, 1e5, 6), (std::vector<std::string>{"1", "10", "100", "1000", "10000", "100000"}));
   EXPECT_EQ(over(1, 1e5, 4), (std::vector<std::string>{"1", "100", "10000"}));
-  EXPECT_EQ(over(1.1, 1.3, 3), (std::vector<std::string>{"1.1", "1.2", "1.3"}));  // no 1, 2 or 5: as on a linear axis
+  EXPECT_EQ(over(1.1, 1.3, 3), (std::vector<std::string>{"1.1", "1.2", "1.3"}));  // contains no 1, 2 or 5; linear ticks
   EXPECT_EQ(over(3, 3, 5), (std::vector<std::string>{"3"}));
   EXPECT_NEAR(ticks_over({0, 1}, true, 5).marks[1].at, 0.30103, 1e-5);  // log10(2)
 }
@@ -107,11 +107,11 @@ TEST(Axes, WordsAreInTheirOrder) {
   EXPECT_EQ(labels(across), (std::vector<std::string>{"hopf", "matsuoka"}));
   EXPECT_EQ(across.lo, 0);
   EXPECT_EQ(across.hi, 2);
-  EXPECT_EQ(row_ticks(words).lo, 2.5);  // from top to bottom
+  EXPECT_EQ(row_ticks(words).lo, 2.5);  // rows are numbered from top to bottom
   EXPECT_EQ(row_ticks(words).hi, -0.5);
 }
 
-/// A tick is where `at` puts its value; an axis at the right has the grid if it is the only one at a side.
+/// Ticks are drawn at the positions of their values. An axis at the right has the grid if there is no axis at the left.
 TEST(Plot, TicksAreWhereTheirValuesAre) {
   Svg svg(200, 100);
   Plot plot(svg, {50, 150, 10, 90}, {.ticks = ticks_within(0, 10, 2), .title = "time (s)"}, {});
@@ -137,13 +137,13 @@ TEST(Axes, TwinZerosMeet) {
     EXPECT_GE(b.hi, hi - 1e-2 * b.step);
     EXPECT_LE(a.marks.size(), 11U);
   }
-  // The first axis stays away from zero: each its own.
+  // The range of the first axis does not contain zero, so that the axes have independent ranges.
   const auto [a, b] = twin_ticks(0.78, 0.82, -1, 1);
   EXPECT_GT(a.lo, 0.7);
   EXPECT_LE(b.lo, -1);
 }
 
-/// An angle above zero and a torque below it would each have half of the paper.
+/// Twin axes are independent if an angle above zero and a torque below zero would each use only half of the height.
 TEST(Axes, TwinAxesOfOppositeSignsPart) {
   const auto [a, b] = twin_ticks(0, 0.016, -0.65, 0.02);
   EXPECT_LE(a.hi - a.lo, 1.5 * 0.016);

@@ -1,4 +1,4 @@
-// Checks of the robot above its ground: fall, upright, in_ground, on kinds of ground and at their limits.
+// Tests of the checks `fall`, `upright` and `in_ground` on all kinds of ground, at and near their limits.
 #include <cmath>
 #include <numbers>
 
@@ -15,17 +15,17 @@ namespace {
 
 using namespace report;
 
-constexpr double kBodyRounding = 1e-9;  // m, rad: of numbers near 1, and room
-constexpr double kPlateau = 0.1;        // m
+constexpr double kBodyRounding = 1e-9;  // m, rad; more than the rounding errors of numbers near 1
+constexpr double kPlateau = 0.1;        // height of the level grounds, m
 
-/// Grounds that are level at `kPlateau`, but for the plane.
+/// Level grounds and their heights. All have the height kPlateau, except the plane with the height 0.
 const std::vector<std::pair<std::string, double>> kLevelGrounds{
     {"{type: plane}", 0},
     {"{type: boxes, boxes: [{center: [0, 0, 0.05], size: [2, 2, 0.1]}]}", kPlateau},
     {"{type: heightfield, heightfield: {values: [[0, 0], [0, 0]], spacing: 2, origin: [-1, -1, 0.1]}}", kPlateau},
 };
 
-/// A module that lies still, changed by hand.
+/// Run of a module at rest. Tests change its recording.
 struct Still {
   Scenario scenario;
   Recording record;
@@ -47,7 +47,7 @@ struct Still {
   void move(const std::string& column, double by, std::size_t from) {
     for (std::size_t row = from; row < record.poses.rows(); ++row) pose(column, row) += by;
   }
-  /// Turned about x.
+  /// Sets the orientation to a rotation about x in all rows from row `from` on.
   void turn(double angle, std::size_t from) {
     for (std::size_t row = from; row < record.poses.rows(); ++row) {
       pose("base.qw", row) = std::cos(angle / 2);
@@ -59,7 +59,7 @@ struct Still {
 
 constexpr std::size_t kRow = 7;
 
-/// A module that stands on its end, 0.065 m high, and from row `from` on lies that high.
+/// Run of a module that stands on its end, 0.065 m high, and from row `from` on lies at `height` above the ground.
 Still lying(const std::string& ground, double height, std::size_t from, double level) {
   Still made(ground, {"robot.orientation=[0, 1.5707963267948966, 0]"});
   made.turn(0, from);
@@ -67,7 +67,8 @@ Still lying(const std::string& ground, double height, std::size_t from, double l
   return made;
 }
 
-/// A share of the height above the ground is the limit, wherever the ground is; the time is that of the first tick below it.
+/// The limit of a fall is a share of the initial height above the ground, for any height of the ground. The time of the check
+/// is the first tick below the limit.
 TEST(FallCheck, IsOfTheHeightAboveTheGround) {
   constexpr double kStanding = 0.065;  // m
   for (const auto& [ground, level] : kLevelGrounds) {
@@ -113,9 +114,9 @@ TEST(FallCheck, IsOfFloatingBasesAboveAGround) {
   EXPECT_TRUE(contains(rows.check("fall").text, "no poses"));
 }
 
-/// Ground beside an element, or above it, is not below it.
+/// Heights refer to the ground below a contact element, not to walls beside it or roofs above it.
 TEST(FallCheck, KnowsWallsAndRoofs) {
-  // The module reaches 0.065 m to the front: its front face is 0.1 mm in the wall.
+  // The module extends 0.065 m to the front, so that its front face is 0.1 mm inside the wall.
   const Still wall("{type: boxes, boxes: [{center: [0.3149, 0.1, 0.5], size: [0.1, 1, 1]}]}",
                    {"robot.position=[0.2, 0.1, 0.0325]"});
   EXPECT_NEAR(heights(wall.scenario, wall.record).front(), 0.0325, kBodyRounding) << "the wall is 1 m high";
@@ -156,7 +157,7 @@ TEST(UprightCheck, FailsBelowTheHorizontal) {
   EXPECT_EQ(set.check("upright").status, CheckStatus::fail) << "the key moves the warning alone";
 }
 
-/// A robot that lies on its side from the start is upright in that pose.
+/// The tilt refers to the start. A robot that lies on its side at the start is upright in this pose.
 TEST(UprightCheck, IsOfTheStart) {
   const Still side("{type: plane}", {"robot.orientation=[1.7, 0.3, 2]"});
   EXPECT_LT(upright(side.scenario, side.record, {}, 0)->tilt, 1.8);
@@ -167,7 +168,8 @@ TEST(UprightCheck, IsOfTheStart) {
   EXPECT_EQ(fixed.check("upright").status, CheckStatus::not_judged);
 }
 
-/// Rows 0.01 s apart over 4 s, in the periods of 1 s behind 1 s. lean: rad, sideways, behind the start.
+/// Result of `upright` for a given angle over time. Rows are 0.01 s apart over 4 s; periods of 1 s follow the first second.
+/// `lean` is a constant sideways inclination after the start, rad.
 Upright turned_by(const std::function<double(double)>& angle, std::size_t periods = 3, double set_points = 0, double from = 1,
                   double lean = 0) {
   static const Still still("{type: none}", {"actuator.type=none", "physics.gravity=[0, 0, 0]"});
@@ -197,17 +199,17 @@ TEST(UprightCheck, IsNotOfWhatRolls) {
   constexpr double kTurn = 2 * std::numbers::pi;
   const auto rolls = [](double t) { return kTurn * t; };
   const auto sways = [](double t) { return -kTurn * t + 2 * std::sin(kTurn * t); };
-  const auto slips = [](double t) { return 0.51 * kTurn * t; };  // the nearest number of turns is one
+  const auto slips = [](double t) { return 0.51 * kTurn * t; };  // 0.51 turns per period, rounded to one turn
   EXPECT_TRUE(turned_by(rolls).rolls);
   EXPECT_TRUE(turned_by(sways).rolls);
   EXPECT_TRUE(turned_by(slips).rolls);
   const auto slow = [](double t) { return 0.49 * kTurn * t; };
   const auto nods = [](double t) { return 0.9 * (1 - std::cos(kTurn * t)); };                    // up to 1.8 rad and back
-  const auto lies = [](double t) { return t < 0.2 ? 0.0 : 3.0; };                                // on its back
-  const auto rocks = [](double t) { return t < 0.2 ? 0.0 : 1.57 + 0.7 * std::sin(kTurn * t); };  // on its side
-  const auto topples = [](double t) { return t < 3.4 ? 0.2 * std::sin(t) : 2.5; };               // in the last period
-  const auto tumbles = [](double t) { return t < 1 ? kTurn * t : 0.0; };                         // once, onto its feet
-  const auto stops = [](double t) { return t < 3 ? kTurn * t : 0.0; };                           // before the last period
+  const auto lies = [](double t) { return t < 0.2 ? 0.0 : 3.0; };                                // lies on its back
+  const auto rocks = [](double t) { return t < 0.2 ? 0.0 : 1.57 + 0.7 * std::sin(kTurn * t); };  // rocks on its side
+  const auto topples = [](double t) { return t < 3.4 ? 0.2 * std::sin(t) : 2.5; };               // falls in the last period
+  const auto tumbles = [](double t) { return t < 1 ? kTurn * t : 0.0; };                         // one turn onto its feet
+  const auto stops = [](double t) { return t < 3 ? kTurn * t : 0.0; };                           // no turn in the last period
   for (const auto& [name, angle] : std::vector<std::pair<std::string, std::function<double(double)>>>{{"slow", slow},
                                                                                                       {"nods", nods},
                                                                                                       {"lies", lies},
@@ -220,7 +222,8 @@ TEST(UprightCheck, IsNotOfWhatRolls) {
   }
   EXPECT_NEAR(*turned_by(rolls).over, 0.26, 1e-9);
   EXPECT_NEAR(*turned_by(topples).over, 3.4, 1e-9);
-  // Without a limit cycle: the last period of the set points; if these do not repeat, the halves of the window.
+  // Without a limit cycle, the last period of the set points is judged. If the set points do not repeat, the halves of the
+  // window are compared.
   EXPECT_TRUE(turned_by(rolls, 0, 1).rolls);
   EXPECT_FALSE(turned_by(lies, 0, 1).rolls);
   EXPECT_TRUE(turned_by(rolls, 0, 0).rolls);
@@ -230,13 +233,13 @@ TEST(UprightCheck, IsNotOfWhatRolls) {
   const auto back = [](double t) { return t < 2 ? 0.0 : t < 3 ? -kTurn * t : kTurn * t; };
   EXPECT_TRUE(turned_by(last, 0, 1).rolls) << "one period of the set points";
   EXPECT_TRUE(turned_by(back, 0, 1).rolls) << "that period alone";
-  // Leaning, it still points nearly upwards and nearly downwards, within 45 degrees.
+  // An inclined robot rolls if its upward axis passes within 45 degrees of the upward and the downward vertical.
   for (const double cosine : {0.72, 0.9}) EXPECT_TRUE(turned_by(rolls, 3, 0, 1, std::acos(cosine)).rolls) << cosine;
   EXPECT_FALSE(turned_by(rolls, 3, 0, 1, std::acos(0.7)).rolls);
 }
 
-/// Less than a period behind the first time that it turns over, a run does not show whether it rolls; of a run of three
-/// periods this is asked no more.
+/// A run that ends less than a period after the robot first turns over does not show if the robot rolls, and is not judged. A
+/// run of three periods is always judged.
 TEST(UprightCheck, IsNotJudgedBeforeItCanBe) {
   const auto status = [](const char* duration, double over) {
     Still made("{type: none}", {"cpg.type=sine", "cpg.frequency=5", "cpg.amplitude=0.1", "physics.gravity=[0, 0, 0]",
@@ -251,7 +254,7 @@ TEST(UprightCheck, IsNotJudgedBeforeItCanBe) {
   EXPECT_EQ(status("0.75", 0.6), CheckStatus::fail);
 }
 
-/// At the limit, on every ground: what is the same is judged the same.
+/// The limit of the depth in the ground is the same on every kind of ground.
 TEST(InGroundCheck, IsOfEveryGround) {
   for (const auto& [ground, level] : kLevelGrounds) {
     Still still(ground);
@@ -280,9 +283,10 @@ TEST(InGroundCheck, IsOfEveryGround) {
   EXPECT_EQ(none.text, "judged above a ground");
 }
 
-/// The way out counts, not the depth below the top: beside an edge it is short.
+/// The depth in the ground is the shortest distance out of it, not the depth below its top. Near an edge this distance is
+/// small.
 TEST(InGroundCheck, IsTheWayOut) {
-  // The module reaches 0.065 m to the front, 3 mm deep into the side of a block 0.2 m high.
+  // The module extends 0.065 m to the front, 3 mm deep into the side of a block that is 0.2 m high.
   const std::string block = "{type: boxes, boxes: [{center: [0.312, 0.1, 0.1], size: [0.1, 1, 0.2]}]}";
   const Still beside(block, {"robot.position=[0.2, 0.1, 0.0325]", "duration=0.015"});
   EXPECT_EQ(beside.check("in_ground").status, CheckStatus::pass);
@@ -291,7 +295,7 @@ TEST(InGroundCheck, IsTheWayOut) {
   EXPECT_NEAR(deeper.check("in_ground").value, 0.01, kBodyRounding);
 }
 
-// Scenarios whose truth is known by construction.
+// Scenarios for which the correct verdict is known by construction.
 
 struct Known {
   Scenario scenario;
@@ -309,14 +313,16 @@ TEST(KnownTruth, ThrownOnItsBackIsNoGait) {
   const Check& check = thrown.check("upright");
   EXPECT_EQ(check.status, CheckStatus::fail) << check.text;
   EXPECT_GT(check.value, 3);
-  // It turns at 12.8 rad/s: a quarter of a turn in pi / 2 / 12.8 = 0.123 s, in steps of the control period.
+  // The robot rotates at 12.8 rad/s and completes a quarter turn in pi / 2 / 12.8 = 0.123 s. The tolerance is two control
+  // periods.
   EXPECT_NEAR(check.from, 0.123, 0.03);
   EXPECT_EQ(thrown.judged.word, Word::infeasible);
 }
 
-/// Depth of its outline by another function, which has round half cylinders instead of prisms of 24 sides.
+/// Compares the depth of a buried body with an independent function, which uses round half cylinders instead of prisms of 24
+/// sides.
 void expect_buried(const Known& buried, double level) {
-  constexpr double kPrism = 0.009 * 0.0325;  // m: of the radius, which is what a prism lacks
+  constexpr double kPrism = 0.009 * 0.0325;  // largest distance of the prism from the cylinder, 0.9 % of the radius, m
   const Check& check = buried.check("in_ground");
   ASSERT_EQ(check.status, CheckStatus::fail) << check.text;
   const States states = States::at_ticks(buried.record, *buried.scenario.robot);

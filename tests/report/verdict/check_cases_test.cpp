@@ -1,4 +1,4 @@
-// Cases of checks that the table has no row for, and their margins.
+// Tests of checks and their margins for cases that check_table_test.cpp does not contain.
 #include <cmath>
 #include <limits>
 
@@ -9,7 +9,7 @@
 namespace gaitlab::test {
 namespace {
 
-constexpr double kCaseRounding = 1e-9;  // of quotients of numbers near 1
+constexpr double kCaseRounding = 1e-9;  // rounding errors of quotients of numbers near 1
 
 CheckStatus status_after(const char* id, const Change& change) { return changed(id, change).status; }
 
@@ -20,7 +20,7 @@ TEST(CheckCases, OutcomeIsAnEndBeforeTheEnd) {
   EXPECT_EQ(early.limit, 12);
 }
 
-/// A maker's rating applies from the first step on, a limit that the motor reaches in the window.
+/// The rated speed applies to the whole run, and the speed without load only to the window. The smaller margin counts.
 TEST(CheckCases, SpeedIsOfTheWorseLimit) {
   const double no_load = 7.4 / (0.00395 * 594);
   const auto with = [&](double early, double late, double rating = 5) {
@@ -42,7 +42,8 @@ TEST(CheckCases, SpeedIsOfTheWorseLimit) {
   EXPECT_EQ(with(0, 1.01 * no_load).first, rated_gait().time(rated_gait().last_tick()));
   EXPECT_EQ(with(0, 0.99 * no_load, 3.5).span, CheckSpan::window) << "99 % of one, 89 % of the other";
   EXPECT_EQ(with(0, 0.99 * no_load, 3).span, CheckSpan::whole_run);
-  // A part that breaks before the window is broken; a motor that the load turns faster than it can turn is not.
+  // Exceeding the rating before the window breaks the motor. If the load turns the motor faster than its speed without load,
+  // the motor does not break.
   const auto brief = [&](double rating) {
     Case made = walk();
     made.known = Overlaps{made.scenario.robot->bodies.size()};
@@ -73,7 +74,7 @@ TEST(CheckCases, SupplyGivesNothing) {
   EXPECT_EQ(status(-1, true), CheckStatus::pass);
 }
 
-/// Worst part, number of parts beyond their limit, and first part, for each kind of check.
+/// A check of saturation reports the worst joint, the number of joints beyond the limit, and the first of them.
 TEST(CheckCases, SaturationNamesItsJoints) {
   const auto with = [](double second, double fifth) {
     Case made = rated_gait();
@@ -96,7 +97,7 @@ TEST(CheckCases, SaturationNamesItsJoints) {
   EXPECT_EQ(with(0, 0).value, 0);
 }
 
-/// With equal margins, as those of stretches are, the joint that is at its limit for longer in all is the worst.
+/// The worst of several joints with equal margins is the joint that is at its limit for the longer total time.
 TEST(CheckCases, SaturationOfEqualStretches) {
   const auto worst = [](std::size_t longer, std::size_t other) {
     Case made = rated_gait();
@@ -116,7 +117,7 @@ TEST(CheckCases, SaturationOfEqualStretches) {
   EXPECT_EQ(worst(kJoint, 2), joints[kJoint].name);
 }
 
-/// A torque that is cut was limited, whatever its actuator states now.
+/// Recorded saturation counts also if the actuator of the scenario states no limit.
 TEST(CheckCases, SaturationOfOtherActuators) {
   const auto with = [](double share) {
     return changed("current", [=](Case& made) {
@@ -129,7 +130,7 @@ TEST(CheckCases, SaturationOfOtherActuators) {
   EXPECT_EQ(with(0).status, CheckStatus::not_judged) << with(0).text;
 }
 
-/// A row that is at the limit but for a thousandth is so all the while.
+/// A row that is at the limit for all but a thousandth of its time counts as entirely at the limit.
 TEST(CheckCases, AStretchHasNoGaps) {
   const auto status = [](double part) {
     return status_after("current", [=](Case& made) {
@@ -163,7 +164,7 @@ TEST(CheckCases, FirstIsWhenAPartWasBeyondItsLimitFirst) {
   EXPECT_EQ(made.check("dock_shear").value, 900);
 }
 
-/// Loads below 1e-9 N are rounding.
+/// Loads of docks below 1e-9 N are rounding errors and count as 0.
 TEST(CheckCases, DocksBearNothingBelowRounding) {
   const auto value = [](double tension) {
     return changed("dock_tension",
@@ -179,7 +180,7 @@ TEST(CheckCases, DocksBearNothingBelowRounding) {
   EXPECT_EQ(value(1.1e-9), 1.1e-9);
 }
 
-/// The time of what lasts less than 0.1 s is said.
+/// If an excess lasts less than 0.1 s, the sentence states its time.
 TEST(CheckCases, SentencesTellInstants) {
   Check made = changed("gear_peak", tick(kTorquePeak, 6));
   made.from = 3;
@@ -189,11 +190,11 @@ TEST(CheckCases, SentencesTellInstants) {
   EXPECT_FALSE(contains(made.sentence(), ", at 3.00 s")) << made.sentence();
 }
 
-/// The margin is continuous across the limit, and the worst joint is the one with the least.
+/// The margin is continuous across the limit, and the worst joint is the joint with the least margin.
 TEST(CheckCases, WorstIsTheLeastMargin) {
   Case made = gait();
-  made.record.joints[4].range_worst = 0.009;    // 90 % of the angle
-  made.record.joints[6].range_share = 0.00999;  // 99.9 % of the time
+  made.record.joints[4].range_worst = 0.009;    // 90 % of the permitted angle
+  made.record.joints[6].range_share = 0.00999;  // 99.9 % of the permitted time
   made.record.joints[6].range_worst = 0.001;
   EXPECT_EQ(made.check("stops").worst, made.scenario.robot->joints[6].name);
   EXPECT_NEAR(made.check("stops").margin, 0.001, kCaseRounding);
@@ -220,7 +221,7 @@ TEST(CheckCases, TightestIsTheLeastMarginOfThoseThatFail) {
   EXPECT_NEAR(close.judged().tightest()->margin, 0.005, kCaseRounding);
 }
 
-/// The first of several checks with the same margin decides, and one of the robot as a whole before any other.
+/// The first of several failed checks with equal margins decides. A failed check of the robot as a whole precedes all others.
 TEST(CheckCases, DecidedByTheFirstOfEqualMargins) {
   const auto with = [](bool falls) {
     Case made = rated_gait();
@@ -234,7 +235,7 @@ TEST(CheckCases, DecidedByTheFirstOfEqualMargins) {
   EXPECT_EQ(with(true).decided_by, "fall");
 }
 
-/// Every check comes with what a reader and a search need of it.
+/// A spread of margins makes a passed check `too close` if one of its margins is beyond the limit or unknown.
 TEST(CheckCases, ASpreadMakesTooCloseWhatItBringsToTheOtherSide) {
   Case made = rated_gait();
   const auto with = [&](std::vector<double> margins) {

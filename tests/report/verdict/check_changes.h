@@ -1,4 +1,4 @@
-// Changes that tests of checks make to a recorded walk.
+// Changes of a recorded walk by the tests of checks.
 #pragma once
 #include <cmath>
 #include <functional>
@@ -10,15 +10,16 @@
 
 namespace gaitlab::test {
 
-inline constexpr std::size_t kJoint = 5;  // whose numbers are changed
-inline constexpr std::size_t kEarly = 1;  // a row before the judged window
+inline constexpr std::size_t kJoint = 5;  // number of the joint whose values are changed
+inline constexpr std::size_t kEarly = 1;  // number of a row before the judged window
 
-/// The cell of a column that holds largest magnitudes.
+/// Sets the cell of joint kJoint in a row of ticks; row 0 means the last row.
 inline Change tick(TickColumn column, double value, std::size_t row = 0) {
   return [=](Case& made) { made.tick(row == 0 ? made.last_tick() : row, kJoint, column) = value; };
 }
 
-/// A column that holds a sum: it grows by `rate` in a second, from `from` to `to`, and not at all elsewhere.
+/// Sets a column of ticks that contains a sum. The sum grows by `rate` per second between times `from` and `to`, and is
+/// constant at other times.
 inline void grow(Case& made, TickColumn column, double rate, double from, double to) {
   for (std::size_t k = 0; k <= made.last_tick(); ++k)
     made.tick(k, kJoint, column) = rate * std::max(0.0, std::min(made.time(k), to) - from);
@@ -26,7 +27,7 @@ inline void grow(Case& made, TickColumn column, double rate, double from, double
 
 inline double window_start(const Case& made) { return made.time(summarise(made.scenario, made.record, 0).judged.first_row); }
 
-/// A sum that grows as fast in the whole run, or before the judged window alone.
+/// Sets a sum that grows at a constant rate in the whole run. `early_rate` limits the growth to the time before the window.
 inline Change rate(TickColumn column, double value) {
   return [=](Case& made) { grow(made, column, value, 0, 1e9); };
 }
@@ -42,7 +43,7 @@ inline Change load(const std::string& column, double value, std::size_t row = 0)
   return [=](Case& made) { made.load(column, row == 0 ? made.record.loads.rows() - 1 : row) = value; };
 }
 
-/// The feet slide this share of 0.1 m, or before the judged window.
+/// Sets a path of 0.1 m of the feet, of which they slide `share`. With `early`, they slide only before the judged window.
 inline Change slides(double share, bool early = false) {
   return [=](Case& made) {
     const std::size_t last = made.record.loads.rows() - 1;
@@ -53,14 +54,14 @@ inline Change slides(double share, bool early = false) {
   };
 }
 
-/// The centre of mass comes to a share of its height at the start.
+/// Lowers the centre of mass in row kEarly to `share` of the standing height.
 inline Change sinks(double share) {
   return [=](Case& made) {
     made.pose("base.z", kEarly) += share * standing_height(made.scenario) - heights(made.scenario, made.record)[kEarly];
   };
 }
 
-/// The base tilts.
+/// Tilts the base in row kEarly by `angle`, rad.
 inline Change tilts(double angle) {
   return [=](Case& made) {
     const auto at = [&](const char* column) -> double& { return made.pose(std::string("base.q") + column, kEarly); };
@@ -70,12 +71,13 @@ inline Change tilts(double angle) {
   };
 }
 
-/// m: diagonal of the box around the robot.
+/// Diagonal of the bounding box of the robot, m.
 inline double extent_of_gait() {
   return changed("progress", [](Case& made) { made.scenario.limits.progress = 1; }).limit;
 }
 
-/// The centre of mass goes so many extents in each period of the window, or in all before it.
+/// Moves the centre of mass along x by `extents` diagonals per period of the window. With `early`, it stops at the start of the
+/// window.
 inline Change goes(double extents, bool early = false) {
   return [=](Case& made) {
     const Judged judged = summarise(made.scenario, made.record, 0).judged;
@@ -92,7 +94,7 @@ inline Change goes(double extents, bool early = false) {
   };
 }
 
-/// The torque of a joint is off by this share of its peak.
+/// Sets the estimated torque error of joint kJoint, as a share of its largest torque.
 inline Change off(double share) {
   return [=](Case& made) {
     made.record.tally.estimated = true;

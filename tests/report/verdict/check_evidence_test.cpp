@@ -1,4 +1,5 @@
-// Evidence, values too close to their limits, and the words that follow from checks.
+// Tests of the evidence for a verdict, of values that are too close to their limits, and of the verdict that follows from the
+// checks.
 #include <cmath>
 #include <limits>
 
@@ -8,7 +9,7 @@
 namespace gaitlab::test {
 namespace {
 
-constexpr double kEvidenceRounding = 1e-9;  // of quotients of numbers near 1
+constexpr double kEvidenceRounding = 1e-9;  // rounding errors of quotients of numbers near 1
 
 Word word_after(const Change& change) {
   Case made = gait();
@@ -16,7 +17,7 @@ Word word_after(const Change& change) {
   return made.judged().word;
 }
 
-/// The gait with this summary.
+/// Change of the summary of a run.
 Change with_summary(const std::function<void(Summary&)>& change) {
   return [=](Case& made) { made.also = [=](Summary& summary, Overlaps&) { change(summary); }; };
 }
@@ -39,8 +40,8 @@ TEST(CheckEvidence, PeriodicIsWhatRepeats) {
   EXPECT_EQ(with(false, 5).status, CheckStatus::not_judged) << "too short";
 }
 
-/// Three periods but for a thousandth, which is the error of a period, or one that is settled; 2 s where nothing repeats; half
-/// of the weight.
+/// Sufficient evidence is three periods, of which a thousandth may be missing, or one settled period, or 2 s without a period.
+/// The ground must carry half of the weight.
 TEST(CheckEvidence, EvidenceIsComplete) {
   const auto periods = [](double held) {
     return after("evidence", with_summary([=](Summary& summary) {
@@ -98,7 +99,7 @@ TEST(CheckEvidence, EvidenceIsComplete) {
   EXPECT_EQ(coarse(0.1001), CheckStatus::not_judged);
 }
 
-/// Every rating that is of a torque or of a current: within the error of the torques nothing is decided.
+/// Every rating of a torque or current is `too close` if the value is within the torque error of the limit.
 TEST(CheckEvidence, TooClose) {
   const std::vector<std::tuple<const char*, double, std::function<Change(double)>>> rated{
       {"heat", 1, [](double v) { return rate(kCurrentSquare, v * v); }},
@@ -123,7 +124,7 @@ TEST(CheckEvidence, TooClose) {
   }
 }
 
-/// A joint whose torque comes within its error of the limit would be at it if the torque were that much larger.
+/// A motor is too close to its limit if the torque, increased by its error, would reach the limit.
 TEST(CheckEvidence, TooCloseToTheLimitOfAMotor) {
   const auto with = [](double error, double peak, double current) {
     Case made = rated_gait();
@@ -134,7 +135,7 @@ TEST(CheckEvidence, TooCloseToTheLimitOfAMotor) {
     }
     return made;
   };
-  const double most = 1.2;  // A, i_max
+  const double most = 1.2;  // i_max, A
   EXPECT_EQ(with(0.03, 0.975, 0).status("voltage"), CheckStatus::too_close);
   EXPECT_EQ(with(0.03, 0.975, 0).status("current"), CheckStatus::pass);
   EXPECT_EQ(with(0.03, 0.975, 0.975 * most).status("current"), CheckStatus::too_close);
@@ -143,14 +144,14 @@ TEST(CheckEvidence, TooCloseToTheLimitOfAMotor) {
   EXPECT_EQ(with(0.03, 0.965, 0).status("voltage"), CheckStatus::pass);
   EXPECT_EQ(with(0.049, 0.96, 0).status("voltage"), CheckStatus::too_close);
   EXPECT_EQ(with(0.051, 0.96, 0).status("voltage"), CheckStatus::pass) << "an error above limits.torque_error proves nothing";
-  // A check that fails even with its value reduced by the error fails.
+  // A check fails if it fails even with its value reduced by the error.
   Case fails = with(0.03, 0.975, 0);
   grow(fails, kVoltageLimited, 1, 11, 12);
   EXPECT_EQ(fails.status("voltage"), CheckStatus::fail);
   grow(fails, kVoltageLimited, 1, 12 - 3.05 * 0.015, 12);
   fails.scenario.limits.saturated_share = 1;
   EXPECT_EQ(fails.status("voltage"), CheckStatus::too_close) << "3.05 periods less 3 %";
-  // Another joint, with a larger margin and no error, fails: what is near elsewhere undoes nothing.
+  // A failure of a joint without error counts, also if a joint with a smaller margin is too close.
   const auto other = [&](double periods) {
     Case two = fails;
     for (std::size_t k = 0; k <= two.last_tick(); ++k)
@@ -162,8 +163,8 @@ TEST(CheckEvidence, TooCloseToTheLimitOfAMotor) {
   EXPECT_EQ(other(2.9).status, CheckStatus::too_close) << other(2.9).text;
 }
 
-/// A stretch at a limit, of rows that come within the error of it: three control periods are kept, more are too close, and what
-/// is at the limit for longer, less the error, fails.
+/// Intervals with torques within the error of the limit: up to three control periods pass, longer intervals are too close. If
+/// the torque minus its error is at the limit for longer, the check fails.
 TEST(CheckEvidence, TheBarOfAStretch) {
   const auto with = [](std::size_t near, double periods) {
     Case made = rated_gait();
@@ -179,7 +180,7 @@ TEST(CheckEvidence, TheBarOfAStretch) {
   EXPECT_EQ(with(0, 3.05), CheckStatus::too_close) << "less 3 %";
   EXPECT_EQ(with(0, 3.15), CheckStatus::fail);
   EXPECT_EQ(with(4, 3.15), CheckStatus::fail);
-  // A row that is at a limit for a part of it, its own or the other one, is known, and counts as it is.
+  // A row that is partly at a limit, of voltage or current, counts with its recorded time.
   for (const TickColumn column : {kVoltageLimited, kCurrentLimited}) {
     Case partly = rated_gait();
     off(0.03)(partly);
@@ -193,8 +194,8 @@ TEST(CheckEvidence, TheBarOfAStretch) {
   }
 }
 
-/// Every rating of several joints, each with its error: one that is beyond its limit with its whole bar makes the check fail;
-/// else one whose limit lies within its bar leaves it open.
+/// Ratings of several joints with errors: the check fails if any joint is beyond its limit by more than its error. Otherwise it
+/// is too close if the limit of any joint is within the error.
 TEST(CheckEvidence, AnyPartDecides) {
   const auto with = [](TickColumn column, double limit, bool square, double first, double second) {
     return [=](Case& made) {
@@ -229,7 +230,8 @@ TEST(CheckEvidence, AnyPartDecides) {
   }
 }
 
-/// A robot that nothing bears is reported first, at the setting that causes it; neither a longer run nor smaller steps help.
+/// If the ground does not carry the robot, this is reported first, with the setting that causes it, because neither a longer
+/// run nor smaller steps help.
 TEST(CheckEvidence, WhatNothingBears) {
   for (const auto& [set, text] : {std::pair{"physics.gravity=[0, 0, 0]", "there is no gravity"},
                                   {"ground.type=none", "there is no ground"},
@@ -257,7 +259,7 @@ TEST(CheckEvidence, WhatNothingBears) {
   EXPECT_EQ(wrong.check("evidence").place.file, "accuracy");
 }
 
-/// An error that is not a number is the worst of all, whichever joint has it.
+/// A torque error that is NaN counts as the largest error, in any joint.
 TEST(CheckEvidence, NotANumberIsNoEvidence) {
   for (const std::size_t joint : {std::size_t{0}, kJoint, std::size_t{9}}) {
     Case made = rated_gait();
@@ -302,14 +304,14 @@ TEST(CheckEvidence, WordsOfFailuresAndOfMissingEvidence) {
               made.scenario.limits.torque_error = 0.06;
             }),
             Word::feasible);
-  // A failure that a longer run cannot undo is reported of a run that is too short, too; one that it could undo is not.
+  // In a run that is too short, a failure counts only if a longer run cannot undo it.
   Case brief = walk();
   brief.record.joints[4].range_worst = 0.02;
   EXPECT_EQ(brief.judged().word, Word::infeasible);
   brief = walk();
   brief.tick(brief.last_tick(), 5, kErrorPeak) = 3;
   EXPECT_EQ(brief.judged().word, Word::not_judged);
-  // Nothing can be said of a run whose numbers are not to be trusted.
+  // A run with inaccurate numbers is not judged.
   brief.record.joints[4].range_worst = 0.02;
   brief.record.tally.coarse = brief.record.simulated;
   EXPECT_EQ(brief.judged().word, Word::not_judged);

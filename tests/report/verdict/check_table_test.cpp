@@ -1,4 +1,5 @@
-// The table of checks: every check below, at and beyond its limits, its margin, its span, and where it is not judged.
+// Table of all checks. Tests evaluate each check below, at and beyond its limits, with its margin, its span, and cases in which
+// it is not judged.
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -10,16 +11,16 @@
 namespace gaitlab::test {
 namespace {
 
-/// A check, by what a recorded walk is changed for it, and what then comes of it. Limits are figures here and no settings: a
-/// default that changes is seen.
+/// A check, and the change of a recorded walk that gives the check a value. The limits are numbers, not settings, so that the
+/// test detects a changed default.
 struct Row {
   std::string id;
-  std::function<Change(double)> change;      ///< by which the check has this value
-  double limit;                              ///< beyond it the check fails, or warns where it never fails
-  double warns;                              ///< beyond it the check warns
-  std::function<Change(double)> early = {};  ///< the same before the judged window; none: `change` has no time
+  std::function<Change(double)> change;      ///< change that gives the check a value
+  double limit;                              ///< value beyond which the check fails, or warns if it cannot fail
+  double warns;                              ///< value beyond which the check warns
+  std::function<Change(double)> early = {};  ///< change before the judged window; absent if `change` has no time
   [[nodiscard]] bool least() const { return id == "fall" || id == "progress"; }
-  /// Beyond the limit by this share of it.
+  /// Value that exceeds the limit by `share` of the limit.
   [[nodiscard]] double beyond(double share) const { return limit == 0 ? share : limit * (1 + (least() ? -share : share)); }
 };
 
@@ -40,7 +41,8 @@ Row of_dock(const char* id, const char* column, double limit) {
   return {id, [=](double v) { return load(column, v); }, limit, 0.8 * limit, [=](double v) { return load(column, v, kEarly); }};
 }
 
-/// A share of the window at a limit, in so many pieces that no stretch is long; a stretch at its end.
+/// Rows for a check of saturation: a share of the window in so many pieces that each is short, and one long interval at the
+/// end.
 std::vector<Row> of_saturation(const char* id, TickColumn column) {
   const auto pieces = [](const Change& change) {
     return [change](Case& made) {
@@ -60,7 +62,7 @@ std::vector<Row> of_saturation(const char* id, TickColumn column) {
 }
 
 std::vector<Row> table() {
-  const double no_load = 7.4 / (0.00395 * 594);  // rad/s: u_max / (Ks n)
+  const double no_load = 7.4 / (0.00395 * 594);  // speed without load u_max / (Ks n), rad/s
   std::vector<Row> rows{
       {"fall", sinks, 0.5, 0.5, sinks},
       {"progress", [](double v) { return goes(v); }, 0.5, 0.5},
@@ -92,7 +94,7 @@ std::vector<Row> table() {
       of_dock("dock_bending", "dock.3.bending", 400),
       of_dock("dock_torsion", "dock.3.torsion", 200),
       {"slip", [](double v) { return slides(v); }, 0.2, 0.2, [](double v) { return slides(v, true); }},
-      {"torque_error", [](double v) { return off(std::max(v, 1e-12)); }, 0.05, 0.01},  // 0: not estimated
+      {"torque_error", [](double v) { return off(std::max(v, 1e-12)); }, 0.05, 0.01},  // an error of 0 means not estimated
       {"ledger",
        [](double v) {
          return [v](Case& made) {
@@ -137,7 +139,8 @@ TEST(CheckTable, BelowAtAndBeyondEachLimit) {
     if (row.limit == 0) continue;
     EXPECT_NEAR(at(row.beyond(0.5)).margin, -0.5, 2e-6) << at(row.beyond(0.5)).text;
     const CheckStatus allowed = row.warns == row.limit ? CheckStatus::pass : CheckStatus::warn;
-    // The value of a check may be a quotient of sums of a thousand rows, and a stretch is granted 1e-6 for that.
+    // The value of a check may be a quotient of sums over a thousand rows. Checks of intervals therefore have a tolerance of
+    // 1e-6.
     for (const double share : {-1e-4, -1e-10}) EXPECT_EQ(at(row.beyond(share)).status, allowed) << at(row.beyond(share)).text;
     const Check below = at(row.beyond(-1e-4));
     EXPECT_GT(below.margin, 0) << below.text;
@@ -147,7 +150,7 @@ TEST(CheckTable, BelowAtAndBeyondEachLimit) {
   }
 }
 
-/// The part nearer to its limit is named, with the number of parts beyond it.
+/// A check names the part with the least margin and the number of parts beyond the limit.
 TEST(CheckTable, CountsThePartsBeyondTheirLimits) {
   for (const auto& [id, column, warns] : {std::tuple{"tracking", kErrorPeak, 0.1},
                                           {"envelope", kEnvelopePeak, 0.8},
@@ -165,7 +168,7 @@ TEST(CheckTable, CountsThePartsBeyondTheirLimits) {
   }
 }
 
-/// A value beyond its limit before the judged window fails a check of the whole run, and does not count for one of the window.
+/// A value beyond the limit before the judged window fails a check of the whole run, and does not affect a check of the window.
 TEST(CheckTable, SpansAreJudged) {
   for (const Row& row : table()) {
     if (!row.early) continue;
@@ -176,7 +179,8 @@ TEST(CheckTable, SpansAreJudged) {
   }
 }
 
-/// More time undoes no failure of the whole run, and may undo one of the window.
+/// In a run that is too short, a failed check of the whole run makes the gait infeasible, but not a failed check of the window,
+/// which a longer run may pass.
 TEST(CheckTable, SpansDecideOfARunThatIsTooShort) {
   for (const Row& row : table()) {
     Case made = rated_gait();
@@ -193,7 +197,7 @@ TEST(CheckTable, SpansDecideOfARunThatIsTooShort) {
   }
 }
 
-/// The spans as documented; speeds have that of the limit that decides.
+/// Checks have the documented spans. The span of `speed` depends on the limit that decides.
 TEST(CheckTable, HasItsSpans) {
   const std::set<std::string> window{"progress", "voltage", "current", "envelope", "speed",     "heat",     "gear_continuous",
                                      "tracking", "battery", "slip",    "airborne", "stability", "periodic", "evidence"};
@@ -201,7 +205,7 @@ TEST(CheckTable, HasItsSpans) {
     EXPECT_EQ(kind.span, window.contains(kind.id) ? CheckSpan::window : CheckSpan::whole_run) << kind.id;
 }
 
-/// A check of an unknown value is not judged.
+/// A check whose value is unknown is not judged.
 TEST(CheckTable, NotJudged) {
   const auto no_ticks = [](Case& made) { made.record.ticks = {}; };
   const auto fixed = [](Case& made) { made.scenario.base = Base::fixed; };

@@ -1,4 +1,4 @@
-// The demand twin: what motors without limits would take.
+// Tests of the demand: the second run with 20 times the motor limits.
 #include "report/verdict/demand.h"
 
 #include "report/analysis/fall.h"
@@ -14,7 +14,7 @@ std::vector<std::string> four_seconds(std::vector<std::string> sets) {
   return sets;
 }
 
-/// A caterpillar whose motors have too little current, and what it takes.
+/// Run of a caterpillar whose current limit is too low, and its demand.
 struct Weak {
   Scenario scenario = shipped("caterpillar.yaml", four_seconds({"actuator.i_max=0.35"}));
   Recording record = run(scenario);
@@ -29,7 +29,7 @@ TEST(Demand, IsTheRunWithLimitsTwentyTimesAsLarge) {
   const Demand made = demand(twin, weak.record, weak.summary);
   ASSERT_TRUE(made.known);
   EXPECT_EQ(made.doubt, "");
-  // The same by the command line, in a run of its own.
+  // The demand equals the peaks of a separate run with 20 times the limits.
   const Scenario free = shipped("caterpillar.yaml", four_seconds({"actuator.i_max=7", "actuator.u_max=148"}));
   const Recording record = run(free);
   const std::vector<JudgedJoint> joints = judge(record, weak.summary.limit_cycle, true).joints;
@@ -38,12 +38,13 @@ TEST(Demand, IsTheRunWithLimitsTwentyTimesAsLarge) {
     EXPECT_EQ(made.joints[j].torque_peak, joints[j].torque_peak) << j;
     EXPECT_EQ(made.joints[j].current_peak, joints[j].current_peak) << j;
     EXPECT_EQ(made.joints[j].voltage_peak, joints[j].voltage_peak) << j;
-    // eq. 2: T = eta Kt n i, so that the peaks are of one instant; to rounding.
+    // By eq. 2, T = eta Kt n i, so that both peaks are at the same time and their ratio is exact up to rounding.
     EXPECT_NEAR(joints[j].torque_peak, 0.7 * 0.00395 * 594 * joints[j].current_peak, 1e-12);
   }
   ASSERT_GT(weak.judged.count(CheckStatus::fail), 0U);
   add_demand(weak.judged, weak.scenario, weak.summary, made);
-  // Every joint that is at its limit for some time; what is missing is of the one that lacks most.
+  // The demand contains every joint that is at its limit for some time. The missing amount is that of the joint that lacks
+  // most.
   const std::vector<JudgedJoint>& own = weak.summary.judged.joints;
   std::size_t limited = 0;
   double most = 0;
@@ -60,15 +61,15 @@ TEST(Demand, IsTheRunWithLimitsTwentyTimesAsLarge) {
   EXPECT_TRUE(contains(to_json(weak.judged), "\"demand\": {"));
 }
 
-/// Nothing is missing where no limit is reached: nothing is asked.
+/// An actuator without limits has no demand, and no second run takes place.
 TEST(Demand, OfAnActuatorWithoutLimitsIsNotKnown) {
   Scenario held = shipped("pendulum.yaml");
   EXPECT_FALSE(raise_limits(held));
 }
 
-/// Each doubt by its cause: at 5 Hz a robot is thrown up that its own motors hardly move; of 5 mA twenty times as many are too
-/// few, too; a CPG that runs away ends the run; and where nothing is doubtful nothing is said
-/// (IsTheRunWithLimitsTwentyTimesAsLarge).
+/// The program states the cause of a doubtful demand. At 5 Hz the strong motors throw the robot into the air. With 5 mA, 20
+/// times the limit is also too small. A CPG that diverges ends the run. (A demand without doubt:
+/// IsTheRunWithLimitsTwentyTimesAsLarge.)
 TEST(Demand, SaysWhatMakesItDoubtful) {
   const Weak weak;
   const auto twin = [](std::vector<std::string> sets) {
@@ -94,7 +95,7 @@ TEST(Demand, SaysWhatMakesItDoubtful) {
   EXPECT_TRUE(broken.doubt.starts_with("with motors without limits the run breaks off: ")) << broken.doubt;
 }
 
-/// The height of the place where it hangs is nothing to a robot with a fixed base; on the ground a leap is one.
+/// A robot on the ground that leaps makes the demand doubtful. The height of a robot with a fixed base does not.
 TEST(Demand, KnowsALeap) {
   const Weak weak;
   const double start = heights(weak.scenario, weak.record).front();
@@ -115,7 +116,7 @@ TEST(Demand, KnowsALeap) {
   EXPECT_FALSE(doubt(fixed, 0.51 * start));
 }
 
-/// `report` says again what `run --demand` found, as long as the file is of this recording.
+/// `gaitlab report` repeats the demand that `run --demand` stored, if the stored file belongs to the recording.
 TEST(Demand, StaysWithItsFolder) {
   const Folder folder;
   const std::string file = kScenarios + "caterpillar.yaml --set physics.engine=articulated --set duration=4 ";
@@ -127,7 +128,7 @@ TEST(Demand, StaysWithItsFolder) {
   EXPECT_TRUE(read(folder / "b/verdict.json") == told);
   EXPECT_TRUE(read(folder / "b/report.html") == read(folder / "a/report.html"));
   EXPECT_TRUE(contains(again.out, "missing: ")) << again.out;
-  // A file of another run, a damaged one and a missing one are not taken.
+  // A file of a different run, a damaged file and a missing file are not used.
   ASSERT_EQ(gaitlab("run " + file + "--set actuator.i_max=0.3 --demand --no-report --out other", folder.path()).code, 0);
   const std::string note = "a/verdict.json: note: belongs to another recording; its --demand results are not shown\n";
   for (const std::string& text :

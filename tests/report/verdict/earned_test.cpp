@@ -1,11 +1,11 @@
-// The word `feasible` is earned: runs of which the truth is known, and that were called feasible once.
+// Runs for which the correct verdict is known, most of which earlier versions called `feasible` by mistake.
 #include "report/verdict/screen.h"
 #include "tests/report/verdict/verdict_case.h"
 
 namespace gaitlab::test {
 namespace {
 
-/// A run with its loads, as `gaitlab run` judges it.
+/// Run with its loads and its verdict, as `gaitlab run` computes it.
 struct Told {
   Scenario scenario;
   Recording record;
@@ -26,14 +26,14 @@ Scenario known_truth(const std::string& name) {
   return read_scenario(std::string(GAITLAB_SOURCE_DIR) + "/tests/data/verdict/" + name + ".yaml", {}, catalog());
 }
 
-/// V1: docks are judged from the first step on.
+/// V1: a dock opens at the landing, before the judged window. Docks are judged in the whole run.
 TEST(Earned, ADockThatOpensAtTheLanding) {
   const Told drop(known_truth("V1-docks-at-landing"));
   EXPECT_EQ(drop.made.word, Word::infeasible);
   const Check& shear = drop.check("dock_shear");
   EXPECT_EQ(shear.status, CheckStatus::fail);
   EXPECT_EQ(shear.part, Part::dock);
-  // The largest of all rows, and when it was beyond 25 N first, from the table of loads alone.
+  // Largest load of all rows, and first time above 25 N, computed from the table of loads.
   double most = 0;
   double first = -1;
   const Trace& loads = drop.record.loads;
@@ -49,7 +49,7 @@ TEST(Earned, ADockThatOpensAtTheLanding) {
   EXPECT_LT(shear.from, drop.made.from) << "before the judged window";
 }
 
-/// V2: so are gears.
+/// V2: a gear breaks at the landing, before the judged window. Gears are judged in the whole run.
 TEST(Earned, AGearThatBreaksAtTheLanding) {
   const Told drop(known_truth("V2-gear-at-landing"));
   EXPECT_EQ(drop.made.word, Word::infeasible);
@@ -59,16 +59,17 @@ TEST(Earned, AGearThatBreaksAtTheLanding) {
   EXPECT_GT(most, 1);
 }
 
-/// V5: a fortieth of a period is no evidence.
+/// V5: a run of a fortieth of a period is not sufficient evidence.
 TEST(Earned, APieceOfAPeriod) {
   const Told brief(shipped("hexapod.yaml", {"physics.engine=articulated", "duration=0.05"}));
   EXPECT_EQ(brief.made.word, Word::not_judged);
   EXPECT_EQ(brief.made.why(), "0.05 s are 0.025 of a gait's 3 periods of 2 s; take duration: 6");
-  // The remedy helps.
+  // The remedy, a longer run, makes the run feasible.
   EXPECT_EQ(Told(shipped("hexapod.yaml", {"physics.engine=articulated", "duration=6"})).made.word, Word::feasible);
 }
 
-/// V6: a motor that makes energy, set points that never change, a ground that bears nothing.
+/// V6: runs without value are not feasible: a motor that creates energy, constant set points, a ground that does not carry the
+/// robot.
 TEST(Earned, RunsThatAreWorthless) {
   const std::vector<std::string> sets{"physics.engine=articulated", "duration=12"};
   const auto with = [&](const std::string& set) {
@@ -87,14 +88,14 @@ TEST(Earned, RunsThatAreWorthless) {
   EXPECT_TRUE(contains(up.why(), "the ground carries 0 % of the weight on average")) << up.why();
 }
 
-/// V7: torques that are off by their own size.
+/// V7: torques have errors as large as the torques.
 TEST(Earned, ATorqueErrorOfAHundredPercent) {
   const Told stiff(shipped("hexapod.yaml", {"physics.engine=articulated", "contact.stiffness=1.47265e+11",
                                             "actuator.Kt=0.545382", "contact.damping_exponent=5.42154", "duration=0.3"}));
   EXPECT_NE(stiff.made.word, Word::feasible);
 }
 
-/// V9: on a slope of 30 degrees, without friction enough to stand, a robot slides down; that is no gait.
+/// V9: on a slope of 30 degrees the friction is too small and the robot slides down, which is not a gait.
 TEST(Earned, SlidingDownASlope) {
   const double g = 9.81;
   const Told slide(shipped("hexapod.yaml", {"physics.engine=articulated", "duration=12", "ground.friction=0.3",
@@ -106,7 +107,7 @@ TEST(Earned, SlidingDownASlope) {
   EXPECT_NE(slide.made.word, Word::feasible);
 }
 
-/// A robot that drops at its start and begins its gait slowly walks all the same.
+/// A robot that drops at its start and begins its gait slowly does not count as sliding.
 TEST(Earned, ADropAtTheStartIsNoSlide) {
   Catalog& known = catalog();
   const Told dropped(read_scenario(std::string(GAITLAB_SOURCE_DIR) + "/tests/data/verdict/V11-starts-above-the-ground.yaml",
@@ -114,7 +115,7 @@ TEST(Earned, ADropAtTheStartIsNoSlide) {
   EXPECT_NE(dropped.check("progress").status, CheckStatus::fail) << dropped.check("progress").text;
 }
 
-/// A slide is found in short runs, too: of two periods, two and a half, three and a half.
+/// Sliding is detected also in short runs of 2, 2.5 and 3.5 periods.
 TEST(Earned, SlidingInAShortRun) {
   const double g = 9.81;
   const auto on_slope = [&](const char* duration) {
@@ -127,7 +128,8 @@ TEST(Earned, SlidingInAShortRun) {
   }
 }
 
-/// Nothing bears a robot without a ground, without contact elements that touch it, or without gravity.
+/// Runs in which the ground does not carry the robot are not judged: without ground, without contact elements, or without
+/// gravity.
 TEST(Earned, NothingBearsTheRobot) {
   const auto with = [](const std::vector<std::string>& more) {
     std::vector<std::string> all{"physics.engine=articulated", "duration=12"};
@@ -147,7 +149,7 @@ TEST(Earned, NothingBearsTheRobot) {
       << "of a fixed base nothing is asked";
 }
 
-/// Frames that are played once, at the start, are the whole gait, and a long rest behind them is no excuse.
+/// Keyframes that are played once at the start are the whole gait. A long rest after them does not change the verdict.
 TEST(Earned, FramesPlayedOnce) {
   const auto bend = [](double end) {
     return Told(shipped("caterpillar.yaml",
@@ -166,7 +168,7 @@ TEST(Earned, FramesPlayedOnce) {
   EXPECT_EQ(slow.made.rests_on, "these 20 s; the set points do not repeat");
 }
 
-/// Wheels have no period, whatever frequency their cpg does not read.
+/// Wheels have no period, also if the settings contain a frequency that their CPG does not use. They are judged after 2 s.
 TEST(Earned, WheelsAreJudgedAfterTwoSeconds) {
   const auto drive = [](const char* duration) { return Told(shipped("library/linkbot-drive.yaml", {duration})).made; };
   EXPECT_EQ(drive("duration=6").word, Word::feasible) << drive("duration=6").why();
@@ -175,7 +177,7 @@ TEST(Earned, WheelsAreJudgedAfterTwoSeconds) {
   EXPECT_EQ(drive("duration=1").word, Word::not_judged);
 }
 
-/// A period that the run does not show is that of the CPG, which goes on after the run.
+/// If the run is shorter than a period of the CPG, the period of the CPG counts, and not the duration of the run.
 TEST(Earned, FramesThatRepeatHaveTheirPeriod) {
   const Told brief(
       shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=3", "cpg.type=keyframes",
@@ -184,7 +186,7 @@ TEST(Earned, FramesThatRepeatHaveTheirPeriod) {
   EXPECT_TRUE(contains(brief.made.why(), "3 s are 1.5 of a gait's 3 periods of 2 s; take duration: 6")) << brief.made.why();
 }
 
-/// A robot that hops and tips over at every hop does not roll.
+/// A robot that tips over at every hop does not count as rolling.
 TEST(Earned, TippingOverIsNoRolling) {
   const Told hops(shipped("hexapod.yaml", {"physics.engine=articulated", "contact.on=all", "duration=3",
                                            "cpg={type: sine, frequency: 2.4, amplitude: 0.9, phase_lag: 0}",
@@ -192,7 +194,8 @@ TEST(Earned, TippingOverIsNoRolling) {
   EXPECT_EQ(hops.check("upright").status, CheckStatus::fail) << hops.check("upright").text;
 }
 
-/// The word rests on what is farthest beyond its limit; a run that is too short, on what no time undoes.
+/// The check with the least margin decides the verdict. In a run that is too short, only failures count that more time cannot
+/// undo.
 TEST(Earned, TheHeadlineIsTheLeastMargin) {
   const Told wide(shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=12", "cpg.amplitude=1.7"}));
   const std::vector<const Check*> failures = wide.made.failures();
@@ -206,7 +209,7 @@ TEST(Earned, TheHeadlineIsTheLeastMargin) {
   EXPECT_EQ(brief.check(brief.made.decided_by).span, CheckSpan::whole_run);
 }
 
-/// V14: the worst joint of a check is that of the terminal, and its message names no other.
+/// V14: the terminal and the check name the same worst joint.
 TEST(Earned, TheTerminalNamesTheJointOfTheCheck) {
   const Told wide(shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=12", "cpg.amplitude=1.7"}));
   const Check& stops = wide.check("stops");
@@ -228,7 +231,7 @@ TEST(Earned, TheTerminalNamesTheJointOfTheCheck) {
   }
 }
 
-/// The first screen is short whatever the run, and its lines fit a terminal.
+/// The first screen of output is short for every run, and its lines fit into a terminal.
 TEST(Earned, TheFirstScreenIsShort) {
   for (const std::vector<std::string>& sets :
        {std::vector<std::string>{}, {"actuator.i_max=0.35"}, {"cpg.amplitude=1.7"}, {"duration=1"}}) {

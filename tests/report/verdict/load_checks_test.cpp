@@ -1,4 +1,4 @@
-// Checks of docks, slip and stability on runs made for them.
+// Tests of the checks of docks, slip and stability with runs whose recordings are changed.
 #include "report/verdict/load_checks.h"
 
 #include <limits>
@@ -14,7 +14,7 @@ using namespace report;
 
 constexpr double kUnknownLimit = std::numeric_limits<double>::quiet_NaN();
 
-/// A caterpillar of 4 s, changed by hand.
+/// Run of the caterpillar for 4 s with loads. Tests change its recording.
 struct LoadCase {
   Scenario scenario = shipped("caterpillar.yaml", {"duration=4", "physics.engine=articulated"});
   Recording record = recorded(scenario);
@@ -24,7 +24,7 @@ struct LoadCase {
     simulation.run();
     return simulation.take_recording(0);
   }
-  /// A column from row `from` on.
+  /// Sets a column of the loads in all rows from row `from` on.
   void set(const std::string& column, double value, std::size_t from = 0) {
     const std::size_t at = record.loads.find(column);
     for (std::size_t row = from; row < record.loads.rows(); ++row)
@@ -88,7 +88,7 @@ TEST(LoadChecks, HoldDocksAgainstTheirLimits) {
   EXPECT_EQ(with(kUnknownLimit, kUnknownLimit).value, 5);
 }
 
-/// The same robot with connectors of these limits on its faces: those of the active ones, those of the passive ones.
+/// Run of the caterpillar with these connectors on its active and passive faces.
 LoadCase connected(const Connector& active, const Connector& passive) {
   LoadCase made = crawl();
   Robot robot = *made.scenario.robot;
@@ -102,7 +102,7 @@ LoadCase connected(const Connector& active, const Connector& passive) {
 
 TEST(LoadChecks, TakeTheSmallerLimitOfBothConnectors) {
   const LoadCase free = crawl();
-  const double tension = free.check("dock_tension").value;  // 11.3 N at m5
+  const double tension = free.check("dock_tension").value;  // 11.3 N at the dock of m5
   ASSERT_NEAR(tension, 11.3, 0.6);
   EXPECT_NEAR(free.check("dock_shear").value, 9.34, 0.5) << "at m6";
   const LoadCase held =
@@ -116,7 +116,7 @@ TEST(LoadChecks, TakeTheSmallerLimitOfBothConnectors) {
   EXPECT_EQ(held.check("dock_shear").source, "rofi.fi.muni.cz");
   EXPECT_EQ(held.check("dock_bending").status, CheckStatus::not_judged);
   EXPECT_TRUE(contains(held.check("dock_bending").text, "do not state"));
-  const double limit = 0.97 * tension;  // of 11.3 N: 11 N
+  const double limit = 0.97 * tension;  // about 11 N
   const LoadCase weak = connected({.tension = limit}, {.tension = 1000});
   EXPECT_EQ(weak.check("dock_tension").status, CheckStatus::fail);
   EXPECT_EQ(weak.check("dock_tension").source, "chosen: no source stated");
@@ -137,7 +137,7 @@ TEST(LoadChecks, OfATensionOnlyThePullCounts) {
   EXPECT_EQ(made.check("dock_torsion").value, 50);
 }
 
-/// A dock that opens once has opened, whenever that is.
+/// Loads of docks are judged in the whole run, because a dock that opens remains open.
 TEST(LoadChecks, AreOfTheWholeRun) {
   ASSERT_GT(crawl().summary().judged.first_row, 1U);
   const auto with = [&](std::size_t row) {
@@ -176,7 +176,7 @@ TEST(LoadChecks, WarnOfFeetThatSlide) {
   EXPECT_EQ(lenient.check("slip").status, CheckStatus::warn);
 }
 
-/// As figures and pages name it.
+/// The text of a check names a foot by its leg, as figures and pages do.
 TEST(LoadChecks, NameAFootByItsLeg) {
   LoadCase made{shipped("hexapod.yaml", {"duration=1", "physics.engine=articulated"})};
   for (const Column& column : made.record.loads.columns) {
@@ -185,7 +185,7 @@ TEST(LoadChecks, NameAFootByItsLeg) {
   made.set("foot.m9/passive.slid", 0.123, made.last());
   const Check slip = made.check("slip");
   EXPECT_TRUE(contains(slip.text, "farthest m9 front left, by 0.123 of ")) << slip.text;
-  EXPECT_EQ(slip.worst, "m9/passive");  // by which the page finds it
+  EXPECT_EQ(slip.worst, "m9/passive");  // name of the body, by which the page finds the foot
 }
 
 TEST(LoadChecks, NoteWhatStandsAndWhatFalls) {

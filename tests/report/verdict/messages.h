@@ -1,4 +1,4 @@
-// Warnings that a run prints, for tests of their texts.
+// Warnings that the program prints after a run, for tests of their texts.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@ namespace gaitlab::test {
 
 enum class About { all, gait, accuracy };
 
-/// Text and remedy of the checks that do not pass and have a remedy.
+/// Texts and remedies of the checks that do not pass and have a remedy.
 inline std::vector<std::string> messages(const Scenario& scenario, const Recording& record, About about = About::all) {
   const report::Verdict made =
       report::verdict(scenario, record, report::summarise(scenario, record, 0), report::overlaps(scenario, record));

@@ -1,4 +1,4 @@
-// Cases of checks of the way of the robot and of its bodies, that the table has no row for.
+// Tests of checks of the robot's motion and its bodies, for cases that check_table_test.cpp does not contain.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -10,7 +10,8 @@ namespace {
 
 CheckStatus motion_status(const char* id, const Change& change) { return changed(id, change).status; }
 
-/// Nothing is asked for: a robot that neither goes nor turns is warned of, by a hundredth of its extent and 0.01 rad a period.
+/// Without a required progress, the check warns if the robot moves less than a hundredth of its size and turns less than 0.01
+/// rad per period.
 TEST(CheckMotion, ProgressIsAWayOrATurn) {
   const auto status = [](double extents, double turn) {
     return motion_status("progress", [=](Case& made) {
@@ -31,7 +32,7 @@ TEST(CheckMotion, ProgressIsAWayOrATurn) {
   EXPECT_EQ(status(0, 0.0103), CheckStatus::pass) << "the window begins at a tick";
   EXPECT_EQ(status(0, -0.0103), CheckStatus::pass);
   EXPECT_EQ(status(0, 0.0097), CheckStatus::warn);
-  // Without periods ten times that, in the whole window.
+  // Without periods the limits are ten times as large and apply to the whole window.
   const auto without = [](double extents) {
     return motion_status("progress", [=](Case& made) {
       const double speed = extents * extent_of_gait() / (12 - left_out_start(12));
@@ -50,13 +51,14 @@ TEST(CheckMotion, ProgressIsAWayOrATurn) {
   EXPECT_EQ(without(0.098), CheckStatus::warn);
 }
 
-/// Gravity gives more than the motors, and the second half of the judged time is more than 1.2 times as fast as the first.
+/// A robot slides downhill, which is not progress, if gravity supplies more energy than the motors and the second half of the
+/// judged time is more than 1.2 times as fast as the first half.
 TEST(CheckMotion, ProgressIsNoSlide) {
   const Judged judged = summarise(rated_gait().scenario, rated_gait().record, 0).judged;
   const double period = (judged.to - judged.from) / static_cast<double>(judged.periods);
   const auto slides_down = [&](double faster, double height, std::size_t periods = 2, double lacks = 0) {
     return changed("progress", [=](Case& made) {
-      // Two whole periods up to the end; of three and more the middle is in both halves.
+      // The window has two whole periods up to the end. With an odd number of periods, the middle period is in both halves.
       made.also = [=](Summary& summary, Overlaps&) {
         summary.judged.periods = periods;
         summary.judged.from = judged.to - 2 * period;
@@ -82,12 +84,13 @@ TEST(CheckMotion, ProgressIsNoSlide) {
   EXPECT_EQ(slides_down(1.18, 1.05).status, CheckStatus::pass);
   EXPECT_EQ(slides_down(1.22, 0.95).status, CheckStatus::pass);
   EXPECT_EQ(slides_down(0.8, 1.05).status, CheckStatus::pass);
-  // A period alone is compared with the one before, which may lack a thousandth.
+  // A single period is compared with the period before it, of which up to a thousandth may be missing.
   EXPECT_EQ(slides_down(2, 1.7, 1, 0.9e-3).status, CheckStatus::fail);
   EXPECT_EQ(slides_down(2, 1.7, 1, 1.2e-3).status, CheckStatus::pass);
 }
 
-/// Halves are of whole periods of the window: one is compared with the one before it, and the middle one of three is in both.
+/// The halves consist of whole periods of the window. A single period is compared with the period before it, and of three
+/// periods the middle is in both halves.
 TEST(CheckMotion, SlidesByWholePeriods) {
   const auto faster = [](std::size_t periods, double from, const std::array<double, 3>& speeds) {
     return changed("progress", [=](Case& made) {
@@ -102,7 +105,7 @@ TEST(CheckMotion, SlidesByWholePeriods) {
           x += speeds[std::min<std::size_t>(static_cast<std::size_t>((t - 1e-6) / 4), 2)] * (t - made.pose("t", row - 1));
         made.pose("com.x", row) = x;
         made.pose("com.y", row) = 0;
-        made.pose("com.z", row) = -10 * t;  // far more than the motors give
+        made.pose("com.z", row) = -10 * t;  // gravity supplies far more energy than the motors
       }
     });
   };
@@ -115,7 +118,7 @@ TEST(CheckMotion, SlidesByWholePeriods) {
   EXPECT_NEAR(faster(2, 4, {5, 1, 2}).value, 2, 0.02);
 }
 
-/// A tick is airborne whose load is less than 5 % of the weight, of the ticks in the window.
+/// A tick of the window counts as airborne if the load on the feet is less than 5 % of the weight.
 TEST(CheckMotion, AirborneIsATickWithoutLoad) {
   const auto with = [](double share, bool early = false) {
     return changed("airborne", [=](Case& made) {
@@ -144,11 +147,11 @@ TEST(CheckMotion, StabilityIsOfTheWindow) {
   EXPECT_EQ(least(rated_gait().last_tick()), -0.03);
 }
 
-/// The edge of a field is on it; the time is that of the first tick beside it.
+/// The edge of a heightfield belongs to it. The time of the check is the first tick at which the robot is outside.
 TEST(CheckMotion, FieldEndsAtItsEdge) {
   const auto with = [](const char* column, double at) {
     return changed("field", [=](Case& made) {
-      made.scenario.ground.shape = Heightfield{Vec3(-1, -2, 0), 1, 3, std::vector<double>(15, 0.0)};  // to x = 1, y = 2
+      made.scenario.ground.shape = Heightfield{Vec3(-1, -2, 0), 1, 3, std::vector<double>(15, 0.0)};  // ends at x = 1, y = 2
       for (std::size_t row = 0; row < made.record.poses.rows(); ++row) made.pose("com.x", row) = made.pose("com.y", row) = 0;
       made.pose(column, 1) = at;
       made.pose(column, 2) = at;
@@ -161,7 +164,7 @@ TEST(CheckMotion, FieldEndsAtItsEdge) {
   }
 }
 
-/// Shapes that are deeper in one another than limits.touch collide, by whatever angles they come there.
+/// Bodies collide if their depth of overlap exceeds limits.touch, for any hinge angles.
 TEST(CheckMotion, CollisionsAreDeeperThanATouch) {
   Scenario s = scenario(
       "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0], [1, 2, 4, 1, 0], [1, 3, 4, 2, 0]], position: [0, 0, 1]}\n"
@@ -191,7 +194,7 @@ TEST(CheckMotion, CollisionsAreDeeperThanATouch) {
   EXPECT_LT(depth(angle + 1e-4, 1e-6), 6.5e-4) << "else a limit a third larger is not noticed";
   s.limits.collision = 4e-4;
   EXPECT_GT(depth(angle, usual), 4e-4) << "of a record, whose limits.touch is above limits.collision";
-  // An overlap of 1e-9 m is rounding even if every touch counts.
+  // An overlap of 1e-9 m counts as a rounding error, also if limits.touch is 0.
   for (apart = 0.6, deep = angle; deep - apart > 1e-14;) {
     const double middle = (apart + deep) / 2;
     if (middle == apart || middle == deep) break;
@@ -200,7 +203,7 @@ TEST(CheckMotion, CollisionsAreDeeperThanATouch) {
   EXPECT_NEAR(depth(deep, 0), 1e-9, 1e-12) << "the rounding of shapes of 0.1 m, and room";
 }
 
-/// The deepest of several pairs that meet at the same tick is named as the first.
+/// If several pairs of bodies first collide at the same tick, the pair with the largest overlap is reported as the first.
 TEST(CheckMotion, TheFirstOfSeveralPairs) {
   Scenario s = scenario(
       "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0], [1, 2, 4, 1, 0], [1, 3, 4, 2, 0]], position: [0, 0, 1]}\n"
@@ -218,7 +221,7 @@ TEST(CheckMotion, TheFirstOfSeveralPairs) {
   EXPECT_EQ(std::pair(found->first, found->second), std::pair(found->deepest_first, found->deepest_second));
 }
 
-/// In a record limits.touch may be above limits.collision, which holds then.
+/// If limits.touch exceeds limits.collision in a recording, limits.collision applies.
 TEST(CheckMotion, CollisionsOfARecord) {
   const auto status = [](double depth) {
     return motion_status("collision", [=](Case& made) {
@@ -231,7 +234,7 @@ TEST(CheckMotion, CollisionsOfARecord) {
   EXPECT_EQ(status(0.0101), CheckStatus::fail);
 }
 
-/// A robot that goes less than 10 mm does not walk.
+/// Slip is judged only if the robot travels at least 10 mm.
 TEST(CheckMotion, SlipIsOfAWay) {
   const auto status = [](double way) {
     return motion_status("slip", [=](Case& made) {

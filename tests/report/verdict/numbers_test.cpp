@@ -1,4 +1,4 @@
-// The list of summary numbers is what summary.json holds and what docs/conventions.md says.
+// The list of summary numbers agrees with summary.json and docs/conventions.md.
 #include "report/verdict/numbers.h"
 
 #include <nlohmann/json.hpp>
@@ -20,14 +20,14 @@ struct Walk {
     Recording made = run(scenario);
     for (const char* column : {"torque_peak", "torque_rms", "distance", "margin"})
       made.spread.columns.push_back({column, "", ""});
-    made.spread.values = {1, 2, 3, 4};  // of a run that is predictable there are none, and the group is null
+    made.spread.values = {1, 2, 3, 4};  // a predictable run has no spread, and the group is null
     return made;
   }();
   Summary summary = summarise(scenario, record, 1);
   Json json = Json::parse(to_json(summary, scenario, record));
 };
 
-/// The row of an entry, as it should be in the table of docs/conventions.md.
+/// Row of a summary number, as the table of docs/conventions.md must contain it.
 std::string row(const SummaryNumber& number) {
   return fmt::format("| `{}` | {} | {} |\n", number.key, number.unit, number.definition);
 }
@@ -51,7 +51,7 @@ TEST(Numbers, EveryEntryIsInTheSummaryAndInTheDocs) {
       << head << table;
 }
 
-/// An order that two entries share would depend on where they are in the list.
+/// No two entries have the same place in the order of display, and every displayed entry has a text.
 TEST(Numbers, EveryPlaceIsTakenOnceAndHasItsText) {
   const auto once = [](const auto& shown, auto place) {
     std::set<int> places;
@@ -68,7 +68,7 @@ TEST(Numbers, EveryPlaceIsTakenOnceAndHasItsText) {
   }
 }
 
-/// No key of summary.json without an entry.
+/// Every key of summary.json has an entry in the list.
 TEST(Numbers, TheSummaryHoldsNothingElse) {
   const Walk walk;
   Json rest = walk.json.flatten();
@@ -85,7 +85,8 @@ TEST(Numbers, TheSummaryHoldsNothingElse) {
   EXPECT_TRUE(rest.empty()) << rest.dump(2);
 }
 
-/// Rows of every step. A row is the left limit: it holds the set point of the step before, whose start is the row before.
+/// The time of the largest tracking error agrees with a trace with a row per step. Rows contain left limits, so that a row
+/// contains the set point of the step before it, which starts at the previous row.
 TEST(Numbers, TheWorstTrackingErrorIsWhereTheTraceHasIt) {
   const Scenario s = shipped("caterpillar.yaml", {"duration=0.3", "trace.period=2.5e-5"});
   const Recording r = run(s);
@@ -97,7 +98,7 @@ TEST(Numbers, TheWorstTrackingErrorIsWhereTheTraceHasIt) {
     const auto error = [&](std::size_t row) {
       return std::abs(table.at(row, fmt::format("joint.{}.setpoint", j)) - table.at(row, fmt::format("joint.{}.angle", j)));
     };
-    const double moved = h * r.joints[j].speed_peak;  // from the start of a step to its end
+    const double moved = h * r.joints[j].speed_peak;  // largest motion of the joint during a step
     for (std::size_t row = 1; row < r.trace.rows(); row += 40) EXPECT_LE(error(row), largest + moved) << j;
     if (worst.at("joint") != s.robot->joints[j].name) continue;
     EXPECT_NEAR(error(static_cast<std::size_t>(std::llround(worst.at("time").get<double>() / h)) + 1), largest, moved);
@@ -110,7 +111,8 @@ TEST(Numbers, TheWorstTrackingErrorIsWhereTheTraceHasIt) {
   EXPECT_TRUE(Json::parse(to_json(summarise(still, swings, 1), still, swings)).at("tracking_error").is_null());
 }
 
-/// A row per step: a new command acts from the start of a step, whose row is older than it, and decays with the back-EMF.
+/// The time of a torque peak agrees with a trace with a row per step. A new command acts from the start of a step, whose row
+/// contains the old command, and its torque decays with the back-EMF.
 TEST(Numbers, TheTimeOfAPeakIsWhereTheTraceHasIt) {
   const Scenario s = shipped("caterpillar.yaml", {"duration=0.1", "trace.period=2.5e-5"});
   const Recording r = run(s);
@@ -122,7 +124,7 @@ TEST(Numbers, TheTimeOfAPeakIsWhereTheTraceHasIt) {
     const std::int64_t start = std::llround(r.joints[j].torque_peak_time / s.physics.step);
     EXPECT_TRUE(start == static_cast<std::int64_t>(largest) || start + 1 == static_cast<std::int64_t>(largest)) << j;
     EXPECT_GE(r.joints[j].torque_peak, torque(largest)) << j;
-    EXPECT_LT(r.joints[j].torque_peak, 1.3 * torque(largest)) << j;  // the lightest one loses 19 % within the step
+    EXPECT_LT(r.joints[j].torque_peak, 1.3 * torque(largest)) << j;  // the torque of the lightest joint falls 19 % in a step
   }
 }
 

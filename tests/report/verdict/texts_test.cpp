@@ -1,4 +1,4 @@
-// Shares and lengths in messages, and the manual of the verdict.
+// Tests of shares and lengths in messages, and of the manual of the verdict.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Evidence for the numbers of a run: estimate of the torque error, warnings with their remedy, summary.
+// Tests of the evidence for the numbers of a run: estimate of the torque error, warnings with their remedies, summary.
 #include "report/verdict/trust.h"
 
 #include <limits>
@@ -19,7 +19,7 @@ nlohmann::json summary_of(const Scenario& s) {
   return nlohmann::json::parse(to_json(summarise(s, r, 1), s, r));
 }
 
-/// A run of 1 s of two joints, nothing wrong with it: peaks 1 and 0.01 N m, 10 J drawn.
+/// Run of 1 s without defects: two joints with torque peaks of 1 and 0.01 N m, and 10 J of electrical energy.
 struct Doubts : testing::Test {
   Doubts() {
     r.joints.resize(s.robot->joints.size());
@@ -50,7 +50,7 @@ TEST_F(Doubts, NameTheJointWhoseTorqueIsOff) {
   EXPECT_EQ(only(),
             "the torque of joint m0/active is off by about 2 % of its peak, estimated from other steps; take physics.accuracy: "
             "0.002");
-  r.tally.torque_error[1] = 0.001;  // a small joint is judged by 2 % of the largest peak
+  r.tally.torque_error[1] = 0.001;  // the peak of a joint counts as at least 2 % of the largest peak
   EXPECT_EQ(only(),
             "the torque of joint m0/passive is off by about 5 % of its peak, estimated from other steps; take "
             "physics.accuracy: 0.001");
@@ -75,7 +75,7 @@ TEST_F(Doubts, NameAMotionThatNobodyCanPredict) {
   EXPECT_EQ(predictability(s, r), Predictability::unknown) << "gravity changes no torque, which shows nothing";
   EXPECT_EQ(predictability_text(s, r), "not tested: a disturbed gravity changes no torque of this robot");
   r.tally.chaotic.share = 1e-12;
-  r.tally.ill.share = 0.01;  // what the torques may be off by
+  r.tally.ill.share = 0.01;  // the limit of the torque error
   EXPECT_EQ(predictability(s, r), Predictability::predictable);
   r.tally.ill = {0.5, 1, 0.0101};
   EXPECT_EQ(predictability(s, r), Predictability::ill);
@@ -96,16 +96,16 @@ TEST_F(Doubts, OfferAStepThatFits) {
   r.tally.torque_error[0] = 0.04;
   s = hexapod({"physics.engine=articulated", "physics.step=1e-3"});
   EXPECT_EQ(s.physics.integrator->name, "implicit");
-  // Order 1: an eighth of 1 ms for half of 1 %, and all periods are whole multiples of 0.125 ms.
+  // With order 1, an error of half of 1 % requires an eighth of the step of 1 ms. All periods are multiples of 0.125 ms.
   EXPECT_EQ(only(),
             "the torque of joint m0/active is off by about 4 % of its peak, estimated from other steps in windows; `gaitlab "
             "converge` compares whole runs; "
             "take physics.step: "
             "0.000125, or physics.integrator: adaptive without a step");
   s = hexapod({"physics.engine=articulated", "physics.integrator=extrapolated", "physics.step=1e-3"});
-  EXPECT_TRUE(contains(only(), "; take physics.step: 0.00025, or")) << only();  // order 2: 1 ms / sqrt(8) = 0.35 ms
+  EXPECT_TRUE(contains(only(), "; take physics.step: 0.00025, or")) << only();  // order 2 requires 1 ms / sqrt(8) = 0.35 ms
   s = hexapod({"physics.step=2.5e-5"});
-  EXPECT_TRUE(contains(only(), "; take physics.step: 2.5e-06")) << only();  // an eighth is 3.1 us
+  EXPECT_TRUE(contains(only(), "; take physics.step: 2.5e-06")) << only();  // an eighth of the step is 3.1 us
   EXPECT_FALSE(contains(only(), "adaptive")) << only();
 }
 
@@ -178,23 +178,23 @@ TEST(Trust, AStepThatIsTooLongIsSaidAndItsRemedyHelps) {
     return nlohmann::json::parse(read(folder / (run + "/summary.json"))).at("torque_error").at("worst").get<double>();
   };
   warnings(" --set physics.step=" + remedy, "short");
-  EXPECT_LT(error("short"), error("long") / 2);  // an estimate of an estimate: feet that land do not halve with the step
+  EXPECT_LT(error("short"), error("long") / 2);  // generous, because errors at impacts do not halve with the step
   EXPECT_EQ(warnings(" --set physics.integrator=adaptive --set duration=2.5", "adaptive"), "");
 }
 
-/// If even this run had the warning, users would learn to ignore it.
+/// Shipped scenarios have no warnings; otherwise users would learn to ignore warnings.
 TEST(Trust, NothingIsSaidOfShippedScenarios) {
   for (const char* engine : {"articulated", "bullet"}) {
     for (const auto& file : std::filesystem::directory_iterator(kScenarios)) {
       if (file.path().extension() != ".yaml") continue;
-      // Bullet's steps take too long for a test of all of it.
+      // In engine bullet only 0.6 s of each scenario are tested, because its steps take too long.
       std::vector<std::string> sets{std::string("physics.engine=") + engine};
       if (sets[0] == "physics.engine=bullet") sets.emplace_back("duration=0.6");
-      if (sets.size() > 1 && shipped(file.path().filename()).physics.adapts()) continue;  // asks for an accuracy
+      if (sets.size() > 1 && shipped(file.path().filename()).physics.adapts()) continue;  // requires engine articulated
       const Scenario s = shipped(file.path().filename(), sets);
       const Recording r = run(s);
       for (const std::string& warning : messages(s, r, About::accuracy)) {
-        if (contains(warning, "% of the control ticks; step ")) continue;  // bullet's rubble: stiff contacts at its given step
+        if (contains(warning, "% of the control ticks; step ")) continue;  // in bullet, rubble.yaml has stiff contacts
         ADD_FAILURE() << engine << ", " << s.name << ": " << warning;
       }
       EXPECT_EQ(r.tally.off, 0) << s.name;
@@ -209,7 +209,7 @@ TEST(Trust, TheSummarySaysHowItWasStepped) {
   EXPECT_EQ(json.at("step_setting"), "auto");
   EXPECT_EQ(json.at("integrator"), "adaptive");
   EXPECT_EQ(json.at("accuracy"), 0.01);
-  EXPECT_GT(json.at("solves"), 60 * 3);  // at least second order: three solves in each of 60 steps
+  EXPECT_GT(json.at("solves"), 60 * 3);  // order 2 requires at least three solves in each of 60 steps
   EXPECT_EQ(json.at("off_law"), 0);
   EXPECT_GT(json.at("torque_error").at("worst"), 0);
   EXPECT_EQ(json.at("torque_error").at("per_joint").size(), 22U);
@@ -224,11 +224,11 @@ TEST(Trust, TheSummarySaysHowItWasStepped) {
 
   const auto bullet = summary_of(shipped("hexapod.yaml", {"duration=0.3"}));
   EXPECT_EQ(bullet.at("step_setting"), 2.5e-5);
-  EXPECT_EQ(bullet.at("solves"), 0);  // not counted
+  EXPECT_EQ(bullet.at("solves"), 0);  // engine bullet does not count solves
   EXPECT_GT(bullet.at("torque_error").at("worst"), 0);
 }
 
-/// The columns say what the summary says, of the time until then.
+/// The columns torque_error.* and steps.* contain the numbers of the summary for the time up to the row.
 TEST(Trust, ColumnsGrowIntoTheSummary) {
   const Scenario s = shipped("hexapod.yaml", {"physics.engine=articulated", "physics.step=5e-3", "duration=0.6",
                                               "trace.columns=['torque_error.*', 'steps.*']"});
@@ -244,21 +244,21 @@ TEST(Trust, ColumnsGrowIntoTheSummary) {
   for (std::size_t k = 1; k <= last; ++k) EXPECT_GT(table.at(k, "steps.solves"), table.at(k - 1, "steps.solves"));
 }
 
-/// A motor that jumps to its limit at the start gives a peak that no later torque comes near: the error is not relative to it.
+/// The torque error is not relative to a peak at the start, which may be much larger than all later torques.
 TEST(Trust, AnErrorIsRelativeToTheTorquesOfTheWholeRun) {
   const Recording r = run(scenario(
       "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]], base: fixed, on_ground: false}\nground: {type: none}\n"
       "contact: {on: none}\nphysics: {engine: articulated, gravity: [0, 0, 0]}\ninitial: {angles: 0.02}\n"
       "cpg: {type: sine, frequency: 0, amplitude: 0}\nduration: 0.3\n"));
-  // The last joint moves next to nothing, and is where it should be after some milliseconds.
-  // At t = 0 the motor takes 2 V, 0.76 N m at rest; from 5 ms on, where the error is asked for, it needs 0.015 N m.
+  // The last joint hardly moves and reaches its set point after some milliseconds. At t = 0 its motor has 2 V, which is 0.76 N
+  // m at rest. From 5 ms on, where the error is estimated, its torque is 0.015 N m.
   EXPECT_GT(r.joints[3].torque_peak, 0.4);
   EXPECT_GT(r.tally.torque_peak[3], 0.001);
   EXPECT_LT(r.tally.torque_peak[3], 0.1);
 }
 
-/// The torque of an ideal source depends on no speed: where its command does not either, that two runs agree in it says
-/// nothing of their steps. A loop shows them.
+/// The torque of an ideal source does not depend on the speed. If its command does not depend on the motion either, equal
+/// torques of two runs are no evidence. With a control loop, the torques depend on the steps.
 TEST(Trust, TorqueSourcesAreEstimatedByTheirCommands) {
   const std::string text =
       "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nactuator: {type: torque, limit: 1.9}\n"
@@ -276,8 +276,8 @@ TEST(Trust, TorqueSourcesAreEstimatedByTheirCommands) {
   }
 }
 
-/// Torque that rises with the speed: an implicit step has many solutions, any of which is on the law. Dry friction: none where
-/// the joint sticks. Neither may pass unsaid.
+/// The program warns of actuators that an implicit step cannot solve. If the torque increases with the speed, the step has many
+/// solutions; with dry friction it has none while the joint sticks.
 TEST(Trust, AnActuatorThatAnImplicitStepCannotSolveIsNeverSilent) {
   const Folder folder;
   std::filesystem::create_directory_symlink(kScenarios + "modules", folder / "modules");
@@ -303,7 +303,7 @@ TEST(Trust, AnActuatorThatAnImplicitStepCannotSolveIsNeverSilent) {
   EXPECT_TRUE(contains(text, " joint-steps ended off the law of their motor or stop: the torques there are wrong")) << text;
   const auto json = nlohmann::json::parse(read(folder / fmt::format("out{}/summary.json", runs)));
   EXPECT_GT(json.at("off_law"), 0);
-  EXPECT_FALSE(contains(said(" --set actuator.rise=-0.05"), " joint-steps ended off"));  // one that falls
+  EXPECT_FALSE(contains(said(" --set actuator.rise=-0.05"), " joint-steps ended off"));  // torque decreases with the speed
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A walk whose recording tests of the verdict change by hand.
+// Recorded walk that tests of the verdict change before they compute the verdict.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -14,12 +14,12 @@ namespace gaitlab::test {
 
 using namespace report;
 
-/// A caterpillar of 4 s, which is one period, changed by hand.
+/// Run of the caterpillar for 4 s, which is one period. Tests change its recording.
 struct Case {
   Scenario scenario = shipped("caterpillar.yaml", {"duration=4", "physics.engine=articulated"});
   Recording record = run(scenario);
-  std::optional<Overlaps> known = {};                  ///< none: those of the record, which take most of a test's time
-  std::function<void(Summary&, Overlaps&)> also = {};  ///< changes what is computed from the record
+  std::optional<Overlaps> known = {};                  ///< if absent, computed from the record, which is slow
+  std::function<void(Summary&, Overlaps&)> also = {};  ///< changes the summary and overlaps of the record
 
   [[nodiscard]] Verdict judged() const {
     Summary summary = summarise(scenario, record, 0);
@@ -33,13 +33,13 @@ struct Case {
     return found != made.checks.end() ? *found : Check();
   }
   [[nodiscard]] CheckStatus status(const std::string& id) const { return check(id).status; }
-  /// A joint's cell in one row of ticks.
+  /// Cell of a joint in a row of the recording's ticks.
   double& tick(std::size_t row, std::size_t joint, TickColumn column) {
     return record.ticks.values.at(row * record.ticks.columns.size() + 1 + joint * kTickColumns + column);
   }
   [[nodiscard]] std::size_t last_tick() const { return record.ticks.rows() - 1; }
   [[nodiscard]] double time(std::size_t row) const { return record.ticks.values.at(row * record.ticks.columns.size()); }
-  /// Cells of the tables of poses and of loads, which have the rows of ticks.
+  /// Cells of the tables of poses and of loads. These tables have the same rows as the ticks.
   double& pose(const std::string& column, std::size_t row) { return cell(record.poses, column, row); }
   double& load(const std::string& column, std::size_t row) { return cell(record.loads, column, row); }
   static double& cell(Trace& of, const std::string& column, std::size_t row) {
@@ -52,7 +52,7 @@ inline Case& walk() {
   return made;
 }
 
-/// Three periods, which are evidence of a gait, with the loads of docks and feet.
+/// Run of three periods, which is sufficient evidence of a gait, with the loads of docks and feet.
 inline Case& gait() {
   static Case made = [] {
     Scenario scenario = shipped("caterpillar.yaml", {"duration=12", "physics.engine=articulated"});
@@ -64,11 +64,11 @@ inline Case& gait() {
   return made;
 }
 
-/// Changes of a recorded run by tests.
+/// Change of a recorded run by a test.
 using Change = std::function<void(Case&)>;
 
-/// The same as the gait, with what makers state of motors, gears and docks, far above what it takes, no error of its torques,
-/// and no bodies in one another, which saves most of a test's time.
+/// Run of gait() with ratings of motors, gears and docks that are far above its loads. Torque errors are not estimated, and
+/// overlaps of bodies are set to none, which saves most of the time of a test.
 inline Case& rated_gait() {
   static Case made = [] {
     const Connector connector{.tension = 1000, .shear = 800, .bending = 400, .torsion = 200, .source = "chosen: test"};
@@ -89,13 +89,14 @@ inline Case& rated_gait() {
   return made;
 }
 
-/// A check of it after a change.
+/// Check `id` of rated_gait(), or of another case, after a change.
 inline Check changed(const std::string& id, const Change& change, Case made = rated_gait()) {
   change(made);
   return made.check(id);
 }
 
-/// Joint 3 is at the limit in each of the last `rows` ticks but every one whose number `every` divides.
+/// Run of walk() in which joint 3 is at the limit in the last `rows` ticks, except in ticks whose number is a multiple of
+/// `every`.
 inline Case at_limit(TickColumn column, std::size_t rows, std::size_t every = 0) {
   Case made = walk();
   double total = 0;

@@ -1,4 +1,4 @@
-// Checks of motors: ratings, envelopes, and their sources.
+// Tests of the checks of motors: ratings, envelopes, and the sources of their data.
 
 #include "report/analysis/envelope.h"
 #include "report/analysis/motors.h"
@@ -7,7 +7,7 @@
 namespace gaitlab::test {
 namespace {
 
-/// The envelope warns and never fails; the voltage and the current decide.
+/// A torque near the envelope of a motor gives a warning, never a failure. Only the checks of voltage and current can fail.
 TEST(Verdict, WarnsOfATorqueNearWhatAMotorHas) {
   const auto with = [&](double share) {
     Case made = walk();
@@ -21,7 +21,7 @@ TEST(Verdict, WarnsOfATorqueNearWhatAMotorHas) {
   EXPECT_EQ(with(0.85).value, 0.85);
 }
 
-/// The speed without torque is u_max / (Ks n): 7.4 V / (0.00395 V s/rad 594) = 3.1539 rad/s.
+/// Speeds are judged by the speed without load, u_max / (Ks n) = 7.4 V / (0.00395 V s/rad 594) = 3.1539 rad/s.
 TEST(Verdict, JudgesSpeedsByTheOneWithoutTorque) {
   const double no_load = 7.4 / (0.00395 * 594);
   const auto with = [&](double speed) {
@@ -39,7 +39,7 @@ TEST(Verdict, JudgesSpeedsByTheOneWithoutTorque) {
   EXPECT_EQ(motors(rated, 0).joint(0).speed_max, 1.2);
 }
 
-/// A maker's ratings are compared with the run: continuous ones with the RMS over the window, peak ones with the largest value.
+/// A continuous rating of the manufacturer is compared with the RMS over the window, a peak rating with the largest value.
 TEST(Verdict, JudgesRatings) {
   const auto with = [](const std::string& rating, double value) {
     Case made;
@@ -51,7 +51,7 @@ TEST(Verdict, JudgesRatings) {
   const std::vector<JudgedJoint> joints = summarise(walk().scenario, walk().record, 0).judged.joints;
   const std::vector<JudgedJoint> whole = summarise(walk().scenario, walk().record, 0).judged.whole;
   const auto most = [&](double JudgedJoint::*member) {
-    const bool peak = member == &JudgedJoint::torque_peak || member == &JudgedJoint::speed_peak;  // what breaks at once
+    const bool peak = member == &JudgedJoint::torque_peak || member == &JudgedJoint::speed_peak;  // judged in the whole run
     double largest = 0;
     for (const JudgedJoint& joint : peak ? whole : joints) largest = std::max(largest, joint.*member);
     return largest;
@@ -73,14 +73,15 @@ TEST(Verdict, JudgesRatings) {
   EXPECT_EQ(walk().status("gear_peak"), CheckStatus::not_judged) << "nobody states it";
 }
 
-/// The current of a DC motor is T / (eta Kt n), eq. 2, so that its RMS is the torque's over that.
+/// The current of a DC motor is T / (eta Kt n) by eq. 2. Its RMS is thus the RMS of the torque divided by eta Kt n.
 TEST(Verdict, OfCurrentsThatMakeTheTorques) {
   const std::vector<JudgedJoint> joints = summarise(walk().scenario, walk().record, 0).judged.joints;
   for (const JudgedJoint& joint : joints)
     EXPECT_NEAR(joint.current_rms, joint.torque_rms / (0.7 * 0.00395 * 594), 1e-9 * joint.current_rms);
 }
 
-/// |T| / (eta Kt n min(i_max, (u_max - s Ks n w) / R)), s the sign of T (eq. 1 and 2), recomputed from every step's row.
+/// The envelope ratio is |T| / (eta Kt n min(i_max, (u_max - s Ks n w) / R)) with the sign s of T (eq. 1 and 2). The test
+/// computes it from a row at every step.
 TEST(Verdict, EnvelopeIsTheLawsAtEveryStep) {
   const Scenario scenario =
       shipped("caterpillar.yaml", {"duration=2", "physics.engine=articulated", "physics.step=0.0005", "trace.period=0.0005"});
@@ -95,12 +96,12 @@ TEST(Verdict, EnvelopeIsTheLawsAtEveryStep) {
       const double there = std::min(1.2, (7.4 - std::copysign(0.00395 * 594 * w, drawn * w)) / 4.3);
       largest = std::max(largest, std::abs(drawn) / there);
     };
-    // A row has the command before it; the step that it begins has that of the next row.
+    // A row contains the command of the step before it. The step after the row has the command of the next row.
     for (std::size_t k = 0; k < speed.size(); ++k) {
       at(command[k], speed[k]);
       if (k + 1 < speed.size()) at(command[k + 1], speed[k]);
     }
-    // A step's stages lie between its ends, where a torque that swings may be larger.
+    // The tolerance is 1 %, because an oscillating torque may be larger in the stages of a step than at its ends.
     EXPECT_NEAR(judged.whole[j].envelope_peak, largest, 0.01 * largest) << scenario.robot->joints[j].name;
   }
 }

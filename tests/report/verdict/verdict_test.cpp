@@ -1,4 +1,4 @@
-// Every check on runs made for it: what passes, warns, fails, and what nobody knows.
+// Tests of the verdict on recordings that are changed to pass, warn, fail or not be judged.
 #include "report/verdict/verdict.h"
 
 #include <limits>
@@ -26,7 +26,8 @@ TEST(Verdict, OfAGaitThatTheMotorsCanDo) {
     EXPECT_EQ(gait().status(id), CheckStatus::not_judged) << id;
 }
 
-/// The window is 213 control ticks of 15 ms long: one tick is less than 1 % of it, and less than three control periods.
+/// A short time at a limit gives a warning, a long time a failure. The window has 213 control ticks of 15 ms, so that one tick
+/// is less than 1 % of it and less than three control periods.
 TEST(Verdict, WarnsOfShortLimitsAndFailsByLongOnes) {
   for (const auto& [column, id, name] :
        {std::tuple{kVoltageLimited, "voltage", "voltage"}, {kCurrentLimited, "current", "current"}}) {
@@ -57,8 +58,8 @@ TEST(Verdict, CountsJointsWithAMotor) {
   EXPECT_TRUE(contains(text, "1 of 1 joint reaches a limit, m0/arm longest:")) << text;
 }
 
-/// The text leads with what decided: four ticks on end, of which the run cuts the last one, are 55 ms,
-/// 1.7 % of the window.
+/// The text begins with the number that decided. Four consecutive ticks, the last one cut off by the end of the run, are 55 ms
+/// or 1.7 % of the window.
 TEST(Verdict, TellsTheNumberThatDecided) {
   Case made = at_limit(kCurrentLimited, 4);
   EXPECT_TRUE(contains(made.check("current").text, "worst m1/passive: 1.72 % of the judged time, up to 0.055 s on end"))
@@ -104,7 +105,7 @@ TEST(Verdict, JudgesStopsFallsAndTheEnd) {
   EXPECT_EQ(stops(0.005, 0.005), CheckStatus::warn);
   EXPECT_EQ(stops(0.02, 0.005), CheckStatus::fail);
   EXPECT_EQ(stops(0.005, 0.02), CheckStatus::fail);
-  Case both = walk();  // one joint is far beyond its range, another for long
+  Case both = walk();  // one joint is far beyond its range, another joint is beyond it for a long time
   both.record.joints[4].range_worst = 0.009;
   both.record.joints[6].range_worst = 0.002;
   both.record.joints[6].range_share = 0.02;
@@ -127,11 +128,11 @@ TEST(Verdict, JudgesStopsFallsAndTheEnd) {
   EXPECT_EQ(early.judged().word, Word::failed);
 }
 
-/// Two whole ticks and three quarters of the ones beside them: more than three, however the ticks lie.
+/// An interval of two whole ticks and three quarters of the ticks before and after them counts as more than three ticks.
 TEST(Verdict, CountsTheEndsOfAStretch) {
   Case made = walk();
   const auto t = [&](std::size_t row) { return made.record.ticks.values[row * made.record.ticks.columns.size()]; };
-  const std::size_t end = made.last_tick() - 1;  // the last tick is cut off by the end of the run
+  const std::size_t end = made.last_tick() - 1;  // the tick before the last, which the end of the run cuts off
   double total = 0;
   for (const auto& [row, part] : {std::pair{end - 3, 0.75}, {end - 2, 1.0}, {end - 1, 1.0}, {end, 0.75}, {end + 1, 0.0}}) {
     total += part * (t(row) - t(row - 1));
@@ -142,8 +143,8 @@ TEST(Verdict, CountsTheEndsOfAStretch) {
   EXPECT_NEAR(made.check("current").to - made.check("current").from, total, 1e-9);
 }
 
-/// Forty ticks at the limit, from the 102nd to the 142nd, are more than 39 periods, also where a row is four ticks: of whole
-/// rows they are 36.
+/// Forty ticks at the limit, from the 102nd to the 142nd, count as more than 39 periods, also if a row contains four ticks. The
+/// whole rows among them contain only 36 ticks.
 TEST(Verdict, OfHalvedTicks) {
   Case made = walk();
   made.scenario.limits.saturated_share = 1;
@@ -159,13 +160,14 @@ TEST(Verdict, OfHalvedTicks) {
   EXPECT_EQ(made.status("current"), CheckStatus::warn);
 }
 
-/// Gears that create energy are the paper's model, and count for nothing; energy that is lost is no evidence.
+/// Energy that gears create in the paper's model does not change the verdict. With an unexplained loss of energy, the run is
+/// not sufficient evidence.
 TEST(Verdict, IsOfRunsThatCanBeTrusted) {
   Case made = gait();
   for (JointStatistics& joint : made.record.joints) joint.created = made.record.ledger.electrical;
   EXPECT_EQ(made.status("created"), CheckStatus::warn);
   EXPECT_EQ(made.judged().word, Word::feasible);
-  made.record.ledger.copper += made.record.ledger.electrical;  // the residual
+  made.record.ledger.copper += made.record.ledger.electrical;  // increases the residual
   EXPECT_EQ(made.status("ledger"), CheckStatus::warn);
   EXPECT_EQ(made.judged().word, Word::not_judged);
   made.record.ledger.copper = made.record.joints[0].created = std::numeric_limits<double>::quiet_NaN();
@@ -196,7 +198,7 @@ TEST(Verdict, DoesNotAssumeWhatItDoesNotKnow) {
   const Verdict made = old.judged();
   EXPECT_EQ(made.word, Word::not_judged) << "nothing is known of the motors";
   EXPECT_TRUE(contains(old.check("voltage").text, "older format"));
-  Case bare = walk();  // as a CSV file alone: rows and nothing else
+  Case bare = walk();  // only trace rows, as in a CSV file
   bare.record.ticks = {};
   bare.record.joints.clear();
   for (const char* const id : {"voltage", "envelope", "tracking", "ledger", "created"})
@@ -221,7 +223,7 @@ TEST(Verdict, IsTheSameForAnyTracePeriod) {
   for (const char* period : {"5e-4", "0.005", "0.015"}) {
     Scenario s = shipped("caterpillar.yaml", {"duration=12", "physics.engine=articulated", "actuator.i_max=0.35",
                                               std::string("trace.period=") + period});
-    s.limits.touch = s.limits.sink = 0;  // so that the depths of bodies are told
+    s.limits.touch = s.limits.sink = 0;  // makes the texts state the depths of bodies
     const Recording r = run(s);
     const Verdict made = verdict(s, r, summarise(s, r, 1), overlaps(s, r));
     std::string text = name_of(made.word);

@@ -1,4 +1,4 @@
-// Every rule is heard on a scenario made for it, and none on the shipped ones.
+// Every warning appears for a scenario with its cause, and no warning appears for the shipped scenarios.
 #include "report/verdict/warnings.h"
 
 #include "report/analysis/summary.h"
@@ -16,7 +16,7 @@ std::vector<Warning> of(const std::string& file, const std::vector<std::string>&
   return setup_warnings(shipped(file, sets));
 }
 
-/// The one finding.
+/// Expects exactly one warning, of this severity and with this part of its text.
 void expect_one(const std::vector<Warning>& found, bool severe, const std::string& part) {
   ASSERT_EQ(found.size(), 1U) << part;
   EXPECT_EQ(found[0].severe, severe);
@@ -30,7 +30,7 @@ TEST(SetupWarnings, AreSilentOnShippedScenarios) {
 }
 
 TEST(SetupWarnings, TellASlipOfUnits) {
-  // 3.95 mN m/A written without the milli: a factor of 1000 to Ks.
+  // Kt is 3.95 N m/A instead of 3.95 mN m/A, which differs from Ks by a factor of 1000.
   expect_one(of("caterpillar.yaml", {"actuator.Kt=3.95"}), true, "differ by a factor of 1e+03");
   expect_one(of("caterpillar.yaml", {"actuator.Ks=0.0053"}), true, "differ by a factor of 1.34");
   EXPECT_TRUE(of("caterpillar.yaml", {"actuator.Ks=0.005"}).empty()) << "1.27: of a data sheet";
@@ -49,7 +49,8 @@ TEST(SetupWarnings, TellAMotorThatMakesEnergy) {
   EXPECT_TRUE(of("caterpillar.yaml", {"actuator.Kt=0.0045"}).empty()) << "efficiency 0.7: 0.00315 < 0.00395";
 }
 
-/// Kp period / (Ks gear) = 1 at Kp = 0.00395 * 594 / 0.015 = 156.4 V/rad.
+/// The program warns of a control loop that overshoots. The limit Kp period / (Ks gear) = 1 is at Kp = 0.00395 * 594 / 0.015 =
+/// 156.4 V/rad.
 TEST(SetupWarnings, TellALoopThatCannotSettle) {
   EXPECT_TRUE(of("caterpillar.yaml", {"controller.Kp=156"}).empty());
   expect_one(of("caterpillar.yaml", {"controller.Kp=157"}), false, "overshoots; take Kp: 150 or less");
@@ -59,12 +60,13 @@ TEST(SetupWarnings, TellALoopThatCannotSettle) {
   expect_one(of("caterpillar.yaml", {"controller.Kp={default: 100, m3/active: 400}"}), true, "of joint m3/active");
 }
 
-/// Without back-EMF nothing slows the motor down, and the rule's loop is another.
+/// The rule for Kp does not apply to a motor without back-EMF, because nothing limits its speed.
 TEST(SetupWarnings, DoNotJudgeAMotorWithoutBackEmf) {
   EXPECT_TRUE(of("caterpillar.yaml", {"actuator.Ks=0", "controller.Kp=1000"}).empty());
 }
 
-/// 20 * 3000 / (20 + 3000 * 0.015) = 923 V/rad in the first tick: the derivative moves the bound, and nothing is said.
+/// The rule for Kp does not apply to a loop with a derivative gain, which changes the bound. The derivative contributes
+/// 20 * 3000 / (20 + 3000 * 0.015) = 923 V/rad in the first tick.
 TEST(SetupWarnings, DoNotJudgeALoopWithADerivativeGain) {
   EXPECT_TRUE(of("caterpillar.yaml", {"controller.Kp=400", "controller.Kd=20", "controller.N=3000"}).empty());
 }
@@ -99,7 +101,7 @@ TEST(RunWarnings, AreSilentOnShippedScenarios) {
     EXPECT_EQ(warnings_of(shipped(file, {"duration=4", "physics.engine=articulated"})), "") << file;
 }
 
-/// A robot without joints runs with the default columns, and has no energy balance of motors that could be off.
+/// A robot without joints runs with the default columns and without a warning on the energy balance of motors.
 TEST(RunWarnings, AreSilentOnAStone) {
   const Scenario stone = scenario(
       "gaitlab: 1\nrobot: {base: fixed, modules: {name: rigid, bodies: {block: {mass: 1, com: [0, 0, 0], inertia: [1, 1, 1, 0, "
@@ -117,7 +119,7 @@ TEST(RunWarnings, TellANegativeCostOfTransportHoweverSmall) {
   ASSERT_GT(drawn, 0);
   ASSERT_GT(travelled(r).distance, 0);
   r.joints[0].electrical -= drawn + 1e-9;
-  r.ledger.electrical = -1e-9;  // far less than lifts the robot by 1 mm
+  r.ledger.electrical = -1e-9;  // much less than the energy that lifts the robot by 1 mm
   EXPECT_LT(summarise(s, r, 1).cost_electrical, 0);
   std::string text;
   for (const std::string& doubt : messages(s, r)) text += doubt + "\n";
@@ -136,7 +138,7 @@ TEST(RunWarnings, TellASetPointThatJumps) {
   EXPECT_TRUE(contains(with("cpg.offset=0.3"), "at t = 0"));
 }
 
-/// `ramp` ramps the offset, too: a scenario with both has no jump.
+/// A CPG with `ramp` has no jump of the set points at the start, because the ramp also applies to the offset.
 TEST(RunWarnings, ARampIsOfTheOffset) {
   const Scenario s = shipped("caterpillar.yaml", {"duration=0.1", "physics.engine=articulated", "cpg.type=sine",
                                                   "cpg.offset=0.3", "cpg.model.ramp=1"});
@@ -168,7 +170,8 @@ TEST(RunWarnings, TellARobotThatLeavesItsField) {
   EXPECT_TRUE(contains(warnings_of(s), "leaves its heightfield at t = 0.1"));
 }
 
-/// Seven modules in a row coil up: hinges at 1.2 rad close a ring of 2 pi / 1.2 = 5.2 modules' halves.
+/// The program warns of bodies that pass through one another. Modules in a row coil up: hinges at 1.2 rad close a ring after
+/// 2 pi / 1.2 = 5.2 blocks.
 TEST(RunWarnings, TellBodiesThatPassThroughOneAnother) {
   const char* const coil =
       "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0], [1, 2, 4, 1, 0], [1, 3, 4, 2, 0]], position: [0, 0, 1]}\n"
@@ -183,7 +186,8 @@ TEST(RunWarnings, TellBodiesThatPassThroughOneAnother) {
   EXPECT_EQ(with("0.6", ""), "");
 }
 
-/// Two modules stand on their end faces and lift their middle, or lower it: feet are at the ends alone.
+/// The program warns of bodies that pass through the ground. Two modules stand on their end faces and lift or lower their
+/// middle; the only feet are at the ends.
 TEST(RunWarnings, TellBodiesThatGoThroughTheGround) {
   const auto with = [&](const std::string& on) {
     return warnings_of(

@@ -1,4 +1,4 @@
-// The points of a study, by number.
+// Tests of the points of a study by their numbers.
 #include "studies/plan/points.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ TEST(Points, OfAGridAreItsProductAndTheLastIsTheFastest) {
   EXPECT_EQ(points.values(0), (Values{"0.5", "0.01", "hopf"}));
   EXPECT_EQ(points.values(1), (Values{"0.5", "0.01", "sine"}));
   EXPECT_EQ(points.values(2), (Values{"0.5", "0.1", "hopf"}));
-  EXPECT_EQ(points.values(10), (Values{"0.6", "0.01", "hopf"}));  // as it is written, not 0.6000000000000001
+  EXPECT_EQ(points.values(10), (Values{"0.6", "0.01", "hopf"}));  // 0.6 as in the file, not 0.6000000000000001
   EXPECT_EQ(points.values(169), (Values{"2.1", "100", "sine"}));
 }
 
@@ -66,7 +66,8 @@ TEST(Points, ThatAreDrawnLieWithinAndDoNotDependOnTheirNumber) {
       small += b < 1 ? 1 : 0;
     }
     EXPECT_EQ(all.size(), 1000U);
-    // Even in the logarithm: half are below 1; four standard deviations of a count of 1000 halves.
+    // The values are uniform in the logarithm, so that half are below 1. The tolerance is four standard deviations of this
+    // count.
     EXPECT_NEAR(small, 500, 4 * 16);
     Study larger = study;
     larger.runs = 100000;
@@ -74,8 +75,8 @@ TEST(Points, ThatAreDrawnLieWithinAndDoNotDependOnTheirNumber) {
   }
 }
 
-/// Each of the 2^k equal parts of an axis holds one of the first 2^k points of a Sobol sequence (its point 0 left out, others
-/// move up by one: at most one part is empty and one holds two).
+/// Each of the 2^k equal parts of an axis contains one of the first 2^k points of a Sobol sequence. Because point 0 is omitted,
+/// one part may be empty and one part may contain two points.
 TEST(Points, OfSobolAreEven) {
   Study study;
   study.method = Method::sobol;

@@ -1,4 +1,4 @@
-// Jobs and rows as bytes: what comes back is what went in.
+// Jobs and rows that are converted to bytes and back are unchanged.
 #include "studies/run/parcel.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Searches: pagmo by record and replay is pagmo; the box, the order of points, restarts.
+// Tests of searches: pagmo by record and replay gives the results of pagmo; limits of parameters, order of points, restarts.
 #include "studies/search/search.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,8 @@ Vector sphere(const Vector& x) {
   return {sum};
 }
 
-/// Axes of very different length, turned by 30 degrees in every plane of two neighbours.
+/// Quadratic test function with axes of very different lengths, rotated by 30 degrees in every plane of two neighbouring
+/// coordinates.
 Vector rotated_ellipsoid(const Vector& x) {
   const double c = std::cos(0.5235987755982988);
   const double s = 0.5;
@@ -52,7 +53,7 @@ Vector rotated_ellipsoid(const Vector& x) {
 
 Vector two_hills(const Vector& x) { return {sphere(x)[0], std::pow(x[0] - 2, 2) + std::abs(x[1])}; }
 
-/// The same as pagmo meets it without us.
+/// Problem for a direct call of pagmo, without gaitlab.
 struct Plain {
   Function function = rosenbrock;
   std::size_t objectives = 1;
@@ -81,7 +82,7 @@ void expect_pagmo(Method method, pagmo::algorithm algorithm, Function function, 
     EXPECT_GT(values.size(), 1U);
     ours->tell(values);
   }
-  EXPECT_EQ(ours->points(), serial.get_x());  // bit for bit
+  EXPECT_EQ(ours->points(), serial.get_x());  // identical bits
   EXPECT_EQ(ours->values(), serial.get_f());
 }
 
@@ -94,7 +95,7 @@ TEST(Evolution, IsPagmosOwnBitForBit) {
   expect_pagmo(Method::nsga2, pagmo::algorithm(pagmo::nsga2(1, 0.95, 10, 0.1, 50, 7)), two_hills, 2);
 }
 
-/// Points asked until the search ends, at most `most`.
+/// Points that the search requests until it ends, at most `most`.
 std::vector<Vector> asked(Search& search, Function function, std::size_t most) {
   std::vector<Vector> all;
   while (all.size() < most) {
@@ -111,7 +112,7 @@ std::vector<Vector> asked(Search& search, Function function, std::size_t most) {
 
 TEST(Search, StaysInTheBoxAndFindsACorner) {
   Search search({.algorithm = Method::cma, .dimensions = 3, .restarts = 0});
-  const auto corner = [](const Vector& x) { return Vector{x[0] + 2 * x[1] - x[2]}; };  // least at 0, 0, 1
+  const auto corner = [](const Vector& x) { return Vector{x[0] + 2 * x[1] - x[2]}; };  // minimum at (0, 0, 1)
   double best = 9;
   for (const Vector& point : asked(search, corner, 2000)) {
     for (const double c : point) {
@@ -121,7 +122,7 @@ TEST(Search, StaysInTheBoxAndFindsACorner) {
     }
     best = std::min(best, corner(point)[0]);
   }
-  EXPECT_LT(best, -1 + 1e-3);  // points land on both sides of a face and are mirrored; converged means 1e-4
+  EXPECT_LT(best, -1 + 1e-3);  // less than the convergence of 1e-4, because points outside are mirrored into the box
 }
 
 TEST(Search, IsAFunctionOfItsSeed) {

@@ -1,4 +1,4 @@
-// Estimates of sensitivity, against functions whose indices are known in closed form.
+// Estimates of sensitivity agree with the indices of functions that are known in closed form.
 #include "studies/search/sensitivity.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ std::vector<double> answers(std::size_t points, const std::function<Shares(std::
   return values;
 }
 
-/// Ishigami and Homma (1990), a = 7, b = 0.1, of angles in [-pi, pi].
+/// Function of Ishigami and Homma (1990) with a = 7, b = 0.1 and angles in [-pi, pi].
 double ishigami(const Shares& shares) {
   const auto angle = [&](std::size_t k) { return kPi * (2 * shares[k] - 1); };
   const double s = math::sin(angle(1));
@@ -33,7 +33,7 @@ double ishigami(const Shares& shares) {
   return math::sin(angle(0)) * (1 + 0.1 * cubed * cubed) + 7 * s * s;
 }
 
-/// S and ST as Saltelli et al. give them; 0.03 is what the issue asks of 4096 samples.
+/// The indices S and ST agree with the values of Saltelli et al. The tolerance 0.03 is the required accuracy for 4096 samples.
 TEST(Sensitivity, SobolIndicesOfIshigami) {
   constexpr std::size_t kRows = 4096;
   const auto design = [](std::uint64_t point) { return saltelli_shares(3, point); };
@@ -50,16 +50,16 @@ TEST(Sensitivity, SobolIndicesOfIshigami) {
     EXPECT_NEAR(first.value, kFirst[k], 0.03) << k;
     EXPECT_LE(total.low, total.value);
     EXPECT_GE(total.high, total.value);
-    EXPECT_LT(total.high - total.low, 0.1);  // of so many samples
+    EXPECT_LT(total.high - total.low, 0.1);  // width of the confidence interval for this number of samples
     EXPECT_LE(first.low, kFirst[k] + 0.03);
     EXPECT_GE(first.high, kFirst[k] - 0.03);
   }
   EXPECT_EQ(found.used, kRows);
   const Sensitivity again = sobol_indices(3, values);
-  EXPECT_EQ(again.measures[1].of[2].high, found.measures[1].of[2].high);  // counted draws: the same every time
+  EXPECT_EQ(again.measures[1].of[2].high, found.measures[1].of[2].high);  // the random draws are reproducible
 }
 
-/// Effects per range are the coefficients, whatever the trajectories: up to the rounding of differences.
+/// The elementary effects of a linear function are its coefficients for any trajectories, up to rounding errors of differences.
 TEST(Sensitivity, MorrisOfALinearFunctionIsExact) {
   constexpr double kCoefficients[] = {3, -0.5, 0, 12};
   const auto design = [](std::uint64_t point) { return morris_shares(7, 4, point); };
@@ -78,7 +78,7 @@ TEST(Sensitivity, MorrisOfALinearFunctionIsExact) {
   }
 }
 
-/// x y: what one does depends on the other. For a function of x in [-1, 1] with both signs mu can vanish, and mu* does not.
+/// For the product x y, the effect of x depends on y, which sigma shows. If effects have both signs, mu may be 0, but not mu*.
 TEST(Sensitivity, SigmaTellsWhatIsNotLinear) {
   const auto design = [](std::uint64_t point) { return morris_shares(1, 2, point); };
   const auto product = [](const Shares& s) { return (2 * s[0] - 1) * (2 * s[1] - 1); };
@@ -108,7 +108,7 @@ TEST(Sensitivity, OneStepOfATrajectoryChangesOneParameter) {
   }
 }
 
-/// A run that failed takes its trajectory or row along, and nothing else.
+/// A failed run excludes only its trajectory or row.
 TEST(Sensitivity, LeavesOutWhatHoldsAFailedRun) {
   const auto design = [](std::uint64_t point) { return saltelli_shares(2, point); };
   std::vector<double> values = answers(64UL * 4, design, [](const Shares& s) { return s[0] + 2 * s[1]; });
@@ -120,7 +120,7 @@ TEST(Sensitivity, LeavesOutWhatHoldsAFailedRun) {
   for (const std::size_t k : {0U, 1U}) EXPECT_EQ(found.measures[0].of[k].value, whole.measures[0].of[k].value);
 }
 
-/// Nothing left, one left, a function that does not vary: not known, and no number that looks like one.
+/// The indices are NaN if no or one row is left, or if the function is constant.
 TEST(Sensitivity, IsNotKnownWhereNothingVaries) {
   const std::vector<double> none(8UL * 4, kMissing);
   EXPECT_TRUE(std::isnan(sobol_indices(2, none).measures[0].of[0].value));
@@ -132,7 +132,7 @@ TEST(Sensitivity, IsNotKnownWhereNothingVaries) {
   for (std::size_t k = 0; k < 4; ++k) one[k] = static_cast<double>(k);
   EXPECT_EQ(morris(1, 3, one).used, 1U);
   EXPECT_TRUE(std::isfinite(morris(1, 3, one).measures[0].of[0].value));
-  EXPECT_TRUE(std::isnan(morris(1, 3, one).measures[2].of[0].value));  // of one trajectory
+  EXPECT_TRUE(std::isnan(morris(1, 3, one).measures[2].of[0].value));  // unknown with one trajectory
   EXPECT_TRUE(std::isnan(sobol_indices(2, one).measures[0].of[0].value));
   EXPECT_EQ(sobol_indices(2, {}).blocks, 0U);
 }

@@ -1,4 +1,4 @@
-// Guards of studies: every check of the verdict, kept and broken by value.
+// Tests of the guards of studies: every check of the verdict as a guard, with margins that satisfy or violate it.
 #include "studies/study/guards.h"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ const studies::QuantityOffer& offered() {
   return kOffer;
 }
 
-/// The guards of a study that names these, and runs with margins set by hand.
+/// Guards of a study, and a run whose margins tests set.
 class Guarded {
  public:
   explicit Guarded(std::vector<Guard> guards, bool guarded = true, bool of_energy = false) {
@@ -77,7 +77,7 @@ TEST(Guards, OfEveryCheckAreKeptFromTheirMarginOnAndBrokenBelow) {
   }
 }
 
-/// Checks that can fail count for the verdict, which every study is guarded by; those that only warn do not.
+/// The default guards of a study are the checks that can fail. Checks that only warn are not guards.
 TEST(Guards, OfTheVerdictAreTheChecksThatCanFail) {
   for (const studies::CheckOffer& check : offered().checks) {
     SCOPED_TRACE(check.id);
@@ -104,7 +104,7 @@ TEST(Guards, AskForTheWordFeasible) {
   EXPECT_EQ(verdict.texts().front(), "feasible >= 1");
 }
 
-/// A study may ask less of a check than the verdict; then that check alone does not make a run infeasible for it.
+/// A study may require less of a check than the verdict. A run that only fails this check in the verdict is then kept.
 TEST(Guards, MayAskLessThanTheVerdict) {
   Guarded guards({{"stops", Asks::limit, 0.1}});
   guards.set("margin.stops", -0.5).set("margin.stops[0.1]", 0.2);
@@ -125,7 +125,7 @@ TEST(Guards, OfCreatedEnergyStandWhereElectricalEnergyIsTheObjective) {
   EXPECT_EQ(dropped.set("margin.created", -0.25).violation("feasible"), 0);
 }
 
-/// Old names with their number, and the check that each is.
+/// Old names of guards are accepted and correspond to checks.
 TEST(Guards, HaveOldNames) {
   struct Old {
     const char *name, *check;
@@ -154,7 +154,7 @@ TEST(Guards, HaveOldNames) {
   }
 }
 
-/// Old names without a check: that of the verdict itself, and those that need another setting.
+/// Old names of guards without a corresponding check give an error with the replacement.
 TEST(Guards, SayWhatOldNamesBecame) {
   const auto read = [](const std::string& text) {
     const Node node = parse_yaml("guards: {" + text + "}\n", "s.yaml");
@@ -174,7 +174,7 @@ TEST(Guards, SayWhatOldNamesBecame) {
             "[limits.beyond_range_share=0.2], or guards: {stops: ANGLE} with an angle in rad");
 }
 
-/// The columns of a run: the margins of its verdict, and those against the study's limits.
+/// The margin columns of a run equal the margins of its verdict, also for limits that the study changes.
 TEST(Guards, MarginsAreThoseOfTheVerdict) {
   const Scenario scenario = shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=4", "cpg.amplitude=1.2"});
   const Recording record = run(scenario);

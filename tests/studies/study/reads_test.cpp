@@ -1,4 +1,4 @@
-// Data that studies record of a rollout: they suffice for the verdict of a rollout that recorded everything.
+// The data that a study records of a rollout give the same verdict as a complete recording.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -10,7 +10,8 @@
 namespace gaitlab::test {
 namespace {
 
-/// All columns that a study of this robot can have. limits: with a margin of every check against another limit.
+/// All columns that a study of this robot can have. If `limits` is true, they include the margin of every check for a changed
+/// limit.
 std::vector<studies::Quantity> all_columns(const Scenario& scenario, bool limits) {
   const studies::QuantityOffer offer = app::quantity_offer();
   std::vector<studies::Quantity> columns = offer.common;

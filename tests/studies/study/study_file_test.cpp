@@ -1,4 +1,4 @@
-// Wrong studies, each with its message, before anything runs.
+// Every error in a study file has a message and is reported before any run.
 #include "studies/study/study_file.h"
 
 #include "app/study/study_quantities.h"
@@ -18,7 +18,7 @@ class StudyFile : public ::testing::Test {
                   "cpg: {type: phase_oscillator, frequency: 1}\nduration: 0.1\n");
   }
 
-  /// Reads a study of two.yaml and binds it; its errors without the folder's name.
+  /// Error message, without the folder, of a study file that is read and applied to two.yaml.
   std::string error(const std::string& text) { return error_of(folder_.write("s.yaml", text), studies::Purpose::sweep); }
   std::string error_of(const std::string& file, studies::Purpose purpose) {
     try {
@@ -31,7 +31,7 @@ class StudyFile : public ::testing::Test {
     }
     return "taken";
   }
-  /// Study of a search in which these lines are wrong.
+  /// Error message of a search study that is correct except for these lines.
   std::string search(const std::string& lines) {
     const std::string file = folder_.write("s.yaml",
                                            "gaitlab_study: 1\nscenario: two.yaml\nparameters: {cpg.frequency: {low: 0.5, "
@@ -39,11 +39,11 @@ class StudyFile : public ::testing::Test {
                                                lines);
     return error_of(file, studies::Purpose::optimize);
   }
-  /// The same of a study that is right but for these lines.
+  /// Error message of a sweep study that is correct except for these lines.
   std::string with(const std::string& lines) {
     return error("gaitlab_study: 1\nscenario: two.yaml\nparameters: {cpg.frequency: {low: 0.5, high: 1, count: 3}}\n" + lines);
   }
-  /// Lines of its parameters.
+  /// Error message of a sweep study with these parameters.
   std::string parameters(const std::string& text, const std::string& more = "") {
     return error("gaitlab_study: 1\nscenario: two.yaml\nparameters: {" + text + "}\n" + more);
   }

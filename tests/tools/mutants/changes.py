@@ -1,4 +1,4 @@
-"""What is mutated, and how: copies of the sources in which each change stands behind a number (mutants.h)."""
+"""Generates mutants: copies of the sources in which a number activates each change (mutants.h)."""
 import pathlib
 import re
 import sys
@@ -14,12 +14,12 @@ DEFAULTS = "core/scenario/scenario.h"
 
 
 class Mutants:
-    """Every mutant has a number and a name: its place and what it does. Each file has a thousand numbers, so that a change of one
-    does not compile the others."""
+    """Mutants with their numbers and names. A name is the place and the change. Each file has a range of a thousand numbers, so that a
+    change of a file does not require other files to be compiled again."""
 
     def __init__(self):
         self.names = {}
-        self.fresh = set()  # those that scenarios see which were made before
+        self.fresh = set()  # numbers of mutants that affect the creation of scenarios, and thus need a new process
         self.files = []
 
     def next(self, path):
@@ -37,13 +37,13 @@ class Mutants:
 
 
 def code_of(line):
-    """The line without its comment and with blanks for strings: what rules look at has the places of the line."""
+    """Line without its comment, and with spaces instead of strings, so that positions are those of the original line."""
     line = re.sub(r'"(?:\\.|[^"\\])*"', lambda m: "\0" * len(m.group()), line)
     return re.split(r"//", line)[0]
 
 
 def sub(line, pattern, replace):
-    """Replaces what matches outside of strings and comments."""
+    """Replaces matches of a pattern outside of strings and comments."""
     done, at = "", 0
     for match in re.finditer(pattern, code_of(line)):
         new = replace(match)
@@ -55,14 +55,14 @@ def sub(line, pattern, replace):
 
 
 NOT_A_LIMIT = re.compile(r"numeric_limits|^constexpr const char|k(Never|NoTime|None|NoFigure|Unknown)\b")
-# Statements that make a text; for loops, which would not end.
+# Lines that are not mutated: statements that create a text, and for loops, which might not end.
 TEXT = re.compile(r"^\s*(made\.text|made\.remedy|made\.source|const std::string|const char|return fmt|std::string text|text|for \()")
 OPERATORS = {"<": "less", ">": "more", "<=": "at_most", ">=": "at_least"}
 LIMIT_USE = r"(?:\w+\.limits\(\)|\b(?:s|scenario|run\.scenario|scenario_)\.limits|\blimits_)\.(\w+)\b(?:\(\))?"
 
 
 def constants(mutants, path, number, line, out):
-    """`constexpr double kA = 1, kB = 2;`, in a namespace as functions, elsewhere as values."""
+    """Mutates constants such as `constexpr double kA = 1, kB = 2;`. They become functions in a namespace, and values elsewhere."""
     match = re.match(r"(\s*)(inline )?constexpr double (.*?);(.*)$", line)
     if not match or NOT_A_LIMIT.search(line):
         return False
@@ -79,7 +79,7 @@ def constants(mutants, path, number, line, out):
 
 def mutate_checks(mutants, path, text):
     out = []
-    statement = ""  # the start of the statement that the line is of
+    statement = ""  # start of the statement that contains the line
     for number, line in enumerate(text.split("\n"), 1):
         code = code_of(line)
         if not statement:
@@ -115,7 +115,7 @@ def mutate_checks(mutants, path, text):
 
 
 def mutate_kinds(mutants, path, text):
-    """The span of every row: a copy of the table, made when it is asked for."""
+    """Mutates the span of every row of the table of checks, in a copy of the table that is created at the call."""
     rows = []
     for number, line in enumerate(text.split("\n"), 1):
         start = re.match(r'\s+\{"(\w+)", Group::', line)

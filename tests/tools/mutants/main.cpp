@@ -1,4 +1,4 @@
-// Runs the tests, once or with each of the mutants whose numbers it is given.
+// Runs the tests once, or once with each of the mutants whose numbers are the arguments.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -9,11 +9,11 @@
 
 #include "mutants.h"
 namespace {
-/// Tells the first test that is red; that of a mutant ends its process.
+/// Prints the first test that fails. With a mutant, this test also ends the process.
 struct First : testing::EmptyTestEventListener {
   const char* mutant = "";
   bool told = false;
-  std::string name;  // kept here: while a result is told, GoogleTest holds the lock that current_test_info() takes
+  std::string name;  // copy of the test's name, because current_test_info() would deadlock while a result is reported
   void OnTestStart(const testing::TestInfo& test) override { name = std::string(test.test_suite_name()) + "." + test.name(); }
   void OnTestPartResult(const testing::TestPartResult& result) override {
     if (!result.failed() || told) return;
@@ -23,8 +23,8 @@ struct First : testing::EmptyTestEventListener {
   }
 };
 }  // namespace
-// Without numbers: the tests, once. With numbers: each in a process of its own, behind a run that is green and has made the
-// walks.
+// Without arguments, runs the tests once. With numbers of mutants, first runs the tests without a mutant, which must pass and
+// prepares the walks, and then each mutant in a separate process.
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   auto* first = new First;
@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
     if (child == 0) {
       gaitlab::mutants::current() = std::atoi(argv[i]);
       first->mutant = argv[i];
-      const rlimit most{120, 120};  // s of CPU: a loop that does not end
+      const rlimit most{120, 120};  // limit of CPU time for endless loops, s
       setrlimit(RLIMIT_CPU, &most);
       if (std::freopen("/dev/null", "w", stdout) == nullptr) _exit(2);
       _exit(RUN_ALL_TESTS());

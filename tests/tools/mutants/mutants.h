@@ -1,4 +1,4 @@
-// The mutant that is on, by its number, and the changes that it makes.
+// Number of the active mutant, and the changes of the code by mutants.
 #pragma once
 #include <cstdlib>
 namespace gaitlab::mutants {
@@ -9,7 +9,7 @@ inline int& current() {
 inline bool on(int id) { return current() == id; }
 inline double scaled(int id, double value) { return on(id) ? 1.3 * value : value; }
 enum class Is { less, more, at_most, at_least };
-/// a < Turn < b, for each of the four comparisons.
+/// Comparison that mutant `id` reverses. The code writes a < Turn < b for each of the four comparisons.
 struct Turn {
   int id;
   Is is;
