@@ -52,8 +52,8 @@ bool try_all(const studies::Plan& plan, std::size_t scenario, std::vector<Way>& 
   }
   return run_all(tried, {}, measure.reads, stopped(), [&](std::size_t k, RolloutEnd&& end) {
     if (!end.refused.empty() || !end.recording.outcome.done()) return;
-    const studies::Judged judged = measure(end.rollout.scenario, end.recording);
-    const double value = plan.judge().score(judged.quantities, judged.verdict).objective();
+    const studies::Measured measured = measure(end.rollout.scenario, end.recording);
+    const double value = plan.scorer().score(measured.quantities, measured.verdict).objective();
     if (std::isfinite(value)) of[k]->objective = value;
     of[k]->error = report::torque_error(end.recording);
   });
@@ -79,7 +79,7 @@ std::string text(const studies::Plan& plan, const Scenario& own, const std::vect
   const double half = *all[1].objective;
   const Cost cost{half + (half - *given.objective) / (ratio - 1)};
   if (!(std::abs(cost.limit) > 0)) return "";
-  const std::string& objective = plan.judge().objectives().front();
+  const std::string& objective = plan.scorer().objectives().front();
   std::string said = fmt::format("step {} s costs {} of {} on the scenario's own gait", number_text(own.physics.step),
                                  report::texts::rough_percent(cost.of(*given.objective)), clipped(objective));
   const bool chooses = all.size() > 2 && all[2].objective;

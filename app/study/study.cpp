@@ -279,9 +279,9 @@ int rerun_study(const StudyArguments& a) {
     fmt::print("the study ended this run early: {}; here it ran on\n", one_line(cell("message")));
     return code == 2 ? 2 : 0;
   }
-  const studies::Judged judged = quantity_measure(head.quantities, scenario)(scenario, again.stored.recording);
+  const studies::Measured measured = quantity_measure(head.quantities, scenario)(scenario, again.stored.recording);
   const std::vector<std::string> found =
-      differences(names, row, journal.columns(), judged.quantities, again.stored.recording.outcome);
+      differences(names, row, journal.columns(), measured.quantities, again.stored.recording.outcome);
   if (found.empty()) {
     fmt::print("the quantities are those of the journal\n");
     const bool lost = code == 1 && again.stored.recording.outcome.done();  // true if some files of the run could not be written

@@ -172,25 +172,25 @@ studies::Measure quantity_measure(const std::vector<studies::Quantity>& columns,
   std::vector<std::optional<OfVerdict>> of_verdict;
   for (const studies::Quantity& column : columns) of_verdict.push_back(OfVerdict::find(column.name));
   // The robot of another scenario of the study may have the same joints with other numbers.
-  const auto judged = [columns, usual, of_verdict, joints = names_of_joints(*scenario.robot)](const Scenario& of,
-                                                                                              const Recording& recording) {
+  const auto measure = [columns, usual, of_verdict, joints = names_of_joints(*scenario.robot)](const Scenario& of,
+                                                                                               const Recording& recording) {
     const QuantityColumns quantities = names_of_joints(*of.robot) == joints ? usual : quantity_columns(columns, *of.robot);
     const report::Summary summary = report::summarise(of, recording, 0);
-    studies::Judged judged;
+    studies::Measured measured;
     const report::Verdict verdict = report::verdict(of, recording, summary, report::overlaps(of, recording));
     for (std::size_t k = 0; k < columns.size(); ++k) {
-      judged.quantities.push_back(quantities[k]   ? quantities[k]->value({of, recording, summary})
-                                  : of_verdict[k] ? of_verdict[k]->value(verdict)
-                                                  : std::nan(""));
+      measured.quantities.push_back(quantities[k]   ? quantities[k]->value({of, recording, summary})
+                                    : of_verdict[k] ? of_verdict[k]->value(verdict)
+                                                    : std::nan(""));
     }
-    judged.verdict = name_of(verdict.word);
-    judged.why = verdict.why();
-    return judged;
+    measured.verdict = name_of(verdict.word);
+    measured.why = verdict.why();
+    return measured;
   };
   Records reads = report::kVerdictReads;
   if (std::ranges::any_of(of_verdict, [](const std::optional<OfVerdict>& one) { return one && one->of_all_loads(); }))
     reads.loads = Loads::recorded;
-  return {judged, reads};
+  return {measure, reads};
 }
 
 }  // namespace gaitlab::app

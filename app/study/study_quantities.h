@@ -1,6 +1,6 @@
 // Quantities of a run for studies: the summary numbers, and the margins of the verdict's checks.
 #pragma once
-#include "studies/study/judge.h"
+#include "studies/study/scorer.h"
 
 namespace gaitlab::app {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "studies/journal/database.h"
-#include "studies/study/judge.h"
+#include "studies/study/scorer.h"
 
 namespace gaitlab::studies {
 

@@ -77,7 +77,7 @@ BoundStudy::BoundStudy(Study study, const QuantityOffer& offer, Catalog& catalog
   choose_shown(problems);
   if (shown_.empty()) problems.raise();  // the default objective is the first shown quantity
   if (Text& first = study_.objectives.front().expression; first.text.empty()) first.text = columns_[shown_.front()].name;
-  make_judges(offer, catalog, problems);
+  make_scorers(offer, catalog, problems);
   problems.raise();
 }
 
@@ -143,15 +143,15 @@ void BoundStudy::choose_shown(Problems& problems) {
   }
 }
 
-/// Refuses names in the study's expressions that a scenario lacks. The loop ends with the first scenario, whose judge and rules
-/// remain.
-void BoundStudy::make_judges(const QuantityOffer& offer, const Catalog& catalog, Problems& problems) {
+/// Refuses names in the study's expressions that a scenario lacks. The loop ends with the first scenario, whose scorer and
+/// rules remain.
+void BoundStudy::make_scorers(const QuantityOffer& offer, const Catalog& catalog, Problems& problems) {
   std::vector<Problems> found(scenarios_.size());
   std::vector<std::vector<Quantity>> columns(scenarios_.size());
   for (std::size_t s = scenarios_.size(); s-- > 0;) {
     StudyScenario& one = scenarios_[s];
     columns[s] = s == 0 ? columns_ : columns_of(study_, offer, one.joints);
-    judge_ = std::make_unique<Judge>(study_, columns[s], offer, one.joints, found[s]);
+    scorer_ = std::make_unique<Scorer>(study_, columns[s], offer, one.joints, found[s]);
     one.other_engine = other_engine_of(study_.verify, one.nominal, catalog, found[s]);
     stops_ = std::make_unique<StopRules>(study_, offer, one.joints, found[s]);
   }

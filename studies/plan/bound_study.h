@@ -7,8 +7,8 @@
 
 #include "studies/plan/stop_rules.h"
 #include "studies/study/followers.h"
-#include "studies/study/judge.h"
 #include "studies/study/scenarios.h"
+#include "studies/study/scorer.h"
 
 namespace gaitlab::studies {
 
@@ -16,7 +16,7 @@ class BoundStudy {
  public:
   /// Reads the scenarios and checks the study against each. Throws InputError with every problem found.
   BoundStudy(Study study, const QuantityOffer& offer, Catalog& catalog);
-  BoundStudy(const BoundStudy&) = delete;  // judge and stop rules refer to the study
+  BoundStudy(const BoundStudy&) = delete;  // scorer and stop rules refer to the study
   BoundStudy& operator=(const BoundStudy&) = delete;
 
   [[nodiscard]] const Study& study() const { return study_; }
@@ -28,7 +28,7 @@ class BoundStudy {
   [[nodiscard]] double longest() const;
   [[nodiscard]] bool has_other_engine() const;
   [[nodiscard]] const Followers& followers() const { return *followers_; }
-  [[nodiscard]] const Judge& judge() const { return *judge_; }
+  [[nodiscard]] const Scorer& scorer() const { return *scorer_; }
   [[nodiscard]] const StopRules& stops() const { return *stops_; }
   [[nodiscard]] const std::vector<Quantity>& columns() const { return columns_; }
   /// Columns of the quantities to show: those that match the study's patterns, in the order of the patterns. If the study has
@@ -47,14 +47,14 @@ class BoundStudy {
   void choose_shown(Problems& problems);
   void check_stops(Problems& problems) const;
   void check_engines(const Catalog& catalog, std::vector<Problems>& found) const;
-  void make_judges(const QuantityOffer& offer, const Catalog& catalog, Problems& problems);
+  void make_scorers(const QuantityOffer& offer, const Catalog& catalog, Problems& problems);
 
   Study study_;
   std::vector<StudyScenario> scenarios_;
   std::string scenario_text_;
   std::unique_ptr<Followers> followers_;
   std::vector<Quantity> columns_;
-  std::unique_ptr<Judge> judge_;
+  std::unique_ptr<Scorer> scorer_;
   std::unique_ptr<StopRules> stops_;
   std::vector<std::size_t> shown_;
 };

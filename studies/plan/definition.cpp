@@ -56,8 +56,8 @@ std::string definition(const BoundStudy& bound) {
   }
   for (const Variation& v : study.replicates.vary) text += fmt::format("vary {}: {}\n", v.key, law_text(v));
   for (std::size_t k = 0; k < study.objectives.size(); ++k)
-    text += fmt::format("{}: {}\n", study.objectives[k].maximize ? "maximize" : "minimize", bound.judge().objectives()[k]);
-  for (const Limit& limit : bound.judge().limits())
+    text += fmt::format("{}: {}\n", study.objectives[k].maximize ? "maximize" : "minimize", bound.scorer().objectives()[k]);
+  for (const Limit& limit : bound.scorer().limits())
     text += fmt::format("{}: {}\n", limit.guard ? "guard" : "constraint", limit.text);
   for (const std::string& stop : bound.stops().texts()) text += "stop: " + stop + "\n";
   text += fmt::format("estimate_every: {}\n", study.estimate_every);
@@ -80,7 +80,7 @@ JournalHead journal_head(const Plan& plan) {
     if (!one.name.empty()) head.scenarios.push_back(one.name);
   }
   for (std::size_t k = 0; k < study.objectives.size(); ++k)
-    head.objectives.push_back({plan.judge().objectives()[k], study.objectives[k].maximize});
+    head.objectives.push_back({plan.scorer().objectives()[k], study.objectives[k].maximize});
   head.combine = name_of(study.replicates.combine);
   head.quantile = study.replicates.quantile;
   head.runs = plan.most_runs();
@@ -91,7 +91,7 @@ JournalHead journal_head(const Plan& plan) {
   for (const Variation& v : study.replicates.vary) head.parameters.push_back({v.key, v.words, true, 0, 0, false, v.values});
   head.quantities = bound.columns();
   for (const std::size_t column : bound.shown()) head.shown.push_back(bound.columns()[column].name);
-  head.limits = plan.judge().limits();
+  head.limits = plan.scorer().limits();
   head.guarded = study.guarded;
   return head;
 }

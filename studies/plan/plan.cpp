@@ -101,11 +101,11 @@ void Plan::finish(Row& row, const Scenario& scenario, const Recording& recording
     row.verdict = "failed";
     return;
   }
-  Judged judged = measure(scenario, recording);
-  row.quantities = std::move(judged.quantities);
-  row.verdict = std::move(judged.verdict);
-  row.message = std::move(judged.why);
-  row.score = judge().score(row.quantities, row.verdict);
+  Measured measured = measure(scenario, recording);
+  row.quantities = std::move(measured.quantities);
+  row.verdict = std::move(measured.verdict);
+  row.message = std::move(measured.why);
+  row.score = scorer().score(row.quantities, row.verdict);
 }
 
 }  // namespace gaitlab::studies

@@ -22,7 +22,7 @@ class Plan {
   [[nodiscard]] const Scenario& scenario() const { return scenarios().front().nominal; }
   [[nodiscard]] const std::vector<StudyScenario>& scenarios() const { return bound_.scenarios(); }
   [[nodiscard]] double longest() const { return bound_.longest(); }
-  [[nodiscard]] const Judge& judge() const { return bound_.judge(); }
+  [[nodiscard]] const Scorer& scorer() const { return bound_.scorer(); }
   [[nodiscard]] const StopRules& stops() const { return bound_.stops(); }
   [[nodiscard]] const std::vector<Quantity>& columns() const { return bound_.columns(); }
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/study/judge.h"
+#include "studies/study/scorer.h"
 
 namespace gaitlab::studies {
 

@@ -200,7 +200,7 @@ std::optional<Row> Answers::find(const Row& wanted) {
   row.verdict = there[verdict_];
   if (row.outcome != "done") return row;
   for (const std::size_t k : quantities_) row.quantities.push_back(there[k].empty() ? std::nan("") : number_of(there[k]));
-  row.score = plan_.judge().score(row.quantities, row.verdict);
+  row.score = plan_.scorer().score(row.quantities, row.verdict);
   return row;
 }
 

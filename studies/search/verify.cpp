@@ -84,14 +84,14 @@ std::string reason(const Plan& plan, const std::vector<Row>& rows, const PointRe
     const double now = is.score.objectives[k];
     if (!(std::abs(now - then) <= plan.study().verify.change * std::abs(then))) {
       add(fmt::format("{} is {:.4g} instead of {:.4g}, beyond the {:.3g} % of verify.change",
-                      clipped(plan.judge().objectives()[k]), now, then, 100 * plan.study().verify.change));
+                      clipped(plan.scorer().objectives()[k]), now, then, 100 * plan.study().verify.change));
     }
   }
   for (const Row& row : rows) {
     const bool breaks = is.score.violation > 0 && row.score && row.score->violation > 0;
     const std::string doubted = doubt(row.verdict, evidence(plan, row), row.message);
     if (!breaks && doubted.empty()) continue;
-    const std::vector<std::string> broken = plan.judge().broken(row.quantities, row.verdict, row.message);
+    const std::vector<std::string> broken = plan.scorer().broken(row.quantities, row.verdict, row.message);
     const std::string of_verdict = row.verdict + (row.message.empty() ? "" : ": " + row.message);
     if (breaks) add(in_scenario(row) + fmt::format("{}", fmt::join(broken, ", ")));
     const bool said = breaks && std::ranges::find(broken, of_verdict) != broken.end();

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "studies/study/judge.h"
+#include "studies/study/scorer.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {

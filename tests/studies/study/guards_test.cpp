@@ -185,23 +185,23 @@ TEST(Guards, MarginsAreThoseOfTheVerdict) {
     columns.push_back({"margin." + check.id, "", ""});
     columns.push_back({"margin." + check.id + "[0.25]", "", ""});
   }
-  const studies::Judged judged = app::quantity_measure(columns, scenario)(scenario, record);
-  EXPECT_EQ(judged.verdict, name_of(verdict.word));
-  EXPECT_EQ(judged.why, verdict.why());
-  EXPECT_EQ(judged.quantities[0], verdict.word == report::Word::feasible ? 1 : 0);
-  EXPECT_EQ(judged.quantities[1], verdict.tightest()->margin);
+  const studies::Measured measured = app::quantity_measure(columns, scenario)(scenario, record);
+  EXPECT_EQ(measured.verdict, name_of(verdict.word));
+  EXPECT_EQ(measured.why, verdict.why());
+  EXPECT_EQ(measured.quantities[0], verdict.word == report::Word::feasible ? 1 : 0);
+  EXPECT_EQ(measured.quantities[1], verdict.tightest()->margin);
   std::size_t known = 0;
   for (std::size_t k = 0; k < verdict.checks.size(); ++k) {
     const report::Check& check = verdict.checks[k];
     SCOPED_TRACE(check.id);
-    const double margin = judged.quantities[2 + 2 * k];
+    const double margin = measured.quantities[2 + 2 * k];
     if (check.status == report::CheckStatus::fail) {
       EXPECT_LT(margin, 0);
     }
     if (check.status == report::CheckStatus::pass && !std::isnan(margin)) {
       EXPECT_GE(margin, 0);
     }
-    const double other = judged.quantities[3 + 2 * k];
+    const double other = measured.quantities[3 + 2 * k];
     if (std::isnan(check.margin) || check.criteria.size() > 1) continue;
     ++known;
     EXPECT_EQ(other, (check.least ? check.value - 0.25 : 0.25 - check.value) / 0.25);

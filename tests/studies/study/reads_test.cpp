@@ -48,13 +48,13 @@ TEST_P(StudyReads, AllThatIsJudged) {
     if (limits) {
       EXPECT_EQ(read.loads.columns.size(), whole.loads.columns.size());
     }
-    const studies::Judged expected = measure(scenario, whole);
-    const studies::Judged judged = measure(scenario, read);
-    EXPECT_EQ(judged.verdict, expected.verdict);
-    EXPECT_EQ(judged.why, expected.why);
+    const studies::Measured expected = measure(scenario, whole);
+    const studies::Measured measured = measure(scenario, read);
+    EXPECT_EQ(measured.verdict, expected.verdict);
+    EXPECT_EQ(measured.why, expected.why);
     for (std::size_t k = 0; k < columns.size(); ++k) {
-      EXPECT_EQ(std::bit_cast<std::uint64_t>(judged.quantities[k]), std::bit_cast<std::uint64_t>(expected.quantities[k]))
-          << columns[k].name << ": " << judged.quantities[k] << ", of everything " << expected.quantities[k];
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(measured.quantities[k]), std::bit_cast<std::uint64_t>(expected.quantities[k]))
+          << columns[k].name << ": " << measured.quantities[k] << ", of everything " << expected.quantities[k];
     }
   }
 }

@@ -1,4 +1,4 @@
-#include "studies/study/judge.h"
+#include "studies/study/scorer.h"
 
 #include <fmt/format.h>
 
@@ -74,8 +74,8 @@ std::vector<Quantity> columns_of(const Study& study, const QuantityOffer& offer,
   return columns;
 }
 
-Judge::Judge(const Study& study, const std::vector<Quantity>& columns, const QuantityOffer& offer,
-             const std::vector<std::string>& joints, Problems& problems)
+Scorer::Scorer(const Study& study, const std::vector<Quantity>& columns, const QuantityOffer& offer,
+               const std::vector<std::string>& joints, Problems& problems)
     : columns_(columns), offer_(offer), joints_(joints) {
   const Names names = [this](const std::string& name, const std::string& joint) { return find(name, joint); };
   for (const Objective& objective : study.objectives) {
@@ -95,7 +95,7 @@ Judge::Judge(const Study& study, const std::vector<Quantity>& columns, const Qua
   guards_ = Guards(study, names_of(columns_), offer.checks, std::ranges::any_of(objectives_, of_cost), problems);
 }
 
-Naming Judge::find(const std::string& name, const std::string& joint) const {
+Naming Scorer::find(const std::string& name, const std::string& joint) const {
   const std::size_t column = column_of(columns_, full(name, joint));
   if (column < columns_.size()) return {column};
   const std::vector<std::string> of_joints = names_of(offer_.of_joints);
@@ -108,15 +108,15 @@ Naming Judge::find(const std::string& name, const std::string& joint) const {
       "unknown quantity " + in_quotes(name) + offer(name, joint.empty() ? names_of(offer_.common) : of_joints, "quantities")};
 }
 
-std::vector<Limit> Judge::limits() const {
+std::vector<Limit> Scorer::limits() const {
   std::vector<Limit> all;
   for (const std::string& text : constraint_texts_) all.push_back({text});
   for (std::string& text : guards_.texts()) all.push_back({std::move(text), true});
   return all;
 }
 
-std::vector<std::string> Judge::broken(std::span<const double> quantities, const std::string& verdict,
-                                       const std::string& why) const {
+std::vector<std::string> Scorer::broken(std::span<const double> quantities, const std::string& verdict,
+                                        const std::string& why) const {
   std::vector<std::string> all;
   for (std::size_t k = 0; k < objectives_.size(); ++k) {
     if (!std::isfinite(objectives_[k].value(quantities))) all.push_back(objective_texts_[k] + " is not known");
@@ -129,7 +129,7 @@ std::vector<std::string> Judge::broken(std::span<const double> quantities, const
   return all;
 }
 
-Score Judge::score(std::span<const double> quantities, const std::string& verdict) const {
+Score Scorer::score(std::span<const double> quantities, const std::string& verdict) const {
   Score score;
   for (std::size_t k = 0; k < objectives_.size(); ++k) {
     score.objectives[k] = objectives_[k].value(quantities);

@@ -31,15 +31,16 @@ struct QuantityOffer {
 };
 
 /// Quantities of one run by column, NaN if not known, with the word of its verdict and the sentence after that word.
-struct Judged {
+struct Measured {
   std::vector<double> quantities;
   std::string verdict, why;
 };
-/// Function that judges a run, with the parts of the recording that the function reads. Several threads may call it at once.
+/// Function that computes the quantities of a run, with the parts of the recording that the function reads. Several threads may
+/// call it at once.
 struct Measure {
-  std::function<Judged(const Scenario&, const Recording&)> judged;
+  std::function<Measured(const Scenario&, const Recording&)> measured;
   Records reads;
-  Judged operator()(const Scenario& scenario, const Recording& recording) const { return judged(scenario, recording); }
+  Measured operator()(const Scenario& scenario, const Recording& recording) const { return measured(scenario, recording); }
 };
 
 /// A limit of a study: a constraint or a guard.
@@ -57,11 +58,11 @@ struct Score {
 
 /// Scores the runs of one study. A constraint with an unknown quantity counts as a violation of 1. A guard does not count if
 /// the run lacks its margin, such as a motor's margin in a robot without motors.
-class Judge {
+class Scorer {
  public:
   /// `columns` are those of the journal, in order. Faulty expressions and unknown quantities are problems at their places.
-  Judge(const Study& study, const std::vector<Quantity>& columns, const QuantityOffer& offer,
-        const std::vector<std::string>& joints, Problems& problems);
+  Scorer(const Study& study, const std::vector<Quantity>& columns, const QuantityOffer& offer,
+         const std::vector<std::string>& joints, Problems& problems);
 
   [[nodiscard]] Score score(std::span<const double> quantities, const std::string& verdict) const;
   /// Constraints and guards that a run violates, as in `torque.rms <= 0.6 (0.7)`. `why` is the sentence after the verdict.
@@ -92,7 +93,7 @@ double broken(const Formula& relation, std::span<const double> quantities, bool 
 double broken(double value, double limit, bool least);
 
 /// Columns of a journal: all quantities of every run, and the quantities of single joints that the study names. Unknown joints
-/// are omitted here, because Judge reports them.
+/// are omitted here, because Scorer reports them.
 std::vector<Quantity> columns_of(const Study& study, const QuantityOffer& offer, const std::vector<std::string>& joints);
 
 }  // namespace gaitlab::studies
