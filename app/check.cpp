@@ -95,7 +95,9 @@ int check(const CheckArguments& arguments) {
              robot.mass);
   const double rate = simulation->standing().rate;
   fmt::print("  engine {} ({}), {}{}\n", s.physics.engine->name, s.physics.integrator->name, report::step_text(s.physics),
-             rate > 0 ? fmt::format(": h lambda = {:.2f} standing (at most 1)", s.physics.step * rate) : "");
+             rate > 0 ? fmt::format(": step times damping rate h lambda = {:.2f} for the standing robot (at most 1)",
+                                    s.physics.step * rate)
+                      : "");
   const Vec3 start = start_state(s).position;
   fmt::print("  base frame at [{:.4g}, {:.4g}, {:.4g}] m at the start: {}\n", start.x(), start.y(), start.z(),
              !s.ground.exists() ? "there is no ground"

@@ -222,8 +222,8 @@ void take_rows_alone(const fs::path& file, StoredRecording& read) {
     throw unfit(file, fmt::format("its last row is at t = {}", read.recording.simulated));
   }
   read.missing.push_back(
-      fmt::format("{} holds rows only: peaks, shares of time, energies and the torque error, which are of all "
-                  "steps, are not known",
+      fmt::format("{} contains only rows: peaks, shares of time, energies and the torque error are not known, because they are "
+                  "computed from every step",
                   file.string()));
   std::vector<std::string> absent;
   for (const std::string& pattern : report_columns()) {

@@ -277,7 +277,10 @@ class ModuleReader {
     }
     for (const char* key : {"stiffness", "rest", "damping", "friction", "friction_speed"}) {
       if (const Node* own = reader.take(key)) {
-        problems_.add(own->place, fmt::format("{} is of a hinge without a motor; add drive: none, or remove it", key));
+        problems_.add(
+            own->place,
+            fmt::format("{0} is only for a hinge without a motor, and this hinge has one; add drive: none, or remove {0}",
+                        key));
       }
     }
   }

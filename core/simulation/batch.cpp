@@ -55,7 +55,8 @@ class Waiting {
   }
 
  private:
-  /// Number of rollouts per thread, so that the last rollouts are divided among all threads.
+  /// Largest number of the `left` waiting rollouts for one thread: all of them while more are to come, and then an equal share,
+  /// so that the last rollouts occupy all threads.
   [[nodiscard]] std::size_t fair(std::size_t left) const {
     const auto threads = static_cast<std::size_t>(std::max(1, settings_.threads));
     return more_ ? left : (left + threads - 1) / threads;

@@ -161,7 +161,7 @@ void stops(const CheckedRun& run, Check& made) {
                           made.parts == 1 ? "s" : "", made.worst);
   made.text += by_angle
                    ? fmt::format("by {:.3g} rad, for {} of the run", joints[worst].worst, texts::percent(joints[worst].share))
-                   : fmt::format("for {} of the run, more than {}, by up to {:.3g} rad", texts::percent(joints[worst].share),
+                   : fmt::format("for {} of the run (at most {}), by up to {:.3g} rad", texts::percent(joints[worst].share),
                                  texts::percent(most), joints[worst].worst);
   if (made.status == CheckStatus::fail)
     made.remedy = "take a smaller amplitude or offset: the motor works against the hinge stop";

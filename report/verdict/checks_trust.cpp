@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kTooLong = 0.01;  // share of the control ticks with too long a step above which the check warns
 constexpr const char* kUndriven = "nothing drives the joints";
-constexpr const char* kNoEnergies = "the folder holds rows only, and no energies of all steps";
+constexpr const char* kNoEnergies = "the folder contains only rows, and no energies of all steps";
 
 /// Reason why energies are not judged. Empty if they are.
 std::string no_energies(const CheckedRun& run) {

@@ -43,8 +43,8 @@ class Fed {
 };
 
 TEST(Pid, HoldsTheIntegralAfterATickBeyondTheLimitOnTheErrorsSide) {
-  // Ki Ts = 1/2. The first command, 2 V, exceeds the limit of 1 V, so that the integral omits this tick for any following
-  // error.
+  // Ki Ts = 1/2. The first command, 2 V, exceeds the limit of 1 V and has the sign of the error. The error of this tick is
+  // therefore never added to the integral, for either sign of the next error.
   Pid::Settings settings;
   settings.Kp.common = 2;
   settings.Ki.common = 4;

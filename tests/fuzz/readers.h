@@ -134,7 +134,7 @@ inline void question(const std::string& line) {
   (void)studies::read_question(line, {"stdin", 1, 1}, {frequency, type});
 }
 
-/// Reads a line of input of `gaitlab evaluate` for every kind of parameter, and writes an answer to the line.
+/// Reads a line of input of `gaitlab evaluate` for a study with five parameters of different kinds, and composes its answer.
 inline void question_kinds(const std::string& line) {
   static const std::vector<studies::Parameter> parameters = [] {
     std::vector<studies::Parameter> all(5);

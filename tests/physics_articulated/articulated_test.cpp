@@ -136,8 +136,8 @@ TEST_P(ArticulatedBody, SolvesWhatDenseMatricesSay) {
   }
 }
 
-/// Block of 1 kg that slides or sticks on a plane. Tests compare steps in which the contact sticks, slides, or changes between
-/// both.
+/// Block of 1 kg that slides or sticks on a plane. The tests compare the velocity after one step with its closed form. In the
+/// steps, the contact sticks, slides, or changes from one to the other.
 class BlockOnPlane : public testing::Test {
  protected:
   BlockOnPlane() {

@@ -126,7 +126,8 @@ TEST_P(LoadsOf, ABlockThatFlies) {
   EXPECT_EQ(record.loads.find("foot.m0/block.fz"), record.loads.columns.size()) << "it never carried a load";
 }
 
-/// The slid path of a foot on an arm of 0.3 m that a fixed robot turns about the vertical is the arc of the foot.
+/// A robot with a fixed base turns an arm of 0.3 m about the vertical, with a foot at its end on the ground. The distance that
+/// the foot slides is the length of its arc.
 TEST_P(LoadsOf, ADraggedFoot) {
   const Recording record = run_with_loads(scenario(fmt::format(R"(
 gaitlab: 1

@@ -166,13 +166,13 @@ TEST_F(OldFolder, IsReadAsFarAsItGoes) {
   EXPECT_NE(result.out.find("judged from the trace's rows, one per "), std::string::npos) << result.out;
   EXPECT_EQ(result.out.find("not judged: voltage"), std::string::npos) << result.out;
   EXPECT_NE(result.err.find(
-                "old: note: old/trace.h5 holds rows only: peaks, shares of time, energies and the torque error, which are "
-                "of all steps, are not known\nold: note: the trace has no column load.*\n"),
+                "old: note: old/trace.h5 contains only rows: peaks, shares of time, energies and the torque error are not "
+                "known, because they are computed from every step\nold: note: the trace has no column load.*\n"),
             std::string::npos)
       << result.err;
   const Result refused = gaitlab("report old --out new", folder_.path());
   EXPECT_EQ(refused.code, 2);
-  EXPECT_TRUE(refused.err.starts_with("old: error: summary and figure cannot be made anew: old/trace.h5 holds rows only"))
+  EXPECT_TRUE(refused.err.starts_with("old: error: summary and figure cannot be made anew: old/trace.h5 contains only rows"))
       << refused.err;
   EXPECT_TRUE(refused.err.ends_with("simulate it again: gaitlab rerun old\n")) << refused.err;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "new"));
@@ -182,7 +182,7 @@ TEST_F(OldFolder, HasAPageThatSaysWhatIsMissing) {
   const Result result = gaitlab("report old --page old/report.html", folder_.path());
   EXPECT_EQ(result.code, 0) << result.err;
   const std::string page = read(folder_ / "old/report.html");
-  EXPECT_NE(page.find("\"missing\":[\"trace.h5 holds rows only: peaks"), std::string::npos);
+  EXPECT_NE(page.find("\"missing\":[\"trace.h5 contains only rows: peaks"), std::string::npos);
   EXPECT_NE(page.find("\"judged from the trace's rows, one per "), std::string::npos);
   EXPECT_NE(page.find("\"joint.0.angle\""), std::string::npos);
   EXPECT_EQ(page.find(folder_.path().string()), std::string::npos);
@@ -299,7 +299,7 @@ TEST_F(RunFolders, WithAnotherTraceAreRefused) {
   folder_.write("run/trace.csv", csv);
   report(0, "");
   std::filesystem::remove(folder_ / "run/recording.h5");
-  report(0, "run: note: run/trace.csv holds rows only");
+  report(0, "run: note: run/trace.csv contains only rows");
 }
 
 TEST_F(RunFolders, WithADamagedSummaryAreRead) {

@@ -179,7 +179,7 @@ export type Harmonic = [amplitude: number, phase: number];
 export interface Stray {
   signal: string; // name of the channel
   unit: string;
-  ratio: number; // RMS of the difference, in bands
+  ratio: number; // RMS of the difference, divided by the permitted RMS difference (the band)
   tolerance: number; // largest permitted difference at any time, in the unit of the signal
   from: number | null; // first time at which the difference exceeds the tolerance, s
 }

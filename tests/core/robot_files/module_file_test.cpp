@@ -98,7 +98,8 @@ TEST_F(ModuleFileTest, Format2) {
   EXPECT_EQ(wrong(range, "range: loose"),
             "DIR/m.yaml:12:82: error: range is 'loose'; expected a list of 2 numbers in rad, or free");
   EXPECT_EQ(wrong(range, range + ", stiffness: 2"),
-            "DIR/m.yaml:12:106: error: stiffness is of a hinge without a motor; add drive: none, or remove it");
+            "DIR/m.yaml:12:106: error: stiffness is only for a hinge without a motor, and this hinge has one; add drive: none, "
+            "or remove stiffness");
   EXPECT_EQ(wrong(range, range + ", drive: none, damping: -1"),
             "DIR/m.yaml:12:117: error: damping is -1 N m s/rad; allowed are 0 to 1000000 N m s/rad");
   EXPECT_EQ(wrong(range, range + ", drive: none, actuator: {R: 1}"),

@@ -121,7 +121,7 @@ JUDGED = {
     "gear_continuous": r"the gear of joint {worst} takes {value:.3g} N m RMS of {limit:.3g} N m" + WITHIN,
     "tracking": r"joint {worst} is up to {value:th} rad from its set point",
     "stops": r"no joint leaves its range|{parts:d} joints? leaves? the range of the hinge; worst {worst}: (?:by {angle:.3g} rad, "
-             r"for {share:pct} of the run|for {share:pct} of the run, more than {most:pct}, by up to {angle:.3g} rad)",
+             r"for {share:pct} of the run|for {share:pct} of the run \(at most {most:pct}\), by up to {angle:.3g} rad)",
     "setpoints": r"no set point leaves the range of its hinge|the set point of joint {worst} is beyond the range of its hinge for "
                  r"{value:pct} of the run",
     "start": r"the set point of joint {worst} is {value:.3g} rad from its angle at t = 0(?:, and its motor answers at once: peaks "

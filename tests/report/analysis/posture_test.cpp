@@ -33,7 +33,9 @@ TEST(Posture, AFallIsAirborneAllTheTime) {
   EXPECT_EQ(p.airborne_share, 1);
   const double g = s.physics.gravity.norm();
   const double start = r.com(0).z();
-  constexpr double kIntegration = 1e-4;  // integration error of adaptive steps, m; torques of 0 do not limit the steps
+  // Integration error of adaptive steps, m. They follow the accuracy of the motor torques, which are 0 in free fall, so that
+  // the longest steps are taken.
+  constexpr double kIntegration = 1e-4;
   EXPECT_NEAR(p.height_min, start - g / 2, kIntegration);
   const double first = (std::floor(judged.from / s.control_period + 1e-9) + 1) * s.control_period;
   EXPECT_NEAR(p.height_max, start - g * first * first / 2, kIntegration);

@@ -110,7 +110,7 @@ TEST(Verdict, JudgesStopsFallsAndTheEnd) {
   both.record.joints[6].range_worst = 0.002;
   both.record.joints[6].range_share = 0.02;
   EXPECT_EQ(both.check("stops").worst, both.scenario.robot->joints[6].name) << "its time decides";
-  EXPECT_TRUE(contains(both.check("stops").text, ": for 2 % of the run, more than 1 %, by up to 0.002 rad"))
+  EXPECT_TRUE(contains(both.check("stops").text, ": for 2 % of the run (at most 1 %), by up to 0.002 rad"))
       << both.check("stops").text;
   both.record.joints[4].range_worst = 0.02;
   EXPECT_EQ(both.check("stops").worst, both.scenario.robot->joints[4].name) << "its angle decides";
