@@ -9,7 +9,7 @@
 namespace gaitlab {
 
 /// Largest step of the series 1, 1.25, 2, 2.5, 5 times a power of ten that is at most `limit` and divides the control period,
-/// the trace period and the duration; 0 if no step above 1e-9 s does.
+/// the trace period and the duration; 0 if no step from 1e-8 s up does.
 double usable_step(const Scenario& scenario, double limit);
 
 /// Step for an engine whose stability limits it: the largest usable one up to `longest` at which h lambda of the standing robot
