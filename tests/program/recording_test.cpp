@@ -7,6 +7,7 @@
 #include "core/recording/run_files.h"
 #include "core/scenario/resolved.h"
 #include "core/simulation/probes.h"
+#include "tests/messages.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -208,14 +209,9 @@ TEST(Recordings, ThatDoNotFitTogetherAreRefused) {
   EXPECT_TRUE(read_recording(folder.path()).missing.empty());
   const auto complaint = [&](const std::vector<Beside>& beside) -> std::string {
     write_h5(good.trace, good.origin, folder / "trace.h5", beside);
-    try {
-      read_recording(folder.path());
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return message_of([&] { read_recording(folder.path()); });
   };
-  EXPECT_EQ(complaint(good.beside), "");
+  EXPECT_EQ(complaint(good.beside), kNoError);
   const std::string file = folder / "trace.h5";
   std::vector<Beside> beside = good.beside;
   const auto table = [&](const char* name) -> Trace& { return std::ranges::find(beside, name, &Beside::name)->table; };

@@ -1,4 +1,4 @@
-// What is said of a CPG whose output or state is not finite.
+// Messages on a CPG whose output or state is not finite.
 #include "core/simulation/cpg_check.h"
 
 #include <gtest/gtest.h>

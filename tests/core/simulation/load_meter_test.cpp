@@ -37,7 +37,7 @@ class LoadedRobot {
   RobotState& state() { return meter_->sample().state; }
   /// Moves the robot to its state; contacts stay as they are.
   void place() { meter_->sample().forward_kinematics(robot()); }
-  /// Where an element is in the world.
+  /// Centre of an element, world.
   [[nodiscard]] Vec3 centre(std::size_t element) {
     return meter_->sample().kinematics.point(elements_[element].link, elements_[element].centre);
   }
@@ -266,7 +266,7 @@ TEST(LoadMeter, ADockAtRestBearsTheWeightBehindIt) {
   EXPECT_GE(leaves, 1U);
 }
 
-/// These modules state no ratings of their connectors: whoever only judges needs no reactions of docks, no forces and no
+/// These modules state no ratings of their connectors: a verdict needs neither the reactions of their docks, nor forces, nor
 /// margin.
 TEST(LoadMeter, LeavesOutColumnsThatNobodyJudges) {
   const LoadedRobot all;

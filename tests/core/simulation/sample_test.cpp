@@ -1,4 +1,4 @@
-// What follows from the state of one lane: orientations, energies, torques of hinges, boxes and reactions.
+// Quantities that follow from the state of one lane: orientations, energies, torques of hinges, boxes and reactions.
 #include "core/simulation/sample.h"
 
 #include <gtest/gtest.h>

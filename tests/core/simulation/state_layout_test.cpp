@@ -1,4 +1,4 @@
-// Where the numbers of a state are, lane by lane.
+// Order of the numbers of a state, lane by lane.
 #include "core/simulation/state_layout.h"
 
 #include <gtest/gtest.h>
