@@ -9,7 +9,7 @@
 namespace gaitlab {
 
 /// Largest usable step of the series 1, 1.25, 2, 2.5, 5 times a power of ten. A usable step is at most `limit` and divides the
-/// control period, the trace period and the duration. Returns 0 if no step above 1e-9 s is usable.
+/// control period, the trace period and the duration. Returns 0 if no step from 1e-8 s up is usable.
 double usable_step(const Scenario& scenario, double limit);
 
 /// Step for an engine with a stability limit: the largest usable step up to `longest` with h lambda of at most 0.8 for the

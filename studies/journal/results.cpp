@@ -67,7 +67,8 @@ double combined(std::vector<double> values, const std::string& how, double quant
     return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
   }
   if (how == "quantile") {
-    const double at = std::ceil(quantile * static_cast<double>(values.size())) - 1;
+    constexpr double kRounding = 1e-9;  // 0.07 * 100 is more than 7
+    const double at = std::ceil(quantile * static_cast<double>(values.size()) - kRounding) - 1;
     return values[static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(values.size() - 1)))];
   }
   return values.back();

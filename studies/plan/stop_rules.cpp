@@ -38,9 +38,10 @@ StopRules::StopRules(const Study& study, const QuantityOffer& offer, const std::
 }
 
 std::string StopRules::reason(const Scenario& scenario, const Recording& so_far) const {
+  constexpr double kSlack = 1e-9;  // s: the time is a number of steps times the step, which may round below a whole second
   std::vector<double> values;
   for (const Rule& rule : rules_) {
-    if (so_far.simulated < rule.after) continue;
+    if (so_far.simulated < rule.after - kSlack) continue;
     if (values.empty()) {
       for (const auto& [name, joint] : quantities_) values.push_back(offer_.value_so_far(name, joint, scenario, so_far));
     }

@@ -7,6 +7,7 @@
 #include "studies/run/runner.h"
 #include "studies/study/study_file.h"
 #include "tests/app/study_fixture.h"
+#include "tests/messages.h"
 
 namespace gaitlab::test {
 namespace {
@@ -241,15 +242,10 @@ TEST_F(StudyFolder, MemoryThatIsNotEnoughIsToldWithARemedy) {
   const studies::Executor executor = [](const studies::Work&, std::atomic<bool>&) -> bool { throw std::bad_alloc(); };
   studies::Runner runner(plan, journal, {.executor = executor, .shard = {}, .jobs = 64});
   std::atomic<bool> stop = false;
-  try {
-    runner.run(8, stop);
-    FAIL();
-  } catch (const RunError& error) {
-    EXPECT_EQ(std::string(error.what()),
-              (folder_ / "study.db") +
-                  ": the memory is not enough for 64 threads; take fewer with -j, or raise the limit (ulimit -v, a "
-                  "container's); the runs that have ended are in the journal");
-  }
+  EXPECT_EQ(message_of<RunError>([&] { runner.run(8, stop); }),
+            (folder_ / "study.db") +
+                ": the memory is not enough for 64 threads; take fewer with -j, or raise the limit (ulimit -v, a "
+                "container's); the runs that have ended are in the journal");
 }
 
 }  // namespace

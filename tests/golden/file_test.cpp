@@ -7,12 +7,13 @@
 #include <random>
 
 #include "tests/golden/golden_sample.h"
+#include "tests/messages.h"
 
 namespace gaitlab::test {
 namespace {
 
 std::string refused(const std::string& bytes) {
-  return refusal([&] { (void)unpack(bytes, "x.golden"); });
+  return message_of([&] { (void)unpack(bytes, "x.golden"); });
 }
 
 TEST(GoldenFile, KeepsEveryValueWithinTheDeclaredPrecision) {
@@ -103,12 +104,12 @@ TEST(GoldenFile, EveryDamageHasItsMessage) {
 
 TEST(GoldenFile, NoTruncationAndNoFlippedByteIsTaken) {
   const std::string bytes = pack(walk(21));
-  for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_NE(refused(bytes.substr(0, size)), "") << size;
+  for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_NE(refused(bytes.substr(0, size)), kNoError) << size;
   for (std::size_t at = 0; at < bytes.size(); ++at) {
     for (const int flip : {1, 0x80, 0xFF}) {
       std::string flipped = bytes;
       flipped[at] = static_cast<char>(flipped[at] ^ flip);
-      EXPECT_NE(refused(flipped), "") << at;
+      EXPECT_NE(refused(flipped), kNoError) << at;
     }
   }
 }
@@ -125,14 +126,14 @@ TEST(GoldenFile, DamageBehindARightChecksumIsNoCrash) {
     return head + body;
   };
   const std::string body = bytes.substr(start);
-  EXPECT_EQ(refused(sealed(body)), "");
-  for (std::size_t size = 0; size < body.size(); ++size) EXPECT_NE(refused(sealed(body.substr(0, size))), "") << size;
+  EXPECT_EQ(refused(sealed(body)), kNoError);
+  for (std::size_t size = 0; size < body.size(); ++size) EXPECT_NE(refused(sealed(body.substr(0, size))), kNoError) << size;
   std::mt19937_64 random(2);
   int refusals = 0;
   for (int i = 0; i < 5000; ++i) {
     std::string damaged = body;
     for (std::uint64_t n = 1 + random() % 4; n > 0; --n) damaged[random() % 120] = static_cast<char>(random());
-    refusals += refused(sealed(damaged)).empty() ? 0 : 1;
+    refusals += refused(sealed(damaged)) == kNoError ? 0 : 1;
   }
   EXPECT_GT(refusals, 1000);  // other bit flips only change a name or a value
   std::string many = body;

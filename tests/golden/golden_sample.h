@@ -1,7 +1,6 @@
 // Helpers of the tests of goldens: a trace, and the message of a refused file.
 #pragma once
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -35,16 +34,6 @@ inline Trace walk(std::size_t rows = 101, double amplitude = 1.3) {
       trace.values.push_back(x);
   }
   return trace;
-}
-
-/// Message of the InputError that `action` throws, or "".
-inline std::string refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 using Sentences = std::vector<std::string>;

@@ -14,6 +14,7 @@
 #include "golden/report.h"
 #include "tests/folder.h"
 #include "tests/golden/golden_sample.h"
+#include "tests/messages.h"
 
 namespace gaitlab::test {
 namespace {
@@ -196,7 +197,7 @@ class GoldenFolder : public ::testing::Test {
   }
   // Message of the error on reading the golden, without the folder.
   [[nodiscard]] std::string complaint() const {
-    std::string text = refusal([&] { (void)read_golden(folder_.path()); });
+    std::string text = message_of([&] { (void)read_golden(folder_.path()); });
     const std::string path = folder_.path().string();
     for (std::size_t at = text.find(path); at != std::string::npos; at = text.find(path)) text.replace(at, path.size(), "G");
     return text;
@@ -206,12 +207,12 @@ class GoldenFolder : public ::testing::Test {
 };
 
 TEST_F(GoldenFolder, MissingFiles) {
-  EXPECT_EQ(complaint(), "");
+  EXPECT_EQ(complaint(), kNoError);
   fs::remove(folder_.path() / "trace.golden");
   EXPECT_EQ(complaint(), "G/trace.golden: error: is missing: the golden is only half there");
   fs::remove(folder_.path() / "golden.json");
   EXPECT_EQ(complaint(), "G/golden.json: error: is missing: the golden is only half there");
-  EXPECT_EQ(refusal([&] { (void)read_golden("no/where.golden"); }),
+  EXPECT_EQ(message_of([&] { (void)read_golden("no/where.golden"); }),
             "no/where.golden: error: there is no such golden; gaitlab approve makes it");
 }
 
@@ -242,7 +243,7 @@ TEST_F(GoldenFolder, NoDamageOfTheJsonIsTakenNorACrash) {
   const std::string text = content("golden.json");
   for (std::size_t at = 0; at < text.size(); at += 3) {
     put("golden.json", text.substr(0, at));
-    EXPECT_NE(complaint(), "") << at;
+    EXPECT_NE(complaint(), kNoError) << at;
   }
   std::mt19937_64 random(3);
   for (int i = 0; i < 500; ++i) {
@@ -250,7 +251,7 @@ TEST_F(GoldenFolder, NoDamageOfTheJsonIsTakenNorACrash) {
     const std::size_t at = random() % text.size();
     damaged[at] = static_cast<char>(damaged[at] ^ static_cast<char>(1 + random() % 255));
     put("golden.json", damaged);
-    EXPECT_NE(complaint(), "") << at;
+    EXPECT_NE(complaint(), kNoError) << at;
   }
 }
 
@@ -308,10 +309,10 @@ TEST_F(GoldenFolder, TheNextWriteFinishesWhatAKillLeft) {
 TEST_F(GoldenFolder, IsWrittenByOneAtATime) {
   const int other = ::open(folder_.path().c_str(), O_RDONLY | O_DIRECTORY);
   ASSERT_EQ(::flock(other, LOCK_EX), 0);
-  EXPECT_EQ(refusal([&] { write_golden(sample_golden(walk()), folder_.path()); }),
+  EXPECT_EQ(message_of([&] { write_golden(sample_golden(walk()), folder_.path()); }),
             folder_.path().string() + ": error: is being written by another process; call again");
   ::close(other);
-  EXPECT_EQ(refusal([&] { write_golden(sample_golden(walk()), folder_.path()); }), "");
+  EXPECT_EQ(message_of([&] { write_golden(sample_golden(walk()), folder_.path()); }), kNoError);
 }
 
 // ---- scales and bands

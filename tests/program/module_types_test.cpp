@@ -5,6 +5,7 @@
 #include "core/dynamics/inverse_dynamics.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/scenario/resolved.h"
+#include "tests/messages.h"
 #include "tests/program/engines.h"
 
 namespace gaitlab::test {
@@ -60,12 +61,7 @@ duration: 0.3
 }
 
 std::string error_of(const std::string& text, const std::vector<std::string>& sets = {}) {
-  try {
-    scenario(text, sets);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "none";
+  return message_of([&] { scenario(text, sets); });
 }
 
 TEST(ModuleTypes, AFaceWithoutGenderIsTwoOfFormat1) {
@@ -97,8 +93,8 @@ TEST(ModuleTypes, OnlyLikeConnectorsDock) {
   EXPECT_TRUE(contains(none, "face 0 of module 1 has connector none, face 1 of module 0 'hook'; only like dock")) << none;
   const std::string turn = error_of(robot(a, "a", "[[0, 1, 1, 0, 1]]"));
   EXPECT_TRUE(contains(turn, "orientation 1 is not one of the turns of face 0 (a): 0, 2")) << turn;
-  EXPECT_EQ(error_of(robot(a, "a", "[[0, 1, 1, 0, 2]]")), "none");
-  EXPECT_EQ(error_of(robot(c, "c", "[[0, 1, 1, 0, 3]]")), "none");
+  EXPECT_EQ(error_of(robot(a, "a", "[[0, 1, 1, 0, 2]]")), kNoError);
+  EXPECT_EQ(error_of(robot(c, "c", "[[0, 1, 1, 0, 3]]")), kNoError);
   const std::string mixed = error_of(robot(c, "{0: c, 1: mtran}", "[[1, 1, 1, 0, 0]]"));
   EXPECT_TRUE(contains(mixed,
                        "wrong gender: face 1 of module 1 is of gender active, face 1 of module 0 of gender none; active docks "

@@ -8,6 +8,7 @@
 #include "core/scenario/resolved.h"
 #include "core/simulation/probes.h"
 #include "tests/core/recording/tables.h"
+#include "tests/messages.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -210,14 +211,9 @@ TEST(Recordings, ThatDoNotFitTogetherAreRefused) {
   EXPECT_TRUE(read_recording(folder.path()).missing.empty());
   const auto complaint = [&](const std::vector<Beside>& beside) -> std::string {
     write_h5(good.trace, good.origin, folder / "trace.h5", tables_of(beside));
-    try {
-      read_recording(folder.path());
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return message_of([&] { read_recording(folder.path()); });
   };
-  EXPECT_EQ(complaint(good.beside), "");
+  EXPECT_EQ(complaint(good.beside), kNoError);
   const std::string file = folder / "trace.h5";
   std::vector<Beside> beside = good.beside;
   const auto table = [&](const char* name) -> Trace& { return std::ranges::find(beside, name, &Beside::name)->table; };

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/model/kinematics.h"
+#include "tests/messages.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -277,19 +278,10 @@ TEST(Solver, SameBitsTwice) {
   EXPECT_EQ(run(boxes).trace.values, run(boxes).trace.values);
 }
 
-std::string refusal(const std::function<void()>& asks) {
-  try {
-    asks();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
-}
-
 TEST(Solver, RefusesWhatItCannotDo) {
   const auto reading = [](std::vector<std::string> sets) {
     sets.emplace_back("contact.law=bullet");
-    return refusal([&] { shipped("hexapod.yaml", sets); });
+    return message_of([&] { shipped("hexapod.yaml", sets); });
   };
   EXPECT_EQ(shipped("hexapod.yaml", kSolver).physics.step, 1e-3);
   EXPECT_EQ(shipped("hexapod.yaml", {"contact.law=bullet", "physics.step=5e-4"}).physics.step, 5e-4);
@@ -303,10 +295,10 @@ TEST(Solver, RefusesWhatItCannotDo) {
       std::string::npos);
   EXPECT_NE(reading({"contact.stiffness=1e5"}).find("unknown key 'stiffness'"), std::string::npos);
   const Scenario reactions = shipped("hexapod.yaml", {"contact.law=bullet", "trace.columns=[reaction.*]"});
-  EXPECT_NE(refusal([&] { Simulation({&reactions, 1}); }).find("remove the columns reaction.*"), std::string::npos);
+  EXPECT_NE(message_of([&] { Simulation({&reactions, 1}); }).find("remove the columns reaction.*"), std::string::npos);
   const Scenario s = shipped("hexapod.yaml", kSolver);
   Simulation simulation({&s, 1});
-  EXPECT_NE(refusal([&] { static_cast<void>(simulation.state()); }).find("gives no snapshot"), std::string::npos);
+  EXPECT_NE(message_of([&] { static_cast<void>(simulation.state()); }).find("gives no snapshot"), std::string::npos);
 }
 
 TEST(Solver, HasNoGoldens) {

@@ -3,6 +3,7 @@
 
 #include "core/scenario/read_scenario.h"
 #include "core/scenario/resolved.h"
+#include "tests/messages.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -23,13 +24,8 @@ class TableGait : public ::testing::Test {
   }
   std::string error(const std::string& csv) {
     folder.write("gait.csv", csv);
-    try {
-      read_with("{file: gait.csv}");
-    } catch (const InputError& e) {
-      const std::string text = e.what();
-      return text.substr(text.find("error: ") + 7);
-    }
-    return "no error";
+    const std::string text = message_of([&] { read_with("{file: gait.csv}"); });
+    return text == kNoError ? text : text.substr(text.find("error: ") + 7);
   }
   static std::vector<double> setpoints(const Scenario& s) {
     const void* settings = s.cpg.settings.get();

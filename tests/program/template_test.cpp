@@ -6,21 +6,13 @@
 #include "core/scenario/resolved.h"
 #include "core/simulation/batch.h"
 #include "report/analysis/summary.h"
+#include "tests/messages.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
 
 using Sets = std::vector<std::string>;
-
-std::string errors(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 class Templates : public testing::TestWithParam<const char*> {};
 
@@ -80,11 +72,11 @@ TEST_P(Templates, GiveWhatReadingAgainGives) {
     std::string expected;
     std::string given;
     std::optional<Scenario> one;
-    const std::string refused = errors([&] {
+    const std::string refused = message_of([&] {
       one = from.with(own);
       given = resolved(*one);
     });
-    EXPECT_EQ(refused, errors([&] {
+    EXPECT_EQ(refused, message_of([&] {
                 const Scenario again = read_scenario(file, both, catalog());
                 expected = resolved(again);
                 if (!one) return;
@@ -170,7 +162,7 @@ TEST(Template, KeepsWhatItsTypeDropped) {
     both.insert(both.end(), own.begin(), own.end());
     std::string given;
     std::string expected;
-    EXPECT_EQ(errors([&] { given = resolved(from.with(own)) + told(from.with(own)); }), errors([&] {
+    EXPECT_EQ(message_of([&] { given = resolved(from.with(own)) + told(from.with(own)); }), message_of([&] {
                 const Scenario again = read_scenario(kScenarios + "caterpillar.yaml", both, catalog());
                 expected = resolved(again) + told(again);
               }))

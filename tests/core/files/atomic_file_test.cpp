@@ -15,6 +15,7 @@
 #include "core/errors.h"
 #include "core/files/folder_lock.h"
 #include "tests/folder.h"
+#include "tests/messages.h"
 
 namespace gaitlab {
 namespace {
@@ -56,15 +57,10 @@ class FullDisk {
   rlimit before_ = {};
 };
 
-/// Text of the error that a call throws; "" if it throws none.
+/// An InputError or a RunError.
 template <class Call>
 std::string refusal(const Call& call) {
-  try {
-    call();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "";
+  return test::message_of<std::exception>(call);
 }
 
 TEST_F(AtomicFiles, AppearsAtCommit) {
@@ -181,12 +177,12 @@ TEST_F(AtomicFiles, OnlyRegularFilesAreReadAndOnlySoMuch) {
 TEST_F(AtomicFiles, WhatIsRefusedIsClosed) {
   const auto open_files = [] { return std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator()); };
   const auto before = open_files();
-  EXPECT_NE(refusal([&] { (void)read_file("/dev/zero", 4); }), "");
-  EXPECT_NE(refusal([&] { (void)read_file(folder_, 4); }), "");
-  EXPECT_NE(refusal([&] { (void)read_file(folder_ / "absent", 4); }), "");
+  EXPECT_NE(refusal([&] { (void)read_file("/dev/zero", 4); }), test::kNoError);
+  EXPECT_NE(refusal([&] { (void)read_file(folder_, 4); }), test::kNoError);
+  EXPECT_NE(refusal([&] { (void)read_file(folder_ / "absent", 4); }), test::kNoError);
   std::ofstream(file_) << "12345";
-  EXPECT_NE(refusal([&] { (void)read_file(file_, 4); }), "");
-  EXPECT_NE(refusal([&] { AtomicFile(file_, Existing::refused); }), "");
+  EXPECT_NE(refusal([&] { (void)read_file(file_, 4); }), test::kNoError);
+  EXPECT_NE(refusal([&] { AtomicFile(file_, Existing::refused); }), test::kNoError);
   {
     FolderLock first;
     FolderLock second;

@@ -8,7 +8,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <functional>
+
+#include "tests/messages.h"
 
 namespace gaitlab {
 namespace {
@@ -53,17 +54,8 @@ void expect_numbers(const std::string& type, std::initializer_list<Number> numbe
   EXPECT_EQ(read_npy(npy(dict(">" + type, "(1, 3)"), swapped, 2), kRoom).values, read) << type;
 }
 
-std::string refused(const std::function<void()>& read) {
-  try {
-    read();
-  } catch (const TableError& error) {
-    return error.what();
-  }
-  return "read";
-}
-
 std::string refused_npy(const std::string& bytes) {
-  const std::string text = refused([&] { (void)read_npy(bytes, kRoom); });
+  const std::string text = test::message_of<TableError>([&] { (void)read_npy(bytes, kRoom); });
   return text.substr(0, text.find("; expected a matrix of float32, float64 or integers in C order, as numpy.save writes it"));
 }
 
@@ -156,7 +148,7 @@ const std::string& picture() {
 }
 
 std::string refused_png(const std::string& bytes, std::size_t most = kRoom) {
-  const std::string text = refused([&] { (void)read_grey_png(bytes, most); });
+  const std::string text = test::message_of<TableError>([&] { (void)read_grey_png(bytes, most); });
   return text.substr(0, text.find("; expected a PNG of 16 bit grey values without interlacing"));
 }
 
@@ -208,11 +200,12 @@ TEST(GreyPng, OfAnotherFormIsRefusedWithWhatItIs) {
 }
 
 TEST(GreyPng, CutAnywhereOrChangedIsRefused) {
-  for (std::size_t size = 0; size < picture().size(); ++size) EXPECT_NE(refused_png(picture().substr(0, size)), "read") << size;
+  for (std::size_t size = 0; size < picture().size(); ++size)
+    EXPECT_NE(refused_png(picture().substr(0, size)), test::kNoError) << size;
   for (std::size_t at = 0; at < picture().size(); ++at) {
     std::string changed = picture();
     changed[at] = static_cast<char>(changed[at] ^ 0x10);
-    EXPECT_NE(refused_png(changed), "read") << at;
+    EXPECT_NE(refused_png(changed), test::kNoError) << at;
   }
   std::string coloured = headed(picture().substr(16, 13));
   add_chunk(coloured, "PLTE", "abc");

@@ -7,6 +7,7 @@
 #include "core/model/kinematics.h"
 #include "core/robot_files/module_file.h"
 #include "core/scenario/scenario.h"
+#include "tests/messages.h"
 
 namespace gaitlab {
 namespace {
@@ -27,12 +28,7 @@ Robot robot_of(const std::vector<std::array<int, 5>>& rows) {
 }
 
 std::string error_of(const std::vector<std::array<int, 5>>& rows) {
-  try {
-    robot_of(rows);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::message_of([&] { robot_of(rows); });
 }
 
 const std::vector<std::array<int, 5>> kHexapod = {{1, 1, 4, 0, 1}, {1, 2, 4, 1, 3}, {1, 3, 4, 2, 1}, {1, 4, 4, 3, 3},

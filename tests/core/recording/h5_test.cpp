@@ -13,6 +13,7 @@
 
 #include "core/errors.h"
 #include "tests/folder.h"
+#include "tests/messages.h"
 
 // HDF5 leaves objects of a damaged file open at the end of the program, which LeakSanitizer must ignore.
 extern "C" const char* __lsan_default_suppressions();  // NOLINT(bugprone-reserved-identifier): LeakSanitizer's name
@@ -36,15 +37,11 @@ class H5 : public testing::Test {
   // Message of the error on reading these bytes, without the name of the file; "" if there is no error.
   [[nodiscard]] std::string complaint(const std::string& bytes) const {
     put(bytes);
-    try {
-      read_h5(file_);
-      return "";
-    } catch (const InputError& error) {
-      const std::string text = error.what();
-      const std::string prefix = file_.string() + ": error: ";
-      EXPECT_EQ(text.substr(0, prefix.size()), prefix);
-      return text.substr(prefix.size());
-    }
+    const std::string text = test::message_of([&] { read_h5(file_); });
+    if (text == test::kNoError) return "";
+    const std::string prefix = file_.string() + ": error: ";
+    EXPECT_EQ(text.substr(0, prefix.size()), prefix);
+    return text.substr(prefix.size());
   }
   // Bytes with a corrected hash in the header, so that HDF5 reads them.
   [[nodiscard]] static std::string sealed(std::string bytes) {
@@ -126,20 +123,12 @@ TEST_F(H5, FirstLinesSayWhatItIs) {
 }
 
 TEST_F(H5, UnwritableIsAFailedRun) {
-  try {
-    write_h5(sample(3), kOrigin, folder_ / "no" / "trace.h5");
-    FAIL();
-  } catch (const RunError& error) {
-    EXPECT_EQ(error.what(), (folder_ / "no" / "trace.h5").string() + ": cannot be written: No such file or directory");
-  }
+  EXPECT_EQ(test::message_of<RunError>([&] { write_h5(sample(3), kOrigin, folder_ / "no" / "trace.h5"); }),
+            (folder_ / "no" / "trace.h5").string() + ": cannot be written: No such file or directory");
   Trace trace = sample(3);
   trace.columns.change([](auto& columns) { columns[1].name = std::string("a\0b", 3); });
-  try {
-    write_h5(trace, kOrigin, file_);
-    FAIL();
-  } catch (const RunError& error) {
-    EXPECT_EQ(error.what(), file_.string() + ": cannot be written: a text with a NUL cannot be stored");
-  }
+  EXPECT_EQ(test::message_of<RunError>([&] { write_h5(trace, kOrigin, file_); }),
+            file_.string() + ": cannot be written: a text with a NUL cannot be stored");
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
@@ -231,12 +220,7 @@ TEST_F(H5, Foreign) {
   EXPECT_EQ(complaint("t,joint.0.angle\n0,0\n"), "is not a gaitlab trace (nor another HDF5 file)");
   EXPECT_EQ(complaint(std::string(5000, '\0')), "is not a gaitlab trace (nor another HDF5 file)");
   fs::remove(file_);
-  try {
-    read_h5(file_);
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_EQ(error.what(), file_.string() + ": error: cannot be read: No such file or directory");
-  }
+  EXPECT_EQ(test::message_of([&] { read_h5(file_); }), file_.string() + ": error: cannot be read: No such file or directory");
 }
 
 TEST_F(H5, ContentThatDoesNotFitTogether) {

@@ -8,6 +8,7 @@
 #include "core/recording/recording_file.h"
 #include "tests/core/recording/tables.h"
 #include "tests/folder.h"
+#include "tests/messages.h"
 
 namespace gaitlab {
 namespace {
@@ -79,12 +80,7 @@ TEST_F(StoredOutcomes, ThatContradictTheirTextAreRefused) {
   const std::string corrupt = (own_.path() / "trace.h5").string() + ": error: is corrupt: ";
   for (const auto& [ended, what] :
        {std::pair{1.0, "outcome is done, but ended is diverged"}, {7.0, "ended is 7"}, {-1.0, "ended is -1"}}) {
-    try {
-      (void)read_with(stored, ended);
-      FAIL() << what;
-    } catch (const InputError& error) {
-      EXPECT_EQ(error.what(), corrupt + what);
-    }
+    EXPECT_EQ(test::message_of([&, number = ended] { (void)read_with(stored, number); }), corrupt + what);
   }
 }
 

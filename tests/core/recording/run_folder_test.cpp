@@ -12,6 +12,7 @@
 
 #include "core/errors.h"
 #include "tests/folder.h"
+#include "tests/messages.h"
 
 namespace gaitlab {
 namespace {
@@ -23,12 +24,7 @@ class RunFolders : public testing::Test {
   void SetUp() override { fs::current_path(folder_); }
   void TearDown() override { fs::current_path(before_); }
   static std::string complaint(const std::optional<fs::path>& out, const std::string& name = "walk") {
-    try {
-      const RunFolder folder(out, name);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "none";
+    return test::message_of([&] { const RunFolder folder(out, name); });
   }
 
   const test::Folder own_;

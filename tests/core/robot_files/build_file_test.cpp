@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/core/scenario/fakes.h"
+#include "tests/messages.h"
 
 namespace gaitlab {
 namespace {
@@ -10,14 +11,14 @@ namespace {
 std::string build_error(const std::string& text) {
   Problems problems;
   read_build(text, "x.dat", problems);
-  return fakes::error_of([&] { problems.raise(); });
+  return test::message_of([&] { problems.raise(); });
 }
 
 std::string docks_error(const std::string& text) {
   Problems problems;
   const Node root = parse_yaml("docks: " + text + "\n", "f");
   read_docks(*root.find("docks"), problems);
-  return fakes::error_of([&] { problems.raise(); });
+  return test::message_of([&] { problems.raise(); });
 }
 
 TEST(BuildFile, RowsCommentsAndBlankLines) {

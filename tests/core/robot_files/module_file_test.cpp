@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/core/scenario/fakes.h"
+#include "tests/messages.h"
 
 namespace gaitlab {
 namespace {
@@ -16,7 +17,7 @@ class ModuleFileTest : public testing::Test {
     if (at == std::string::npos) return "the test's text is not there: " + from;
     text.replace(at, from.size(), to);
     const std::string path = folder_.write("m.yaml", text);
-    return folder_.shown(fakes::error_of([&] { read_module_file(path); }));
+    return folder_.shown(test::message_of([&] { read_module_file(path); }));
   }
   fakes::Folder folder_;
 };
@@ -72,7 +73,7 @@ TEST_F(ModuleFileTest, Format2) {
     return read_module_file(folder_.write("m.yaml", text)).type;
   };
   const auto wrong = [&](const std::string& from, const std::string& to) {
-    return folder_.shown(fakes::error_of([&] { read(from, to); }));
+    return folder_.shown(test::message_of([&] { read(from, to); }));
   };
   const std::string range = "range: [-1.5, 1.5]";
   EXPECT_EQ(read(range, "range: free").hinges[0].hi, kNoStop);

@@ -177,15 +177,4 @@ class Folder : public test::Folder {
   }
 };
 
-/// Text of the InputError that `act` throws, or "no error".
-template <class Act>
-std::string error_of(Act act) {
-  try {
-    act();
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "no error";
-}
-
 }  // namespace gaitlab::fakes

@@ -8,6 +8,7 @@
 #include "core/scenario/read_scenario.h"
 #include "core/scenario/resolved.h"
 #include "tests/core/scenario/fakes.h"
+#include "tests/messages.h"
 
 namespace gaitlab::fakes {
 
@@ -19,7 +20,7 @@ class ScenarioTest : public testing::Test {
     return read_scenario(folder_.write("s.yaml", text), sets, catalog_);
   }
   std::string error(const std::string& text, const std::vector<std::string>& sets = {}) {
-    return folder_.shown(error_of([&] { read(text, sets); }));
+    return folder_.shown(test::message_of([&] { read(text, sets); }));
   }
   /// Expects resolved(read(resolved(s))) == resolved(s) if the resolved scenario s is read from a different folder.
   void expect_stable(const Scenario& scenario) {

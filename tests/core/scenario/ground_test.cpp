@@ -10,6 +10,7 @@
 #include "core/scenario/height_file.h"
 #include "core/scenario/resolved.h"
 #include "tests/core/scenario/fixture.h"
+#include "tests/messages.h"
 
 namespace gaitlab::fakes {
 namespace {
@@ -174,11 +175,12 @@ TEST_F(HeightFiles, OfMoreHeightsThanARecordHoldsAreNamedInIt) {
   EXPECT_EQ(again.ground.relief()->values.list(), s.ground.relief()->values.list());
   numbers[0] = 7;
   folder_.write("large.npy", matrix(250, 300, numbers));
-  const std::string other = error_of([&] { (void)read_scenario(record, {}, catalog_); });
+  const std::string other = test::message_of([&] { (void)read_scenario(record, {}, catalog_); });
   EXPECT_NE(other.find("large.npy' is not the file of the record: its hash is "), std::string::npos) << other;
   std::filesystem::remove(file);
-  EXPECT_NE(error_of([&] { (void)read_scenario(record, {}, catalog_); }).find("cannot be read: No such file or directory"),
-            std::string::npos);
+  EXPECT_NE(
+      test::message_of([&] { (void)read_scenario(record, {}, catalog_); }).find("cannot be read: No such file or directory"),
+      std::string::npos);
 }
 
 TEST_F(HeightFiles, AreRefusedWithWhatTheyHold) {

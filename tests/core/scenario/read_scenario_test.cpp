@@ -6,6 +6,7 @@
 #include "core/scenario/plugin_files.h"
 #include "core/scenario/resolved.h"
 #include "tests/core/scenario/fixture.h"
+#include "tests/messages.h"
 
 namespace gaitlab {
 namespace {
@@ -65,13 +66,13 @@ TEST_F(ScenarioTest, VersionAndName) {
             "DIR/s.yaml:3:7: error: name 'a/b' is not allowed; expected letters, digits, _ . and -, not a . first");
   EXPECT_EQ(error(kShort + "name: ..\n"),
             "DIR/s.yaml:3:7: error: name '..' is not allowed; expected letters, digits, _ . and -, not a . first");
-  EXPECT_EQ(folder_.shown(fakes::error_of([&] { read_scenario(folder_.write("my walk.yaml", kShort), {}, catalog_); })),
+  EXPECT_EQ(folder_.shown(test::message_of([&] { read_scenario(folder_.write("my walk.yaml", kShort), {}, catalog_); })),
             "DIR/my walk.yaml: error: name 'my walk' is not allowed; expected letters, digits, _ . and -, not a . first (it is "
             "the file's name; give another with name:)");
 }
 
 TEST_F(ScenarioTest, AMissingFile) {
-  EXPECT_EQ(folder_.shown(fakes::error_of([&] { read_scenario(folder_.path() + "/none.yaml", {}, catalog_); })),
+  EXPECT_EQ(folder_.shown(test::message_of([&] { read_scenario(folder_.path() + "/none.yaml", {}, catalog_); })),
             "DIR/none.yaml: error: cannot be read: No such file or directory");
   EXPECT_EQ(error("robot: {modules: duo, build: none.dat}\nduration: 1\n"),
             "DIR/s.yaml:1:30: error: file 'DIR/none.dat' cannot be read: No such file or directory");
@@ -265,7 +266,7 @@ TEST_F(ScenarioTest, CommandUnitsMustAgree) {
   EXPECT_EQ(error(kShort + "actuator: {type: torque}\n"),
             "DIR/s.yaml:3:18: error: the default controller 'pid' commands V, but actuator 'torque' takes N m\n"
             "DIR/s.yaml:3:18: note: a controller of its own: controller: {unit: N m, Kp: ...}");
-  EXPECT_EQ(error(kShort + "actuator: {type: torque}\ncontroller: {type: hold}\n"), "no error");
+  EXPECT_EQ(error(kShort + "actuator: {type: torque}\ncontroller: {type: hold}\n"), test::kNoError);
 }
 
 TEST_F(ScenarioTest, WithoutAnActuatorThereIsNoController) {
@@ -328,7 +329,7 @@ TEST_F(ScenarioTest, NoOtherEngineReplacesTheDefaultWhereThatIsNotBuiltIn) {
   Catalog catalog;
   fakes::fill(catalog, "articulated");
   const auto refusal = [&](const std::string& text) {
-    return folder_.shown(fakes::error_of([&] { read_scenario(folder_.write("s.yaml", text), {}, catalog); }));
+    return folder_.shown(test::message_of([&] { read_scenario(folder_.write("s.yaml", text), {}, catalog); }));
   };
   const std::string remedy =
       "this program was built without the default engine 'bullet'; write physics: {engine: articulated}, or add --set "

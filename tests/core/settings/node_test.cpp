@@ -8,14 +8,15 @@
 
 #include "tests/core/scenario/fakes.h"
 #include "tests/cpu_time.h"
+#include "tests/messages.h"
 
 namespace gaitlab {
 namespace {
 
-using fakes::error_of;
+using test::message_of;
 
 std::string error(const std::string& text) {
-  return error_of([&] { parse_yaml(text, "f"); });
+  return message_of([&] { parse_yaml(text, "f"); });
 }
 
 TEST(Node, KnowsPlacesAndKinds) {
@@ -58,7 +59,7 @@ TEST(Node, AMergeKeyIsAnOrdinaryKey) { EXPECT_EQ(parse_yaml("a: {<<: 1}\n", "f")
 TEST(Node, ASecondDocumentIsRefused) {
   EXPECT_EQ(error("a: 1\n---\nb: 2\n"), "f:2:1: error: found a second document; expected one document a file");
   EXPECT_EQ(error("a: 1\n---\n"), "f:2:1: error: found a second document; expected one document a file");
-  EXPECT_EQ(error("---\na: 1\n...\n"), "no error");
+  EXPECT_EQ(error("---\na: 1\n...\n"), test::kNoError);
 }
 
 TEST(Node, TheRootIsAMap) {
@@ -76,7 +77,7 @@ TEST(Node, KeysAreNames) {
 }
 
 TEST(Node, DepthAndSizeAreLimited) {
-  EXPECT_EQ(error("a: " + std::string(31, '[') + std::string(31, ']')), "no error");
+  EXPECT_EQ(error("a: " + std::string(31, '[') + std::string(31, ']')), test::kNoError);
   EXPECT_EQ(error("a: " + std::string(32, '[') + std::string(32, ']')), "f:1:35: error: nested deeper than 32 levels");
   EXPECT_EQ(error("a: " + std::string(1 << 20, 'x')), "f: error: the text is larger than 1 MB");
 }
@@ -111,14 +112,14 @@ TEST(Node, SyntaxErrorsHaveAPlace) {
 }
 
 TEST(Node, AMissingFileIsReportedWhereItWasAskedFor) {
-  EXPECT_EQ(error_of([] { read_yaml("/nowhere/x.yaml"); }),
+  EXPECT_EQ(message_of([] { read_yaml("/nowhere/x.yaml"); }),
             "/nowhere/x.yaml: error: cannot be read: No such file or directory");
-  EXPECT_EQ(error_of([] {
+  EXPECT_EQ(message_of([] {
               read_yaml("/nowhere/x.yaml", {"s.yaml", 3, 7});
             }),
             "s.yaml:3:7: error: file '/nowhere/x.yaml' cannot be read: No such file or directory");
-  EXPECT_EQ(error_of([] { read_yaml("/tmp"); }), "/tmp: error: cannot be read: Is a directory");
-  EXPECT_EQ(error_of([] { read_yaml("/dev/zero"); }), "/dev/zero: error: cannot be read: not a regular file");
+  EXPECT_EQ(message_of([] { read_yaml("/tmp"); }), "/tmp: error: cannot be read: Is a directory");
+  EXPECT_EQ(message_of([] { read_yaml("/dev/zero"); }), "/dev/zero: error: cannot be read: not a regular file");
 }
 
 // Expects equal kinds, texts and flags of two trees; places may differ.

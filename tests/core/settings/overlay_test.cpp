@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/core/scenario/fakes.h"
+#include "tests/messages.h"
 
 namespace gaitlab {
 namespace {
@@ -22,7 +23,7 @@ std::string after(const std::vector<std::string>& sets) {
 }
 
 std::string refused(const std::string& set) {
-  return fakes::error_of([&] { after({set}); });
+  return test::message_of([&] { after({set}); });
 }
 
 TEST(Overlay, ReplacesAddsAndCreatesMaps) {

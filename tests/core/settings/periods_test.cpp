@@ -4,6 +4,7 @@
 
 #include "core/math/periods.h"
 #include "tests/core/scenario/fakes.h"
+#include "tests/messages.h"
 
 namespace gaitlab {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 std::string check(const std::vector<Period>& periods, const Period& step) {
   Problems problems;
   check_periods(periods, step, {"s.yaml", 9, 1}, problems);
-  return fakes::error_of([&] { problems.raise(); });
+  return test::message_of([&] { problems.raise(); });
 }
 
 TEST(Periods, StepsThatFitAll) {
@@ -28,7 +29,7 @@ TEST(Periods, PeriodsThatFit) {
 
 TEST(Periods, NameBothValuesAndOfferWhatFits) {
   EXPECT_EQ(check({{"control period", 0.015}, {"duration", 20, SourceLocation{"s.yaml", 3, 11}}}, {"step", 2.5e-5}),
-            "no error");
+            test::kNoError);
   EXPECT_EQ(check({{"control period", 0.015}}, {"step", 7e-5, SourceLocation{"s.yaml", 4, 5}}),
             "s.yaml:4:5: error: control period 0.015 s is not a whole multiple of the step 7e-05 s (214.285714286 steps); "
             "steps that fit: 6.25e-05, 7.5e-05");

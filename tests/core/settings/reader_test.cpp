@@ -6,6 +6,7 @@
 #include "core/settings/explainer.h"
 #include "core/settings/writer.h"
 #include "tests/core/scenario/fakes.h"
+#include "tests/messages.h"
 
 namespace gaitlab {
 namespace {
@@ -37,7 +38,7 @@ std::string read(const std::string& text, T& settings, JointNames joints = &kJoi
   Reader reader(node, "settings", problems, joints);
   settings.fields(reader);
   reader.finish();
-  return fakes::error_of([&] { problems.raise(); });
+  return test::message_of([&] { problems.raise(); });
 }
 
 template <class T>
@@ -49,13 +50,13 @@ std::string write(T& settings) {
 
 TEST(Reader, ReadsWhatIsThereAndKeepsDefaults) {
   Gains s;
-  EXPECT_EQ(read("window: [0.5, 2]\nleader: m1/active\non: true\nmode: fast\n", s), "no error");
+  EXPECT_EQ(read("window: [0.5, 2]\nleader: m1/active\non: true\nmode: fast\n", s), test::kNoError);
   EXPECT_EQ(s.stiffness, 10);
   EXPECT_EQ(s.window[1], 2);
   EXPECT_EQ(s.leader, 2);
   EXPECT_TRUE(s.on);
   EXPECT_EQ(s.mode, Gains::Mode::fast);
-  EXPECT_EQ(read("leader: 1\n", s), "no error");
+  EXPECT_EQ(read("leader: 1\n", s), test::kNoError);
   EXPECT_EQ(s.leader, 1);
 }
 
@@ -89,13 +90,13 @@ TEST(Reader, WrongTypesAndRanges) {
 
 TEST(Reader, PerJointValues) {
   fakes::CommonKeys s;
-  EXPECT_EQ(read("frequency: 1\namplitude: [1, 2, 3]\n", s), "no error");
+  EXPECT_EQ(read("frequency: 1\namplitude: [1, 2, 3]\n", s), test::kNoError);
   EXPECT_EQ(s.frequency[2], 1);
   EXPECT_EQ(s.amplitude[2], 3);
-  EXPECT_EQ(read("amplitude: {default: 0.5, m1/active: 0.25}\nfrequency: {m0/active: 2}\n", s), "no error");
+  EXPECT_EQ(read("amplitude: {default: 0.5, m1/active: 0.25}\nfrequency: {m0/active: 2}\n", s), test::kNoError);
   EXPECT_EQ(s.amplitude.each, (std::vector<double>{0.5, 0.5, 0.25}));
   EXPECT_EQ(s.frequency.each, (std::vector<double>{2, 1, 1}));
-  EXPECT_EQ(read("amplitude: {default: 0.5}\nfrequency: 3\n", s), "no error");
+  EXPECT_EQ(read("amplitude: {default: 0.5}\nfrequency: 3\n", s), test::kNoError);
   EXPECT_TRUE(s.amplitude.each.empty());
   EXPECT_TRUE(s.frequency.each.empty());
 }
@@ -118,15 +119,16 @@ TEST(Reader, PerJointErrors) {
 TEST(Reader, PatternsOfJoints) {
   fakes::CommonKeys s;
   // A name overrides patterns, and patterns override the default, in any order.
-  EXPECT_EQ(read("frequency: {m0/active: 3, \"*/active\": 2, default: 1}\namplitude: {\"m?/active\": 0.25}\n", s), "no error");
+  EXPECT_EQ(read("frequency: {m0/active: 3, \"*/active\": 2, default: 1}\namplitude: {\"m?/active\": 0.25}\n", s),
+            test::kNoError);
   EXPECT_EQ(s.frequency.each, (std::vector<double>{3, 1, 2}));
   EXPECT_EQ(s.amplitude.each, (std::vector<double>{0.25, 0.6, 0.25}));
   // Patterns may give equal values, or different values for a joint whose name is also given.
-  EXPECT_EQ(read("frequency: {\"*/active\": 2, m0/*: 2, m0/passive: 5}\n", s), "no error");
+  EXPECT_EQ(read("frequency: {\"*/active\": 2, m0/*: 2, m0/passive: 5}\n", s), test::kNoError);
   EXPECT_EQ(s.frequency.each, (std::vector<double>{2, 5, 2}));
-  EXPECT_EQ(read("frequency: {\"*/active\": 2, m0/*: 4, m0/active: 3}\n", s), "no error");
+  EXPECT_EQ(read("frequency: {\"*/active\": 2, m0/*: 4, m0/active: 3}\n", s), test::kNoError);
   EXPECT_EQ(s.frequency.each, (std::vector<double>{3, 4, 2}));
-  EXPECT_EQ(read("frequency: {\"*\": 7}\n", s), "no error");
+  EXPECT_EQ(read("frequency: {\"*\": 7}\n", s), test::kNoError);
   EXPECT_EQ(s.frequency.each, (std::vector<double>{7, 7, 7}));
 }
 
@@ -154,7 +156,7 @@ TEST(Reader, PatternErrors) {
   EXPECT_EQ(read("frequency: {\"*/x\": 30}\n", s, nullptr),
             "f:1:20: error: frequency of '*/x' is 30 Hz; allowed are 0 to 20 Hz");
   const std::string quotes = "; a pattern goes in quotes: \"*/active\"";
-  const auto unquoted = [](const std::string& text) { return fakes::error_of([&] { parse_yaml(text, "f"); }); };
+  const auto unquoted = [](const std::string& text) { return test::message_of([&] { parse_yaml(text, "f"); }); };
   EXPECT_EQ(unquoted("frequency: {*/active: 2}\n"),
             "f:1:13: error: not valid YAML: the referenced anchor is not defined" + quotes);
   EXPECT_EQ(unquoted("frequency: {m?/active: 2}\n"), "f:1:14: error: not valid YAML: unknown token" + quotes);
@@ -174,20 +176,20 @@ TEST(Reader, RequiredPerJoint) {
   EXPECT_EQ(read("torque: 0\n", s), "f:1:9: error: torque is 0 N m; allowed are more than 0 and up to 10 N m");
   EXPECT_EQ(read("torque: {m0/active: 1, m1/*: 2}\n", s),
             "f:1:9: error: torque is missing for joint 'm0/passive'; add it, or default:");
-  EXPECT_EQ(read("torque: {default: 1, m1/*: 2}\n", s), "no error");
-  EXPECT_EQ(read("{}\n", s), "no error") << "given before, by the module type";
+  EXPECT_EQ(read("torque: {default: 1, m1/*: 2}\n", s), test::kNoError);
+  EXPECT_EQ(read("{}\n", s), test::kNoError) << "given before, by the module type";
   s = {};
-  EXPECT_EQ(read("torque: {\"*/active\": 1, \"*/passive\": 2}\n", s), "no error");
+  EXPECT_EQ(read("torque: {\"*/active\": 1, \"*/passive\": 2}\n", s), test::kNoError);
   EXPECT_EQ(s.torque.each, (std::vector<double>{1, 2, 1}));
 }
 
 TEST(Reader, RuleOrList) {
   fakes::CommonKeys s;
-  EXPECT_EQ(read("couplings: [{from: m0/active, to: 1, weight: 2}, {to: 2}]\n", s), "no error");
+  EXPECT_EQ(read("couplings: [{from: m0/active, to: 1, weight: 2}, {to: 2}]\n", s), test::kNoError);
   EXPECT_FALSE(s.rule.has_value());
   EXPECT_EQ(s.couplings.at(0).to, 1);
   EXPECT_EQ(s.couplings.at(1).weight, 1);
-  EXPECT_EQ(read("couplings: chain\n", s), "no error");
+  EXPECT_EQ(read("couplings: chain\n", s), test::kNoError);
   EXPECT_EQ(s.rule, fakes::CommonKeys::Rule::chain);
   EXPECT_TRUE(s.couplings.empty());
   EXPECT_EQ(read("couplings: chian\n", s), "f:1:12: error: couplings 'chian' is unknown; did you mean 'chain'?");
@@ -201,7 +203,7 @@ TEST(Reader, RuleOrList) {
 
 TEST(Reader, GroupsAndChecksAcrossFields) {
   fakes::Hopf::Settings s;
-  EXPECT_EQ(read("model: {mu: 3}\ntable: [1, 2]\nlabels: [a, 'b c']\n", s), "no error");
+  EXPECT_EQ(read("model: {mu: 3}\ntable: [1, 2]\nlabels: [a, 'b c']\n", s), test::kNoError);
   EXPECT_EQ(s.model.mu, 3);
   EXPECT_EQ(s.labels[1], "b c");
   EXPECT_EQ(read("model: {mu: 60}\n", s), "f:1:8: error: mu and the table do not go together");
@@ -231,7 +233,7 @@ TEST(Writer, EveryDefaultIsWrittenAndReadsBack) {
             "labels: [\"a b\", \"5\"]\n"
             "expression: \"x + 1\"\n");
   fakes::Hopf::Settings back;
-  EXPECT_EQ(read(text, back), "no error");
+  EXPECT_EQ(read(text, back), test::kNoError);
   EXPECT_EQ(write(back), text);
 }
 

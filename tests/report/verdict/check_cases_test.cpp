@@ -238,7 +238,7 @@ TEST(CheckCases, DecidedByTheFirstOfEqualMargins) {
 /// A spread of margins makes a passed check `too close` if one of its margins is beyond the limit or unknown.
 TEST(CheckCases, ASpreadMakesTooCloseWhatItBringsToTheOtherSide) {
   Case made = rated_gait();
-  const auto with = [&](std::vector<double> margins) {
+  const auto with = [&](SpilledVector<double> margins) {
     made.record.spread = Trace{{{report::margin_column("voltage"), "", ""}}, std::move(margins)};
     return made.check("voltage");
   };

@@ -125,6 +125,19 @@ TEST(Combined, AreTheOrdinaryStatistics) {
   EXPECT_EQ(combined({5}, "median", 0), 5);
 }
 
+/// The quantile of a share of whole hundredths, in whole numbers: the least value that as many values do not exceed.
+TEST(Combined, QuantilesCountInWholeNumbers) {
+  for (std::size_t count = 1; count <= 200; ++count) {
+    std::vector<double> values;
+    for (std::size_t k = 1; k <= count; ++k) values.push_back(static_cast<double>(k));
+    for (std::size_t hundredths = 0; hundredths <= 100; ++hundredths) {
+      const std::size_t least = std::max<std::size_t>(1, (hundredths * count + 99) / 100);
+      EXPECT_EQ(combined(values, "quantile", static_cast<double>(hundredths) / 100), static_cast<double>(least))
+          << hundredths << " % of " << count;
+    }
+  }
+}
+
 TEST(Better, OrdersFeasibleBeforeInfeasibleBeforeFailed) {
   const PointResult good{0, 1, 0, {{0.1}, 0}};
   const PointResult fast{1, 1, 0, {{0.2}, 0}};

@@ -4,6 +4,7 @@
 #include "app/study/study_quantities.h"
 #include "studies/plan/plan.h"
 #include "studies/plan/plan_checks.h"
+#include "tests/messages.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -21,15 +22,11 @@ class StudyFile : public ::testing::Test {
   /// Error message, without the folder, of a study file that is read and applied to two.yaml.
   std::string error(const std::string& text) { return error_of(folder_.write("s.yaml", text), studies::Purpose::sweep); }
   std::string error_of(const std::string& file, studies::Purpose purpose) {
-    try {
-      const studies::Plan plan(studies::read_study(file, purpose), app::quantity_offer(), catalog());
-    } catch (const InputError& error) {
-      std::string what = error.what();
-      for (std::size_t at = 0; (at = what.find(folder_.path().string() + "/")) != std::string::npos;)
-        what.erase(at, folder_.path().string().size() + 1);
-      return what;
-    }
-    return "taken";
+    std::string what =
+        message_of([&] { const studies::Plan plan(studies::read_study(file, purpose), app::quantity_offer(), catalog()); });
+    for (std::size_t at = 0; (at = what.find(folder_.path().string() + "/")) != std::string::npos;)
+      what.erase(at, folder_.path().string().size() + 1);
+    return what;
   }
   /// Error message of a search study that is correct except for these lines.
   std::string search(const std::string& lines) {
@@ -52,15 +49,15 @@ class StudyFile : public ::testing::Test {
 };
 
 TEST_F(StudyFile, IsTaken) {
-  EXPECT_EQ(with(""), "taken");
+  EXPECT_EQ(with(""), kNoError);
   EXPECT_EQ(with("objective: {minimize: \"torque.peak[m0/active] / max(speed, 1e-6)\"}\nconstraints: [torque.rms <= 0.6]\n"
                  "guards: {stops: 0.2, dock_bending: {margin: 0.2}, periodic: true, slip: false}\nreplicates: {count: 3, vary: "
                  "{actuator.R: {times: {uniform: [0.9, 1.1]}}}}\n"),
-            "taken");
+            kNoError);
 }
 
 TEST_F(StudyFile, ItsRulesForStoppingAreChecked) {
-  EXPECT_EQ(with("stop: [fell, saturated.voltage > 0.3 after 0.04, \"torque.peak[m0/active] > 2\"]\n"), "taken");
+  EXPECT_EQ(with("stop: [fell, saturated.voltage > 0.3 after 0.04, \"torque.peak[m0/active] > 2\"]\n"), kNoError);
   EXPECT_EQ(with("stop: [feel]\n"), "s.yaml:4:8: error: unknown quantity 'feel'; did you mean 'fell'?");
   EXPECT_EQ(with("stop: [fell after noon]\n"),
             "s.yaml:4:8: error: a rule ends with after 'noon'; expected a number of seconds: fell after 2");
@@ -69,15 +66,15 @@ TEST_F(StudyFile, ItsRulesForStoppingAreChecked) {
                "s.yaml:4:8: error: limit_cycle.found is known when a run has ended; while it runs there are simulated, "));
   EXPECT_EQ(with("stop: [fell, distance > 1 after 4]\n"),
             "s.yaml:4:14: error: the rule begins at 4 s, and the run ends at 0.1 s; expected an earlier time behind `after`");
-  EXPECT_EQ(with("stop: [fell after 4]\nset: [duration=5]\n"), "taken");
-  EXPECT_EQ(parameters("duration: {values: [1, 5]}", "stop: [fell after 4]\n"), "taken");
+  EXPECT_EQ(with("stop: [fell after 4]\nset: [duration=5]\n"), kNoError);
+  EXPECT_EQ(parameters("duration: {values: [1, 5]}", "stop: [fell after 4]\n"), kNoError);
   EXPECT_EQ(with("stop: fell\n"), "s.yaml:4:7: error: stop is 'fell'; expected a list of texts");
 }
 
 TEST_F(StudyFile, ItsSensitivityIsChecked) {
   const std::string both = "cpg.frequency: {low: 0.5, high: 1}";
-  EXPECT_EQ(parameters(both, "method: {type: morris, trajectories: 4}\n"), "taken");
-  EXPECT_EQ(parameters(both, "method: {type: sobol_indices, samples: 8}\n"), "taken");
+  EXPECT_EQ(parameters(both, "method: {type: morris, trajectories: 4}\n"), kNoError);
+  EXPECT_EQ(parameters(both, "method: {type: sobol_indices, samples: 8}\n"), kNoError);
   EXPECT_EQ(parameters(both, "method: {type: morris}\nbudget: {runs: 100}\n"),
             "s.yaml:1:1: error: method morris takes no budget of runs; expected method: {trajectories: N}");
   EXPECT_EQ(parameters("cpg.frequency: {values: [0.5, 1]}", "method: {type: morris}\n"),
@@ -141,7 +138,7 @@ TEST_F(StudyFile, ItsExpressionsAreChecked) {
   EXPECT_EQ(with("guards: {verdict_excess: 3}\n"),
             "s.yaml:4:10: error: verdict_excess: 3 is an old guard without a check of the same meaning; write guards: {ID: "
             "{margin: -0.1}} for a check that may fail");
-  EXPECT_EQ(with("guards: {verdict_excess: 0}\n"), "taken");
+  EXPECT_EQ(with("guards: {verdict_excess: 0}\n"), kNoError);
   EXPECT_EQ(with("figures: [speed]\nquantities: [speed]\n"),
             "s.yaml:4:1: error: figures is the old name of quantities, which is given, too; expected one of them");
   EXPECT_EQ(with("guards: walk\n"),
@@ -150,8 +147,8 @@ TEST_F(StudyFile, ItsExpressionsAreChecked) {
 }
 
 TEST_F(StudyFile, ASearchIsChecked) {
-  EXPECT_EQ(search("budget: {runs: 16}\n"), "taken");
-  EXPECT_EQ(search("budget: {runs: 64}\nobjective: [{maximize: speed}, {minimize: torque.peak}]\n"), "taken");
+  EXPECT_EQ(search("budget: {runs: 16}\n"), kNoError);
+  EXPECT_EQ(search("budget: {runs: 64}\nobjective: [{maximize: speed}, {minimize: torque.peak}]\n"), kNoError);
   EXPECT_EQ(search(""), "s.yaml:1:1: error: missing budget: {runs: N}, which method cma needs");
   EXPECT_EQ(search("budget: {runs: 15}\n"),
             "s.yaml:1:1: error: a budget of 15 runs is less than the 16 of the searches' first generation");
@@ -214,7 +211,7 @@ TEST_F(StudyFile, ThoseThatComeWithTheProgramAreTaken) {
     const auto method = studies::read_study(name, studies::Purpose::sweep).method;
     searches += studies::is_search(method) ? 1 : 0;
     const auto purpose = studies::is_search(method) ? studies::Purpose::optimize : studies::Purpose::sweep;
-    EXPECT_EQ(error_of(name, purpose), "taken") << name;
+    EXPECT_EQ(error_of(name, purpose), kNoError) << name;
     const studies::Plan plan(studies::read_study(name, purpose), app::quantity_offer(), catalog());
     EXPECT_TRUE(short_runs(plan).empty()) << name << ": " << short_runs(plan).front().text;
     EXPECT_TRUE(plan.study().notes.empty()) << name;

@@ -1,0 +1,178 @@
+// The loop of a search on a function instead of runs: its points, its budget, and the same requests after a restart.
+#include "studies/search/optimizer.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "studies/study/number.h"
+#include "tests/messages.h"
+#include "tests/studies/small_study.h"
+
+namespace gaitlab::test {
+namespace {
+
+using studies::Generation;
+using studies::Job;
+using studies::Journal;
+using studies::Row;
+using studies::SearchEnd;
+
+const std::string kBox =
+    "parameters: {cpg.frequency: {low: 0.5, high: 1.5}, cpg.amplitude: {low: 0.2, high: 1}}\nguards: none\n";
+
+/// A search whose runs have the speed 1 - (frequency - 0.7)^2 - (amplitude - 0.9)^2.
+class FunctionSearch {
+ public:
+  explicit FunctionSearch(const std::string& lines) : study(lines, studies::Purpose::optimize) {}
+
+  static double speed(const std::vector<std::string>& values) {
+    return 1 - std::pow(studies::number_of(values[0]) - 0.7, 2) - std::pow(studies::number_of(values[1]) - 0.9, 2);
+  }
+  /// Runs the searches; `most`: of runs, after which they are stopped.
+  SearchEnd run(Journal& journal, std::size_t most = 100000) {
+    run_now.clear();
+    std::atomic<bool> stop = false;
+    studies::RunnerSettings settings;
+    settings.executor = answering(
+        [&](const Job& job) {
+          run_now.push_back(job.row);
+          if (run_now.size() == most) stop = true;
+          return study.done(job.row, "speed", speed(job.row.values));
+        },
+        8);
+    return studies::run_searches(
+        *study.plan, journal, std::move(settings), [&](const studies::SearchPlace& place) { places.push_back(place); }, stop);
+  }
+  SmallStudy study;
+  std::vector<Row> run_now;
+  std::vector<studies::SearchPlace> places;
+};
+
+/// `run number: values` of all rows.
+std::vector<std::string> runs_in(Journal& journal) {
+  std::vector<std::string> all;
+  journal.each_row({"run", journal.columns().parameters[0], journal.columns().parameters[1]},
+                   [&](const std::vector<std::string>& row) { all.push_back(row[0] + ": " + row[1] + " " + row[2]); });
+  return all;
+}
+
+/// Points that are even in the box have a speed of 0.68 in the mean.
+TEST(Searches, EndWithTheirBudgetCloseToTheBest) {
+  FunctionSearch search(kBox + "budget: {runs: 300}\n");
+  Journal journal = search.study.journal();
+  EXPECT_EQ(search.run(journal), SearchEnd::budget);
+  EXPECT_EQ(journal.rows(), 300U);
+  std::set<std::vector<std::string>> points;
+  for (const Row& row : search.run_now) {
+    const double frequency = studies::number_of(row.values[0]);
+    const double amplitude = studies::number_of(row.values[1]);
+    EXPECT_TRUE(frequency >= 0.5 && frequency <= 1.5 && amplitude >= 0.2 && amplitude <= 1) << frequency << " " << amplitude;
+    points.insert(row.values);
+  }
+  EXPECT_EQ(points.size(), 300U) << "no point twice";
+  EXPECT_GT(journal.generations().back().median, 1 - 0.01) << "a tenth of the box from the best";
+}
+
+TEST(Searches, WriteEachGenerationThatIsWhole) {
+  FunctionSearch search(kBox + "budget: {runs: 100}\nmethod: {type: cma, population: 16}\n");
+  Journal journal = search.study.journal();
+  ASSERT_EQ(search.run(journal), SearchEnd::budget);
+  const std::vector<Generation> all = journal.generations();
+  ASSERT_EQ(all.size(), 6U) << "six times 16 of 100 runs";
+  for (std::size_t g = 0; g < all.size(); ++g) {
+    EXPECT_EQ(all[g].generation, g);
+    EXPECT_EQ(all[g].first_run, 16 * g);
+    EXPECT_EQ(all[g].runs, 16U);
+    EXPECT_EQ(all[g].points, 16U);
+    EXPECT_EQ(all[g].kept, 16U);
+    double best = -9;
+    std::vector<double> speeds;
+    for (std::size_t k = 16 * g; k < 16 * (g + 1); ++k) speeds.push_back(FunctionSearch::speed(search.run_now[k].values));
+    for (const double one : speeds) best = std::max(best, one);
+    std::ranges::sort(speeds);
+    EXPECT_EQ(all[g].best, best);
+    EXPECT_EQ(all[g].median, (speeds[7] + speeds[8]) / 2);
+  }
+  EXPECT_EQ(search.places.back().generation, 7U);
+  EXPECT_EQ(search.places.back().asked, 4U) << "the rest of the budget";
+}
+
+TEST(Searches, GoOnWhereTheyWereStopped) {
+  const std::string lines = kBox + "budget: {runs: 56}\n";
+  FunctionSearch whole(lines);
+  Journal once = whole.study.journal();
+  ASSERT_EQ(whole.run(once), SearchEnd::budget);
+  const std::vector<std::string> expected = runs_in(once);
+
+  FunctionSearch first(lines);
+  Journal journal = first.study.journal();
+  EXPECT_EQ(first.run(journal, 21), SearchEnd::stopped) << "within a generation";
+  FunctionSearch second(lines);
+  EXPECT_EQ(second.run(journal), SearchEnd::budget);
+  EXPECT_EQ(second.run_now.size(), 56 - first.run_now.size()) << "each run once";
+  EXPECT_EQ(runs_in(journal), expected);
+  EXPECT_EQ(journal.generations().size(), once.generations().size());
+  FunctionSearch third(lines);
+  EXPECT_EQ(third.run(journal), SearchEnd::budget);
+  EXPECT_TRUE(third.run_now.empty()) << "nothing is left";
+}
+
+/// Each combination of listed values is searched by itself, with all of its runs.
+TEST(Searches, HaveOneForEachCombinationOfListedValues) {
+  FunctionSearch search(
+      "parameters: {cpg.frequency: {low: 0.5, high: 1.5}, cpg.amplitude: {values: [0.4, 0.9]}, cpg.type: {values: [hopf, "
+      "phase_oscillator]}}\nguards: none\nbudget: {runs: 64}\nmethod: {type: cma, population: 16}\n");
+  Journal journal = search.study.journal();
+  ASSERT_EQ(search.run(journal), SearchEnd::budget);
+  std::map<std::vector<std::string>, int> combinations;
+  for (const Row& row : search.run_now) ++combinations[{row.values[1], row.values[2]}];
+  ASSERT_EQ(combinations.size(), 4U);
+  for (const auto& [values, count] : combinations) EXPECT_EQ(count, 16) << values[0] << " " << values[1];
+  EXPECT_EQ(search.places.front().searches, 4U);
+}
+
+TEST(Searches, ConvergeBeforeTheirBudget) {
+  FunctionSearch search(kBox + "budget: {runs: 5000}\nmethod: {type: cma, restarts: 0}\n");
+  Journal journal = search.study.journal();
+  EXPECT_EQ(search.run(journal), SearchEnd::converged);
+  EXPECT_LT(journal.rows(), 1000U);
+  EXPECT_EQ(journal.generations().back().runs, journal.rows() - journal.generations().back().first_run);
+}
+
+/// A box of four numbers of 12 digits: each is run once, however often it is asked for.
+TEST(Searches, RunNoPointTwice) {
+  FunctionSearch search(
+      "parameters: {cpg.frequency: {low: 1, high: 1.00000000003}, cpg.amplitude: {values: [0.5]}}\nguards: none\nbudget: "
+      "{runs: "
+      "100}\nmethod: {type: cma, population: 8, restarts: 0}\n");
+  Journal journal = search.study.journal();
+  EXPECT_EQ(search.run(journal), SearchEnd::converged);
+  std::set<std::string> points;
+  for (const Row& row : search.run_now) EXPECT_TRUE(points.insert(row.values[0]).second) << row.values[0];
+  EXPECT_EQ(journal.rows(), points.size());
+  EXPECT_LE(points.size(), 4U);
+  std::uint64_t runs = 0;
+  for (const Generation& one : journal.generations()) {
+    EXPECT_GE(one.points, 8U);
+    runs += one.runs;
+  }
+  EXPECT_EQ(runs, points.size()) << "of all generations";
+}
+
+/// The journal of another version of pagmo: its points are others.
+TEST(Searches, RefuseAJournalOfOtherPoints) {
+  FunctionSearch search(kBox + "budget: {runs: 100}\n");
+  Journal journal = search.study.journal();
+  Row other;
+  other.point = "0123";
+  other.values = {"0.5", "0.5"};
+  const std::vector<Row> rows{search.study.done(other, "speed", 1)};
+  journal.write(rows, {});
+  const std::string text = message_of([&] { search.run(journal); });
+  EXPECT_TRUE(text.starts_with("study.db: error: run 0 is at another point than this program requires, with pagmo")) << text;
+  EXPECT_TRUE(search.run_now.empty());
+}
+
+}  // namespace
+}  // namespace gaitlab::test

@@ -1,0 +1,245 @@
+// Verification of the best points: which are tried, by which settings, and what speaks against a point.
+#include "studies/search/verify.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/studies/small_study.h"
+
+namespace gaitlab::test {
+namespace {
+
+using studies::Job;
+using studies::Journal;
+using studies::PointResult;
+using studies::Results;
+using studies::Row;
+using studies::Verification;
+
+using Values = std::vector<std::string>;
+
+/// A search over the frequency, 0.5 to 1.5 Hz, with points that have speeds.
+class SearchedStudy {
+ public:
+  explicit SearchedStudy(const std::vector<std::pair<std::string, double>>& points, const std::string& lines = "",
+                         const std::string& parameters = "cpg.frequency: {low: 0.5, high: 1.5}")
+      : study("parameters: {" + parameters + "}\nbudget: {runs: 64}\nguards: none\n" + lines, studies::Purpose::optimize) {
+    for (const auto& [value, speed] : points) {
+      study.plan->add(study.plan->study().parameters.size() == 1 ? Values{value} : Values{value, "hopf"});
+      for (std::uint64_t r = 0; r < study.plan->points().runs_of_point(); ++r)
+        rows.push_back(study.done(study.plan->row(rows.size()), "speed", speed));
+    }
+  }
+  void write() {
+    if (journal.rows() == 0) journal.write(rows, {});
+  }
+  /// Frequencies of the candidates.
+  std::vector<std::string> candidates() {
+    write();
+    const Results found = results(journal);
+    std::vector<std::string> values;
+    for (const std::size_t k : studies::candidates(*study.plan, found))
+      values.push_back(study.plan->row(found.points[k].first_run).values[0]);
+    return values;
+  }
+  /// Verifications of all points, with rows by `answer`.
+  std::vector<Verification> verify(const std::function<Row(const Job&)>& answer) {
+    write();
+    const Results found = results(journal);
+    std::vector<std::size_t> all(found.points.size());
+    for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
+    std::atomic<bool> stop = false;
+    return studies::verify(
+               *study.plan, journal, found, all, answering(answer), [](std::size_t, std::size_t) {}, stop)
+        .value();
+  }
+  SmallStudy study;
+  Journal journal = study.journal();
+  std::vector<Row> rows;
+};
+
+TEST(Candidates, AreTheBestThatAreApart) {
+  SearchedStudy made({{"0.6", 1}, {"0.7", 5}, {"0.709", 4.9}, {"0.692", 4.8}, {"0.72", 4.5}, {"1.4", 3}, {"1.3", 2}});
+  EXPECT_EQ(made.candidates(), (Values{"0.7", "0.72", "1.4"})) << "three, 1 % of the box from one another";
+  SearchedStudy few({{"0.6", 1}, {"0.7", 5}}, "verify: {best: 1}\n");
+  EXPECT_EQ(few.candidates(), Values{"0.7"});
+  SearchedStudy least({{"0.6", 1}, {"0.7", 5}}, "objective: {minimize: speed}\n");
+  EXPECT_EQ(least.candidates(), (Values{"0.6", "0.7"}));
+}
+
+TEST(Candidates, AreKept) {
+  SearchedStudy made({{"0.6", 1}, {"0.7", 5}, {"0.8", 4}, {"0.9", 3}}, "constraints: [speed <= 4.5]\n");
+  made.rows[2].outcome = "diverged";
+  made.rows[2].score.reset();
+  EXPECT_EQ(made.candidates(), (Values{"0.9", "0.6"}));
+}
+
+/// 0.1 to 10 Hz by the logarithm: 1 % of the box is a factor of 100^0.01 = 1.047.
+TEST(Candidates, AreApartInTheScaleOfTheirParameter) {
+  SearchedStudy made({{"0.2", 5}, {"0.209", 4}, {"0.21", 3}, {"8", 2}, {"8.2", 1}}, "verify: {best: 9}\n",
+                     "cpg.frequency: {low: 0.1, high: 10, scale: log}");
+  EXPECT_EQ(made.candidates(), (Values{"0.2", "0.21", "8"}));
+}
+
+TEST(Candidates, WithOtherWordsAreApart) {
+  SearchedStudy made({{"0.7", 5}}, "", "cpg.frequency: {low: 0.5, high: 1.5}, cpg.type: {values: [hopf, phase_oscillator]}");
+  made.study.plan->add({"0.7", "phase_oscillator"});
+  made.rows.push_back(made.study.done(made.study.plan->row(1), "speed", 4));
+  EXPECT_EQ(made.candidates().size(), 2U);
+}
+
+/// Five points on a front, of which three divide it evenly.
+TEST(Candidates, OfAFrontAreItsEndsAndBetween) {
+  SearchedStudy made({{"0.6", 1}, {"0.7", 2}, {"0.8", 3}, {"0.9", 4}, {"1", 5}, {"1.1", 0}},
+                     "objective: [{maximize: speed}, {minimize: torque.peak}]\nmethod: {type: nsga2}\n");
+  for (std::size_t k = 0; k < made.rows.size(); ++k) {
+    Row& row = made.rows[k];
+    row.quantities[made.study.column("torque.peak")] = k == 5 ? 9 : row.quantities[made.study.column("speed")];
+    row.score = made.study.plan->scorer().score(row.quantities, row.verdict);
+  }
+  EXPECT_EQ(made.candidates(), (Values{"1", "0.8", "0.6"}));
+}
+
+/// The row of a job with the speed of its point times a factor.
+std::function<Row(const Job&)> times(const SearchedStudy& made, double factor, const std::function<void(Row&)>& change = {}) {
+  return [&made, factor, change](const Job& job) {
+    const auto was = std::ranges::find(made.rows, job.row.point, &Row::point);
+    Row row = made.study.done(job.row, "speed", factor * was->quantities[made.study.column("speed")]);
+    if (change) change(row);
+    return row;
+  };
+}
+
+/// Reasons of half a step, point by point.
+std::vector<std::string> reasons(SearchedStudy& made, double factor, const std::function<void(Row&)>& change = {}) {
+  std::vector<std::string> all;
+  for (const Verification& v : made.verify(times(made, factor, change))) {
+    if (v.what != "as run") all.push_back(v.reason);
+  }
+  return all;
+}
+
+TEST(Verify, RunsEachPointAgainInEachWay) {
+  SearchedStudy made({{"0.6", 1}, {"0.7", 5}}, "verify: {engine: bullet}\n");
+  std::vector<std::vector<std::string>> sets;
+  const std::function<Row(const Job&)> same = times(made, 1);
+  const std::vector<Verification> tried = made.verify([&](const Job& job) {
+    EXPECT_TRUE(job.estimate) << "the best points have an estimate";
+    sets.push_back(job.sets);
+    return same(job);
+  });
+  ASSERT_EQ(sets.size(), 4U);
+  EXPECT_EQ(sets[0], (Values{"cpg.frequency=0.6", "physics.accuracy=0.005"})) << "half of the default 0.01";
+  EXPECT_EQ(sets[1].at(1), "physics.engine=bullet");
+  EXPECT_EQ(sets[2].at(0), "cpg.frequency=0.7");
+  ASSERT_EQ(tried.size(), 6U);
+  const std::vector<std::string> what{"as run", "half step", "bullet", "as run", "half step", "bullet"};
+  for (std::size_t k = 0; k < 6; ++k) {
+    EXPECT_EQ(tried[k].what, what[k]);
+    EXPECT_EQ(tried[k].run, k / 3);
+    EXPECT_EQ(tried[k].objectives, std::vector<double>{k < 3 ? 1.0 : 5.0});
+    EXPECT_EQ(tried[k].verdict, "feasible");
+    EXPECT_EQ(tried[k].reason, "");
+  }
+}
+
+TEST(Verify, HalvesAStepThatIsGiven) {
+  SearchedStudy made({{"0.6", 1}}, "set: [physics.integrator=rk4, physics.step=0.0005]\n");
+  const std::function<Row(const Job&)> same = times(made, 1);
+  made.verify([&](const Job& job) {
+    EXPECT_EQ(job.sets.back(), "physics.step=0.00025");
+    return same(job);
+  });
+}
+
+TEST(Verify, RefusesALargerChange) {
+  SearchedStudy made({{"0.6", 1}, {"0.7", -5}});
+  const Values none{"", ""};
+  EXPECT_EQ(reasons(made, 1.0199), none);
+  EXPECT_EQ(reasons(made, 0.9801), none);
+  EXPECT_EQ(reasons(made, 1.021), (Values{"speed is 1.021 instead of 1, beyond the 2 % of verify.change",
+                                          "speed is -5.105 instead of -5, beyond the 2 % of verify.change"}));
+  EXPECT_NE(reasons(made, -1), none);
+  EXPECT_NE(reasons(made, std::nan("")), none) << "an unknown objective";
+  SearchedStudy wider({{"0.6", 1}}, "verify: {change: 0.1}\n");
+  EXPECT_EQ(reasons(wider, 1.09), Values{""});
+}
+
+TEST(Verify, RefusesARunThatFails) {
+  SearchedStudy made({{"0.6", 1}});
+  EXPECT_EQ(reasons(made, 1,
+                    [](Row& row) {
+                      row.outcome = "diverged";
+                      row.message = "at step 3";
+                      row.score.reset();
+                    }),
+            Values{"diverged: at step 3"});
+}
+
+TEST(Verify, RefusesABrokenConstraint) {
+  SearchedStudy made({{"0.6", 1}}, "constraints: [speed <= 1.01]\nverify: {change: 0.5}\n");
+  const std::vector<Verification> tried = made.verify(times(made, 1.2));
+  EXPECT_EQ(tried.at(1).reason, "speed <= 1.01 (1.2)");
+  EXPECT_NEAR(tried.at(1).violation, 0.19 / 1.01, 1e-15);
+}
+
+/// Also in a study without guards.
+TEST(Verify, RefusesAVerdictThatSpeaksAgainstIt) {
+  SearchedStudy made({{"0.6", 1}});
+  const std::size_t column = made.study.column("margin.evidence");
+  const auto with = [&](const std::string& verdict, double evidence) {
+    return reasons(made, 1, [&](Row& row) {
+      row.verdict = verdict;
+      row.message = "because";
+      row.quantities[column] = evidence;
+    });
+  };
+  EXPECT_EQ(with("feasible", 1), Values{""});
+  EXPECT_EQ(with("infeasible", 1), Values{"the verdict is infeasible: because"});
+  EXPECT_EQ(with("not judged", 1), Values{""}) << "for lack of ratings, not of evidence";
+  EXPECT_EQ(with("not judged", -0.1), Values{"not judged: because"});
+}
+
+TEST(Verify, RefusesAPointWhoseOwnRunIsInfeasible) {
+  SearchedStudy made({{"0.6", 1}, {"0.7", 5}});
+  made.rows[1].verdict = "infeasible";
+  made.rows[1].message = "because";
+  const std::vector<Verification> tried = made.verify(times(made, 1));
+  ASSERT_EQ(tried.size(), 4U);
+  EXPECT_EQ(tried[2].what, "as run");
+  EXPECT_EQ(tried[2].reason, "the verdict is infeasible: because");
+  EXPECT_EQ(studies::verified(tried), std::vector<std::uint64_t>{0});
+}
+
+/// The replicates of a point count together: the worst by default.
+TEST(Verify, CombinesReplicates) {
+  SearchedStudy made({{"0.6", 1}}, "replicates: {count: 2}\n");
+  const std::vector<Verification> tried = made.verify([&](const Job& job) {
+    EXPECT_EQ(job.sets.size(), 3U) << "frequency, seed, accuracy";
+    return made.study.done(job.row, "speed", job.row.replicate == 0 ? 1 : 0.5);
+  });
+  EXPECT_EQ(tried.at(1).objectives, std::vector<double>{0.5});
+  EXPECT_EQ(tried.at(1).reason, "speed is 0.5 instead of 1, beyond the 2 % of verify.change");
+}
+
+TEST(Verify, GivesNothingWhenItIsStopped) {
+  SearchedStudy made({{"0.6", 1}});
+  made.write();
+  std::atomic<bool> stop = true;
+  const Results found = results(made.journal);
+  EXPECT_FALSE(studies::verify(*made.study.plan, made.journal, found, {0}, answering(times(made, 1)), {}, stop).has_value());
+}
+
+TEST(Verified, PassedInEveryWay) {
+  const auto tried = [](std::uint64_t run, const std::string& what, const std::string& reason) {
+    return Verification{run, what, {}, 0, "feasible", reason};
+  };
+  EXPECT_EQ(studies::verified({tried(8, "as run", ""), tried(8, "half step", ""), tried(2, "as run", ""),
+                               tried(2, "half step", "why"), tried(5, "as run", "why"), tried(5, "half step", ""),
+                               tried(1, "as run", "")}),
+            (std::vector<std::uint64_t>{8, 1}))
+      << "in their order";
+  EXPECT_TRUE(studies::verified({}).empty());
+}
+
+}  // namespace
+}  // namespace gaitlab::test
