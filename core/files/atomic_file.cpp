@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 
 #include "core/errors.h"
@@ -79,6 +80,7 @@ class Regular {
       const ssize_t got = ::read(file_.descriptor, text.data() + had, piece);
       const int error = errno;
       text.resize(had + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+      if constexpr (!std::is_same_v<Bytes, std::string>) release(text);
       if (got == 0) break;
       if (got < 0 && error != EINTR) fail(std::generic_category().message(error));
     }

@@ -134,16 +134,16 @@ void try_apart(const SpilledVector<char>& bytes, const SourceLocation& place) {
 void write_h5(const Trace& trace, const Provenance& origin, const std::filesystem::path& path,
               std::span<const BesideOf> beside) {
   AtomicFile file(path);
-  SpilledVector<char> hdf5;
+  SpilledVector<char> image;
   try {
-    hdf5 = to_image(trace, origin, beside);
+    image = to_image(trace, origin, beside);
   } catch (const ImageError& error) {
     throw NoImage(fmt::format("{}: cannot be written: {}", path.string(), error.what()));
   } catch (const std::bad_alloc&) {
     throw NoImage(path.string() + ": cannot be written: out of memory");
   }
-  file.write(header(kFormats.back(), kUserBlock + hdf5.size(), hash_of_words(hdf5, 0)));
-  each_part(hdf5, [&](std::string_view bytes) { file.write(bytes); });
+  std::ranges::copy(header(kFormats.back(), image.size(), hash_of_words(image, kUserBlock)), image.begin());
+  each_part(image, [&](std::string_view bytes) { file.write(bytes); });
   file.commit();
 }
 

@@ -312,15 +312,17 @@ void check_storage(hid_t data, const char* name) {
 }
 
 // Rows of many chunks at a time, so that pages of a table in a file can leave memory.
-void read_rows(hid_t data, hid_t space, const Image& file, Trace& trace) {
-  constexpr std::size_t kRows = 4 * kChunkRows;
-  for (std::size_t row = 0; row < trace.rows(); row += kRows) {
+void read_rows(hid_t data, hid_t space, hsize_t rows, const Image& file, Trace& trace) {
+  constexpr hsize_t kRows = 4 * kChunkRows;
+  const hsize_t columns = trace.columns.size();
+  trace.values.reserve(rows * columns);
+  for (hsize_t row = 0; row < rows; row += kRows) {
     const std::array<hsize_t, 2> start{row, 0};
-    const std::array<hsize_t, 2> count{std::min<std::size_t>(kRows, trace.rows() - row), trace.columns.size()};
+    const std::array<hsize_t, 2> count{std::min(kRows, rows - row), columns};
+    trace.values.resize((row + count[0]) * columns);
     checked(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), "selecting rows");
     const Handle memory(H5Screate_simple(2, count.data(), nullptr), H5Sclose, "shape of the rows");
-    checked(H5Dread(data, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, &trace.values[row * trace.columns.size()]),
-            "reading the values");
+    checked(H5Dread(data, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, &trace.values[row * columns]), "reading the values");
     release(trace.values);
     release(file);
   }
@@ -342,8 +344,7 @@ Trace read_dataset(hid_t owner, const char* name, const Image& bytes) {
   }
   Trace trace;
   trace.columns = read_columns(data, columns, view(bytes));
-  trace.values.resize(rows * columns);
-  if (!trace.values.empty()) read_rows(data, space, bytes, trace);
+  if (columns != 0) read_rows(data, space, rows, bytes, trace);
   return trace;
 }
 
@@ -379,7 +380,7 @@ Image to_image(const Trace& trace, const Provenance& origin, std::span<const Bes
   checked(H5Fflush(file, H5F_SCOPE_GLOBAL), "flush");
   const ssize_t size = checked(H5Fget_file_image(file, nullptr, 0), "size of the file");
   file.close("closing the file");
-  image.resize(static_cast<std::size_t>(size));  // it grew by kGrowth at a time
+  image.resize(kUserBlock + static_cast<std::size_t>(size));  // it grew by kGrowth at a time
   return image;
 }
 

@@ -93,7 +93,7 @@ Trace every(std::size_t stride, const Trace& all) {
   for (std::size_t row = 0; row < rows; row = row + stride < rows || row + 1 == rows ? row + stride : rows - 1) {
     const std::span<const double> values = all.row(row);
     some.values.insert(some.values.end(), values.begin(), values.end());
-    if (row / stride % 1024 == 0) release(all.values);
+    if (row / stride % 256 == 0) release(all.values);
   }
   return some;
 }
@@ -168,18 +168,22 @@ void halve_ticks(Trace& ticks) {
   ticks.values.resize(kept * columns);
 }
 
+void keep_worst(const ColumnList& columns, In before, Out now) {
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    const bool worse = columns[c].name.starts_with("dock.") ? std::abs(before[c]) > std::abs(now[c])
+                                                            : columns[c].name == "stability" && before[c] < now[c];
+    if (worse) now[c] = before[c];
+  }
+}
+
 void halve_rows(Trace& table) {
   const std::size_t columns = table.columns.size();
   const std::size_t rows = table.rows();
   std::size_t kept = std::min<std::size_t>(1, rows);
   for (std::size_t k = 2; k < rows; k += 2, ++kept) {
-    for (std::size_t c = 0; c < columns; ++c) {
-      const double before = table.at(k - 1, c);
-      double now = table.at(k, c);
-      if (table.columns[c].name.starts_with("dock.") && std::abs(before) > std::abs(now)) now = before;
-      if (table.columns[c].name == "stability" && before < now) now = before;
-      table.values[kept * columns + c] = now;
-    }
+    const auto row = [&](std::size_t index) { return Out(table.values).subspan(index * columns, columns); };
+    keep_worst(table.columns, row(k - 1), row(k));
+    std::ranges::copy(row(k), row(kept).begin());
   }
   table.values.resize(kept * columns);
 }

@@ -126,8 +126,9 @@ std::vector<Column> pose_columns(std::size_t joints);
 constexpr std::size_t old_pose_columns(std::size_t joints) { return 8 + joints; }
 /// Merges each two rows after the first into the later row, with the larger peaks of the two rows.
 void halve_ticks(Trace& ticks);
-/// Merges each two rows after the first into the later row, with the larger dock loads and the smaller stability margin of the
-/// two rows.
+/// Merges each two rows after the first into the later row by keep_worst().
 void halve_rows(Trace& table);
+/// Copies the larger dock loads and the smaller stability margin of the previous row into `now`.
+void keep_worst(const ColumnList& columns, In before, Out now);
 
 }  // namespace gaitlab

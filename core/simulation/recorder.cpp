@@ -62,6 +62,7 @@ Recorder::Recorder(const Scenario& scenario, const std::vector<ContactElement>& 
   recording.ticks.columns = tick_columns(joints);
   recording.poses.columns = pose_columns(joints);
   ticks_per_row_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(kTickRows / scenario.control_period - 1e-9)));
+  ticks_per_load_ = ticks_per_row_;
   check_space(scenario, rows_needed());
   if (wanted.loads != Loads::left_out) {
     loads_ = std::make_unique<LoadMeter>(scenario, contacts, wanted.loads);
@@ -111,13 +112,23 @@ std::optional<Out> Recorder::add_tick(double t, bool last) {
     halve_rows(recording.loads);
     halve_rows(recording.poses);
     ticks_per_row_ *= 2;
-    if (!tick_due() && !last) return {};
+    if (!tick_due() && !last) {
+      skip_tick();
+      return {};
+    }
   }
   ticks.values.resize(ticks.values.size() + columns);
   const Out row = Out(ticks.values).last(columns);
   row[0] = t;
   loads_due_ = loads_ != nullptr;
+  skipped_ = false;
   return row.subspan(1);
+}
+
+void Recorder::skip_tick() {
+  if (loads_ == nullptr || recording.control_ticks % ticks_per_load_ != 0) return;
+  loads_due_ = true;
+  skipped_ = true;
 }
 
 void Recorder::add_pose(double t, const Sample& s) {
@@ -135,8 +146,15 @@ void Recorder::add_pose(double t, const Sample& s) {
 
 void Recorder::add_loads() {
   Trace& loads = recording.loads;
-  loads.values.resize(loads.values.size() + loads.columns.size());
-  loads_->measure(Out(loads.values).last(loads.columns.size()));
+  loads_now_.resize(loads.columns.size());
+  loads_->measure(loads_now_);
+  if (!since_row_.empty()) keep_worst(loads.columns, since_row_, loads_now_);
+  if (skipped_) {
+    since_row_ = loads_now_;
+  } else {
+    loads.values.insert(loads.values.end(), loads_now_.begin(), loads_now_.end());
+    since_row_.clear();
+  }
 }
 
 void Recorder::finish(std::int64_t steps, double t, const Outcome& outcome, const Sample& last) {

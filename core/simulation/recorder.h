@@ -36,14 +36,17 @@ class Recorder {
   /// row exists already, or if the rows have just been thinned out and this tick is not due any more. `last` is true when the
   /// lane ends.
   std::optional<Out> add_tick(double t, bool last);
+  /// Marks a control tick without a row: its loads count for the next row.
+  void skip_tick();
   /// Adds a row to Recording::poses: state, set points, centre of mass and contacts of the sample.
   void add_pose(double t, const Sample& sample);
 
-  /// True if the last row of Recording::ticks has no row of Recording::loads yet.
+  /// True if the loads of this control tick have not been measured yet.
   [[nodiscard]] bool loads_due() const { return loads_due_; }
   void leave_out_loads() { loads_due_ = false; }
   /// Meter whose sample the caller fills before add_loads(). Only if loads_due().
   [[nodiscard]] LoadMeter& loads() { return *loads_; }
+  /// Measures the loads. They are a row of Recording::loads if the tick has a row.
   void add_loads();
 
   /// Sets the totals of the recording at its end, from the last sample.
@@ -59,8 +62,12 @@ class Recorder {
   std::unique_ptr<Probes> probes_;    ///< nullptr if no rows are wanted
   std::unique_ptr<LoadMeter> loads_;  ///< nullptr if no loads are wanted
   std::int64_t ticks_per_row_ = 1;    ///< control ticks per row of Recording::ticks
+  std::int64_t ticks_per_load_ = 1;   ///< control ticks per measurement of loads; ticks_per_row_ at the start
   bool loads_due_ = false;
-  std::size_t unreleased_ = 0;  ///< rows since release_rows() let their pages leave memory
+  bool skipped_ = false;           ///< true if the loads that are due have no row
+  std::vector<double> since_row_;  ///< worst loads since the last row; empty if none were measured
+  std::vector<double> loads_now_;  ///< scratch: the loads of this tick
+  std::size_t unreleased_ = 0;     ///< rows since release_rows() let their pages leave memory
 };
 
 }  // namespace gaitlab

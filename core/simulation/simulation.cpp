@@ -173,7 +173,7 @@ void Simulation::sense() {
 void Simulation::command() {
   for (const auto& lane : lanes_) {
     if (!control_tick(*lane)) continue;
-    if (recorded(*lane) && lane->recorder->tick_due()) record_tick(*lane);
+    if (recorded(*lane)) lane->recorder->tick_due() ? record_tick(*lane) : lane->recorder->skip_tick();
     guard(*lane, [&] { command(*lane); });
   }
   if (role_ == Role::companion) return;

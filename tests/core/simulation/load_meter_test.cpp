@@ -298,7 +298,7 @@ TEST(LoadMeter, DropsTheFeetThatNeverBoreALoad) {
     made.measure();
     Trace loads;
     loads.columns = made.meter().columns();
-    loads.values = made.row();
+    loads.values.assign(made.row().begin(), made.row().end());
     made.meter().sample().contacts[last] = {};
     made.measure();
     loads.values.insert(loads.values.end(), made.row().begin(), made.row().end());

@@ -64,6 +64,25 @@ TEST(RecorderTicks, BecomeHalfAsManyWhenTheyAreTooMany) {
   EXPECT_FALSE(recorder.tick_due());
 }
 
+/// A centre of mass that moves 1 mm to and fro at every tick. Rows of every second tick have it in one place.
+TEST(RecorderLoads, CountTheTicksWithoutARow) {
+  Recorded made({Loads::judged, false});
+  Recorder& recorder = *made.recorder;
+  constexpr std::size_t kTicks = 2 * kMostTickRows + 11;
+  for (std::size_t k = 0; k < kTicks; ++k, ++recorder.recording.control_ticks) {
+    recorder.tick_due() ? static_cast<void>(recorder.add_tick(0.015 * static_cast<double>(k), false)) : recorder.skip_tick();
+    ASSERT_TRUE(recorder.loads_due());
+    recorder.loads().sample().sums.com = {k % 2 == 0 ? 0 : 1e-3, 0, 0};
+    recorder.add_loads();
+    recorder.leave_out_loads();
+  }
+  const Trace& loads = recorder.recording.loads;
+  EXPECT_EQ(loads.rows(), recorder.recording.ticks.rows());
+  EXPECT_LE(loads.rows(), kMostTickRows + 1);
+  const double last = 4 * ((kTicks - 1) / 4) * 1e-3;  // m, at the last tick with a row: each tick is 1 mm
+  EXPECT_NEAR(loads.at(loads.rows() - 1, loads.columns.find("path")), last, 1e-5) << "single precision, 6e-8 * 40 m";
+}
+
 TEST(RecorderPoses, HoldStateSetPointsAndLoad) {
   Recorded made;
   Sample& s = *made.sample;

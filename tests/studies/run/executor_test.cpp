@@ -23,11 +23,11 @@ struct ExecutedJobs {
                                      const std::lock_guard lock(mutex);
                                      estimate = scenario.physics.estimate;
                                      estimated_by_others = scenario.physics.estimated_by_others;
-                                     studies::Judged judged;
-                                     judged.quantities.assign(study.plan->columns().size(), recording.simulated);
-                                     judged.verdict = "feasible";
-                                     judged.why = "why";
-                                     return judged;
+                                     studies::Measured measured;
+                                     measured.quantities.assign(study.plan->columns().size(), recording.simulated);
+                                     measured.verdict = "feasible";
+                                     measured.why = "why";
+                                     return measured;
                                    },
                                    Loads::left_out};
     std::size_t next = 0;
