@@ -1,16 +1,12 @@
 #include "core/recording/h5_image.h"
 
 #include <fmt/format.h>
-#include <hdf5.h>
 
 #include <algorithm>
 #include <array>
-#include <cstring>
-#include <mutex>
-#include <new>
 #include <unordered_set>
-#include <utility>
 
+#include "core/recording/h5_library.h"
 #include "core/recording/packed_chunks.h"
 
 namespace gaitlab {
@@ -20,98 +16,8 @@ namespace {
 // Name of the file in memory. HDF5 searches for a file of this name first; this path can never exist.
 constexpr const char* kNowhere = "/dev/null/gaitlab";
 constexpr std::size_t kGrowth = std::size_t{1} << 20;  // bytes
-using Image = SpilledVector<char>;
 constexpr hsize_t kChunkRows = 4096;  // rows of one column, 32 kB; values that are neighbours in time compress best
 constexpr unsigned kGzip = 1;         // level that the file states; libdeflate compresses the chunks
-
-// Checks the result of an HDF5 function: negative means failure.
-template <class Result>
-Result checked(Result result, const char* what) {
-  if (result < 0) throw ImageError(fmt::format("HDF5: {} failed", what));
-  return result;
-}
-
-// Lock of the HDF5 library for one thread at a time, because Debian builds HDF5 without locks. Turns off the messages of HDF5
-// on stderr.
-class Library {
- public:
-  Library() : lock_(mutex()) {
-    // To be called before the first use. Otherwise objects left open after a damaged file make HDF5 complain at exit.
-    static const herr_t kNeverAtExit = H5dont_atexit();
-    static_cast<void>(kNeverAtExit);
-    // A file names filters by number. For an unknown number HDF5 would load any library from a folder of the environment.
-    static const herr_t kNoPlugins = H5PLset_loading_state(0);
-    static_cast<void>(kNoPlugins);
-    H5Eget_auto2(H5E_DEFAULT, &report_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  ~Library() { H5Eset_auto2(H5E_DEFAULT, report_, data_); }
-  Library(const Library&) = delete;
-  Library& operator=(const Library&) = delete;
-
- private:
-  static std::mutex& mutex() {
-    static std::mutex only;
-    return only;
-  }
-  std::lock_guard<std::mutex> lock_;
-  H5E_auto2_t report_ = nullptr;
-  void* data_ = nullptr;
-};
-
-// Owner of one HDF5 identifier. close() reports failures, which the destructor cannot do.
-class Handle {
- public:
-  using Close = herr_t (*)(hid_t);
-  Handle(hid_t id, Close close, const char* what) : id_(checked(id, what)), close_(close) {}
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  Handle& operator=(Handle&&) = delete;
-  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): replaces the identifier in calls
-  void close(const char* what) { checked(close_(std::exchange(id_, -1)), what); }
-
- private:
-  hid_t id_;
-  Close close_;
-};
-
-// HDF5's calls for the memory of a file that it writes: `image`, an Image. A second copy of a long trace would not fit.
-void* grow(std::size_t size, void* image) {
-  try {
-    Image& bytes = *static_cast<Image*>(image);
-    bytes.resize(size);
-    return bytes.data();
-  } catch (const std::bad_alloc&) {
-    return nullptr;
-  }
-}
-
-H5FD_file_image_callbacks_t memory_of(Image& image) {
-  H5FD_file_image_callbacks_t calls{};
-  calls.image_malloc = [](std::size_t size, H5FD_file_image_op_t, void* to) { return grow(size, to); };
-  calls.image_realloc = [](void*, std::size_t size, H5FD_file_image_op_t, void* to) { return grow(size, to); };
-  calls.image_memcpy = [](void* to, const void* from, std::size_t size, H5FD_file_image_op_t, void*) {
-    return std::memcpy(to, from, size);
-  };
-  calls.image_free = [](void*, H5FD_file_image_op_t, void*) -> herr_t { return 0; };
-  calls.udata_copy = [](void* to) { return to; };
-  calls.udata_free = [](void*) -> herr_t { return 0; };
-  calls.udata = &image;
-  return calls;
-}
-
-// The same for a file that HDF5 reads. HDF5 neither copies nor changes it.
-H5FD_file_image_callbacks_t memory_in_place(const Image& image) {
-  H5FD_file_image_callbacks_t calls = memory_of(const_cast<Image&>(image));
-  calls.image_malloc = [](std::size_t, H5FD_file_image_op_t, void* from) -> void* { return static_cast<Image*>(from)->data(); };
-  calls.image_realloc = [](void*, std::size_t, H5FD_file_image_op_t, void*) -> void* { return nullptr; };
-  calls.image_memcpy = [](void* to, const void*, std::size_t, H5FD_file_image_op_t, void*) { return to; };
-  return calls;
-}
 
 Handle file_access() {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");

@@ -1,4 +1,4 @@
-// HDF5 part of trace.h5, built in memory by the only module that uses the HDF5 library.
+// The HDF5 part of trace.h5, as bytes. Only h5_image.cpp and h5_library.cpp use the HDF5 library.
 #pragma once
 #include <stdexcept>
 #include <string>

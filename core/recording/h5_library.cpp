@@ -1,0 +1,45 @@
+#include "core/recording/h5_library.h"
+
+#include <cstring>
+#include <new>
+
+namespace gaitlab {
+
+namespace {
+
+/// Resizes `image`, an Image, and returns its bytes; nullptr if memory is short.
+void* grow(std::size_t size, void* image) {
+  try {
+    Image& bytes = *static_cast<Image*>(image);
+    bytes.resize(size);
+    return bytes.data();
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
+
+}  // namespace
+
+H5FD_file_image_callbacks_t memory_of(Image& image) {
+  H5FD_file_image_callbacks_t calls{};
+  calls.image_malloc = [](std::size_t size, H5FD_file_image_op_t, void* to) { return grow(size, to); };
+  calls.image_realloc = [](void*, std::size_t size, H5FD_file_image_op_t, void* to) { return grow(size, to); };
+  calls.image_memcpy = [](void* to, const void* from, std::size_t size, H5FD_file_image_op_t, void*) {
+    return std::memcpy(to, from, size);
+  };
+  calls.image_free = [](void*, H5FD_file_image_op_t, void*) -> herr_t { return 0; };
+  calls.udata_copy = [](void* to) { return to; };
+  calls.udata_free = [](void*) -> herr_t { return 0; };
+  calls.udata = &image;
+  return calls;
+}
+
+H5FD_file_image_callbacks_t memory_in_place(const Image& image) {
+  H5FD_file_image_callbacks_t calls = memory_of(const_cast<Image&>(image));
+  calls.image_malloc = [](std::size_t, H5FD_file_image_op_t, void* from) -> void* { return static_cast<Image*>(from)->data(); };
+  calls.image_realloc = [](void*, std::size_t, H5FD_file_image_op_t, void*) -> void* { return nullptr; };
+  calls.image_memcpy = [](void* to, const void*, std::size_t, H5FD_file_image_op_t, void*) { return to; };
+  return calls;
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,78 @@
+// The HDF5 library for h5_image.cpp: its lock, owners of its identifiers, and the memory of its files.
+#pragma once
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <mutex>
+#include <utility>
+
+#include "core/files/spill.h"
+#include "core/recording/h5_image.h"
+
+namespace gaitlab {
+
+using Image = SpilledVector<char>;  ///< bytes of an HDF5 file
+
+/// Returns the result of an HDF5 function. Throws ImageError for a negative result, which means failure.
+template <class Result>
+Result checked(Result result, const char* what) {
+  if (result < 0) throw ImageError(fmt::format("HDF5: {} failed", what));
+  return result;
+}
+
+/// Lock of the HDF5 library for one thread at a time, because Debian builds HDF5 without locks. Turns off the messages of HDF5
+/// on stderr.
+class Library {
+ public:
+  Library() : lock_(mutex()) {
+    // To be called before the first use. Otherwise objects left open after a damaged file make HDF5 complain at exit.
+    static const herr_t kNeverAtExit = H5dont_atexit();
+    static_cast<void>(kNeverAtExit);
+    // A file names filters by number. For an unknown number HDF5 would load any library from a folder of the environment.
+    static const herr_t kNoPlugins = H5PLset_loading_state(0);
+    static_cast<void>(kNoPlugins);
+    H5Eget_auto2(H5E_DEFAULT, &report_, &data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  ~Library() { H5Eset_auto2(H5E_DEFAULT, report_, data_); }
+  Library(const Library&) = delete;
+  Library& operator=(const Library&) = delete;
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex only;
+    return only;
+  }
+  std::lock_guard<std::mutex> lock_;
+  H5E_auto2_t report_ = nullptr;
+  void* data_ = nullptr;
+};
+
+/// Owner of one HDF5 identifier. close() reports failures, which the destructor cannot do.
+class Handle {
+ public:
+  using Close = herr_t (*)(hid_t);
+  Handle(hid_t id, Close close, const char* what) : id_(checked(id, what)), close_(close) {}
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  Handle& operator=(Handle&&) = delete;
+  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): replaces the identifier in calls
+  void close(const char* what) { checked(close_(std::exchange(id_, -1)), what); }
+
+ private:
+  hid_t id_;
+  Close close_;
+};
+
+/// Calls of HDF5 for the memory of a file that it writes: `image` grows with the file. A second copy of a long trace would not
+/// fit into memory. HDF5 uses `image` until the file is closed.
+H5FD_file_image_callbacks_t memory_of(Image& image);
+
+/// The same for a file that HDF5 reads. HDF5 neither copies nor changes `image`.
+H5FD_file_image_callbacks_t memory_in_place(const Image& image);
+
+}  // namespace gaitlab
