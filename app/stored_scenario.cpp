@@ -140,7 +140,8 @@ void check_fit(const std::string& run, const Scenario& scenario, const Recording
   const std::size_t places = recording.worst.source == Stability::Source::contact
                                  ? contact_elements(*scenario.robot, scenario.contact.on).size()
                                  : joints;
-  if (recording.worst.rate > 0 && recording.worst.index >= places) refuse("stability.index is beyond its joints and contacts");
+  if (recording.worst.rate > 0 && recording.worst.index >= places)
+    refuse(fmt::format("stability.index is {}, and the scenario has only {} such parts", recording.worst.index, places));
   bool whole = recording.has_states(*scenario.robot);
   for (const char* column : {"com.x", "com.y", "com.z"}) whole = whole && !recording.series(column).empty();
   for (std::size_t j = 0; j < joints && scenario.actuator.entry != nullptr; ++j) {

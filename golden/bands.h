@@ -40,9 +40,9 @@ struct Bands {
 
 /// Bands of the run `base`. For a column the band is the maximum of kEnsembleFactor x the largest RMS difference of a run of
 /// the ensemble, kHalvingFactor x the RMS difference of the run with half the step, and 1e-6 of the range. For a number the
-/// band follows likewise from its differences. A band may be below the golden's precision, because the rounding error is known
-/// exactly (Golden::rounding) and is subtracted. All runs must have at least the columns, rows and numbers of `base`, with
-/// finite values. Throws std::invalid_argument if a run lacks a number.
+/// band follows likewise from its differences. A band may be narrower than the precision of the stored golden, because its
+/// rounding error is known exactly (Golden::rounding) and is subtracted. All runs must have at least the columns, rows and
+/// numbers of `base`, with finite values. Throws std::invalid_argument if a run lacks a number.
 Bands calibrate(const GoldenRun& base, std::span<const GoldenRun> ensemble, const GoldenRun& halved);
 
 }  // namespace gaitlab::golden

@@ -48,12 +48,12 @@ struct GoldenDifference {
   [[nodiscard]] const NumberCheck* worst_number() const;
 };
 
-/// Compares a run with the golden: first the form, then every column over the common rows, then the numbers. Maximum, shift and
-/// first time outside do not decide, because a contact that changes one step earlier alters a maximum by tens of percent.
-/// `other_engine` is true if the run used another engine than the golden. Columns are compared in the same way for any engine.
-/// Numbers of another engine have bands of at least kOtherEngine, because they depend on every step. Peak torques of joints are
-/// then omitted, because they occur in the first step after a control tick, for which one method evaluates the motor at the
-/// start and another takes the mean (10 % difference).
+/// Compares a run with the golden: first the columns and the times of the rows, then the values over the common rows, then the
+/// numbers. Maximum, shift and first time outside do not decide, because a contact that changes one step earlier alters a
+/// maximum by tens of percent. `other_engine` is true if the run used another engine than the golden. Columns are compared in
+/// the same way for any engine. Numbers of another engine have bands of at least kOtherEngine, because they depend on every
+/// step. Peak torques of joints are then omitted, because they occur in the first step after a control tick, for which one
+/// method evaluates the motor at the start and another takes the mean (10 % difference).
 GoldenDifference compare(const Golden& golden, const GoldenRun& run, bool other_engine = false);
 
 }  // namespace gaitlab::golden

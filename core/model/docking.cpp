@@ -245,7 +245,8 @@ class DockRows {
     const Dock* dock;
     int face;
   };
-  std::map<std::pair<int, int>, Taken> faces_;  ///< by module and the first face at the same place
+  /// Occupied faces by module and face. Of several faces at one place, which format 1 permits, the first is the key.
+  std::map<std::pair<int, int>, Taken> faces_;
   std::map<int, const Dock*> parent_;
   std::set<int> children_;
   Problems problems_;

@@ -17,7 +17,7 @@ namespace gaitlab {
 namespace {
 
 constexpr double kSameTime = 1e-6;  // share of the spacing; the rounding error of k h is about 1e-16 of t
-constexpr double kFlat = 1e-9;      // a smaller range is a rounding error, in any unit of a trace
+constexpr double kFlat = 1e-9;      // a column with a smaller range counts as constant, in rad as in N m
 constexpr std::size_t kNamesShown = 8;
 
 struct SharedRow {

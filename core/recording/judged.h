@@ -10,8 +10,8 @@
 
 namespace gaitlab {
 
-/// Statistics of one joint within the window; NaN if the run folder does not contain them. The time of a peak is the end of the
-/// row of Recording::ticks that contains the peak.
+/// Statistics of one joint within the window; NaN if the run folder does not contain them. A peak is the largest
+/// value since the previous row of Recording::ticks, and its time is the time of the row.
 struct JudgedJoint {
   double torque_peak = 0, torque_peak_time = 0;      ///< N m, largest magnitude of the motor torque; s
   MotorLimit peak_limit = MotorLimit::none;          ///< limit that the motor reached at torque_peak

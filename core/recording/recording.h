@@ -56,7 +56,7 @@ struct Recording {
   /// Rows at every trace tick, and at the end, or every k-th of these rows (thin_rows). `trace` has the columns that
   /// `trace.columns` selects. `rest` has the other columns of report_columns().
   Trace trace, rest;
-  std::string hash_of_all;  ///< hash() of `trace` with all rows; empty if `trace` has all rows
+  std::string hash_of_all;  ///< hash() of `trace` before thin_rows() removed rows; empty if none were removed
   /// Rows at control ticks that are at least 2 ms apart, and at the end. Above 20 000 rows, every second row is removed,
   /// repeatedly. For each joint, a row has the largest |torque|, |set point - angle|, |speed|, |voltage|, |current| and share
   /// of the available torque since the previous row. It also has the motor limit at the largest torque and, from t = 0, the

@@ -57,7 +57,7 @@ class HeightFile {
   }
 
  private:
-  /// Numbers of the file. Returns nothing, with a problem, if the file is invalid.
+  /// Numbers of the file. If the file is invalid, adds a problem and returns nothing.
   std::optional<NumberTable> numbers() try {
     const HeightFormat format = format_of(path_, read_start(path_, kPngMagic.size()));
     if (format == HeightFormat::text) return text();

@@ -13,7 +13,8 @@ std::vector<PluginFile> read_plugins(const Node& node, const std::string& folder
 /// Loads a library that the command line names. Its path is relative to the current folder. Throws InputError.
 void load_plugin_file(const std::string& path, Catalog& catalog);
 
-/// A file that a plugin's section of a scenario in `folder` names and that messages may not quote; "" if there is none.
+/// Path of the first file that `section`, a plugin's section of a scenario, names and whose content messages must not quote
+/// (may_quote()), or "" without such a file. Relative paths start at `folder`, the folder of the scenario.
 std::string hidden_file(const Node& section, const std::string& folder);
 
 /// FNV-1a hash (64 bit) of a file's bytes as 16 hex digits, or "" if the file cannot be read.

@@ -1,4 +1,4 @@
-// Three sections of the list of summary numbers, in the order of the list.
+// Three sections of the list of summary numbers, declared in the order of the list.
 #pragma once
 #include <vector>
 

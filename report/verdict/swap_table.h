@@ -14,9 +14,8 @@ struct NamedRun {
 };
 
 /// Table for the terminal: two header lines, then one row per run. For a run that ended early the row is the reason. Below the
-/// table are the runs in which gears create more than 5 % of the energy drawn, which makes the cost of transport too low. Lines
-/// end in '
-/// '.
+/// table are the runs in which gears create more than 5 % of the energy drawn, which makes the cost of transport too low. Every
+/// line ends in '\n'.
 std::string swap_table(const std::vector<NamedRun>& runs);
 
 /// CSV table: the header `cpg,KEY (UNIT),...`, then one row per run, with every summary number that is a single number or text

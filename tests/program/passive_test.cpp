@@ -1,4 +1,5 @@
-// Hinges without a motor in every engine agree with closed forms for a rod of 1 kg and 1 m, I = 1/3 kg m^2 about its hinge.
+// Tests of the motion of hinges without a motor, in every engine, against closed forms for a rod of 1 kg and 1 m, whose inertia
+// about its hinge is 1/3 kg m^2.
 #include <cmath>
 
 #include "core/laws/passive_hinge.h"

@@ -111,8 +111,8 @@ TEST(Numbers, TheWorstTrackingErrorIsWhereTheTraceHasIt) {
   EXPECT_TRUE(Json::parse(to_json(summarise(still, swings, 1), still, swings)).at("tracking_error").is_null());
 }
 
-/// The time of a torque peak agrees with a trace with a row per step. A new command acts from the start of a step, whose row
-/// contains the old command, and its torque decays with the back-EMF.
+/// The time of a torque peak is that of the largest torque in a trace that has a row per step, or one step earlier. A new
+/// command acts from the start of a step, whose row contains the old command, and its torque decays with the back-EMF.
 TEST(Numbers, TheTimeOfAPeakIsWhereTheTraceHasIt) {
   const Scenario s = shipped("caterpillar.yaml", {"duration=0.1", "trace.period=2.5e-5"});
   const Recording r = run(s);
