@@ -245,7 +245,7 @@ class DockRows {
     const Dock* dock;
     int face;
   };
-  /// Occupied faces by module and face. Of several faces at one place, which format 1 permits, the first is the key.
+  /// Occupied faces by module and face. The first of several faces at one place, which format 1 permits, is the key.
   std::map<std::pair<int, int>, Taken> faces_;
   std::map<int, const Dock*> parent_;
   std::set<int> children_;
