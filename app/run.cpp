@@ -152,10 +152,15 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
 
   Recording recording = simulation.take_recording(0);
-  std::optional<AllRows> all = thin_rows(recording);
   if (early) recording.outcome = std::move(*early);
+  std::optional<AllRows> all;
+  try {
+    all = thin_rows(recording);
+  } catch (const std::bad_alloc&) {  // NOLINT(bugprone-empty-catch): the rows stay as they are
+  }
+  const Scenario seen = with_row_stride(scenario, all ? all->stride : 1);
   RunFiles files(folder.path());
-  const auto summarised = [&] { return report::summarise(scenario, recording, wall.count()); };
+  const auto summarised = [&] { return report::summarise(seen, recording, wall.count()); };
   std::optional<report::Summary> made;  // kept, because the memory of a failed trace.h5 may not be freed
   try {
     made = summarised();
@@ -165,11 +170,12 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
   if (all) all->swap(recording);
   write_run(files, arguments.format, scenario, recording);
   if (all) all->swap(recording);
+  all.reset();
   const report::Summary summary = made ? std::move(*made) : summarised();
   if (files.lost_any()) files.write_text("summary.json", [&] { return report::to_json(summary, scenario, recording); });
-  const report::Overlaps overlaps = report::overlaps(scenario, recording);
-  const report::Verdict verdict = judged(scenario, recording, summary, overlaps, arguments.shown);
-  write_report(files, scenario, recording, summary, verdict, !arguments.no_page);
+  const report::Overlaps overlaps = report::overlaps(seen, recording);
+  const report::Verdict verdict = judged(seen, recording, summary, overlaps, arguments.shown);
+  write_report(files, seen, recording, summary, verdict, !arguments.no_page);
   if (files.wrote_any()) folder.keep();
   if (!arguments.quiet) print_summary(scenario, recording, summary, verdict, arguments.shown);
   if (!arguments.quiet && !files.lost_any()) print_files(arguments, folder.path());

@@ -175,4 +175,16 @@ StoredRun read_run(const std::string& run, Catalog& catalog) {
   return {std::move(stored), std::move(scenario)};
 }
 
+Scenario with_row_stride(const Scenario& scenario, std::size_t stride) {
+  Scenario seen = scenario;
+  if (stride <= 1) return seen;
+  seen.trace.period *= static_cast<double>(stride);
+  say(scenario.file, "note",
+      fmt::format(
+          "figure and page use one of {} rows, {:.3g} s apart, because all rows need more than {:.3g} MB; the trace has "
+          "all rows",
+          stride, seen.trace.period, static_cast<double>(kMostInMemory) / 1e6));
+  return seen;
+}
+
 }  // namespace gaitlab::app

@@ -41,4 +41,8 @@ struct StoredRun {
 /// recording does not fit the scenario.
 StoredRun read_run(const std::string& run, Catalog& catalog);
 
+/// The scenario as readers of every `stride`-th row need it: its trace period is `stride` times as long. Prints a note if
+/// `stride` is above 1.
+Scenario with_row_stride(const Scenario& scenario, std::size_t stride);
+
 }  // namespace gaitlab::app

@@ -72,7 +72,7 @@ class Regular {
   template <class Bytes>
   [[nodiscard]] Bytes read(std::uintmax_t most) const {
     Bytes text;
-    text.reserve(std::min(most, size_ + 1));
+    text.reserve(std::min(most, size_ + kReadPiece));
     while (text.size() < most) {
       const std::size_t had = text.size();
       const std::size_t piece = std::min<std::uintmax_t>(kReadPiece, most - had);

@@ -4,6 +4,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
 #include <limits>
 #include <new>
@@ -23,6 +24,13 @@ int unnamed_file(const std::filesystem::path& folder) {
   return named;
 }
 
+/// Reserves the space on the disk, since a full disk would be a signal (SIGBUS) at the first access to a page.
+bool reserve(int descriptor, off_t bytes) {
+  int error = EINTR;
+  while (error == EINTR) error = ::posix_fallocate(descriptor, 0, bytes);
+  return error == 0;
+}
+
 }  // namespace
 
 std::filesystem::path spill_folder() {
@@ -33,12 +41,11 @@ std::filesystem::path spill_folder() {
 void* map_spilled(std::size_t bytes) {
   if (bytes > std::numeric_limits<std::size_t>::max() / 2) throw std::bad_alloc();
   const int descriptor = unnamed_file(spill_folder());
-  if (descriptor < 0) throw std::bad_alloc();
-  // Reserved, since a full disk would be a signal (SIGBUS) at the first access to a page.
+  const int in_memory = descriptor < 0 ? MAP_ANONYMOUS : 0;
   void* mapped = MAP_FAILED;
-  if (::posix_fallocate(descriptor, 0, static_cast<off_t>(bytes)) == 0)
-    mapped = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
-  ::close(descriptor);
+  if (in_memory != 0 || reserve(descriptor, static_cast<off_t>(bytes)))
+    mapped = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | in_memory, descriptor, 0);
+  if (descriptor >= 0) ::close(descriptor);
   if (mapped == MAP_FAILED) throw std::bad_alloc();
   return mapped;
 }
@@ -46,7 +53,7 @@ void* map_spilled(std::size_t bytes) {
 void unmap_spilled(void* from, std::size_t bytes) noexcept { ::munmap(from, bytes); }
 
 void release_spilled(const void* from, std::size_t bytes) noexcept {
-  ::madvise(const_cast<void*>(from), bytes, MADV_DONTNEED);  // of a shared file: its content stays
+  ::madvise(const_cast<void*>(from), bytes, MADV_DONTNEED);  // of a shared mapping: its content stays
 }
 
 }  // namespace gaitlab

@@ -14,8 +14,8 @@ inline constexpr std::size_t kMostInMemory = 200'000'000;  ///< bytes of one arr
 /// Folder of these files: $TMPDIR, or else /var/tmp, which is on a disk where /tmp may be memory.
 std::filesystem::path spill_folder();
 
-/// Bytes of a new unnamed file of spill_folder(), reserved on the disk and mapped. Throws std::bad_alloc: no space on the disk,
-/// no folder, or no address space.
+/// Bytes of a new unnamed file of spill_folder(), reserved on the disk and mapped; of memory, if no file can be made there.
+/// Throws std::bad_alloc if the disk or the address space is too small.
 void* map_spilled(std::size_t bytes);
 void unmap_spilled(void* from, std::size_t bytes) noexcept;
 /// Lets the pages of these bytes leave memory; the next access reads them again. `from`: as map_spilled returned it.

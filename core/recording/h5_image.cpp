@@ -13,8 +13,13 @@ namespace gaitlab {
 
 namespace {
 
-// Name of the file in memory. HDF5 searches for a file of this name first; this path can never exist.
-constexpr const char* kNowhere = "/dev/null/gaitlab";
+// New name of a file in memory. HDF5 searches for a file of this name first; this path can never exist. A file that HDF5 could
+// not close is never taken for a later one.
+std::string nowhere() {
+  static std::uint64_t files = 0;  // under the lock of Library
+  return fmt::format("/dev/null/gaitlab-{}", ++files);
+}
+
 constexpr std::size_t kGrowth = std::size_t{1} << 20;  // bytes
 constexpr hsize_t kChunkRows = 4096;  // rows of one column, 32 kB; values that are neighbours in time compress best
 constexpr unsigned kGzip = 1;         // level that the file states; libdeflate compresses the chunks
@@ -263,11 +268,12 @@ Image to_image(const Trace& trace, const Provenance& origin, std::span<const Bes
   plain(creation);
   const Handle access = file_access();
   Image image;
-  if (const std::size_t values = trace.values.size() * sizeof(double); values > kMostInMemory)
-    image.reserve(values / 4 * 3);  // a walking robot's trace has 0.56 of its values
+  std::size_t values = trace.values.size();
+  for (const BesideOf& one : beside) values += one.table->values.size();
+  image.reserve(values * sizeof(double) / 4 * 3);  // a walking robot's trace has 0.41 to 0.56 of its values
   H5FD_file_image_callbacks_t memory = memory_of(image);
   checked(H5Pset_file_image_callbacks(access, &memory), "memory of the file");
-  Handle file(H5Fcreate(kNowhere, H5F_ACC_TRUNC, creation, access), H5Fclose, "file");
+  Handle file(H5Fcreate(nowhere().c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose, "file");
   write_text(file, "format", std::string(std::end(kTraceFormats)[-1]));
   write_text(file, "scenario", origin.scenario);
   write_text(file, "outcome", origin.outcome);
@@ -296,7 +302,7 @@ StoredTrace from_image(const Image& file_bytes) {
   H5FD_file_image_callbacks_t memory = memory_in_place(file_bytes);
   checked(H5Pset_file_image_callbacks(access, &memory), "memory of the file");
   checked(H5Pset_file_image(access, const_cast<char*>(file_bytes.data()), file_bytes.size()), "image");
-  const Handle file(H5Fopen(kNowhere, H5F_ACC_RDONLY, access), H5Fclose, "opening the file");
+  const Handle file(H5Fopen(nowhere().c_str(), H5F_ACC_RDONLY, access), H5Fclose, "opening the file");
   const auto text = [&](const char* name) { return read_texts(file, name, 0, view(file_bytes)).front(); };
   const std::string format = text("format");
   if (!view(file_bytes).starts_with(format + "\n")) throw ImageError("the attribute `format` is not that of the first line");

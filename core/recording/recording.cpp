@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -105,7 +106,7 @@ std::optional<AllRows> thin_rows(Recording& r, std::size_t most) {
   const std::size_t stride = (bytes + most - 1) / most;
   if (stride <= 1) return {};
   r.hash_of_all = hash(r.trace);
-  AllRows all{every(stride, r.trace), every(stride, r.rest)};
+  AllRows all{every(stride, r.trace), every(stride, r.rest), stride};
   all.swap(r);
   return all;
 }
@@ -170,8 +171,11 @@ void halve_ticks(Trace& ticks) {
 
 void keep_worst(const ColumnList& columns, In before, Out now) {
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    const bool worse = columns[c].name.starts_with("dock.") ? std::abs(before[c]) > std::abs(now[c])
-                                                            : columns[c].name == "stability" && before[c] < now[c];
+    const std::string& name = columns[c].name;
+    const bool worse = name == "stability"          ? before[c] < now[c] || (std::isnan(now[c]) && !std::isnan(before[c]))
+                       : !name.starts_with("dock.") ? false
+                       : name.ends_with(".tension") ? before[c] > now[c]
+                                                    : std::abs(before[c]) > std::abs(now[c]);
     if (worse) now[c] = before[c];
   }
 }

@@ -110,13 +110,15 @@ struct Recording {
 /// All rows of a recording that keeps every k-th row.
 struct AllRows {
   Trace trace, rest;
+  std::size_t stride = 1;  ///< k
   /// Exchanges these rows with the rows of the recording.
   void swap(Recording& r);
 };
 
 /// Reduces the rows of a recording to every k-th row and the last one, with the least k for which `trace` and `rest` have at
-/// most `most` bytes together. Returns all rows, or nothing if k is 1. Travel, figures and pages use the reduced rows. Peaks
-/// and checks use `ticks`, `poses` and `loads`, which are not reduced.
+/// most `most` bytes together. Returns all rows, or nothing if k is 1. For readers of the reduced rows the trace period is k
+/// times as long. Travel, figures and pages use the reduced rows. Peaks and checks use `ticks`, `poses` and `loads`, which are
+/// not reduced.
 std::optional<AllRows> thin_rows(Recording& r, std::size_t most = kMostInMemory);
 
 /// Columns of Recording::ticks and of Recording::poses for `joints` joints. In older folders, poses have only the first
@@ -128,7 +130,8 @@ constexpr std::size_t old_pose_columns(std::size_t joints) { return 8 + joints; 
 void halve_ticks(Trace& ticks);
 /// Merges each two rows after the first into the later row by keep_worst().
 void halve_rows(Trace& table);
-/// Copies the larger dock loads and the smaller stability margin of the previous row into `now`.
+/// Copies the larger dock loads and the smaller stability margin of the previous row into `now`. A tension is signed, and a
+/// margin is NaN while nothing touches the ground.
 void keep_worst(const ColumnList& columns, In before, Out now);
 
 }  // namespace gaitlab

@@ -267,7 +267,6 @@ StoredRecording read_recording(const fs::path& folder) {
   } else {
     take_rows_alone(file, read);
   }
-  (void)thin_rows(read.recording);
   return read;
 }
 

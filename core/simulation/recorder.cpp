@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +29,8 @@ InputError too_many_rows(const Scenario& s, const RowsNeeded& needed, const std:
 
 /// Throws InputError if the rows exceed the disk, or the memory of the container (cgroup 2) or of the process (ulimit -v).
 void check_space(const Scenario& s, const RowsNeeded& needed) {
-  constexpr double kLittle = 1e8;  // bytes; not checked, because the query takes longer than a short rollout
+  constexpr double kImageShare = 0.75;  // see to_image
+  constexpr double kLittle = 1e8;       // bytes; not checked, because the query takes longer than a short rollout
   if (needed.bytes() < kLittle) return;
   const auto check = [&](double bytes, const std::string& whose, const char* of) {
     if (bytes > 0 && needed.bytes() > bytes)
@@ -40,8 +42,15 @@ void check_space(const Scenario& s, const RowsNeeded& needed) {
   if (needed.bytes() > static_cast<double>(kMostInMemory)) {
     std::error_code error;
     const std::filesystem::space_info disk = std::filesystem::space(spill_folder(), error);
-    if (!error) check(static_cast<double>(disk.available), spill_folder().string() + " (TMPDIR) has", "free disk");
-    return;
+    constexpr double kWithFile = 1 + kImageShare;  // the values, and the file that is made of them
+    if (!error && kWithFile * needed.bytes() > static_cast<double>(disk.available)) {
+      throw too_many_rows(s, needed,
+                          fmt::format("needs {:.3g} GB in {} (TMPDIR), which has {:.3g} GB", kWithFile * needed.bytes() / 1e9,
+                                      spill_folder().string(), static_cast<double>(disk.available) / 1e9));
+    }
+    if (!error) return;
+    check(static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)), "this machine has",
+          "memory");
   }
   double container = 0;
   if (std::ifstream("/sys/fs/cgroup/memory.max") >> container) check(container, "this container has", "memory");
@@ -158,6 +167,8 @@ void Recorder::add_loads() {
 }
 
 void Recorder::finish(std::int64_t steps, double t, const Outcome& outcome, const Sample& last) {
+  // Loads since the last row of a run that has diverged.
+  recording.loads.values.insert(recording.loads.values.end(), since_row_.begin(), since_row_.end());
   if (loads_) loads_->drop_idle_feet(recording.loads);
   recording.steps = steps;
   recording.simulated = t;

@@ -86,7 +86,7 @@ Demand demand(const Scenario& twin, const Recording& record, const Summary& summ
   Demand made;
   Recording free;
   try {
-    Simulation simulation({&twin, 1});
+    Simulation simulation({&twin, 1}, {Loads::left_out, false});
     simulation.run();
     free = simulation.take_recording(0);
   } catch (const RunError& error) {

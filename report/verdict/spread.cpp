@@ -71,8 +71,12 @@ Trace spread(const Scenario& scenario, const Recording& record, const Summary& s
     other.physics.estimated_by_others = true;
   }
   std::vector<Recording> records(others.size());
-  const auto keep = [&](std::size_t k, RolloutEnd&& end) { records.at(k) = std::move(end.recording); };
-  if (!run_all(others, {}, Loads::recorded, stop, keep)) return {};
+  bool began = true;
+  const auto keep = [&](std::size_t k, RolloutEnd&& end) {
+    began = began && end.refused.empty();
+    records.at(k) = std::move(end.recording);
+  };
+  if (!run_all(others, {}, {Loads::recorded, false}, stop, keep) || !began) return {};
   for (std::size_t k = 0; k < others.size(); ++k) {
     const Summary own = summarise(others[k], records.at(k), 0);
     const Verdict judged = report::verdict(others[k], records.at(k), own, overlaps(others[k], records.at(k)));

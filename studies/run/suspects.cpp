@@ -25,7 +25,7 @@ constexpr std::array kOwnSignals{SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTR
 bool try_run(const Plan& plan, std::uint64_t run, std::atomic<bool>& stop) {
   std::optional<Rollout> only = Rollout{run, plan.scenario(run)};
   const BatchStream stream{.next = [&] { return std::exchange(only, std::nullopt); }, .end = [](std::vector<RolloutEnd>&&) {}};
-  return run_pulled(stream, {}, Loads::recorded, stop);
+  return run_pulled(stream, {}, {Loads::recorded, false}, stop);
 }
 
 /// Signal by which the process terminated itself, or 0.

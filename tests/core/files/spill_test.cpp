@@ -68,10 +68,20 @@ TEST(Spill, LeavesNoFile) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-TEST(Spill, WithoutAFolderIsShortOfMemory) {
+TEST(Spill, WithoutAFolderIsInMemory) {
   const TemporaryFolder nowhere("/nowhere");
-  EXPECT_THROW(SpilledVector<char>(kMostInMemory + 1), std::bad_alloc);
-  EXPECT_NO_THROW(SpilledVector<char>(1000));
+  SpilledVector<char> bytes(kMostInMemory + 1);
+  bytes.back() = 7;
+  release(bytes);
+  EXPECT_EQ(bytes.back(), 7);
+}
+
+TEST(Spill, BeyondTheDiskIsShortOfMemory) {
+  const test::Folder folder;
+  const TemporaryFolder here(folder.path().string());
+  SpilledVector<char> bytes;
+  const std::uintmax_t free = std::filesystem::space(folder.path()).available;
+  EXPECT_THROW(bytes.reserve(2 * free + kMostInMemory), std::bad_alloc);
 }
 
 TEST(Spill, HasPartsThatAddUpToTheWhole) {
