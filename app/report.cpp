@@ -101,7 +101,10 @@ JudgedRun judged_run(const std::string& name, Catalog& catalog, const std::vecto
     const nlohmann::json told = summarised(trace.parent_path(), "outcome");
     if (told.is_string()) recording.outcome = Outcome::of(told.get<std::string>());
   }
-  if (const std::optional<AllRows> all = thin_rows(recording)) scenario = with_row_stride(scenario, all->stride);
+  if (const std::optional<AllRows> all = thin_rows(recording)) {
+    scenario = with_row_stride(scenario, all->stride);
+    note_row_stride(scenario, all->stride);
+  }
   run.summary = report::summarise(scenario, recording, wall_time(trace.parent_path()));
   run.summary.build = run.read.stored.origin.build;
   run.overlaps = report::overlaps(scenario, recording);

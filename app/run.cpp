@@ -10,6 +10,7 @@
 #include "app/progress.h"
 #include "app/run_time.h"
 #include "app/stop_on_signal.h"
+#include "app/stored_scenario.h"
 #include "core/build_id.h"
 #include "core/files/atomic_file.h"
 #include "core/recording/recording_file.h"
@@ -159,6 +160,7 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
   } catch (const std::bad_alloc&) {  // NOLINT(bugprone-empty-catch): the rows stay as they are
   }
   const Scenario seen = with_row_stride(scenario, all ? all->stride : 1);
+  if (!arguments.quiet) note_row_stride(seen, all ? all->stride : 1);
   RunFiles files(folder.path());
   const auto summarised = [&] { return report::summarise(seen, recording, wall.count()); };
   std::optional<report::Summary> made;  // kept, because the memory of a failed trace.h5 may not be freed

@@ -12,6 +12,7 @@
 
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
+#include "core/files/spill.h"
 #include "core/recording/h5.h"
 #include "core/recording/run_files.h"
 #include "core/scenario/plugin_files.h"
@@ -177,14 +178,17 @@ StoredRun read_run(const std::string& run, Catalog& catalog) {
 
 Scenario with_row_stride(const Scenario& scenario, std::size_t stride) {
   Scenario seen = scenario;
-  if (stride <= 1) return seen;
   seen.trace.period *= static_cast<double>(stride);
-  say(scenario.file, "note",
+  return seen;
+}
+
+void note_row_stride(const Scenario& seen, std::size_t stride) {
+  if (stride <= 1) return;
+  say(seen.file, "note",
       fmt::format(
           "figure and page use one of {} rows, {:.3g} s apart, because all rows need more than {:.3g} MB; the trace has "
           "all rows",
           stride, seen.trace.period, static_cast<double>(kMostInMemory) / 1e6));
-  return seen;
 }
 
 }  // namespace gaitlab::app

@@ -1,7 +1,12 @@
 // Rows of long runs, of which figures and pages get a part.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "core/recording/recording.h"
 
@@ -47,6 +52,22 @@ TEST(ThinRows, KeepsEveryKthAndTheLast) {
     EXPECT_EQ(r.rows(), 10U);
     EXPECT_EQ(hash(r.trace), hash_before);
   }
+}
+
+/// Two rows become one: a dock that is pressed with 50 N, then pulled with 30 N, is pulled with 30 N.
+TEST(HalvedLoads, KeepTheWorst) {
+  Trace loads;
+  loads.columns = {
+      {"t", "s", ""}, {"dock.1.tension", "N", ""}, {"dock.1.shear", "N", ""}, {"stability", "m", ""}, {"path", "m", ""}};
+  loads.values = {0, 0, 0, 0, 0, 1, 30, -5, 0.02, 1, 2, -50, 3, NAN, 2};
+  halve_rows(loads);
+  ASSERT_EQ(loads.rows(), 2U);
+  const std::span<const double> row = loads.row(1);
+  EXPECT_EQ(std::vector<double>(row.begin(), row.end()), (std::vector<double>{2, 30, -5, 0.02, 2}));
+  loads.values = {0, 0, 0, 0, 0, 1, -50, 3, 0.05, 1, 2, 30, -5, 0.02, 2};
+  halve_rows(loads);
+  EXPECT_EQ(loads.at(1, 1), 30);
+  EXPECT_EQ(loads.at(1, 3), 0.02);
 }
 
 }  // namespace

@@ -159,6 +159,20 @@ TEST(Footfall, FigureOfAHexapodShowsItsGait) {
   EXPECT_EQ(count(svg, "paint-order"), 5U * 33U);
 }
 
+/// A long run has every k-th row, k periods apart: the figure has its views all the same.
+TEST(Footfall, FigureOfReducedRowsHasItsViews) {
+  Scenario scenario = shown_hexapod().scenario;
+  Recording record = shown_hexapod().record;
+  const std::string all = run_figure(scenario, record, summarise(scenario, record, 0));
+  const std::size_t rows = record.rows();
+  const auto reduced = thin_rows(record, 8 * (record.trace.values.size() + record.rest.values.size()) / 10);
+  ASSERT_TRUE(reduced.has_value());
+  EXPECT_LT(record.rows(), rows / 8);
+  scenario.trace.period *= static_cast<double>(reduced->stride);
+  const std::string svg = run_figure(scenario, record, summarise(scenario, record, 0));
+  EXPECT_EQ(count(svg, "paint-order"), count(all, "paint-order"));
+}
+
 TEST(Footfall, LongPeriodsAreCutAndEarlyEndsDrawn) {
   const auto& [scenario, record] = shown_hexapod();
   Summary summary = summarise(scenario, record, 0);
