@@ -132,7 +132,7 @@ TEST_F(Program, ConvergeShowsErrorOrderAndTheStepThatIsGood) {
   EXPECT_TRUE(shows("joint.15.torque ")) << r.out;
   EXPECT_FALSE(shows("joint.9.torque ")) << r.out;
   EXPECT_TRUE(shows("worst: joint[.]1[0-5][.]torque +0[.]0[0-9]+ % +0[.]0[0-9]+ % +(0[.]9|1[.][01])\n")) << r.out;
-  EXPECT_TRUE(shows("step 2.5e-05 s is good for 1 %")) << r.out;
+  EXPECT_TRUE(shows("step 2.5e-05 s is accurate to 1 %")) << r.out;
 
   for (const std::string odd : {"\"a'b\"", "'a\"b'", "'a, b'"}) {
     const Result none = gaitlab(arguments + " --columns " + odd, folder / "");
