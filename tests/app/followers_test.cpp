@@ -43,7 +43,7 @@ TEST_F(FollowersOfNumbers, AreSetAndTheNumberIsTheColumn) {
   EXPECT_TRUE(contains(read(folder_ / "r/summary.json"), "\"speed\": " + row.at("speed") + ",")) << row.at("speed");
   const Result again = call("study rerun s 7");
   EXPECT_EQ(again.code, 0) << again.err;
-  EXPECT_TRUE(contains(again.out, "the quantities are those of the journal")) << again.out;
+  EXPECT_TRUE(contains(again.out, "the quantities are equal to those in the journal")) << again.out;
   EXPECT_TRUE(contains(call("sweep s.yaml --dry-run").out, "first  cpg.offset=-0.1 cpg.phase_lag=1 cpg.frequency=1 "));
 }
 
@@ -55,7 +55,7 @@ TEST_F(FollowersOfNumbers, AnotherExpressionIsAnotherStudy) {
   EXPECT_EQ(other.code, 2);
   EXPECT_TRUE(contains(other.err, "\"legs sets cpg.offset: 0.2*legs\", was \"legs sets cpg.offset: 0.3*legs\"")) << other.err;
   const Result answered = call("sweep t.yaml --out t --answers s");
-  EXPECT_TRUE(contains(answered.out, "1 of 3 runs were answered by other studies")) << answered.out;  // the run of legs 0
+  EXPECT_TRUE(contains(answered.out, "1 of 3 runs were taken from other studies")) << answered.out;  // the run of legs 0
 }
 
 TEST_F(FollowersOfNumbers, AreSearchedAndWeighed) {

@@ -183,7 +183,7 @@ TEST_F(GoldenCommand, OtherTextSameRunIsANote) {
   folder.write("good.yaml", kCaterpillar + "name: renamed\n");
   const Result result = call("test good.yaml");
   EXPECT_EQ(result.code, 0);
-  EXPECT_EQ(result.err, "good.yaml: note: its resolved text is no longer that of the golden\n");
+  EXPECT_EQ(result.err, "good.yaml: note: the resolved scenario has changed since the golden was approved\n");
 }
 
 TEST_F(GoldenCommand, OtherFormIsARegression) {
@@ -355,8 +355,9 @@ TEST_F(GoldenCommand, AFileThatCannotBeWrittenHidesNothing) {
   expect_refused("test good.yaml --junit no/where.xml",
                  "--junit no/where.xml: error: cannot be written: No such file or directory");
   const std::string before = bytes("good.golden");
-  expect_refused("test good.yaml --junit good.golden/golden.json",
-                 "--junit good.golden/golden.json: error: is there and is not XML; it would be overwritten");
+  expect_refused(
+      "test good.yaml --junit good.golden/golden.json",
+      "--junit good.golden/golden.json: error: exists and is not XML, so it is not overwritten; expected another file");
   EXPECT_EQ(bytes("good.golden"), before);
   EXPECT_EQ(call("test good.yaml --junit ''").code, 2);
   expect_refused("test good.yaml --junit modules", "--junit modules: error: is a folder");
