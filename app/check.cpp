@@ -95,7 +95,7 @@ int check(const CheckArguments& arguments) {
              robot.mass);
   const double rate = simulation->standing().rate;
   fmt::print("  engine {} ({}), {}{}\n", s.physics.engine->name, s.physics.integrator->name, report::step_text(s.physics),
-             rate > 0 ? fmt::format(": step times damping rate h lambda = {:.2f} for the standing robot (at most 1)",
+             rate > 0 ? fmt::format(": step times damping rate h lambda = {:.2f} for the standing robot (allowed up to 1)",
                                     s.physics.step * rate)
                       : "");
   const Vec3 start = start_state(s).position;

@@ -98,7 +98,7 @@ class ModuleReader {
 
   void need_format_2(const std::string& what, const SourceLocation& place) {
     if (places_.format == 0) return;  // the version is invalid and has been reported
-    problems_.add(place, what + " of module format 2, and this is format 1; write gaitlab_module: 2");
+    problems_.add(place, what + " of module format 2, but this file has format 1; write gaitlab_module: 2");
   }
 
   void read_connectors(const Node* connectors) {

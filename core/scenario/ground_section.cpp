@@ -139,8 +139,7 @@ void finish_shape(Heightfield& field, const GroundNodes& section) {
   }
   for (const char* key : {"scale", "hash"}) {
     if (const Node* given = map->find(key); given != nullptr && file == nullptr) {
-      problems.add(given->place,
-                   fmt::format("{} is that of a file, and the heights are given as values; expected no {}", key, key));
+      problems.add(given->place, fmt::format("{} belongs to a file, but the heights are given as values; remove {}", key, key));
     }
   }
   const std::size_t before = problems.size();
@@ -151,7 +150,8 @@ void finish_shape(Heightfield& field, const GroundNodes& section) {
   const bool wrong_rows = field.values.empty() && values != nullptr && read && !values->items.empty();  // already reported
   if (!read || wrong_rows) return;
   if (field.columns < 2 || field.rows() < 2) {
-    problems.add(grid, fmt::format("the heightfield has {} rows of {}; expected at least 2 of 2", field.rows(), field.columns));
+    problems.add(grid, fmt::format("the heightfield has {} rows of {} heights; expected at least 2 rows of 2", field.rows(),
+                                   field.columns));
   } else if (values != nullptr && field.values.size() > kMostWritten) {
     problems.add(grid, fmt::format("the heightfield has {} heights; allowed are up to {}, more in a file", field.values.size(),
                                    kMostWritten));

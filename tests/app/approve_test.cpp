@@ -89,7 +89,7 @@ TEST_F(ApproveCommand, ApproveLooksAtItsTargetFirst) {
                  "new.golden: error: is not a folder, but a golden is a folder; move this file away");
   fs::remove(folder / "good.golden/golden.json");
   expect_refused("approve good.yaml --reason 'made anew'",
-                 "good.golden/golden.json: error: is missing: the golden is only half there; the golden is unchanged. gaitlab "
+                 "good.golden/golden.json: error: is missing: the golden is incomplete; the golden is unchanged. gaitlab "
                  "approve --replace makes a new golden with a new history");
   fs::create_symlink("loop.yaml", folder / "loop.yaml");
   expect_refused("test loop.yaml", "loop.yaml: error: cannot be read: Too many levels of symbolic links");

@@ -267,8 +267,8 @@ TEST_F(GoldenCommand, AnotherRobotsGoldenIsForeign) {
   longer.replace(longer.find("]]"), 2, "], [1, 2, 4, 1, 0]]");
   folder.write("other.yaml", longer + "physics: {step: 2.5e-5}\n");
   const std::string foreign =
-      "other.golden: error: is the golden of 'good', and other.yaml ('other') is another run; gaitlab approve --replace makes "
-      "its own";
+      "other.golden: error: is the golden of 'good', but other.yaml ('other') is another run; gaitlab approve --replace makes "
+      "a golden of this run";
   Result result = call("test other.yaml");
   EXPECT_EQ(result.code, 2);
   EXPECT_EQ(result.err, foreign + "\n");
@@ -323,8 +323,8 @@ TEST_F(GoldenCommand, NoScenarioAndNoGoldenVanishesUnseen) {
   result = call("test .");
   EXPECT_EQ(result.code, 2);
   EXPECT_EQ(result.err,
-            "./gone.golden: error: has no scenario (./gone.yaml does not exist); was it renamed or removed? Do the same with "
-            "its golden\n");
+            "./gone.golden: error: has no scenario (./gone.yaml does not exist); rename or remove this golden in the same way "
+            "as its scenario\n");
   expect_contains(result.out, "\n1 passed, 0 failed, 1 not tested\n");
   fs::remove_all(folder / "gone.golden");
 

@@ -115,8 +115,8 @@ TEST_F(Messages, ARingOfModules) {
   const std::string chain = "gaitlab: 1\nrobot: {modules: mtran, docks: [";
   const std::string end = "]}\nduration: 1\n";
   const std::string ring =
-      "error: this dock closes a ring: module 0 and module {} are joined by others already; a robot stays one tree, closed "
-      "chains are not supported";
+      "error: this dock closes a ring: module 0 and module {} are already connected by other docks; docks must form a tree, "
+      "closed chains are not supported";
   refused_text(chain + "[1, 1, 4, 0, 0], [1, 2, 4, 1, 0], [1, 0, 4, 2, 0]" + end,
                "s.yaml:2:67: " + fmt::format(fmt::runtime(ring), 2));
   refused_text(chain + "[1, 0, 4, 1, 0], [1, 1, 4, 2, 0], [1, 2, 4, 0, 0]" + end,
@@ -217,7 +217,7 @@ TEST_F(Messages, WhatTheMachineCannotHold) {
   const std::string program =
       "'" + std::string(GAITLAB_BINARY_DIR) + "/bin/gaitlab' check ok.yaml --set trace.period=1e-4 2>err";
   for (const auto& [duration, there_is] :
-       {std::pair("350", "ulimit -v allows 1.02 GB of memory"), {"227", "so much memory is not to be had"}}) {
+       {std::pair("350", "ulimit -v allows 1.02 GB of memory"), {"227", "that much memory is not available"}}) {
     const int status = std::system(
         fmt::format("cd '{}' && ulimit -v 1000000 && {} --set duration={}", folder_.path().string(), program, duration)
             .c_str());

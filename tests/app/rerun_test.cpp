@@ -133,7 +133,7 @@ TEST_F(Rerun, AnotherPluginFileIsRefusedButComparedByVerify) {
   std::ofstream(library, std::ios::binary | std::ios::app) << "one byte more";
   const Result again = gaitlab("rerun p --quiet --out again --plugins-from-scenario", folder / "");
   EXPECT_EQ(again.code, 2);
-  EXPECT_TRUE(contains(again.err, "is not the file of the record: its hash is ")) << again.err;
+  EXPECT_TRUE(contains(again.err, "is not the recorded file: its hash is ")) << again.err;
   const Result result = verify("p --plugins-from-scenario");
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_TRUE(contains(result.out, "plugin " + library + ": the file has changed: hash then ")) << result.out;

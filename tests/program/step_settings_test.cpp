@@ -140,7 +140,7 @@ TEST(StepSettings, AccuracyIsForIntegratorsThatChooseTheirSteps) {
                            "engine: articulated, step: 1e-3, accuracy: 0.01", "engine: bullet, accuracy: 0.01"}) {
     const std::string text = error(keys);
     EXPECT_TRUE(contains(text,
-                         " takes steps as given, so accuracy means nothing to it; remove it, or use engine: articulated, "
+                         " uses the given step and ignores accuracy; remove accuracy, or use engine: articulated, "
                          "integrator: adaptive\n"))
         << text;
   }
