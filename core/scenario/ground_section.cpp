@@ -32,15 +32,14 @@ struct HeightfieldFields {
   void fields(Fields& f) {
     const bool from_file = !field.source.file.empty();
     if (!writing || from_file) {  // finish_ground() reads the values
-      f.text(
-          "file", field.source.file,
-          "File with the heights: text, a row per line, numbers separated by commas or blanks; a matrix of numpy.save "
-          "(.npy: float32, float64 or integers, in C order); a PNG of 16 bit grey values. Up to 4096 x 4096; text, 1 MB. The "
-          "first row is that of the least y.");
+      f.text("file", field.source.file,
+             "File with the heights: text, a row per line, numbers separated by commas or blanks; a matrix of numpy.save "
+             "(.npy: float32, float64 or integers, in C order); a PNG of 16 bit grey values. Up to 4096 x 4096; text, 1 MB. "
+             "The first row has the least y.");
       f.number("scale", field.source.scale,
                {"m", 1e-12, 1e6, "Metres per unit of the numbers in `file`; a PNG needs it. Default: 1."});
       f.text("hash", field.source.hash,
-             "Hash of `file`; another file is refused. A run writes it down where it has more than 40000 heights.");
+             "Hash of `file`; a file with another hash is refused. Runs record it for more than 40000 heights.");
     }
     if (!writing || !from_file) {
       Rows rows;

@@ -23,7 +23,7 @@ struct PluginEntry {
 
   void fields(Fields& f) {
     f.text("path", path, "The library.");
-    f.text("hash", hash, "FNV-1a of the file; another file is refused.");
+    f.text("hash", hash, "FNV-1a hash of the file; a file with another hash is refused.");
   }
 };
 
