@@ -59,7 +59,8 @@ constexpr const char* kParts = R"json({
         "friction_speed": {"type": "number", "exclusiveMinimum": 0,
                            "description": "Speed below which dry friction is viscous. [rad/s]"},
         "actuator": {"type": "object", "description": "Keys of the motor that differ from the module type's actuator."},
-        "controller": {"type": "object", "description": "Keys of the controller that differ from the module type's controller."},
+        "controller": {"type": "object",
+                       "description": "Keys of the controller that differ from the module type's controller."},
         "source": {"$ref": "#/definitions/source"}}}},
     "faces": {"type": "array", "items": {
       "type": "object", "additionalProperties": false,
@@ -107,7 +108,8 @@ constexpr const char* kHead = R"json({
     {"type": "string"},
     {"type": "object", "additionalProperties": false, "required": ["path"], "properties": {
       "path": {"type": "string", "description": "The library."},
-      "hash": {"type": ["string", "number"], "description": "FNV-1a hash of the file; a file with another hash is refused."}}}]}}
+      "hash": {"type": ["string", "number"],
+               "description": "FNV-1a hash of the file; a file with another hash is refused."}}}]}}
 })json";
 
 std::string first_line(std::string_view text) { return std::string(text.substr(0, text.find('\n'))); }

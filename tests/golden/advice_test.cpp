@@ -49,8 +49,8 @@ TEST(WideNumbers, APeakOfTheStartIsNamedAsOne) {
       golden::wide_numbers(golden, scenario_of(kAdaptive)),
       "walk.yaml: warning: the band of m0/active torque peak is 42 %: -0.71 N m would pass gaitlab test, although -0.5 N m was "
       "approved; a tenth of physics.accuracy changes this number by 14 %, and the band is three times this change; make "
-      "physics.accuracy "
-      "smaller; the peak occurs at the start (t = 0.015 s), not in the gait: if the first set points are far from "
+      "physics.accuracy smaller; the peak occurs at the start (t = 0.015 s), not in the gait: if the first set points are far "
+      "from "
       "initial.angles, other initial angles may help\n");
 }
 

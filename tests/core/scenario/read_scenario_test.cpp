@@ -373,8 +373,7 @@ TEST_F(ScenarioTest, Plugins) {
   EXPECT_EQ(file_hash(folder_.path() + "/libx.so"), "4f13f3f320fa745a");
   EXPECT_EQ(error(kShort + "plugins: [{path: libx.so, hash: \"0123456789abcdef\"}]\n"),
             "DIR/s.yaml:3:18: error: plugin 'libx.so' is not the recorded file: its hash is 4f13f3f320fa745a, but "
-            "0123456789abcdef is "
-            "recorded");
+            "0123456789abcdef is recorded");
   const std::string text = error(kShort + "plugins: [libx.so]\n");
   EXPECT_EQ(text.find("DIR/s.yaml:3:11: error: plugin 'libx.so' cannot be loaded: "), 0U) << text;
   EXPECT_EQ(error(kShort + "plugins: libx.so\n"), "DIR/s.yaml:3:10: error: plugins is 'libx.so'; expected a list of paths");
