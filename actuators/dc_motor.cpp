@@ -35,11 +35,11 @@ void DcMotorActuator::Settings::fields(Fields& f) {
   f.per_joint("gear", gear, {"", 1e-3, 1e6, "Reduction: motor turns per joint turn (n)."});
   f.per_joint("efficiency", efficiency, {"", 0, 1, "Efficiency of the gear (eta)."});
   f.choice("efficiency_model", efficiency_model, kEfficiencyModels,
-           "paper: eta acts on the torque both ways, as in eq. 2; directional: eta driving, 1/eta back-driven.");
+           "paper: torque times eta always, as in eq. 2; directional: eta if the motor drives, 1/eta if it is back-driven.");
   f.number("turn_speed", turn_speed,
            {"rad/s", 1e-6, 1e3, "Joint speed at which `directional` has changed from 1 to eta or 1/eta."});
-  f.limit("u_max", u_max, {"V", 0, 1e6, "Driver supply: the command is cut to +- this."});
-  f.limit("i_max", i_max, {"A", 0, 1e6, "Absolute rating: the current is cut to +- this."});
+  f.limit("u_max", u_max, {"V", 0, 1e6, "Supply voltage of the driver: commands are limited to +- this value."});
+  f.limit("i_max", i_max, {"A", 0, 1e6, "Absolute rating: the current is limited to +- this value."});
   f.per_joint("rotor_inertia", rotor_inertia, {"kg m^2", 0, 1, "Inertia of the rotor (J); acts on the joint as n^2 J."});
   RatingKeys::fields(f);
   const auto useless = [](double eta) { return !(eta > 0); };

@@ -11,7 +11,7 @@ class TorqueActuator final : public Actuator {
  public:
   struct Settings {
     PerJoint limit{0};
-    void fields(Fields& f) { f.limit("limit", limit, {"N m", 0, 1e9, "The torque is cut to +- this; 0: no limit."}); }
+    void fields(Fields& f) { f.limit("limit", limit, {"N m", 0, 1e9, "Commands are limited to +- this torque; 0: no limit."}); }
   };
   static constexpr const char* kManual = R"(An ideal torque source. It draws the power T w.
 

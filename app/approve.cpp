@@ -49,8 +49,8 @@ std::string reason(const ApproveArguments& arguments) {
 
 InputError no_reason(const ApproveArguments& arguments) {
   return {SourceLocation{"--reason"},
-          fmt::format("is {}; say in a sentence why these numbers are right: it is kept in the golden's "
-                      "history. Nothing was written",
+          fmt::format("is {}; expected a sentence for the golden's history with the reason why these numbers are right. "
+                      "Nothing was written",
                       !arguments.reason                     ? "missing"
                       : arguments.reason->starts_with("--") ? fmt::format("'{}', which is an option", *arguments.reason)
                                                             : "empty")};
@@ -65,7 +65,7 @@ void check_target(const fs::path& folder) {
     if (::access(target.c_str(), W_OK | X_OK) == 0) return;
     throw InputError(SourceLocation{target.string()}, "cannot be written: " + std::generic_category().message(errno));
   }
-  throw InputError(SourceLocation{folder.string()}, "is not a folder, and a golden is one; move it away");
+  throw InputError(SourceLocation{folder.string()}, "is not a folder, but a golden is a folder; move this file away");
 }
 
 /// The existing golden, or nothing if it is missing or is to be replaced. Files that a killed first approval has left are
@@ -77,7 +77,7 @@ std::optional<Golden> golden_before(const fs::path& folder, bool replace) {
     return read_golden(folder);
   } catch (const InputError& error) {
     std::vector<Problem> problems = error.problems();
-    problems.front().text += "; it stays as it is. approve --replace makes a new one, whose history begins with it";
+    problems.front().text += "; the golden is unchanged. gaitlab approve --replace makes a new golden with a new history";
     throw InputError(std::move(problems));
   }
 }
@@ -262,9 +262,9 @@ void add_approve(Commands& commands) {
         command.add_option("SCENARIO", arguments.file, "scenario file (YAML)")->required();
         command.add_option("--reason", arguments.reason, "why these numbers are right; kept in the golden");
         command.add_flag("--calibrate", arguments.calibrate,
-                         "make new bands, from five more runs, even where the run is within the old ones");
+                         "compute new bands from five more runs, even if this run is within the old bands");
         command.add_flag("--replace", arguments.replace,
-                         "begin anew where the golden cannot be read or is another scenario's: its history is lost");
+                         "replace a golden that cannot be read or belongs to another scenario; the old history is lost");
         command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
       });
 }

@@ -32,7 +32,7 @@ Catalog careful_catalog(const PluginArguments& allowed) {
     if (failure) throw InputError(SourceLocation{"--plugin " + file}, "cannot be loaded: " + failure.message());
   }
   trust.remedy = "if you trust " + (typed().size() > kLongest ? "it, add" : "it: " + typed()) +
-                 " --plugins-from-scenario, or --plugin FILE for each that you do";
+                 " --plugins-from-scenario, or --plugin FILE for each plugin";
   Catalog catalog = standard_catalog();
   catalog.set_trust(std::move(trust));
   return catalog;

@@ -57,8 +57,8 @@ void print_creep(const Scenario& s) {
   }
   if (names.empty() || !s.contact.model().penalty_settings || !s.ground.exists() || s.contact.on == ContactSet::none) return;
   fmt::print(
-      "  note: {} turn{} freely: where they roll, feet and wheels that should hold creep, because friction is viscous below\n"
-      "    contact.slip_speed, {:g} m/s here{}\n",
+      "  note: {} turn{} freely: feet and wheels that should stand still creep, because friction is viscous below\n"
+      "    contact.slip_speed, {:g} m/s in this scenario{}\n",
       joined(names), names.size() == 1 ? "s" : "", s.contact.penalty.v_lim,
       s.contact.penalty.v_lim > kLittleCreep ? fmt::format("; with {:g} m/s they creep less", kLittleCreep) : "");
 }
@@ -83,7 +83,7 @@ int check(const CheckArguments& arguments) {
   constexpr std::size_t kManyBoxes = 1000;
   if (const std::size_t boxes = s.ground.boxes().size(); boxes > kManyBoxes && !arguments.quiet) {
     say(arguments.file, "note",
-        fmt::format("takes a step among {} boxes, which lasts seconds where many lie in one place", boxes));
+        fmt::format("simulates one step with {} boxes, which takes seconds if many of them are close together", boxes));
   }
   const RunTime time = measure(s);
   const auto simulation = made(s, time);
@@ -95,14 +95,14 @@ int check(const CheckArguments& arguments) {
              robot.mass);
   const double rate = simulation->standing().rate;
   fmt::print("  engine {} ({}), {}{}\n", s.physics.engine->name, s.physics.integrator->name, report::step_text(s.physics),
-             rate > 0 ? fmt::format(": step times damping rate h lambda = {:.2f} for the standing robot (at most 1)",
+             rate > 0 ? fmt::format(": step times damping rate h lambda = {:.2f} for the standing robot (allowed up to 1)",
                                     s.physics.step * rate)
                       : "");
   const Vec3 start = start_state(s).position;
   fmt::print("  base frame at [{:.4g}, {:.4g}, {:.4g}] m at the start: {}\n", start.x(), start.y(), start.z(),
              !s.ground.exists() ? "there is no ground"
              : s.on_ground      ? "lowered onto the ground"
-                                : "position gives the height, on_ground is off");
+                                : "at the height in position, because on_ground is off");
   fmt::print("  cpg {}, controller {}, actuator {}, {} contact elements\n", plugin_name(s.cpg), plugin_name(s.controller),
              plugin_name(s.actuator), contacts.size());
   const RowsNeeded needed = simulation->rows_needed(0);
@@ -123,15 +123,16 @@ int check(const CheckArguments& arguments) {
 }  // namespace
 
 void add_check(Commands& commands) {
-  add_command<CheckArguments>(commands, "check", "Validate a scenario without running it, and print its parts.", check,
-                              [](CLI::App& command, CheckArguments& arguments) {
-                                add_scenario(command, arguments);
-                                add_trust(command, arguments.plugins);
-                                command
-                                    .add_option("--page", arguments.page,
-                                                "file for a page of the robot as it starts, with its faces; must not exist")
-                                    ->check(not_empty);
-                              });
+  add_command<CheckArguments>(
+      commands, "check", "Validate a scenario without running it, and print its parts.", check,
+      [](CLI::App& command, CheckArguments& arguments) {
+        add_scenario(command, arguments);
+        add_trust(command, arguments.plugins);
+        command
+            .add_option("--page", arguments.page,
+                        "page (HTML) to write, with the robot at its start and the numbers of its faces; must not exist")
+            ->check(not_empty);
+      });
 }
 
 }  // namespace gaitlab::app

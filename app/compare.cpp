@@ -75,7 +75,7 @@ std::vector<std::string> common_names(const Json& a, const Json& b, const char* 
 void print_robots(const Json& a, const Json& b) {
   for (const char* names : {"joints", "contacts"}) {
     if (a.contains(names) && b.contains(names) && a[names] != b[names]) {
-      fmt::print("the robots' {} differ ({} and {}): columns are compared by number all the same\n", names, a[names].size(),
+      fmt::print("the robots' {} differ ({} and {}), but columns with the same number are compared\n", names, a[names].size(),
                  b[names].size());
     }
   }
@@ -89,7 +89,7 @@ void print_settings(const CompareArguments& arguments) {
     const std::string b = stored_scenario(arguments.b).text;
     changed = changed_settings(a, b, arguments.all ? std::string::npos : kMostShown);
   } catch (const InputError&) {
-    fmt::print("\nsettings: not compared, a CSV file has none\n");
+    fmt::print("\nsettings: not compared, because a CSV file contains none\n");
     return;
   }
   fmt::print("\nsettings: {}\n", changed.empty() ? "the same" : "A -> B");
@@ -117,10 +117,10 @@ void print_columns(const TraceDifference& difference, bool all) {
   }
   fmt::print("\n");
   if (shown > 0) fmt::print("{}", aligned(rows));
-  if (shown < apart.size()) fmt::print("and {} more: --all\n", apart.size() - shown);
+  if (shown < apart.size()) fmt::print("and {} more: --all shows them\n", apart.size() - shown);
   fmt::print("{} of {} columns are equal to the bit in {} rows\n", difference.columns.size() - apart.size(),
              difference.columns.size(), difference.rows);
-  if (first != nullptr) fmt::print("first to part: {} at t = {:.6g} s\n", first->label, *first->first_divergence);
+  if (first != nullptr) fmt::print("first column to diverge: {} at t = {:.6g} s\n", first->label, *first->first_divergence);
 }
 
 // Value at a JSON pointer, or null if the summary does not contain it.
@@ -203,7 +203,7 @@ int compare(const CompareArguments& arguments) {
   if (!summary_a.is_null() && !summary_b.is_null()) {
     print_summaries(summary_a, summary_b);
   } else {
-    fmt::print("\nsummary numbers: not compared, a trace file has none\n");
+    fmt::print("\nsummary numbers: not compared, because a trace file contains none\n");
   }
   print_columns(difference, arguments.all);
   return 0;
@@ -224,7 +224,7 @@ void add_compare(Commands& commands) {
             ->expected(1)
             ->allow_extra_args(false)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-        command.add_flag("--all", arguments.all, "print all columns and settings that differ, not the ten worst and first");
+        command.add_flag("--all", arguments.all, "print all columns and settings that differ, not only ten of each");
       });
 }
 

@@ -94,28 +94,29 @@ std::string verdict(const std::vector<ConvergenceRow>& rows, const Runs& runs) {
   const double finest = runs.steps.back();
   const auto within_rule = [&](double step) { return !(runs.allowed > 0) || step <= runs.allowed; };
   const ConvergenceRow& last = *worst_at(rows, runs.steps.size() - 1).first;
-  std::string text = fmt::format("none of these is good for 1 % of {}", last.name);
+  std::string text = fmt::format("none of these values is accurate to 1 % of {}", last.name);
   for (std::size_t i = 0; i < runs.steps.size(); ++i) {
     const auto [row, error] = worst_at(rows, i);
     if (error > kGood || !within_rule(runs.steps[i])) continue;
-    text = fmt::format("{} {}{} is good for 1 %: the error is at most {:.2g} % ({}), that of {}{} itself included", runs.what,
-                       runs.steps[i], runs.unit, 100 * error, row->name, finest, runs.unit);
+    text = fmt::format("{} {}{} is accurate to 1 %: the error is at most {:.2g} % ({}), including the error of {}{} itself",
+                       runs.what, runs.steps[i], runs.unit, 100 * error, row->name, finest, runs.unit);
     break;
   }
   if (!within_rule(runs.steps.front())) {
-    text += fmt::format("; the rule h lambda <= 1 allows up to {:.3g} s, less than the longest tried", runs.allowed);
+    text +=
+        fmt::format("; the rule h lambda <= 1 allows up to {:.3g} s, less than the longest step that was tried", runs.allowed);
   }
   if (runs.steps.size() < 3) return text;
   if (last.order && *last.order < kLeastOrder) {
-    return text + fmt::format("; no order is seen ({:.2f}), so nothing is said of others", *last.order);
+    return text + fmt::format("; the observed order, {:.2f}, is too low to predict other values", *last.order);
   }
   const std::optional<double> reach = last.step_for(kGood, finest);
-  if (!reach) return text + "; no clear order, so nothing is said of others";
+  if (!reach) return text + "; the order is not clear enough to predict other values";
   if (!within_rule(*reach)) {
     if (!within_rule(runs.steps.front())) return text;
-    return text + fmt::format("; of longer steps the rule h lambda <= 1 allows up to {:.3g} s", runs.allowed);
+    return text + fmt::format("; the rule h lambda <= 1 allows longer steps only up to {:.3g} s", runs.allowed);
   }
-  return text + fmt::format("; by the order seen about {:.2g}{} would be", *reach, runs.unit);
+  return text + fmt::format("; by the observed order about {:.2g}{} would also suffice", *reach, runs.unit);
 }
 
 int converge(const ConvergeArguments& arguments) {
@@ -157,8 +158,9 @@ int converge(const ConvergeArguments& arguments) {
 
 void add_converge(Commands& commands) {
   add_command<ConvergeArguments>(
-      commands, "converge", "Halve the step: errors against the finest one, their order, and the step that is good for 1 %.",
-      converge, [](CLI::App& command, ConvergeArguments& arguments) {
+      commands, "converge",
+      "Halve the step: errors against the finest step, their order, and the step that is accurate to 1 %.", converge,
+      [](CLI::App& command, ConvergeArguments& arguments) {
         add_scenario(command, arguments);
         command.add_option("--halvings", arguments.halvings, "number of halvings (default 2; an order needs 2)")
             ->check(CLI::Range(1, 8));

@@ -18,15 +18,15 @@ constexpr const char* kHelp =
     "The state: {\"q\": [], \"qd\": [], \"tau\": [], \"qdd\": [], \"base\": {\"position\", \"quaternion\": [w, x, y, z],\n"
     "\"velocity\", \"angular_velocity\", \"acceleration\", \"angular_acceleration\"}, \"wrenches\": [{\"body\", \"point\",\n"
     "\"force\", \"torque\"}]}; SI, world axes, joints in the order of `gaitlab check`. Defaults: q, qd, pose\n"
-    "and twist of the scenario's start, for a wrench's point the origin of its body's frame, else 0.\n"
+    "and twist of the scenario's start; point of a wrench: origin of its body's frame; all others 0.\n"
     "Gravity, tau and the wrenches act; motors, hinge stops, passive hinges and the ground do not. tau is the torque on the "
     "joint.\n\n"
-    "Out, forward (tau in, by the scenario's engine): qdd, base, mass_matrix, bias, with\n"
+    "Output of forward dynamics (from tau, by the scenario's engine): qdd, base, mass_matrix, bias, with\n"
     "    mass_matrix [base acceleration; qdd] + bias = [0; tau]\n"
-    "and of the base what it can move: all (floating), nothing (fixed), x, z, turn about y (planar).\n"
-    "Out, --inverse (qdd and the base's accelerations in): tau, base_wrench (from outside, about the origin of the base "
+    "Rows of the base are its free coordinates: all (floating), none (fixed), x, z, rotation about y (planar).\n"
+    "Output of --inverse (from qdd and the base's accelerations): tau, base_wrench (external, about the origin of the base "
     "frame),\n"
-    "reactions: of the parent on the child at every hinge and dock (m3/dock), about its origin.";
+    "reactions (force and torque of the parent on the child at every hinge and dock, m3/dock, about its origin).";
 
 struct DynamicsArguments : ScenarioArguments {
   std::string state;     ///< file with the state in JSON
@@ -41,7 +41,7 @@ std::string list(const Vec3& v) { return list(In(v.data(), 3)); }
 std::string wrench(const Wrench& w) { return fmt::format("{{\"force\": {}, \"torque\": {}}}", list(w.force), list(w.moment)); }
 
 void check_finite(const Eigen::VectorXd& result, const SourceLocation& place) {
-  if (!result.allFinite()) throw InputError(place, "the dynamics give no finite number: the state is too far out");
+  if (!result.allFinite()) throw InputError(place, "the result is not finite; expected smaller values in the state");
 }
 
 /// Accelerations under the torques and wrenches of the input, computed by the scenario's engine.
@@ -114,7 +114,7 @@ void add_dynamics(Commands& commands) {
         command.footer(kHelp);
         add_scenario(command, arguments);
         command.add_option("--state", arguments.state, "JSON file with positions, velocities and applied forces")->required();
-        command.add_flag("--inverse", arguments.inverse, "accelerations in; torques and reactions out");
+        command.add_flag("--inverse", arguments.inverse, "compute torques and reactions from given accelerations");
       });
 }
 

@@ -43,9 +43,9 @@ void export_trace(const ExportArguments& arguments) {
 void export_robot(const ExportArguments& arguments) {
   std::error_code none;
   if (std::filesystem::is_directory(arguments.source.file, none)) {
-    throw InputError(
-        SourceLocation{arguments.source.file},
-        fmt::format("is a folder; --to {} takes a scenario, of a run folder its scenario.resolved.yaml", arguments.format));
+    throw InputError(SourceLocation{arguments.source.file},
+                     fmt::format("is a folder; --to {} needs a scenario file, for a run folder its scenario.resolved.yaml",
+                                 arguments.format));
   }
   Catalog catalog = careful_catalog(arguments.plugins);
   const Scenario scenario = read(arguments.source, catalog);
@@ -96,12 +96,13 @@ void export_gltf(const ExportArguments& arguments) {
   if (!recording.has_states(*scenario.robot)) {
     throw InputError(
         SourceLocation{source},
-        fmt::format("does not say how the robot moved: {}; simulate it again: gaitlab rerun {}",
+        fmt::format("does not contain the robot's motion: {}; simulate it again: gaitlab rerun {}",
                     stored.missing.empty() ? "it has no rows" : fmt::format("{}", fmt::join(stored.missing, "; ")), source));
   }
   write_gltf(arguments, scenario, &recording);
   for (const std::size_t box : interchange::boxes_without_way(scenario, recording)) {
-    say(source, "note", fmt::format("ground.boxes[{0}] stands as it started: its columns box.{0}.* are not recorded", box));
+    say(source, "note",
+        fmt::format("ground.boxes[{0}] is drawn at its start pose, because its columns box.{0}.* are not recorded", box));
   }
 }
 
@@ -126,7 +127,7 @@ void add_export(Commands& commands) {
             .add_option(
                 "--to", arguments.format,
                 fmt::format("csv; gltf (a binary .glb file: the robot and its ground as they move, keyframes at rows of the "
-                            "trace, at most {} a second; of a scenario the robot as it starts); mjcf (MuJoCo), urdf",
+                            "trace, at most {} per second; for a scenario, the robot at its start); mjcf (MuJoCo), urdf",
                             interchange::kGltfRate))
             ->required()
             ->check(CLI::IsMember({"csv", "gltf", "mjcf", "urdf"}));

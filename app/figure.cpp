@@ -110,7 +110,8 @@ void check_free(const fs::path& figure, const fs::path& file, const std::string&
   if (kind_of(figure) != fs::file_type::not_found || kind_of(file) == fs::file_type::not_found) return;
   if (kind_of(file) == fs::file_type::regular && read_file(file, kMostPage) == bytes) return;
   throw InputError(SourceLocation{file.string()},
-                   fmt::format("exists with other numbers, and {} does not exist; nothing was written", figure.string()));
+                   fmt::format("exists with other numbers, but its figure {} does not exist; move it away. Nothing was written",
+                               figure.string()));
 }
 
 std::string picture(const report::PaperFigure& figure, const fs::path& file) {
@@ -175,7 +176,7 @@ void add_figure(Commands& commands) {
       [](CLI::App& command, FigureArguments& arguments) {
         command.add_option("RECIPE", arguments.recipe, "recipe (YAML); its keys: gaitlab explain figure curves")->required();
         command.add_option("-o,--out", arguments.out,
-                           "FIG.svg or FIG.pdf, replaced where it exists, with FIG.csv beside it (default: RECIPE.svg, new)");
+                           "FIG.svg or FIG.pdf, replaced if it exists; the numbers go to FIG.csv (default: RECIPE.svg, new)");
         add_trust(command, arguments.plugins);
         command.add_option("--run", arguments.runs, "NAME=FOLDER: another folder for a run of the recipe; may be repeated")
             ->expected(1)

@@ -98,7 +98,7 @@ int explain_module(const std::string& name, Catalog& catalog) {
   const std::map<std::string, std::string> shipped = shipped_files("module");
   const auto known = shipped.find(name);
   if (known == shipped.end() && !name.ends_with(".yaml")) {
-    unknown("module", name, names("module", catalog), "; one of your own goes by its file, NAME.yaml");
+    unknown("module", name, names("module", catalog), "; name a type that you wrote by its file, NAME.yaml");
   }
   const std::string& file = known == shipped.end() ? name : known->second;
   fmt::print("{}\nfile: {}\n", module_table(read_module(file, catalog)), file);
@@ -131,13 +131,14 @@ int explain(const ManualArguments& arguments) {
   }
   if (name.empty()) {
     throw InputError(SourceLocation{"gaitlab explain"},
-                     "NAME is missing: name as `gaitlab list` prints it; of a module also its file, NAME.yaml; expected "
-                     "gaitlab explain [KIND] [NAME]");
+                     "NAME is missing: a name that `gaitlab list` prints, or the file NAME.yaml of a module; expected gaitlab "
+                     "explain [KIND] [NAME]");
   }
   if (kind == "module") return explain_module(name, catalog);
   const std::vector<std::string> all = names(kind, catalog);
   if (std::find(all.begin(), all.end(), name) == all.end()) {
-    unknown(kind, name, all, find_kind(kind) != nullptr && plugins.empty() ? "; one of your own needs --plugin LIBRARY" : "");
+    unknown(kind, name, all,
+            find_kind(kind) != nullptr && plugins.empty() ? "; a plugin that you wrote needs --plugin LIBRARY" : "");
   }
   if (const PluginKind* plugin = find_kind(kind)) fmt::print("{}", explain_plugin(*catalog.find(plugin->kind, name)));
   if (kind == "engine") {
@@ -158,7 +159,7 @@ struct SchemaArguments : ManualArguments {
 
 int schema(const SchemaArguments& arguments) {
   if (arguments.study && !arguments.plugins.empty())
-    throw InputError(SourceLocation{"--plugin"}, "has no place beside --study: no plugin adds keys to the file of a study");
+    throw InputError(SourceLocation{"--plugin"}, "cannot be combined with --study: plugins add no keys to the file of a study");
   fmt::print("{}", arguments.study ? studies::study_schema(quantity_offer().checks)
                                    : scenario_schema(standard_catalog(arguments.plugins)));
   return 0;
@@ -181,16 +182,16 @@ void add_manuals(Commands& commands) {
       commands, "list",
       "List everything registered: cpg, controller, actuator, engine, module, robot, figure; and checks of the verdict.", list,
       [](CLI::App& command, ManualArguments& arguments) {
-        command.add_option("KIND", arguments.kind, "one of these kinds alone");
+        command.add_option("KIND", arguments.kind, "list only this kind");
         add_plugins(command, arguments);
       });
   add_command<ManualArguments>(
       commands, "explain", "Print the manual of KIND NAME; without them, the manual of the scenario file.", explain,
       [](CLI::App& command, ManualArguments& arguments) {
-        command.add_option(
-            "KIND", arguments.kind,
-            "cpg, controller, actuator, engine, module, robot, figure, check; or alone study, verdict, or a check's id");
-        command.add_option("NAME", arguments.name, "name as `gaitlab list` prints it; of a module also its file, NAME.yaml");
+        command.add_option("KIND", arguments.kind,
+                           "cpg, controller, actuator, engine, module, robot, figure, check; without NAME also study, verdict, "
+                           "or a check's id");
+        command.add_option("NAME", arguments.name, "name that `gaitlab list` prints, or the file NAME.yaml of a module");
         add_plugins(command, arguments);
       });
   add_command<SchemaArguments>(commands, "schema", "Print the JSON Schema of the scenario file, for editors.", schema,

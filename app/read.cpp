@@ -60,8 +60,8 @@ void add_scenario(CLI::App& command, ScenarioArguments& arguments) {
 
 void add_trust(CLI::App& command, PluginArguments& allowed) {
   command.add_flag("--plugins-from-scenario", allowed.from_scenario,
-                   "load the plugins that the scenario names: their code runs, so look who made them");
-  command.add_option("--plugin", allowed.files, "load this plugin where the scenario names it; may be repeated")
+                   "load the plugins that the scenario names and execute their code; only for plugins that you trust");
+  command.add_option("--plugin", allowed.files, "load this plugin if the scenario names it; may be repeated")
       ->expected(1)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -130,11 +130,9 @@ int report_one(const ReportArguments& arguments) {
   const Scenario& scenario = run.read.scenario;
   const std::vector<std::string>& missing = run.read.stored.missing;
   if (arguments.out && !missing.empty()) {
-    throw InputError(
-        SourceLocation{name},
-        fmt::format(
-            "summary and figure cannot be made anew: {}; a page can: --page FILE; or simulate it again: gaitlab rerun {}",
-            fmt::join(missing, "; "), name));
+    throw InputError(SourceLocation{name}, fmt::format("summary and figure cannot be computed again: {}; write only the page, "
+                                                       "--page FILE, or simulate again: gaitlab rerun {}",
+                                                       fmt::join(missing, "; "), name));
   }
   std::string page;
   if (arguments.out || arguments.page) page = report::page(run.page_data());
@@ -186,7 +184,7 @@ int report_two(const ReportArguments& arguments) {
 int report(const ReportArguments& arguments) {
   if (arguments.runs.size() == 1) return report_one(arguments);
   if (arguments.out)
-    throw InputError(SourceLocation{"--out " + *arguments.out}, "takes one run; of two there is a page: --page FILE");
+    throw InputError(SourceLocation{"--out " + *arguments.out}, "is only for one run; for two runs write a page: --page FILE");
   return report_two(arguments);
 }
 
@@ -194,19 +192,20 @@ int report(const ReportArguments& arguments) {
 
 void add_report(Commands& commands) {
   add_command<ReportArguments>(
-      commands, "report", "Print the summary of a run folder again, without simulating; of two, also write a page with both.",
-      report, [](CLI::App& command, ReportArguments& arguments) {
+      commands, "report",
+      "Print the summary of a run folder again, without simulating; for two folders, also write a page with both.", report,
+      [](CLI::App& command, ReportArguments& arguments) {
         command
             .add_option("RUN", arguments.runs,
-                        "run folder; of two, B is laid over A on one page, compare.html in the folder of A")
+                        "run folder, or two, A and B: a page shows B over A, compare.html in the folder of A")
             ->required()
             ->expected(1, 2)
             ->check(not_empty);
         command.add_option("--out", arguments.out,
-                           "folder for summary.json, verdict.json, figure.svg and report.html, made anew; new or empty");
+                           "new or empty folder for summary.json, verdict.json, figure.svg and report.html, computed again");
         command
             .add_option("--page", arguments.page,
-                        "file for the page alone; new, or the run's report.html (of two runs compare.html)")
+                        "file for only the page: a new file, or the run's report.html (for two runs compare.html)")
             ->check(not_empty);
         add_trust(command, arguments.plugins);
         add_joint(command, arguments.joints);

@@ -64,7 +64,8 @@ Past read_past(const fs::path& run) {
     past.trace = read_csv(past.file);
   }
   if (past.trace.rows() == 0 || past.trace.columns.front().name != "t")
-    throw InputError(SourceLocation{past.file.string()}, "holds no rows of a run: it has no first column t, or nothing in it");
+    throw InputError(SourceLocation{past.file.string()},
+                     "contains no rows of a run: the file is empty, or its first column is not t");
   if (!is_there(run / "summary.json")) return past;
   const nlohmann::json summary = read_summary(run);
   const auto text = [&](const char* key) {
@@ -119,20 +120,22 @@ std::vector<std::string> changes(const StoredScenario& stored, const Past& past,
   }
   const std::vector<PluginChange> plugins = changed_plugins(stored);
   for (const PluginChange& plugin : plugins) {
-    found.push_back(fmt::format("plugin {}: another file: hash then {}, now {}", plugin.path, plugin.then, plugin.now));
+    found.push_back(fmt::format("plugin {}: the file has changed: hash then {}, now {}", plugin.path, plugin.then, plugin.now));
   }
   if (!past.scenario.empty() && past.scenario != stored.text) {
-    found.push_back(fmt::format("scenario: {} is not the one in {}:\n    {}", stored.shown, past.file.filename().string(),
+    found.push_back(fmt::format("scenario: {} differs from the scenario in {}:\n    {}", stored.shown,
+                                past.file.filename().string(),
                                 fmt::join(changed_settings(past.scenario, stored.text), "\n    ")));
   }
   const std::string now = resolved(scenario);
   if (plugins.empty() && now != stored.text) {  // the resolved scenario contains the plugins' hashes
-    found.push_back(fmt::format("scenario: resolved again it is another:\n    {}",
+    found.push_back(fmt::format("scenario: this program resolves it differently:\n    {}",
                                 fmt::join(changed_settings(stored.text, now), "\n    ")));
   }
   if (!past.summary_hash.empty() && !is_hash(past.summary_hash, past.trace)) {
-    found.push_back(fmt::format("trace: {} is not the one that summary.json was made from{}", past.file.filename().string(),
-                                is_hash(past.summary_hash, again.trace) ? "; the run again gives that one" : ""));
+    found.push_back(fmt::format("trace: {} is not the trace from which summary.json was computed{}",
+                                past.file.filename().string(),
+                                is_hash(past.summary_hash, again.trace) ? "; the repeated run gives that trace" : ""));
   }
   return found;
 }
@@ -175,9 +178,9 @@ bool judge(const std::string& run, const Scenario& scenario, const Trace& then, 
         one_line(run), kTolerance, size, worst, equal);
     return true;
   }
-  fmt::print("{}: differs (A: the recorded run, B: the run again)\n", one_line(run));
+  fmt::print("{}: differs (A: the recorded run, B: the repeated run)\n", one_line(run));
   for (const std::string& finding : difference.findings) fmt::print("  {}\n", finding);
-  if (!again.failure.empty()) fmt::print("  the run again {}\n", again.failure);
+  if (!again.failure.empty()) fmt::print("  the repeated run {}\n", again.failure);
   print_worst_columns(difference);
   return false;
 }
@@ -191,8 +194,9 @@ int verify(const std::string& run, const PluginArguments& plugins) {
   const Again again = run_again(scenario, past, early);
   const bool same = judge(run, scenario, past.trace, again);
   if (early) {
-    fmt::print("  it ended early ({}): compared up to its last row, t = {:.6g} s\n",
-               past.ended ? past.ended->text() : "and no summary says why: the record is not whole", last_time(past.trace));
+    fmt::print("  the recorded run ended early ({}): compared up to its last row, t = {:.6g} s\n",
+               past.ended ? past.ended->text() : "no summary contains the reason: the record is incomplete",
+               last_time(past.trace));
   }
   const std::vector<std::string> changed = changes(stored, past, scenario, again);
   for (const std::string& line : changed) fmt::print("  {}\n", line);
@@ -200,7 +204,7 @@ int verify(const std::string& run, const PluginArguments& plugins) {
     const bool vague = past.build.find(".dirty") != std::string::npos || past.build.find("unknown") != std::string::npos;
     fmt::print("  build, plugins and scenario are those of the recorded run{}\n",
                vague ? ", as far as the build id of a changed source tree shows"
-                     : ": a library that is not in the build id, the machine, or a defect of gaitlab");
+                     : "; possible causes: a library that is not in the build id, the machine, or a defect of gaitlab");
   }
   return same && (!early || past.ended) ? 0 : 4;
 }

@@ -92,7 +92,8 @@ void take_spread(const Scenario& scenario, Recording& recording, const report::S
   if (found != report::Predictability::chaotic && found != report::Predictability::ill) return;
   if (!quiet) {
     say(scenario.file, "note",
-        report::predictability_text(scenario, recording) + "; three more rollouts show how far its numbers spread");
+        report::predictability_text(scenario, recording) +
+            "; three more rollouts are simulated to show the spread of the results");
   }
   const report::Verdict own = report::verdict(scenario, recording, summary, report::overlaps(scenario, recording));
   recording.spread = report::spread(scenario, recording, summary, own, stopped());
@@ -127,9 +128,10 @@ void note_rows(const Scenario& scenario, const Simulation& simulation) {
   if (!(needed.bytes() > kMuch)) return;
   const bool in_file = needed.bytes() > static_cast<double>(kMostInMemory);
   say(scenario.file, "note",
-      fmt::format("records {:.3g} rows of {:.0f} columns, {:.3g} MB in {}; trace.period and trace.columns make it less",
-                  needed.rows, needed.columns, needed.bytes() / 1e6,
-                  in_file ? fmt::format("a temporary file in {} (TMPDIR)", spill_folder().string()) : "memory"));
+      fmt::format(
+          "records {:.3g} rows of {:.0f} columns, {:.3g} MB in {}; a longer trace.period or fewer trace.columns need less",
+          needed.rows, needed.columns, needed.bytes() / 1e6,
+          in_file ? fmt::format("a temporary file in {} (TMPDIR)", spill_folder().string()) : "memory"));
 }
 
 void print_files(const RunArguments& arguments, const std::filesystem::path& folder) {

@@ -117,8 +117,8 @@ void warn_of_run(const Scenario& scenario, const Recording& recording, const rep
   }
   if (const std::vector<std::string> names = report::not_finite(scenario, recording); !names.empty()) {
     say(scenario.file, "warning",
-        fmt::format("no finite number came out for {}; they are - here and null in summary.json; are masses, lengths and gains "
-                    "those of a robot?",
+        fmt::format("the results for {} are not finite (printed as -, null in summary.json); check masses, lengths and gains "
+                    "of the robot",
                     joined(names)));
   }
 }

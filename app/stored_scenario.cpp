@@ -96,7 +96,8 @@ StoredScenario stored_scenario(const std::string& run) {
   if (fs::exists(yaml, none)) return {yaml.string(), yaml.string(), read_file(yaml, kMostScenario)};
   const fs::path trace = trace_file(run);
   if (trace.extension() == ".h5") return {"", trace.string() + " (its scenario)", read_h5(trace).origin.scenario};
-  throw InputError(SourceLocation{trace.string()}, "a CSV trace does not hold its scenario, and there is no " + yaml.string());
+  throw InputError(SourceLocation{trace.string()},
+                   "a CSV trace does not contain its scenario, and there is no file " + yaml.string());
 }
 
 std::vector<PluginChange> changed_plugins(const StoredScenario& stored) {
@@ -130,8 +131,9 @@ StoredScenario scenario_of(const std::string& run, const StoredRecording& read) 
 /// Throws InputError if the recording does not fit the scenario, which only happens for files that were exchanged or changed.
 void check_fit(const std::string& run, const Scenario& scenario, const Recording& recording) {
   const auto refuse = [&](const std::string& what) {
-    throw InputError(SourceLocation{run}, "its recording does not fit its scenario: " + what +
-                                              "; one of the two files is of another run: put it back, or simulate again");
+    throw InputError(SourceLocation{run},
+                     "its recording does not fit its scenario: " + what +
+                         "; one of the two files belongs to another run: restore the right file, or simulate again");
   };
   const std::size_t joints = scenario.robot->joints.size();
   if (recording.joints.size() != joints) refuse(fmt::format("{} joints, {} in the scenario", recording.joints.size(), joints));
@@ -149,7 +151,7 @@ void check_fit(const std::string& run, const Scenario& scenario, const Recording
     if (!scenario.robot->joints[j].driven()) continue;
     for (const char* quantity : {"setpoint", "torque"}) whole = whole && !recording.joint(j, quantity).empty();
   }
-  if (!whole && recording.rows() > 0) refuse("columns that every recording has are not there");
+  if (!whole && recording.rows() > 0) refuse("columns that every recording contains are missing");
 }
 
 /// Adds units and definitions to the columns of a CSV file, which does not contain them.

@@ -290,12 +290,12 @@ std::vector<std::vector<Swapped>> read_matrix(const SwapArguments& arguments, Ca
       const std::string& name = all.back().front().scenario->name;
       const auto same = std::ranges::find(names, name, &std::pair<std::string, std::string>::first);
       if (same != names.end()) {
-        problems.push_back({SourceLocation{file},
-                            fmt::format("its name, {}, is that of {}, too; expected a name: of its own", name, same->second)});
+        problems.push_back(
+            {SourceLocation{file}, fmt::format("has the same name, {}, as {}; expected another name:", name, same->second)});
       }
       if (name == "swap.csv" || name == "swap.json") {
         problems.push_back(
-            {SourceLocation{file}, "its name, " + name + ", is that of a file of the swap; expected another name:"});
+            {SourceLocation{file}, "its name, " + name + ", is also the name of an output file; expected another name:"});
       }
       names.emplace_back(name, file);
     } catch (const InputError& error) {
@@ -364,7 +364,9 @@ void add_swap(Commands& commands) {
       [](CLI::App& command, SwapArguments& arguments) {
         add_scenario(command, arguments);
         command.remove_option(command.get_option("SCENARIO"));
-        command.add_option("SCENARIO", arguments.files, "scenario files (YAML); of several the table is CPG by scenario")
+        command
+            .add_option("SCENARIO", arguments.files,
+                        "scenario files (YAML); for several files the table shows every CPG in every scenario")
             ->required();
         command
             .add_option("--cpg", arguments.cpgs,
@@ -372,7 +374,7 @@ void add_swap(Commands& commands) {
             ->required();
         command.add_option(
             "--out", arguments.out,
-            "folder of figure and numbers (default runs/swap-NAME, of several scenarios runs/swap-matrix); new or empty");
+            "folder of figure and numbers (default runs/swap-NAME, for several scenarios runs/swap-matrix); new or empty");
         command.add_flag("--report", arguments.report,
                          "also write a page per CPG, and swap.html, which shows them side by side");
         command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));

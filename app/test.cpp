@@ -133,8 +133,8 @@ class Figures {
     for (int k = 2; fs::exists(file); ++k) file.replace_filename(fmt::format("{}-{}.svg", c.scenario->name, k));
     const std::size_t all = strayed_columns(c.difference);
     const std::string title =
-        all == 0 ? fmt::format("{}: no column outside its band, shown is the nearest", c.scenario->name)
-                 : fmt::format("{}: {}{} of {} outside their bands, the first to stray on top", c.scenario->name,
+        all == 0 ? fmt::format("{}: no column outside its band; the closest column is shown", c.scenario->name)
+                 : fmt::format("{}: {}{} of {} outside their bands, the first to leave its band on top", c.scenario->name,
                                all > shown.size() ? "the worst " : "", shown.size(), plural(all, "column"));
     write_file(file, report::overlay_svg(title, shown));
     folder_->keep();
@@ -171,14 +171,15 @@ void print_notes(const std::vector<GoldenCase>& cases) {
     if (c.verdict != Verdict::passed) continue;
     if (const std::string names = wide_number_names(*c.golden); !names.empty()) {
       say(c.file, "note",
-          fmt::format("numbers with bands above {}, within which a change is not seen: {}", percent(kWideNumber), names));
+          fmt::format("numbers with bands above {}, so that smaller changes are not detected: {}", percent(kWideNumber),
+                      names));
     }
     if (!c.golden->verdict.empty() && c.golden->verdict != c.run.verdict) {
       say(c.file, "note",
           fmt::format("the verdict was {} when it was approved, and is {}: {}", c.golden->verdict, c.run.verdict, c.run.why));
     }
     if (c.other_engine || hash(resolved(*c.scenario)) == c.golden->origin.scenario) continue;
-    say(c.file, "note", "its resolved text is no longer that of the golden");
+    say(c.file, "note", "the resolved scenario has changed since the golden was approved");
   }
 }
 
@@ -225,7 +226,7 @@ void check_report(const std::string& path) {
   const fs::file_type kind = kind_of(path);
   if (kind == fs::file_type::directory) throw InputError(place, "is a folder");
   if (kind == fs::file_type::regular && size_of(path) > 0 && !read_start(path, 5).starts_with("<?xml"))
-    throw InputError(place, "is there and is not XML; it would be overwritten");
+    throw InputError(place, "exists and is not XML, so it is not overwritten; expected another file");
   const fs::path folder = fs::path(path).parent_path();
   if (::access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0)
     throw InputError(place, "cannot be written: " + std::generic_category().message(errno));
@@ -288,12 +289,14 @@ void add_test(Commands& commands) {
         command.add_option("--engine", arguments.engine,
                            "run with this engine, at the golden's step (articulated: extrapolated); torque peaks, which depend "
                            "on the method, are left out");
-        command.add_option("--golden", arguments.golden, "golden folder to compare one scenario with, not its own")
+        command
+            .add_option("--golden", arguments.golden, "golden folder to compare one scenario with, instead of its own golden")
             ->check(not_empty);
         command.add_option("--out", arguments.out, "folder for figures and pages of failed tests (default runs/test)");
         command.add_flag("--fail-infeasible", arguments.fail_infeasible,
-                         "exit code 3 if the verdict on a run with motors is not feasible, and nothing worse happened");
-        command.add_flag("--all", arguments.all, "show all columns, numbers and settings of failed tests, not the worst ones");
+                         "exit code 3 if the verdict on a run with motors is not feasible and no other failure occurred");
+        command.add_flag("--all", arguments.all,
+                         "show all columns, numbers and settings of failed tests, not only the worst ones");
         command.add_flag("--strict", arguments.strict, "a scenario without a golden is an error, also in a folder");
       });
 }

@@ -8,7 +8,9 @@ class Hold final : public Controller {
  public:
   struct Settings {
     PerJoint command{0};
-    void fields(Fields& f) { f.per_joint("command", command, {"V or N m", -1e9, 1e9, "In the actuator's unit."}); }
+    void fields(Fields& f) {
+      f.per_joint("command", command, {"V or N m", -1e9, 1e9, "Constant command, in the actuator's unit."});
+    }
   };
   static constexpr const char* kManual =
       R"(Open loop: the command is constant, whatever the set point. Takes the actuator's unit.

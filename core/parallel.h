@@ -19,8 +19,8 @@ inline void say_no_room(std::size_t started, std::size_t wanted, const std::erro
   if (said.exchange(true)) return;
   say("gaitlab", "warning",
       "thread " + std::to_string(started + 1) + " of " + std::to_string(wanted) + " cannot be started (" + why.message() +
-          "); the work goes on in " + std::to_string(started) +
-          "; -j asks for fewer, and limits of memory or processes (ulimit -v, ulimit -u, a container's) leave room for more");
+          "); the work continues with " + std::to_string(started) +
+          "; take fewer threads with -j, or raise the limits of memory or processes (ulimit -v, ulimit -u, a container's)");
 }
 
 /// Calls work(i) once for every i < count, with up to `jobs` calls at a time. Each call must write to separate data, so that

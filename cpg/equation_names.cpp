@@ -132,7 +132,7 @@ void EquationNames::check_name(const Term& term, const SourceLocation& place, st
     return wrong(name + (pair ? " is known" : "[j] is known") + " only within sum(j in neighbours, ...)");
   }
   if (!may_name(*entry, place)) {
-    if (entry->kind == Kind::parameter) return wrong(name + " stands below; a parameter may name those above it");
+    if (entry->kind == Kind::parameter) return wrong(name + " is defined below; a parameter may use only parameters above it");
     const bool measured = entry->kind != Kind::state && entry->kind != Kind::time;
     return wrong(name + " may not be used in " + text_of(place.where) + "; only in a derivative" +
                  (measured ? "" : " or the output"));

@@ -162,7 +162,7 @@ void EquationsModel::fields(Fields& f) {
     output.clear();
   }
   f.named("parameters", parameters, NamedValues::texts_or_numbers, "Numbers with a name, fixed for the run.");
-  f.named("initial", initial, NamedValues::texts, "States at the start; not named: 0.");
+  f.named("initial", initial, NamedValues::texts, "States at the start; states that are not named start at 0.");
   f.text("output", output, "Set point, rad.");
   if (output.empty()) f.problem("output", kNoOutput);
   for (const Fault& fault : Parsed(*this).faults) f.problem_at(fault.key, fault.name, fault.offset, fault.what);

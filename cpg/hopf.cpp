@@ -34,9 +34,9 @@ ICRA 2008, 819-824 (there x is the set point, omega goes from swing to stance wi
 
 void HopfModel::fields(Fields& f) {
   f.number("coupling", coupling, {"1/s", 0, 100, "Weight w of the couplings made by a rule."});
-  f.number("rate", rate, {"1/s", 0.01, 100, "a: how fast the radius goes to 1."});
+  f.number("rate", rate, {"1/s", 0.01, 100, "a: rate at which the radius approaches 1."});
   f.number("duty_factor", duty_factor, {"", 0.05, 0.95, "d: share of the period in which the set point falls."});
-  f.number("sharpness", sharpness, {"", 1, 100, "b: how sharply swing goes over into stance."});
+  f.number("sharpness", sharpness, {"", 1, 100, "b: sharpness of the transition from swing to stance."});
 }
 
 Hopf::Hopf(const RobotInfo& robot, const Settings& settings) : OscillatorCpg(robot, settings, kBlocks) {

@@ -120,16 +120,17 @@ std::vector<double> clamped_spline(const std::vector<double>& t, const std::vect
 }  // namespace
 
 void Keyframes::Frame::fields(Fields& f) {
-  f.number("time", time, {"s", 0, 1e6, "When; the first frame's is 0."});
+  f.number("time", time, {"s", 0, 1e6, "Time of the frame; 0 for the first frame."});
   f.per_joint("angles", angles, {"rad", -1000, 1000, "Set points at that time; within +-3.2 for a hinge with a range."});
 }
 
 void Keyframes::Model::fields(Fields& f) {
   static constexpr const char* kInterpolations[] = {"spline", "linear"};
-  f.list("frames", frames, "At least two, by rising time; default: two that hold every joint at its default.");
+  f.list("frames", frames,
+         "At least two frames in the order of time; default: two frames that hold every joint at its default.");
   if (const std::string wrong = wrong_times(frames); !wrong.empty()) f.problem("frames", wrong);
   f.choice("interpolation", interpolation, kInterpolations, "Interpolation between frames.");
-  f.flag("repeat", repeat, "Start again after the last frame, which must equal the first; else it is held.");
+  f.flag("repeat", repeat, "Start again after the last frame, which must equal the first; otherwise hold the last frame.");
   f.number("ramp", ramp, {"s", 0, 1e6, "Duration of the start, in which all angles grow linearly from 0."});
 }
 

@@ -22,8 +22,8 @@ Transactions on Robotics 24 (2008) 75-87; there theta = x + r cos(phi), a quarte
 
 void KuramotoAmplitudeModel::fields(Fields& f) {
   f.number("coupling", coupling, {"1/(rad s)", 0, 1000, "Weight w of the couplings made by a rule."});
-  f.number("amplitude_rate", amplitude_rate, {"1/s", 0, 300, "a_r: how fast r goes to the amplitude."});
-  f.number("offset_rate", offset_rate, {"1/s", 0, 300, "a_x: how fast x goes to the offset."});
+  f.number("amplitude_rate", amplitude_rate, {"1/s", 0, 300, "a_r: rate at which r approaches the amplitude."});
+  f.number("offset_rate", offset_rate, {"1/s", 0, 300, "a_x: rate at which x approaches the offset."});
 }
 
 KuramotoAmplitude::KuramotoAmplitude(const RobotInfo& robot, const Settings& settings)

@@ -105,7 +105,7 @@ LimitCycle::LimitCycle(const Oscillator& oscillator) {
 
 void CycleNetwork::Model::fields(Fields& f) {
   f.number("coupling", coupling, {"1/s", 0, 100, "Weight w of the couplings made by a rule."});
-  f.number("amplitude_rate", amplitude_rate, {"1/s", 0, 100, "a_r: how fast r goes to the amplitude."});
+  f.number("amplitude_rate", amplitude_rate, {"1/s", 0, 100, "a_r: rate at which r approaches the amplitude."});
 }
 
 CycleNetwork::CycleNetwork(const RobotInfo& robot, const OscillatorKeys& keys, const Model& model,

@@ -19,8 +19,8 @@ note), r = 0, x = X. Source: Chariot, Filippi, Verlinden 2012, eq. 7-10 and 16-1
 
 void PhaseOscillatorModel::fields(Fields& f) {
   f.number("coupling", coupling, {"1/s", 0, 1000, "Weight w of the couplings made by a rule."});
-  f.number("amplitude_rate", amplitude_rate, {"1/s", 0, 1000, "a_r: how fast r goes to the amplitude."});
-  f.number("offset_rate", offset_rate, {"1/s", 0, 1000, "a_x: how fast x goes to the offset."});
+  f.number("amplitude_rate", amplitude_rate, {"1/s", 0, 1000, "a_r: rate at which r approaches the amplitude."});
+  f.number("offset_rate", offset_rate, {"1/s", 0, 1000, "a_x: rate at which x approaches the offset."});
   f.flag("amplitude_weighted", amplitude_weighted,
          "Weight each coupling with the amplitude r_j of the joint that is followed.");
 }

@@ -147,7 +147,7 @@ void Table::Model::fields(Fields& f) {
   static constexpr const char* kInterpolations[] = {"spline", "linear"};
   f.file("file", file, "The CSV: time and joints.");
   f.choice("interpolation", interpolation, kInterpolations, "Interpolation between rows.");
-  f.flag("repeat", repeat, "Start again after the last row, which must equal the first; else it is held.");
+  f.flag("repeat", repeat, "Start again after the last row, which must equal the first; otherwise hold the last row.");
   f.number("ramp", ramp, {"s", 0, 1e6, "Duration of the start, in which all angles grow linearly from 0."});
 }
 

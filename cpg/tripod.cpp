@@ -46,7 +46,7 @@ void Tripod::Model::fields(Fields& f) {
   static constexpr const char* kOrders[] = {"alternate", "wave"};
   f.number("tilt", tilt, {"rad", 0, kSteepest, "d: tilt of the standing feet in mid-stance, which lifts the body."});
   f.number("duty_factor", duty_factor, {"", 0.5, 0.95, "Share of the period that a foot stands."});
-  f.choice("order", order, kOrders, "Which legs swing together.");
+  f.choice("order", order, kOrders, "Legs that swing together.");
   f.number("ramp", ramp, {"s", 0, 100, "Duration of the start, in which amplitude and tilt grow from 0."});
   f.flag("reverse", reverse, "Run the gait backwards in time.");
 }

@@ -91,19 +91,19 @@ std::vector<std::size_t> wide(const Golden& golden) {
 std::string explanation(const Number& number, const Band& band, const Scenario& scenario) {
   if (band.ensemble > band.halving) {
     return fmt::format(
-        "starts that differ by 1e-7 rad change it by {}, and ten times that is the band; shorten the run, so that "
-        "less grows from nothing",
+        "starts that differ by 1e-7 rad change this number by {}, and the band is ten times this change; shorten the run, in "
+        "which small differences grow",
         percent(band.ensemble / kEnsembleFactor));
   }
   const bool adapts = scenario.physics.adapts();
   std::string text =
-      fmt::format("{} changes it by {}, and three times that is the band; ",
+      fmt::format("{} changes this number by {}, and the band is three times this change; ",
                   adapts ? "a tenth of physics.accuracy" : "half the step", percent(band.halving / kHalvingFactor));
   text += adapts ? "make physics.accuracy smaller" : "take a smaller step";
   if (!number.at_start) return text;
   return text + fmt::format(
-                    "; the peak is of the start (t = {:.3g} s), not of the gait: where the first set points are far from "
-                    "initial.angles, other angles may help, too",
+                    "; the peak occurs at the start (t = {:.3g} s), not in the gait: if the first set points are far from "
+                    "initial.angles, other initial angles may help",
                     *number.at_start);
 }
 
@@ -123,7 +123,7 @@ double finer_by(const Physics& physics) { return physics.adapts() ? 10 : 2; }
 
 std::string narrower_columns(const std::vector<Band>& columns, const Scenario& scenario, const GoldenRun& halved, int jobs,
                              const std::function<void(double)>& progress) {
-  if (widest(columns, &Band::ensemble) > kWidestColumn) return "shorten the run, so that less grows from nothing";
+  if (widest(columns, &Band::ensemble) > kWidestColumn) return "shorten the run, in which small differences grow";
   std::vector<Scenario> scenarios{scenario};
   scenarios.front().physics.refine(finer_by(scenario.physics) * finer_by(scenario.physics));
   if (const std::optional<Scenario> other = extrapolated(scenario)) {
@@ -152,7 +152,7 @@ std::string wide_numbers(const Golden& golden, const Scenario& scenario) {
     const auto with_its_unit = [&](double value) {
       return fmt::format("{:.3g}{}{}", value, number.unit.empty() ? "" : " ", number.unit);
     };
-    text += fmt::format("{}: warning: the band of {} is {}: {} would pass gaitlab test, where {} was approved; {}\n",
+    text += fmt::format("{}: warning: the band of {} is {}: {} would pass gaitlab test, although {} was approved; {}\n",
                         scenario.file, readable_number(number.name), percent(band.width()), with_its_unit(most),
                         with_its_unit(number.value), explanation(number, band, scenario));
   }

@@ -95,8 +95,9 @@ GoldenCase case_of(const fs::path& file, const std::optional<std::string>& golde
 GoldenCase orphan(const fs::path& golden) {
   GoldenCase c{golden.string()};
   c.fail(Verdict::bad_input,
-         fmt::format("{}: error: has no scenario ({} does not exist); was it renamed or removed? Do the same with its golden",
-                     c.file, fs::path(golden).replace_extension(".yaml").string()));
+         fmt::format(
+             "{}: error: has no scenario ({} does not exist); rename or remove this golden in the same way as its scenario",
+             c.file, fs::path(golden).replace_extension(".yaml").string()));
   return c;
 }
 
@@ -177,9 +178,10 @@ fs::path own_golden(const fs::path& scenario) {
 
 void check_own(const Golden& golden, const fs::path& folder, const Scenario& scenario, const GoldenDifference& difference) {
   if (golden.origin.name == scenario.name || difference.passed()) return;
-  throw InputError(SourceLocation{folder.string()},
-                   fmt::format("is the golden of '{}', and {} ('{}') is another run; gaitlab approve --replace makes its own",
-                               golden.origin.name, scenario.file, scenario.name));
+  throw InputError(
+      SourceLocation{folder.string()},
+      fmt::format("is the golden of '{}', but {} ('{}') is another run; gaitlab approve --replace makes a golden of this run",
+                  golden.origin.name, scenario.file, scenario.name));
 }
 
 std::vector<GoldenCase> golden_cases(const TestArguments& arguments, Catalog& catalog) {

@@ -147,7 +147,7 @@ Json checked(const fs::path& file, const std::string& text) {
   if (text.find('\r') != std::string::npos)
     throw wrong(file, "has other line ends than it was written with; `*.golden/** -text` in .gitattributes keeps them");
   if (end == std::string::npos || text.substr(end) != checksum_line(content))
-    throw wrong(file, "is corrupt or was changed by hand: its checksum is another; bands are made by gaitlab approve");
+    throw wrong(file, "is corrupt or was changed by hand: its checksum does not match; only gaitlab approve changes goldens");
   return json;
 }
 
@@ -186,7 +186,7 @@ RoundedTrace matching_trace(const fs::path& folder, const std::string& wanted) {
     if (hash(bytes) == wanted) return unpack(bytes, folder / name);
   }
   const fs::path file = folder / kTraceFile;
-  if (missing) throw wrong(file, "is missing: the golden is only half there");
+  if (missing) throw wrong(file, "is missing: the golden is incomplete");
   (void)unpack(read_file(file, kMostTrace), file);  // reports errors of the file
   throw wrong(file, "belongs to another approval than golden.json");
 }
@@ -226,7 +226,7 @@ void write_golden(const Golden& golden, const fs::path& folder) {
   fs::create_directory(folder, error);
   if (error) throw RunError(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
   FolderLock lock;
-  if (!lock.take(folder)) throw wrong(folder, "is being written by another process; call again");
+  if (!lock.take(folder)) throw wrong(folder, "is being written by another process; try again later");
   finish_rename(folder);
   const std::string bytes = pack(golden.run.trace);
   write_file(folder / kNextTraceFile, bytes);
@@ -245,7 +245,7 @@ Golden read_golden(const fs::path& folder) {
   const fs::file_type kind = kind_of(folder);
   if (kind == fs::file_type::not_found) throw wrong(folder, "there is no such golden; gaitlab approve makes it");
   if (kind != fs::file_type::directory) throw wrong(folder, "is not a golden: a golden is a folder");
-  if (kind_of(file) == fs::file_type::not_found) throw wrong(file, "is missing: the golden is only half there");
+  if (kind_of(file) == fs::file_type::not_found) throw wrong(file, "is missing: the golden is incomplete");
   const Json json = checked(file, read_file(file, kMostJson));
   try {
     Golden golden = from_json(json);

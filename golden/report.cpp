@@ -139,7 +139,7 @@ std::string origin_changes(const GoldenProvenance& then, const GoldenProvenance&
   add("engine", then.engine, now.engine);
   add("integrator", then.integrator, now.integrator);
   add("step", then.step, now.step);
-  return text + "  the scenario is another; the golden is of before goldens kept it\n";
+  return text + "  the scenario has changed; this old golden does not contain the approved scenario\n";
 }
 
 std::string verdict_change(const Golden& golden, const GoldenRun& run, std::size_t width) {
@@ -183,7 +183,7 @@ std::size_t strayed_columns(const GoldenDifference& difference) { return strayed
 std::string outside(const GoldenDifference& d) {
   return fmt::format("{} of {} and {} of {} outside their bands", strayed(d.columns).size(), plural(d.columns.size(), "column"),
                      strayed(d.numbers).size(), plural(d.numbers.size(), "number")) +
-         (d.findings.empty() ? "" : ", and a run of another form");
+         (d.findings.empty() ? "" : ", and other differences");
 }
 
 std::string differences(const GoldenDifference& difference, Shown shown) {

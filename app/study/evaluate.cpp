@@ -92,7 +92,8 @@ class Replies {
     for (const Brief& run : of) figures.push_back(journal_.quantities(run.run));
     const std::string line = answer(question, journal_.head(), of, figures) + "\n";
     if (std::fwrite(line.data(), 1, line.size(), stdout) != line.size() || std::fflush(stdout) != 0)
-      throw RunError("standard output cannot be written: nobody reads the answers; what has ended is in the journal");
+      throw RunError(
+          "standard output cannot be written: the reader of the answers has closed it; completed runs are in the journal");
   }
 
   Journal& journal_;
@@ -159,9 +160,10 @@ int evaluate_study(const EvaluateArguments& a) {
   const std::uint64_t rows = journal.rows();
   const bool finished = lines.ended() && !replies.asked();  // if all requests are answered, a closed output does not matter
   if (!finished && reader.gone())
-    throw RunError(fmt::format("{}: nobody reads the answers; {} runs are in the journal", folder.string(), rows));
+    throw RunError(
+        fmt::format("{}: the reader of the answers has closed the output; {} runs are in the journal", folder.string(), rows));
   if (!finished && stopped()) {
-    say(fmt::format("{}: interrupted: {} runs are in the journal; go on with the same questions to\n{}\n", folder.string(),
+    say(fmt::format("{}: interrupted: {} runs are in the journal; continue with the same questions to\n{}\n", folder.string(),
                     rows, head.command));
     return 1;
   }
@@ -176,10 +178,11 @@ void add_evaluate(Commands& commands) {
   add_command<EvaluateArguments>(
       commands, "evaluate", "Run the points that another program requests, in lines of JSON.", evaluate_study,
       [](CLI::App& command, EvaluateArguments& a) {
-        command.add_option("STUDY", a.file, "file of a study (YAML); its method and budget do not count")->required();
+        command.add_option("STUDY", a.file, "file of a study (YAML); its method and budget are not used")->required();
         add_study_run(command, a, "runs/evaluate-NAME");
-        command.add_flag("--as-completed", a.as_completed, "answer each question as its runs end, in whatever order");
-        command.add_flag("--quiet", a.quiet, "print answers and errors alone");
+        command.add_flag("--as-completed", a.as_completed,
+                         "answer each question when its runs have ended, not in the order of the questions");
+        command.add_flag("--quiet", a.quiet, "print only answers and errors");
       });
 }
 

@@ -87,7 +87,7 @@ void write_best(const Plan& plan, std::uint64_t run_number, const fs::path& fold
 }
 
 void say_verification(const fs::path& folder, std::size_t points) {
-  say(fmt::format("{}: the search has ended; its best {} tried again\n", folder.string(),
+  say(fmt::format("{}: the search has ended; its best {} simulated again for verification\n", folder.string(),
                   points == 1 ? "point is" : fmt::format("{} points are", points)));
 }
 
@@ -102,7 +102,7 @@ int finish_search(const Plan& plan, Journal& journal, const studies::Results& re
     if (converged) fmt::print("all searches have converged before the budget was used\n");
   }
   if (!stood.empty()) {
-    if (!quiet) fmt::print("\nrun {}, the best that stood, with its trace and page:\n", stood.front());
+    if (!quiet) fmt::print("\nrun {}, the best verified point, with its trace and page:\n", stood.front());
     write_best(plan, stood.front(), folder / "best", quiet);
     files.emplace_back("best");
   }
@@ -146,7 +146,7 @@ int optimize_study(const OptimizeArguments& a) {
 
   const SearchEnd end = run_study(plan, journal, remembering(executor, answers), a);
   const auto interrupted = [&] {
-    say(fmt::format("{}: interrupted: {} of {} runs are in the journal; go on with\n{}\n", folder.string(), journal.rows(),
+    say(fmt::format("{}: interrupted: {} of {} runs are in the journal; continue with\n{}\n", folder.string(), journal.rows(),
                     plan.most_runs(), head.command));
     return 1;
   };
@@ -171,7 +171,8 @@ void add_optimize(Commands& commands) {
         command.add_option("--runs", a.runs, "budget, instead of the file's")->check(CLI::Range(1, 1000000000));
         command.add_option("--seed", a.seed, "seed, instead of the file's")
             ->check(CLI::Range(std::int64_t{0}, std::int64_t{999999999999999}));
-        command.add_option("--method", a.method, "method, instead of the file's: random search beside a search")
+        command
+            .add_option("--method", a.method, "method, instead of the file's; random draws points for comparison with a search")
             ->check(CLI::IsMember(known_methods()));
         command.add_flag("--dry-run", a.dry_run, "print the runs and the time that they take, and write nothing");
         add_study_run(command, a, "runs/optimize-NAME");

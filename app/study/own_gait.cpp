@@ -68,7 +68,7 @@ struct Cost {
 std::string text(const studies::Plan& plan, const Scenario& own, const std::vector<Way>& all) {
   const Way& given = all.front();
   const std::string error =
-      given.error.estimated ? ", its torque error is about " + report::texts::rough_percent(given.error.share) : "";
+      given.error.estimated ? ", and the torque error is about " + report::texts::rough_percent(given.error.share) : "";
   const bool known = given.objective && all.size() > 1 && all[1].objective;
   const bool much = given.error.estimated && !(given.error.share <= report::torque_error_limit(own));
   if (!known) {
@@ -80,8 +80,9 @@ std::string text(const studies::Plan& plan, const Scenario& own, const std::vect
   const Cost cost{half + (half - *given.objective) / (ratio - 1)};
   if (!(std::abs(cost.limit) > 0)) return "";
   const std::string& objective = plan.scorer().objectives().front();
-  std::string said = fmt::format("step {} s costs {} of {} on the scenario's own gait", number_text(own.physics.step),
-                                 report::texts::rough_percent(cost.of(*given.objective)), clipped(objective));
+  std::string said =
+      fmt::format("step {} s causes an error of {} in {} for the scenario's own gait", number_text(own.physics.step),
+                  report::texts::rough_percent(cost.of(*given.objective)), clipped(objective));
   const bool chooses = all.size() > 2 && all[2].objective;
   if (chooses) said += ", auto " + report::texts::rough_percent(cost.of(*all[2].objective));
   said += error;

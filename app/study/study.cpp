@@ -38,7 +38,7 @@ Journal opened(const std::string& folder) {
     const bool shards = studies::shards_in(folder).count > 0;
     throw InputError(SourceLocation{folder},
                      std::string("holds no study: there is no ") + studies::kJournalFile +
-                         (shards ? "; its shards become one with gaitlab study merge " + shell_word(folder) : ""));
+                         (shards ? "; merge its shards first: gaitlab study merge " + shell_word(folder) : ""));
   }
   return Journal(file);
 }
@@ -52,9 +52,9 @@ int show_study(const StudyArguments& a) {
     fmt::print("{:.3g} runs per s and thread\n", static_cast<double>(effort.runs) / effort.wall);
   const std::string who = studies::Lock::holder(fs::path(a.folder) / "lock");
   if (!who.empty()) {
-    fmt::print("{} is writing it\n", who);
+    fmt::print("{} is writing this study\n", who);
   } else if (results.runs < journal.head().runs) {
-    fmt::print("go on with: {}\n", one_line(journal.head().command));
+    fmt::print("continue with: {}\n", one_line(journal.head().command));
   }
   return 0;
 }
@@ -110,7 +110,7 @@ class Ranges {
       all += (k > 0 ? "," : "") + (first == last ? fmt::format("{}", first) : fmt::format("{}-{}", first, last));
     }
     if (ranges_.size() > kMost)
-      all += fmt::format(" (and {}; merge again for them)", counted(ranges_.size() - kMost, "more range"));
+      all += fmt::format(" (and {}; merge again to see them)", counted(ranges_.size() - kMost, "more range"));
     return all;
   }
 
@@ -165,7 +165,7 @@ int merge_study(const StudyArguments& a) {
   write_study_files(*all, studies::results(*all), folder);
   if (missing.count() > 0) {
     say(a.folder, "error",
-        fmt::format("{} of {} shards are missing or not whole; run them again: --array={}", missing.count(), shards.count,
+        fmt::format("{} of {} shards are missing or incomplete; run them again: --array={}", missing.count(), shards.count,
                     missing.text()));
   }
   const std::uint64_t lacking = shards.count == 0 && rows < all->head().runs ? all->head().runs - rows : 0;
@@ -276,14 +276,14 @@ int rerun_study(const StudyArguments& a) {
   if (const auto cell =
           [&](const char* name) { return row[static_cast<std::size_t>(std::ranges::find(names, name) - names.begin())]; };
       cell("outcome") == "stopped") {
-    fmt::print("the study ended this run early: {}; here it ran on\n", one_line(cell("message")));
+    fmt::print("the study ended this run early: {}; the repeated run was not ended\n", one_line(cell("message")));
     return code == 2 ? 2 : 0;
   }
   const studies::Measured measured = quantity_measure(head.quantities, scenario)(scenario, again.stored.recording);
   const std::vector<std::string> found =
       differences(names, row, journal.columns(), measured.quantities, again.stored.recording.outcome);
   if (found.empty()) {
-    fmt::print("the quantities are those of the journal\n");
+    fmt::print("the quantities are equal to those in the journal\n");
     const bool lost = code == 1 && again.stored.recording.outcome.done();  // true if some files of the run could not be written
     return code == 2 ? 2 : lost ? 1 : 0;
   }
@@ -299,28 +299,29 @@ void add_study(Commands& commands) {
   const auto folder = [](CLI::App& command, StudyArguments& a) {
     command.add_option("DIR", a.folder, "folder of the study")->required()->check(not_empty);
   };
-  add_command<StudyArguments>(commands, "show", "Progress, best and worst points, failures; also while it runs.", show_study,
+  add_command<StudyArguments>(commands, "show",
+                              "Print progress, best and worst points and failures of a study, also while it runs.", show_study,
                               folder, study);
-  add_command<StudyArguments>(commands, "report", "Write its table and figures again from the journal.", report_study, folder,
-                              study);
+  add_command<StudyArguments>(commands, "report", "Write table and figures of a study again from its journal.", report_study,
+                              folder, study);
   add_command<StudyArguments>(
-      commands, "best", "Its best points that keep all constraints.", best_of_study,
+      commands, "best", "Print the best points of a study that satisfy all constraints.", best_of_study,
       [&](CLI::App& command, StudyArguments& a) {
         folder(command, a);
-        command.add_option("-n,--number", a.most, "how many (default 10)")->check(CLI::Range(1, 1000000));
+        command.add_option("-n,--number", a.most, "number of points (default 10)")->check(CLI::Range(1, 1000000));
       },
       study);
   add_command<StudyArguments>(
-      commands, "export", "All runs as one table.", export_study,
+      commands, "export", "Write all runs of a study as one table.", export_study,
       [&](CLI::App& command, StudyArguments& a) {
         folder(command, a);
         command.add_option("--to", a.format, "format of the file")->required()->check(CLI::IsMember({"csv"}));
         command.add_option("FILE", a.file, "file to write; must not exist")->required();
       },
       study);
-  add_command<StudyArguments>(commands, "merge", "Merge the journals of all shards.", merge_study, folder, study);
+  add_command<StudyArguments>(commands, "merge", "Merge the journals of all shards of a study.", merge_study, folder, study);
   add_command<StudyArguments>(
-      commands, "rerun", "Run one of its runs again, with its trace, and compare.", rerun_study,
+      commands, "rerun", "Repeat a run of a study, with its trace, and compare the quantities.", rerun_study,
       [&](CLI::App& command, StudyArguments& a) {
         folder(command, a);
         command.add_option("RUN", a.run, "number of the run")

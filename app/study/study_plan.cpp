@@ -64,7 +64,7 @@ void print_plan(const studies::Plan& plan, const StudyRunArguments& a) {
     simulated += one.nominal.duration * static_cast<double>(points.points() * points.replicates());
   fmt::print("{} runs: {} points, {} each\n", points.runs(), points.points(), counted(points.runs_of_point(), "run"));
   if (searched) {
-    fmt::print("method {} chooses them, and the best {} are run again\n", name_of(plan.study().method),
+    fmt::print("method {} chooses the points, and the best {} are simulated again\n", name_of(plan.study().method),
                plan.study().verify.best);
   } else {
     fmt::print("first  {}\nlast   {}\n", shown(0), shown(points.runs() - 1));
@@ -74,7 +74,7 @@ void print_plan(const studies::Plan& plan, const StudyRunArguments& a) {
   const double all = each * static_cast<double>(points.runs());
   const double bytes = static_cast<double>(points.runs()) *
                        (120 + 9.0 * static_cast<double>(plan.columns().size() + plan.study().parameters.size()));
-  fmt::print("takes about {:.3g} s on {} ({:.3g} s a run on one)\n", all / study_threads(a.jobs),
+  fmt::print("takes about {:.3g} s on {} ({:.3g} s per run on one thread)\n", all / study_threads(a.jobs),
              counted(static_cast<std::size_t>(study_threads(a.jobs)), "thread"), each);
   fmt::print("journal about {:.3g} MB\n", bytes / 1e6);
   if (searched) return;            // shards are not suggested for a search: each generation waits for the previous one

@@ -33,11 +33,12 @@ std::vector<std::size_t> by_weight(const Sensitivity& s) {
 
 bool of_trajectories(const Sensitivity& s) { return s.measures.front().name == "mu_star"; }
 
-/// Text on the number of samples that were used, for example `12 of 20 trajectories; left out for 8 points without a value`.
+/// Text on the number of samples that were used, for example `12 of 20 trajectories; the others contain 8 points without a
+/// value`.
 std::string basis(const Sensitivity& s) {
   std::string text = fmt::format("{} of {} {}", s.used, s.blocks, of_trajectories(s) ? "trajectories" : "samples");
-  if (s.unusable > 0) text += fmt::format("; left out for {} without a value", counted(s.unusable, "point"));
-  if (s.not_kept > 0) text += fmt::format("; {} not kept, which count all the same", counted(s.not_kept, "point"));
+  if (s.unusable > 0) text += fmt::format("; the others contain {} without a value", counted(s.unusable, "point"));
+  if (s.not_kept > 0) text += fmt::format("; {} not kept, but used", counted(s.not_kept, "point"));
   return text;
 }
 
@@ -89,11 +90,11 @@ std::string csv_of(const std::vector<Sensitivity>& all) {
 report::BarFigure figure_of_bars(const Sensitivity& s, const std::string& study, const std::string& note) {
   report::BarFigure figure;
   const std::string unit = s.unit.empty() ? "" : clipped(s.unit) + " ";
-  figure.title = study + ": what changes " + clipped(s.output);
+  figure.title = study + ": influence on " + clipped(s.output);
   figure.note = basis(s) + "; " + note;
   figure.axis = of_trajectories(s) ? "change (" + unit + "per range of the parameter)" : "share of the variance";
   figure.kinds = of_trajectories(s) ? std::vector<std::string>{"mean magnitude, mu*", "mean, mu", "deviation, sigma"}
-                                    : std::vector<std::string>{"total, with what it does beside others", "first order, alone"};
+                                    : std::vector<std::string>{"total, with interactions", "first order, without interactions"};
   for (const std::size_t k : by_weight(s)) {
     report::BarRow row{clipped(s.parameters[k]), {}};
     for (const studies::Measure95& measure : s.measures)
@@ -110,7 +111,7 @@ std::string sensitivity_text(studies::Journal& journal, const studies::Results& 
   for (const Sensitivity& s : studies::sensitivities(journal, results)) {
     const std::string unit =
         of_trajectories(s) && !s.unit.empty() ? ", " + clipped(s.unit) + " per range of the parameter" : "";
-    text += fmt::format("what changes {}{}: {}\n{}", clipped(s.output), unit, basis(s), table_of(s));
+    text += fmt::format("influence on {}{}: {}\n{}", clipped(s.output), unit, basis(s), table_of(s));
   }
   return text;
 }

@@ -131,13 +131,13 @@ std::string estimated_text(Journal& journal, const studies::Results& results) {
                   counted(found.runs, "run"), found.beyond[0], found.beyond[1], found.beyond[2], 100 * found.worst);
   if (found.trusted()) return text;
   if (found.too_few()) {
-    return text + fmt::format("fewer than {}: no evidence for the other {}; take a smaller estimate_every\n",
+    return text + fmt::format("fewer than {} estimates: no evidence for the other {}; take a smaller estimate_every\n",
                               studies::Estimated::kFewest, counted(found.others, "run"));
   }
-  text += "more than one in ten is beyond 5 %: ";
+  text += "more than one in ten errors is beyond 5 %: ";
   if (found.others > 0) {
-    text += fmt::format("`feasible` of the other {} is not to be trusted; take estimate_every: 1, and ",
-                        counted(found.others, "run"));
+    text +=
+        fmt::format("`feasible` is not reliable for the other {}; take estimate_every: 1, and ", counted(found.others, "run"));
   } else {
     text += "take ";
   }
@@ -249,7 +249,7 @@ std::string study_summary(Journal& journal, const studies::Results& results, con
   if (!head.guarded) text += "without guards: results may exploit the simulation\n";
   if (head.objectives.size() > 1) {
     const std::vector<std::size_t> best = studies::front(results.points, head.objectives);
-    text += fmt::format("{} that no other is better than in all objectives\n", counted(best.size(), "point"));
+    text += fmt::format("Pareto front: {} that no other point beats in all objectives\n", counted(best.size(), "point"));
     if (!best.empty()) text += points_table(journal, results, best, 2 * most);
   } else if (!results.points.empty()) {
     const std::vector<std::size_t> order = studies::ranked(results.points, head.objectives.front().maximize);
@@ -266,7 +266,7 @@ std::string study_summary(Journal& journal, const studies::Results& results, con
   constexpr std::size_t kLimits = 4;
   const std::vector<studies::BrokenLimit> limits = studies::broken_limits(journal);
   for (std::size_t k = 0; k < std::min(kLimits, limits.size()); ++k) {
-    text += fmt::format("{}{} ({})", k == 0 ? "what most runs break: " : ", ", limit_text(limits[k].text),
+    text += fmt::format("{}{} ({})", k == 0 ? "often broken limits: " : ", ", limit_text(limits[k].text),
                         counted(limits[k].runs, "run"));
   }
   if (!limits.empty()) text += "\n";
@@ -276,7 +276,7 @@ std::string study_summary(Journal& journal, const studies::Results& results, con
   }
   text += verification_text(journal);
   if (results.runs > 0)
-    text += fmt::format("one of them again, with its trace: gaitlab study rerun {} RUN\n", shell_word(folder.string()));
+    text += fmt::format("to repeat a run with its trace: gaitlab study rerun {} RUN\n", shell_word(folder.string()));
   return text;
 }
 
@@ -296,10 +296,10 @@ std::string verification_text(Journal& journal) {
       if (!v.reason.empty())
         reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", clipped(v.what), one_line(v.reason));
     }
-    text += fmt::format("run {} {} ({}){}\n", run, reasons.empty() ? "stood" : "not verified", ways,
+    text += fmt::format("run {} {} ({}){}\n", run, reasons.empty() ? "verified" : "not verified", ways,
                         reasons.empty() ? "" : "\n  " + reasons);
   }
-  return text.empty() ? "" : "the best, tried again (" + objective_text(journal.head()) + "):\n" + text;
+  return text.empty() ? "" : "verification of the best points (" + objective_text(journal.head()) + "):\n" + text;
 }
 
 void write_table(Journal& journal, const std::filesystem::path& file, Existing existing) {

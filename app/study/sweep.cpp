@@ -55,7 +55,7 @@ studies::Standing run_points(const Plan& plan, Journal& journal, const studies::
     standing = runner.standing();
   }
   if (!a.quiet && !answers.empty())
-    fmt::print("{} of {} were answered by other studies\n", answered, counted(standing.ended - standing.before, "run"));
+    fmt::print("{} of {} were taken from other studies\n", answered, counted(standing.ended - standing.before, "run"));
   return standing;
 }
 
@@ -103,15 +103,15 @@ int sweep_study(const SweepArguments& a) {
   const studies::Standing standing = run_points(plan, journal, executor, answers, shard, a);
   const bool whole = standing.whole() && (!shard.whole() || estimate_others(plan, journal, executor, a));
   if (!whole) {
-    say(fmt::format("{}: interrupted: {} of {} runs are in the journal; go on with\n{}\n", folder.string(), standing.ended,
+    say(fmt::format("{}: interrupted: {} of {} runs are in the journal; continue with\n{}\n", folder.string(), standing.ended,
                     standing.wanted, goes_on(a, folder)));
     return 1;
   }
   const bool all_failed = standing.wanted > 0 && standing.failed == standing.wanted;
   if (!shard.whole()) {
     if (!a.quiet) {
-      fmt::print("{}: {} runs ended; when all shards have, gaitlab study merge {}\n", file.string(), standing.ended,
-                 shell_word(folder.string()));
+      fmt::print("{}: {} runs ended; when all shards have ended, merge them: gaitlab study merge {}\n", file.string(),
+                 standing.ended, shell_word(folder.string()));
     }
     return all_failed ? 1 : 0;
   }
@@ -143,9 +143,9 @@ void add_sweep(Commands& commands) {
             ->check(CLI::Range(1, 1000000));
         repeatable(command.add_option(
             "--show,--figure", a.quantities,
-            "quantities to show and draw, by name with * and ?; the first orders the points of a scenario; may be repeated"));
+            "quantities to show and draw, by name with * and ?; the points are ordered by the first one; may be repeated"));
         command.add_option("--shard", a.shard,
-                           "do one part of the runs, I/N, or auto in a Slurm array; then `gaitlab study merge`");
+                           "simulate only part I of N of the runs, I/N, or auto in a Slurm array; then `gaitlab study merge`");
         command.add_flag("--dry-run", a.dry_run, "print the runs and the time that they take, and write nothing");
         add_study_run(command, a, "runs/sweep-NAME");
       });

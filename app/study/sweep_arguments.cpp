@@ -18,7 +18,8 @@ namespace {
 
 void refuse_beside_a_study(const SweepArguments& a, Problems& problems) {
   const auto refuse = [&](bool given, const char* option, const char* key) {
-    if (given) problems.add(SourceLocation{option}, fmt::format("has no place beside a study file; write {} there", key));
+    if (given)
+      problems.add(SourceLocation{option}, fmt::format("cannot be combined with a study file; write {} in that file", key));
   };
   refuse(!a.grids.empty(), "--grid", "parameters");
   refuse(!a.randoms.empty(), "--random", "parameters");
@@ -44,7 +45,7 @@ Study typed_study(const SweepArguments& a, Problems& problems) {
     if (whole) study.seed = std::atoll(a.seed->c_str());
   }
   if (!a.grids.empty() && !a.randoms.empty())
-    problems.add(SourceLocation{"--random"}, "has no place beside --grid; expected one of them alone");
+    problems.add(SourceLocation{"--random"}, "cannot be combined with --grid; expected only one of the two");
   if (study.parameters.empty() && a.replicates == 0) {
     problems.add(SourceLocation{"gaitlab sweep"},
                  "nothing changes from run to run; expected --grid KEY=A:B:N, --random KEY=A:B or --seeds N");
@@ -55,7 +56,8 @@ Study typed_study(const SweepArguments& a, Problems& problems) {
     if (a.runs == 0) problems.add(SourceLocation{"--runs"}, "is missing; --random needs a number of runs");
   } else {
     if (a.runs > 0)
-      problems.add(SourceLocation{"--runs"}, "has no place here: a grid has as many runs as there are combinations");
+      problems.add(SourceLocation{"--runs"},
+                   "has no effect on a grid, which runs every combination of its values; leave it out");
     if (a.sobol) problems.add(SourceLocation{"--sobol"}, "chooses points of --random; expected --random KEY=A:B --runs N");
   }
   for (std::size_t k = 0; k < study.parameters.size(); ++k) {
@@ -82,7 +84,8 @@ Study wanted_study(const SweepArguments& a) {
                                                            name_of(study.method), shell_word(a.file)));
     }
     if (a.runs > 0 && study.method == studies::Method::grid)
-      problems.add(SourceLocation{"--runs"}, "has no place here: a grid has as many runs as there are combinations");
+      problems.add(SourceLocation{"--runs"},
+                   "has no effect on a grid, which runs every combination of its values; leave it out");
     if (a.runs > 0) study.runs = a.runs;
     if (problems.empty()) check_study(study, SourceLocation{"--runs"}, problems);
   } else {
@@ -119,12 +122,11 @@ studies::Shard array_shard(const std::optional<std::string>& out, Problems& prob
   const bool again = there.count != 0 && there.count != count;
   const studies::Shard shard = again ? studies::Shard{id, there.count} : studies::Shard{(id - first) / step, count};
   if (shard.index < shard.count && (again || (id - first) % step == 0)) return shard;
-  problems.add(
-      SourceLocation{"--shard auto"},
-      again ? fmt::format("task {} is none of the {} shards in {}", id, there.count, clipped(*out))
-            : fmt::format("task {} is not one of an array of {} from {} in steps of {}; expected an array A-B or A-B:STEP, or "
-                          "some tasks of one whose shards are in the folder",
-                          id, count, first, step));
+  problems.add(SourceLocation{"--shard auto"},
+               again ? fmt::format("task {} is not one of the {} shards in {}", id, there.count, clipped(*out))
+                     : fmt::format("task {} is not one of an array of {} from {} in steps of {}; expected an array A-B or "
+                                   "A-B:STEP, or some tasks of an array whose shards are in the folder",
+                                   id, count, first, step));
   return {};
 }
 
@@ -150,7 +152,7 @@ studies::Shard wanted_shard(const SweepArguments& a) {
       shard = {static_cast<std::uint64_t>(index), static_cast<std::uint64_t>(count)};
     }
   }
-  if (!a.out) problems.add(SourceLocation{"--out"}, "is missing; shards of one study write to one folder");
+  if (!a.out) problems.add(SourceLocation{"--out"}, "is missing; expected the folder to which all shards of the study write");
   problems.raise();
   return shard;
 }

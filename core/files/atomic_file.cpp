@@ -125,7 +125,7 @@ AtomicFile::AtomicFile(std::filesystem::path path, Existing existing) : path_(st
 /// With O_NONBLOCK, a FIFO without a reader is an error instead of a wait.
 void AtomicFile::open_stream() {
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
-  if (descriptor_ < 0 && errno == ENXIO) fail("nobody reads this FIFO");
+  if (descriptor_ < 0 && errno == ENXIO) fail("no process reads this FIFO");
   if (descriptor_ < 0) fail(errno);
   ::fcntl(descriptor_, F_SETFL, ::fcntl(descriptor_, F_GETFL) & ~O_NONBLOCK);
 }

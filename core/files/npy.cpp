@@ -149,7 +149,7 @@ const NumberType& number_type(const std::string& type) {
     }
   }
   const bool objects = type.ends_with('O');
-  refuse_npy(objects ? "it holds Python objects (dtype object), which are code of whoever made the file"
+  refuse_npy(objects ? "it holds Python objects (dtype object), which can execute code"
                      : fmt::format("its numbers are of type '{}'", printable(type)));
 }
 

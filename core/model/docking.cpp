@@ -108,11 +108,11 @@ class DockRows {
     if (fresh) return;
     const int other = at->second.face;
     problems_
-        .add(dock.place, other == face
-                             ? fmt::format("face {} of module {} is used twice: a face docks once", face, module)
-                             : fmt::format("face {} of module {} is used twice: it is where face {} is, and a face docks once",
-                                           face, module, other))
-        .notes.emplace_back(at->second.dock->place, "it is docked here already");
+        .add(dock.place,
+             other == face ? fmt::format("face {} of module {} is used twice: a face docks once", face, module)
+                           : fmt::format("face {} of module {} is used twice: it coincides with face {}, and a face docks once",
+                                         face, module, other))
+        .notes.emplace_back(at->second.dock->place, "this face is already docked here");
   }
 
   void check_row(const Dock& dock) {
@@ -143,7 +143,7 @@ class DockRows {
           .add(dock.place, closes_ring(dock) ? ring_text(dock)
                                              : fmt::format("module {} has two parents: {} and {}; docks form a tree",
                                                            dock.child_module, at->second->parent_module, dock.parent_module))
-          .notes.emplace_back(at->second->place, "it has its first parent here");
+          .notes.emplace_back(at->second->place, "its first parent is given here");
     }
   }
 
@@ -165,9 +165,11 @@ class DockRows {
 
   void check_connectors(const Dock& dock, const FaceType& child, const FaceType& parent) {
     if (child.connector != parent.connector) {
-      problems_.add(dock.place, fmt::format("face {} of module {} has connector {}, face {} of module {} {}; only like dock",
-                                            dock.child_face, dock.child_module, in_marks(child.connector), dock.parent_face,
-                                            dock.parent_module, in_marks(parent.connector)));
+      problems_.add(
+          dock.place,
+          fmt::format("face {} of module {} has connector {}, face {} of module {} {}; only faces with the same connector dock",
+                      dock.child_face, dock.child_module, in_marks(child.connector), dock.parent_face, dock.parent_module,
+                      in_marks(parent.connector)));
     }
     if (dock.orientation < 0 || dock.orientation > 3) return;
     const auto turn = static_cast<std::size_t>(dock.orientation);
@@ -181,7 +183,7 @@ class DockRows {
 
   static std::string ring_text(const Dock& dock) {
     return fmt::format(
-        "this dock closes a ring: module {} and module {} are joined by others already; a robot stays one tree, closed "
+        "this dock closes a ring: module {} and module {} are already connected by other docks; docks must form a tree, closed "
         "chains are not supported",
         dock.child_module, dock.parent_module);
   }
@@ -232,7 +234,7 @@ class DockRows {
       if (loop == path.end()) continue;  // the path ended at module 0, or at modules seen before
       path.push_back(at);
       problems_.add(parent_.at(at)->place,
-                    fmt::format("loop: modules {} hang on one another and none on module 0",
+                    fmt::format("loop: modules {} are docked to one another, but none of them to module 0",
                                 fmt::join(std::vector<int>(std::find(path.begin(), path.end(), at), path.end()), " on ")));
     }
   }

@@ -19,7 +19,7 @@ struct Coupling {
   void fields(Fields& f) {
     f.joint("from", from, "The joint that is followed.");
     f.joint("to", to, "The joint that follows.");
-    f.number("weight", weight, {"1/s", -1000, 1000, "Strength of the pull."});
+    f.number("weight", weight, {"1/s", -1000, 1000, "Weight w of the coupling."});
     f.number("phase_lag", phase_lag, {"rad", -100, 100, "Lead of `to` over `from` on the limit cycle."});
   }
 };
@@ -34,7 +34,8 @@ enum class CouplingRule { chain, parent, siblings, mirror, all };
 
 inline constexpr const char* kCouplingRules[] = {"chain", "parent", "siblings", "mirror", "all"};
 inline constexpr const char* kCouplingRulesAbout =
-    "Which joint each joint follows. chain: the previous one; parent: the next towards the base; siblings: parent, and joints "
+    "Rule for the joint that each joint follows. chain: the previous one; parent: the next towards the base; siblings: parent, "
+    "and joints "
     "with the same parent; mirror: a right joint follows its left counterpart; all: every other joint; or a list.";
 
 /// Number of the joint that is the mirror image of `joint` (which has y < 0) in the plane y = 0 at zero angles, or -1. The axes

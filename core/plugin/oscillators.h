@@ -16,11 +16,11 @@ struct OscillatorKeys {
   std::vector<Coupling> couplings;
 
   void fields(Fields& f) {
-    f.per_joint("frequency", frequency, {"Hz", 0, 20, "Own frequency of the oscillator."});
+    f.per_joint("frequency", frequency, {"Hz", 0, 20, "Frequency of the uncoupled oscillator."});
     f.per_joint("amplitude", amplitude,
                 {"rad", 0, 1000, "Peak of the set point about its offset; up to 3.2 for a hinge with a range."});
     f.per_joint("offset", offset, {"rad", -1000, 1000, "Mean of the set point; within +-3.2 for a hinge with a range."});
-    f.per_joint("phase_lag", phase_lag, {"rad", -100, 100, "Lead of each joint over the one it follows by the rule."});
+    f.per_joint("phase_lag", phase_lag, {"rad", -100, 100, "Lead of each joint over the joint that it follows by the rule."});
     f.rule_or_list("couplings", rule, kCouplingRules, couplings, kCouplingRulesAbout);
   }
 

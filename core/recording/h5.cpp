@@ -99,7 +99,7 @@ std::string complaint(std::string_view start, std::uintmax_t bytes) {
   const std::optional<std::size_t> size = take(rest, kSize) ? take_number(rest) : std::nullopt;
   if (!size) return "is corrupt: its second line is damaged";
   if (bytes < *size) return fmt::format("is truncated: {} of {} bytes", bytes, *size);
-  if (bytes > *size) return fmt::format("is corrupt: {} bytes, of which {} were written", bytes, *size);
+  if (bytes > *size) return fmt::format("is corrupt: {} bytes, but {} were written", bytes, *size);
   return "";
 }
 

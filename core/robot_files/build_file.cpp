@@ -19,7 +19,8 @@ struct DockFields {
   static constexpr std::array<const char*, 5> kKeys{"child_face", "child_module", "parent_face", "parent_module",
                                                     "orientation"};
   static constexpr std::array<const char*, 5> kAbout{"Face of the child.", "Module that is docked.", "Face of the parent.",
-                                                     "Module it is docked to.", "Quarter turns about the child's face normal."};
+                                                     "Module to which the child is docked.",
+                                                     "Quarter turns about the child's face normal."};
 
   static Spec spec(std::size_t column) {
     // Orientation (0 to 3), faces and modules are checked against the robot during the assembly.

@@ -115,7 +115,7 @@ class ModuleCheck {
     if (b.mass > 0) {
       check_inertia(b, place);
     } else if (parent_[index] == kNone || !is_parent_[index]) {
-      problems_.add(place, fmt::format("body '{}' has no mass; only a body between two hinges may be without", b.name));
+      problems_.add(place, fmt::format("body '{}' has no mass; only a body between two hinges may have mass 0", b.name));
     } else if (!b.inertia.isZero(0)) {
       problems_.add(place, fmt::format("body '{}' has inertia but no mass", b.name));
     }
@@ -132,10 +132,9 @@ class ModuleCheck {
       problems_.add(place, fmt::format("the inertia of body '{}' is not positive definite; its principal moments are {} kg m^2",
                                        b.name, text()));
     } else if (moments[0] + moments[1] < moments[2] * (1 - kRelative)) {
-      problems_.add(place,
-                    fmt::format("the inertia of body '{}' belongs to no body: its principal moments are {} kg m^2, and the two "
-                                "smaller ones add up to less than the largest",
-                                b.name, text()));
+      problems_.add(place, fmt::format("the inertia of body '{}' is not possible: its principal moments are {} kg m^2, but the "
+                                       "largest must not exceed the sum of the other two",
+                                       b.name, text()));
     }
   }
 

@@ -98,7 +98,7 @@ class ModuleReader {
 
   void need_format_2(const std::string& what, const SourceLocation& place) {
     if (places_.format == 0) return;  // the version is invalid and has been reported
-    problems_.add(place, what + " of module format 2, and this is format 1; write gaitlab_module: 2");
+    problems_.add(place, what + " of module format 2, but this file has format 1; write gaitlab_module: 2");
   }
 
   void read_connectors(const Node* connectors) {
@@ -266,9 +266,9 @@ class ModuleReader {
       }
     }
     Passive passive;
-    reader.number("stiffness", passive.stiffness, {"N m/rad", 0, 1e6, "Of a spring."});
+    reader.number("stiffness", passive.stiffness, {"N m/rad", 0, 1e6, "Stiffness of a spring."});
     reader.number("rest", passive.rest, {"rad", -1000, 1000, "Angle at which the spring has no torque."});
-    reader.number("damping", passive.damping, {"N m s/rad", 0, 1e6, "Of a viscous damper."});
+    reader.number("damping", passive.damping, {"N m s/rad", 0, 1e6, "Coefficient of a viscous damper."});
     reader.number("friction", passive.friction, {"N m", 0, 1e6, "Dry friction."});
     reader.number("friction_speed", passive.friction_speed, {"rad/s", 1e-6, 1e3, "Speed below which dry friction is viscous."});
     if (drive == Drive::none) {
@@ -310,10 +310,10 @@ class ModuleReader {
   }
 
   void read_docking(Reader& reader, FaceType& face) {
-    reader.text("connector", face.connector, "Name of its connector; faces dock where these are the same.");
+    reader.text("connector", face.connector, "Name of the connector; only faces with the same connector dock.");
     if (const Node* name = reader.take("connector")) check_name(face.connector, *name);
     std::vector<double> turns{0, 1, 2, 3};
-    reader.numbers("turns", turns, {"", 0, 3, "Orientations in which it docks."});
+    reader.numbers("turns", turns, {"", 0, 3, "Orientations in which the face docks."});
     const Node* list = reader.take("turns");
     if (list == nullptr || list->kind != Node::Kind::list) return;
     face.turns = {};

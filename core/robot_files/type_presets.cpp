@@ -227,7 +227,7 @@ std::vector<std::string> TypePresets::sources(const Entry& entry, const std::vec
 }
 
 void TypePresets::refuse(const SourceLocation& place, Problems& problems) const {
-  Problem& problem = problems.add(place, fmt::format("{}; say which one holds: add {}: {{type: ...}}", why_, word(kind_)));
+  Problem& problem = problems.add(place, fmt::format("{}; choose one: add {}: {{type: ...}}", why_, word(kind_)));
   for (const Node* map : said_) problem.notes.emplace_back(map->place, "one is here");
 }
 
@@ -267,7 +267,7 @@ void TypePresets::fill(const Entry& entry, void* settings, JointNames joints, Pr
                        : maps.of_type != nullptr                                       ? maps.of_type->find(key)
                                                                                        : nullptr;
       if (by == nullptr) continue;
-      problems.add(by->place, fmt::format("{} is one for all joints of a robot, and other hinges have another one", key));
+      problems.add(by->place, fmt::format("{} must be equal for all joints of a robot, but differs between its hinges", key));
       break;
     }
   }

@@ -32,15 +32,14 @@ struct HeightfieldFields {
   void fields(Fields& f) {
     const bool from_file = !field.source.file.empty();
     if (!writing || from_file) {  // finish_ground() reads the values
-      f.text(
-          "file", field.source.file,
-          "File with the heights: text, a row per line, numbers separated by commas or blanks; a matrix of numpy.save "
-          "(.npy: float32, float64 or integers, in C order); a PNG of 16 bit grey values. Up to 4096 x 4096; text, 1 MB. The "
-          "first row is that of the least y.");
+      f.text("file", field.source.file,
+             "File with the heights: text, a row per line, numbers separated by commas or blanks; a matrix of numpy.save "
+             "(.npy: float32, float64 or integers, in C order); a PNG of 16 bit grey values. Up to 4096 x 4096; text, 1 MB. "
+             "The first row has the least y.");
       f.number("scale", field.source.scale,
                {"m", 1e-12, 1e6, "Metres per unit of the numbers in `file`; a PNG needs it. Default: 1."});
       f.text("hash", field.source.hash,
-             "Hash of `file`; another file is refused. A run writes it down where it has more than 40000 heights.");
+             "Hash of `file`; a file with another hash is refused. Runs record it for more than 40000 heights.");
     }
     if (!writing || !from_file) {
       Rows rows;
@@ -139,8 +138,7 @@ void finish_shape(Heightfield& field, const GroundNodes& section) {
   }
   for (const char* key : {"scale", "hash"}) {
     if (const Node* given = map->find(key); given != nullptr && file == nullptr) {
-      problems.add(given->place,
-                   fmt::format("{} is that of a file, and the heights are given as values; expected no {}", key, key));
+      problems.add(given->place, fmt::format("{} belongs to a file, but the heights are given as values; remove {}", key, key));
     }
   }
   const std::size_t before = problems.size();
@@ -151,7 +149,8 @@ void finish_shape(Heightfield& field, const GroundNodes& section) {
   const bool wrong_rows = field.values.empty() && values != nullptr && read && !values->items.empty();  // already reported
   if (!read || wrong_rows) return;
   if (field.columns < 2 || field.rows() < 2) {
-    problems.add(grid, fmt::format("the heightfield has {} rows of {}; expected at least 2 of 2", field.rows(), field.columns));
+    problems.add(grid, fmt::format("the heightfield has {} rows of {} heights; expected at least 2 rows of 2", field.rows(),
+                                   field.columns));
   } else if (values != nullptr && field.values.size() > kMostWritten) {
     problems.add(grid, fmt::format("the heightfield has {} heights; allowed are up to {}, more in a file", field.values.size(),
                                    kMostWritten));

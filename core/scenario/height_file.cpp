@@ -101,7 +101,7 @@ class HeightFile {
   bool is_of_record() {
     const Node* recorded = map_.find("hash");
     if (recorded == nullptr || recorded->text == hash_) return true;
-    problems_.add(recorded->place, fmt::format("file '{}' is not the file of the record: its hash is {}, recorded is {}", path_,
+    problems_.add(recorded->place, fmt::format("file '{}' is not the recorded file: its hash is {}, but {} is recorded", path_,
                                                hash_, clipped(recorded->text)));
     return false;
   }

@@ -23,7 +23,7 @@ struct PluginEntry {
 
   void fields(Fields& f) {
     f.text("path", path, "The library.");
-    f.text("hash", hash, "FNV-1a of the file; another file is refused.");
+    f.text("hash", hash, "FNV-1a hash of the file; a file with another hash is refused.");
   }
 };
 
@@ -57,8 +57,7 @@ void load(const PluginEntry& entry, const SourceLocation& place, const std::stri
     return;
   }
   if (const PluginTrust& trust = catalog.trust(); !trust.all && !trust.files.contains(canonical.string())) {
-    problems.add(
-        place, fmt::format("plugin '{}' is code of whoever made it, and is not loaded; {}", clipped(entry.path), trust.remedy));
+    problems.add(place, fmt::format("plugin '{}' is foreign code and is not loaded; {}", clipped(entry.path), trust.remedy));
     return;
   }
   const std::string hash = file_hash(canonical.string());
@@ -68,7 +67,7 @@ void load(const PluginEntry& entry, const SourceLocation& place, const std::stri
     return;
   }
   if (!entry.hash.empty() && entry.hash != hash) {
-    problems.add(place, fmt::format("plugin '{}' is not the file of the record: its hash is {}, recorded is {}",
+    problems.add(place, fmt::format("plugin '{}' is not the recorded file: its hash is {}, but {} is recorded",
                                     clipped(entry.path), hash, clipped(entry.hash)));
     return;
   }

@@ -20,9 +20,8 @@ void ScenarioChecks::law() {
   if (contact.has_step_of_its_own) {
     if (!(engine->solver_step > 0)) refuse_law(*engine);
     if (scenario_.physics.integrator != &engine->integrators.front()) {
-      problems_.add(
-          place_of(root_, "physics", "integrator"),
-          fmt::format("contact law '{}' takes steps of its own; expected {}", contact.text, engine->integrators.front().name));
+      problems_.add(place_of(root_, "physics", "integrator"), fmt::format("contact law '{}' works only with integrator {}",
+                                                                          contact.text, engine->integrators.front().name));
     }
   }
   if (const GroundType& ground = scenario_.ground.type(); !contact.any_ground && !ground.plane_and_boxes) {
@@ -144,7 +143,7 @@ void ScenarioChecks::automatic_step() {
                   fmt::format("{} chooses no steps; expected a number of seconds, or {}", chosen, fmt::join(able, " or ")));
   }
   if (accuracy != nullptr) {
-    problems_.add(accuracy->place, fmt::format("{} takes steps as given, so accuracy means nothing to it; remove it, or use {}",
+    problems_.add(accuracy->place, fmt::format("{} uses the given step and ignores accuracy; remove accuracy, or use {}",
                                                chosen, fmt::join(able, " or ")));
   }
 }

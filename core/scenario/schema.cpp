@@ -19,7 +19,7 @@ constexpr const char* kParts = R"json({
       "child_face": {"type": "integer", "minimum": 0, "description": "Face of the child."},
       "child_module": {"type": "integer", "minimum": 0, "description": "Module that is docked."},
       "parent_face": {"type": "integer", "minimum": 0, "description": "Face of the parent."},
-      "parent_module": {"type": "integer", "minimum": 0, "description": "Module it is docked to."},
+      "parent_module": {"type": "integer", "minimum": 0, "description": "Module to which the child is docked."},
       "orientation": {"type": "integer", "minimum": 0, "description": "Quarter turns about the child's face normal, 0 to 3."}}}]},
   "shape": {"type": "object", "additionalProperties": false, "properties": {
     "box": {"$ref": "#/definitions/vector"},
@@ -51,35 +51,36 @@ constexpr const char* kParts = R"json({
         "axis": {"$ref": "#/definitions/vector"},
         "range": {"description": "Smallest and largest angle, or free. [rad]", "anyOf": [{"const": "free"},
           {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2}]},
-        "drive": {"enum": ["motor", "none"], "default": "motor", "description": "Whether a motor drives the hinge."},
-        "stiffness": {"type": "number", "minimum": 0, "description": "Of a spring; drive: none. [N m/rad]"},
-        "rest": {"type": "number", "description": "Angle at which it is at rest. [rad]"},
-        "damping": {"type": "number", "minimum": 0, "description": "Of a viscous damper; drive: none. [N m s/rad]"},
+        "drive": {"enum": ["motor", "none"], "default": "motor", "description": "motor, or none for a passive hinge."},
+        "stiffness": {"type": "number", "minimum": 0, "description": "Stiffness of a spring; drive: none. [N m/rad]"},
+        "rest": {"type": "number", "description": "Angle at which the spring has no torque. [rad]"},
+        "damping": {"type": "number", "minimum": 0, "description": "Coefficient of a viscous damper; drive: none. [N m s/rad]"},
         "friction": {"type": "number", "minimum": 0, "description": "Dry friction; drive: none. [N m]"},
         "friction_speed": {"type": "number", "exclusiveMinimum": 0,
                            "description": "Speed below which dry friction is viscous. [rad/s]"},
-        "actuator": {"type": "object", "description": "Of this hinge, over the type's key by key."},
-        "controller": {"type": "object", "description": "Of this hinge, over the type's key by key."},
+        "actuator": {"type": "object", "description": "Keys of the motor that differ from the module type's actuator."},
+        "controller": {"type": "object",
+                       "description": "Keys of the controller that differ from the module type's controller."},
         "source": {"$ref": "#/definitions/source"}}}},
     "faces": {"type": "array", "items": {
       "type": "object", "additionalProperties": false,
       "required": ["id", "body", "gender", "origin", "normal", "reference"], "properties": {
         "id": {"type": "integer", "minimum": 0, "maximum": 1000, "description": "Number of the face in build files."},
         "body": {"type": "string"}, "gender": {"enum": ["active", "passive", "none"]},
-        "connector": {"type": "string", "description": "Name of its connector; like docks on like."},
+        "connector": {"type": "string", "description": "Name of the connector; only faces with the same connector dock."},
         "turns": {"type": "array", "items": {"type": "integer", "minimum": 0, "maximum": 3}, "minItems": 1,
-                  "description": "Orientations in which it docks."},
+                  "description": "Orientations in which the face docks."},
         "origin": {"$ref": "#/definitions/vector"}, "normal": {"$ref": "#/definitions/vector"},
         "reference": {"$ref": "#/definitions/vector"}, "source": {"$ref": "#/definitions/source"}}}},
     "contacts": {"type": "object", "additionalProperties": false, "properties": {
       "feet": {"type": "array", "items": {"$ref": "#/definitions/contact"}},
       "all": {"type": "array", "items": {"$ref": "#/definitions/contact"}},
       "source": {"$ref": "#/definitions/source"}}},
-    "connectors": {"type": "object", "description": "What connectors bear, by name.", "additionalProperties": {
+    "connectors": {"type": "object", "description": "Largest loads of the connectors, by name.", "additionalProperties": {
       "type": "object", "additionalProperties": false, "properties": {
         "tension": {"type": "number", "exclusiveMinimum": 0, "description": "Largest pull along the normal. [N]"},
         "shear": {"type": "number", "exclusiveMinimum": 0, "description": "Largest force in the plane of the face. [N]"},
-        "bending": {"type": "number", "exclusiveMinimum": 0, "description": "Largest moment about axes in it. [N m]"},
+        "bending": {"type": "number", "exclusiveMinimum": 0, "description": "Largest moment about axes in that plane. [N m]"},
         "torsion": {"type": "number", "exclusiveMinimum": 0, "description": "Largest moment about the normal. [N m]"},
         "source": {"$ref": "#/definitions/source"}}}},
     "actuator": {"type": "object", "description": "The default motor."},
@@ -97,7 +98,7 @@ constexpr const char* kRobot = R"json({
   "build": {"type": "string",
     "description": "Build file, rows child_face child_module parent_face parent_module orientation."},
   "docks": {"type": "array", "items": {"$ref": "#/definitions/dock"},
-    "description": "The rows of a build file here; without both: one module."}
+    "description": "Docks as rows of a build file, given here; without build and docks: one module."}
 })json";
 
 constexpr const char* kHead = R"json({
@@ -107,7 +108,8 @@ constexpr const char* kHead = R"json({
     {"type": "string"},
     {"type": "object", "additionalProperties": false, "required": ["path"], "properties": {
       "path": {"type": "string", "description": "The library."},
-      "hash": {"type": ["string", "number"], "description": "FNV-1a of the file; another file is refused."}}}]}}
+      "hash": {"type": ["string", "number"],
+               "description": "FNV-1a hash of the file; a file with another hash is refused."}}}]}}
 })json";
 
 std::string first_line(std::string_view text) { return std::string(text.substr(0, text.find('\n'))); }

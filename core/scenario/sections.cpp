@@ -41,7 +41,7 @@ void BaseFields::fields(Fields& f) {
     if (!scenario.on_ground) position.push_back(scenario.position.z());
     f.numbers("position", position,
               {"m", -1e6, 1e6,
-               "Start of the base frame's origin, world: [x, y], where on_ground sets the height, or [x, y, z], which turns "
+               "Start of the base frame's origin, world: [x, y] with the height from on_ground, or [x, y, z], which turns "
                "on_ground off."});
     numbers = position.size();
     if (numbers == 2 || numbers == 3) {
@@ -104,7 +104,7 @@ void PhysicsFields::fields(Fields& f) {
           "accuracy", physics.accuracy,
           {"", 1e-6, 0.5,
            "Accuracy of the motor torques, relative to a joint's largest torque so far (at least 1 % of its motor's torque "
-           "at rest). The integrator adaptive divides its steps until they agree to that."});
+           "at rest). The integrator adaptive divides its steps until the torques are that accurate."});
     }
   } else {
     std::string any;  // the set of names depends on the engine
@@ -113,17 +113,16 @@ void PhysicsFields::fields(Fields& f) {
   f.vector("gravity", span_of(physics.gravity), {"m/s^2", -1000, 1000, "Acceleration of gravity, world axes."});
   // The key is written only if it differs from the default, because older goldens do not contain it.
   if (catalog == nullptr && physics.estimate == Estimate::full) return;
-  f.choice(
-      "estimate", physics.estimate, enum_names<Estimate>(),
-      "The torque error of the summary: full, from rollouts beside the run, with finer and coarser steps and with a "
-      "gravity that differs by 1e-9 of it, which take a fourth of the time again (a tenth where the step is given: windows of "
-      "a twin with other steps); off: none, the bits are the same, and the verdict lacks evidence.");
+  f.choice("estimate", physics.estimate, enum_names<Estimate>(),
+           "Estimate of the torque error. full: from rollouts beside the run, with finer and coarser steps and with gravity "
+           "times 1 + 1e-9, which add a fourth to the run time (a tenth if the step is given: windows of a rollout with other "
+           "steps). off: no estimate; the run is bit-identical, but the verdict lacks evidence.");
 }
 
 void ContactSettings::fields(Fields& f) {
   f.choice("law", law, enum_names<ContactLaw>(),
            "penalty: Fn = Kn p^k + Cd p^d p' >= 0; friction -f Fn v/v_lim up to v_lim, then -f Fn v/|v|. bullet: Bullet's own "
-           "solver, for comparison and clutter; it has none of the keys below but `on`.");
+           "solver, for comparison and clutter; of the keys below it has only `on`.");
   f.choice("on", on, enum_names<ContactSet>(),
            "Contact elements that touch the ground: feet of the free blocks, all, or none.");
   if (!model().penalty_settings) return;
@@ -134,7 +133,7 @@ void ContactSettings::fields(Fields& f) {
   f.number("damping_exponent", penalty.d, {"", 0, 10, "d: exponent of the depth in the damper's force."});
   f.number("slip_speed", penalty.v_lim,
            {"m/s", kPositive, 1000,
-            "v_lim, below which friction is viscous. With a smaller one feet creep less, and steps must be shorter."});
+            "v_lim, below which friction is viscous. With a smaller v_lim feet creep less, and steps must be shorter."});
 }
 
 void PluginFields::choose(Fields& f) {
@@ -181,9 +180,8 @@ void TraceSettings::fields(Fields& f) {
 
 void FigureSettings::fields(Fields& f) {
   f.texts("joints", joints,
-          "Names of the joints to draw, or patterns with * and ?, from top to bottom; none: the most loaded one, and of a "
-          "robot on legs also the middle of "
-          "its spine.");
+          "Names of the joints to draw, or patterns with * and ?, from top to bottom; none: the most loaded joint and, for a "
+          "robot on legs, the middle of its spine.");
 }
 
 void Limits::fields(Fields& f) {

@@ -225,7 +225,7 @@ std::string drop_source(Node& root, const std::vector<std::string>& sets) {
   const std::string dropped =
       take_out(root.items[static_cast<std::size_t>(section - root.keys.begin())], "",
                [](const std::string& key, const Node& value) { return key == "source" && !is_set(value); });
-  return dropped.empty() ? "" : fmt::format("actuator: dropped source, which does not say {}{}", kOption, clipped(*other));
+  return dropped.empty() ? "" : fmt::format("actuator: dropped source, which does not cover {}{}", kOption, clipped(*other));
 }
 
 std::vector<std::string> drop_old_keys(Node& root, const std::vector<Retyped>& retyped, const Catalog& catalog) {

@@ -241,7 +241,7 @@ std::vector<bool> matched(const Scenario& scenario, const std::vector<Column>& c
   for (const Column& column : columns) names.push_back(column.name);
   if (scenario.trace.columns.size() > kMostPatterns) {
     throw InputError(scenario.place("trace.columns"),
-                     fmt::format("has {} names and patterns; expected at most {}: with * and ? one stands for many columns",
+                     fmt::format("has {} names and patterns; expected at most {}: a pattern with * and ? selects many columns",
                                  scenario.trace.columns.size(), kMostPatterns));
   }
   for (const std::string& pattern : scenario.trace.columns) {

@@ -56,9 +56,10 @@ std::string step_advice(const Scenario& s, const std::vector<ContactElement>& co
                         const std::string& when) {
   const double limit = 1 / stability.rate;
   const double use = usable_step(s, limit);
-  return fmt::format("step {} s is too long: the largest allowed is {:.3g} s, set by {} ({}; h lambda = {:.3g}, at most 1){}",
-                     s.physics.step, limit, source_of(stability, *s.robot, contacts), when, s.physics.step * stability.rate,
-                     use > 0 ? fmt::format("; use step: {:.4g}", use) : "");
+  return fmt::format(
+      "step {} s is too long: the largest allowed is {:.3g} s, set by {} ({}; h lambda = {:.3g}, allowed up to 1){}",
+      s.physics.step, limit, source_of(stability, *s.robot, contacts), when, s.physics.step * stability.rate,
+      use > 0 ? fmt::format("; use step: {:.4g}", use) : "");
 }
 
 }  // namespace gaitlab

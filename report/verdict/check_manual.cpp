@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* kAbout =
     "The verdict answers one question: can the actual robot do this gait? Every known limit is a check: a number of the run "
-    "held against a limit. A limit that is not stated is not judged, and never assumed kept.";
+    "compared with a limit. A limit that is not stated is not judged, and never assumed to be kept.";
 
 constexpr std::size_t kTerminal = 80, kPage = 120;  // columns
 
@@ -32,13 +32,14 @@ constexpr Meaning kWords[] = {
 
 constexpr const char* kEvidence =
     "Evidence. Long enough: a whole period of a limit cycle that repeats within 1 %; else three periods of the set "
-    "points; where set points do not repeat, 2 s. Borne: the ground carries at least half of the weight in the mean, of a "
-    "floating base. Accurate: torque error at most limits.torque_error, at most 5 % of the energy unaccounted for, at most 10 "
+    "points; where set points do not repeat, 2 s. Borne, for a floating base: the ground carries at least half of the weight "
+    "on average. Accurate: torque error at most limits.torque_error, at most 5 % of the energy unaccounted for, at most 10 "
     "% of the time coarser than physics.accuracy, and no motor whose efficiency x Kt exceeds Ks.";
 
 constexpr const char* kMargin =
     "Margin of a check: (limit - value) / limit, where limit is the one at which the check fails; with the opposite sign for a "
-    "lower limit; the least of several limits; not divided for a limit of 0. Below 0 it fails. The worst joint, body, dock or "
+    "lower limit; the least margin if there are several limits; not divided for a limit of 0. Below 0 the check fails. The "
+    "worst joint, body, dock or "
     "foot has the least margin. A value is too close to its limit if its error bar, from the estimated error of the torques, "
     "contains the limit, unless another part exceeds its limit by more than its own error.";
 

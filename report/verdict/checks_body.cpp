@@ -58,7 +58,7 @@ void outcome(const CheckedRun& run, Check& made) {
 }
 
 void height(const CheckedRun& run, Check& made) {
-  made.text = "judged of a floating base above a ground";
+  made.text = "judged only for a floating base above a ground";
   if (run.scenario.base != Base::floating || !run.scenario.ground.exists()) return;
   if (!run.fall) {
     made.text = heights(run.scenario, run.record).empty() ? kNoPoses : "the start pose has its centre of mass in the ground";
@@ -80,7 +80,7 @@ void height(const CheckedRun& run, Check& made) {
 }
 
 void upright(const CheckedRun& run, Check& made) {
-  made.text = run.scenario.base == Base::floating ? kNoPoses : "judged of a floating base";
+  made.text = run.scenario.base == Base::floating ? kNoPoses : "judged only for a floating base";
   const Judged& judged = run.summary.judged;
   std::optional<Upright> found = report::upright(run.scenario, run.record, judged, 0);
   if (!found) return;
@@ -194,7 +194,7 @@ void start(const CheckedRun& run, Check& made) {
   if (made.status == CheckStatus::pass) return;
   made.from = made.to = made.first = 0;
   const bool ramps = s.cpg.entry != nullptr && SettingsNumbers(s.cpg).find("model.ramp") != nullptr;
-  made.text += ", and its motor answers at once: peaks of the whole run may be of that";
+  made.text += ", and its motor reacts at once: peaks of the whole run may result from this jump";
   made.remedy = std::string("set initial.angles") + (ramps ? ", or cpg.model.ramp" : "");
 }
 
@@ -205,7 +205,7 @@ void collision(const CheckedRun& run, Check& made) {
   judge(made, "collision", &Limits::collision, run);
   made.value = found ? found->depth : 0;
   made.status = graded(made.value, run.limits().meeting(), made.limit);
-  made.text = "no two bodies are in one another (those on one hinge are not compared)";
+  made.text = "no two bodies overlap (bodies on one hinge are not compared)";
   if (!found) return;
   made.from = made.to = found->deepest_time;
   made.first = found->time;
@@ -224,7 +224,7 @@ void battery(const CheckedRun&, Check& made) { made.text = "the module types sta
 void in_ground(const CheckedRun& run, Check& made) {
   const std::optional<Sunk>& found = run.overlaps.sunk;
   const bool grounded = run.scenario.ground.exists();
-  made.text = grounded ? no_bodies(run) : "judged above a ground";
+  made.text = grounded ? no_bodies(run) : "judged only above a ground";
   if (!found && !made.text.empty()) return;
   judge(made, "sink", &Limits::sink, run);
   made.value = found ? found->depth : 0;

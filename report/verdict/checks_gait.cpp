@@ -127,7 +127,7 @@ void progress(const CheckedRun& run, Check& made) {
   const Scenario& s = run.scenario;
   const Recording& r = run.record;
   const Motion m = motion(r);
-  made.text = "judged of a floating base on a ground";
+  made.text = "judged only for a floating base on a ground";
   if (s.base != Base::floating || !s.ground.exists()) return;
   made.text = "the robot has no size, or the run has no control ticks";
   const double size = extent(s, r);
@@ -157,7 +157,7 @@ void progress(const CheckedRun& run, Check& made) {
 
 void airborne(const CheckedRun& run, Check& made) {
   made.value = run.summary.posture.airborne_share;
-  made.text = "judged of a floating base that gravity holds on a ground, where the ground's forces are recorded";
+  made.text = "judged only for a floating base that gravity holds on a ground, if the ground's forces are recorded";
   if (std::isnan(made.value)) return;
   made.limit = 0;
   made.from = run.summary.judged.from;
@@ -169,7 +169,7 @@ void airborne(const CheckedRun& run, Check& made) {
 
 void field(const CheckedRun& run, Check& made) {
   const Scenario& s = run.scenario;
-  made.text = "judged on a heightfield";
+  made.text = "judged only on a heightfield";
   const Motion m = motion(run.record);
   if (!s.ground.has_border() || m.x.empty() || m.y.empty()) return;
   made.status = CheckStatus::pass;

@@ -19,8 +19,8 @@ namespace gaitlab::report {
 std::string CheckedRun::unknown(TickColumn column) const {
   if (!driven()) return "nothing drives the joints";
   if (record.ticked() == 0 || record.ticks.rows() < 2)
-    return "what all steps did was not recorded: the folder is of an older format, or the run ended at once";
-  if (record.tick(0, column).empty()) return "the folder is of an older format, which did not keep it";
+    return "statistics of all steps were not recorded: the folder is of an older format, or the run ended at once";
+  if (record.tick(0, column).empty()) return "the folder is of an older format, which does not contain this quantity";
   const std::string lacks = record.ticks_of_rows ? lacking(record, *scenario.robot, column) : "";
   return lacks.empty() ? "" : fmt::format("the trace has no column {}", lacks);
 }
@@ -290,12 +290,12 @@ void envelope(const CheckedRun& run, Check& made) {
   if (made.status == CheckStatus::not_judged) return;
   made.limit = run.limits().warn_share;
   made.source = threshold("warn_share", made.limit, Limits().warn_share) + of_motors(run);
-  made.text = fmt::format("the torque of joint {} takes {} of what its {} has at that speed", made.worst,
+  made.text = fmt::format("the torque of joint {} is {} of its {}'s limit at that speed", made.worst,
                           texts::percent(made.value), run.has_dc_motors ? "motor" : "actuator");
 }
 
 void speed(const CheckedRun& run, Check& made) {
-  const char* const none = "the actuator has torque at any speed, and states no largest one";
+  const char* const none = "the actuator has torque at any speed, and states no largest speed";
   const auto no_load = [&](std::size_t j) { return run.motors.joint(j).no_load.value_or(kNever); };
   const auto rating = [&](std::size_t j) { return run.motors.joint(j).speed_max.value_or(kNever); };
   // A landing may exceed the no-load speed, so that speed is compared with the judged window only. A maker's rating must be

@@ -98,8 +98,8 @@ void created(const CheckedRun& run, Check& made) {
   made.value = texts::created(run.record) / energy_scale(run.scenario, run.record);
   warn_above(made.limit, made);
   const std::string remedy = made.status == CheckStatus::warn ? no_created_energy(run.scenario) : "";
-  made.text = fmt::format("gears that are driven backwards give {} of the energy too much (eq. 2){}{}",
-                          texts::percent(made.value), remedy.empty() ? "" : "; ", remedy);
+  made.text = fmt::format("gears that are driven backwards create {} of the energy (eq. 2){}{}", texts::percent(made.value),
+                          remedy.empty() ? "" : "; ", remedy);
 }
 
 void supply(const CheckedRun& run, Check& made) {
@@ -118,12 +118,12 @@ void supply(const CheckedRun& run, Check& made) {
       "the motors gave {:.3g} J back to their supply instead of drawing any, so that the cost of transport is "
       "negative: the robot went down, or a motor makes energy",
       std::max(-made.value, -drawn));
-  made.remedy = "look at Kt, Ks and the efficiency of the motors";
+  made.remedy = "check Kt, Ks and the efficiency of the motors";
 }
 
 void step(const CheckedRun& run, Check& made) {
   const Recording& r = run.record;
-  made.text = "no rate was recorded";
+  made.text = "no damping rate (lambda) was recorded";
   if (r.control_ticks == 0) return;
   made.value = run.summary.stability_share;
   made.limit = kTooLong;
@@ -138,7 +138,7 @@ void step(const CheckedRun& run, Check& made) {
 }
 
 void coarse(const CheckedRun& run, Check& made) {
-  made.text = "the steps do not follow an accuracy";
+  made.text = "the integrator does not choose its steps by an accuracy";
   if (!run.scenario.physics.adapts() || !(run.record.simulated > 0)) return;
   made.value = run.record.tally.coarse / run.record.simulated;
   made.limit = kTrustedCoarse;
@@ -147,8 +147,8 @@ void coarse(const CheckedRun& run, Check& made) {
   made.text = fmt::format("in {} of the time the shortest steps of the integrator did not reach the accuracy {}",
                           texts::rough_percent(made.value), texts::rough_percent(run.scenario.physics.accuracy));
   if (made.status == CheckStatus::pass) return;
-  made.text += ": the result depends on the steps and may not be reproducible at any";
-  made.remedy = "look for what is undamped, or driven without bounds";
+  made.text += ": the result depends on the steps, and smaller steps may not change this";
+  made.remedy = "look for joints without damping, or drives without bounds";
 }
 
 void law(const CheckedRun& run, Check& made) {

@@ -90,16 +90,16 @@ Demand demand(const Scenario& twin, const Recording& record, const Summary& summ
     simulation.run();
     free = simulation.take_recording(0);
   } catch (const RunError& error) {
-    made.doubt = fmt::format("with motors without limits the run breaks off: {}", error.what());
+    made.doubt = fmt::format("without motor limits the run breaks off: {}", error.what());
     return made;
   }
   made.joints = judge(free, summary.limit_cycle, summary.set_point_period > 0).joints;
   made.known = made.joints.size() == summary.judged.joints.size();
   const bool limited = Judged::limited(made.joints) > 0;
   if (thrown_up(twin, free, record)) {
-    made.doubt = "with motors without limits the robot is thrown up, so that what it needs is not what the gait needs";
+    made.doubt = "without motor limits the robot is thrown up, so that these torques do not belong to the gait";
   } else if (limited) {
-    made.doubt = fmt::format("even {:g} times these limits are reached: it needs more than that", kDemandTimes);
+    made.doubt = fmt::format("the gait reaches even {:g} times these limits: it needs more", kDemandTimes);
   }
   return made;
 }

@@ -104,9 +104,9 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made, std::vec
   const char* const steps = s.physics.adapts() ? "physics.accuracy" : "physics.step";
   if (driven && made.too_short.empty() && s.cpg.entry != nullptr && !asked.empty() && !moves(asked)) {
     made.not_trusted = {fmt::format("no set point changes: cpg {} moves no joint", s.cpg.entry->name), "cpg",
-                        "look for its amplitudes, frames or equations"};
+                        "check its amplitudes, frames or equations"};
   } else if (chaotic && r.spread.rows() == 0) {
-    made.not_trusted = {predictability_text(s, r) + "; `gaitlab run` tries how far its numbers spread", "physics"};
+    made.not_trusted = {predictability_text(s, r) + "; `gaitlab run` computes the spread of its numbers", "physics"};
   } else if (error.estimated && !std::isfinite(error.share)) {
     made.not_trusted = {fmt::format("the error of the torque of joint {} is not a number", s.robot->joints[error.joint].name),
                         steps};
@@ -121,15 +121,14 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made, std::vec
                                     texts::percent(residual), texts::percent(kTrustedResidual), steps),
                         steps};
   } else if (coarse > kTrustedCoarse) {
-    made.not_trusted = {
-        fmt::format("in {} of the time the shortest steps do not reach the accuracy {}; look for what is undamped, or driven "
-                    "without bounds",
-                    texts::rough_percent(coarse), texts::rough_percent(s.physics.accuracy)),
-        steps};
+    made.not_trusted = {fmt::format("in {} of the time the shortest steps do not reach the accuracy {}; look for joints "
+                                    "without damping, or drives without bounds",
+                                    texts::rough_percent(coarse), texts::rough_percent(s.physics.accuracy)),
+                        steps};
   }
   if (!driven || error.estimated) return;
   if (s.physics.estimated_by_others) {
-    unknown.emplace_back("the error of the torques, which is that of the study's other points");
+    unknown.emplace_back("the error of the torques, which the study estimates at other points");
   } else if (s.physics.estimate == Estimate::off) {
     if (made.not_trusted.empty())
       made.not_trusted = {"the error of the torques is not estimated; take physics.estimate: full", "physics.estimate"};

@@ -69,7 +69,7 @@ std::string unknown(const Scenario& scenario, const Recording& record) {
 }
 
 std::string unknown_of_feet(const Scenario& scenario, const Recording& record) {
-  if (scenario.base != Base::floating || !scenario.ground.exists()) return "judged of a floating base on a ground";
+  if (scenario.base != Base::floating || !scenario.ground.exists()) return "judged only for a floating base on a ground";
   return unknown(scenario, record);
 }
 
@@ -203,7 +203,7 @@ void judge_slip(const Scenario& scenario, const Recording& record, const Summary
 }
 
 void judge_stability(const Scenario& scenario, const Recording& record, const Summary& summary, Check& made) {
-  made.text = scenario.ground.is_plane() ? unknown_of_feet(scenario, record) : "judged on a plane without boxes";
+  made.text = scenario.ground.is_plane() ? unknown_of_feet(scenario, record) : "judged only on a plane without boxes";
   if (!made.text.empty()) return;
   const Window window(record, summary);
   const Series margin = window.series("stability");

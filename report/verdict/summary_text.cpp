@@ -85,8 +85,8 @@ std::string joint_table(const Summary& s, const Scenario& scenario) {
   }
   const bool marked =
       std::ranges::any_of(s.judged.joints, [](const JudgedJoint& j) { return j.peak_limit != MotorLimit::none; });
-  return text + "  the most loaded first: by time at a limit, then RMS, then peak\n" +
-         (marked ? "  u, i: the peak is at the limit of voltage, of current\n" : "");
+  return text + "  order: the most loaded joint first, by time at a limit, then RMS, then peak\n" +
+         (marked ? "  u, i: the peak is at the limit of voltage (u), of current (i)\n" : "");
 }
 
 std::string start_warning(const Scenario& scenario) {

@@ -86,15 +86,13 @@ void check_gain(const Scenario& s, const DcMotor* motors, std::vector<Warning>& 
   }
   if (!(largest > kOvershoots * kRounding)) return;
   const bool severe = largest > kCannotSettle;
-  out.push_back(
-      {s.nearest_place("controller.Kp"),
-       fmt::format(
-           "Kp {:.4g} of joint {} is {} for commands every {:.4g} s: the share of its error that the joint goes per command is "
-           "{:.3g}, and above {} it {}; take Kp: {:.4g} or less, or a shorter controller.period",
-           gain->value[worst], s.robot->joints[worst].name, severe ? "too large" : "large", s.control_period, largest,
-           severe ? kCannotSettle : kOvershoots, severe ? "cannot settle" : "overshoots",
-           two_digits(gain->value[worst] / largest)),
-       severe});
+  out.push_back({s.nearest_place("controller.Kp"),
+                 fmt::format("Kp {:.4g} of joint {} is {} for commands every {:.4g} s: per command the joint corrects {:.3g} "
+                             "of its error, and above {} it {}; take Kp: {:.4g} or less, or a shorter controller.period",
+                             gain->value[worst], s.robot->joints[worst].name, severe ? "too large" : "large", s.control_period,
+                             largest, severe ? kCannotSettle : kOvershoots, severe ? "cannot settle" : "overshoots",
+                             two_digits(gain->value[worst] / largest)),
+                 severe});
 }
 
 void check_motors(const Scenario& s, std::vector<Warning>& out) {
@@ -152,8 +150,8 @@ std::vector<Warning> setup_warnings(const Scenario& s) {
   if (s.ground.beyond_border(s.position.x(), s.position.y())) {
     out.push_back(
         {s.nearest_place("ground.heightfield"),
-         fmt::format("the robot starts at ({:.4g}, {:.4g}) m, beside the heightfield, whose edge heights go on there: put "
-                     "the field under it (ground.heightfield.origin) or the robot onto it (robot.position)",
+         fmt::format("the robot starts at ({:.4g}, {:.4g}) m, beside the heightfield, where its edge heights continue: move "
+                     "the field under the robot (ground.heightfield.origin) or the robot onto it (robot.position)",
                      s.position.x(), s.position.y())});
   }
   return out;

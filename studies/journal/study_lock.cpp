@@ -76,8 +76,8 @@ std::string host() {
 Lock::Lock(fs::path file) : file_(std::move(file)) {
   const auto refuse = [&](const std::string& text) { return InputError(SourceLocation{file_.string()}, text); };
   constexpr const char* kNoLock =
-      "is not the lock of a study: a regular file under one name, empty or with the line 'process N on HOST'; move it away, or "
-      "take another folder (--out)";
+      "is not the lock of a study; expected a regular file without other links, empty or with the line 'process N on HOST'. "
+      "Move it away, or take another folder (--out)";
   descriptor_ = open_lock(file_);
   if (descriptor_ < 0 && errno == ELOOP) throw refuse(kNoLock);
   if (descriptor_ < 0) throw refuse("cannot be opened: " + std::generic_category().message(errno));

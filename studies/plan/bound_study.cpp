@@ -93,9 +93,7 @@ void BoundStudy::check_own_names(std::size_t scenario, Problems& problems) const
       is_key = std::ranges::none_of(error.problems(), [&](const Problem& one) { return one.text.starts_with(unknown); });
     }
     if (is_key) {
-      problems.add(
-          p.place,
-          fmt::format("{} is a key of the scenario, and has keys that follow it (sets); expected another name", p.key));
+      problems.add(p.place, fmt::format("{} is a key of the scenario; a parameter with `sets` needs another name", p.key));
     }
   }
 }
@@ -110,7 +108,7 @@ void BoundStudy::find_nominal(StudyScenario& scenario, Problems& problems) const
     if (!tree) tree = parse_yaml(scenario.resolved, scenario.nominal.file);
     const Node* node = find_key(*tree, v.key);
     const Reading<double> value = node == nullptr ? Reading<double>{0, "is not a key of the scenario"} : read_number(*node, "");
-    if (!value.ok()) problems.add(v.place, v.key + " " + value.wrong + ", which a factor needs");
+    if (!value.ok()) problems.add(v.place, v.key + " " + value.wrong + "; `times` needs a number in the scenario");
     scenario.nominal_values[v.key] = value.value;
   }
 }
@@ -173,7 +171,7 @@ void BoundStudy::check_stops(Problems& problems) const {
   for (const StopText& stop : study_.stops) {
     if (stop.after < longest()) continue;
     problems.add(stop.when.node.place,
-                 fmt::format("the rule begins at {} s, and the {} ends at {} s; expected an earlier time behind `after`",
+                 fmt::format("the rule begins at {} s, but the {} ends at {} s; expected a smaller number after `after`",
                              number_text(stop.after), scenarios_.size() > 1 ? "longest run" : "run", number_text(longest())));
   }
 }

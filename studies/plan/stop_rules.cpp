@@ -21,8 +21,9 @@ StopRules::StopRules(const Study& study, const QuantityOffer& offer, const std::
     if (of_joint && std::ranges::find(joints, joint) == joints.end())
       return {{}, "no joint is called " + in_quotes(joint) + gaitlab::offer(joint, joints, "joints")};
     if (std::ranges::find(offer.so_far, name) == offer.so_far.end()) {
-      return {{},
-              fmt::format("{} is known when a run has ended; while it runs there are {}", name, fmt::join(offer.so_far, ", "))};
+      return {
+          {},
+          fmt::format("{} is known only after a run has ended; a stop rule can use {}", name, fmt::join(offer.so_far, ", "))};
     }
     const std::pair quantity{name, joint};
     const auto at = std::ranges::find(quantities_, quantity);

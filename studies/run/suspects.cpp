@@ -45,7 +45,8 @@ pid_t begin(const Plan& plan, std::uint64_t run) {
       return 1;
     }
   });
-  if (child < 0) throw std::system_error(errno, std::generic_category(), "no process for a run that ended one before");
+  if (child < 0)
+    throw std::system_error(errno, std::generic_category(), "cannot start a process for a run that ended an earlier process");
   return child;
 }
 

@@ -39,14 +39,16 @@ void check_followers(const Study& study, Problems& problems) {
       for (const Parameter& other : study.parameters) {
         const auto also = [&](const Follower& one) { return one.key == f.key; };
         if (other.key == f.key)
-          problems.add(f.place, fmt::format("{} follows {} and is a parameter; expected one or the other", f.key, own.key));
+          problems.add(f.place, fmt::format("{} is computed from {} and is also a parameter; expected only one of the two",
+                                            f.key, own.key));
         if (&other < &own && std::ranges::any_of(other.sets, also))
-          problems.add(f.place, fmt::format("{} follows {} and {}; expected one of them", f.key, other.key, own.key));
+          problems.add(f.place, fmt::format("{} is computed from {} and from {}; expected only one of the two", f.key,
+                                            other.key, own.key));
       }
       const auto drawn = [&](const Variation& v) { return v.key == f.key && !v.times; };
       if (std::ranges::any_of(study.replicates.vary, drawn)) {
-        problems.add(f.place, fmt::format("{} follows {} and is drawn for every replicate; expected vary: {{{}: {{times: "
-                                          "...}}}}, or one of the two",
+        problems.add(f.place, fmt::format("{} is computed from {} and also drawn for every replicate; expected vary: {{{}: "
+                                          "{{times: ...}}}}, or only one of the two",
                                           f.key, own.key, f.key));
       }
     }
@@ -81,7 +83,8 @@ void check_study(const Study& study, const SourceLocation& place, Problems& prob
                    fmt::format("{} has values one by one; method {} needs low and high", p.key, name_of(study.method)));
     }
     if (study.method != Method::grid && p.count > 0 && !study.asked)
-      problems.add(p.place, fmt::format("{} has a count, which a grid takes; method.type is {}", p.key, name_of(study.method)));
+      problems.add(p.place,
+                   fmt::format("{} has a count, which only method grid uses; method.type is {}", p.key, name_of(study.method)));
     const auto same = [&](const Variation& v) { return v.key == p.key && !v.times; };
     if (std::ranges::any_of(study.replicates.vary, same)) {
       problems.add(p.place, p.key + " is a parameter and drawn for every replicate; expected vary: {" + p.key +

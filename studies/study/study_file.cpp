@@ -133,7 +133,7 @@ Explainer study_keys() {
   explainer.row("  KEY.scale", "", "linear", "linear or log",
                 "Spacing of the values: even (linear), or even in their logarithm (log).");
   explainer.row("  KEY.count", "", "", "2 to 1e9", "Number of values of a grid from low to high, both included.");
-  explainer.row("  KEY.values", "", "", "", "Instead of low and high: numbers or words, one by one.");
+  explainer.row("  KEY.values", "", "", "", "List of numbers or words, instead of low and high.");
   explainer.row(
       "  KEY.sets", "", "none", "{KEY: EXPRESSION, ...}",
       "KEY is a parameter of the study, and these keys of the scenario are computed from it: legs: {low: 0, high: 1, sets: "
@@ -143,7 +143,7 @@ Explainer study_keys() {
                 "every point.");
   explainer.row("  count", "", "required", "1 to 1e6", "Runs of each point.");
   explainer.row("  vary.KEY", "", "", "normal: [MEAN, DEVIATION] (with low, high), uniform: [LOW, HIGH], values: [...]",
-                "Distribution of a key of the scenario; {times: LAW}: of its multiple of the point's value.");
+                "Distribution of a key of the scenario; {times: LAW}: distribution of a factor of the point's value.");
   explainer.row("  combine", "", "worst", "mean, worst, median or quantile(Q)",
                 "Combination of the replicates of a point, in all its scenarios, into one value.");
   explainer.row("objective", "", "{maximize: QUANTITY}", "{maximize: EXPRESSION} or {minimize: EXPRESSION}",

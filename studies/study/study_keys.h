@@ -19,8 +19,8 @@ struct PlainKeys {
     f.integer("seed", study.seed, {"", 0, 9e15, "Seed of the random numbers: points and replicates."});
     f.integer("estimate_every", study.estimate_every,
               {"", 0, 1e9,
-               "N: the torque error is estimated for one point in N, drawn by the seed, which takes additional lanes; 1: all, "
-               "0: none. The best points, which `gaitlab optimize` verifies, always have an estimate."});
+               "N: the torque error is estimated for one point in N, drawn by the seed, in additional lanes; 1: all points, 0: "
+               "none. The best points, which `gaitlab optimize` verifies, always have an estimate."});
     f.texts("quantities", study.quantities,
             "Quantities of a run that tables and figures show, by name with * and ?; default: the speed. A quantity of one "
             "joint, torque.peak[m3/*], becomes a column.");
@@ -37,16 +37,17 @@ struct MethodKeys {
         "optimize): cma, xnes, sade, pso for one objective, nsga2 for two or three.");
     f.integer("trajectories", study.trajectories,
               {"", 2, 1e6, "Trajectories of morris; each has one point more than there are parameters."});
-    f.integer("samples", study.samples,
-              {"", 2, 1e7, "Samples of sobol_indices, best a power of 2; each has two points more than there are parameters."});
+    f.integer(
+        "samples", study.samples,
+        {"", 2, 1e7, "Samples of sobol_indices, preferably a power of 2; each has two points more than there are parameters."});
     f.integer("population", study.search.population,
               {"", 0, 10000,
-               "Points of a generation, at least 5 (sade 7; nsga2: a multiple of 4 from 8). 0: 4 + 3 ln n of n "
-               "parameters, rounded up to a multiple of 8, at least 16."});
+               "Points of a generation, at least 5 (sade 7; nsga2: a multiple of 4 from 8). 0: 4 + 3 ln n for n parameters, "
+               "rounded up to a multiple of 8, at least 16."});
     f.integer("instances", study.search.instances, {"", 1, 1000, "Searches side by side, which share the budget."});
     f.integer("restarts", study.search.restarts,
               {"", 0, 10, "Restarts of a search that has converged, each with twice the population."});
-    f.number("sigma", study.search.sigma, {"", 1e-3, 1, "First step of cma and xnes, as a share of the box."});
+    f.number("sigma", study.search.sigma, {"", 1e-3, 1, "Initial step of cma and xnes, as a share of the parameter ranges."});
   }
 };
 
@@ -54,9 +55,11 @@ struct VerifyKeys {
   Verify& verify;
   void fields(Fields& f) {
     f.integer("best", verify.best, {"", 1, 100, "Number of best points to verify."});
-    f.flag("halve_step", verify.halve_step,
-           "Run them again with half the step (with half of physics.accuracy if the integrator chooses its steps).");
-    f.text("engine", verify.engine, "Run them again in this engine, with its default step; none: no other engine.");
+    f.flag(
+        "halve_step", verify.halve_step,
+        "Simulate these points again with half the step (with half of physics.accuracy if the integrator chooses its steps).");
+    f.text("engine", verify.engine,
+           "Simulate these points again in this engine, with its default step; none: no other engine.");
     f.number("change", verify.change,
              {"", 1e-6, 10, "Largest relative change of an objective for which a point counts as verified."});
   }
@@ -65,7 +68,7 @@ struct VerifyKeys {
 struct BudgetKeys {
   std::int64_t& runs;
   void fields(Fields& f) {
-    f.integer("runs", runs, {"", 1, 1e9, "Runs of methods that draw or search points, replicates counted."});
+    f.integer("runs", runs, {"", 1, 1e9, "Runs of methods that draw or search points, including replicates."});
   }
 };
 

@@ -12,7 +12,7 @@ constexpr const char* kStudyParts = R"json({
   "scalar": {"type": ["string", "number", "boolean"]},
   "expression": {"type": ["string", "number"], "description": "An expression over quantities, as summary.json names them."},
   "values": {"type": "array", "minItems": 1, "uniqueItems": true, "items": {"$ref": "#/definitions/scalar"},
-    "description": "Instead of low and high: numbers or words, one by one."},
+    "description": "List of numbers or words, instead of low and high."},
   "law": {"type": "object", "additionalProperties": false, "properties": {
     "normal": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2, "description": "Mean and deviation."},
     "low": {"type": "number", "description": "Lower end of a normal distribution: values below are drawn again."},
@@ -43,7 +43,7 @@ constexpr const char* kStudyRest = R"json({
     "description": "Runs of each point that differ in their seed and in the values that vary draws.", "properties": {
       "count": {"type": "integer", "minimum": 1, "maximum": 1000000, "description": "Runs of each point."},
       "vary": {"type": "object", "additionalProperties": {"$ref": "#/definitions/variation"},
-        "description": "Keys of the scenario that are drawn, the same way for every point."},
+        "description": "Keys of the scenario that are drawn, with equal draws for every point."},
       "combine": {"anyOf": [{"enum": ["mean", "worst", "median"]}, {"type": "string", "pattern": "^quantile\\(.+\\)$"}],
         "default": "worst", "description": "Combination of the replicates of a point, in all its scenarios, into one value."}}},
   "objective": {"anyOf": [{"$ref": "#/definitions/objective"},

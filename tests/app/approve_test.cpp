@@ -13,7 +13,7 @@ class ApproveCommand : public GoldenCommand {};
 TEST_F(ApproveCommand, ApproveShowsTheChangeAndWantsAReason) {
   const std::string before = bytes("good.golden");
   const std::string wanted =
-      "; say in a sentence why these numbers are right: it is kept in the golden's history. Nothing was written\n";
+      "; expected a sentence for the golden's history with the reason why these numbers are right. Nothing was written\n";
   Result result = call("approve good.yaml");
   EXPECT_EQ(result.code, 0);
   EXPECT_EQ(result.out,
@@ -75,8 +75,8 @@ TEST_F(ApproveCommand, ApproveKeepsTheBandsOfTheSameGaitAlone) {
 TEST_F(ApproveCommand, ApproveReplacesAGoldenThatCannotBeReadWhereTold) {
   folder.write("good.golden/golden.json", "{}");
   expect_refused("approve good.yaml --reason 'made anew'",
-                 "good.golden/golden.json: error: is not a golden of gaitlab; it stays as it is. approve --replace makes a new "
-                 "one, whose history begins with it");
+                 "good.golden/golden.json: error: is not a golden of gaitlab; the golden is unchanged. gaitlab approve "
+                 "--replace makes a new golden with a new history");
   EXPECT_EQ(read(folder / "good.golden/golden.json"), "{}");
   EXPECT_EQ(call("approve good.yaml --reason 'made anew' --replace").code, 0);
   EXPECT_EQ(read_golden(folder / "good.golden").history.size(), 1U);
@@ -85,11 +85,12 @@ TEST_F(ApproveCommand, ApproveReplacesAGoldenThatCannotBeReadWhereTold) {
 TEST_F(ApproveCommand, ApproveLooksAtItsTargetFirst) {
   folder.write("new.yaml", kCaterpillar);
   folder.write("new.golden", "a file");
-  expect_refused("approve new.yaml --reason 'mine'", "new.golden: error: is not a folder, and a golden is one; move it away");
+  expect_refused("approve new.yaml --reason 'mine'",
+                 "new.golden: error: is not a folder, but a golden is a folder; move this file away");
   fs::remove(folder / "good.golden/golden.json");
   expect_refused("approve good.yaml --reason 'made anew'",
-                 "good.golden/golden.json: error: is missing: the golden is only half there; it stays as it is. approve "
-                 "--replace makes a new one, whose history begins with it");
+                 "good.golden/golden.json: error: is missing: the golden is incomplete; the golden is unchanged. gaitlab "
+                 "approve --replace makes a new golden with a new history");
   fs::create_symlink("loop.yaml", folder / "loop.yaml");
   expect_refused("test loop.yaml", "loop.yaml: error: cannot be read: Too many levels of symbolic links");
   const Result folder_with_it = call("test .");  // all other scenarios are still tested

@@ -73,7 +73,7 @@ TEST_F(CompareCommand, SettingsNumbersAndWorstColumns) {
                 "m0/active angle  0.289   0.5     14.4 %       25 %     0.5 s        -\n"
                 "base.x           0.144  0.25     7.22 %     12.5 %       1 s        -\n"
                 "1 of 3 columns are equal to the bit in 3 rows\n"
-                "first to part: m0/active angle at t = 0.5 s\n");
+                "first column to diverge: m0/active angle at t = 0.5 s\n");
 }
 
 /// The output names a joint if both runs give it the same name, and `--columns` accepts this name.
@@ -82,7 +82,7 @@ TEST_F(CompareCommand, NamesOfJoints) {
   make_run("a", trace, R"({"joints": ["m0/active", "m0/passive"]})");
   make_run("b", "t,joint.0.angle,joint.1.angle\n0,0,0\n0.5,2,3\n", R"({"joints": ["m0/active", "m1/active"]})");
   Result result = compare("a b");
-  EXPECT_NE(result.out.find("\nthe robots' joints differ (2 and 2): columns are compared by number all the same\n"),
+  EXPECT_NE(result.out.find("\nthe robots' joints differ (2 and 2), but columns with the same number are compared\n"),
             std::string::npos)
       << result.out;
   EXPECT_NE(result.out.find("\nm0/active angle "), std::string::npos) << result.out;
@@ -108,7 +108,7 @@ TEST_F(CompareCommand, TheTenWorstAndAllOnRequest) {
   make_run("b", head + other + last + "\n", "{}");
   Result result = compare("a b");
   EXPECT_NE(result.out.find("late by\njoint.11.angle "), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("\nand 2 more: --all\n0 of 12 columns are "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("\nand 2 more: --all shows them\n0 of 12 columns are "), std::string::npos) << result.out;
   EXPECT_EQ(result.out.find("\njoint.1.angle "), std::string::npos) << result.out;
   result = compare("a b --all");
   EXPECT_NE(result.out.find("\njoint.0.angle "), std::string::npos) << result.out;
@@ -124,21 +124,21 @@ TEST_F(CompareCommand, ColumnsAndTraceFiles) {
                 "1 column in B only: base.y\n"
                 "A has 2 rows, B has 3\n"
                 "\n"
-                "settings: not compared, a CSV file has none\n"
+                "settings: not compared, because a CSV file contains none\n"
                 "\n"
-                "summary numbers: not compared, a trace file has none\n"
+                "summary numbers: not compared, because a trace file contains none\n"
                 "\n"
                 "column    RMS  max  RMS/range  max/range  from t =  late by\n"
                 "base.x  0.707    1     70.7 %      100 %     0.5 s        -\n"
                 "0 of 1 columns are equal to the bit in 2 rows\n"
-                "first to part: base.x at t = 0.5 s\n");
+                "first column to diverge: base.x at t = 0.5 s\n");
   expect_report("b.csv b.csv",
                 "A: b.csv (3 rows)\n"
                 "B: b.csv (3 rows)\n"
                 "\n"
-                "settings: not compared, a CSV file has none\n"
+                "settings: not compared, because a CSV file contains none\n"
                 "\n"
-                "summary numbers: not compared, a trace file has none\n"
+                "summary numbers: not compared, because a trace file contains none\n"
                 "\n"
                 "3 of 3 columns are equal to the bit in 3 rows\n");
   expect_refused("a b.csv --columns base.z --columns 'joint.*' --columns nonsense",

@@ -73,7 +73,7 @@ TEST_F(ExportGltf, Refusals) {
   folder.write("old/trace.csv", "t,joint.0.angle\n0,0\n0.1,1\n");
   const Result result = call("export old --to gltf x.glb");
   EXPECT_EQ(result.code, 2);
-  EXPECT_TRUE(result.err.starts_with("old: error: does not say how the robot moved: old/trace.csv contains only rows: "))
+  EXPECT_TRUE(result.err.starts_with("old: error: does not contain the robot's motion: old/trace.csv contains only rows: "))
       << result.err;
   EXPECT_TRUE(result.err.ends_with("; simulate it again: gaitlab rerun old\n")) << result.err;
   EXPECT_FALSE(std::filesystem::exists(folder / "x.glb"));

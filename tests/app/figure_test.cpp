@@ -136,7 +136,8 @@ TEST_F(PaperFigure, WhatExistsIsReplacedOnlyWhereItIsAskedFor) {
   EXPECT_EQ(draw(kTwin, "-o figure.pdf").code, 0);  // writes the same numbers to figure.csv
   folder.write("mine.csv", "t,x\n0,1\n");
   EXPECT_EQ(draw(kTwin, "-o mine.pdf").err,
-            "mine.csv: error: exists with other numbers, and mine.pdf does not exist; nothing was written\n");
+            "mine.csv: error: exists with other numbers, but its figure mine.pdf does not exist; move it away. Nothing was "
+            "written\n");
   EXPECT_FALSE(fs::exists(folder / "mine.pdf"));
   EXPECT_EQ(draw(kTwin, "-o f.png").err, "-o f.png: error: expected a file named .svg or .pdf\n");
 }

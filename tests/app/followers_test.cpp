@@ -43,7 +43,7 @@ TEST_F(FollowersOfNumbers, AreSetAndTheNumberIsTheColumn) {
   EXPECT_TRUE(contains(read(folder_ / "r/summary.json"), "\"speed\": " + row.at("speed") + ",")) << row.at("speed");
   const Result again = call("study rerun s 7");
   EXPECT_EQ(again.code, 0) << again.err;
-  EXPECT_TRUE(contains(again.out, "the quantities are those of the journal")) << again.out;
+  EXPECT_TRUE(contains(again.out, "the quantities are equal to those in the journal")) << again.out;
   EXPECT_TRUE(contains(call("sweep s.yaml --dry-run").out, "first  cpg.offset=-0.1 cpg.phase_lag=1 cpg.frequency=1 "));
 }
 
@@ -55,7 +55,7 @@ TEST_F(FollowersOfNumbers, AnotherExpressionIsAnotherStudy) {
   EXPECT_EQ(other.code, 2);
   EXPECT_TRUE(contains(other.err, "\"legs sets cpg.offset: 0.2*legs\", was \"legs sets cpg.offset: 0.3*legs\"")) << other.err;
   const Result answered = call("sweep t.yaml --out t --answers s");
-  EXPECT_TRUE(contains(answered.out, "1 of 3 runs were answered by other studies")) << answered.out;  // the run of legs 0
+  EXPECT_TRUE(contains(answered.out, "1 of 3 runs were taken from other studies")) << answered.out;  // the run of legs 0
 }
 
 TEST_F(FollowersOfNumbers, AreSearchedAndWeighed) {
@@ -82,8 +82,7 @@ TEST_F(FollowersOfNumbers, WrongOnesAreRefused) {
   EXPECT_EQ(error("legs: {low: 0, high: 1, sets: {cpg.offsett: legs}}"),
             "s.yaml:4:45: error: unknown key 'offsett'; did you mean 'offset'?\n");
   EXPECT_EQ(error("duration: {low: 1, high: 2, sets: {cpg.offset: duration}}"),
-            "s.yaml:4:14: error: duration is a key of the scenario, and has keys that follow it (sets); expected another "
-            "name\n");
+            "s.yaml:4:14: error: duration is a key of the scenario; a parameter with `sets` needs another name\n");
   EXPECT_EQ(error("name: {low: 1, high: 2, sets: {cpg.offset: name}}").substr(0, 41),
             "s.yaml:4:14: error: name is a key of the ");
   EXPECT_EQ(error("cpg.legs: {low: 1, high: 2, sets: {cpg.offset: 1}}"),
@@ -94,13 +93,13 @@ TEST_F(FollowersOfNumbers, WrongOnesAreRefused) {
   EXPECT_EQ(error("legs: {values: [a, b], sets: {cpg.offset: 1}}"),
             "s.yaml:4:43: error: legs has words, which no expression can use; expected numbers beside sets\n");
   EXPECT_EQ(error("a: {low: 0, high: 1, sets: {cpg.offset: a}}, b: {low: 0, high: 1, sets: {cpg.offset: b}}"),
-            "s.yaml:4:87: error: cpg.offset follows a and b; expected one of them\n");
+            "s.yaml:4:87: error: cpg.offset is computed from a and from b; expected only one of the two\n");
   EXPECT_EQ(error("a: {low: 0, high: 1, sets: {cpg.offset: a}}, cpg.offset: {low: 0, high: 1}"),
-            "s.yaml:4:42: error: cpg.offset follows a and is a parameter; expected one or the other\n");
+            "s.yaml:4:42: error: cpg.offset is computed from a and is also a parameter; expected only one of the two\n");
   EXPECT_EQ(error("a: {low: 0, high: 1, sets: {cpg.offset: a}}",
                   "method: {type: random}\nbudget: {runs: 2}\nreplicates: {count: 2, vary: {cpg.offset: {uniform: [0, 1]}}}\n"),
-            "s.yaml:4:42: error: cpg.offset follows a and is drawn for every replicate; expected vary: {cpg.offset: {times: "
-            "...}}, or one of the two\n");
+            "s.yaml:4:42: error: cpg.offset is computed from a and also drawn for every replicate; expected vary: {cpg.offset: "
+            "{times: ...}}, or only one of the two\n");
   // Without keys that follow it, an unknown name counts as a misspelt key.
   EXPECT_EQ(error("legs: {low: 0, high: 1}").substr(0, 38), "s.yaml:4:14: error: unknown key 'legs'");
 }

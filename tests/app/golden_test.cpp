@@ -183,7 +183,7 @@ TEST_F(GoldenCommand, OtherTextSameRunIsANote) {
   folder.write("good.yaml", kCaterpillar + "name: renamed\n");
   const Result result = call("test good.yaml");
   EXPECT_EQ(result.code, 0);
-  EXPECT_EQ(result.err, "good.yaml: note: its resolved text is no longer that of the golden\n");
+  EXPECT_EQ(result.err, "good.yaml: note: the resolved scenario has changed since the golden was approved\n");
 }
 
 TEST_F(GoldenCommand, OtherFormIsARegression) {
@@ -267,8 +267,8 @@ TEST_F(GoldenCommand, AnotherRobotsGoldenIsForeign) {
   longer.replace(longer.find("]]"), 2, "], [1, 2, 4, 1, 0]]");
   folder.write("other.yaml", longer + "physics: {step: 2.5e-5}\n");
   const std::string foreign =
-      "other.golden: error: is the golden of 'good', and other.yaml ('other') is another run; gaitlab approve --replace makes "
-      "its own";
+      "other.golden: error: is the golden of 'good', but other.yaml ('other') is another run; gaitlab approve --replace makes "
+      "a golden of this run";
   Result result = call("test other.yaml");
   EXPECT_EQ(result.code, 2);
   EXPECT_EQ(result.err, foreign + "\n");
@@ -323,8 +323,8 @@ TEST_F(GoldenCommand, NoScenarioAndNoGoldenVanishesUnseen) {
   result = call("test .");
   EXPECT_EQ(result.code, 2);
   EXPECT_EQ(result.err,
-            "./gone.golden: error: has no scenario (./gone.yaml does not exist); was it renamed or removed? Do the same with "
-            "its golden\n");
+            "./gone.golden: error: has no scenario (./gone.yaml does not exist); rename or remove this golden in the same way "
+            "as its scenario\n");
   expect_contains(result.out, "\n1 passed, 0 failed, 1 not tested\n");
   fs::remove_all(folder / "gone.golden");
 
@@ -355,8 +355,9 @@ TEST_F(GoldenCommand, AFileThatCannotBeWrittenHidesNothing) {
   expect_refused("test good.yaml --junit no/where.xml",
                  "--junit no/where.xml: error: cannot be written: No such file or directory");
   const std::string before = bytes("good.golden");
-  expect_refused("test good.yaml --junit good.golden/golden.json",
-                 "--junit good.golden/golden.json: error: is there and is not XML; it would be overwritten");
+  expect_refused(
+      "test good.yaml --junit good.golden/golden.json",
+      "--junit good.golden/golden.json: error: exists and is not XML, so it is not overwritten; expected another file");
   EXPECT_EQ(bytes("good.golden"), before);
   EXPECT_EQ(call("test good.yaml --junit ''").code, 2);
   expect_refused("test good.yaml --junit modules", "--junit modules: error: is a folder");

@@ -72,7 +72,8 @@ TEST_F(LargeRobot, OnTwentyThousandBoxesInOnePlaceIsAnsweredAtOnce) {
                 "gaitlab: 1\nrobot: {modules: mtran}\nduration: 0.1\nground: {type: boxes, boxes: [" + boxes + "]}\n");
   const Result result = check("-t 100");  // takes 2 s
   EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_TRUE(contains(result.err, "note: takes a step among 20000 boxes, which lasts seconds where many lie in one place\n"))
+  EXPECT_TRUE(contains(result.err,
+                       "note: simulates one step with 20000 boxes, which takes seconds if many of them are close together\n"))
       << result.err;
   EXPECT_TRUE(contains(result.out, "base frame at [0, 0, 0.1325] m at the start: lowered onto the ground")) << result.out;
 }

@@ -52,7 +52,7 @@ TEST_F(Messages, WhatIsMissing) {
           "gaitlab export: error: FILE is missing: file to write; must not exist; expected gaitlab export SOURCE --to "
           "csv|gltf|mjcf|urdf FILE");
   refused("explain cpg",
-          "gaitlab explain: error: NAME is missing: name as `gaitlab list` prints it; of a module also its file, NAME.yaml; "
+          "gaitlab explain: error: NAME is missing: a name that `gaitlab list` prints, or the file NAME.yaml of a module; "
           "expected gaitlab explain [KIND] [NAME]");
   refused("new", "gaitlab new: error: a command is missing; expected gaitlab new and one of: plugin");
   refused("new plugn", "gaitlab new: error: unknown command 'plugn'; did you mean 'plugin'?");
@@ -89,8 +89,8 @@ TEST_F(Messages, AValueOfAnotherKind) {
   refused("test '' ok.yaml",
           "gaitlab test: error: SCENARIO is empty; expected scenario files, or folders of them (default: scenarios)");
   refused("report ''",
-          "gaitlab report: error: RUN is empty; expected run folder; of two, B is laid over A on one page, compare.html in the "
-          "folder of A");
+          "gaitlab report: error: RUN is empty; expected run folder, or two, A and B: a page shows B over A, compare.html in "
+          "the folder of A");
   refused("run ok.yaml --quiet=5x", "gaitlab run: error: --quiet is given '5x'; expected no value");
 }
 
@@ -115,8 +115,8 @@ TEST_F(Messages, ARingOfModules) {
   const std::string chain = "gaitlab: 1\nrobot: {modules: mtran, docks: [";
   const std::string end = "]}\nduration: 1\n";
   const std::string ring =
-      "error: this dock closes a ring: module 0 and module {} are joined by others already; a robot stays one tree, closed "
-      "chains are not supported";
+      "error: this dock closes a ring: module 0 and module {} are already connected by other docks; docks must form a tree, "
+      "closed chains are not supported";
   refused_text(chain + "[1, 1, 4, 0, 0], [1, 2, 4, 1, 0], [1, 0, 4, 2, 0]" + end,
                "s.yaml:2:67: " + fmt::format(fmt::runtime(ring), 2));
   refused_text(chain + "[1, 0, 4, 1, 0], [1, 1, 4, 2, 0], [1, 2, 4, 0, 0]" + end,
@@ -162,8 +162,8 @@ TEST_F(Messages, WhereAPageIsWritten) {
   refused("report run --page run", "run: error: exists; nothing was written");
   refused("report run --page none/p.html", "none/p.html: error: cannot be written: its folder does not exist");
   refused("report run --page ''",
-          "gaitlab report: error: --page is empty; expected file for the page alone; new, or the run's report.html (of two "
-          "runs compare.html)");
+          "gaitlab report: error: --page is empty; expected file for only the page: a new file, or the run's report.html (for "
+          "two runs compare.html)");
   refused("check ok.yaml --page ok.yaml", "ok.yaml: error: exists; nothing was written");
   refused("run ok.yaml --no-reports", "gaitlab run: error: unknown option '--no-reports'; did you mean '--no-report'?");
   EXPECT_TRUE(call("report run --page p.html").out.ends_with(where + "p.html\n"));
@@ -202,7 +202,7 @@ TEST_F(Messages, AControllerForTheTorqueActuator) {
 TEST_F(Messages, AFolderIsNotARobotToExport) {
   ASSERT_EQ(call("run ok.yaml --quiet --out run").code, 0);
   refused("export run --to mjcf a.xml",
-          "run: error: is a folder; --to mjcf takes a scenario, of a run folder its scenario.resolved.yaml");
+          "run: error: is a folder; --to mjcf needs a scenario file, for a run folder its scenario.resolved.yaml");
 }
 
 TEST_F(Messages, WhatTheMachineCannotHold) {
@@ -217,7 +217,7 @@ TEST_F(Messages, WhatTheMachineCannotHold) {
   const std::string program =
       "'" + std::string(GAITLAB_BINARY_DIR) + "/bin/gaitlab' check ok.yaml --set trace.period=1e-4 2>err";
   for (const auto& [duration, there_is] :
-       {std::pair("350", "ulimit -v allows 1.02 GB of memory"), {"227", "so much memory is not to be had"}}) {
+       {std::pair("350", "ulimit -v allows 1.02 GB of memory"), {"227", "that much memory is not available"}}) {
     const int status = std::system(
         fmt::format("cd '{}' && ulimit -v 1000000 && {} --set duration={}", folder_.path().string(), program, duration)
             .c_str());

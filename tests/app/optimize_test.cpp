@@ -59,10 +59,11 @@ TEST_F(Optimize, TellsWhatItWouldDo) {
   study(kGentle + std::string("budget: {runs: 24}\n"));
   const Result result = call("optimize s.yaml --dry-run -j 1");
   EXPECT_EQ(result.code, 0);
-  EXPECT_EQ(result.out.rfind("24 runs: 24 points, 1 run each\nmethod cma chooses them, and the best 1 are run again\n"
-                             "72 s simulated in all\ntakes about ",
-                             0),
-            0U)
+  EXPECT_EQ(
+      result.out.rfind("24 runs: 24 points, 1 run each\nmethod cma chooses the points, and the best 1 are simulated again\n"
+                       "72 s simulated in all\ntakes about ",
+                       0),
+      0U)
       << result.out;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "runs"));
 }

@@ -41,16 +41,15 @@ TEST_F(Program, BuildFileErrorsNameTheRow) {
       "passive, so module 1 could take face 3, 4, 5");
   expect_refused_rows("1 1 4 0 0\n\n# comment\n0 2 4 0 0\n",
                       "bad.dat:4:1: error: face 4 of module 0 is used twice: a face docks once\n"
-                      "bad.dat:1:1: note: it is docked here already");
+                      "bad.dat:1:1: note: this face is already docked here");
   expect_refused_rows("1 1 4 7 0\n",
                       "bad.dat:1:1: error: unknown parent module 7: it is neither module 0 nor the child of a row");
-  expect_refused_rows(
-      "1 1 4 0 0\n1 2 4 1 0\n0 2 3 0 0\n",
-      "bad.dat:3:1: error: this dock closes a ring: module 2 and module 0 are joined by others already; a robot "
-      "stays one tree, closed chains are not supported\n"
-      "bad.dat:2:1: note: it has its first parent here");
+  expect_refused_rows("1 1 4 0 0\n1 2 4 1 0\n0 2 3 0 0\n",
+                      "bad.dat:3:1: error: this dock closes a ring: module 2 and module 0 are already connected by other "
+                      "docks; docks must form a tree, closed chains are not supported\n"
+                      "bad.dat:2:1: note: its first parent is given here");
   expect_refused_rows("1 1 4 0 0\n1 2 4 3 0\n1 3 4 2 0\n",
-                      "bad.dat:2:1: error: loop: modules 2 on 3 on 2 hang on one another and none on module 0");
+                      "bad.dat:2:1: error: loop: modules 2 on 3 on 2 are docked to one another, but none of them to module 0");
   expect_refused_rows(
       "1 1 4 0 0\n1 3 4 1 0\n",
       "bad.dat:2:1: error: gap in the numbering: there is a module 3 but no module 2; modules are numbered 0 to n-1");
@@ -132,7 +131,7 @@ TEST_F(Program, ConvergeShowsErrorOrderAndTheStepThatIsGood) {
   EXPECT_TRUE(shows("joint.15.torque ")) << r.out;
   EXPECT_FALSE(shows("joint.9.torque ")) << r.out;
   EXPECT_TRUE(shows("worst: joint[.]1[0-5][.]torque +0[.]0[0-9]+ % +0[.]0[0-9]+ % +(0[.]9|1[.][01])\n")) << r.out;
-  EXPECT_TRUE(shows("step 2.5e-05 s is good for 1 %")) << r.out;
+  EXPECT_TRUE(shows("step 2.5e-05 s is accurate to 1 %")) << r.out;
 
   for (const std::string odd : {"\"a'b\"", "'a\"b'", "'a, b'"}) {
     const Result none = gaitlab(arguments + " --columns " + odd, folder / "");

@@ -18,8 +18,8 @@ class RefusedPlugins : public ::testing::Test {
   void only_with_leave(const std::string& arguments) {
     const Result refused = call(arguments);
     EXPECT_EQ(refused.code, 2) << arguments << refused.out;
-    EXPECT_TRUE(contains(refused.err, " is code of whoever made it, and is not loaded; if you trust it: gaitlab " + arguments +
-                                          " --plugins-from-scenario, or --plugin FILE for each that you do\n"))
+    EXPECT_TRUE(contains(refused.err, " is foreign code and is not loaded; if you trust it: gaitlab " + arguments +
+                                          " --plugins-from-scenario, or --plugin FILE for each plugin\n"))
         << refused.err;
     const Result other = call(arguments + " --plugin '" + std::string(GAITLAB_BINARY_DIR) + "/plugins/rises.so'");
     EXPECT_EQ(other.code, 2) << arguments;

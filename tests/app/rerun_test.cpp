@@ -58,17 +58,18 @@ TEST_F(Rerun, ACsvRunStaysOne) {
   fs::remove(folder / "csv/scenario.resolved.yaml");
   const Result result = verify("csv");
   EXPECT_EQ(result.code, 2);
-  EXPECT_EQ(result.err,
-            "csv/trace.csv: error: a CSV trace does not hold its scenario, and there is no csv/scenario.resolved.yaml\n");
+  EXPECT_EQ(
+      result.err,
+      "csv/trace.csv: error: a CSV trace does not contain its scenario, and there is no file csv/scenario.resolved.yaml\n");
 }
 
 TEST_F(Rerun, NamesWhatDiffers) {
   replace("a/scenario.resolved.yaml", "frequency: 0.5", "frequency: 0.6");
   const Result result = verify("a");
   EXPECT_EQ(result.code, 4) << result.err;
-  EXPECT_TRUE(contains(result.out, "a: differs (A: the recorded run, B: the run again)\n")) << result.out;
+  EXPECT_TRUE(contains(result.out, "a: differs (A: the recorded run, B: the repeated run)\n")) << result.out;
   EXPECT_TRUE(contains(result.out, "\n    m0/active ")) << result.out;
-  EXPECT_TRUE(contains(result.out, "is not the one in trace.h5:\n    cpg.frequency: 0.5 -> 0.6\n")) << result.out;
+  EXPECT_TRUE(contains(result.out, "differs from the scenario in trace.h5:\n    cpg.frequency: 0.5 -> 0.6\n")) << result.out;
 }
 
 TEST_F(Rerun, AnotherBuildIsNamedAndCounts0WhereTheBitsAreTheSame) {
@@ -93,7 +94,7 @@ TEST_F(Rerun, ToleratesTheLastBits) {
   const Result result = verify("a");
   EXPECT_EQ(result.code, 0);
   EXPECT_TRUE(contains(result.out, "a: within 1e-09 of range, not bit-equal")) << result.out;
-  EXPECT_TRUE(contains(result.out, "is not the one that summary.json was made from; the run again gives that one"))
+  EXPECT_TRUE(contains(result.out, "is not the trace from which summary.json was computed; the repeated run gives that trace"))
       << result.out;
 }
 
@@ -103,7 +104,8 @@ TEST_F(Rerun, ARunThatEndedEarlyIsComparedUpToItsLastRow) {
   const Result result = verify("a");
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_TRUE(contains(result.out, ": bit-equal: 21 rows of ")) << result.out;
-  EXPECT_TRUE(contains(result.out, "it ended early (interrupted at t = 0.1 s): compared up to its last row, t = 0.1 s"))
+  EXPECT_TRUE(
+      contains(result.out, "the recorded run ended early (interrupted at t = 0.1 s): compared up to its last row, t = 0.1 s"))
       << result.out;
   replace("a/summary.json", "interrupted at t = 0.1 s", "done");
   EXPECT_EQ(verify("a").code, 4);  // a truncated trace does not count as an early end
@@ -119,7 +121,7 @@ TEST_F(Rerun, ADivergedRunIsVerified) {
   ASSERT_EQ(gaitlab("run wild.yaml --quiet --out w", folder / "").code, 1);
   const Result result = verify("w");
   EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_TRUE(contains(result.out, "it ended early (diverged at step 1")) << result.out;
+  EXPECT_TRUE(contains(result.out, "the recorded run ended early (diverged at step 1")) << result.out;
 }
 
 TEST_F(Rerun, AnotherPluginFileIsRefusedButComparedByVerify) {
@@ -131,10 +133,10 @@ TEST_F(Rerun, AnotherPluginFileIsRefusedButComparedByVerify) {
   std::ofstream(library, std::ios::binary | std::ios::app) << "one byte more";
   const Result again = gaitlab("rerun p --quiet --out again --plugins-from-scenario", folder / "");
   EXPECT_EQ(again.code, 2);
-  EXPECT_TRUE(contains(again.err, "is not the file of the record: its hash is ")) << again.err;
+  EXPECT_TRUE(contains(again.err, "is not the recorded file: its hash is ")) << again.err;
   const Result result = verify("p --plugins-from-scenario");
   EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_TRUE(contains(result.out, "plugin " + library + ": another file: hash then ")) << result.out;
+  EXPECT_TRUE(contains(result.out, "plugin " + library + ": the file has changed: hash then ")) << result.out;
 }
 
 /// Every command refuses a damaged trace with exit code 2 and a message with the file, and does not crash (also under

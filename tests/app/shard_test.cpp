@@ -30,7 +30,7 @@ TEST_F(Shard, OfAnArrayAreItsTasksInOrder) {
   const Result part = call("study merge s");
   EXPECT_EQ(part.code, 1);
   EXPECT_EQ(part.out, "s/study.db: 4 of 6 runs\n");
-  EXPECT_EQ(part.err, "s: error: 1 of 3 shards are missing or not whole; run them again: --array=1\n");
+  EXPECT_EQ(part.err, "s: error: 1 of 3 shards are missing or incomplete; run them again: --array=1\n");
   task("1", "1", "1", "1");  // sbatch --array=1 repeats one task; the numbers follow from the existing shards
   EXPECT_TRUE(has("1-of-3"));
   for (int k = 0; k < 2; ++k) {
@@ -38,7 +38,7 @@ TEST_F(Shard, OfAnArrayAreItsTasksInOrder) {
     EXPECT_EQ(whole.code, 0) << whole.err;
     EXPECT_EQ(whole.out, "s/study.db: 6 of 6 runs\n");
   }
-  task("7", "3", "2", "4", 2, "--shard auto: error: task 7 is none of the 3 shards in s");
+  task("7", "3", "2", "4", 2, "--shard auto: error: task 7 is not one of the 3 shards in s");
 }
 
 TEST_F(Shard, OfAnArrayNeedWhatSlurmSets) {
@@ -47,7 +47,7 @@ TEST_F(Shard, OfAnArrayNeedWhatSlurmSets) {
           "--shard auto: error: SLURM_ARRAY_TASK_MIN is not set; a Slurm array sets it\n"
           "--shard auto: error: SLURM_ARRAY_TASK_COUNT is not set; a Slurm array sets it");
   task("x", "0", "2", "1", 2, "--shard auto: error: SLURM_ARRAY_TASK_ID is 'x'; expected a number");
-  const std::string expected = "; expected an array A-B or A-B:STEP, or some tasks of one whose shards are in the folder";
+  const std::string expected = "; expected an array A-B or A-B:STEP, or some tasks of an array whose shards are in the folder";
   task("17", "3", "2", "1", 2, "--shard auto: error: task 17 is not one of an array of 2 from 3 in steps of 1" + expected);
   task("2", "3", "2", "1", 2, "--shard auto: error: task 2 is not one of an array of 2 from 3 in steps of 1" + expected);
   task("4", "3", "2", "2", 2, "--shard auto: error: task 4 is not one of an array of 2 from 3 in steps of 2" + expected);
@@ -101,7 +101,7 @@ TEST_F(Shard, OfASmallerBudgetAreNotWhole) {
   const Result part = call("study merge s");
   EXPECT_EQ(part.code, 1);
   EXPECT_EQ(part.out, "s/study.db: 10 of 12 runs\n");
-  EXPECT_EQ(part.err, "s: error: 1 of 2 shards are missing or not whole; run them again: --array=0\n");
+  EXPECT_EQ(part.err, "s: error: 1 of 2 shards are missing or incomplete; run them again: --array=0\n");
   ASSERT_EQ(call("sweep study.yaml --out s --quiet --shard 0/2 --runs 12").code, 0);
   EXPECT_EQ(call("study merge s").out, "s/study.db: 12 of 12 runs\n");
 }

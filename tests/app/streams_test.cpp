@@ -78,8 +78,8 @@ TEST_F(Streams, ThreadsWithoutRoomAreTold) {
   const Result few = shell(limits, "converge ok.yaml --quiet -j 4", ">out");
   EXPECT_EQ(few.code, 0) << few.err;
   EXPECT_TRUE(few.err.starts_with("gaitlab: warning: thread 2 of ")) << few.err;
-  EXPECT_TRUE(
-      contains(few.err, " cannot be started (Resource temporarily unavailable); the work goes on in 1; -j asks for fewer"))
+  EXPECT_TRUE(contains(
+      few.err, " cannot be started (Resource temporarily unavailable); the work continues with 1; take fewer threads with -j"))
       << few.err;
   const std::string shown = read(folder_ / "out");
   EXPECT_EQ(shown, call("converge ok.yaml --quiet -j 4").out);
@@ -105,9 +105,9 @@ TEST_F(Streams, FewMessagesAndShortOnes) {
   std::string more = patterns;
   for (int k = 0; k < 101; ++k) more += ", joint.*";
   folder_.write("list.yaml", "gaitlab: 1\nrobot: {modules: mtran}\nduration: 1\ntrace: {columns: [" + more + "]}\n");
-  EXPECT_EQ(
-      call("check list.yaml").err,
-      "list.yaml:4:18: error: has 1001 names and patterns; expected at most 1000: with * and ? one stands for many columns\n");
+  EXPECT_EQ(call("check list.yaml").err,
+            "list.yaml:4:18: error: has 1001 names and patterns; expected at most 1000: a pattern with * and ? selects many "
+            "columns\n");
 }
 
 }  // namespace

@@ -162,14 +162,15 @@ TEST_F(StudyFolder, MissingShardsAreToldAsRanges) {
   made(kInto + "parts --shard 0/2");
   fs::create_directories(folder_ / "m/shards");
   fs::copy(folder_ / "parts/shards/0-of-2.db", folder_ / "m/shards/0-of-9999999.db");
-  ends("study merge m", 1, "m: error: 9999998 of 9999999 shards are missing or not whole; run them again: --array=1-9999998\n");
+  ends("study merge m", 1,
+       "m: error: 9999998 of 9999999 shards are missing or incomplete; run them again: --array=1-9999998\n");
   fs::remove(folder_ / "m/study.db");
   for (int k = 2; k < 600; k += 2)  // every second shard exists
     fs::copy(folder_ / "parts/shards/0-of-2.db", folder_ / ("m/shards/" + std::to_string(k) + "-of-9999999.db"));
   const Result many = call("study merge m");
   EXPECT_EQ(many.code, 1);
   EXPECT_TRUE(contains(many.err, "--array=1,3,5,7,")) << many.err;
-  EXPECT_TRUE(contains(many.err, ",399 (and 100 more ranges; merge again for them)\n")) << many.err;
+  EXPECT_TRUE(contains(many.err, ",399 (and 100 more ranges; merge again to see them)\n")) << many.err;
 }
 
 TEST_F(StudyFolder, AnArrayOfOneTaskMerges) {
@@ -208,7 +209,7 @@ TEST_F(StudyFolder, TextsOfAJournalShowNoControlCharacters) {
   const Result shown = call("study show s");
   EXPECT_EQ(shown.code, 0) << shown.err;
   EXPECT_TRUE(shown.out.starts_with("a\\xe2\\x80\\xaeb: 4 of 9 runs ended")) << shown.out;
-  EXPECT_TRUE(contains(shown.out, "go on with: e\\xd8\\x9c\\x1b\n")) << shown.out;
+  EXPECT_TRUE(contains(shown.out, "continue with: e\\xd8\\x9c\\x1b\n")) << shown.out;
   ASSERT_EQ(call("study report s").code, 0);
   EXPECT_TRUE(contains(read(folder_ / "s/speed.svg"), "gaitlab c\\xe2\\x81\\xa6d\\xc2\\x9b")) << read(folder_ / "s/speed.svg");
 }

@@ -63,7 +63,7 @@ TEST_F(StudyScenarios, EveryPointRunsInEach) {
               summary.at("per_joint").at("m1/active").at("torque").at("peak").get<double>());
     const Result again = call("study rerun s " + row.at("run"));
     EXPECT_EQ(again.code, 0) << again.err;
-    EXPECT_TRUE(contains(again.out, "the quantities are those of the journal")) << again.out;
+    EXPECT_TRUE(contains(again.out, "the quantities are equal to those in the journal")) << again.out;
   }
   // Points are ordered by the worst of their four rows. The table contains the value of each scenario.
   const std::string shown = call("study show s").out;
@@ -100,11 +100,11 @@ TEST_F(StudyScenarios, AreTheSameBytesHoweverTheyRun) {
 TEST_F(StudyScenarios, AnswerOneAnotherByName) {
   ASSERT_EQ(call("sweep s.yaml --out s --quiet").code, 0);
   const Result same = call("sweep s.yaml --out same --answers s");
-  EXPECT_TRUE(contains(same.out, "4 of 4 runs were answered by other studies")) << same.out << same.err;
+  EXPECT_TRUE(contains(same.out, "4 of 4 runs were taken from other studies")) << same.out << same.err;
   EXPECT_EQ(read(folder_ / "same/table.csv"), read(folder_ / "s/table.csv"));
   study("", "swapped.yaml", "{long: two.yaml, short: three.yaml}");
   const Result swapped = call("sweep swapped.yaml --out swapped --answers s");
-  EXPECT_TRUE(contains(swapped.out, "0 of 4 runs were answered by other studies")) << swapped.out << swapped.err;
+  EXPECT_TRUE(contains(swapped.out, "0 of 4 runs were taken from other studies")) << swapped.out << swapped.err;
   // One file under two names has a row per name.
   study("", "twins.yaml", "{a: two.yaml, b: two.yaml}");
   ASSERT_EQ(call("sweep twins.yaml --out twins --quiet").code, 0);

@@ -99,11 +99,10 @@ TEST_F(SwapMatrix, ARunThatBreaksOffKeepsItsRow) {
 }
 
 TEST_F(SwapMatrix, WhatIsWrongIsToldOfAllAtOnce) {
-  refused("swap two.yaml two.yaml --cpg sine",
-          "two.yaml: error: its name, two, is that of two.yaml, too; expected a name: of its own");
+  refused("swap two.yaml two.yaml --cpg sine", "two.yaml: error: has the same name, two, as two.yaml; expected another name:");
   folder_.write("taken.yaml", "gaitlab: 1\nname: swap.csv\nrobot: {modules: mtran}\nduration: 0.1\n");
   refused("swap two.yaml taken.yaml --cpg sine",
-          "taken.yaml: error: its name, swap.csv, is that of a file of the swap; expected another name:");
+          "taken.yaml: error: its name, swap.csv, is also the name of an output file; expected another name:");
   refused("swap two.yaml soft.yaml --cpg sine,sine,hopff",
           "--cpg: error: names 'sine' twice\n--cpg: error: type 'hopff' is unknown; did you mean 'hopf'?");
   EXPECT_EQ(call("swap --cpg sine").code, 2);
@@ -139,7 +138,7 @@ TEST_F(SwapMatrix, ASweepThatIsStoppedGoesOn) {
     const Result stopped = signalled(command, out, signal);
     EXPECT_EQ(stopped.code, 1) << signal;
     EXPECT_TRUE(
-        stopped.err.ends_with(" go on with\ngaitlab sweep two.yaml --grid cpg.phase_lag=0.5:1.5:2 --set duration=100000 "
+        stopped.err.ends_with(" continue with\ngaitlab sweep two.yaml --grid cpg.phase_lag=0.5:1.5:2 --set duration=100000 "
                               "--out " +
                               out + "\n"))
         << stopped.err;

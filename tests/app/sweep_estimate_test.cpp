@@ -43,7 +43,7 @@ TEST_F(SweepEstimate, EstimatesSomePoints) {
       << none.out;
   const Result rerun = call("study rerun none 3");
   EXPECT_EQ(rerun.code, 0) << rerun.err;
-  EXPECT_TRUE(contains(rerun.out, "the quantities are those of the journal")) << rerun.out;
+  EXPECT_TRUE(contains(rerun.out, "the quantities are equal to those in the journal")) << rerun.out;
 }
 
 /// Before the first run, a note states the error of the speed that a step of 2.5 ms causes for the caterpillar in engine
@@ -55,7 +55,7 @@ TEST_F(SweepEstimate, TellsWhatTheStepCosts) {
            "cpg.amplitude=0.3 --out s");
   EXPECT_EQ(swept.code, 0) << swept.err;
   EXPECT_TRUE(contains(swept.err, "note: step 0.0025 s costs ")) << swept.err;
-  EXPECT_TRUE(contains(swept.err, " of speed on the scenario's own gait, auto ")) << swept.err;
+  EXPECT_TRUE(contains(swept.err, " in speed for the scenario's own gait, auto ")) << swept.err;
   EXPECT_TRUE(contains(swept.err, ": take physics.step: auto")) << swept.err;
 }
 
@@ -73,7 +73,7 @@ TEST_F(SweepEstimate, IsOfAllPointsWhereSomeAreNotToBeTrusted) {
     return made;
   };
   const Result all = swept("estimate_every: 1\n", "all", "");
-  EXPECT_TRUE(contains(all.out, "more than one in ten is beyond 5 %: take physics.step: auto")) << all.out;
+  EXPECT_TRUE(contains(all.out, "more than one in ten errors is beyond 5 %: take physics.step: auto")) << all.out;
   EXPECT_EQ(all.err.find("again with an estimate"), std::string::npos) << all.err;
   const Result some = swept("seed: 2\nestimate_every: 3\n", "some", "-j 1 --lanes 1");
   EXPECT_TRUE(contains(some.err, "more than one of ten estimated runs: the other 4 runs are made again with an estimate"))

@@ -54,7 +54,7 @@ TEST_F(Sweep, SaysWhyAPointIsNotKept) {
   ASSERT_EQ(swept.code, 0) << swept.err;
   EXPECT_TRUE(contains(swept.out, "two: 1 of 1 runs ended, 0 kept (0 %), 0 feasible, 0 failed\n")) << swept.out;
   EXPECT_TRUE(contains(swept.out, "run 0 is not kept: the motor of joint m")) << swept.out;
-  EXPECT_TRUE(contains(swept.out, "what most runs break: the verdict (1 run), check heat (1 run)\n")) << swept.out;
+  EXPECT_TRUE(contains(swept.out, "often broken limits: the verdict (1 run), check heat (1 run)\n")) << swept.out;
   const Result best = call("study best s");
   EXPECT_EQ(best.code, 3);
   EXPECT_EQ(best.err, "s: no point is kept\n");
@@ -116,7 +116,7 @@ TEST_F(Sweep, ItsRowsAreRuns) {
     EXPECT_EQ(std::stod(row.at("torque.peak")), peak);
     const Result again = call("study rerun s " + row.at("run"));
     EXPECT_EQ(again.code, 0) << again.err;
-    EXPECT_TRUE(contains(again.out, "the quantities are those of the journal")) << again.out;
+    EXPECT_TRUE(contains(again.out, "the quantities are equal to those in the journal")) << again.out;
   }
   EXPECT_TRUE(contains(read(folder_ / "s/speed.svg"), "cpg.phase_lag"));
   EXPECT_EQ(read(folder_ / "s/speed.csv").substr(0, 45), "cpg.phase_lag,speed,least,largest,state,best\n");
@@ -196,7 +196,7 @@ TEST_F(Sweep, RefusesWhatCannotBeRun) {
   refused("study show nowhere", "nowhere: error: holds no study: there is no study.db");
   folder_.write("study.yaml", "gaitlab_study: 1\nscenario: two.yaml\nparameters: {cpg.phase_lag: {values: [1]}}\n");
   refused("sweep study.yaml --grid cpg.phase_lag=1:2:3",
-          "--grid: error: has no place beside a study file; write parameters there");
+          "--grid: error: cannot be combined with a study file; write parameters in that file");
 }
 
 TEST_F(Sweep, FoldersOfStrangersAreData) {
@@ -270,14 +270,14 @@ TEST_F(Sweep, TakesAnswersOfOtherStudies) {
   sweep("--grid cpg.phase_lag=0.4:2:9 --out nine --quiet");
   sweep("--grid cpg.phase_lag=0.4:2:17 --out plain --quiet");
   const std::string out = sweep("--grid cpg.phase_lag=0.4:2:17 --out answered --answers nine/study.db");
-  EXPECT_TRUE(contains(out, "9 of 17 runs were answered by other studies")) << out;
+  EXPECT_TRUE(contains(out, "9 of 17 runs were taken from other studies")) << out;
   EXPECT_EQ(read(folder_ / "answered/table.csv"), read(folder_ / "plain/table.csv"));
   // With a different objective the scores are computed again.
   folder_.write("cost.yaml",
                 "gaitlab_study: 1\nscenario: two.yaml\nparameters: {cpg.phase_lag: {low: 0.4, high: 2, count: 9}}\n"
                 "objective: {minimize: torque.rms}\nconstraints: [speed >= 0.001]\n");
   const Result other = call("sweep cost.yaml --out cost --answers nine");
-  EXPECT_TRUE(contains(other.out, "9 of 9 runs were answered by other studies")) << other.out << other.err;
+  EXPECT_TRUE(contains(other.out, "9 of 9 runs were taken from other studies")) << other.out << other.err;
   for (const auto& row : table("cost")) EXPECT_EQ(row.at("objective.1"), row.at("torque.rms"));
   // Rows of a different duration are not used, and replicates have other seeds.
   EXPECT_TRUE(contains(sweep("--grid cpg.phase_lag=0.4:2:9 --set duration=0.31 --out longer --answers nine"), "0 of 9 runs"));
@@ -323,7 +323,7 @@ TEST_F(Sweep, OfSensitivityEndsWithATable) {
   const Result morris = call("sweep morris.yaml --out m");
   ASSERT_EQ(morris.code, 0) << morris.err;
   EXPECT_EQ(table("m").size(), 12U);
-  EXPECT_TRUE(contains(morris.out, "what changes speed, m/s per range of the parameter: 4 of 4 trajectories")) << morris.out;
+  EXPECT_TRUE(contains(morris.out, "influence on speed, m/s per range of the parameter: 4 of 4 trajectories")) << morris.out;
   EXPECT_TRUE(contains(call("study show m").out, "mu_star")) << morris.out;
   const Result sobol = call("sweep sobol.yaml --out s");
   ASSERT_EQ(sobol.code, 0) << sobol.err;

@@ -86,7 +86,7 @@ TEST_F(TwoRuns, OverwriteNothingElse) {
     EXPECT_EQ(result.out, "");
   };
   refused("report a fast --page a/trace.h5", "a/trace.h5: error: exists; nothing was written\n");
-  refused("report a fast --out both", "--out both: error: takes one run; of two there is a page: --page FILE\n");
+  refused("report a fast --out both", "--out both: error: is only for one run; for two runs write a page: --page FILE\n");
   refused("report a fast --page no/such.html", "no/such.html: error: cannot be written: its folder does not exist\n");
   EXPECT_EQ(call("report a nowhere").code, 2);
   EXPECT_EQ(call("report a fast pendulum").code, 2);

@@ -72,7 +72,8 @@ TEST_F(EquationTexts, KnowWhereAWordMayStand) {
   EXPECT_EQ(output("x + angle"), "8:17: error: 'angle' may not be used in the output; only in a derivative");
   EXPECT_EQ(wrong("initial: {phi: r}"),
             "8:20: error: 'r' may not be used in an initial value; only in a derivative or the output");
-  EXPECT_EQ(wrong("parameters: {a: b, b: 2}"), "8:21: error: 'b' stands below; a parameter may name those above it");
+  EXPECT_EQ(wrong("parameters: {a: b, b: 2}"),
+            "8:21: error: 'b' is defined below; a parameter may use only parameters above it");
   EXPECT_EQ(wrong("parameters: {a: t}"), "8:21: error: 't' may not be used in a parameter; only in a derivative or the output");
   EXPECT_EQ(wrong("initial: {phy: 1}"), "8:15: error: 'phy' is not a state; did you mean 'phi'?");
   EXPECT_EQ(wrong("parameters: {sin: 1}"), "8:18: error: 'sin' has a fixed meaning in equations; choose another name");

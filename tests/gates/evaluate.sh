@@ -67,6 +67,6 @@ code=0
 questions 0 60 | evaluate --out "$work/unread" -j 1 2>"$work/log" >&9 9>&- || code=$?
 exec 9>&-
 ((code == 1)) || bad "nobody reads: exit code $code"
-said "nobody reads the answers"
+said "the reader of the answers has closed"
 ok "nobody reads: exit code 1"
 verdict

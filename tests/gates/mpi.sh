@@ -70,7 +70,7 @@ ok "ranks killed, then the same command"
 
 killed "$work/stopped" TERM 0
 ((code != 0)) || bad "SIGTERM: exit code 0"
-said "go on with gaitlab sweep"
+said "continue with gaitlab sweep"
 [[ $(sqlite3 "$work/stopped/study.db" 'select count(*) from attempt') == 0 ]] || bad "SIGTERM: runs that were stopped count as such that ended the process"
 expect 0 "$program" sweep "$work/study.yaml" --quiet --out "$work/stopped" -j 2
 cmp <(rows "$work/whole") <(first "$work/stopped") || bad "SIGTERM to mpirun, then one process: other rows"

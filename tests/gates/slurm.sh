@@ -115,7 +115,7 @@ kill -9 "$pid"
 release
 ended "$job"
 expect 1 gaitlab study merge "$OUT"
-said "1 of 4 shards are missing or not whole; run them again: --array=2"
+said "1 of 4 shards are missing or incomplete; run them again: --array=2"
 ok "one of four tasks killed, and told"
 
 scontrol requeue "${job}_2" && scontrol update "JobId=${job}_2" StartTime=now

@@ -53,7 +53,7 @@ kill -TERM "$process"
 code=0
 wait "$process" || code=$?
 ((code == 1)) || bad "SIGTERM: exit code $code"
-said "go on with gaitlab sweep"
+said "continue with gaitlab sweep"
 [[ $(sqlite3 "$work/stopped/study.db" 'select count(*) from attempt') == 0 ]] || bad "SIGTERM: a run that was stopped counts as one that ended the process"
 expect 0 sweep --out "$work/stopped" -j 1
 if cmp <(rows "$work/whole") <(rows "$work/stopped" | head -n 96); then ok "SIGTERM, then the same command"; else bad "SIGTERM: other rows"; fi

@@ -36,8 +36,8 @@ TEST(WideNumbers, FivePercentIsNotWide) {
 TEST(WideNumbers, SaysWhatWouldPassWhyAndTheRemedy) {
   EXPECT_EQ(
       golden::wide_numbers(golden_of({0.001, 0.42}), scenario_of(kImplicit)),
-      "walk.yaml: warning: the band of m1/active torque peak is 42 %: 0.71 N m would pass gaitlab test, where 0.5 N m was "
-      "approved; half the step changes it by 14 %, and three times that is the band; take a smaller step\n");
+      "walk.yaml: warning: the band of m1/active torque peak is 42 %: 0.71 N m would pass gaitlab test, although 0.5 N m was "
+      "approved; half the step changes this number by 14 %, and the band is three times this change; take a smaller step\n");
   EXPECT_EQ(golden::wide_number_names(golden_of({0.001, 0.42})), "m1/active torque peak 42 %");
 }
 
@@ -47,19 +47,21 @@ TEST(WideNumbers, APeakOfTheStartIsNamedAsOne) {
   golden.numbers[0].value = -0.5;
   EXPECT_EQ(
       golden::wide_numbers(golden, scenario_of(kAdaptive)),
-      "walk.yaml: warning: the band of m0/active torque peak is 42 %: -0.71 N m would pass gaitlab test, where -0.5 N m was "
-      "approved; a tenth of physics.accuracy changes it by 14 %, and three times that is the band; make physics.accuracy "
-      "smaller; the peak is of the start (t = 0.015 s), not of the gait: where the first set points are far from "
-      "initial.angles, other angles may help, too\n");
+      "walk.yaml: warning: the band of m0/active torque peak is 42 %: -0.71 N m would pass gaitlab test, although -0.5 N m was "
+      "approved; a tenth of physics.accuracy changes this number by 14 %, and the band is three times this change; make "
+      "physics.accuracy smaller; the peak occurs at the start (t = 0.015 s), not in the gait: if the first set points are far "
+      "from "
+      "initial.angles, other initial angles may help\n");
 }
 
 TEST(WideNumbers, WhatGrowsFromRoundingNeedsAShorterRun) {
   Golden golden = golden_of({0.01});
   golden.number_bands[0].ensemble = 0.2;
-  EXPECT_EQ(golden::wide_numbers(golden, scenario_of(kImplicit)),
-            "walk.yaml: warning: the band of m0/active torque peak is 20 %: 0.6 N m would pass gaitlab test, where 0.5 N m was "
-            "approved; starts that differ by 1e-7 rad change it by 2 %, and ten times that is the band; shorten the run, so "
-            "that less grows from nothing\n");
+  EXPECT_EQ(
+      golden::wide_numbers(golden, scenario_of(kImplicit)),
+      "walk.yaml: warning: the band of m0/active torque peak is 20 %: 0.6 N m would pass gaitlab test, although 0.5 N m was "
+      "approved; starts that differ by 1e-7 rad change this number by 2 %, and the band is ten times this change; "
+      "shorten the run, in which small differences grow\n");
 }
 
 TEST(WideNumbers, TheThreeWidestAreExplained) {

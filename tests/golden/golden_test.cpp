@@ -88,8 +88,9 @@ TEST(GoldenReport, NamesTheSettingsThatChanged) {
   now.engine = "articulated";
   now.resolved = "name: \"walk\"\nKp: 97\n\n";
   now.scenario = hash(now.resolved);
-  EXPECT_EQ(golden::origin_changes(golden.origin, now),
-            "  engine: bullet -> articulated\n  the scenario is another; the golden is of before goldens kept it\n");
+  EXPECT_EQ(
+      golden::origin_changes(golden.origin, now),
+      "  engine: bullet -> articulated\n  the scenario has changed; this old golden does not contain the approved scenario\n");
   golden.origin.resolved = kText;
   EXPECT_EQ(golden::origin_changes(golden.origin, now), "  Kp: 100 -> 97\n");
   now.resolved = "name: fast\nKp: 97\n";
@@ -209,9 +210,9 @@ class GoldenFolder : public ::testing::Test {
 TEST_F(GoldenFolder, MissingFiles) {
   EXPECT_EQ(complaint(), kNoError);
   fs::remove(folder_.path() / "trace.golden");
-  EXPECT_EQ(complaint(), "G/trace.golden: error: is missing: the golden is only half there");
+  EXPECT_EQ(complaint(), "G/trace.golden: error: is missing: the golden is incomplete");
   fs::remove(folder_.path() / "golden.json");
-  EXPECT_EQ(complaint(), "G/golden.json: error: is missing: the golden is only half there");
+  EXPECT_EQ(complaint(), "G/golden.json: error: is missing: the golden is incomplete");
   EXPECT_EQ(message_of([&] { (void)read_golden("no/where.golden"); }),
             "no/where.golden: error: there is no such golden; gaitlab approve makes it");
 }
@@ -232,8 +233,8 @@ TEST_F(GoldenFolder, DamagedJson) {
   put("golden.json", text);
   replace("\"halving\":0.0003", "\"halving\":0.0009");
   EXPECT_EQ(complaint(),
-            "G/golden.json: error: is corrupt or was changed by hand: its checksum is another; bands are made by gaitlab "
-            "approve");
+            "G/golden.json: error: is corrupt or was changed by hand: its checksum does not match; only gaitlab approve "
+            "changes goldens");
   put("golden.json", text);
   replace("\"rows\"", "\"rows");
   EXPECT_EQ(complaint(), "G/golden.json: error: is corrupt: it is not JSON");
@@ -310,7 +311,7 @@ TEST_F(GoldenFolder, IsWrittenByOneAtATime) {
   const int other = ::open(folder_.path().c_str(), O_RDONLY | O_DIRECTORY);
   ASSERT_EQ(::flock(other, LOCK_EX), 0);
   EXPECT_EQ(message_of([&] { write_golden(sample_golden(walk()), folder_.path()); }),
-            folder_.path().string() + ": error: is being written by another process; call again");
+            folder_.path().string() + ": error: is being written by another process; try again later");
   ::close(other);
   EXPECT_EQ(message_of([&] { write_golden(sample_golden(walk()), folder_.path()); }), kNoError);
 }

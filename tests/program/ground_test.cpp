@@ -140,8 +140,9 @@ TEST(GroundStart, SaysWhyTheRobotIsDeepInTheGround) {
       deep.err,
       "s.yaml:2:62: warning: the robot starts 0.0975 m deep in the ground: on_ground is off (a position of three numbers "
       "turns it off) and the base frame starts at z = 0 m; position: [0.5, 0.25] lowers the robot onto the ground there\n");
-  EXPECT_NE(deep.out.find("  base frame at [0.5, 0.25, 0] m at the start: position gives the height, on_ground is off\n"),
-            std::string::npos)
+  EXPECT_NE(
+      deep.out.find("  base frame at [0.5, 0.25, 0] m at the start: at the height in position, because on_ground is off\n"),
+      std::string::npos)
       << deep.out;
   const Result lowered = stands(", position: [0.5, 0.25]");
   EXPECT_EQ(lowered.err, "");

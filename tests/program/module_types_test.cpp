@@ -75,11 +75,11 @@ TEST(ModuleTypes, AFaceWithoutGenderIsTwoOfFormat1) {
 TEST(ModuleTypes, OneConnectorDocksOnce) {
   const std::string twice =
       error_of(robot(cube("1", "cube", kTwoNumbers, kMotor), "cube", "[[0, 1, 11, 0, 0], [10, 2, 1, 0, 0]]"));
-  EXPECT_TRUE(contains(twice, "face 1 of module 0 is used twice: it is where face 11 is, and a face docks once")) << twice;
+  EXPECT_TRUE(contains(twice, "face 1 of module 0 is used twice: it coincides with face 11, and a face docks once")) << twice;
   const std::string ring =
       error_of(robot(cube("2", "cube", faces(), kMotor), "cube", "[[0, 1, 1, 0, 0], [0, 2, 1, 1, 0], [0, 0, 1, 2, 0]]"));
   EXPECT_TRUE(contains(ring, "closes a ring")) << ring;
-  EXPECT_TRUE(contains(ring, "a robot stays one tree")) << ring;
+  EXPECT_TRUE(contains(ring, "docks must form a tree")) << ring;
 }
 
 TEST(ModuleTypes, OnlyLikeConnectorsDock) {
@@ -87,10 +87,13 @@ TEST(ModuleTypes, OnlyLikeConnectorsDock) {
   const std::string b = cube("2", "b", faces(", connector: roficom"), kMotor);
   const std::string c = cube("2", "c", faces(), kMotor);
   const std::string other = error_of(robot(a + b, "{0: a, 1: b}", "[[0, 1, 1, 0, 0]]"));
-  EXPECT_TRUE(contains(other, "face 0 of module 1 has connector 'roficom', face 1 of module 0 'hook'; only like dock"))
+  EXPECT_TRUE(contains(
+      other, "face 0 of module 1 has connector 'roficom', face 1 of module 0 'hook'; only faces with the same connector dock"))
       << other;
   const std::string none = error_of(robot(a + c, "{0: a, 1: c}", "[[0, 1, 1, 0, 0]]"));
-  EXPECT_TRUE(contains(none, "face 0 of module 1 has connector none, face 1 of module 0 'hook'; only like dock")) << none;
+  EXPECT_TRUE(contains(
+      none, "face 0 of module 1 has connector none, face 1 of module 0 'hook'; only faces with the same connector dock"))
+      << none;
   const std::string turn = error_of(robot(a, "a", "[[0, 1, 1, 0, 1]]"));
   EXPECT_TRUE(contains(turn, "orientation 1 is not one of the turns of face 0 (a): 0, 2")) << turn;
   EXPECT_EQ(error_of(robot(a, "a", "[[0, 1, 1, 0, 2]]")), kNoError);
@@ -144,17 +147,16 @@ TEST(ModuleTypes, EveryJointHasTheMotorAndTheGainsOfItsType) {
 TEST(ModuleTypes, DifferentKindsOfMotorsAreAQuestion) {
   const std::string torque = "      actuator: {type: torque, limit: 1}\n";
   const std::string text = error_of(robot(cube("2", "small", kGendered, torque), "{0: mtran, 1: small}", "[[0, 1, 4, 0, 0]]"));
-  EXPECT_TRUE(contains(text, "the module types have different actuators; say which one holds: add actuator: {type: ...}"))
-      << text;
+  EXPECT_TRUE(contains(text, "the module types have different actuators; choose one: add actuator: {type: ...}")) << text;
   const std::string none = error_of(robot(cube("2", "small", kGendered, ""), "{0: mtran, 1: small}", "[[0, 1, 4, 0, 0]]"));
-  EXPECT_TRUE(contains(none, "some of the module types with a motor state none; say which one holds")) << none;
+  EXPECT_TRUE(contains(none, "some of the module types with a motor state none; choose one")) << none;
   const std::string hold = "      actuator: {type: dc_motor}\n      controller: {type: hold}\n";
   const std::string controllers =
       error_of(robot(cube("2", "small", kGendered, hold), "{0: mtran, 1: small}", "[[0, 1, 4, 0, 0]]"));
-  EXPECT_TRUE(contains(controllers, "the module types have different controllers; say which one holds")) << controllers;
+  EXPECT_TRUE(contains(controllers, "the module types have different controllers; choose one")) << controllers;
   const std::string models = "      actuator: {type: dc_motor, efficiency_model: directional}\n";
   const std::string one = error_of(robot(cube("2", "small", kGendered, models), "{0: mtran, 1: small}", "[[0, 1, 4, 0, 0]]"));
-  EXPECT_TRUE(contains(one, "efficiency_model is one for all joints of a robot, and other hinges have another one")) << one;
+  EXPECT_TRUE(contains(one, "efficiency_model must be equal for all joints of a robot, but differs between its hinges")) << one;
   // Module types of format 1 must have the same motor.
   const std::string old = error_of(robot(cube("1", "small", kGendered, kMotor), "{0: mtran, 1: small}", "[[0, 1, 4, 0, 0]]"));
   EXPECT_TRUE(contains(old, "the module types have different actuators")) << old;

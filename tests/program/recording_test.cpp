@@ -14,7 +14,7 @@
 namespace gaitlab::test {
 namespace {
 
-const std::string kRemedy = "; one of the two files is of another run: put it back, or simulate again\n";
+const std::string kRemedy = "; one of the two files belongs to another run: restore the right file, or simulate again\n";
 
 struct Kept {
   const char *name, *scenario, *arguments;
@@ -173,9 +173,10 @@ TEST_F(OldFolder, IsReadAsFarAsItGoes) {
       << result.err;
   const Result refused = gaitlab("report old --out new", folder_.path());
   EXPECT_EQ(refused.code, 2);
-  EXPECT_TRUE(refused.err.starts_with("old: error: summary and figure cannot be made anew: old/trace.h5 contains only rows"))
+  EXPECT_TRUE(
+      refused.err.starts_with("old: error: summary and figure cannot be computed again: old/trace.h5 contains only rows"))
       << refused.err;
-  EXPECT_TRUE(refused.err.ends_with("simulate it again: gaitlab rerun old\n")) << refused.err;
+  EXPECT_TRUE(refused.err.ends_with("simulate again: gaitlab rerun old\n")) << refused.err;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "new"));
 }
 
@@ -328,7 +329,7 @@ TEST(Recordings, OfAnotherRobotAreRefused) {
   forged = walked;
   forged.trace.columns.change([&](auto& columns) { columns[forged.trace.find("base.x")].name = "base.u"; });
   EXPECT_EQ(complaint(forged, "hexapod.yaml"),
-            ".: error: its recording does not fit its scenario: columns that every recording has are not there" + kRemedy);
+            ".: error: its recording does not fit its scenario: columns that every recording contains are missing" + kRemedy);
 }
 
 }  // namespace

@@ -269,8 +269,8 @@ TEST(Servo, TooLargeAGainIsTold) {
   };
   ASSERT_EQ(told("100").size(), 1U);
   EXPECT_EQ(told("100")[0].text,
-            "Kp 100 of joint m0/active is too large for commands every 0.015 s: the share of its error that the joint goes per "
-            "command is 2.73, and above 2 it cannot settle; take Kp: 36 or less, or a shorter controller.period");
+            "Kp 100 of joint m0/active is too large for commands every 0.015 s: per command the joint corrects 2.73 of its "
+            "error, and above 2 it cannot settle; take Kp: 36 or less, or a shorter controller.period");
   EXPECT_TRUE(told("26").empty());
 }
 

@@ -92,7 +92,7 @@ TEST(LambdaRule, RefusesAStepThatIsTooLong) {
   EXPECT_EQ(
       result.err,
       "--set physics.step=2e-4: error: step 0.0002 s is too long: the largest allowed is 6.44e-05 s, set by the motor of joint "
-      "m0/active (standing; h lambda = 3.11, at most 1); use step: 5e-05\n");
+      "m0/active (standing; h lambda = 3.11, allowed up to 1); use step: 5e-05\n");
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 

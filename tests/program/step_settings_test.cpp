@@ -140,7 +140,7 @@ TEST(StepSettings, AccuracyIsForIntegratorsThatChooseTheirSteps) {
                            "engine: articulated, step: 1e-3, accuracy: 0.01", "engine: bullet, accuracy: 0.01"}) {
     const std::string text = error(keys);
     EXPECT_TRUE(contains(text,
-                         " takes steps as given, so accuracy means nothing to it; remove it, or use engine: articulated, "
+                         " uses the given step and ignores accuracy; remove accuracy, or use engine: articulated, "
                          "integrator: adaptive\n"))
         << text;
   }
@@ -196,7 +196,7 @@ TEST_F(Converge, HalvesTheAccuracy) {
   const std::string text = of("'" + kScenarios + "caterpillar.yaml' --set physics.engine=articulated --set duration=0.3");
   EXPECT_TRUE(contains(text, "caterpillar-8: error against accuracy 0.0025 (RMS over the rows")) << text;
   EXPECT_TRUE(std::regex_search(text, std::regex("\naccuracy +0[.]01 +0[.]005 +order\n"))) << text;
-  EXPECT_TRUE(contains(text, "\naccuracy 0.01 is good for 1 %: the error is at most ")) << text;
+  EXPECT_TRUE(contains(text, "\naccuracy 0.01 is accurate to 1 %: the error is at most ")) << text;
   EXPECT_FALSE(contains(text, " s is good")) << text;
   // The errors in the table equal the errors of separate runs with these accuracies.
   std::vector<Trace> traces;
@@ -222,11 +222,12 @@ TEST_F(Converge, SaysThatNoOrderIsSeen) {
       "3, 2, 3], [2, 6, 5, 2, 1]]}\nphysics: {engine: articulated, step: 2.5e-3}\ncontact: {stiffness: 1e6, damping: "
       "1e7}\ncpg: {type: tripod}\nduration: 0.6\n");
   const std::string text = of("s.yaml");
-  EXPECT_TRUE(contains(text, "none of these is good for 1 % of joint.")) << text;
+  EXPECT_TRUE(contains(text, "none of these values is accurate to 1 % of joint.")) << text;
   EXPECT_TRUE(std::regex_search(
-      text, std::regex("; no (order is seen [(]0[.][0-4][0-9]?[)]|clear order), so nothing is said of others\n")))
+      text,
+      std::regex("; the (observed order, 0[.][0-4][0-9]?, is too low|order is not clear enough) to predict other values\n")))
       << text;
-  EXPECT_FALSE(contains(text, "by the order seen")) << text;
+  EXPECT_FALSE(contains(text, "by the observed order")) << text;
 }
 
 }  // namespace

@@ -126,7 +126,7 @@ TEST_F(AtomicFiles, DevicesAndFifosAreWrittenIntoAndStay) {
   write_file("/dev/null", "x");
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
   ASSERT_EQ(::mkfifo(file_.c_str(), 0600), 0);
-  EXPECT_EQ(refusal([&] { write_file(file_, "x"); }), file_.string() + ": cannot be written: nobody reads this FIFO");
+  EXPECT_EQ(refusal([&] { write_file(file_, "x"); }), file_.string() + ": cannot be written: no process reads this FIFO");
   const int reader = ::open(file_.c_str(), O_RDONLY | O_NONBLOCK);
   ASSERT_GE(reader, 0);
   write_file(file_, "to a reader", Existing::refused);

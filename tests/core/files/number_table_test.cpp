@@ -93,7 +93,7 @@ TEST(Npy, OfAnotherFormIsRefusedWithWhatItIs) {
   EXPECT_EQ(refused_npy(std::string(kNpyMagic) + std::string("\x02\0\xff\xff\xff\xff", 6)), "its header has 4294967295 bytes");
   EXPECT_EQ(refused_npy(npy(dict("<f4", "(2, 3)"), "").substr(0, 60)), "it ends within its header");
   EXPECT_EQ(refused_npy(npy(dict("|O", "(2, 2)"), "\x80\x04pickle")),
-            "it holds Python objects (dtype object), which are code of whoever made the file");
+            "it holds Python objects (dtype object), which can execute code");
   EXPECT_EQ(refused_npy(npy(dict("<c16", "(2, 2)"), "")), "its numbers are of type '<c16'");
   EXPECT_EQ(refused_npy(npy(dict("<f2", "(2, 2)"), "")), "its numbers are of type '<f2'");
   EXPECT_EQ(refused_npy(npy(dict("\x1b[31m" + std::string(90, 'x'), "(2, 2)"), "")),

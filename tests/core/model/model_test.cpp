@@ -215,16 +215,15 @@ TEST(DockingErrors, NameTheRowTheMistakeAndARemedy) {
       "so module 1 could take face 3, 4, 5");
   EXPECT_EQ(error_of({{1, 1, 4, 0, 0}, {0, 2, 4, 0, 0}}),
             "robot.dat:2:1: error: face 4 of module 0 is used twice: a face docks once\n"
-            "robot.dat:1:1: note: it is docked here already");
+            "robot.dat:1:1: note: this face is already docked here");
   EXPECT_EQ(error_of({{1, 1, 4, 0, 0}, {1, 2, 4, 7, 0}}),
             "robot.dat:2:1: error: unknown parent module 7: it is neither module 0 nor the child of a row");
-  EXPECT_EQ(
-      error_of({{1, 1, 4, 0, 0}, {1, 2, 4, 1, 0}, {0, 2, 3, 0, 0}}),
-      "robot.dat:3:1: error: this dock closes a ring: module 2 and module 0 are joined by others already; a robot stays one "
-      "tree, closed chains are not supported\n"
-      "robot.dat:2:1: note: it has its first parent here");
+  EXPECT_EQ(error_of({{1, 1, 4, 0, 0}, {1, 2, 4, 1, 0}, {0, 2, 3, 0, 0}}),
+            "robot.dat:3:1: error: this dock closes a ring: module 2 and module 0 are already connected by other docks; docks "
+            "must form a tree, closed chains are not supported\n"
+            "robot.dat:2:1: note: its first parent is given here");
   EXPECT_EQ(error_of({{1, 1, 4, 0, 0}, {1, 2, 4, 3, 0}, {1, 3, 4, 2, 0}}),
-            "robot.dat:2:1: error: loop: modules 2 on 3 on 2 hang on one another and none on module 0");
+            "robot.dat:2:1: error: loop: modules 2 on 3 on 2 are docked to one another, but none of them to module 0");
   EXPECT_EQ(error_of({{1, 1, 4, 0, 0}, {1, 3, 4, 1, 0}}),
             "robot.dat:2:1: error: gap in the numbering: there is a module 3 but no module 2; modules are numbered 0 to n-1");
   EXPECT_EQ(error_of({{1, 1, 4, 0, 4}}),

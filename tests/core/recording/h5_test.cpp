@@ -142,7 +142,7 @@ TEST_F(H5, TruncatedAnywhere) {
   for (const std::size_t size : {1U, 13U, 14U, 15U, 16U, 40U, 511U})
     EXPECT_EQ(complaint(whole.substr(0, size)), "is truncated: " + std::to_string(size) + " bytes");
   EXPECT_EQ(complaint(""), "is empty");
-  EXPECT_EQ(complaint(whole + "x"), "is corrupt: " + std::to_string(whole.size() + 1) + " bytes, of which " +
+  EXPECT_EQ(complaint(whole + "x"), "is corrupt: " + std::to_string(whole.size() + 1) + " bytes, but " +
                                         std::to_string(whole.size()) + " were written");
 }
 

@@ -116,13 +116,13 @@ TEST_F(ModuleFileTest, Format2) {
   EXPECT_EQ(wrong("faces:", "connectors: {hook: {tension: 0}}\nfaces:"),
             "DIR/m.yaml:13:30: error: tension is 0 N; allowed are more than 0 N");
   // In a file of format 1, the message for a key of format 2 states the required format.
-  const std::string old = "is a key of module format 2, and this is format 1; write gaitlab_module: 2";
+  const std::string old = "is a key of module format 2, but this file has format 1; write gaitlab_module: 2";
   EXPECT_EQ(error(range, range + ", drive: none"), "DIR/m.yaml:12:102: error: 'drive' " + old);
   EXPECT_EQ(error("faces:", "connectors: {}\nfaces:"), "DIR/m.yaml:13:13: error: 'connectors' " + old);
   EXPECT_EQ(error(range, "range: free"),
-            "DIR/m.yaml:12:82: error: range: free is of module format 2, and this is format 1; write gaitlab_module: 2");
+            "DIR/m.yaml:12:82: error: range: free is of module format 2, but this file has format 1; write gaitlab_module: 2");
   EXPECT_EQ(error("gender: active", "gender: none"),
-            "DIR/m.yaml:14:30: error: gender: none is of module format 2, and this is format 1; write gaitlab_module: 2");
+            "DIR/m.yaml:14:30: error: gender: none is of module format 2, but this file has format 1; write gaitlab_module: 2");
 }
 
 TEST_F(ModuleFileTest, BodiesByName) {
@@ -157,11 +157,10 @@ TEST_F(ModuleFileTest, OneTree) {
 
 TEST_F(ModuleFileTest, MassAndInertia) {
   EXPECT_EQ(error("mass: 0.5", "mass: 0"),
-            "DIR/m.yaml:5:3: error: body 'b' has no mass; only a body between two hinges may be without");
-  EXPECT_EQ(
-      error("[1, 2, 2, 0, 0, 0]", "[1, 2, 4, 0, 0, 0]"),
-      "DIR/m.yaml:5:3: error: the inertia of body 'b' belongs to no body: its principal moments are 1, 2, 4 kg m^2, and the "
-      "two smaller ones add up to less than the largest");
+            "DIR/m.yaml:5:3: error: body 'b' has no mass; only a body between two hinges may have mass 0");
+  EXPECT_EQ(error("[1, 2, 2, 0, 0, 0]", "[1, 2, 4, 0, 0, 0]"),
+            "DIR/m.yaml:5:3: error: the inertia of body 'b' is not possible: its principal moments are 1, 2, 4 kg m^2, but the "
+            "largest must not exceed the sum of the other two");
   EXPECT_EQ(error("[1, 2, 2, 0, 0, 0]", "[1, 2, 2, 2, 0, 0]"),
             "DIR/m.yaml:5:3: error: the inertia of body 'b' is not positive definite; its principal moments are -0.561553, 2, "
             "3.56155 kg m^2");

@@ -91,11 +91,12 @@ TEST_F(GroundSection, RefusesHeightfieldsAtTheirPlace) {
   EXPECT_EQ(field("values: [[0, 1], [2]]"), "s.yaml:3:60: error: values[1] has 1 number; expected 2 like values[0]");
   EXPECT_EQ(field("values: [[0, 1], 5]"), "s.yaml:3:60: error: values[1] is 5; expected a list of numbers");
   EXPECT_EQ(field("values: [[0, x], [1, 1]]"), "s.yaml:3:56: error: values[0][1] is 'x'; expected a number in m");
-  EXPECT_EQ(field("values: [[0], [1]]"), "s.yaml:3:51: error: the heightfield has 2 rows of 1; expected at least 2 of 2");
+  EXPECT_EQ(field("values: [[0], [1]]"),
+            "s.yaml:3:51: error: the heightfield has 2 rows of 1 heights; expected at least 2 rows of 2");
   EXPECT_EQ(field("values: [[], []]"),
             "s.yaml:3:52: error: values[0] is empty; expected a list of numbers\n"
             "s.yaml:3:56: error: values[1] is empty; expected a list of numbers");
-  EXPECT_EQ(field("values: []"), "s.yaml:3:51: error: the heightfield has 0 rows of 0; expected at least 2 of 2");
+  EXPECT_EQ(field("values: []"), "s.yaml:3:51: error: the heightfield has 0 rows of 0 heights; expected at least 2 rows of 2");
   EXPECT_EQ(field("values: 5"), "s.yaml:3:51: error: values is 5; expected a list of rows of numbers");
   EXPECT_EQ(field("values: [[0, 1], [1, 1]], spacing: 0"),
             "s.yaml:3:78: error: spacing is 0 m; allowed are 1e-06 to 1000000 m");
@@ -176,7 +177,7 @@ TEST_F(HeightFiles, OfMoreHeightsThanARecordHoldsAreNamedInIt) {
   numbers[0] = 7;
   folder_.write("large.npy", matrix(250, 300, numbers));
   const std::string other = test::message_of([&] { (void)read_scenario(record, {}, catalog_); });
-  EXPECT_NE(other.find("large.npy' is not the file of the record: its hash is "), std::string::npos) << other;
+  EXPECT_NE(other.find("large.npy' is not the recorded file: its hash is "), std::string::npos) << other;
   std::filesystem::remove(file);
   EXPECT_NE(
       test::message_of([&] { (void)read_scenario(record, {}, catalog_); }).find("cannot be read: No such file or directory"),
@@ -185,7 +186,8 @@ TEST_F(HeightFiles, OfMoreHeightsThanARecordHoldsAreNamedInIt) {
 
 TEST_F(HeightFiles, AreRefusedWithWhatTheyHold) {
   folder_.write("flat.npy", matrix(1, 3, {1, 2, 3}));
-  EXPECT_EQ(refused("file: flat.npy"), "flat.npy: error: the heightfield has 1 rows of 3; expected at least 2 of 2");
+  EXPECT_EQ(refused("file: flat.npy"),
+            "flat.npy: error: the heightfield has 1 rows of 3 heights; expected at least 2 rows of 2");
   folder_.write("gap.npy", matrix(2, 2, {1, 2, std::nan(""), 4}));
   EXPECT_EQ(refused("file: gap.npy"),
             "gap.npy: error: height [1, 0], counted from 0, is nan m; allowed are -1000000 to 1000000 m");
@@ -207,7 +209,7 @@ TEST_F(HeightFiles, AreRefusedWithWhatTheyHold) {
   EXPECT_EQ(refused("file: grey.dem, scale: 1e-3"),
             "grey.dem: error: it ends too early; expected a PNG of 16 bit grey values without interlacing");
   EXPECT_EQ(refused("values: [[0, 1], [1, 1]], scale: 2"),
-            "s.yaml:3:76: error: scale is that of a file, and the heights are given as values; expected no scale");
+            "s.yaml:3:76: error: scale belongs to a file, but the heights are given as values; remove scale");
   EXPECT_EQ(refused("file: gone.npy"), "s.yaml:3:49: error: file 'gone.npy' cannot be read: No such file or directory");
 }
 

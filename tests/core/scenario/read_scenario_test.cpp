@@ -121,7 +121,7 @@ TEST_F(ScenarioTest, InlineModuleTypes) {
   EXPECT_EQ(s.robot->types[0].name, "duo");
   expect_stable(s);
   EXPECT_EQ(error("robot: {modules: {name: x, bodies: {a: {mass: 0}}}}\nduration: 1\n"),
-            "DIR/s.yaml:1:37: error: body 'a' has no mass; only a body between two hinges may be without");
+            "DIR/s.yaml:1:37: error: body 'a' has no mass; only a body between two hinges may have mass 0");
 }
 
 TEST_F(ScenarioTest, ErrorsOfABrokenModuleFileAreShownOnce) {
@@ -293,7 +293,7 @@ TEST_F(ScenarioTest, TheModuleTypesMotor) {
   EXPECT_EQ(read("robot: {modules: weak}\nactuator: {type: dc_motor}\nduration: 1\n").actuator.entry->name, "dc_motor");
   const std::string both = "robot:\n  modules: {0: strong, 1: weak}\n  docks: [[1, 1, 4, 0, 0]]\nduration: 1\n";
   EXPECT_EQ(error(both),
-            "DIR/s.yaml:1:1: error: the module types have different actuators; say which one holds: add actuator: {type: ...}\n"
+            "DIR/s.yaml:1:1: error: the module types have different actuators; choose one: add actuator: {type: ...}\n"
             "DIR/modules/strong.yaml:19:11: note: one is here\n"
             "DIR/modules/weak.yaml:19:11: note: one is here");
   EXPECT_EQ(read(both + "actuator: {type: dc_motor}\n").actuator.entry->name, "dc_motor");
@@ -372,8 +372,8 @@ TEST_F(ScenarioTest, Plugins) {
   folder_.write("libx.so", "not a library");
   EXPECT_EQ(file_hash(folder_.path() + "/libx.so"), "4f13f3f320fa745a");
   EXPECT_EQ(error(kShort + "plugins: [{path: libx.so, hash: \"0123456789abcdef\"}]\n"),
-            "DIR/s.yaml:3:18: error: plugin 'libx.so' is not the file of the record: its hash is 4f13f3f320fa745a, recorded is "
-            "0123456789abcdef");
+            "DIR/s.yaml:3:18: error: plugin 'libx.so' is not the recorded file: its hash is 4f13f3f320fa745a, but "
+            "0123456789abcdef is recorded");
   const std::string text = error(kShort + "plugins: [libx.so]\n");
   EXPECT_EQ(text.find("DIR/s.yaml:3:11: error: plugin 'libx.so' cannot be loaded: "), 0U) << text;
   EXPECT_EQ(error(kShort + "plugins: libx.so\n"), "DIR/s.yaml:3:10: error: plugins is 'libx.so'; expected a list of paths");

@@ -86,11 +86,11 @@ TEST(StepAdvice, NamesALimitAndAStepBelowIt) {
   const Stability stability{.rate = 800, .source = Stability::Source::contact, .index = 0};
   EXPECT_EQ(step_advice(of.scenario, of.contacts, stability, "standing"),
             "step 0.005 s is too long: the largest allowed is 0.00125 s, set by the contact m3/passive/p0 (standing; "
-            "h lambda = 4, at most 1); use step: 0.00125");
+            "h lambda = 4, allowed up to 1); use step: 0.00125");
   of.scenario.trace.period = 1.0 / 3;
   EXPECT_EQ(step_advice(of.scenario, of.contacts, stability, "at t = 3.1 s"),
             "step 0.005 s is too long: the largest allowed is 0.00125 s, set by the contact m3/passive/p0 (at t = 3.1 s; "
-            "h lambda = 4, at most 1)");
+            "h lambda = 4, allowed up to 1)");
 }
 
 }  // namespace

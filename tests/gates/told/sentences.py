@@ -113,7 +113,7 @@ JUDGED = {
                r"|the base tilts by up to {value:.3g} rad from its start(?:, more than {tilt:.3g} rad \(limits\.tilt\))?",
     "voltage": f"(?:{LIMITED})" + NEAR,
     "current": f"(?:{LIMITED})" + NEAR,
-    "envelope": r"the torque of joint {worst} takes {value:pct} of what its (?:motor|actuator) has at that speed",
+    "envelope": r"the torque of joint {worst} is {value:pct} of its (?:motor|actuator)'s limit at that speed",
     "speed": r"joint {worst} turns at up to {value:.3g} rad/s of {limit:.3g} rad/s(?:, more than it is rated for|, faster than its "
              r"motor can drive it: the load does)?",
     "heat": r"the motor of joint {worst} takes {value:.3g} A RMS, {share:pct} of its continuous rating" + WITHIN,
@@ -124,9 +124,9 @@ JUDGED = {
              r"for {share:pct} of the run|for {share:pct} of the run \(at most {most:pct}\), by up to {angle:.3g} rad)",
     "setpoints": r"no set point leaves the range of its hinge|the set point of joint {worst} is beyond the range of its hinge for "
                  r"{value:pct} of the run",
-    "start": r"the set point of joint {worst} is {value:.3g} rad from its angle at t = 0(?:, and its motor answers at once: peaks "
-             r"of the whole run may be of that)?",
-    "collision": r"no two bodies are in one another \(those on one hinge are not compared\)"
+    "start": r"the set point of joint {worst} is {value:.3g} rad from its angle at t = 0(?:, and its motor reacts at once: peaks "
+             r"of the whole run may result from this jump)?",
+    "collision": r"no two bodies overlap \(bodies on one hinge are not compared\)"
                  r"|{parts:d} pairs? of bodies pass(?:es)? through one another, deepest {worst} and {other}, by {value:length}",
     "dock_tension": dock_sentence("pulled apart", "N"),
     "dock_shear": dock_sentence("sheared", "N"),
@@ -153,13 +153,13 @@ JUDGED = {
                    r"to nothing the torque peaks at {low_peak:.3g}(?: to {high_peak:.3g})? N m \(RMS {low_rms:.3g}(?: to {high_rms:.3g})?\), the "
                    r"travel is {low_way:length}(?: to {high_way:length})?, the least margin (?:{low_margin:pct}(?: to {high_margin:pct})?|no number))?",
     "ledger": r"{value:pct} of the energy is unaccounted for(?:: {missing:.3g} J, of {drawn:.3g} J drawn)?",
-    "created": r"gears that are driven backwards give {value:pct} of the energy too much \(eq\. 2\)"
+    "created": r"gears that are driven backwards create {value:pct} of the energy \(eq\. 2\)"
                r"(?:; take actuator\.efficiency_model: directional)?",
     "supply": r"the motors draw {value:.3g} J|the motors gave {gave:.3g} J back to their supply instead of drawing any, so that the "
               r"cost of transport is negative: the robot went down, or a motor makes energy",
     "step": r"the step is too long in {value:pct} of the control ticks|in {value:pct} of the control ticks",
     "coarse": r"in {value:rough} of the time the shortest steps of the integrator did not reach the accuracy {accuracy:rough}"
-              r"(?:: the result depends on the steps and may not be reproducible at any)?",
+              r"(?:: the result depends on the steps, and smaller steps may not change this)?",
     "law": r"every joint-step ends on the law of its motor and stop|{value:.0f} joint-steps ended off the law of their motor or "
            r"stop: the torques there are wrong",
 }
@@ -171,7 +171,7 @@ MISSING = (r"{simulated:.3g} s are {held:.2g} of a gait's 3 periods of {period:.
            r"|the robot falls freely: (?:there is no ground(?:; take base: fixed, or a ground)?"
            r"|no part of it touches the ground(?:; take base: fixed, or contact\.on: all)?)"
            r"|the motor of joint {creator} makes energy: efficiency x Kt {x:.4g} N m/A exceeds Ks {y:.4g} V s/rad; take Kt = Ks"
-           r"|no set point changes: cpg {cpg} moves no joint(?:; look for its amplitudes, frames or equations)?"
+           r"|no set point changes: cpg {cpg} moves no joint(?:; check its amplitudes, frames or equations)?"
            r"|the torque of joint {inaccurate} is off by about {off:rough} of its peak, more than {most:pct}; take .*"
            r"|from t = {parted:.4g} s on \(joint {unpredictable}\) the motion is not predictable: gravity times {times:words} changes the "
            r"torques by {change:rough} of their peak; .*"
@@ -180,23 +180,26 @@ MISSING = (r"{simulated:.3g} s are {held:.2g} of a gait's 3 periods of {period:.
            r"|in {coarse:rough} of the time the shortest steps do not reach the accuracy {accuracy:rough}; look for .*")
 # Sentences with the reason for which a check is not judged. Numbers in these sentences are also recomputed.
 NOT_JUDGED = (
-    r"judged of a floating base(?: above a ground| on a ground| that gravity holds on a ground, where the ground's forces are recorded)?"
+    r"judged only for a floating base(?: above a ground| on a ground| that gravity holds on a ground, if the ground's forces are "
+    r"recorded)?"
     r"|the base rolls: it makes a whole turn in every period"
     r"|the base turns over at {over:.2f} s, and the run is too short to show whether it rolls"
     r"|nothing drives the joints(?:, or statistics of all steps were not recorded)?"
-    r"|the actuator (?:is not made of DC motors, and has no voltage|states no limit|has torque at any speed, and states no largest one)"
+    r"|the actuator (?:is not made of DC motors, and has no voltage|states no limit|has torque at any speed, and states no "
+    r"largest speed)"
     r"|no (?:continuous current of the motors|(?:largest|continuous) torque of the gears) is stated \(actuator\.\w+\)"
     r"|the solver of contact\.law bullet keeps bodies apart and above the ground|no body has a shape, or the run has no poses"
     r"|{shaped:d} of {bodies:d} bodies have a shape|the start pose has its centre of mass in the ground"
-    r"|judged (?:above a ground|on a heightfield|on a plane without boxes)|the robot starts beside its heightfield"
+    r"|judged only (?:above a ground|on a heightfield|on a plane without boxes)|the robot starts beside its heightfield"
     r"|the module types state no battery|the robot has no dock|no foot bears a load"
     r"|not available with contact\.law: bullet, which yields impulses that do not all act at contact elements"
     r"|the robot goes {way:length}: less than {least_way:length} is not walking"
     r"|the robot goes {value:.3g} m (?:per period|in the judged time), less than {limit:.3g} m"
     r"|the set points do not repeat|the run is too short|the error of the torques was not estimated in this run"
     r"|not tested: (?:no rollout under a disturbed gravity was made|a disturbed gravity changes no torque of this robot)"
-    r"|the steps do not follow an accuracy|no rate was recorded"
-    r"|loads were not recorded: .*|what all steps did was not recorded: .*|the robot has no size, or the run has no control ticks")
+    r"|the integrator does not choose its steps by an accuracy|no damping rate \(lambda\) was recorded"
+    r"|loads were not recorded: .*|statistics of all steps were not recorded: .*|the robot has no size, or the run has no control "
+    r"ticks")
 SPREAD = (r"(?:; the motion is not predictable: of {rollouts:d} rollouts that differ by next to nothing "
           r"(?:the margin is {margin_low:pct} to {margin_high:pct}|{without:d} cannot be judged by this))?")
 EXPRESSIONS = {check: Expression(text if check == "outcome" else f"(?:{text}){SPREAD}") for check, text in JUDGED.items()}

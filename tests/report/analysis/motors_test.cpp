@@ -147,7 +147,7 @@ TEST(MotorSource, OfTheFileIsNotThatOfSet) {
   const Scenario other = with_type(stated, "u_max: 4, source: supply X", {"actuator.u_max=5"});
   EXPECT_TRUE(chosen(motor_source(other)));
   EXPECT_TRUE(
-      contains(notes(other).at(0), "test.yaml: note: actuator: dropped source, which does not say --set actuator.u_max=5"));
+      contains(notes(other).at(0), "test.yaml: note: actuator: dropped source, which does not cover --set actuator.u_max=5"));
   EXPECT_EQ(motor_source(with_type(stated, "u_max: 4", {"actuator.u_max=5", "actuator.source=supply Y"})),
             "u_max of the scenario: supply Y; the rest: data sheet 17");
   EXPECT_TRUE(chosen(motor_source(with_type(stated, "source: supply X", {"actuator.type=dc_motor"}))));

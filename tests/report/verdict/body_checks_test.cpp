@@ -280,7 +280,7 @@ TEST(InGroundCheck, IsOfEveryGround) {
   }
   const Check none = Still("{type: none}").check("in_ground");
   EXPECT_EQ(none.status, CheckStatus::not_judged);
-  EXPECT_EQ(none.text, "judged above a ground");
+  EXPECT_EQ(none.text, "judged only above a ground");
 }
 
 /// The depth in the ground is the shortest distance out of it, not the depth below its top. Near an edge this distance is

@@ -82,17 +82,16 @@ TEST(Demand, SaysWhatMakesItDoubtful) {
   const Recording own = run(hurried);
   const Demand thrown = demand(twin(fast), own, summarise(hurried, own, 0));
   EXPECT_TRUE(thrown.known);
-  EXPECT_EQ(thrown.doubt,
-            "with motors without limits the robot is thrown up, so that what it needs is not what the gait needs");
+  EXPECT_EQ(thrown.doubt, "without motor limits the robot is thrown up, so that these torques do not belong to the gait");
   const Demand limited = demand(twin({"actuator.i_max=0.005"}), weak.record, weak.summary);
   EXPECT_TRUE(limited.known);
-  EXPECT_EQ(limited.doubt, "even 20 times these limits are reached: it needs more than that");
+  EXPECT_EQ(limited.doubt, "the gait reaches even 20 times these limits: it needs more");
   const Scenario wild = scenario(
       "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 0.2\n"
       "cpg: {type: equations, model: {states: {phi: exp(700)*exp(700)}, output: phi}}\n");
   const Demand broken = demand(wild, weak.record, weak.summary);
   EXPECT_FALSE(broken.known);
-  EXPECT_TRUE(broken.doubt.starts_with("with motors without limits the run breaks off: ")) << broken.doubt;
+  EXPECT_TRUE(broken.doubt.starts_with("without motor limits the run breaks off: ")) << broken.doubt;
 }
 
 /// A robot on the ground that leaps makes the demand doubtful. The height of a robot with a fixed base does not.

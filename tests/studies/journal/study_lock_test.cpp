@@ -17,8 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kNoLock =
-    ": error: is not the lock of a study: a regular file under one name, empty or with the line 'process N on HOST'; move it "
-    "away, or take another folder (--out)";
+    ": error: is not the lock of a study; expected a regular file without other links, empty or with the line 'process N on "
+    "HOST'. Move it away, or take another folder (--out)";
 
 class StudyLocks : public testing::Test {
  protected:

@@ -59,7 +59,7 @@ TEST(BoundStudies, KnowTheirLongestScenario) {
   studies::Study late = study;
   late.stops.push_back({{"fell", Node{Node::Kind::scalar, {"s.yaml", 1, 1}, "fell"}}, 0.75});
   EXPECT_EQ(message_of([&] { const BoundStudy refused(late, app::quantity_offer(), catalog()); }),
-            "s.yaml:1:1: error: the rule begins at 0.75 s, and the longest run ends at 0.75 s; expected an earlier time behind "
+            "s.yaml:1:1: error: the rule begins at 0.75 s, but the longest run ends at 0.75 s; expected a smaller number after "
             "`after`");
 }
 

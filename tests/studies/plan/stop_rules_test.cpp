@@ -119,8 +119,8 @@ TEST(StopRules, SayWhichNamesTheyDoNotKnow) {
   };
   using Texts = std::vector<std::string>;
   EXPECT_EQ(problem("fell and heat[m0/active] > 3"), Texts{});
-  EXPECT_EQ(problem("speed < 0.1"), Texts{"speed is known when a run has ended; while it runs there are fell, heat"});
-  EXPECT_EQ(problem("wear[m0/active] > 1"), Texts{"wear is known when a run has ended; while it runs there are fell, heat"});
+  EXPECT_EQ(problem("speed < 0.1"), Texts{"speed is known only after a run has ended; a stop rule can use fell, heat"});
+  EXPECT_EQ(problem("wear[m0/active] > 1"), Texts{"wear is known only after a run has ended; a stop rule can use fell, heat"});
   EXPECT_EQ(problem("fel"), Texts{"unknown quantity 'fel'; did you mean 'fell'?"});
   EXPECT_EQ(problem("fell[m0/active]"), Texts{"unknown quantity 'fell'; did you mean 'fell'?"});
   EXPECT_EQ(problem("heat[m0/activ]"), Texts{"no joint is called 'm0/activ'; did you mean 'm0/active'?"});

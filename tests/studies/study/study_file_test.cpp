@@ -63,9 +63,9 @@ TEST_F(StudyFile, ItsRulesForStoppingAreChecked) {
             "s.yaml:4:8: error: a rule ends with after 'noon'; expected a number of seconds: fell after 2");
   EXPECT_TRUE(
       contains(with("stop: [limit_cycle.found]\n"),
-               "s.yaml:4:8: error: limit_cycle.found is known when a run has ended; while it runs there are simulated, "));
+               "s.yaml:4:8: error: limit_cycle.found is known only after a run has ended; a stop rule can use simulated, "));
   EXPECT_EQ(with("stop: [fell, distance > 1 after 4]\n"),
-            "s.yaml:4:14: error: the rule begins at 4 s, and the run ends at 0.1 s; expected an earlier time behind `after`");
+            "s.yaml:4:14: error: the rule begins at 4 s, but the run ends at 0.1 s; expected a smaller number after `after`");
   EXPECT_EQ(with("stop: [fell after 4]\nset: [duration=5]\n"), kNoError);
   EXPECT_EQ(parameters("duration: {values: [1, 5]}", "stop: [fell after 4]\n"), kNoError);
   EXPECT_EQ(with("stop: fell\n"), "s.yaml:4:7: error: stop is 'fell'; expected a list of texts");
@@ -103,7 +103,7 @@ TEST_F(StudyFile, ItsParametersAreChecked) {
   EXPECT_EQ(parameters("cpg.frequency: {low: 1, high: 2}"),
             "s.yaml:1:1: error: missing budget: {runs: N}, which method random needs");
   EXPECT_EQ(parameters("cpg.frequency: {low: 1, high: 2, count: 3}", "method: {type: sobol}\nbudget: {runs: 9}\n"),
-            "s.yaml:3:14: error: cpg.frequency has a count, which a grid takes; method.type is sobol");
+            "s.yaml:3:14: error: cpg.frequency has a count, which only method grid uses; method.type is sobol");
   EXPECT_EQ(
       parameters("cpg.frequency: {low: 1, high: 2}", "method: {type: random}\nbudget: {runs: 2}\nreplicates: {count: 3}\n"),
       "s.yaml:1:1: error: a budget of 2 runs is less than the 3 replicates of one point");
