@@ -291,7 +291,7 @@ TEST_F(GoldenCommand, ARenamedAndChangedScenarioIsARegression) {
   expect_contains(result.out, "\n  m1/passive torque ");
   result = call("approve better.yaml --reason 'whose history?'");
   EXPECT_EQ(result.code, 2);
-  expect_contains(result.err, "better.golden: error: is the golden of 'good', and better.yaml ('better') is another run");
+  expect_contains(result.err, "better.golden: error: is the golden of 'good', but better.yaml ('better') is another run");
 }
 
 TEST_F(GoldenCommand, ARenamedScenarioKeepsItsGolden) {

@@ -71,13 +71,13 @@ TEST_F(StudyFolder, NoFifoIsWaitedFor) {
   copy("whole");
   fifo("m/lock");
   ends("study show m", 0, "");
-  ends(kInto + "m", 2, "m/lock: error: is not the lock of a study: ");
+  ends(kInto + "m", 2, "m/lock: error: is not the lock of a study; expected a regular file without other links, ");
   copy("parts");
   fifo("m/shards/0-of-2.db");
   ends("study merge m", 2, "m/shards/0-of-2.db: error: cannot be read: not a regular file\n");
   copy("parts");
   fifo("m/shards/0-of-2.lock");
-  ends(kInto + "m --shard 0/2", 2, "m/shards/0-of-2.lock: error: is not the lock of a study: ");
+  ends(kInto + "m --shard 0/2", 2, "m/shards/0-of-2.lock: error: is not the lock of a study; expected a regular file without other links, ");
 }
 
 TEST_F(StudyFolder, NoLinkIsFollowedAndNoOtherFileIsDeleted) {
@@ -124,7 +124,7 @@ TEST_F(StudyFolder, ThatIsNoStudysStaysAsItIs) {
   // A file `lock` of the user is preserved, also in the folder of a study.
   made(kInto + "s");
   folder_.write("s/lock", "mine");
-  ends(kInto + "s", 2, "s/lock: error: is not the lock of a study: ");
+  ends(kInto + "s", 2, "s/lock: error: is not the lock of a study; expected a regular file without other links, ");
   ends("study show s", 0, "");
   EXPECT_EQ(read(folder_ / "s/lock"), "mine");
 }

@@ -54,7 +54,7 @@ TEST_F(SweepEstimate, TellsWhatTheStepCosts) {
            "caterpillar.yaml --set physics.engine=articulated --set physics.step=0.0025 --set duration=6 --grid "
            "cpg.amplitude=0.3 --out s");
   EXPECT_EQ(swept.code, 0) << swept.err;
-  EXPECT_TRUE(contains(swept.err, "note: step 0.0025 s costs ")) << swept.err;
+  EXPECT_TRUE(contains(swept.err, "note: step 0.0025 s causes an error of ")) << swept.err;
   EXPECT_TRUE(contains(swept.err, " in speed for the scenario's own gait, auto ")) << swept.err;
   EXPECT_TRUE(contains(swept.err, ": take physics.step: auto")) << swept.err;
 }

@@ -59,7 +59,7 @@ TEST(VerdictManual, HasNoTwoBlankLinesAndStaysInItsColumns) {
       "           which the actuator has no torque left, in the whole run against the\n"
       "           rated one, rad/s\n"
       "  over     the judged window\n"
-      "  fails    above it\n";
+      "  fails    above that speed\n";
   const auto kind = std::ranges::find_if(check_kinds(), [](const CheckKind& one) { return std::string(one.id) == "speed"; });
   EXPECT_EQ(explain_check(*kind).substr(0, speed.size()), speed);
 }

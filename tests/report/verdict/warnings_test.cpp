@@ -54,7 +54,7 @@ TEST(SetupWarnings, TellAMotorThatMakesEnergy) {
 TEST(SetupWarnings, TellALoopThatCannotSettle) {
   EXPECT_TRUE(of("caterpillar.yaml", {"controller.Kp=156"}).empty());
   expect_one(of("caterpillar.yaml", {"controller.Kp=157"}), false, "overshoots; take Kp: 150 or less");
-  expect_one(of("caterpillar.yaml", {"controller.Kp=312"}), false, "is 1.99");
+  expect_one(of("caterpillar.yaml", {"controller.Kp=312"}), false, "corrects 1.99 of its error");
   expect_one(of("caterpillar.yaml", {"controller.Kp=314"}), true, "cannot settle; take Kp: 150 or less");
   EXPECT_TRUE(of("caterpillar.yaml", {"controller.Kp=314", "controller.period=0.005"}).empty());
   expect_one(of("caterpillar.yaml", {"controller.Kp={default: 100, m3/active: 400}"}), true, "of joint m3/active");
