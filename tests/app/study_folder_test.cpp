@@ -77,7 +77,8 @@ TEST_F(StudyFolder, NoFifoIsWaitedFor) {
   ends("study merge m", 2, "m/shards/0-of-2.db: error: cannot be read: not a regular file\n");
   copy("parts");
   fifo("m/shards/0-of-2.lock");
-  ends(kInto + "m --shard 0/2", 2, "m/shards/0-of-2.lock: error: is not the lock of a study; expected a regular file without other links, ");
+  ends(kInto + "m --shard 0/2", 2,
+       "m/shards/0-of-2.lock: error: is not the lock of a study; expected a regular file without other links, ");
 }
 
 TEST_F(StudyFolder, NoLinkIsFollowedAndNoOtherFileIsDeleted) {
