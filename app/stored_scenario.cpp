@@ -140,11 +140,12 @@ void check_fit(const std::string& run, const Scenario& scenario, const Recording
   const std::size_t columns = recording.poses.columns.size();
   if (columns > 0 && columns != old_pose_columns(joints) && columns != pose_columns(joints).size())
     refuse(fmt::format("{} columns of poses, of {} joints", columns, joints));
-  const std::size_t places = recording.worst.source == Stability::Source::contact
-                                 ? contact_elements(*scenario.robot, scenario.contact.on).size()
-                                 : joints;
-  if (recording.worst.rate > 0 && recording.worst.index >= places)
-    refuse(fmt::format("stability.index is {}, and the scenario has only {} such parts", recording.worst.index, places));
+  const bool contact = recording.worst.source == Stability::Source::contact;
+  const std::size_t places = contact ? contact_elements(*scenario.robot, scenario.contact.on).size() : joints;
+  if (recording.worst.rate > 0 && recording.worst.index >= places) {
+    refuse(fmt::format("stability.index is {}, but the scenario has only {} {}", recording.worst.index, places,
+                       contact ? "contact elements" : "joints"));
+  }
   bool whole = recording.has_states(*scenario.robot);
   for (const char* column : {"com.x", "com.y", "com.z"}) whole = whole && !recording.series(column).empty();
   for (std::size_t j = 0; j < joints && scenario.actuator.entry != nullptr; ++j) {

@@ -154,7 +154,7 @@ Keyframes::Keyframes(const RobotInfo& robot, const Settings& settings)
 }
 
 void Keyframes::check_closed(const RobotInfo& robot) {
-  constexpr double kSame = 1e-9;  // rad; rounding error of a program that wrote the frames
+  constexpr double kSame = 1e-9;  // tolerance for rounding in the file, rad
   const std::size_t last = angle_.size() - joints_;
   for (std::size_t j = 0; j < joints_; ++j) {
     if (!(std::abs(angle_[last + j] - angle_[j]) <= kSame)) {

@@ -52,7 +52,7 @@ struct Contact {
   T fn, normal_damping;                         ///< tangent of the normal force, N, N s/m
   T friction_limit;                             ///< f Fn, N
   T sliding_force, tangential_damping;          ///< f Fn if the element slides, else 0; slope of friction
-  Vec<T> slip_direction;                        ///< s; 0 if the element sticks
+  Vec<T> slip_direction;                        ///< unit vector s of the slip; 0 if the element sticks
   Vec<T> change, held;                          ///< at the iterate: change of velocity, m/s; force in the solve, N
   Vec<T> next_change, next_held;                ///< change and force of the last solve
 

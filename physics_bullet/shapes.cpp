@@ -11,8 +11,8 @@ namespace gaitlab::bullet {
 
 namespace {
 
-// Margin of a shape, m. A shape of Bullet is a core with a rounding of this radius, both inside the outline. The default of
-// Bullet, 40 mm, is meant for crates.
+// Margin of a shape, m. Bullet rounds a shape by this radius around a core that is smaller by it, so that the rounded shape
+// does not exceed the outline. The default of Bullet, 40 mm, is meant for crates.
 double margin_of(double half_size) { return std::min(1e-3, 0.1 * half_size); }
 
 }  // namespace

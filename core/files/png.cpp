@@ -98,7 +98,7 @@ NumberTable read_grey_png(std::string_view bytes, std::size_t most) {
   if (colour != 0) refuse_png(colour == 4 ? "it is grey with transparency" : "it is in colour");
   if (depth != 16) refuse_png(fmt::format("it has {} bit", depth));
   if (at(12) != 0) refuse_png("it is interlaced");
-  if (at(10) != 0 || at(11) != 0) refuse_png("it is packed in an unknown way");
+  if (at(10) != 0 || at(11) != 0) refuse_png("its compression or filter method is unknown");
   NumberTable table{big_endian(head.substr(4)), big_endian(head), {}};
   if (table.rows == 0 || table.columns == 0) refuse_png("it is empty");
   if (table.rows > most / table.columns) {

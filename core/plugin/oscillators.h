@@ -24,8 +24,9 @@ struct OscillatorKeys {
     f.rule_or_list("couplings", rule, kCouplingRules, couplings, kCouplingRulesAbout);
   }
 
-  /// Throws std::invalid_argument for a joint whose set point would remain outside its range, or whose keys are implausible for
-  /// a hinge with a range. A set point that only temporarily exceeds the range is not refused; the run reports it.
+  /// Throws std::invalid_argument if the set point of a joint is outside its range at all times, or if amplitude or offset of a
+  /// hinge with a range is beyond 3.2 rad. A set point that only temporarily exceeds the range is not refused; the run reports
+  /// it.
   void check(const RobotInfo& robot) const {
     for (std::size_t j = 0; j < robot.joints.size(); ++j) {
       const JointInfo& joint = robot.joints[j];

@@ -10,7 +10,8 @@
 namespace gaitlab {
 namespace {
 
-/// Common patterns that match some joint: any hinge of a joint's module, and a joint's hinge in any module.
+/// Patterns to suggest: for each joint `module/hinge` the pattern of this hinge in every module and of every hinge of this
+/// module.
 std::vector<std::string> usual_patterns(const std::vector<std::string>& joints) {
   std::vector<std::string> patterns;
   std::unordered_set<std::string> seen;

@@ -135,7 +135,7 @@ class Simulation {
   std::unique_ptr<Plant> plant_;
   std::vector<std::unique_ptr<Lane>> lanes_;
   StateLayout layout_;
-  std::unique_ptr<Actuator> own_actuator_;          ///< actuator of the recorded lanes; nullptr if actuator_ has only these
+  std::unique_ptr<Actuator> own_actuator_;          ///< actuator of the recorded lanes alone; nullptr if all lanes are recorded
   std::vector<double> numbers_;                     ///< all changing numbers, including apart_; empty in a separate companion
   Out state_;                                       ///< numbers_; in a separate companion a part of the numbers_ of the run
   Out own_;                                         ///< state_ without the numbers of apart_ and step_error_

@@ -19,8 +19,8 @@ struct PageData {
 };
 
 /// Data of a run's page; docs/report.md describes its members. `missing` contains one sentence for each part that is missing in
-/// the run's folder. The data contain no number measured by the clock and no folders: plugins have only their file names. The
-/// same run produces the same bytes.
+/// the run's folder. The data contain no wall-clock times and no folders, so that the same run produces the same
+/// bytes. Plugins have only their file names.
 PageData page_data(const Scenario& scenario, const Recording& record, const Summary& summary, const Verdict& verdict,
                    std::vector<std::string> missing = {}, std::size_t most = kMostData);
 

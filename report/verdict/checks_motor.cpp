@@ -234,7 +234,7 @@ void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn
   made.remedy = "take " + torque_remedy(run.scenario, std::max(made.error, run.limits().torque_error));
 }
 
-/// Value, limit and time for a joint. NaN if not known; an infinite or 0 limit is not stated.
+/// Value of a joint, its limit, and the time of the value in s. NaN if not known; an infinite or 0 limit is not stated.
 struct Rated {
   double value, limit, time;
 };

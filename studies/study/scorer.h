@@ -30,7 +30,7 @@ struct QuantityOffer {
       value_so_far = {};
 };
 
-/// Quantities of one run by column, NaN if not known, with the word of its verdict and the sentence after that word.
+/// Result of one run: its quantities by column (NaN if not known), the word of its verdict, and the reason for that word.
 struct Measured {
   std::vector<double> quantities;
   std::string verdict, why;

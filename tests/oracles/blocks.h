@@ -9,8 +9,8 @@ namespace gaitlab::oracle {
 struct SlidingBlock {
   double f = 0, g = 0, v_lim = 0;
 
-  /// Distance to rest on level ground: (v0^2 - v_lim^2) / (2 f g) at full friction, and v_lim^2 / (f g) below v_lim, where
-  /// v' = -f g v / v_lim.
+  /// Stopping distance on level ground. It is the sum of (v0^2 - v_lim^2) / (2 f g) at full friction, and of v_lim^2 / (f g)
+  /// below v_lim, where v' = -f g v / v_lim.
   [[nodiscard]] double stops_after(double v0) const { return (v0 * v0 + v_lim * v_lim) / (2 * f * g); }
 
   [[nodiscard]] double speed(double v0, double t) const {

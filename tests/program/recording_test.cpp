@@ -322,10 +322,10 @@ TEST(Recordings, OfAnotherRobotAreRefused) {
             ".: error: its recording does not fit its scenario: 22 joints, 1 in the scenario" + kRemedy);
   Recording forged = walked;
   forged.worst = {1.0, Stability::Source::contact, 1000};
-  EXPECT_EQ(
-      complaint(forged, "hexapod.yaml"),
-      ".: error: its recording does not fit its scenario: stability.index is 1000, and the scenario has only 24 such parts" +
-          kRemedy);
+  EXPECT_EQ(complaint(forged, "hexapod.yaml"),
+            ".: error: its recording does not fit its scenario: stability.index is 1000, but the scenario has only 24 contact "
+            "elements" +
+                kRemedy);
   forged = walked;
   forged.trace.columns.change([&](auto& columns) { columns[forged.trace.find("base.x")].name = "base.u"; });
   EXPECT_EQ(complaint(forged, "hexapod.yaml"),
