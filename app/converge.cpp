@@ -94,7 +94,7 @@ std::string verdict(const std::vector<ConvergenceRow>& rows, const Runs& runs) {
   const double finest = runs.steps.back();
   const auto within_rule = [&](double step) { return !(runs.allowed > 0) || step <= runs.allowed; };
   const ConvergenceRow& last = *worst_at(rows, runs.steps.size() - 1).first;
-  std::string text = fmt::format("none of these values is accurate to 1 % of {}", last.name);
+  std::string text = fmt::format("none of these values is both allowed and accurate to 1 % of {}", last.name);
   for (std::size_t i = 0; i < runs.steps.size(); ++i) {
     const auto [row, error] = worst_at(rows, i);
     if (error > kGood || !within_rule(runs.steps[i])) continue;
@@ -116,7 +116,7 @@ std::string verdict(const std::vector<ConvergenceRow>& rows, const Runs& runs) {
     if (!within_rule(runs.steps.front())) return text;
     return text + fmt::format("; the rule h lambda <= 1 allows longer steps only up to {:.3g} s", runs.allowed);
   }
-  return text + fmt::format("; by the observed order about {:.2g}{} would also suffice", *reach, runs.unit);
+  return text + fmt::format("; by the observed order about {:.2g}{} would suffice", *reach, runs.unit);
 }
 
 int converge(const ConvergeArguments& arguments) {

@@ -3,10 +3,12 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <deque>
 #include <set>
+#include <system_error>
 #include <thread>
 
 #include "app/study/lines.h"
@@ -91,9 +93,12 @@ class Replies {
     std::vector<std::vector<std::string>> figures;
     for (const Brief& run : of) figures.push_back(journal_.quantities(run.run));
     const std::string line = answer(question, journal_.head(), of, figures) + "\n";
-    if (std::fwrite(line.data(), 1, line.size(), stdout) != line.size() || std::fflush(stdout) != 0)
+    if (std::fwrite(line.data(), 1, line.size(), stdout) != line.size() || std::fflush(stdout) != 0) {
+      const int error = errno;
       throw RunError(
-          "standard output cannot be written: the reader of the answers has closed it; completed runs are in the journal");
+          fmt::format("standard output cannot be written: {}; completed runs are in the journal",
+                      error == EPIPE ? "the reader of the answers has closed it" : std::generic_category().message(error)));
+    }
   }
 
   Journal& journal_;

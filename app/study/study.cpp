@@ -110,7 +110,7 @@ class Ranges {
       all += (k > 0 ? "," : "") + (first == last ? fmt::format("{}", first) : fmt::format("{}-{}", first, last));
     }
     if (ranges_.size() > kMost)
-      all += fmt::format(" (and {}; merge again to see them)", counted(ranges_.size() - kMost, "more range"));
+      all += fmt::format(" (and {}; merge again after these to see them)", counted(ranges_.size() - kMost, "more range"));
     return all;
   }
 
@@ -276,7 +276,7 @@ int rerun_study(const StudyArguments& a) {
   if (const auto cell =
           [&](const char* name) { return row[static_cast<std::size_t>(std::ranges::find(names, name) - names.begin())]; };
       cell("outcome") == "stopped") {
-    fmt::print("the study ended this run early: {}; the repeated run was not ended\n", one_line(cell("message")));
+    fmt::print("the study ended this run early: {}; the repeated run has no such rule\n", one_line(cell("message")));
     return code == 2 ? 2 : 0;
   }
   const studies::Measured measured = quantity_measure(head.quantities, scenario)(scenario, again.stored.recording);

@@ -266,7 +266,7 @@ std::string study_summary(Journal& journal, const studies::Results& results, con
   constexpr std::size_t kLimits = 4;
   const std::vector<studies::BrokenLimit> limits = studies::broken_limits(journal);
   for (std::size_t k = 0; k < std::min(kLimits, limits.size()); ++k) {
-    text += fmt::format("{}{} ({})", k == 0 ? "often broken limits: " : ", ", limit_text(limits[k].text),
+    text += fmt::format("{}{} ({})", k == 0 ? "broken limits, most frequent first: " : ", ", limit_text(limits[k].text),
                         counted(limits[k].runs, "run"));
   }
   if (!limits.empty()) text += "\n";

@@ -143,7 +143,8 @@ void add_sweep(Commands& commands) {
             ->check(CLI::Range(1, 1000000));
         repeatable(command.add_option(
             "--show,--figure", a.quantities,
-            "quantities to show and draw, by name with * and ?; the points are ordered by the first one; may be repeated"));
+            "quantities to show and draw, by name with * and ?; for a scenario file, the first one orders the points; "
+            "may be repeated"));
         command.add_option("--shard", a.shard,
                            "simulate only part I of N of the runs, I/N, or auto in a Slurm array; then `gaitlab study merge`");
         command.add_flag("--dry-run", a.dry_run, "print the runs and the time that they take, and write nothing");

@@ -56,8 +56,7 @@ Study typed_study(const SweepArguments& a, Problems& problems) {
     if (a.runs == 0) problems.add(SourceLocation{"--runs"}, "is missing; --random needs a number of runs");
   } else {
     if (a.runs > 0)
-      problems.add(SourceLocation{"--runs"},
-                   "has no effect on a grid, which runs every combination of its values; leave it out");
+      problems.add(SourceLocation{"--runs"}, "is only for --random; a grid runs every combination of its values; leave it out");
     if (a.sobol) problems.add(SourceLocation{"--sobol"}, "chooses points of --random; expected --random KEY=A:B --runs N");
   }
   for (std::size_t k = 0; k < study.parameters.size(); ++k) {

@@ -234,8 +234,8 @@ class DockRows {
       if (loop == path.end()) continue;  // the path ended at module 0, or at modules seen before
       path.push_back(at);
       problems_.add(parent_.at(at)->place,
-                    fmt::format("loop: modules {} are docked to one another, but none of them to module 0",
-                                fmt::join(std::vector<int>(std::find(path.begin(), path.end(), at), path.end()), " on ")));
+                    fmt::format("loop: modules {} are docked in a ring, but none of them to module 0",
+                                fmt::join(std::vector<int>(std::find(path.begin(), path.end(), at), path.end()), " - ")));
     }
   }
 

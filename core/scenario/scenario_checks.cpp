@@ -18,8 +18,9 @@ void ScenarioChecks::law() {
   const ContactModel& contact = scenario_.contact.model();
   if (engine == nullptr) return;
   if (contact.has_step_of_its_own) {
-    if (!(engine->solver_step > 0)) refuse_law(*engine);
-    if (scenario_.physics.integrator != &engine->integrators.front()) {
+    if (!(engine->solver_step > 0)) {
+      refuse_law(*engine);
+    } else if (scenario_.physics.integrator != &engine->integrators.front()) {
       problems_.add(place_of(root_, "physics", "integrator"), fmt::format("contact law '{}' works only with integrator {}",
                                                                           contact.text, engine->integrators.front().name));
     }

@@ -171,7 +171,7 @@ TEST_F(StudyFolder, MissingShardsAreToldAsRanges) {
   const Result many = call("study merge m");
   EXPECT_EQ(many.code, 1);
   EXPECT_TRUE(contains(many.err, "--array=1,3,5,7,")) << many.err;
-  EXPECT_TRUE(contains(many.err, ",399 (and 100 more ranges; merge again to see them)\n")) << many.err;
+  EXPECT_TRUE(contains(many.err, ",399 (and 100 more ranges; merge again after these to see them)\n")) << many.err;
 }
 
 TEST_F(StudyFolder, AnArrayOfOneTaskMerges) {

@@ -54,7 +54,8 @@ TEST_F(Sweep, SaysWhyAPointIsNotKept) {
   ASSERT_EQ(swept.code, 0) << swept.err;
   EXPECT_TRUE(contains(swept.out, "two: 1 of 1 runs ended, 0 kept (0 %), 0 feasible, 0 failed\n")) << swept.out;
   EXPECT_TRUE(contains(swept.out, "run 0 is not kept: the motor of joint m")) << swept.out;
-  EXPECT_TRUE(contains(swept.out, "often broken limits: the verdict (1 run), check heat (1 run)\n")) << swept.out;
+  EXPECT_TRUE(contains(swept.out, "broken limits, most frequent first: the verdict (1 run), check heat (1 run)\n"))
+      << swept.out;
   const Result best = call("study best s");
   EXPECT_EQ(best.code, 3);
   EXPECT_EQ(best.err, "s: no point is kept\n");

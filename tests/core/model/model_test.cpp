@@ -223,7 +223,7 @@ TEST(DockingErrors, NameTheRowTheMistakeAndARemedy) {
             "must form a tree, closed chains are not supported\n"
             "robot.dat:2:1: note: its first parent is given here");
   EXPECT_EQ(error_of({{1, 1, 4, 0, 0}, {1, 2, 4, 3, 0}, {1, 3, 4, 2, 0}}),
-            "robot.dat:2:1: error: loop: modules 2 on 3 on 2 are docked to one another, but none of them to module 0");
+            "robot.dat:2:1: error: loop: modules 2 - 3 - 2 are docked in a ring, but none of them to module 0");
   EXPECT_EQ(error_of({{1, 1, 4, 0, 0}, {1, 3, 4, 1, 0}}),
             "robot.dat:2:1: error: gap in the numbering: there is a module 3 but no module 2; modules are numbered 0 to n-1");
   EXPECT_EQ(error_of({{1, 1, 4, 0, 4}}),
