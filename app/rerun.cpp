@@ -63,9 +63,10 @@ Past read_past(const fs::path& run) {
   } else {
     past.trace = read_csv(past.file);
   }
-  if (past.trace.rows() == 0 || past.trace.columns.front().name != "t")
+  if (past.trace.rows() == 0 || past.trace.columns.front().name != "t") {
     throw InputError(SourceLocation{past.file.string()},
                      "contains no rows of a run: it has no rows, or its first column is not t");
+  }
   if (!is_there(run / "summary.json")) return past;
   const nlohmann::json summary = read_summary(run);
   const auto text = [&](const char* key) {

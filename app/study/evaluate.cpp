@@ -164,9 +164,10 @@ int evaluate_study(const EvaluateArguments& a) {
   answer(lines, plan, journal, remembering(executor, answers), replies, a.jobs);
   const std::uint64_t rows = journal.rows();
   const bool finished = lines.ended() && !replies.asked();  // if all requests are answered, a closed output does not matter
-  if (!finished && reader.gone())
+  if (!finished && reader.gone()) {
     throw RunError(
         fmt::format("{}: the reader of the answers has closed the output; {} runs are in the journal", folder.string(), rows));
+  }
   if (!finished && stopped()) {
     say(fmt::format("{}: interrupted: {} runs are in the journal; continue with the same questions to\n{}\n", folder.string(),
                     rows, head.command));

@@ -38,9 +38,10 @@ bool of_trajectories(const Sensitivity& s) { return s.measures.front().name == "
 std::string basis(const Sensitivity& s) {
   std::string text = fmt::format("{} of {} {}", s.used, s.blocks, of_trajectories(s) ? "trajectories" : "samples");
   if (s.unusable > 0) text += fmt::format("; the others contain {} without a value", counted(s.unusable, "point"));
-  if (s.not_kept > 0)
+  if (s.not_kept > 0) {
     text +=
         fmt::format("; {} not kept, which does not exclude {}", counted(s.not_kept, "point"), s.not_kept == 1 ? "it" : "them");
+  }
   return text;
 }
 

@@ -82,9 +82,10 @@ Study wanted_study(const SweepArguments& a) {
       throw InputError(SourceLocation{a.file}, fmt::format("its method {} searches; use gaitlab optimize {}",
                                                            name_of(study.method), shell_word(a.file)));
     }
-    if (a.runs > 0 && study.method == studies::Method::grid)
+    if (a.runs > 0 && study.method == studies::Method::grid) {
       problems.add(SourceLocation{"--runs"},
                    "has no effect on a grid, which runs every combination of its values; leave it out");
+    }
     if (a.runs > 0) study.runs = a.runs;
     if (problems.empty()) check_study(study, SourceLocation{"--runs"}, problems);
   } else {

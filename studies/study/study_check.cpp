@@ -38,12 +38,14 @@ void check_followers(const Study& study, Problems& problems) {
     for (const Follower& f : own.sets) {
       for (const Parameter& other : study.parameters) {
         const auto also = [&](const Follower& one) { return one.key == f.key; };
-        if (other.key == f.key)
+        if (other.key == f.key) {
           problems.add(f.place, fmt::format("{} is computed from {} and is also a parameter; expected only one of the two",
                                             f.key, own.key));
-        if (&other < &own && std::ranges::any_of(other.sets, also))
+        }
+        if (&other < &own && std::ranges::any_of(other.sets, also)) {
           problems.add(f.place, fmt::format("{} is computed from {} and from {}; expected only one of the two", f.key,
                                             other.key, own.key));
+        }
       }
       const auto drawn = [&](const Variation& v) { return v.key == f.key && !v.times; };
       if (std::ranges::any_of(study.replicates.vary, drawn)) {
@@ -82,9 +84,10 @@ void check_study(const Study& study, const SourceLocation& place, Problems& prob
       problems.add(p.place,
                    fmt::format("{} has values one by one; method {} needs low and high", p.key, name_of(study.method)));
     }
-    if (study.method != Method::grid && p.count > 0 && !study.asked)
+    if (study.method != Method::grid && p.count > 0 && !study.asked) {
       problems.add(p.place,
                    fmt::format("{} has a count, which only method grid uses; method.type is {}", p.key, name_of(study.method)));
+    }
     const auto same = [&](const Variation& v) { return v.key == p.key && !v.times; };
     if (std::ranges::any_of(study.replicates.vary, same)) {
       problems.add(p.place, p.key + " is a parameter and drawn for every replicate; expected vary: {" + p.key +

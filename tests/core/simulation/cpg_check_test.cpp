@@ -60,9 +60,10 @@ TEST(CpgCheck, NamesTheStateAndItsJoint) {
 }
 
 TEST(CpgCheck, NamesAStateThatIsOfNoJointInFull) {
-  for (const std::string name : {"clock", "phi.2", "phi.", "phi.1x", ".x", "phi.-1", "99999999999999999999.", "1"})
+  for (const std::string name : {"clock", "phi.2", "phi.", "phi.1x", ".x", "phi.-1", "99999999999999999999.", "1"}) {
     EXPECT_EQ(checked({name}, {kInfinite}, {}),
               name + " | diverged at step 40, t = 0.6 s: the CPG's state " + name + " is inf");
+  }
 }
 
 }  // namespace

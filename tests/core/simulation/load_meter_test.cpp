@@ -309,10 +309,11 @@ TEST(LoadMeter, DropsTheFeetThatNeverBoreALoad) {
     for (const Column& column : whole.columns) {
       const std::size_t at = loads.find(column.name);
       EXPECT_EQ(at < loads.columns.size(), !column.name.starts_with("foot.") || column.name.starts_with(kept)) << column.name;
-      for (std::size_t row = 0; row < 2 && at < loads.columns.size(); ++row)
+      for (std::size_t row = 0; row < 2 && at < loads.columns.size(); ++row) {
         EXPECT_EQ(std::bit_cast<std::uint64_t>(loads.at(row, at)),
                   std::bit_cast<std::uint64_t>(whole.at(row, whole.find(column.name))))
             << column.name;
+      }
     }
   }
 }

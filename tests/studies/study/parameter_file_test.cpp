@@ -13,9 +13,10 @@ using Texts = std::vector<std::string>;
 
 Texts told(const Problems& problems) {
   Texts all;
-  for (const Problem& p : problems.list())
+  for (const Problem& p : problems.list()) {
     all.push_back((p.place.line > 0 ? std::to_string(p.place.line) + ":" + std::to_string(p.place.column) + ": " : "") +
                   p.text);
+  }
   return all;
 }
 
@@ -84,11 +85,12 @@ TEST(Parameters, ThatAreWrongSayWhere) {
             Texts{"1:41: a.sets is empty; expected keys of the scenario with expressions: {cpg.offset: 0.3*a}"});
   EXPECT_EQ(wrong("{a: {values: [x, y], sets: {k: 2*a}}}"),
             Texts{"1:40: a has words, which no expression can use; expected numbers beside sets"});
-  for (const char* name : {"a.b", "2a", "_a", "pi", "and", "or", "not"})
+  for (const char* name : {"a.b", "2a", "_a", "pi", "and", "or", "not"}) {
     EXPECT_EQ(
         wrong(std::string("{") + name + ": {low: 0, high: 1, sets: {k: 1}}}"),
         Texts{std::string("1:14: '") + name +
               "' cannot be a parameter of the study with `sets`; expected a name of letters, digits and _, a letter first"});
+  }
 }
 
 TEST(OptionGrid, IsARangeOrAList) {
