@@ -107,7 +107,7 @@ std::uint64_t array_number(const char* name, Problems& problems, std::optional<s
   if (text == nullptr) problems.add(SourceLocation{"--shard auto"}, std::string(name) + " is not set; a Slurm array sets it");
   if (text != nullptr && !whole)
     problems.add(SourceLocation{"--shard auto"}, fmt::format("{} is {}; expected a number", name, in_quotes(found)));
-  return whole ? std::strtoull(text, nullptr, 10) : 0;
+  return whole ? std::strtoull(found.c_str(), nullptr, 10) : 0;
 }
 
 /// Shard of a task of a Slurm job array. If the folder contains shards of another count, the array repeats some of them, and

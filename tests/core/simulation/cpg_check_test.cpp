@@ -1,6 +1,7 @@
 // Messages on a CPG whose output or state is not finite.
 #include "core/simulation/cpg_check.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -62,7 +63,7 @@ TEST(CpgCheck, NamesTheStateAndItsJoint) {
 TEST(CpgCheck, NamesAStateThatIsOfNoJointInFull) {
   for (const std::string name : {"clock", "phi.2", "phi.", "phi.1x", ".x", "phi.-1", "99999999999999999999.", "1"}) {
     EXPECT_EQ(checked({name}, {kInfinite}, {}),
-              name + " | diverged at step 40, t = 0.6 s: the CPG's state " + name + " is inf");
+              fmt::format("{0} | diverged at step 40, t = 0.6 s: the CPG's state {0} is inf", name));
   }
 }
 
