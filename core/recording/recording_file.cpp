@@ -85,7 +85,8 @@ struct NumberTables {
 
 NumberTables number_tables(const Recording& r) {
   NumberTables made;
-  auto& [run, joints] = made;
+  Trace& run = made.run;
+  Trace& joints = made.joints;
   each_number(r, [&](const std::string& name, const char* unit, const std::string& definition, const auto& number) {
     run.columns.push_back({name, unit, definition});
     run.values.push_back(static_cast<double>(number));
