@@ -242,7 +242,7 @@ std::vector<std::string> settings_of_row(const Journal& journal, const std::vect
                      "is not a journal that this program wrote: " + problems.list().front().text);
   }
   std::vector<std::string> sets;
-  for (const auto& [key, value] : followers.settings(values)) sets.push_back(key + "=" + value);
+  for (const auto& [key, value] : followers.settings(values)) sets.push_back(fmt::format("{}={}", key, value));
   sets.insert(sets.end(), drawn.begin(), drawn.end());
   sets.push_back("seed=" + row[3]);
   return sets;

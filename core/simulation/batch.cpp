@@ -95,6 +95,7 @@ bool run_pack(std::vector<RolloutEnd>& pack, const BatchStream& stream, const Ba
   if (pack.size() > 1) {
     try {
       std::vector<Scenario> lanes;
+      lanes.reserve(pack.size());
       for (const RolloutEnd& one : pack) lanes.push_back(one.rollout.scenario);
       // Unused lanes repeat the last rollout.
       lanes.resize(width(lanes.front().physics.engine->lanes, lanes.size(), settings.lanes), lanes.back());

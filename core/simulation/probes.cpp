@@ -238,6 +238,7 @@ std::vector<bool> matched(const Scenario& scenario, const std::vector<Column>& c
   wanted[0] = true;
   Problems problems;
   std::vector<std::string> names;
+  names.reserve(columns.size());
   for (const Column& column : columns) names.push_back(column.name);
   if (scenario.trace.columns.size() > kMostPatterns) {
     throw InputError(scenario.place("trace.columns"),
