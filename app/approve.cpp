@@ -1,4 +1,4 @@
-// `gaitlab approve`, which prints the changes of a run, makes or keeps the bands, and writes the golden.
+// `gaitlab approve` prints the changes of a run, makes or keeps the bands, and writes the golden.
 #include <fmt/format.h>
 #include <unistd.h>
 

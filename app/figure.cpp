@@ -1,4 +1,4 @@
-// `gaitlab figure`, which draws a figure for a paper from run folders and a recipe, and writes the numbers that it shows.
+// `gaitlab figure` draws a figure for a paper from run folders and a recipe, and writes the numbers that it shows.
 #include <fmt/format.h>
 
 #include <algorithm>

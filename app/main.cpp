@@ -1,4 +1,4 @@
-// The program `gaitlab`, which reads arguments, runs one subcommand and returns an exit code.
+// The program `gaitlab`: it reads arguments, runs one subcommand and returns an exit code.
 #include <csignal>
 
 #include "app/program.h"

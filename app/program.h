@@ -1,4 +1,4 @@
-// Common main function of the programs, which reads the arguments, runs one subcommand and returns its exit code.
+// Common main function of the programs. It reads the arguments, runs one subcommand and returns its exit code.
 #pragma once
 #include <functional>
 #include <span>

@@ -30,7 +30,7 @@ struct Course {
   double force = 0;   ///< N, sum of the normal forces of all contact elements, mean over the rows; in a walk on a plane it is
                       ///< the robot's weight
 };
-/// Course over the rows from `from` (s) on; zeros if there is no such row.
+/// Course over the rows from `from` (s) on; zeros without such a row.
 Course course(const Recording& record, double from);
 /// Sentence on the travel or force in `seen` that differs by more than kApart from that in `bullet`. Empty if neither does. A
 /// difference in travel below 1 mm is accepted, so that robots that do not travel can be compared.

@@ -44,7 +44,7 @@ struct GoldenDifference {
   std::vector<NumberCheck> numbers;
 
   [[nodiscard]] bool passed() const;
-  [[nodiscard]] const ColumnCheck* worst_column() const;  ///< column with the largest ratio, or null if there are no columns
+  [[nodiscard]] const ColumnCheck* worst_column() const;  ///< column with the largest ratio, or null without columns
   [[nodiscard]] const NumberCheck* worst_number() const;
 };
 

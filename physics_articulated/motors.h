@@ -107,7 +107,7 @@ class Motors {
 
   std::vector<T> law, law_slope;  ///< results of linearise()
   std::vector<T> torque, slope;   ///< linear torque model of a solve: torque - slope (w - w_start)
-  std::vector<T> scale;           ///< largest torque at rest; 1 if there is no limit
+  std::vector<T> scale;           ///< largest torque at rest; 1 without a limit
   std::vector<T> per_speed;       ///< torque per speed error: the slope at rest; scale / kSpeed if the slope is 0
 
  private:

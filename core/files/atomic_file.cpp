@@ -237,9 +237,7 @@ Bytes read_whole(const std::filesystem::path& path, std::uintmax_t most) {
 std::string read_file(const std::filesystem::path& path, std::uintmax_t most) { return read_whole<std::string>(path, most); }
 
 SpilledVector<char> read_large_file(const std::filesystem::path& path, std::uintmax_t most) {
-  SpilledVector<char> bytes = read_whole<SpilledVector<char>>(path, most);
-  release(bytes);
-  return bytes;
+  return read_whole<SpilledVector<char>>(path, most);
 }
 
 std::string read_start(const std::filesystem::path& path, std::size_t bytes) { return Regular(path).read<std::string>(bytes); }

@@ -90,7 +90,7 @@ class Boxes {
   /// list entries.
   static std::optional<Cells> cells_of(const Held& held, double largest, double edge);
 
-  std::shared_ptr<const Held> held_;  ///< nullptr if there are no boxes
+  std::shared_ptr<const Held> held_;  ///< nullptr without boxes
 };
 
 }  // namespace gaitlab

@@ -1,4 +1,4 @@
-// Folder of one run, which is created for it, and removed again if it stays empty.
+// Folder that is created for one run, and removed again if it stays empty.
 #pragma once
 #include <filesystem>
 #include <optional>

@@ -1,4 +1,4 @@
-// Build files (.dat), which list how modules are docked, and the same list within a scenario.
+// Build files (.dat) with the docks of a robot, and the same list within a scenario.
 #pragma once
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-// Reader of scenarios, which reads the file, --set, plugins, robot and sections in this order, and then checks the whole.
+// Reader of scenarios. It reads the file, --set, plugins, robot and sections in this order, and then checks the whole.
 #include "core/scenario/read_scenario.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Reader of Settings structs from a YAML map, which checks types, ranges and names and reports every problem with its place.
+// Reader of Settings structs from a YAML map. It checks types, ranges and names and reports every problem with its place.
 #pragma once
 #include <initializer_list>
 #include <string>

@@ -9,7 +9,7 @@ class MotorLaws {
  public:
   /// Computes the quantities of Actuator::electrical.
   virtual bool evaluate_motors(In command, In speed, const Actuator::Electrical& out) = 0;
-  /// Computes the largest torque of DC motors at these speeds in the direction of `torque`, N m; infinity if there is no limit.
+  /// Computes the largest torque of DC motors at these speeds in the direction of `torque`, N m; infinity without a limit.
   virtual bool evaluate_available(In speed, In torque, Out available) = 0;
 
  protected:

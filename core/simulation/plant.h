@@ -35,7 +35,7 @@ struct BoxMotion {
 struct LaneSettings {
   std::shared_ptr<const Robot> robot;
   Vec3 gravity = Vec3::Zero();
-  Ground ground;  ///< NoGround if there are no contacts
+  Ground ground;  ///< NoGround without contacts
   std::vector<ContactElement> contacts;
   PenaltyContact law;
   double accuracy = 0;  ///< relative accuracy of the torques, for integrators that choose their steps
@@ -46,7 +46,7 @@ struct LaneSettings {
 struct PlantSettings : LaneSettings {
   std::vector<LaneSettings> others;  ///< lanes 1 ..
   Base base = Base::floating;
-  const Actuator* actuator = nullptr;        ///< index joint * lanes + lane; nullptr if there are no motors
+  const Actuator* actuator = nullptr;        ///< index joint * lanes + lane; nullptr without motors
   std::string integrator;                    ///< name of an integrator of the engine; "" is the default
   ContactLaw contact = ContactLaw::penalty;  ///< with another law than penalty, `law` is not used
   double step = 0;                           ///< longest step of advance(), s

@@ -10,7 +10,7 @@ namespace gaitlab {
 
 /// Reflected rotor inertia of the joints of one lane (Actuator::reflected_inertia).
 struct Rotors {
-  In inertia;  ///< kg m^2, index joint * lanes + lane; empty if there are no rotors
+  In inertia;  ///< kg m^2, index joint * lanes + lane; empty without rotors
   std::size_t lanes = 1, lane = 0;
 };
 

@@ -1,4 +1,4 @@
-// Simulation loop, which owns the plant, the plugins and ALL state in one array.
+// Simulation loop and owner of the plant, the plugins and ALL state in one array.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -141,7 +141,7 @@ class Simulation {
   Out own_;                                         ///< state_ without the numbers of apart_ and step_error_
   std::vector<std::unique_ptr<Simulation>> apart_;  ///< companions that are separate simulations, not lanes of this one
   TwinWindows how_;                                 ///< times at which the twin runs beside this simulation
-  std::unique_ptr<StepError> step_error_;           ///< nullptr if there is no estimate
+  std::unique_ptr<StepError> step_error_;           ///< nullptr without an estimate
   Out plant_state_, plant_history_, setpoint_, command_;  ///< parts of state_; the last two by joint * lanes + lane
   std::vector<double> voltage_, current_, saturation_, power_in_, copper_, gear_, torque_, slope_, available_,
       largest_;                   ///< scratch by joint * lanes + lane; largest_ has the recorded lanes only

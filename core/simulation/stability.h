@@ -33,7 +33,7 @@ struct ContactSlope {
 };
 
 /// Replaces `out` by the contact slopes of a standing robot. Its weight rests in equal parts on its support (support.h), at the
-/// penetration that carries the weight. `out` is empty if there is no ground.
+/// penetration that carries the weight. `out` is empty without a ground.
 void static_contact_slopes(const LaneSettings& settings, const Kinematics& kinematics, std::vector<ContactSlope>& out);
 
 /// Estimates the largest eigenvalue of A = M^-1 (B + sum J^T G J) by power iteration, with the Rayleigh quotient in the norm of

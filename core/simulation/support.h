@@ -20,7 +20,7 @@ struct SupportElement {
 std::vector<SupportElement> support_elements(std::vector<SupportElement> elements, const Vec3& com);
 
 /// Distance of `com` from the edge of the support polygon (the convex hull of the points), seen from above, m. It is positive
-/// inside and negative outside, also for a line or a point. NaN if there are no points.
+/// inside and negative outside, also for a line or a point. NaN without points.
 double support_margin(std::span<const Vec3> points, const Vec3& com);
 
 }  // namespace gaitlab

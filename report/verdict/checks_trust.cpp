@@ -1,4 +1,4 @@
-// Checks of the accuracy of a run, that is of its steps, torques and energies.
+// Checks of the accuracy of a run: of its steps, torques and energies.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -45,7 +45,7 @@ TEST_F(Optimize, ABestThatStandsHasItsFolder) {
   // Repeating the command simulates nothing and gives the same result.
   EXPECT_EQ(call("optimize s.yaml --out o --quiet").code, 0);
   EXPECT_EQ(this->journal("o").effort().runs, 24U);
-  // The last generation, which the budget cuts off, is also written.
+  // The last generation is also written, although the budget cuts it off.
   EXPECT_NE(read(folder_ / "o/convergence.csv").find("\n0,1,0,8,"), std::string::npos) << read(folder_ / "o/convergence.csv");
   // With a smaller budget, all existing runs still count.
   const Result fewer = call("optimize s.yaml --out o --runs 20");

@@ -37,7 +37,7 @@ inline double torque_error(const Recording& measured, const Recording& truth) {
   return worst;
 }
 
-/// Time of the first row in which a torque differs by more than `share` of its joint's peak, s; -1 if there is no such row.
+/// Time of the first row in which a torque differs by more than `share` of its joint's peak, s; -1 without such a row.
 inline double first_error(const Recording& measured, const Recording& truth, double share) {
   const std::vector<double> peaks = torque_peaks(truth);
   for (std::size_t row = 0; row < truth.rows(); ++row) {

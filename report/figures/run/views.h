@@ -1,4 +1,4 @@
-// The lower part of a run's figure, which shows the robot at a few instants, one below another.
+// The lower part of a run's figure: the robot at a few instants, one below another.
 #pragma once
 #include "report/figures/run/figure.h"
 #include "report/plot/plot.h"

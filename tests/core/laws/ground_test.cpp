@@ -282,7 +282,7 @@ TEST(GroundOfBoxes, GapIsThatToTheNearestOfMany) {
   }
 }
 
-/// Height of the highest point in a box on a vertical line, found from above in steps of `step`; 0 if there is no box.
+/// Height of the highest point in a box on a vertical line, found from above in steps of `step`; 0 without a box.
 double sampled_top(const std::vector<Box>& list, const Vec3& point, double step) {
   for (double z = 2; z > 0; z -= step) {
     for (const Box& b : list) {

@@ -111,7 +111,7 @@ TEST(Axes, WordsAreInTheirOrder) {
   EXPECT_EQ(row_ticks(words).hi, -0.5);
 }
 
-/// Ticks are drawn at the positions of their values. An axis at the right has the grid if there is no axis at the left.
+/// Ticks are drawn at the positions of their values. Without an axis at the left, the axis at the right has the grid.
 TEST(Plot, TicksAreWhereTheirValuesAre) {
   Svg svg(200, 100);
   Plot plot(svg, {50, 150, 10, 90}, {.ticks = ticks_within(0, 10, 2), .title = "time (s)"}, {});
