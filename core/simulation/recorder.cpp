@@ -12,6 +12,8 @@
 #include <string>
 #include <system_error>
 
+#include "core/recording/h5.h"
+
 namespace gaitlab {
 
 namespace {
@@ -29,8 +31,7 @@ InputError too_many_rows(const Scenario& s, const RowsNeeded& needed, const std:
 
 /// Throws InputError if the rows exceed the disk, or the memory of the container (cgroup 2) or of the process (ulimit -v).
 void check_space(const Scenario& s, const RowsNeeded& needed) {
-  constexpr double kImageShare = 0.75;  // see to_image
-  constexpr double kLittle = 1e8;       // bytes; not checked, because the query takes longer than a short rollout
+  constexpr double kLittle = 1e8;  // bytes; not checked, because the query takes longer than a short rollout
   if (needed.bytes() < kLittle) return;
   const auto check = [&](double bytes, const std::string& whose, const char* of) {
     if (bytes > 0 && needed.bytes() > bytes)
@@ -42,7 +43,7 @@ void check_space(const Scenario& s, const RowsNeeded& needed) {
   if (needed.bytes() > static_cast<double>(kMostInMemory)) {
     std::error_code error;
     const std::filesystem::space_info disk = std::filesystem::space(spill_folder(), error);
-    constexpr double kWithFile = 1 + kImageShare;  // the values, and the file that is made of them
+    constexpr double kWithFile = 1 + kFileShare;  // the values, and the file that is made of them
     if (!error && kWithFile * needed.bytes() > static_cast<double>(disk.available)) {
       throw too_many_rows(s, needed,
                           fmt::format("needs {:.3g} GB in {} (TMPDIR), which has {:.3g} GB", kWithFile * needed.bytes() / 1e9,
