@@ -79,8 +79,9 @@ TEST(RecorderLoads, CountTheTicksWithoutARow) {
   const Trace& loads = recorder.recording.loads;
   EXPECT_EQ(loads.rows(), recorder.recording.ticks.rows());
   EXPECT_LE(loads.rows(), kMostTickRows + 1);
-  const double last = 4 * ((kTicks - 1) / 4) * 1e-3;  // m, at the last tick with a row: each tick is 1 mm
-  EXPECT_NEAR(loads.at(loads.rows() - 1, loads.columns.find("path")), last, 1e-5) << "single precision, 6e-8 * 40 m";
+  constexpr std::size_t kLast = (kTicks - 1) / 4 * 4;  // the last tick with a row
+  EXPECT_NEAR(loads.at(loads.rows() - 1, loads.columns.find("path")), 1e-3 * static_cast<double>(kLast), 1e-5)
+      << "single precision, 6e-8 * 40 m";
 }
 
 TEST(RecorderPoses, HoldStateSetPointsAndLoad) {
