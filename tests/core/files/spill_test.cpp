@@ -47,7 +47,7 @@ TEST(Spill, KeepsItsContentWhilePagesLeaveMemory) {
   numbers.reserve(kMany);
   for (std::size_t k = 0; k < kMany; ++k) numbers.push_back(k * k);
   release(numbers);
-  // Of the array, 200 MB, nothing is left. A fifth is for what the process itself loads meanwhile.
+  // The array, 200 MB, has left. A fifth of it is a reserve for memory that the process itself takes meanwhile.
   EXPECT_LT(resident(), before + 40'000'000);
   for (std::size_t k = 0; k < kMany; ++k) ASSERT_EQ(numbers[k], k * k);
 }
