@@ -55,7 +55,9 @@ class Stepper {
         history_(layout.size(), T(0.0)) {
     const std::vector<T> zero(StateLayout::kAngles + 2 * joints_, T(0.0));
     for (auto* state : {&sum_, &stage_, &rate_}) *state = zero;
-    levels_.assign(kLevels, {zero, zero, zero});
+    const Way way{zero, 0, 0};
+    levels_.assign(kLevels, {zero, way, way, way, way, way, way, {std::vector<math::Mask<T>>(joints_), {}}});
+    limits_ = levels_[0].limits;
     halved_.assign(kHalvings, zero);
     parts_.assign(method == Method::adaptive ? std::clamp<std::size_t>(kRoom / size_of_part(), 8, kMostParts) : 4,
                   Part<T>(joints_));
@@ -103,8 +105,22 @@ class Stepper {
   static constexpr std::size_t kRoom = 32 << 20;  ///< bytes of parts that the constructor allocates
   [[nodiscard]] std::size_t size_of_part() const { return sizeof(Part<T>) + 3 * joints_ * sizeof(T); }
 
+  /// A state, and the parts [from, to) of the steps that led to it.
+  struct Way {
+    std::vector<T> x;
+    std::size_t from = 0, to = 0;
+  };
+  /// Lanes in which a motor is at its limit, by joint, and lanes in which most of the load slides; both after a solve.
+  struct Limits {
+    std::vector<math::Mask<T>> motor;
+    math::Mask<T> slide;
+  };
+  /// Steps tried at one level: one, two and four that together have the length of the level. The first half, the first quarter
+  /// and the first two quarters are the first trials of the next level.
   struct Level {
-    std::vector<T> start, whole, quarters;
+    std::vector<T> start;
+    Way whole, halves, quarters, half, quarter, early;
+    Limits limits;  ///< after the first two quarters
   };
 
   /// Adds a part for the start of the step under the new command, because the motor torques there may be peaks.
@@ -143,10 +159,10 @@ class Stepper {
     for (int half = 0; half < 2; ++half) settle(x, command, h / 2, again, halvings + 1);
   }
 
-  /// Sets the weights of Richardson's extrapolation for the parts from `from` up to `to` in the lanes `which`. If `finest`,
-  /// these parts represent the motion.
-  void weigh(std::size_t from, std::size_t to, const math::Mask<T>& which, double weight, bool finest) {
-    for (std::size_t i = from; i < to; ++i) {
+  /// Sets the weights of Richardson's extrapolation for the parts of a way in the lanes `which`. If `finest`, these parts
+  /// represent the motion.
+  void weigh(const Way& way, const math::Mask<T>& which, double weight, bool finest) {
+    for (std::size_t i = way.from; i < way.to; ++i) {
       Part<T>& part = parts_[i];
       const auto here = math::mask_and(which, part.lanes);
       part.sum = math::select(here, T(weight * part.h), part.sum);
@@ -156,23 +172,23 @@ class Stepper {
 
   void single(std::span<T> x, In command, double h, const math::Mask<T>& which) {
     settle(x, command, h, which);
-    weigh(1, used_, which, 1, true);
+    weigh({{}, 1, used_}, which, 1, true);
   }
 
   /// Lanes in which no speed differs by more than `share` of the accuracy. The difference of a joint speed is converted to a
   /// torque, relative to the largest torque of the joint so far. The difference of the base speeds is relative to kBaseSpeed
-  /// and kBaseTurn, because errors of the base change the torques only later. Motor limits and sliding contacts refer to the
-  /// last solve of each lane.
+  /// and kBaseTurn, because errors of the base change the torques only later. A motor at its limit and
+  /// sliding contacts make the tolerance smaller.
   template <class Difference>
-  math::Mask<T> within(double share, const math::Mask<T>& which, Difference difference) {
+  math::Mask<T> within(double share, const math::Mask<T>& which, const Limits& limits, Difference difference) {
     math::Mask<T> within = which;
     const T allowed = share * accuracy_;
-    math::Mask<T> loose = implicit.contacts.mostly_slide();
+    math::Mask<T> loose = limits.slide;
     for (std::size_t j = 0; j < joints_; ++j) {
       const T& peak = history_[layout.peak() + j];
       const T least = kFloor * implicit.motors.scale[j];
       const T apart = implicit.motors.per_speed[j] * math::abs(difference(StateLayout::kAngles + joints_ + j));
-      const auto limited = implicit.motors.at_limit(j);
+      const math::Mask<T>& limited = limits.motor[j];
       const T here = math::select(limited, kAtLimit * allowed, allowed);
       within = math::mask_and(within, apart <= here * math::select(peak > least, peak, least));
       loose = math::mask_or(loose, limited);
@@ -194,51 +210,104 @@ class Stepper {
     return sum <= T(0.0);
   }
 
+  /// Limits after the last solve of each lane.
+  void look(Limits& limits) const {
+    for (std::size_t j = 0; j < joints_; ++j) limits.motor[j] = implicit.motors.at_limit(j);
+    limits.slide = implicit.contacts.mostly_slide();
+  }
+
+  /// Takes an implicit step from `start` to way.x. If `start` is itself a way, the parts of both belong to the new one.
+  void go(Way& way, const std::vector<T>& start, In command, double h, const math::Mask<T>& which) {
+    std::copy(start.begin(), start.end(), way.x.begin());
+    way.from = used_;
+    settle(way.x, command, h, which);
+    way.to = used_;
+  }
+  void go(Way& way, const Way& before, In command, double h, const math::Mask<T>& which) {
+    go(way, before.x, command, h, which);
+    way.from = before.from;
+  }
+
+  /// Takes one step and two steps of a level. `before` has them already if this level is the first half of a level whose four
+  /// steps missed the accuracy.
+  const Limits& one_and_two(Level& own, In command, double h, const math::Mask<T>& which, const Level* before) {
+    if (before != nullptr) {
+      own.whole = before->half;
+      own.half = before->quarter;
+      own.halves = before->early;
+      return before->limits;
+    }
+    go(own.whole, own.start, command, h, which);
+    go(own.half, own.start, command, h / 2, which);
+    go(own.halves, own.half, command, h / 2, which);
+    look(limits_);
+    return limits_;
+  }
+  void four(Level& own, In command, double h, const math::Mask<T>& which) {
+    go(own.quarter, own.start, command, h / 4, which);
+    go(own.early, own.quarter, command, h / 4, which);
+    look(own.limits);
+    go(own.quarters, own.early, command, h / 4, which);
+    settle(own.quarters.x, command, h / 4, which);
+    own.quarters.to = used_;
+    look(limits_);
+  }
+
+  /// Drops the parts from `first` on, except those that the next level uses.
+  void drop(Level& own, std::size_t first) {
+    used_ = first;
+    const std::size_t of_quarter = own.quarter.to - own.quarter.from;
+    for (Way* way : {&own.half, &own.early}) {
+      if (way->from < first) continue;  // of the level before
+      const std::size_t from = used_;
+      for (std::size_t i = way->from; i < way->to; ++i) std::swap(parts_[used_++], parts_[i]);
+      way->from = from;
+      way->to = used_;
+    }
+    own.quarter.from = own.early.from;
+    own.quarter.to = own.early.from + of_quarter;
+  }
+
   /// Advances the lanes `which` by a step h. At level kLevels the step has second order, regardless of its error.
-  void adapt(std::span<T> x, In command, double h, const math::Mask<T>& which, std::size_t level) {
+  void adapt(std::span<T> x, In command, double h, const math::Mask<T>& which, std::size_t level,
+             const Level* before = nullptr) {
     using math::select;
     const bool fixed = level == kLevels;
     Level& own = levels_[fixed ? 0 : level];
-    std::vector<T>& start = own.start;
-    std::vector<T>& whole = own.whole;
-    std::vector<T>& quarters = own.quarters;
-    std::copy(x.begin(), x.end(), start.begin());
-    std::copy(x.begin(), x.end(), whole.begin());
+    std::copy(x.begin(), x.end(), own.start.begin());
     const std::size_t first = used_;
-    settle(whole, command, h, which);
-    const std::size_t halves = used_;
-    for (int i = 0; i < 2; ++i) settle(x, command, h / 2, which);
-    const std::size_t rest = used_;
-    auto second = within(kSecondOrder, which, [&](std::size_t e) { return x[e] - whole[e]; });
+    const Limits& limits = one_and_two(own, command, h, which, before);
+    const auto &one = own.whole.x, &two = own.halves.x, &four = own.quarters.x;
+    auto second = within(kSecondOrder, which, limits, [&](std::size_t e) { return two[e] - one[e]; });
     if (fixed) second = which;
-    weigh(first, halves, second, -1, false);
-    weigh(halves, rest, second, 2, true);
+    weigh(own.whole, second, -1, false);
+    weigh(own.halves, second, 2, true);
     const auto more = math::fresh(which, second);
     math::Mask<T> third{};
     if (math::any_lane(more)) {
-      std::copy(start.begin(), start.end(), quarters.begin());
-      for (int i = 0; i < 4; ++i) settle(quarters, command, h / 4, more);
-      third = within(kThirdOrder, more, [&](std::size_t e) { return 2.0 * (quarters[e] - x[e]) - (x[e] - whole[e]); });
+      this->four(own, command, h, more);
+      third = within(kThirdOrder, more, limits_, [&](std::size_t e) { return 2.0 * (four[e] - two[e]) - (two[e] - one[e]); });
       if (level + 1 == kLevels) {
         T& coarse = history_[layout.coarse()];
-        coarse = coarse + math::select(math::fresh(more, third), T(h), T(0.0));
+        coarse = coarse + select(math::fresh(more, third), T(h), T(0.0));
         third = more;
       }
-      weigh(first, halves, third, 1.0 / 3, false);
-      weigh(halves, rest, third, -2, false);
-      weigh(rest, used_, third, 8.0 / 3, true);
+      weigh(own.whole, third, 1.0 / 3, false);
+      weigh(own.halves, third, -2, false);
+      weigh(own.quarters, third, 8.0 / 3, true);
     }
     for (std::size_t e = 0; e < x.size(); ++e) {
-      const T of_three = T(1.0 / 3) * whole[e] - T(2.0) * x[e] + T(8.0 / 3) * quarters[e];
-      whole[e] = select(second, T(2.0) * x[e] - whole[e], of_three);
+      const T of_three = T(1.0 / 3) * one[e] - T(2.0) * two[e] + T(8.0 / 3) * four[e];
+      x[e] = select(second, T(2.0) * two[e] - one[e], of_three);
     }
-    normalise<T>(whole);
+    normalise<T>(x);
     const auto taken = math::mask_or(second, third);
-    for (std::size_t e = 0; e < x.size(); ++e) x[e] = select(taken, whole[e], start[e]);
-    const auto shorter = math::mask_and(math::fresh(which, taken), finite(start));
+    for (std::size_t e = 0; e < x.size(); ++e) x[e] = select(taken, x[e], own.start[e]);
+    const auto shorter = math::mask_and(math::fresh(which, taken), finite(own.start));
     if (!math::any_lane(shorter)) return;
-    if (!math::any_lane(taken)) used_ = first;  // no lane uses these parts
-    for (int i = 0; i < 2; ++i) adapt(x, command, h / 2, shorter, level + 1);
+    if (!math::any_lane(taken)) drop(own, first);  // no lane uses the others
+    adapt(x, command, h / 2, shorter, level + 1, &own);
+    adapt(x, command, h / 2, shorter, level + 1);
   }
 
   /// Computes sums over the parts, and peaks.
@@ -307,6 +376,7 @@ class Stepper {
   T accuracy_;
   std::vector<T> history_, sum_, stage_, rate_;
   std::vector<Level> levels_;
+  Limits limits_;
   std::vector<std::vector<T>> halved_;
   std::vector<Part<T>> parts_;
   std::size_t used_ = 0;
