@@ -75,7 +75,7 @@ std::string scenario_page(const Catalog& catalog) {
 }
 
 std::string default_step(const Engine& engine) {
-  const std::string given = number_text(engine.step) + " s";
+  std::string given = number_text(engine.step) + " s";
   if (engine.choose_step != nullptr)
     return fmt::format("auto, the longest up to {} s that is stable at the start", number_text(engine.step));
   if (engine.adaptive() == nullptr) return given;

@@ -43,7 +43,7 @@ std::string value_of(const Json& value, const Parameter& p, Question& question, 
     return {};
   }
   // + 0.0 turns -0 into 0.
-  const std::string text = p.words ? value.get<std::string>() : number_text(value.get<double>() + 0.0);
+  std::string text = p.words ? value.get<std::string>() : number_text(value.get<double>() + 0.0);
   const double number = p.words ? 0 : value.get<double>();
   const bool listed = std::ranges::find(p.values, text) != p.values.end();
   if (p.values.empty() ? number >= p.low && number <= p.high : listed) return text;
@@ -110,8 +110,10 @@ std::string answer(const Question& question, const JournalHead& head, std::span<
   text += R"(,"figures":{)";
   for (std::size_t k = 0; done && k < head.quantities.size(); ++k) {
     std::string values;
-    for (const std::vector<std::string>& row : quantities)
-      values += (values.empty() ? "" : ",") + (row[k].empty() ? "null" : json_number(number_of(row[k])));
+    for (const std::vector<std::string>& row : quantities) {
+      if (!values.empty()) values += ',';
+      values += row[k].empty() ? "null" : json_number(number_of(row[k]));
+    }
     if (head.replicates > 1) values = "[" + values + "]";
     text += (k == 0 ? "" : ",") + json_text(head.quantities[k].name) + ":" + values;
   }

@@ -30,12 +30,13 @@ class StudyFixture : public ::testing::Test {
       std::vector<std::string> all(1);
       bool quoted = false;
       for (const char c : line) {
-        if (c == '"')
+        if (c == '"') {
           quoted = !quoted;
-        else if (c == ',' && !quoted)
+        } else if (c == ',' && !quoted) {
           all.emplace_back();
-        else
+        } else {
           all.back() += c;
+        }
       }
       return all;
     };

@@ -1,4 +1,5 @@
 // Tests of `gaitlab sweep` and `gaitlab study`: rows equal runs, unsuitable folders are refused, failed runs are results.
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/files/atomic_file.h"
@@ -104,7 +105,7 @@ TEST_F(Sweep, ItsRowsAreRuns) {
   ASSERT_EQ(rows.size(), 3U);
   for (const auto& row : rows) {
     const std::string lag = row.at("cpg.phase_lag");
-    ASSERT_EQ(call("run two.yaml --no-report --set cpg.phase_lag=" + lag + " --out r" + lag).code, 0);
+    ASSERT_EQ(call(fmt::format("run two.yaml --no-report --set cpg.phase_lag={0} --out r{0}", lag)).code, 0);
     const auto summary = nlohmann::json::parse(read(folder_ / ("r" + lag + "/summary.json")));
     const auto verdict = nlohmann::json::parse(read(folder_ / ("r" + lag + "/verdict.json")));
     EXPECT_EQ(std::stod(row.at("speed")), summary.at("speed").get<double>());

@@ -124,7 +124,8 @@ def set_text(key, value):
 
 def without_accuracy(file):
     """Text of a scenario without its accuracy, which integrator `extrapolated` does not accept."""
-    lines = [line for line in file.read_text().splitlines(keepends=True) if not line.strip().startswith("accuracy:")]
+    text = re.sub(r", *accuracy: *[^,}]*", "", file.read_text())
+    lines = [line for line in text.splitlines(keepends=True) if not line.strip().startswith("accuracy:")]
     return re.sub(r"(build: *)(\S+)", lambda found: found[1] + str((file.parent / found[2]).resolve()), "".join(lines))
 
 
