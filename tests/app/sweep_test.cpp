@@ -1,5 +1,6 @@
 // Tests of `gaitlab sweep` and `gaitlab study`: rows equal runs, unsuitable folders are refused, failed runs are results.
 #include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "core/files/atomic_file.h"
