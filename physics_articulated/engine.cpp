@@ -80,7 +80,11 @@ class ArticulatedPlant final : public Plant {
     if (width == kWidths.end() || !width->runs()) {
       throw std::invalid_argument("no kernel for so many rollouts side by side on this processor");
     }
-    kernel_ = width->make({rollouts, s.actuator, method_of(s.integrator), articulated::query});
+    KernelSettings settings{rollouts, s.actuator, method_of(s.integrator), articulated::query, {}};
+    if (layout_.lanes > 1) own_solos_ = articulated::make_solos(settings);
+    for (const auto& solo : own_solos_) solos_.push_back({solo.get()});
+    settings.solos = solos_;
+    kernel_ = width->make(settings);
     history_ = kernel_->history().size() * layout_.lanes;
   }
 
@@ -129,6 +133,8 @@ class ArticulatedPlant final : public Plant {
   StateLayout layout_;
   bool explicit_;
   Out numbers_, kept_;
+  std::vector<std::unique_ptr<articulated::Solo>> own_solos_;
+  std::vector<articulated::SoloOfLane> solos_;
   std::unique_ptr<Kernel> kernel_;
   std::vector<std::unique_ptr<LaneModel>> models_;
   std::vector<double> x_;

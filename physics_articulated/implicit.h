@@ -4,6 +4,7 @@
 #include "physics_articulated/contacts.h"
 #include "physics_articulated/motion.h"
 #include "physics_articulated/motors.h"
+#include "physics_articulated/solo.h"
 
 namespace gaitlab::articulated {
 
@@ -33,10 +34,11 @@ class Implicit {
   static constexpr double kStopTolerance = 1e-9;    ///< N m
   static constexpr double kRounding = 1e-11;        ///< relative rounding error of the torque of a passive hinge, due to q
 
-  Implicit(const Tree<T>& tree, const Environment<T>& environment, const Actuator* actuator)
+  Implicit(const Tree<T>& tree, const Environment<T>& environment, const Actuator* actuator,
+           const LaneRange& lanes = {0, math::kLanes<T>})
       : body(tree, environment.gravity),
         contacts(tree, environment),
-        motors(actuator, tree.lo.size(), tree.passive),
+        motors(actuator, tree.lo.size(), tree.passive, lanes),
         rotor(tree.lo.size(), T(0.0)),
         done(tree.lo.size()),
         tree_(tree),
@@ -47,7 +49,10 @@ class Implicit {
     passive_.assign(tree.passive.size(), T(0.0));
     for (auto* values : {&stop_, &stop_slope_, &force_, &diagonal_, &end_}) values->assign(joints_, T(0.0));
     const In inertia = actuator == nullptr ? In() : actuator->reflected_inertia();
-    std::copy(inertia.begin(), inertia.end(), math::numbers(std::span<T>(rotor)).begin());
+    if (inertia.empty()) return;
+    for (std::size_t j = 0; j < joints_; ++j) {
+      for (std::size_t l = 0; l < math::kLanes<T>; ++l) math::lane(rotor[j], l) = inertia[j * lanes.all + lanes.first + l];
+    }
   }
 
   /// Advances the lanes `which` of x by a step and fills done, solves and off. `command` is constant, with index joint * lanes
@@ -79,6 +84,23 @@ class Implicit {
       if (math::any_lane(open)) touch(open, x, h);
     }
     finish(x, h, which);
+  }
+
+  /// Takes the results of a step of the lane `l` alone; `which` contains this lane only.
+  void take(const Solo& solo, std::size_t l, const math::Mask<T>& which) {
+    for (std::size_t j = 0; j < joints_; ++j) {
+      math::lane(done.torque[j], l) = math::lane(now_.torque[j], l) = solo.torque[j];
+      math::lane(done.speed[j], l) = solo.speed[j];
+      math::lane(done.angle[j], l) = solo.angle[j];
+      math::lane(motors.slope[j], l) = solo.slope[j];
+    }
+    math::lane(done.contact, l) = solo.contact;
+    math::lane(done.friction, l) = solo.friction;
+    math::lane(done.stops, l) = solo.stops;
+    math::lane(done.hinges, l) = solo.hinges;
+    solves = T(solo.solves);
+    off = T(solo.off);
+    unfinished = solo.unfinished ? which : math::Mask<T>{};
   }
 
   /// Evaluates the laws at x and the resulting accelerations, for an explicit method.

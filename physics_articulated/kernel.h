@@ -48,7 +48,31 @@ struct KernelSettings {
   const Actuator* actuator = nullptr;
   Method method = Method::adaptive;
   Touch<double> (*query)(const Ground&, const Vec<double>& centre, double radius) = nullptr;
+  std::span<const SoloOfLane> solos;  ///< one per lane or none, for a kernel of several lanes; must outlive the kernel
 };
+
+/// Environment of the rollouts, one per lane.
+template <class T>
+Environment<T> environment(const KernelSettings& s) {
+  Environment<T> all;
+  all.query = s.query;
+  for (std::size_t l = 0; l < s.rollouts.size(); ++l) {
+    const Rollout& one = s.rollouts[l];
+    put(all.gravity, l, one.gravity);
+    put(all.law.kn, l, one.law.kn);
+    put(all.law.k, l, one.law.k);
+    put(all.law.cd, l, one.law.cd);
+    put(all.law.d, l, one.law.d);
+    put(all.law.v_lim, l, one.law.v_lim);
+    put(all.friction, l, one.friction);
+    all.plane = all.plane && one.plane;
+    all.ground.push_back(one.ground);
+  }
+  return all;
+}
+
+/// Solos of the rollouts; none if their motors are not DC motors, which only the actuator evaluates, for all lanes.
+std::vector<std::unique_ptr<Solo>> make_solos(const KernelSettings&);
 
 std::unique_ptr<Kernel> make_kernel_1(const KernelSettings&);
 std::unique_ptr<Kernel> make_kernel_4(const KernelSettings&);  ///< four rollouts, with AVX2

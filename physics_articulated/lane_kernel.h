@@ -11,8 +11,8 @@ class LaneKernel final : public Kernel {
  public:
   explicit LaneKernel(const KernelSettings& s)
       : tree_(trees(s.rollouts)),
-        environment_(environment(s)),
-        stepper_(tree_, environment_, s.actuator, s.method, accuracy(s)),
+        environment_(environment<T>(s)),
+        stepper_(tree_, environment_, s.actuator, s.method, accuracy(s), s.solos),
         x_(StateLayout::kAngles + 2 * tree_.lo.size()) {
     contact_forces_.reserve(tree_.points.size());
     parts_.reserve(stepper_.most_parts());
@@ -85,23 +85,6 @@ class LaneKernel final : public Kernel {
     std::vector<const Tree<double>*> each;
     for (const Rollout& one : rollouts) each.push_back(&one.tree);
     return side_by_side<T>(each);
-  }
-  static Environment<T> environment(const KernelSettings& s) {
-    Environment<T> all;
-    all.query = s.query;
-    for (std::size_t l = 0; l < s.rollouts.size(); ++l) {
-      const Rollout& one = s.rollouts[l];
-      put(all.gravity, l, one.gravity);
-      put(all.law.kn, l, one.law.kn);
-      put(all.law.k, l, one.law.k);
-      put(all.law.cd, l, one.law.cd);
-      put(all.law.d, l, one.law.d);
-      put(all.law.v_lim, l, one.law.v_lim);
-      put(all.friction, l, one.friction);
-      all.plane = all.plane && one.plane;
-      all.ground.push_back(one.ground);
-    }
-    return all;
   }
   static Vec<double> of_lane(const Vec<T>& v, std::size_t lane) {
     return {math::lane(v.x, lane), math::lane(v.y, lane), math::lane(v.z, lane)};

@@ -12,13 +12,19 @@
 
 namespace gaitlab::articulated {
 
+/// Lanes of the actuator that a kernel has: kLanes from `first` on, of `all`.
+struct LaneRange {
+  std::size_t first = 0, all = 0;
+};
+
 /// Evaluates motors. DC motors (Actuator::dc_motors) are evaluated here for all lanes at once, other motors by their plugin.
 /// Commands have the index joint * lanes + lane. Torques are in N m, slopes -dT/dw in N m s/rad.
 template <class T>
 class Motors {
  public:
-  /// `passive` lists the joints without a motor, which are treated as DC motors without voltage and torque.
-  Motors(const Actuator* actuator, std::size_t joints, std::span<const std::size_t> passive)
+  /// `passive` lists the joints without a motor, which are treated as DC motors without voltage and torque. Only DC motors may
+  /// be a part of the actuator's lanes.
+  Motors(const Actuator* actuator, std::size_t joints, std::span<const std::size_t> passive, const LaneRange& lanes)
       : law(joints),
         law_slope(joints),
         torque(joints),
@@ -28,11 +34,12 @@ class Motors {
         least_slope_(joints, T(0.0)),
         actuator_(actuator) {
     if (actuator == nullptr) return;
-    find_scale();
+    find_scale(lanes);
     for (const std::size_t j : passive) least_slope_[j] = T(0.0);
     const DcMotor* from = actuator->dc_motors();
     if (from == nullptr) return;
     dc_.resize(joints);
+    from += lanes.first;
     for (BasicDcMotor<T>& to : dc_) {
       for (std::size_t l = 0; l < math::kLanes<T>; ++l, ++from) {
         const std::array values{from->R,
@@ -48,6 +55,7 @@ class Motors {
             &to.R, &to.Kt, &to.Ks, &to.gear, &to.efficiency, &to.u_max, &to.i_max, &to.reversal_speed, &to.back_emf_damping};
         for (std::size_t k = 0; k < values.size(); ++k) math::lane(*places[k], l) = values[k];
       }
+      from += lanes.all - math::kLanes<T>;
     }
     for (const std::size_t j : passive) dc_[j] = BasicDcMotor<T>();
   }
@@ -115,19 +123,24 @@ class Motors {
   static constexpr double kSlope =
       0.1;  ///< share of the slope at rest; a directional gear changes the slope by less, a limit by all of it
 
-  void find_scale() {
+  void find_scale(const LaneRange& lanes) {
     const In limit = actuator_->command_limit();
     std::vector<double> rest(limit.size()), torques(limit.size()), slopes(limit.size());
     actuator_->effort(limit, rest, torques, slopes);
+    const auto each = [&](const auto& set) {
+      for (std::size_t i = 0; i < scale.size() * math::kLanes<T>; ++i) {
+        set(i, i / math::kLanes<T> * lanes.all + lanes.first + i % math::kLanes<T>);
+      }
+    };
     const Out to = numbers(scale);
-    for (std::size_t i = 0; i < limit.size(); ++i) {
-      if (std::isfinite(torques[i]) && torques[i] > 0) to[i] = torques[i];
-    }
+    each([&](std::size_t i, std::size_t from) {
+      if (std::isfinite(torques[from]) && torques[from] > 0) to[i] = torques[from];
+    });
     actuator_->effort(rest, rest, torques, slopes);
-    for (std::size_t i = 0; i < limit.size(); ++i) {
-      numbers(per_speed)[i] = slopes[i] > 0 ? slopes[i] : to[i] / kSpeed;
-      numbers(least_slope_)[i] = slopes[i] > 0 ? kSlope * slopes[i] : 0;
-    }
+    each([&](std::size_t i, std::size_t from) {
+      numbers(per_speed)[i] = slopes[from] > 0 ? slopes[from] : to[i] / kSpeed;
+      numbers(least_slope_)[i] = slopes[from] > 0 ? kSlope * slopes[from] : 0;
+    });
   }
 
   static Out numbers(std::span<T> values) { return math::numbers(values); }

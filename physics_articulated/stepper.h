@@ -46,13 +46,18 @@ struct History {
 template <class T>
 class Stepper {
  public:
-  Stepper(const Tree<T>& tree, const Environment<T>& environment, const Actuator* actuator, Method method, const T& accuracy)
+  /// `solos` has an element for each lane, or none; they must outlive the stepper.
+  Stepper(const Tree<T>& tree, const Environment<T>& environment, const Actuator* actuator, Method method, const T& accuracy,
+          std::span<const SoloOfLane> solos)
       : implicit(tree, environment, actuator),
         layout{tree.lo.size()},
         method_(method),
         joints_(tree.lo.size()),
         accuracy_(accuracy),
-        history_(layout.size(), T(0.0)) {
+        history_(layout.size(), T(0.0)),
+        solos_(solos),
+        of_solo_(StateLayout::kAngles + 2 * joints_),
+        command_of_solo_(joints_) {
     const std::vector<T> zero(StateLayout::kAngles + 2 * joints_, T(0.0));
     for (auto* state : {&sum_, &stage_, &rate_}) *state = zero;
     const Way way{zero, 0, 0};
@@ -142,10 +147,40 @@ class Stepper {
     return part;
   }
 
+  /// Index of the lane if `which` contains exactly one, otherwise kLanes.
+  static std::size_t only_lane(const math::Mask<T>& which) {
+    const T one = math::select(which, T(1.0), T(0.0));
+    std::size_t found = math::kLanes<T>;
+    for (std::size_t l = 0; l < math::kLanes<T>; ++l) {
+      if (!(math::lane(one, l) > 0)) continue;
+      if (found < math::kLanes<T>) return math::kLanes<T>;
+      found = l;
+    }
+    return found;
+  }
+
+  /// Takes an implicit step of the lane `l` in scalar code. `which` contains this lane only.
+  void step_alone(std::size_t l, std::span<T> x, In command, double h, const math::Mask<T>& which) {
+    Solo& solo = *solos_[l].get;
+    for (std::size_t e = 0; e < x.size(); ++e) of_solo_[e] = math::lane(x[e], l);
+    for (std::size_t j = 0; j < joints_; ++j) command_of_solo_[j] = command[j * math::kLanes<T> + l];
+    solo.step(of_solo_, command_of_solo_, h);
+    for (std::size_t e = 0; e < x.size(); ++e) math::lane(x[e], l) = of_solo_[e];
+    implicit.take(solo, l, which);
+    apart_ = math::mask_or(apart_, which);
+    slide_ = solo.slides ? math::mask_or(slide_, which) : math::fresh(slide_, which);
+  }
+
   /// Takes one implicit step of the lanes `which` and adds its parts.
   void settle(std::span<T> x, In command, double h, const math::Mask<T>& which, std::size_t halvings = 0) {
     if (halvings < kHalvings) std::copy(x.begin(), x.end(), halved_[halvings].begin());
-    implicit.step(x, command, h, which);
+    const std::size_t alone = solos_.empty() ? math::kLanes<T> : only_lane(which);
+    if (alone < math::kLanes<T>) {
+      step_alone(alone, x, command, h, which);
+    } else {
+      implicit.step(x, command, h, which);
+      apart_ = math::fresh(apart_, which);
+    }
     history_[layout.solves()] = history_[layout.solves()] + math::select(which, implicit.solves, T(0.0));
     const bool halve = halvings < kHalvings && math::any_lane(implicit.unfinished);
     Part<T>& part = add_part();
@@ -213,7 +248,7 @@ class Stepper {
   /// Limits after the last solve of each lane.
   void look(Limits& limits) const {
     for (std::size_t j = 0; j < joints_; ++j) limits.motor[j] = implicit.motors.at_limit(j);
-    limits.slide = implicit.contacts.mostly_slide();
+    limits.slide = math::mask_or(math::fresh(implicit.contacts.mostly_slide(), apart_), math::mask_and(slide_, apart_));
   }
 
   /// Takes an implicit step from `start` to way.x. If `start` is itself a way, the parts of both belong to the new one.
@@ -377,6 +412,10 @@ class Stepper {
   std::vector<T> history_, sum_, stage_, rate_;
   std::vector<Level> levels_;
   Limits limits_;
+  std::span<const SoloOfLane> solos_;
+  std::vector<double> of_solo_, command_of_solo_;
+  math::Mask<T> apart_{},
+      slide_{};  ///< lanes whose last step was that of a solo; of these, lanes where most of the load slides
   std::vector<std::vector<T>> halved_;
   std::vector<Part<T>> parts_;
   std::size_t used_ = 0;
