@@ -76,9 +76,9 @@ std::string in_one_scenario(Journal& journal, const studies::PointResult& point,
 /// Word of the verdict on a point. It is that of the first run of the point or, with several scenarios, that of the first run
 /// that is infeasible or failed.
 std::string verdict_on(Journal& journal, const studies::PointResult& point, std::size_t place) {
-  const std::string first = journal.row(point.first_run)[place];
+  std::string first = journal.row(point.first_run)[place];
   for (std::uint64_t r = 0; !journal.head().scenarios.empty() && r < point.runs; ++r) {
-    const std::string word = journal.row(point.first_run + r)[place];
+    std::string word = journal.row(point.first_run + r)[place];
     if (word == "infeasible" || word == "failed") return word;
   }
   return first;

@@ -12,7 +12,9 @@ namespace gaitlab {
 
 double usable_step(const Scenario& s, double limit) {
   constexpr double kSeries[] = {5, 2.5, 2, 1.25, 1};
-  for (double scale = 1; scale < 1e9; scale *= 10) {
+  constexpr std::size_t kDecades = 9;
+  double scale = 1;
+  for (std::size_t decade = 0; decade < kDecades; ++decade, scale *= 10) {
     for (const double mantissa : kSeries) {
       const double step = mantissa / scale;  // has the same bits as the decimal text
       const auto divides = [&](double period) { return math::whole_steps(period, step) > 0; };

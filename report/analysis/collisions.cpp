@@ -220,8 +220,8 @@ class Row {
   std::vector<Near> near_ = {};
   struct Met {
     Key a, b;
-    double depth;  ///< m
-    auto operator<=>(const Met&) const = default;
+    double depth;                                  ///< m
+    auto operator<=>(const Met&) const = default;  // NOLINT(modernize-use-nullptr): the comparison with 0 is of the compiler
   };
   std::vector<Met> met_ = {};
 };

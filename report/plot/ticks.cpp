@@ -37,7 +37,11 @@ void widen(double& lo, double& hi) {
 std::string tick_text(double value, double step) {
   if (step >= 1e6 || step < 1e-6 || std::abs(value) >= 1e7) return with_minus(fmt::format("{:.4g}", value));
   int decimals = 0;
-  for (double scaled = step; scaled < 1 - kSlack; scaled *= 10) ++decimals;
+  double scaled = step;
+  while (scaled < 1 - kSlack) {
+    scaled *= 10;
+    ++decimals;
+  }
   const std::string text = fmt::format("{:.{}f}", value, decimals);
   const bool zero = text.find_first_not_of("-0.") == std::string::npos && text.front() == '-';
   return zero ? text.substr(1) : with_minus(text);

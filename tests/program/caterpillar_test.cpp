@@ -32,7 +32,8 @@ TEST(Walk, JointSevenMovesAndWorksAsInFigureNine) {
   const Table table(walk().trace);
   double lo = 0, hi = 0, lo_angle = 0, hi_angle = 0;
   double repeat = 0;
-  for (double t = 8; t < 16; t += 0.005) {
+  for (int row = 1600; row < 3200; ++row) {
+    const double t = 0.005 * row;
     lo = std::min(lo, table(t, "joint.7.torque"));
     hi = std::max(hi, table(t, "joint.7.torque"));
     lo_angle = std::min(lo_angle, table(t, "joint.7.angle"));
@@ -53,7 +54,8 @@ TEST(Walk, MotorsDrawMoreThanTheirCopperLosesOverWholeCycles) {
   double drawn = 0;
   for (std::size_t j = 0; j < 16; ++j) {
     const std::string joint = "joint." + std::to_string(j) + ".";
-    for (double t = 4.005; t < 16.0025; t += 0.005) {
+    for (int row = 801; row <= 3200; ++row) {
+      const double t = 0.005 * row;
       const double i = table(t, joint + "current");
       drawn += 0.005 * table(t, joint + "voltage") * i;
       surplus += 0.005 * (table(t, joint + "voltage") * i - 4.3 * i * i);

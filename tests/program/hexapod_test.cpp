@@ -76,7 +76,8 @@ void expect_walks(const Walked& w, double travel_a_second) {
   const auto& t = w.table;
   EXPECT_GT(t(12, "com.x") - t(4, "com.x"), 8 * travel_a_second);
   const double standing = t(0, "com.z");
-  for (double time = 4; time <= 12; time += 0.005) {
+  for (int row = 800; row <= 2400; ++row) {
+    const double time = 0.005 * row;
     EXPECT_NEAR(t(time, "com.z"), standing, 0.25 * standing) << time;
     const double qx = t(time, "base.qx");
     const double qy = t(time, "base.qy");
@@ -85,7 +86,8 @@ void expect_walks(const Walked& w, double travel_a_second) {
     EXPECT_LT(2 * std::abs(qz), 0.2) << "heading at " << time;
   }
   // The middle of the swing is in the middle of each half of the 2 s cycle.
-  for (double mid = 4.5; mid < 12; mid += 1) {
+  for (int second = 4; second < 12; ++second) {
+    const double mid = second + 0.5;
     double carried = 0;
     for (std::size_t leg = 0; leg < w.legs.size(); ++leg) {
       const bool first_half = std::fmod(mid, 2) < 1;
@@ -124,7 +126,8 @@ TEST(Walk, CentralSpineJointCarriesTheBodyAsInFigureFourteen) {
   const Walked& w = hexapod();
   std::vector<double> torque;
   std::size_t negative = 0;
-  for (double t = 4; t <= 12; t += 0.005) {
+  for (int row = 800; row <= 2400; ++row) {
+    const double t = 0.005 * row;
     EXPECT_LT(std::abs(w.table(t, "joint.5.angle")), 0.1);
     torque.push_back(w.table(t, "joint.5.torque"));
     if (torque.back() < 0) ++negative;

@@ -99,7 +99,8 @@ TEST(Keyframes, WithoutRepeatItStartsAndEndsAtRestAndHolds) {
 
 TEST(Keyframes, ClampedSplineOfTwoFramesIsTheKnownCubic) {
   const Keyframes gait(joints(1), settings({{0, {0}}, {2, {0.8}}}, false));
-  for (double t = 0; t <= 2; t += 0.1) {
+  for (int tenth = 0; tenth <= 20; ++tenth) {
+    const double t = 0.1 * tenth;
     const double s = t / 2;
     EXPECT_NEAR(at(gait, t), 0.8 * (3 * s * s - 2 * s * s * s), 1e-15) << t;
   }
@@ -129,7 +130,8 @@ TEST(Keyframes, TwoAndThreeFramesRepeat) {
   EXPECT_DOUBLE_EQ(at(still, 1.234), 0.3);
   // The joint moves up and back. By symmetry its speed is zero at both frames, so that each half is a known cubic.
   const Keyframes swing(joints(1), settings({{0, {0}}, {1, {1}}, {2, {0}}}, true));
-  for (double t = 0; t <= 1; t += 0.1) {
+  for (int tenth = 0; tenth <= 10; ++tenth) {
+    const double t = 0.1 * tenth;
     EXPECT_NEAR(at(swing, t), t * t * (3 - 2 * t), 1e-14) << t;
     EXPECT_NEAR(at(swing, 2 - t), t * t * (3 - 2 * t), 1e-14) << t;
   }

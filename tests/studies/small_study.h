@@ -78,6 +78,7 @@ inline studies::Executor answering(std::function<studies::Row(const studies::Job
       }
       if (jobs.empty()) return true;
       work.begin(runs);
+      rows.reserve(jobs.size());
       for (const studies::Job& job : jobs) rows.push_back(answer(job));
       work.end(std::move(rows));
     }

@@ -48,7 +48,8 @@ class Scatter {
 
   void panel(std::size_t k, bool histogram) {
     const double left = kPanelLeft + kColumnWide * static_cast<double>(k % kInRow);
-    const double top = kSheetTop + kRowHigh * static_cast<double>(k / kInRow);
+    const std::size_t row = k / kInRow;
+    const double top = kSheetTop + kRowHigh * static_cast<double>(row);
     const bool first = k % kInRow == 0;
     const Ticks across = parameter_ticks(f_, k, 4, kEdge);
     const Plot plot(svg_, {left, left + kPanelWide, top, top + kPanelHigh},

@@ -26,7 +26,9 @@ double on_axis(const StudyAxis& axis, double value) { return axis.log ? log10_of
 /// Draws lines at 45 degrees within a rectangle.
 void hatch(Canvas& canvas, Point corner, double width, double height, const Style& style = kHatchLine) {
   constexpr double kApart = 7;  // px, distance of lines
-  for (double offset = kApart; offset < width + height; offset += kApart) {
+  const auto lines = static_cast<std::size_t>(std::max(0.0, std::ceil((width + height) / kApart) - 1));
+  for (std::size_t k = 1; k <= lines; ++k) {
+    const double offset = kApart * static_cast<double>(k);
     const double x0 = std::max(0.0, offset - height);
     const double x1 = std::min(offset, width);
     canvas.line({corner.x + x0, corner.y + offset - x0}, {corner.x + x1, corner.y + offset - x1}, style);

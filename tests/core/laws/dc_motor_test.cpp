@@ -20,8 +20,8 @@ double gear_loss(const DcMotor& m, double command, double speed) {
 /// Calls `visit` for commands and speeds of both signs, including both saturations.
 template <class Visit>
 void everywhere(Visit visit) {
-  for (double command = -9; command <= 9; command += 0.75) {
-    for (double speed = -6; speed <= 6; speed += 0.0625) visit(command, speed);
+  for (int i = -12; i <= 12; ++i) {
+    for (int k = -96; k <= 96; ++k) visit(0.75 * i, 0.0625 * k);
   }
 }
 

@@ -284,7 +284,9 @@ TEST(GroundOfBoxes, GapIsThatToTheNearestOfMany) {
 
 /// Height of the highest point in a box on a vertical line, found from above in steps of `step`; 0 without a box.
 double sampled_top(const std::vector<Box>& list, const Vec3& point, double step) {
-  for (double z = 2; z > 0; z -= step) {
+  double z = 2;
+  while (z > 0) {
+    z -= step;
     for (const Box& b : list) {
       const Vec3 local = b.R.transpose() * (Vec3(point.x(), point.y(), z) - b.center);
       if ((local.cwiseAbs() - 0.5 * b.size).maxCoeff() < 0) return z;
