@@ -103,8 +103,9 @@ std::string references(const Results& results, const std::string& scenario) {
   std::string out;
   for (const Converged& c : results.references) {
     if (c.scenario != scenario) continue;
-    out += fmt::format("- reference {}: step {:.4g} ms; the next longer one differs by {} ({} of the median joint)\n", c.name,
-                       1e3 * c.step, percent(c.left.worst), percent(c.left.median));
+    out += fmt::format(
+        "- reference {}: step {:.4g} ms; the result with the next longer step differs by {} (by {} in the median joint)\n",
+        c.name, 1e3 * c.step, percent(c.left.worst), percent(c.left.median));
   }
   return out;
 }

@@ -134,7 +134,7 @@ void Keyframes::Model::fields(Fields& f) {
   f.number("ramp", ramp, {"s", 0, 1e6, "Duration of the start, in which all angles grow linearly from 0."});
 }
 
-void Keyframes::Settings::fields(Fields& f) { f.group("model", model, "Keys of this gait alone."); }
+void Keyframes::Settings::fields(Fields& f) { f.group("model", model, "Keys that only this type has."); }
 
 Keyframes::Keyframes(const RobotInfo& robot, const Settings& settings)
     : joints_(robot.joints.size()), repeat_(settings.model.repeat), ramp_(settings.model.ramp) {

@@ -17,7 +17,7 @@ class Table final : public Cpg {
   };
   struct Settings {
     Model model;
-    void fields(Fields& f) { f.group("model", model, "Keys of this gait alone."); }
+    void fields(Fields& f) { f.group("model", model, "Keys that only this type has."); }
   };
   static const char* const kManual;
 

@@ -39,7 +39,7 @@ Source: Chariot, Filippi, Verlinden 2012, section IV-B and figure 11; angles and
 void Tripod::Settings::fields(Fields& f) {
   f.number("frequency", frequency, {"Hz", 0, 20, "Frequency of the whole cycle, stance and swing."});
   f.number("amplitude", amplitude, {"rad", 0, 1.5, "A: a leg swings from -A to +A."});
-  f.group("model", model, "Keys of this gait alone.");
+  f.group("model", model, "Keys that only this type has.");
 }
 
 void Tripod::Model::fields(Fields& f) {

@@ -148,8 +148,8 @@ void judge(GoldenCase& c, Attempt& outcome) {
   c.difference = compare(*c.golden, c.run, c.other_engine);
   if (!c.difference.passed()) c.verdict = Verdict::regression;
   try {
-    // With equal columns the golden may also belong to a scenario that was renamed and changed. This is a regression, whose
-    // message contains both names.
+    // If the columns are the same, the golden may belong to a scenario that was renamed and changed. This is a regression,
+    // whose message contains both names.
     const std::size_t columns = c.golden->run.trace.columns.size();
     if (!c.given_golden && (c.run.trace.columns.size() != columns || c.difference.columns.size() + 1 != columns))
       check_own(*c.golden, c.folder, *c.scenario, c.difference);

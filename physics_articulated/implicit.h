@@ -229,8 +229,9 @@ class Implicit {
     return sum;
   }
 
-  /// Share of the way from the iterate to the last solve. It is 1 unless phi rises at the end of the way. Otherwise it is the
-  /// share at which phi is level, to 1 % of the slope at the start of the way (regula falsi, every third time a bisection).
+  /// Share of the way from the iterate to the last solve. It is 1 if phi falls up to that solution. Otherwise it is the
+  /// share at which the slope of phi is 0, to 1 % of the slope at the start of the way (regula falsi, every third time a
+  /// bisection).
   T share(const math::Mask<T>& which, std::span<const T> x, In command, double h) {
     using math::select;
     const T zero = 0.0, one = 1.0;

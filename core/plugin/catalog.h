@@ -38,7 +38,7 @@ struct Engine {
   double (*choose_step)(const Scenario&) = nullptr;
 
   [[nodiscard]] const Integrator* integrator(std::string_view name) const;  ///< null if the name is unknown
-  /// Integrator that chooses its steps, with the default `step: auto`; or null.
+  /// Integrator that chooses its steps, of which `step: auto` is the default. Null if the engine has none.
   [[nodiscard]] const Integrator* adaptive() const;
   /// Default for a given step: the first integrator that does not choose its steps.
   [[nodiscard]] const Integrator& fixed() const;

@@ -39,7 +39,7 @@ inline constexpr const char* kCouplingRulesAbout =
     "with the same parent; mirror: a right joint follows its left counterpart; all: every other joint; or a list.";
 
 /// Number of the joint that is the mirror image of `joint` (which has y < 0) in the plane y = 0 at zero angles, or -1. The axes
-/// of image and joint are parallel after reflection, but positive turns may be opposite.
+/// of the joint and its image are parallel after reflection, but their positive directions of rotation may be opposite.
 inline std::int64_t mirror_image(const RobotInfo& robot, std::size_t joint) {
   constexpr double kSamePlace = 1e-3;     // m; far above rounding errors, far below the size of a module
   constexpr double kSameDirection = 0.9;  // cosine of the largest angle between parallel axes

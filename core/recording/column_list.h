@@ -10,7 +10,7 @@
 namespace gaitlab {
 
 struct Column {
-  std::string name;        ///< contains numbers of joints, not their names: `joint.7.torque`
+  std::string name;        ///< identifies a joint by its index, not by its name: `joint.7.torque`
   std::string unit;        ///< "N m", "rad", "" ...
   std::string definition;  ///< one sentence: quantity, sign, axes
 };

@@ -101,7 +101,7 @@ void finish_shape(Boxes& ground, const GroundNodes& section) {
   std::vector<Box> boxes = ground.list();
   if (list == nullptr || (list->kind == Node::Kind::list && list->items.empty())) {
     problems.add(list != nullptr ? list->place : section.node.place,
-                 "a ground of type boxes needs some; expected boxes: [{center, size}]");
+                 "a ground of type boxes needs at least one box; expected boxes: [{center, size}]");
     return;
   }
   for (std::size_t i = 0; i < boxes.size() && i < list->items.size(); ++i) {

@@ -51,7 +51,7 @@ class Raise final : public Fields {
 /// Largest rise of the centre of mass above its height at the start, m.
 double rise(const std::vector<double>& z) { return *std::ranges::max_element(z) - z.front(); }
 
-/// Shortfall of the joint that lacks most among those at the limit for some time: `0.241 A at m5/passive (needs 0.741 A;
+/// Largest shortfall among the joints that reach their limit at any time: `0.241 A at m5/passive (needs 0.741 A;
 /// largest torque 1.3 N m, largest speed 0.9 rad/s)`.
 std::string lack(const Scenario& scenario, const std::vector<JudgedJoint>& own, const std::vector<JudgedJoint>& free,
                  double JudgedJoint::*share, double JudgedJoint::*peak, const char* unit) {

@@ -51,7 +51,7 @@ class Search {
   std::uint64_t generation_ = 0, restart_ = 0;
   std::unique_ptr<Evolution> evolution_;  ///< null while the first block of points is being evaluated
   std::vector<Vector> raw_, asked_;       ///< points of the algorithm, before and after mirroring into the box
-  std::vector<Vector> front_;             ///< objective values of the points since the restart that no other point dominates
+  std::vector<Vector> front_;             ///< objective values of the non-dominated points since the restart
   std::size_t idle_ = 0;                  ///< generations since the last improvement
   bool ended_ = false;
 };

@@ -8,7 +8,7 @@ namespace gaitlab::test {
 class EveryEngine : public testing::TestWithParam<std::string> {
  protected:
   [[nodiscard]] static std::string set() { return "physics.engine=" + GetParam(); }
-  /// Name of the engine's integrator of first order.
+  /// Name of the engine's first-order integrator.
   [[nodiscard]] static std::string first_order() { return catalog().engine(GetParam())->fixed().name; }
 };
 

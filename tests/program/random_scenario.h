@@ -50,8 +50,8 @@ inline void add_motors(RandomRobots& random, Scenario& s) {
 
 /// Random robot on or slightly above a random ground (a plane, with or without boxes), with random motors, and with hinge stops
 /// near its initial angles. The run has `ticks` control and trace ticks of ten steps each. The step is at most 0.1 ms and, for
-/// the largest decay rate lambda of the run, at most 2 share / lambda. It resolves a stop's spring at a light body
-/// (50 N m/rad, 2e-5 kg m^2, 1600 rad/s).
+/// the largest decay rate lambda of the run, at most 2 share / lambda. It resolves the oscillation of a light body on a stop's
+/// spring (50 N m/rad, 2e-5 kg m^2, 1600 rad/s).
 inline Scenario random_run(RandomRobots& random, Base base, int ticks, double share) {
   constexpr int kTickSteps = 10;
   Scenario s = random_scenario(random, base);

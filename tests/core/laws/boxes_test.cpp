@@ -34,7 +34,7 @@ Box drawn_box(Draw& draw, double extent, double smallest, double largest) {
   return box;
 }
 
-/// Random list of few or many boxes: small boxes side by side, or with some large boxes, in a square or along a line.
+/// Random list of few or many boxes in a square or along a line. All are small and side by side, or some of them are large.
 std::vector<Box> drawn_boxes(Draw& draw) {
   const auto count = static_cast<std::size_t>(std::pow(10, draw(1, 2.3)));
   const double extent = 0.05 * std::sqrt(static_cast<double>(count)) * std::pow(10, draw(-0.5, 1));

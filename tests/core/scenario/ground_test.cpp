@@ -63,9 +63,10 @@ TEST_F(GroundSection, ReadsAHeightfieldInTheScenarioAndFromAFile) {
 }
 
 TEST_F(GroundSection, RefusesBoxesAtTheirPlace) {
-  EXPECT_EQ(wrong("{type: boxes}"), "s.yaml:3:9: error: a ground of type boxes needs some; expected boxes: [{center, size}]");
+  EXPECT_EQ(wrong("{type: boxes}"),
+            "s.yaml:3:9: error: a ground of type boxes needs at least one box; expected boxes: [{center, size}]");
   EXPECT_EQ(wrong("{type: boxes, boxes: []}"),
-            "s.yaml:3:30: error: a ground of type boxes needs some; expected boxes: [{center, size}]");
+            "s.yaml:3:30: error: a ground of type boxes needs at least one box; expected boxes: [{center, size}]");
   EXPECT_EQ(wrong("{boxes: [{size: [1, 1, 1]}]}"),
             "s.yaml:3:10: error: boxes is given, but the ground is of type plane; expected type: boxes");
   EXPECT_EQ(wrong("{type: box}"), "s.yaml:3:16: error: type 'box' is unknown; did you mean 'boxes'?");

@@ -43,7 +43,7 @@ TEST(Demand, IsTheRunWithLimitsTwentyTimesAsLarge) {
   }
   ASSERT_GT(weak.judged.count(CheckStatus::fail), 0U);
   add_demand(weak.judged, weak.scenario, weak.summary, made);
-  // The demand contains every joint that is at its limit for some time. The missing amount is that of the joint that lacks
+  // The demand contains every joint that reaches its limit at any time. The missing amount is that of the joint that lacks
   // most.
   const std::vector<JudgedJoint>& own = weak.summary.judged.joints;
   std::size_t limited = 0;
