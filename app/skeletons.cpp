@@ -119,8 +119,8 @@ class @CLASS@ final : public gaitlab::Controller {
   // "V" or "N m", the actuator's; another is an error of the scenario.
   std::string_view command_unit() const override { return "V"; }
 
-  // Once per control period; the command is held until the next. A state (an integral, a filter) would be `states()` numbers in x,
-  // which the simulation keeps: this object itself never changes.
+  // Once per control period; the command is held until the next. The state of a controller (an integral,
+  // a filter) is kept by the simulation, in the `states()` numbers of x; the object itself is constant.
   void update(const gaitlab::Measured& m, gaitlab::In setpoint, gaitlab::In, gaitlab::Out, gaitlab::Out command) const override {
     for (std::size_t j = 0; j < joints_; ++j) {
       command[j] = s_.stiffness[j] * (setpoint[j] - m.angle[j]) - s_.damping[j] * m.speed[j];

@@ -127,7 +127,7 @@ void Keyframes::Frame::fields(Fields& f) {
 void Keyframes::Model::fields(Fields& f) {
   static constexpr const char* kInterpolations[] = {"spline", "linear"};
   f.list("frames", frames,
-         "At least two frames in the order of time; default: two frames that hold every joint at its default.");
+         "At least two frames, in order of increasing time; default: two frames that hold every joint at its default.");
   if (const std::string wrong = wrong_times(frames); !wrong.empty()) f.problem("frames", wrong);
   f.choice("interpolation", interpolation, kInterpolations, "Interpolation between frames.");
   f.flag("repeat", repeat, "Start again after the last frame, which must equal the first; otherwise hold the last frame.");

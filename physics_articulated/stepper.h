@@ -25,7 +25,9 @@ struct History {
   std::size_t joints = 0;
   [[nodiscard]] std::size_t peak() const { return 0; }  ///< per joint: largest motor torque at the end of a step so far, N m
   [[nodiscard]] std::size_t solves() const { return joints; }
-  [[nodiscard]] std::size_t off() const { return joints + 1; }     ///< number of motors and stops off their law after a step
+  [[nodiscard]] std::size_t off() const {
+    return joints + 1;
+  }  ///< number of motors and stops whose torque at the end of a step differs from their law
   [[nodiscard]] std::size_t coarse() const { return joints + 2; }  ///< time in which the shortest steps missed the accuracy, s
   [[nodiscard]] std::size_t size() const { return joints + 3; }
 };

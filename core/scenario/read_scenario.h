@@ -25,7 +25,7 @@ Scenario read_module(const std::string& path, Catalog& catalog);
 /// A scenario that is parsed, assembled and checked only once, for many rollouts that differ in a few settings.
 class ScenarioTemplate {
  public:
-  /// Reads and checks the scenario. Throws InputError as read_scenario().
+  /// Reads and checks the scenario. Throws the InputError of read_scenario().
   ScenarioTemplate(std::string path, std::vector<std::string> sets, Catalog& catalog);
   ~ScenarioTemplate();
   ScenarioTemplate(const ScenarioTemplate&) = delete;

@@ -191,8 +191,8 @@ void Limits::fields(Fields& f) {
             "Default: chosen."});
   f.number("tracking_error", tracking_error,
            {"rad", kPositive, 1000,
-            "Largest difference of a set point and its angle; up to twice that is a warning, more a failure. Default: the axis "
-            "of the paper's figure 14."});
+            "Largest allowed difference of set point and angle; up to twice this is a warning, more is a failure. Default: the "
+            "axis of the paper's figure 14."});
   f.number(
       "saturated_share", saturated_share,
       {"", 0, 1,

@@ -41,7 +41,7 @@ std::string Packing::text() const { return base64(deflated(bytes_, kLevel)); }
 double quantum_of(double magnitude, double largest_quantum) {
   const double wanted = magnitude / 1000;
   if (!std::isfinite(wanted) || !(wanted > 1e-12) || wanted >= largest_quantum) return largest_quantum;
-  // The result is an integer divided by an integer power of ten, which gives the double nearest to 1e-5.
+  // The result is 5, 2 or 1 divided by a power of ten (10, 100, ...), and thus the double nearest to the decimal number.
   double below = 1;
   while (wanted * below < 1) below *= 10;
   const double digit = wanted * below;

@@ -139,8 +139,9 @@ constexpr CheckKind kChecks[] = {
      "share of the time in which the shortest steps do not reach physics.accuracy", "",
      "above 10 %, and the verdict is not judged", kWhole, "physics.step", "damping, or bounds on the drive of the joints",
      checks::coarse},
-    {"law", Group::trust, "", "Motors keep their law", "number of joint-steps that end off the law of their motor or stop", "",
-     "any", kWhole, "physics.step", "an actuator whose torque falls with the speed", checks::law},
+    {"law", Group::trust, "", "Torques satisfy the law of their motor",
+     "number of joint-steps that end off the law of their motor or stop", "", "any", kWhole, "physics.step",
+     "an actuator whose torque falls with the speed", checks::law},
 };
 
 }  // namespace

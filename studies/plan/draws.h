@@ -4,7 +4,7 @@
 
 namespace gaitlab::studies {
 
-/// Purpose number for draws of searches. Draws of points use 1 to 3.
+/// Purpose number for draws of searches. Draws of points have the purposes 1 to 3.
 inline constexpr std::uint64_t kSearchDraw = 4;
 /// Purpose number for the choice of points whose torque error is estimated.
 inline constexpr std::uint64_t kEstimateDraw = 5;

@@ -96,7 +96,7 @@ TEST_F(PaperFigure, AStretchThatTheRunDoesNotHold) {
                                          ": error: from is 0.6 s, not before the end of the run at 0.5 s");
   }
   refused(kRuns + "panels: [{kind: heat, from: 0.101, to: 0.102}]\n",
-          "figure.yaml:2:29: error: the run has no two rows from 0.101 s to 0.102 s; expected a longer stretch");
+          "figure.yaml:2:29: error: the run has fewer than two rows from 0.101 s to 0.102 s; expected a longer interval");
   refused(kRuns + "panels: [{kind: heat, from: 0.2, to: 0.1}]\n",
           "figure.yaml:2:38: error: to is 0.1 s, not behind from, 0.2 s");
 }

@@ -43,8 +43,9 @@ Rows PanelSource::rows(std::span<const double> time) const {
   const Stretch asked = stretch(run().recording.simulated);
   const Rows rows = rows_within(time, asked.from, asked.to);
   if (problems.size() == before && rows.last - rows.first < 2) {
-    problem({panel().from > 0 ? "from" : "to"}, fmt::format("the run has no two rows from {} to {}; expected a longer stretch",
-                                                            with_unit(asked.from, "s"), with_unit(asked.to, "s")));
+    problem({panel().from > 0 ? "from" : "to"},
+            fmt::format("the run has fewer than two rows from {} to {}; expected a longer interval", with_unit(asked.from, "s"),
+                        with_unit(asked.to, "s")));
   }
   return rows;
 }

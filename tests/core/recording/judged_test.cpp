@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kTick = 0.1;  // time between rows of ticks, s
 
-/// Recording of two joints with a row of ticks every 0.1 s for 10 s. Joint 0 has 1 N m and joint 1 has 2 N m; tests change
-/// further values.
+/// Recording of two joints with a row of ticks every 0.1 s for 10 s. Joint 0 has 1 N m and joint 1 has 2 N m; individual
+/// tests change other values.
 Recording ticks_of_ten_seconds() {
   Recording r;
   r.simulated = 10;

@@ -101,7 +101,7 @@ TEST_F(ScenarioTest, ModuleTypes) {
             "DIR/s.yaml:2:21: error: there is no module 2; the robot has modules 0 to 1");
   EXPECT_EQ(error("robot:\n  modules: {defualt: duo}\n" + two),
             "DIR/s.yaml:2:12: error: modules has no type for module 0; add it, or default: TYPE\n"
-            "DIR/s.yaml:2:13: error: unknown key 'defualt' in modules; expected a module's number or default");
+            "DIR/s.yaml:2:13: error: unknown key 'defualt' in modules; expected the number of a module, or `default`");
 }
 
 TEST_F(ScenarioTest, TheDefaultTypeIsMtran) {
