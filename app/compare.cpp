@@ -62,7 +62,7 @@ std::vector<std::string> common_names(const Json& a, const Json& b, const char* 
     return names;
   };
   std::vector<std::string> names = of(a);
-  const std::vector<std::string> others = of(b);
+  std::vector<std::string> others = of(b);
   if (names.empty()) return others;
   for (std::size_t i = 0; i < std::min(names.size(), others.size()); ++i) {
     if (names[i] != others[i]) names[i].clear();

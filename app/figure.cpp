@@ -131,7 +131,7 @@ std::string picture(const report::PaperFigure& figure, const fs::path& file) {
 
 /// Path of the figure: -o, or RECIPE.svg in the working folder, which must not exist.
 fs::path target(const FigureArguments& arguments) {
-  const fs::path file = arguments.out ? fs::path(*arguments.out) : fs::path(arguments.recipe).stem().replace_extension(".svg");
+  fs::path file = arguments.out ? fs::path(*arguments.out) : fs::path(arguments.recipe).stem().replace_extension(".svg");
   if (file.extension() != ".svg" && file.extension() != ".pdf")
     throw InputError(SourceLocation{"-o " + file.string()}, "expected a file named .svg or .pdf");
   if (!arguments.out && kind_of(file) != fs::file_type::not_found)

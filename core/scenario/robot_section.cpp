@@ -22,11 +22,11 @@ namespace {
 /// Path of a build file, or of a robot by its name as in `gaitlab list robot`. A named robot belongs to the program, or is in a
 /// folder robots/ beside the scenario.
 std::string build_path(const std::string& folder, const std::string& name) {
-  const std::string path = path_from(folder, name);
+  std::string path = path_from(folder, name);
   std::error_code none;
   if (std::filesystem::exists(path, none) || name.find_first_of("/.") != std::string::npos) return path;
   for (const std::string& robots : {path_from(folder, "robots"), path_from(folder, "../robots"), data_folder() + "/robots"}) {
-    const std::string named = robots + "/" + name + ".dat";
+    std::string named = robots + "/" + name + ".dat";
     if (std::filesystem::exists(named, none)) return named;
   }
   return path;

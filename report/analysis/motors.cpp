@@ -68,7 +68,7 @@ std::string in_few_words(const std::string& source) {
     return fmt::format("chosen figures ({})", reason.substr(reason.find(": ") + 2));
   }
   if (chosen(source)) return "chosen figures";
-  const std::string clause = one_line(source.substr(0, source.find("; ")));
+  std::string clause = one_line(source.substr(0, source.find("; ")));
   if (clause.size() <= kLongest) return clause;
   const std::size_t blank = clause.rfind(' ', kLongest);
   return blank == std::string::npos ? clause : clause.substr(0, clause.find_last_not_of(" ,:", blank) + 1) + " ...";
@@ -92,11 +92,11 @@ std::string motor_source(const Scenario& scenario) {
   const TypePresets types(Kind::actuator, scenario.robot.get(), *scenario.module_documents);
   if (!types.holds(*scenario.actuator.entry)) return together({scenario.actuator_source});
   const std::vector<std::string> changed = changed_figures(scenario, types);
-  const std::string stated = together(types.sources(*scenario.actuator.entry, changed));
+  std::string stated = together(types.sources(*scenario.actuator.entry, changed));
   if (changed.empty()) return stated;
   const std::string keys = fmt::format("{} of the scenario", fmt::join(changed, ", "));
   const std::string& own = scenario.actuator_source;
-  const std::string given = own.empty() ? fmt::format("{} for {}", kNoSource, keys) : fmt::format("{}: {}", keys, own);
+  std::string given = own.empty() ? fmt::format("{} for {}", kNoSource, keys) : fmt::format("{}: {}", keys, own);
   if (stated.empty()) return given;  // the scenario gives all values
   return !chosen(given) && chosen(stated) ? stated + "; " + given : fmt::format("{}; the rest: {}", given, stated);
 }
@@ -116,7 +116,7 @@ bool chosen(const std::string& source) {
 }
 
 std::string figures_sentence(const std::vector<std::string>& motors, const std::vector<std::string>& docks) {
-  const std::string of_docks = docks.empty() ? "" : "docks: " + in_few_words(docks);
+  std::string of_docks = docks.empty() ? "" : "docks: " + in_few_words(docks);
   if (motors.empty()) return of_docks;
   return "motors: " + in_few_words(motors) + (docks.empty() ? "" : "; " + of_docks);
 }

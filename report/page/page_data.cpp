@@ -79,6 +79,7 @@ Json motors_json(const Motors& motors) {
 
 Json feet_json(const Scenario& scenario, const std::vector<Foot>& feet, const RobotTree& tree) {
   std::vector<std::size_t> bodies;
+  bodies.reserve(feet.size());
   for (const Foot& foot : feet) bodies.push_back(foot.body);
   const std::vector<std::string> titles = foot_names(scenario, bodies);
   Json all = Json::array();

@@ -109,7 +109,7 @@ std::string predictability_text(const Scenario& s, const Recording& r) {
                                                    : "not tested: no rollout under a disturbed gravity was made";
   }
   const bool chaotic = found == Predictability::chaotic;
-  const std::string does =
+  std::string does =
       chaotic ? fmt::format("gravity times 1 + 1e-9 changes the torques by {} of their peak", texts::rough_percent(apart.share))
               : fmt::format("gravity times 1 + 1e-6 changes the torques by about {} of their peak (in proportion to 1 + 1e-9)",
                             texts::rough_percent(apart.share));

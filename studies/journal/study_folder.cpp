@@ -146,7 +146,7 @@ Shards shards_in(const fs::path& folder) {
 fs::path study_folder(const std::optional<fs::path>& out, const std::string& name,
                       const std::function<bool(const fs::path&)>& is_it) {
   for (int k = 1; !out; ++k) {
-    const fs::path folder = fs::path("runs") / (k == 1 ? name : fmt::format("{}-{}", name, k));
+    fs::path folder = fs::path("runs") / (k == 1 ? name : fmt::format("{}-{}", name, k));
     std::error_code none;
     if (!fs::exists(folder, none)) break;
     if (is_it(folder)) return folder;

@@ -31,7 +31,7 @@ std::vector<std::string> Plan::sets(std::uint64_t run) const { return sets(point
 /// Settings of a run as if its point had these values.
 std::vector<std::string> Plan::sets(const std::vector<std::string>& values, std::uint64_t run) const {
   std::vector<std::string> sets;
-  for (const auto& [key, value] : bound_.followers().settings(values)) sets.push_back(key + "=" + value);
+  for (const auto& [key, value] : bound_.followers().settings(values)) sets.push_back(fmt::format("{}={}", key, value));
   if (study().replicates.count == 0) return sets;
   const std::uint64_t replicate = points_.replicate(run);
   const std::vector<std::string> drawn = points_.drawn(replicate, nominal(values, points_.scenario(run)));
@@ -49,10 +49,10 @@ bool Plan::raise_budget(std::uint64_t runs) {
 
 std::string Plan::point_name(const std::vector<std::string>& values) const {
   std::string name = scenario_digest_;
-  for (std::size_t k = 0; k < values.size(); ++k) name += study().parameters[k].key + "=" + values[k] + "\n";
+  for (std::size_t k = 0; k < values.size(); ++k) name += fmt::format("{}={}\n", study().parameters[k].key, values[k]);
   const auto own = [](const Parameter& p) { return !p.sets.empty(); };
   if (std::ranges::any_of(study().parameters, own)) {  // the followers may differ in another study
-    for (const auto& [key, value] : bound_.followers().settings(values)) name += key + "=" + value + "\n";
+    for (const auto& [key, value] : bound_.followers().settings(values)) name += fmt::format("{}={}\n", key, value);
   }
   return hash128(name);
 }

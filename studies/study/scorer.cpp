@@ -20,6 +20,7 @@ std::size_t column_of(const std::vector<Quantity>& columns, const std::string& n
 
 std::vector<std::string> names_of(const std::vector<Quantity>& quantities) {
   std::vector<std::string> names;
+  names.reserve(quantities.size());
   for (const Quantity& quantity : quantities) names.push_back(quantity.name);
   return names;
 }

@@ -87,7 +87,7 @@ class GlbFile {
   /// Pose of node n in the frame of its parent at a keyframe, without scale. Without a channel, the pose is constant.
   [[nodiscard]] Pose in_parent(std::size_t n, std::size_t frame) const {
     const nlohmann::json& node = json_["nodes"][n];
-    const auto part = [&](const char* path, std::vector<double> still) {
+    const auto part = [&](const char* path, const std::vector<double>& still) {
       const std::vector<double>& moves = channel(n, path);
       if (moves.empty()) return node.value(path, still);
       const auto from = moves.begin() + static_cast<std::ptrdiff_t>(frame * still.size());

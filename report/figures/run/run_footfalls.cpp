@@ -13,7 +13,7 @@ std::string lacking_load(const Scenario& scenario, const Recording& r, const std
       const auto of_module = [&](const ContactElement& element) {
         return scenario.robot->bodies[element.body].module == static_cast<std::size_t>(m);
       };
-      const std::string column = fmt::format("load.{}", m);
+      std::string column = fmt::format("load.{}", m);
       if (std::ranges::any_of(elements, of_module) && r.series(column).empty()) return column;
     }
   }
