@@ -10,6 +10,7 @@
 #include "core/errors.h"
 #include "core/scenario/plugin_files.h"
 #include "cpg/register.h"
+#include "sensors/register.h"
 
 namespace gaitlab::app {
 
@@ -19,6 +20,7 @@ Catalog standard_catalog(const std::vector<std::string>& plugins) {
   actuators::register_actuators(catalog);
   controllers::register_controllers(catalog);
   cpg::register_cpgs(catalog);
+  sensors::register_sensors(catalog);
   for (const std::string& plugin : plugins) load_plugin_file(plugin, catalog);
   return catalog;
 }

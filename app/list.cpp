@@ -178,19 +178,20 @@ int reference(const ManualArguments& arguments) {
 }  // namespace
 
 void add_manuals(Commands& commands) {
-  add_command<ManualArguments>(
-      commands, "list",
-      "List everything registered: cpg, controller, actuator, engine, module, robot, figure; and checks of the verdict.", list,
-      [](CLI::App& command, ManualArguments& arguments) {
-        command.add_option("KIND", arguments.kind, "list only this kind");
-        add_plugins(command, arguments);
-      });
+  add_command<ManualArguments>(commands, "list",
+                               "List everything registered: cpg, controller, actuator, sensor, engine, module, robot, figure; "
+                               "and checks of the verdict.",
+                               list, [](CLI::App& command, ManualArguments& arguments) {
+                                 command.add_option("KIND", arguments.kind, "list only this kind");
+                                 add_plugins(command, arguments);
+                               });
   add_command<ManualArguments>(
       commands, "explain", "Print the manual of KIND NAME; without them, the manual of the scenario file.", explain,
       [](CLI::App& command, ManualArguments& arguments) {
-        command.add_option("KIND", arguments.kind,
-                           "cpg, controller, actuator, engine, module, robot, figure, check; without NAME also study, verdict, "
-                           "or a check's id");
+        command.add_option(
+            "KIND", arguments.kind,
+            "cpg, controller, actuator, sensor, engine, module, robot, figure, check; without NAME also study, verdict, "
+            "or a check's id");
         command.add_option("NAME", arguments.name, "name that `gaitlab list` prints, or the file NAME.yaml of a module");
         add_plugins(command, arguments);
       });

@@ -3,7 +3,7 @@ include(CMakePackageConfigHelpers)
 
 install(DIRECTORY core/plugin DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gaitlab/core
   FILES_MATCHING PATTERN "*.h"
-  PATTERN catalog.h EXCLUDE PATTERN plugin_instance.h EXCLUDE) # the program's own side
+  PATTERN catalog.h EXCLUDE PATTERN plugin_instance.h EXCLUDE PATTERN sensor.h EXCLUDE) # the program's own side
 
 # The compiler plugins need, as Debian calls it: g++-12, clang++-14.
 string(REGEX MATCH "^[0-9]+" major "${CMAKE_CXX_COMPILER_VERSION}")

@@ -231,6 +231,7 @@ RobotInfo info(const Robot& robot) {
     }
     result.modules.push_back(std::move(one));
   }
+  for (const Body& body : robot.bodies) result.bodies.push_back({body.name, static_cast<std::int64_t>(body.module)});
   for (std::size_t m = 0; m < robot.modules.size();
        ++m) {  // in a second loop, because a parent may have a higher number than its child
     const int parent = robot.modules[m].parent;

@@ -50,25 +50,28 @@ struct Engine {
 
 inline constexpr std::string_view kBuiltIn = "built in";  ///< origin of plugins that belong to the program
 
-/// A kind of plugin, with its names in scenarios and messages.
+/// A kind of plugin, with its names in scenarios and messages. A kind of which a scenario has several has no section of its own
+/// and no default type.
 struct PluginKind {
   Kind kind;
   const char* section;       ///< key of the scenario, and name of the kind in messages
   const char* default_type;  ///< type that is used if the section names none
   bool may_be_none;          ///< true if `type: none` is allowed
+  bool several;              ///< true if a scenario may have several of this kind, each under a name
   const char* about;         ///< description of the section
   const char* about_type;    ///< description of its key `type`
 };
-inline constexpr std::array<PluginKind, 3> kPluginKinds{{
-    {Kind::cpg, "cpg", "phase_oscillator", false, "Pattern generator; without this section the initial angles are held.",
+inline constexpr std::array<PluginKind, 4> kPluginKinds{{
+    {Kind::cpg, "cpg", "phase_oscillator", false, false, "Pattern generator; without this section the initial angles are held.",
      "Oscillator model or gait; its own keys: gaitlab explain cpg TYPE."},
-    {Kind::controller, "controller", "pid", false, "Controller of the joints: from set points to commands.",
+    {Kind::controller, "controller", "pid", false, false, "Controller of the joints: from set points to commands.",
      "Joint controller; its own keys: gaitlab explain controller TYPE."},
-    {Kind::actuator, "actuator", "dc_motor", true, "The motor of every joint.",
+    {Kind::actuator, "actuator", "dc_motor", true, false, "The motor of every joint.",
      "Motor model; its own keys: gaitlab explain actuator TYPE."},
+    {Kind::sensor, "sensor", "", false, true, "A sensor.", "Sensor type; its own keys: gaitlab explain sensor TYPE."},
 }};
 const PluginKind& describe(Kind kind);
-/// Kind of plugin that a section selects, or null if the section selects none.
+/// Kind of plugin by its name, which is also the name of the section that selects a single plugin; or null.
 const PluginKind* find_kind(std::string_view section);
 inline const char* word(Kind kind) { return describe(kind).section; }
 

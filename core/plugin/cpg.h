@@ -6,10 +6,13 @@
 
 namespace gaitlab {
 
-/// Sensor values at a control tick in SI units, with one entry per joint. `touching` has one entry per module, 1 or 0.
+/// Values at a control tick in SI units, with one entry per joint. `touching` has one entry per module, 1 or 0. A value is
+/// true, unless the scenario has a sensor that measures it. `channels` has the values of the other sensors, in the order of
+/// RobotInfo::channels.
 struct Measured {
   double t, period;
   In angle, speed, torque, touching;
+  In channels = {};
 };
 
 /// A model with a state given by ODEs, whose output is the joint set points (rad). The model has no memory: the caller owns the

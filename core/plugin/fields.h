@@ -114,6 +114,21 @@ struct Rows {
 struct Texts {
   std::vector<std::string>& value;
 };
+/// Kind of the names in a field: parts of the robot, or words that the field lists.
+enum class Among { joints, motors, modules, bodies, words };
+/// Names of parts of the robot, or words. In YAML a text or a list of texts; names of parts may be patterns.
+struct Names {
+  std::vector<std::string>& value;
+  Among among;
+  std::span<const char* const> words = {};  ///< allowed words; only for Among::words
+  bool one = false;                         ///< true for exactly one name, without a default
+};
+/// A time of whole control periods. If `most` is not null, the field is also a range [a, b], and `value` is a.
+struct Periods {
+  double& value;
+  double* most;
+  Spec spec;
+};
 /// A map whose keys the user chooses, in the order of the file. A key is a letter, followed by letters, digits and _. A map in
 /// the file replaces the whole default. Empty texts are refused.
 struct Map {
@@ -139,8 +154,10 @@ struct Group {
   void (*visit)(void* self, Fields& fields);
 };
 using Value = std::variant<Number, NumberOr, Integer, Flag, Text, File, OneOf, EachJoint, Joint, Vector, Numbers, Rows, Texts,
-                           Map, List, RuleOrList, Group>;
+                           Names, Periods, Map, List, RuleOrList, Group>;
 }  // namespace field
+
+using field::Among;
 
 struct Field {
   const char* key;
@@ -206,6 +223,21 @@ class Fields {
     visit({key, spec.about, field::Rows{value, spec}});
   }
   void texts(const char* key, std::vector<std::string>& value, const char* about) { visit({key, about, field::Texts{value}}); }
+  void names(const char* key, std::vector<std::string>& value, Among among, const char* about) {
+    visit({key, about, field::Names{value, among}});
+  }
+  void name(const char* key, std::vector<std::string>& value, Among among, const char* about) {
+    visit({key, about, field::Names{value, among, {}, true}});
+  }
+  /// Field of some of the `words`, which must outlive the visit.
+  void words(const char* key, std::vector<std::string>& value, std::span<const char* const> words, const char* about) {
+    visit({key, about, field::Names{value, Among::words, words}});
+  }
+  void periods(const char* key, double& value, Spec spec) { visit({key, spec.about, field::Periods{value, nullptr, spec}}); }
+  /// Field of a time, or of a range of times.
+  void periods(const char* key, double& least, double& most, Spec spec) {
+    visit({key, spec.about, field::Periods{least, &most, spec}});
+  }
   void named(const char* key, std::vector<Named>& value, NamedValues kind, const char* about) {
     visit({key, about, field::Map{value, kind}});
   }

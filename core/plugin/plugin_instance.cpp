@@ -186,6 +186,11 @@ std::unique_ptr<Controller> make_controller(const PluginSelection& selection, co
   return make<GuardedController, Controller>(selection, robot);
 }
 
+std::unique_ptr<Sensor> make_sensor(const PluginSelection& selection, const SensorSite& site) {
+  const Entry& entry = *selection.entry;
+  return guarded(entry, "", [&] { return std::unique_ptr<Sensor>(entry.make_sensor(site, selection.settings.get())); });
+}
+
 std::unique_ptr<Actuator> make_actuator(std::span<const PluginSelection* const> lanes, const RobotInfo& robot) {
   const Entry* entry = lanes.front()->entry;
   if (entry == nullptr) return {};

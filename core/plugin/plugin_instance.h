@@ -6,6 +6,7 @@
 
 #include "core/errors.h"
 #include "core/plugin/catalog.h"
+#include "core/plugin/sensor.h"
 
 namespace gaitlab {
 
@@ -32,6 +33,8 @@ void visit_settings(const Entry& entry, void* settings, Fields& fields);
 /// indirect call and does not allocate. The entry must outlive the instance.
 std::unique_ptr<Cpg> make_cpg(const PluginSelection& selection, const RobotInfo& robot);
 std::unique_ptr<Controller> make_controller(const PluginSelection& selection, const RobotInfo& robot);
+/// A sensor, which is built in: only exceptions of its constructor become PluginErrors.
+std::unique_ptr<Sensor> make_sensor(const PluginSelection& selection, const SensorSite& site);
 /// An actuator from one selection per lane, all with the same entry. Its functions command_limit, reflected_inertia and ratings
 /// throw if the plugin returns another size than joints * lanes.
 std::unique_ptr<Actuator> make_actuator(std::span<const PluginSelection* const> lanes, const RobotInfo& robot);

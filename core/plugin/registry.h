@@ -10,7 +10,10 @@
 
 namespace gaitlab {
 
-enum class Kind { cpg, controller, actuator };
+enum class Kind { cpg, controller, actuator, sensor };
+
+class Sensor;
+struct SensorSite;
 
 struct Entry {
   Kind kind;
@@ -19,8 +22,10 @@ struct Entry {
   std::shared_ptr<void> (*settings)();
   void (*fields)(void* settings, Fields&);
   /// Makes a new Cpg, Controller or Actuator. An actuator gets one settings pointer per lane, any other plugin exactly one.
+  /// Null for a sensor.
   void* (*make)(const RobotInfo&, std::span<const void* const> settings);
   std::string_view origin = {};  ///< kBuiltIn or the path of the library; set by the program
+  Sensor* (*make_sensor)(const SensorSite&, const void* settings) = nullptr;  ///< makes a new sensor (core/plugin/sensor.h)
 };
 
 class Registry {

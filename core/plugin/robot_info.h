@@ -48,10 +48,17 @@ struct ModuleInfo {
       {};  ///< foot contact points, m, in the base frame at zero angles; only for modules without children
 };
 
+struct BodyInfo {
+  std::string name;         ///< name such as `m3/link`
+  std::int64_t module = 0;  ///< number of the body's module
+};
+
 /// A robot as a tree of modules and joints, with its geometry at zero angles.
 struct RobotInfo {
   std::vector<JointInfo> joints;
   std::vector<ModuleInfo> modules;
+  std::vector<BodyInfo> bodies = {};
+  std::vector<std::string> channels = {};  ///< names of the sensors' values in Measured::channels, such as `imu.gyro_x`
 };
 
 }  // namespace gaitlab

@@ -37,7 +37,10 @@ std::vector<KeyRow> scenario_keys(const Catalog& catalog) {
   SectionFields sections(scenario, &catalog, nullptr, describe(Kind::actuator).default_type);
   for (PluginFields* plugin : {&sections.actuator, &sections.controller, &sections.cpg}) plugin->own_keys = false;
   sections.fields(explainer);
-  explainer.row("sensors", "", "[]", "[]", "There are no sensor types yet.");
+  explainer.row(
+      "sensors", "", "{}", "NAME: map",
+      "Sensors by name, each with a type: {NAME: {type: TYPE, ...}}; a map with a key type is a single one. Their keys: "
+      "gaitlab explain sensor TYPE.");
   std::vector<KeyRow> rows = explainer.rows();
   for (KeyRow& row : rows) {
     if (row.key == "duration") row.preset.clear();
@@ -66,7 +69,7 @@ std::string explain_plugin(const Entry& entry) {
 
 std::string scenario_page(const Catalog& catalog) {
   return "# The scenario file\n\n" + std::string(kRenewed) +
-         "Every key, as `gaitlab explain` prints it. The keys of a CPG, controller or actuator are on their own page,\n"
+         "Every key, as `gaitlab explain` prints it. The keys of a CPG, controller, actuator or sensor are on their own page,\n"
          "[plugins.md](plugins.md). A value per joint is a number, a list, or `{default: x, m3/passive: y}`; a name\n"
          "may be a pattern with `*` and `?`, in quotes (`\"*/active\": y`). A name beats patterns, and patterns beat "
          "`default`. For\n"
@@ -84,7 +87,7 @@ std::string default_step(const Engine& engine) {
 }
 
 std::string plugins_page(const Catalog& catalog) {
-  std::string page = "# CPGs, controllers, actuators and engines\n\n" + std::string(kRenewed) +
+  std::string page = "# CPGs, controllers, actuators, sensors and engines\n\n" + std::string(kRenewed) +
                      "The manuals of the built-in plugins, as `gaitlab explain KIND NAME` prints them. One of your own:\n"
                      "[write a CPG](../tutorials/write-a-cpg.md).\n";
   for (const PluginKind& kind : kPluginKinds) {

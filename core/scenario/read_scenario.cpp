@@ -19,6 +19,7 @@
 #include "core/scenario/scenario_periods.h"
 #include "core/scenario/section_places.h"
 #include "core/scenario/sections.h"
+#include "core/scenario/sensor_section.h"
 #include "core/settings/joint_patterns.h"
 #include "core/settings/overlay.h"
 #include "core/settings/reader.h"
@@ -162,8 +163,11 @@ class ScenarioReader {
 
   /// Adds sections whose defaults or checks depend on a touched section. Each starts again from its defaults.
   void follow_dependencies() {
-    constexpr std::array<std::pair<const char*, const char*>, 4> kFollows{
-        {{"contact", "physics"}, {"contact", "ground"}, {"controller", "cpg"}, {"actuator", "controller"}}};
+    constexpr std::array<std::pair<const char*, const char*>, 5> kFollows{{{"contact", "physics"},
+                                                                           {"contact", "ground"},
+                                                                           {"actuator", "controller"},
+                                                                           {"controller", "cpg"},
+                                                                           {"controller", "sensors"}}};
     for (const auto& [first, second] : kFollows) {
       if (reads(first)) touched_.emplace_back(second);
     }
@@ -206,7 +210,7 @@ class ScenarioReader {
     if (!touched_.empty()) reader.only(touched_);
     for (const char* known : {"gaitlab", "name", "plugins", "robot", "controller", "cpg"}) reader.take(known);
     reader.require({"duration"});
-    if (const Node* sensors = reader.take("sensors")) refuse_sensors(*sensors, problems_);
+    const Node* sensors = reader.take("sensors");
     const TypePresets motors(Kind::actuator, scenario_.robot.get(), *scenario_.module_documents);
     const TypePresets gains(Kind::controller, scenario_.robot.get(), *scenario_.module_documents);
     if (!motors.agreed() && !given(root_, "actuator")) {
@@ -228,8 +232,10 @@ class ScenarioReader {
     if (!gains.agreed() && !given(root_, "controller") && !sections.actuator.none)
       gains.refuse(given(root_, "robot").value_or(root_.place), problems_);
     check_sections(sections, joints);
+    if (reads("sensors")) scenario_.sensors = read_sensors(sensors, scenario_, catalog_, joints, problems_);
+    if (!given(root_, "trace", "columns")) scenario_.trace.columns = default_columns(scenario_);
     const auto concerns = [&](const char* section) { return reads(section); };
-    constexpr std::array kOfPlugins{"physics", "contact", "actuator", "controller", "cpg"};
+    constexpr std::array kOfPlugins{"physics", "contact", "actuator", "controller", "cpg", "sensors"};
     if (std::ranges::any_of(kOfPlugins, concerns)) make_plugins(sections);
   }
 
@@ -238,7 +244,7 @@ class ScenarioReader {
     ScenarioChecks checks(root_, scenario_, catalog_, problems_);
     checks.law();
     if (sections.actuator.none) {
-      refuse_controller();
+      checks.no_controller();
     } else if (without_motors()) {
       problems_.add(place_of(root_, "actuator", "type"),
                     "an actuator is given, but every hinge of the robot has drive: none; remove this section");
@@ -290,13 +296,6 @@ class ScenarioReader {
            std::ranges::none_of(scenario_.robot->joints, [](const Joint& joint) { return joint.driven(); });
   }
 
-  void refuse_controller() {
-    if (const std::optional<SourceLocation> place = given(root_, "controller")) {
-      problems_.add(*place, "a controller is given, but there is no actuator to command; remove this section")
-          .notes.emplace_back(place_of(root_, "actuator", "type"), "the actuator is none");
-    }
-  }
-
   /// Calls `use`. An exception of a plugin becomes a problem of the input.
   template <class Use>
   void attempt(Use use) {
@@ -315,7 +314,7 @@ class ScenarioReader {
   void make_plugins(const SectionFields& sections) {
     if (!scenario_.robot) return;
     if (!cpg_note_.text.empty()) std::erase(scenario_.notes, cpg_note_);  // removes the note of the template's CPG
-    const RobotInfo robot = info(*scenario_.robot);
+    const RobotInfo robot = plugin_info(scenario_);
     std::unique_ptr<Actuator> actuator;
     std::unique_ptr<Controller> controller;
     attempt([&] {

@@ -2,6 +2,7 @@
 
 #include "core/scenario/robot_section.h"
 #include "core/scenario/sections.h"
+#include "core/scenario/sensor_section.h"
 #include "core/settings/writer.h"
 
 namespace gaitlab {
@@ -27,12 +28,6 @@ Node robot_node(Scenario& scenario, const std::vector<std::string>& joints) {
   return writer.take();
 }
 
-Node empty_list() {
-  Node node{Node::Kind::list};
-  node.flow = true;
-  return node;
-}
-
 }  // namespace
 
 std::string resolved(const Scenario& scenario) {
@@ -48,7 +43,7 @@ std::string resolved(const Scenario& scenario) {
   sections.writing = true;
   sections.has_cpg = scenario.cpg.entry != nullptr;
   sections.fields(writer);
-  writer.add("sensors", empty_list());
+  writer.add("sensors", sensors_node(scenario, joints));
   return print_yaml(writer.take());
 }
 

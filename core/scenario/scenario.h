@@ -110,6 +110,12 @@ struct PluginFile {
   std::string hash;  ///< FNV-1a hash of the file, 16 hex digits
 };
 
+/// A sensor, with its name.
+struct SensorSelection {
+  std::string name;
+  PluginSelection plugin;
+};
+
 struct Scenario {
   std::string file, name;
   std::vector<PluginFile> plugins;
@@ -132,6 +138,7 @@ struct Scenario {
   TraceSettings trace;
   FigureSettings figure;
   Limits limits;
+  std::vector<SensorSelection> sensors;
   std::int64_t seed = 1;
   std::vector<Note> notes;
   /// Place at which the user gave a key, such as `physics.step` or `trace.columns`. For a rollout of a template, `own_places`

@@ -31,6 +31,13 @@ void ScenarioChecks::law() {
   }
 }
 
+void ScenarioChecks::no_controller() {
+  const std::optional<SourceLocation> place = given(root_, "controller");
+  if (!place) return;
+  problems_.add(*place, "a controller is given, but there is no actuator to command; remove this section")
+      .notes.emplace_back(place_of(root_, "actuator", "type"), "the actuator is none");
+}
+
 void ScenarioChecks::refuse_law(const Engine& engine) {
   std::vector<std::string> able;
   for (const std::string& name : catalog_.engines()) {
@@ -186,12 +193,6 @@ void ScenarioChecks::rotors(const Actuator& actuator) {
                 fmt::format("engine '{}' cannot add rotor inertia; {}", engine->name,
                             able.empty() ? "no engine of this build can: set it to 0"
                                          : fmt::format("expected 0, or engine: {}", fmt::join(able, " or "))));
-}
-
-void refuse_sensors(const Node& node, Problems& problems) {
-  if (node.kind == Node::Kind::list && node.items.empty()) return;
-  const std::string what = node.kind == Node::Kind::list ? fmt::format("a list of {}", node.items.size()) : found(node);
-  problems.add(node.place, fmt::format("sensors is {}; expected [], there are no sensor types yet", what));
 }
 
 }  // namespace gaitlab

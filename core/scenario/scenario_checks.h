@@ -13,6 +13,8 @@ class ScenarioChecks {
 
   /// Refuses settings that Bullet's own solver does not support.
   void law();
+  /// Refuses the section `controller`, because the actuator is none.
+  void no_controller();
   /// Checks that initial angles are within the ranges of their hinges.
   void initial_angles();
   /// Checks that the joints of the figure exist in the robot.
@@ -38,8 +40,5 @@ class ScenarioChecks {
   const Catalog& catalog_;
   Problems& problems_;
 };
-
-/// Refuses `sensors`, unless it is an empty list.
-void refuse_sensors(const Node& node, Problems& problems);
 
 }  // namespace gaitlab

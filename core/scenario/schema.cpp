@@ -1,5 +1,7 @@
 #include "core/scenario/schema.h"
 
+#include <optional>
+
 #include "core/scenario/sections.h"
 #include "core/settings/overlay.h"
 #include "core/settings/schema_fields.h"
@@ -118,8 +120,9 @@ std::string first_line(std::string_view text) { return std::string(text.substr(0
 class Alternatives {
  public:
   /// `head` is the schema of the section, from which only the deciding key is kept. `preset` is the value of that key if it is
-  /// absent; "" permits any value.
-  Alternatives(const Json& head, std::string key, std::string preset) : key_(std::move(key)), preset_(std::move(preset)) {
+  /// absent; "" permits any value, and nothing means that the key is required.
+  Alternatives(const Json& head, std::string key, std::optional<std::string> preset)
+      : key_(std::move(key)), preset_(std::move(preset)) {
     json_ = {{"type", "object"}, {"description", head["description"]}};
     json_["properties"][key_] = head["properties"][key_];
     json_["allOf"] = Json::array();
@@ -136,17 +139,20 @@ class Alternatives {
   }
 
   Json take() {
-    if (preset_.empty())
+    if (!preset_) json_["required"] = Json::array({key_});
+    if (preset_ == "")
       json_["allOf"].push_back({{"if", {{"not", {{"required", Json::array({key_})}}}}}, {"then", {{"anyOf", any_}}}});
     return std::move(json_);
   }
 
  private:
-  std::string key_, preset_;
+  std::string key_;
+  std::optional<std::string> preset_;
   Json json_, any_ = Json::array();
 };
 
-Json plugin_section(const PluginFields& section, const Json& head, const Catalog& catalog, const std::string& preset) {
+Json plugin_section(const PluginFields& section, const Json& head, const Catalog& catalog,
+                    const std::optional<std::string>& preset) {
   Alternatives all(head, "type", preset);
   for (const std::string& name : catalog.names(section.kind)) {
     PluginSelection selection;
@@ -157,6 +163,29 @@ Json plugin_section(const PluginFields& section, const Json& head, const Catalog
   }
   if (describe(section.kind).may_be_none) all.add("none", Json::object(), "No motor: the joints are free.");
   return all.take();
+}
+
+/// Schema of one sensor.
+Json sensor_section(const Catalog& catalog) {
+  const PluginKind& kind = describe(Kind::sensor);
+  PluginSelection selection;
+  PluginFields section{kind.kind, selection, kind.default_type, &catalog};
+  section.own_keys = false;
+  SchemaFields fields;
+  section.fields(fields);
+  return plugin_section(section, {{"description", kind.about}, {"properties", fields.properties()}}, catalog, std::nullopt);
+}
+
+/// Schema of the section `sensors`: one sensor, sensors by name, or an empty list.
+Json sensors_section() {
+  const Json one{{"$ref", "#/definitions/sensor"}};
+  return {{"description", "Sensors by name, each with a type; a map with a key type is a single one."},
+          {"type", {"object", "array"}},
+          {"maxItems", 0},
+          {"default", Json::object()},
+          {"if", {{"type", "object"}, {"required", {"type"}}}},
+          {"then", one},
+          {"else", {{"additionalProperties", one}}}};
 }
 
 Json physics_section(const Json& head, const Catalog& catalog) {
@@ -205,7 +234,7 @@ std::string scenario_schema(const Catalog& catalog) {
       plugin_section(sections.controller, heads["controller"], catalog, describe(Kind::controller).default_type);
   properties["cpg"] = plugin_section(sections.cpg, heads["cpg"], catalog, describe(Kind::cpg).default_type);
   properties["duration"].erase("default");
-  properties["sensors"] = {{"type", "array"}, {"maxItems", 0}, {"description", "There are no sensor types yet."}};
+  properties["sensors"] = sensors_section();
 
   Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
               {"title", "gaitlab scenario"},
@@ -213,6 +242,7 @@ std::string scenario_schema(const Catalog& catalog) {
   schema.update(object_schema(std::move(properties)));
   schema["required"] = Json::array({"robot", "duration"});
   schema["definitions"] = Json::parse(kParts);
+  schema["definitions"]["sensor"] = sensor_section(catalog);
   return schema.dump(1) + "\n";
 }
 

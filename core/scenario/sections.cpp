@@ -137,6 +137,7 @@ void ContactSettings::fields(Fields& f) {
 }
 
 void PluginFields::choose(Fields& f) {
+  const std::size_t before = count(problems);
   std::vector<std::string> known;
   if (catalog != nullptr) {
     known = catalog->names(kind);
@@ -148,6 +149,7 @@ void PluginFields::choose(Fields& f) {
   std::string name = choice.entry != nullptr ? std::string(choice.entry->name) : type;
   f.one_of("type", name, names.pointers, describe(kind).about_type);
   if (!names.has(name)) {
+    if (count(problems) > before) return;  // the type is given, and unknown
     f.problem("type",
               "type is missing, and the default " + in_quotes(type) + " is not registered" + offer(type, names.texts, "names"));
     return;
@@ -285,7 +287,7 @@ void SectionFields::fields(Fields& f) {
   f.group("trace", scenario.trace, "The recorded trace.");
   if (!writing || scenario.limits != Limits()) f.group("limits", scenario.limits, "Limits of the verdict.");
   if (!writing || !scenario.figure.joints.empty()) f.group("figure", scenario.figure, "Content of figure.svg.");
-  f.integer("seed", scenario.seed, {"", 0, 9e18, "Seed of the random number generator."});
+  f.integer("seed", scenario.seed, {"", 0, 9e18, "Seed of all draws of the sensors: noise, zeros, delays, losses."});
 }
 
 std::vector<std::string> joint_names(const Robot& robot) {

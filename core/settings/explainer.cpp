@@ -144,6 +144,23 @@ void Explainer::on(const char* key, const char* about, const field::Texts& field
   row(key, "", "[" + preset + "]", "list of texts", about);
 }
 
+void Explainer::on(const char* key, const char* about, const field::Names& field) {
+  std::string preset;
+  for (const std::string& text : field.value) preset += (preset.empty() ? "" : ", ") + text;
+  const bool words = field.among == Among::words;
+  const std::string name = words ? alternatives(field.words) : noun(field.among);
+  row(key, "",
+      field.one                 ? ""
+      : field.value.size() == 1 ? preset
+                                : "[" + preset + "]",
+      field.one ? name : name + (words ? " | list" : " | pattern | list"), about);
+}
+
+void Explainer::on(const char* key, const char* about, const field::Periods& field) {
+  row(key, field.spec.unit, number_text(field.value),
+      range_without_unit(field.spec) + (field.most == nullptr ? "" : " | [a, b]"), about);
+}
+
 void Explainer::on(const char* key, const char* about, const field::Map& field) {
   std::string names;
   for (const Named& value : field.value) names += (names.empty() ? "" : ", ") + value.name;

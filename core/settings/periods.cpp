@@ -71,6 +71,8 @@ std::string values(const std::string& heading, const std::vector<double>& list) 
 
 }  // namespace
 
+bool is_multiple(double period, double step) { return math::whole_steps(period, step) > 0; }
+
 double longest_step(double control_period) {
   return control_period / std::max(1.0, std::ceil(control_period / kLongestStep - kTolerance));
 }

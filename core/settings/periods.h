@@ -20,6 +20,9 @@ double longest_step(double control_period);
 /// Up to two whole multiples of `step`, one on each side of `period`.
 std::vector<double> fitting_periods(double period, double step);
 
+/// True if `period` is a whole multiple of `step`.
+bool is_multiple(double period, double step);
+
 /// A period with its name for the user.
 struct Period {
   std::string name;

@@ -53,11 +53,14 @@ class Reader final : public Fields {
   void on(const char* key, const field::Numbers& field);
   void on(const char* key, const field::Rows& field);
   void on(const char* key, const field::Texts& field);
+  void on(const char* key, const field::Names& field);
+  void on(const char* key, const field::Periods& field);
   void on(const char* key, const field::Map& field);
   void on(const char* key, const field::List& field);
   void on(const char* key, const field::RuleOrList& field);
   void on(const char* key, const field::Group& field);
 
+  void read_name(const Node& item, const char* key, const field::Names& field);
   const Node* take_list(const char* key, const char* expected);
   void read_elements(const char* key, const Node& node, const field::List& list);
   bool read_one(const Node& node, const std::string& what, const Spec& spec, double& value);

@@ -123,6 +123,24 @@ void SchemaFields::on(const char* key, const char* about, const field::Texts& fi
   properties_[key] = preset(described({{"type", "array"}, {"items", scalar()}}, about), field.value);
 }
 
+void SchemaFields::on(const char* key, const char* about, const field::Names& field) {
+  if (field.one) {
+    properties_[key] = described(scalar(), about);
+    return;
+  }
+  const Json one = field.words.empty() ? scalar() : Json{{"enum", names_of(field.words)}};
+  Json either{{"anyOf", {one, {{"type", "array"}, {"items", one}}}}};
+  properties_[key] =
+      preset(described(std::move(either), about), field.value.size() == 1 ? Json(field.value.front()) : Json(field.value));
+}
+
+void SchemaFields::on(const char* key, const char* about, const field::Periods& field) {
+  const Json one = bounded("number", field.spec);
+  const Json range{{"type", "array"}, {"items", one}, {"minItems", 2}, {"maxItems", 2}};
+  Json json = field.most == nullptr ? one : Json{{"anyOf", {one, range}}};
+  properties_[key] = preset(described(std::move(json), about, field.spec.unit), field.value);
+}
+
 void SchemaFields::on(const char* key, const char* about, const field::Map& field) {
   Json one = scalar();
   if (field.kind == NamedValues::texts_or_numbers) {  // a number may be given per joint

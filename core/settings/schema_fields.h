@@ -34,6 +34,8 @@ class SchemaFields final : public Fields {
   void on(const char* key, const char* about, const field::Numbers& field);
   void on(const char* key, const char* about, const field::Rows& field);
   void on(const char* key, const char* about, const field::Texts& field);
+  void on(const char* key, const char* about, const field::Names& field);
+  void on(const char* key, const char* about, const field::Periods& field);
   void on(const char* key, const char* about, const field::Map& field);
   void on(const char* key, const char* about, const field::List& field);
   void on(const char* key, const char* about, const field::RuleOrList& field);

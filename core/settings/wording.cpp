@@ -108,6 +108,21 @@ std::string offer(const std::string& found, const std::vector<std::string>& know
   return known.empty() ? "; there are no " + kind : "; known " + kind + ": " + joined(known);
 }
 
+const char* noun(Among among) {
+  switch (among) {
+    case Among::joints:
+    case Among::motors:
+      return "joint";
+    case Among::modules:
+      return "module";
+    case Among::bodies:
+      return "body";
+    case Among::words:
+      break;
+  }
+  return "name";
+}
+
 std::vector<std::string> to_strings(std::span<const char* const> names) { return {names.begin(), names.end()}; }
 
 void add_all(const InputError& error, Problems& problems) {

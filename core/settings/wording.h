@@ -35,6 +35,8 @@ std::string wrapped(const std::string& text, std::size_t indent = 0, std::size_t
 std::string aligned(const std::vector<std::vector<std::string>>& rows, std::size_t indent = 0);
 /// End of a message about an unknown name: `; did you mean 'x'?` or `; known KIND: a, b, c`.
 std::string offer(const std::string& found, const std::vector<std::string>& known, const std::string& kind);
+/// Noun of a name, such as `joint` or `body`.
+const char* noun(Among among);
 std::vector<std::string> to_strings(std::span<const char* const> names);
 
 /// Adds the problems of an error to `problems`.

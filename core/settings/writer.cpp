@@ -81,6 +81,23 @@ void Writer::on(const char* key, const field::Texts& field) {
   add(key, std::move(node));
 }
 
+void Writer::on(const char* key, const field::Names& field) {
+  if (field.value.size() == 1) {
+    add(key, text_node(field.value.front()));
+  } else {
+    on(key, field::Texts{field.value});
+  }
+}
+
+void Writer::on(const char* key, const field::Periods& field) {
+  if (field.most == nullptr || *field.most == field.value) {
+    add(key, scalar_node(number_text(field.value)));
+  } else {
+    const double range[] = {field.value, *field.most};
+    add(key, numbers_node(range));
+  }
+}
+
 void Writer::on(const char* key, const field::Map& field) {
   Writer writer(joints_);
   for (Named& value : field.value) {

@@ -40,6 +40,8 @@ class Writer final : public Fields {
   void on(const char* key, const field::Numbers& field);
   void on(const char* key, const field::Rows& field);
   void on(const char* key, const field::Texts& field);
+  void on(const char* key, const field::Names& field);
+  void on(const char* key, const field::Periods& field);
   void on(const char* key, const field::Map& field);
   void on(const char* key, const field::List& field);
   void on(const char* key, const field::RuleOrList& field);

@@ -6,8 +6,10 @@
 
 #include "core/math/periods.h"
 #include "core/plugin/plugin_instance.h"
+#include "core/scenario/sensor_section.h"
 #include "core/simulation/cpg_integrator.h"
 #include "core/simulation/lane_clock.h"
+#include "core/simulation/lane_sensors.h"
 #include "core/simulation/recorder.h"
 #include "core/simulation/simulation.h"
 
@@ -16,7 +18,7 @@ namespace gaitlab {
 /// CPG, controller, sensors and trace row of a rollout.
 struct Simulation::Lane {
   Lane(const Scenario& s, std::size_t lane_index, bool rows)
-      : Lane(s, lane_index, rows, info(*s.robot), contact_elements(*s.robot, s.contact.on)) {}
+      : Lane(s, lane_index, rows, plugin_info(s), contact_elements(*s.robot, s.contact.on)) {}
   Lane(const Scenario& s, std::size_t lane_index, bool rows, const RobotInfo& info, std::vector<ContactElement> elements)
       : scenario(s),
         robot(*s.robot),
@@ -26,16 +28,21 @@ struct Simulation::Lane {
         cpg(make_cpg(s.cpg, info)),
         controller(make_controller(s.controller, info)),
         sample(*s.robot, contacts.size(), cpg == nullptr ? 0 : cpg->states()),
-        integrator(sample.cpg.size()) {
+        integrator(sample.cpg.size()),
+        sensors(s) {
     const std::size_t n = info.joints.size();
     for (auto* values : {&angle, &speed, &torque, &setpoint, &command, &limit}) values->assign(n, 0.0);
     for (std::size_t j = 0; j < n; ++j) {
       if (!robot.joints[j].driven()) passive.push_back(j);
     }
     touching.assign(info.modules.size(), 0.0);
+    channels.assign(sensors.channels(), 0.0);
+    sample.sensed.assign(sensors.readings(), 0.0);
   }
 
-  [[nodiscard]] Measured measured(double t) const { return {t, scenario.control_period, angle, speed, torque, touching}; }
+  [[nodiscard]] Measured measured(double t) const {
+    return {t, scenario.control_period, angle, speed, torque, touching, channels};
+  }
 
   /// Advances the CPG states from t to t + Ts with constant inputs. Ts is the control period.
   void integrate_cpg(double t) {
@@ -56,8 +63,10 @@ struct Simulation::Lane {
   Out cpg_state, controller_state, ledger;                                       // parts of Simulation::state_
   double energy_at_start = 0;                                                    // J
   std::vector<double> angle, speed, torque, touching, setpoint, command, limit;  // by joint (touching: by module), for plugins
+  std::vector<double> channels;                                                  // values of sensors, for plugins
   Sample sample;
   CpgIntegrator integrator;
+  LaneSensors sensors;
   std::unique_ptr<Recorder> recorder;  ///< nullptr for a companion (step_error.h)
 };
 

@@ -7,6 +7,7 @@
 #include "core/model/pattern.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/plugin/robot_info.h"
+#include "core/scenario/sensor_section.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab {
@@ -28,9 +29,10 @@ Probes::Probes(const Scenario& scenario, const std::vector<ContactElement>& cont
 std::vector<Column> Probes::known(const Scenario& scenario) {
   const Robot& robot = *scenario.robot;
   const std::vector<ContactElement> contacts = contact_elements(robot, scenario.contact.on);
-  const std::unique_ptr<Cpg> cpg = make_cpg(scenario.cpg, info(robot));
+  const std::unique_ptr<Cpg> cpg = make_cpg(scenario.cpg, plugin_info(scenario));
   const std::unique_ptr<Actuator> actuator = make_actuator(scenario.actuator, info(robot));
-  const Sample sample(robot, contacts.size(), cpg == nullptr ? 0 : cpg->states());
+  Sample sample(robot, contacts.size(), cpg == nullptr ? 0 : cpg->states());
+  sample.sensed.resize(sensor_readings(scenario).size());
   Probes all(sample);
   all.add_all(scenario, contacts, cpg.get(), actuator == nullptr ? "" : actuator->command_unit());
   return std::move(all.columns_);
@@ -53,6 +55,7 @@ void Probes::add_all(const Scenario& scenario, const std::vector<ContactElement>
   add_energy(robot);
   add_steps(robot);
   add_reactions(robot);
+  add_sensors(sensor_readings(scenario));
 }
 
 void Probes::add(std::string name, std::string unit, std::string definition, Read read) {
@@ -110,6 +113,12 @@ void Probes::add_joints(const Robot& robot, bool motors, std::string_view comman
     }
     joint("stop_torque", "N m", "torque of the hinge stop, positive along the axis,", &Sample::stop_torque);
     if (driven) joint("saturation", "", "0 none, 1 voltage, 2 current:", &Sample::saturation);
+  }
+}
+
+void Probes::add_sensors(const std::vector<SensorReading>& readings) {
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    add(readings[i].column, readings[i].unit, readings[i].definition, sample_.sensed[i]);
   }
 }
 
@@ -259,7 +268,7 @@ std::vector<bool> matched(const Scenario& scenario, const std::vector<Column>& c
     problems.add(scenario.place("trace.columns"),
                  fmt::format("{} matches no column{}", in_quotes(pattern),
                              near.empty() ? "; groups are t, joint, base, com, contact, load, body, box, "
-                                            "cpg, energy, momentum, angular_momentum, steps, torque_error, reaction"
+                                            "cpg, energy, momentum, angular_momentum, steps, torque_error, reaction, sensor"
                                           : "; did you mean '" + near + "'?"));
   }
   problems.raise();

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/plugin/sensor.h"
 #include "core/recording/recording.h"
 #include "core/scenario/scenario.h"
 #include "core/simulation/sample.h"
@@ -49,6 +50,7 @@ class Probes {
   void add_steps(const Robot& robot);
   void add_wrench(const std::string& name, const std::string& of, const std::function<const Wrench&(const Sample&)>& read);
   void add_reactions(const Robot& robot);
+  void add_sensors(const std::vector<SensorReading>& readings);
   void select(const Scenario& scenario);
 
   /// Source of a column: a number of the sample or a function of several.

@@ -39,6 +39,7 @@ struct Sample {
   std::vector<ContactSample> contacts;
   std::vector<BoxMotion> boxes;  ///< one per box of the ground; empty if none can move
   std::vector<double> cpg;
+  std::vector<double> sensed;  ///< readings of the sensors; empty without sensors
   Ledger ledger;
   StepTally tally;
   InverseDynamics

@@ -41,6 +41,7 @@ Sample& Simulation::take_sample(Lane& lane, bool places) {
   }
   s.compute_hinges(lane.robot, lane.passive);
   std::copy(lane.cpg_state.begin(), lane.cpg_state.end(), s.cpg.begin());
+  std::ranges::copy(lane.sensors.values(), s.sensed.begin());
   plant_->tally(l, s.tally);
   if (step_error_ && lane.scenario.physics.estimate == Estimate::full) step_error_->put(l, s.tally);
   s.ledger = Ledger::of(lane.ledger, s.energy(lane.robot, rotors(lane), lane.passive) - lane.energy_at_start);

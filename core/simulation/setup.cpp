@@ -91,12 +91,13 @@ std::size_t Simulation::state_size() const {
   std::size_t size = 1 + layout_.size() + plant_->history() + 2 * layout_.joints * lanes_.size();
   for (const auto& lane : lanes_) {
     size += lane->sample.cpg.size() + (lane->controller == nullptr ? 0 : lane->controller->states()) + Ledger::kSums;
+    size += lane->sensors.states();
   }
   return size;
 }
 
 /// Divides `numbers` into step counter | plant | its history | set points | commands | per lane: CPG states, controller states,
-/// sums of the ledger. The present values are copied.
+/// sums of the ledger, sensors. The present values are copied.
 void Simulation::cut_state(Out numbers) {
   std::ranges::copy(own_, numbers.begin());
   own_ = numbers.first(state_size());
@@ -116,6 +117,7 @@ void Simulation::cut_state(Out numbers) {
     lane->cpg_state = cut(lane->sample.cpg.size());
     lane->controller_state = cut(lane->controller == nullptr ? 0 : lane->controller->states());
     lane->ledger = cut(Ledger::kSums);
+    lane->sensors.bind(cut(lane->sensors.states()));
   }
   saved_.resize(state_.size());
   measured_.resize(lanes_.size());
@@ -145,6 +147,8 @@ void Simulation::set_start() {
     const std::string_view unit = actuator_ == nullptr ? "" : actuator_->command_unit();
     lane.recorder = std::make_unique<Recorder>(s, lane.contacts, lane.cpg.get(), unit, sample, records_);
   }
+  // The row at t = 0 is recorded before the first tick; it has the readings of that tick, which come out the same once more.
+  if (std::ranges::any_of(lanes_, [](const auto& lane) { return !lane->sensors.empty(); })) sense();
 }
 
 /// Resets a lane to its initial state, without a command yet: set point = angle, command 0.

@@ -152,6 +152,8 @@ void Simulation::sense() {
   if (actuator_ != nullptr) {
     actuator_->effort(command_, plant_state_.subspan(layout_.speeds(), command_.size()), torque_, slope_);
   }
+  const auto need_current = [](const auto& lane) { return lane->sensors.need_current(); };
+  if (std::ranges::any_of(lanes_, need_current)) evaluate_motors(plant_state_.subspan(layout_.speeds(), command_.size()));
   plant_->update_contacts();
   for (const auto& one : lanes_) {
     Lane& lane = *one;
@@ -167,7 +169,19 @@ void Simulation::sense() {
     for (std::size_t c = 0; c < lane.contacts.size(); ++c) {
       if (lane.sample.contacts[c].fn > 0) lane.touching[lane.robot.bodies[lane.contacts[c].body].module] = 1;
     }
+    if (!lane.sensors.empty()) sense(lane);
   }
+}
+
+/// Replaces true values of a lane by those of its sensors.
+void Simulation::sense(Lane& lane) {
+  LaneSensors& sensors = lane.sensors;
+  for (std::size_t j = 0; sensors.need_current() && j < layout_.joints; ++j) {
+    sensors.current()[j] = current_[j * lanes_.size() + lane.index];
+  }
+  if (sensors.need_motion()) layout_.read(plant_state_, lane.index, sensors.robot_state());
+  sensors.sense(lane.clock.tick(step_number()), lane.contacts, lane.sample.contacts,
+                {lane.angle, lane.speed, lane.torque, lane.touching, lane.channels});
 }
 
 void Simulation::command() {
@@ -191,7 +205,7 @@ void Simulation::command(Lane& lane) {
   } else {
     for (std::size_t j = 0; j < lane.setpoint.size(); ++j) lane.setpoint[j] = lane.scenario.initial.angles[j];
   }
-  for (const std::size_t j : lane.passive) lane.setpoint[j] = lane.angle[j];
+  for (const std::size_t j : lane.passive) lane.setpoint[j] = plant_state_[layout_.angles() + j * lanes + lane.index];
   if (lane.controller != nullptr) {
     lane.controller->update(measured, lane.setpoint, lane.limit, lane.controller_state, lane.command);
   }

@@ -84,6 +84,7 @@ class Simulation {
   void record(Lane& lane);
   void record_within_step();
   void sense();
+  void sense(Lane& lane);
   void command();
   void command(Lane& lane);
   void advance(double h, const std::function<bool(const Lane&)>& measured);

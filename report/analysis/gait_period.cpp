@@ -9,7 +9,7 @@
 #include "core/errors.h"
 #include "core/math/periods.h"
 #include "core/plugin/plugin_instance.h"
-#include "core/plugin/robot_info.h"
+#include "core/scenario/sensor_section.h"
 #include "core/simulation/cpg_integrator.h"
 #include "core/simulation/simulation.h"
 #include "report/analysis/motion.h"
@@ -41,13 +41,15 @@ double least_frequency(const Scenario& s) {
 
 /// Set points of the driven joints at every control tick without feedback, row-major.
 std::vector<double> set_points_alone(const Scenario& s, std::int64_t ticks) {
-  const std::unique_ptr<Cpg> cpg = make_cpg(s.cpg, info(*s.robot));
+  const RobotInfo robot = plugin_info(s);
+  const std::unique_ptr<Cpg> cpg = make_cpg(s.cpg, robot);
   const std::size_t joints = s.robot->joints.size();
   std::vector<double> angle;
   for (std::size_t j = 0; j < joints; ++j) angle.push_back(s.initial.angles[j]);
   const std::vector<double> none(joints, 0.0);
+  const std::vector<double> channels(robot.channels.size(), 0.0);
   const std::vector<double> lifted(s.robot->modules.size(), 0.0);
-  const auto measured = [&](double t) { return Measured{t, s.control_period, angle, none, none, lifted}; };
+  const auto measured = [&](double t) { return Measured{t, s.control_period, angle, none, none, lifted, channels}; };
   std::vector<double> state(cpg->states());
   std::vector<double> setpoint(joints);
   CpgIntegrator integrator(state.size());

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "core/laws/dc_motor.h"
-#include "core/plugin/robot_info.h"
+#include "core/scenario/sensor_section.h"
 #include "report/analysis/settings_numbers.h"
 
 namespace gaitlab::report {
@@ -73,7 +73,7 @@ bool damps(const SettingsNumbers& settings, std::size_t joint, double period) {
 void check_gain(const Scenario& s, const DcMotor* motors, std::vector<Warning>& out) {
   const SettingsNumbers settings(s.controller);
   const auto* gain = settings.find("Kp");
-  if (gain == nullptr || make_controller(s.controller, info(*s.robot))->command_unit() != "V") return;
+  if (gain == nullptr || make_controller(s.controller, plugin_info(s))->command_unit() != "V") return;
   double largest = 0;
   std::size_t worst = 0;
   for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {

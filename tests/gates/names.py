@@ -14,7 +14,7 @@ import subprocess
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-ROOMS = ['core', 'actuators', 'controllers', 'cpg', 'physics_bullet', 'physics_articulated', 'studies', 'report', 'golden', 'interchange',
+ROOMS = ['core', 'actuators', 'controllers', 'cpg', 'sensors', 'physics_bullet', 'physics_articulated', 'studies', 'report', 'golden', 'interchange',
          'app', 'tests', 'bench', 'docs', 'scenarios', 'cmake']
 
 # Names of files that are not part of the project, with the reason.

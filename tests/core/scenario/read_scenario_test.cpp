@@ -56,7 +56,8 @@ TEST_F(ScenarioTest, AllErrorsAtOnceInTheFilesOrder) {
             "DIR/s.yaml:4:12: note: it is given here first\n"
             "DIR/s.yaml:5:13: error: type 'phase_osc' is unknown; did you mean 'phase_oscillator'?\n"
             "DIR/s.yaml:6:11: error: duration is .inf; expected a finite number in s\n"
-            "DIR/s.yaml:7:10: error: sensors is a list of 1; expected [], there are no sensor types yet\n"
+            "DIR/s.yaml:7:10: error: sensors is a list of 1; expected a map of sensors by name, such as {imu: "
+            "{type: imu, body: m0/active}}, or {} for none\n"
             "DIR/s.yaml:8:1: error: unknown key 'phyics'; did you mean 'physics'?");
 }
 

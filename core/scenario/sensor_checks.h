@@ -1,0 +1,25 @@
+// Checks of sensors that need the robot, the control period, or other sensors.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "core/plugin/plugin_instance.h"
+#include "core/scenario/scenario.h"
+
+namespace gaitlab {
+
+/// A sensor with the place of its name.
+struct PlacedSensor {
+  SensorSelection selection;
+  SourceLocation place;
+  std::unique_ptr<Sensor> sensor = {};
+};
+
+/// Checks that the names in the keys of a sensor exist in the robot, and that its times are whole control periods. `node` is
+/// the map of the sensor.
+void check_keys(const Node& node, const PluginSelection& plugin, const Scenario& scenario, Problems& problems);
+
+/// Checks that every sensor measures something, that no value has two sensors, and that no streams of random numbers are equal.
+void check_sensors(const std::vector<PlacedSensor>& sensors, const Robot& robot, Problems& problems);
+
+}  // namespace gaitlab
