@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/model/principal_axes.h"
+#include "core/scenario/sensor_section.h"
 #include "core/settings/wording.h"
 #include "core/simulation/start.h"
 #include "interchange/robot_xml.h"
@@ -31,7 +32,8 @@ void set_pose(Xml& element, const Pose& pose) {
 
 class Mjcf {
  public:
-  explicit Mjcf(const Scenario& s) : s_(s), robot_(*s.robot), start_(start_state(s)), tree_(robot_), limits_(motor_limits(s)) {}
+  explicit Mjcf(const Scenario& s)
+      : s_(s), robot_(*s.robot), start_(start_state(s)), tree_(robot_), limits_(motor_limits(s)), sensors_(make_sensors(s)) {}
 
   std::string write() {
     Xml root;
@@ -40,7 +42,7 @@ class Mjcf {
     comment(root, fmt::format(
                       "Written by gaitlab. Not in this file, because MJCF does not hold it:{}{} Geoms touch nothing: those of "
                       "group 3 are the contact elements (points are drawn as spheres of {} m), each with a site.{}",
-                      left_out(s_), method(), text({kPointSize}), massless()));
+                      left_out(s_), method() + errors_of_sensors(), text({kPointSize}), massless()));
     write_options(root);
     Xml& world = add(root, "worldbody");
     write_ground(world);
@@ -54,6 +56,7 @@ class Mjcf {
       bodies[b] = &write_body(at.kind == Attachment::Kind::base ? world : *bodies[at.parent], b);
     }
     write_motors(root);
+    write_sensors(root);
     write_start(root, world);
     return print(root);
   }
@@ -106,6 +109,7 @@ class Mjcf {
     write_inertia(element, body, at.kind);
     draw(element, body);
     for (const ContactElement& e : elements_[b]) draw(element, e, body);
+    write_sites_of_sensors(element, b);
     return element;
   }
 
@@ -238,6 +242,46 @@ class Mjcf {
     }
   }
 
+  /// Writes the places of the sensors on the body b.
+  void write_sites_of_sensors(Xml& element, std::size_t b) {
+    for (std::size_t i = 0; i < sensors_.size(); ++i) {
+      for (const BodyPoint& point : sensors_[i]->points()) {
+        if (point.body != b) continue;
+        Xml& site = add(element, "site");
+        set(site, "name", s_.sensors[i].name);
+        set(site, "pos", text({point.position[0], point.position[1], point.position[2]}));
+        set(site, "size", text({kPointSize}));
+      }
+    }
+  }
+
+  /// Writes the sensors that MuJoCo has, too. They measure exact values.
+  void write_sensors(Xml& root) {
+    if (sensors_.empty()) return;
+    Xml& all = add(root, "sensor");
+    const auto write = [&](const char* type, const std::string& name, const char* of, const std::string& what) {
+      Xml& e = add(all, type);
+      set(e, "name", name);
+      set(e, of, what);
+    };
+    for (std::size_t i = 0; i < sensors_.size(); ++i) {
+      const std::string& own = s_.sensors[i].name;
+      for (const SensorReading& reading : sensors_[i]->readings()) {
+        if (reading.replaces == Replaces::angle) write("jointpos", reading.name, "joint", robot_.joints[reading.part].name);
+        if (reading.replaces == Replaces::speed) write("jointvel", reading.name, "joint", robot_.joints[reading.part].name);
+        if (reading.replaces == Replaces::torque) {
+          write("actuatorfrc", reading.name, "actuator", robot_.joints[reading.part].name);
+        }
+        if (reading.name == own + ".gyro_x") write("gyro", own + ".gyro", "site", own);
+        if (reading.name == own + ".accelerometer_x") write("accelerometer", own + ".accelerometer", "site", own);
+      }
+    }
+  }
+
+  [[nodiscard]] std::string errors_of_sensors() const {
+    return sensors_.empty() ? "" : " Sensors: noise, delay and all other errors; currents, loads and tilt.";
+  }
+
   /// Writes the initial state as a keyframe. The angular velocity of a free joint is in the axes of the body.
   void write_start(Xml& root, const Xml& world) {
     std::vector<double> q;
@@ -281,6 +325,7 @@ class Mjcf {
   RobotState start_;
   BodyTree tree_;
   std::vector<MotorLimits> limits_;
+  std::vector<std::unique_ptr<Sensor>> sensors_;
   std::vector<std::vector<ContactElement>> elements_;  ///< contact elements of each body
 };
 

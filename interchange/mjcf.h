@@ -13,6 +13,7 @@ namespace gaitlab::interchange {
 /// - The initial state as keyframe `start`, gravity, step and integrator RK4.
 /// - Shapes, contact elements, the plane and its boxes as geoms that do not collide.
 /// - Motors that apply the control as a torque.
+/// - Encoders, torque sensors, gyroscopes and accelerometers as sensors without errors.
 /// A comment at the top lists the parts of the scenario that MJCF cannot represent. Numbers are read back as the same doubles.
 /// Throws InputError for a height field.
 std::string to_mjcf(const Scenario& scenario);

@@ -240,6 +240,43 @@ TEST(Mujoco, MovesTheSameWithoutMotorsAndContacts) {
                  worst, 1e-6, "required by the issue; both of order 4: (2.5e-4 s, the longest, * 100 rad/s)^4 is 4e-7");
 }
 
+/// Sensors measure in MuJoCo what they measure here: the angle and speed of a joint, R^T w and, in free fall without rotation,
+/// no specific force.
+TEST(Mujoco, HasTheSensors) {
+  const Scenario s =
+      shipped("caterpillar.yaml", {"initial.angles=0.2", "initial.speeds=0.3",
+                                   "sensors={e: {type: encoder, joints: m2/active}, head: {type: imu, body: "
+                                   "m3/passive, position: [0.01, 0.02, 0]}, d: {type: motor, joints: m1/active}}"});
+  InMujoco robot(s);
+  RobotState state = start_state(s);
+  state.orientation = Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
+  state.angular_velocity = Vec3(0.4, -0.2, 0.9);
+  const auto sensed = [&](const char* name) {
+    const int id = mj_name2id(&robot.model(), mjOBJ_SENSOR, name);
+    if (id < 0) throw std::runtime_error(name);
+    const mjtNum* at = robot.data().sensordata + robot.model().sensor_adr[id];
+    return std::vector<double>(at, at + robot.model().sensor_dim[id]);
+  };
+  std::fill(state.qd.begin(), state.qd.end(), 0.0);
+  state.qd[4] = 0.3;
+  robot.set(state, 0, 0, 0);
+  EXPECT_EQ(sensed("e.m2/active"), std::vector{0.2});
+  EXPECT_EQ(sensed("e.m2/active.speed"), std::vector{0.3});
+  EXPECT_EQ(sensed("d.m1/active.torque"), std::vector{0.0});
+  Kinematics kinematics(*s.robot);
+  kinematics.update(*s.robot, state);
+  const auto& bodies = s.robot->bodies;
+  const auto body = std::ranges::find(bodies, "m3/passive", &Body::name);
+  ASSERT_NE(body, bodies.end());
+  const Vec3 w = (kinematics.R[body->link] * body->in_link.R).transpose() * kinematics.omega[body->link];
+  const std::vector<double> gyro = sensed("head.gyro");
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(gyro[static_cast<std::size_t>(i)], w[i], 1e-12);
+  state.angular_velocity.setZero();
+  state.qd[4] = 0;
+  robot.set(state, 0, 0, 0);
+  for (const double a : sensed("head.accelerometer")) EXPECT_NEAR(a, 0, 1e-9);  // the joints hold nothing: all parts fall alike
+}
+
 /// The exported file uses RK4 for all integrators of gaitlab and names the integrator of the scenario.
 TEST(Mujoco, NamesTheIntegratorOfEitherEngine) {
   const auto exported = [](const std::vector<std::string>& more) {
