@@ -6,6 +6,7 @@
 #include "app/commands.h"
 #include "core/parallel.h"
 #include "core/recording/convergence.h"
+#include "core/scenario/sensor_section.h"
 #include "core/simulation/simulation.h"
 
 namespace gaitlab::app {
@@ -43,6 +44,7 @@ struct Runs {
   std::vector<Trace> traces;
   std::vector<std::vector<double>> travel;  // displacement of the centre of mass in x and y over the run
   double allowed = 0;                       // longest stable step; 0 if any step is stable
+  bool quantised = false;                   // a sensor has a resolution
 };
 
 Runs all_runs(const Scenario& scenario, int halvings, int jobs) {
@@ -50,6 +52,7 @@ Runs all_runs(const Scenario& scenario, int halvings, int jobs) {
   Runs runs;
   runs.traces.resize(count);
   runs.travel.resize(count);
+  runs.quantised = quantised(scenario);
   const bool adapts = scenario.physics.adapts();
   if (adapts) {
     runs.what = "accuracy";
@@ -79,12 +82,14 @@ void print(const ConvergenceRow& row) {
   fmt::print(" {:>6}\n", row.order ? fmt::format("{:.1f}", *row.order) : "-");
 }
 
-/// Column with the largest error at step number `i`, and this error plus that of the finest step.
+/// Column with the largest error at step number `i`, and this error plus that of the finest step. NaN is larger than any
+/// number. There is at least one row.
 std::pair<const ConvergenceRow*, double> worst_at(const std::vector<ConvergenceRow>& rows, std::size_t i) {
-  std::pair<const ConvergenceRow*, double> worst{nullptr, -1};
+  const auto error_of = [i](const ConvergenceRow& row) { return (i < row.error.size() ? row.error[i] : 0) + row.left; };
+  std::pair<const ConvergenceRow*, double> worst{&rows.front(), error_of(rows.front())};
   for (const ConvergenceRow& row : rows) {
-    const double error = (i < row.error.size() ? row.error[i] : 0) + row.left;
-    if (error > worst.second) worst = {&row, error};
+    const double error = error_of(row);
+    if (error > worst.second || std::isnan(error)) worst = {&row, error};
   }
   return worst;
 }
@@ -92,12 +97,14 @@ std::pair<const ConvergenceRow*, double> worst_at(const std::vector<ConvergenceR
 /// Sentence on the step with an error of 1 %, found among the tried steps and by the observed order.
 std::string verdict(const std::vector<ConvergenceRow>& rows, const Runs& runs) {
   const double finest = runs.steps.back();
+  if (runs.quantised)
+    return "no step can be recommended: the resolution of sensors amplifies rounding errors, so that runs do not converge";
   const auto within_rule = [&](double step) { return !(runs.allowed > 0) || step <= runs.allowed; };
   const ConvergenceRow& last = *worst_at(rows, runs.steps.size() - 1).first;
   std::string text = fmt::format("none of these values is both allowed and accurate to 1 % of {}", last.name);
   for (std::size_t i = 0; i < runs.steps.size(); ++i) {
     const auto [row, error] = worst_at(rows, i);
-    if (error > kGood || !within_rule(runs.steps[i])) continue;
+    if (!(error <= kGood) || !within_rule(runs.steps[i])) continue;
     text = fmt::format("{} {}{} is accurate to 1 %: the error is at most {:.2g} % ({}), including the error of {}{} itself",
                        runs.what, runs.steps[i], runs.unit, 100 * error, row->name, finest, runs.unit);
     break;

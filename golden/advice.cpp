@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/recording/column_names.h"
+#include "core/scenario/sensor_section.h"
 #include "core/settings/wording.h"
 #include "core/simulation/step_advice.h"
 #include "golden/report.h"
@@ -46,6 +47,7 @@ std::string setting_text(double setting) { return fmt::format("{:.12g}", setting
 /// Text such as `physics.step: 5e-05 (...)` with the setting that should pass. It is computed from the bands at the scenario's
 /// setting and at a finer setting.
 std::string finer_setting(const Scenario& scenario, double band, double finer_band) {
+  if (quantised(scenario)) return "noise of the deviation resolution/sqrt(12) in place of the resolution of sensors";
   const Physics& physics = scenario.physics;
   const bool adapts = physics.adapts();
   const double by = finer_by(physics);

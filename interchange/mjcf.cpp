@@ -42,7 +42,7 @@ class Mjcf {
     comment(root, fmt::format(
                       "Written by gaitlab. Not in this file, because MJCF does not hold it:{}{} Geoms touch nothing: those of "
                       "group 3 are the contact elements (points are drawn as spheres of {} m), each with a site.{}",
-                      left_out(s_), method() + errors_of_sensors(), text({kPointSize}), massless()));
+                      left_out(s_), method(), text({kPointSize}), massless()));
     write_options(root);
     Xml& world = add(root, "worldbody");
     write_ground(world);
@@ -257,8 +257,8 @@ class Mjcf {
 
   /// Writes the sensors that MuJoCo has, too. They measure exact values.
   void write_sensors(Xml& root) {
-    if (sensors_.empty()) return;
-    Xml& all = add(root, "sensor");
+    Xml all;
+    all.name = "sensor";
     const auto write = [&](const char* type, const std::string& name, const char* of, const std::string& what) {
       Xml& e = add(all, type);
       set(e, "name", name);
@@ -269,17 +269,14 @@ class Mjcf {
       for (const SensorReading& reading : sensors_[i]->readings()) {
         if (reading.replaces == Replaces::angle) write("jointpos", reading.name, "joint", robot_.joints[reading.part].name);
         if (reading.replaces == Replaces::speed) write("jointvel", reading.name, "joint", robot_.joints[reading.part].name);
-        if (reading.replaces == Replaces::torque) {
+        if (reading.replaces == Replaces::torque && !limits_.empty()) {
           write("actuatorfrc", reading.name, "actuator", robot_.joints[reading.part].name);
         }
         if (reading.name == own + ".gyro_x") write("gyro", own + ".gyro", "site", own);
         if (reading.name == own + ".accelerometer_x") write("accelerometer", own + ".accelerometer", "site", own);
       }
     }
-  }
-
-  [[nodiscard]] std::string errors_of_sensors() const {
-    return sensors_.empty() ? "" : " Sensors: noise, delay and all other errors; currents, loads and tilt.";
+    if (!all.children.empty()) root.children.push_back(std::move(all));
   }
 
   /// Writes the initial state as a keyframe. The angular velocity of a free joint is in the axes of the body.

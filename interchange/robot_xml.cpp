@@ -99,6 +99,7 @@ std::string left_out(const Scenario& s) {
                        number_text(s.control_period));
   }
   if (s.cpg.entry != nullptr) out += fmt::format(" Gait: cpg {}.", name(s.cpg));
+  if (!s.sensors.empty()) out += " Sensors: errors and delays, currents, loads and tilt; in URDF, all sensors.";
   return out + fmt::format(" Hinge stops: a spring of {} N m/rad and a damper of {} N m s/rad outside the range.",
                            number_text(HingeStop::kStiffness), number_text(HingeStop::kDamping));
 }

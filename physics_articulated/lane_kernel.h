@@ -32,6 +32,7 @@ class LaneKernel final : public Kernel {
   [[nodiscard]] StepEffort applied() const override {
     parts_.clear();
     for (const Part<T>& part : stepper_.parts()) {
+      if (part.h > 0 && !part.weighed()) continue;
       parts_.push_back(
           {numbers(part.torque), numbers(part.speed), numbers(part.angle), of(part.sum), of(part.share), !(part.h > 0)});
     }
@@ -77,7 +78,7 @@ class LaneKernel final : public Kernel {
   static In numbers(const std::vector<T>& values) { return math::numbers(std::span<const T>(values)); }
   static In of(const T& value) { return math::numbers(std::span<const T>(&value, 1)); }
   static T accuracy(const KernelSettings& s) {
-    T all;
+    T all = 0.0;
     for (std::size_t l = 0; l < s.rollouts.size(); ++l) put(all, l, s.rollouts[l].accuracy);
     return all;
   }

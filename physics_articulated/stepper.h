@@ -18,6 +18,8 @@ struct Part : StepResult<T> {
   T sum = 0.0;            ///< weight in integrals, s; from Richardson's extrapolation, may be negative
   T share = 0.0;          ///< weight in shares of time, s
   T off = 0.0;            ///< number of motors and stops that do not satisfy their law
+  /// False for a trial that no lane uses. Its numbers need not be finite.
+  [[nodiscard]] bool weighed() const { return math::any_lane(math::mask_or(T(0.0) < math::abs(sum), T(0.0) < share)); }
 };
 
 /// Layout of the numbers that a rollout keeps between steps in addition to its state: one entry per joint, then single entries.
@@ -351,7 +353,7 @@ class Stepper {
   void close() {
     for (std::size_t i = 0; i < used_; ++i) {
       const Part<T>& part = parts_[i];
-      if (!(part.h > 0)) continue;
+      if (!(part.h > 0) || !part.weighed()) continue;
       const T weight = part.sum / T(part.h);
       contact = contact + weight * part.contact;
       friction = friction + weight * part.friction;

@@ -32,6 +32,7 @@ class Channel {
   [[nodiscard]] SensorStream stream() const { return {name_, math::fnv1a32(name_)}; }
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] std::size_t states() const { return size_ * (2 + slots()); }
+  [[nodiscard]] bool quantises() const { return keys_.resolution > 0; }
   [[nodiscard]] std::int64_t delay() const { return delay_; }            ///< d
   [[nodiscard]] double sample_period() const { return sample_period_; }  ///< N Ts, s
   /// True if the value at this tick is a sample that was not there at the tick before.

@@ -1,5 +1,6 @@
 // Channels of a sensor, with their states one after the other.
 #pragma once
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +17,9 @@ class ChannelBank {
   }
   [[nodiscard]] std::size_t states() const { return states_; }
   [[nodiscard]] const std::vector<Channel>& channels() const { return channels_; }
+  [[nodiscard]] bool quantises() const {
+    return std::ranges::any_of(channels_, [](const Channel& channel) { return channel.quantises(); });
+  }
   [[nodiscard]] std::vector<SensorStream> streams() const {
     std::vector<SensorStream> all;
     for (const Channel& channel : channels_) all.push_back(channel.stream());

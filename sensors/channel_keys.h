@@ -37,6 +37,7 @@ struct ChannelKeys {
   void fields(Fields& f) {
     constexpr double kMost = 1e9;
     constexpr double kLongest = 10;  // s
+    constexpr double kFinest = 1e-12;
     f.periods("period", period, {"s", 0, kLongest, "Time between samples, whole control periods; 0: every control tick."});
     f.number("gain", gain, {"", -kMost, kMost, "Nominal factor of the true value."});
     f.number("gain_deviation", gain_deviation,
@@ -47,12 +48,16 @@ struct ChannelKeys {
     f.number("walk_time", walk_time,
              {"s", 0, 1e9, "Correlation time of the walk, which bounds its deviation to walk (walk_time/2)^0.5; 0: no bound."});
     f.number("noise", noise, {unit.value, 0, kMost, "Deviation of the noise of a sample, normal and independent."});
-    f.numbers("range", range,
-              {unit.value, -kMost, kMost, "[smallest, largest] value, to which samples are clamped; []: no limit."});
+    f.numbers(
+        "range", range,
+        {unit.value, -kMost, kMost,
+         "[smallest, largest] value, to which samples are clamped before they are rounded to the resolution; []: no limit."});
     f.number("resolution", resolution, {unit.value, 0, kMost, "Step of the values, which are multiples of it; 0: exact."});
     f.periods("delay", delay_least, delay_most,
               {"s", 0, kLongest, "Delay, whole control periods; [a, b]: one of these delays, drawn once a run."});
     f.number("lost", lost, {"", 0, 1, "Share of the samples that are lost; the last one is then held. The first is not lost."});
+    if (resolution > 0 && resolution < kFinest)
+      f.problem("resolution", "resolution is below 1e-12; expected 0 for exact values");
     if (range.empty() || (range.size() == 2 && range[0] < range[1])) return;
     f.problem("range", range.size() == 2
                            ? "range has no width; expected [smallest, largest]"

@@ -8,7 +8,7 @@ const char* const EncoderSensor::kManual = R"(Encoders or potentiometers of join
 
     a = gain x + zero + bias + walk + noise       x: the joint's angle, rad
     y = q floor(a / q + 1/2)                      q: resolution
-    speed = (y_k - y_(k-1)) / T                   T: time between samples
+    speed = (y_k - y_(k-1)) / T                   T: time between samples, also after a lost one
 
 The controller and the CPG get the measured angle and speed of these joints in place of the true ones; trace columns
 joint.J.measured and joint.J.measured_speed. All keys are those of a channel (docs/sensors.md). speed: true measures the speed by a

@@ -21,6 +21,7 @@ class EncoderSensor final : public Sensor {
   EncoderSensor(const SensorSite& site, const Settings& settings);
   [[nodiscard]] const std::vector<SensorReading>& readings() const override { return readings_; }
   [[nodiscard]] std::vector<SensorStream> streams() const override;
+  [[nodiscard]] bool quantises() const override { return angles_.quantises() || speeds_.quantises(); }
   [[nodiscard]] std::size_t states() const override { return angles_.states() + speeds_.states() + joints_.size(); }
   void sense(const Truth& truth, Out state, Out values) const override;
 

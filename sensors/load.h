@@ -18,6 +18,7 @@ class LoadSensor final : public Sensor {
   LoadSensor(const SensorSite& site, const Settings& settings);
   [[nodiscard]] const std::vector<SensorReading>& readings() const override { return readings_; }
   [[nodiscard]] std::vector<SensorStream> streams() const override { return channels_.streams(); }
+  [[nodiscard]] bool quantises() const override { return channels_.quantises(); }
   [[nodiscard]] std::size_t states() const override { return channels_.states(); }
   void sense(const Truth& truth, Out state, Out values) const override;
 

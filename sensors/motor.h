@@ -17,6 +17,7 @@ class MotorSensor final : public Sensor {
   MotorSensor(const SensorSite& site, const Settings& settings);
   [[nodiscard]] const std::vector<SensorReading>& readings() const override { return readings_; }
   [[nodiscard]] std::vector<SensorStream> streams() const override { return channels_.streams(); }
+  [[nodiscard]] bool quantises() const override { return channels_.quantises(); }
   [[nodiscard]] bool needs_current() const override { return currents_ > 0; }
   [[nodiscard]] std::size_t states() const override { return channels_.states(); }
   void sense(const Truth& truth, Out state, Out values) const override;

@@ -57,6 +57,8 @@ class Sensor {
   /// Points whose motion is needed.
   [[nodiscard]] virtual std::span<const BodyPoint> points() const { return {}; }
   [[nodiscard]] virtual bool needs_current() const { return false; }
+  /// True if values are multiples of a resolution. Such a step in a loop amplifies the last bit of a number.
+  [[nodiscard]] virtual bool quantises() const { return false; }
   /// Number of values that the sensor keeps from tick to tick.
   [[nodiscard]] virtual std::size_t states() const = 0;
   /// Computes the values, one per reading. Called at every control tick in order. At tick 0 the state has no meaning yet.

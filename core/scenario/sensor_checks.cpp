@@ -96,8 +96,9 @@ class KeyChecks final : public Fields {
   Problems& problems_;
 };
 
-/// The value that two sensors would replace, in words: `the angle of joint 'm0/active'`.
+/// The value that two sensors would replace, in words: `the angle of joint 'm0/active'`; otherwise the column.
 std::string measured_value(const SensorReading& reading, const Robot& robot) {
+  if (reading.replaces == Replaces::nothing) return "column " + in_quotes(reading.column);
   constexpr std::string_view kQuantities[] = {"", "angle", "speed", "torque", "load"};
   const bool module = reading.replaces == Replaces::touching;
   return fmt::format("the {} of {} {}", kQuantities[static_cast<std::size_t>(reading.replaces)], module ? "module" : "joint",
@@ -105,12 +106,11 @@ std::string measured_value(const SensorReading& reading, const Robot& robot) {
 }
 
 void check_values(const std::vector<PlacedSensor>& sensors, const Robot& robot, Problems& problems) {
-  std::map<std::pair<Replaces, std::size_t>, const PlacedSensor*> owners;
+  std::map<std::string, const PlacedSensor*> owners;
   for (const PlacedSensor& one : sensors) {
     const PlacedSensor* told = nullptr;
     for (const SensorReading& reading : one.sensor->readings()) {
-      if (reading.replaces == Replaces::nothing) continue;
-      const PlacedSensor* owner = owners.emplace(std::pair(reading.replaces, reading.part), &one).first->second;
+      const PlacedSensor* owner = owners.emplace(measured_value(reading, robot), &one).first->second;
       if (owner == &one || owner == told) continue;
       told = owner;  // one message for two sensors
       problems
@@ -144,13 +144,19 @@ void check_keys(const Node& node, const PluginSelection& plugin, const Scenario&
   visit_settings(*plugin.entry, plugin.settings.get(), checks);
 }
 
-void check_sensors(const std::vector<PlacedSensor>& sensors, const Robot& robot, Problems& problems) {
+void check_sensors(const std::vector<PlacedSensor>& sensors, const Scenario& scenario, Problems& problems) {
+  const auto of_motor = [](const SensorReading& reading) { return reading.replaces == Replaces::torque; };
   for (const PlacedSensor& one : sensors) {
+    const bool motors = one.sensor->needs_current() || std::ranges::any_of(one.sensor->readings(), of_motor);
+    if (motors && scenario.actuator.entry == nullptr) {
+      problems.add(one.place, fmt::format("sensor {} measures motors, but the robot has none (actuator.type: none); remove it",
+                                          in_quotes(one.selection.name)));
+    }
     if (!one.sensor->readings().empty()) continue;
-    problems.add(one.place, fmt::format("sensor {} measures nothing: the robot has none of its parts; remove it",
+    problems.add(one.place, fmt::format("sensor {} measures nothing: it has no parts or no quantities to measure; remove it",
                                         in_quotes(one.selection.name)));
   }
-  check_values(sensors, robot, problems);
+  check_values(sensors, *scenario.robot, problems);
   check_streams(sensors, problems);
 }
 

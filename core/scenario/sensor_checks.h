@@ -19,7 +19,8 @@ struct PlacedSensor {
 /// the map of the sensor.
 void check_keys(const Node& node, const PluginSelection& plugin, const Scenario& scenario, Problems& problems);
 
-/// Checks that every sensor measures something, that no value has two sensors, and that no streams of random numbers are equal.
-void check_sensors(const std::vector<PlacedSensor>& sensors, const Robot& robot, Problems& problems);
+/// Checks that every sensor measures something that the robot has, that no value or column has two sensors, and that no streams
+/// of random numbers are equal.
+void check_sensors(const std::vector<PlacedSensor>& sensors, const Scenario& scenario, Problems& problems);
 
 }  // namespace gaitlab

@@ -69,7 +69,7 @@ class SensorReader {
   void check_together() try {
     const RobotInfo robot = info(*scenario_.robot);
     for (PlacedSensor& one : found_) one.sensor = make_sensor(one.selection.plugin, site(scenario_, robot, one.selection.name));
-    check_sensors(found_, *scenario_.robot, problems_);
+    check_sensors(found_, scenario_, problems_);
   } catch (const PluginError& error) {
     problems_.add(found_.front().place, error.what());
   }
@@ -132,6 +132,10 @@ std::vector<SensorReading> sensor_readings(const Scenario& scenario) {
     all.insert(all.end(), sensor->readings().begin(), sensor->readings().end());
   }
   return all;
+}
+
+bool quantised(const Scenario& scenario) {
+  return std::ranges::any_of(make_sensors(scenario), [](const auto& sensor) { return sensor->quantises(); });
 }
 
 std::vector<std::string> default_columns(const Scenario& scenario) {

@@ -23,6 +23,9 @@ Node sensors_node(const Scenario& scenario, const std::vector<std::string>& join
 std::vector<std::unique_ptr<Sensor>> make_sensors(const Scenario& scenario);
 /// Readings of all sensors, in the order of the scenario. Throws PluginError.
 std::vector<SensorReading> sensor_readings(const Scenario& scenario);
+/// True if a sensor has a resolution. Runs of the scenario with other steps, or of another build, then differ by a large share
+/// of their torques, because the loop amplifies the last bit. Throws PluginError.
+bool quantised(const Scenario& scenario);
 /// Columns of the trace by default: those of TraceSettings, and those of sensors that belong to no joint. Throws PluginError.
 std::vector<std::string> default_columns(const Scenario& scenario);
 /// Description of the robot and its sensors for CPG and controller. Throws PluginError.

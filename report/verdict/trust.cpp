@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/scenario/sensor_section.h"
 #include "core/settings/wording.h"
 #include "core/simulation/step_advice.h"
 #include "report/analysis/summary.h"
@@ -31,6 +32,8 @@ double one_digit(double value) {
 }  // namespace
 
 std::string torque_remedy(const Scenario& s, double share) {
+  if (quantised(s))
+    return "noise of the deviation resolution/sqrt(12) in place of the resolution of sensors, which amplifies rounding errors";
   const Physics& physics = s.physics;
   const double ratio = std::min(kGood, torque_error_limit(s)) / share / kMargin;
   if (physics.adapts()) {

@@ -169,7 +169,7 @@ TEST_F(SensorsTest, UnknownParts) {
   EXPECT_EQ(wrong("sensors: {b: {type: imu, body: m0/a, measures: [gryo]}}"),
             "DIR/s.yaml:5:49: error: measures 'gryo' is unknown; did you mean 'gyro'?");
   EXPECT_EQ(wrong("sensors: {b: {type: imu, body: m0/a, measures: []}}"),
-            "DIR/s.yaml:5:11: error: sensor 'b' measures nothing: the robot has none of its parts; remove it");
+            "DIR/s.yaml:5:11: error: sensor 'b' measures nothing: it has no parts or no quantities to measure; remove it");
 }
 
 TEST_F(SensorsTest, JointsWithoutMotor) {
@@ -196,8 +196,16 @@ TEST_F(SensorsTest, TwoSensorsOfOneValue) {
   EXPECT_EQ(wrong("sensors:\n  a: {type: motor}\n  b: {type: motor, joints: m1/h, measures: torque}"),
             "DIR/s.yaml:7:3: error: the torque of joint 'm1/h' has two sensors, 'a' and 'b'; expected one\n"
             "DIR/s.yaml:6:3: note: 'a' is here");
-  EXPECT_EQ(read(with("sensors:\n  a: {type: motor}\n  b: {type: motor, measures: current}")).sensors.size(), 2U)
-      << "currents replace nothing";
+  EXPECT_EQ(wrong("sensors:\n  a: {type: motor}\n  b: {type: motor, measures: current}"),
+            "DIR/s.yaml:7:3: error: column 'joint.0.measured_current' has two sensors, 'a' and 'b'; expected one\n"
+            "DIR/s.yaml:6:3: note: 'a' is here");
+}
+
+TEST_F(SensorsTest, MotorsOfARobotWithoutMotors) {
+  const std::string told = wrong("sensors: {d: {type: motor}}", {"actuator={type: none}"});
+  EXPECT_NE(told.find("error: sensor 'd' measures motors, but the robot has none (actuator.type: none); remove it"),
+            std::string::npos)
+      << told;
 }
 
 // Two names with one hash, found by trying a million.
