@@ -255,7 +255,7 @@ class Mjcf {
     }
   }
 
-  /// Writes the sensors that MuJoCo has, too. They measure exact values.
+  /// Writes the sensors of types that MuJoCo has. They measure exact values.
   void write_sensors(Xml& root) {
     Xml all;
     all.name = "sensor";

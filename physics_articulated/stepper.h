@@ -4,35 +4,11 @@
 
 #include "core/math/runge_kutta.h"
 #include "physics_articulated/implicit.h"
+#include "physics_articulated/step_parts.h"
 
 namespace gaitlab::articulated {
 
 enum class Method { adaptive, implicit, extrapolated, rk4 };
-
-/// Motors and works at one time within a step, with the weights of this time.
-template <class T>
-struct Part : StepResult<T> {
-  using StepResult<T>::StepResult;
-  math::Mask<T> lanes{};  ///< lanes to which the part belongs
-  double h = 0;           ///< duration of the part, s; 0 for the start of the step under the new command
-  T sum = 0.0;            ///< weight in integrals, s; from Richardson's extrapolation, may be negative
-  T share = 0.0;          ///< weight in shares of time, s
-  T off = 0.0;            ///< number of motors and stops that do not satisfy their law
-  /// False for a trial that no lane uses. Its numbers need not be finite.
-  [[nodiscard]] bool weighed() const { return math::any_lane(math::mask_or(T(0.0) < math::abs(sum), T(0.0) < share)); }
-};
-
-/// Layout of the numbers that a rollout keeps between steps in addition to its state: one entry per joint, then single entries.
-struct History {
-  std::size_t joints = 0;
-  [[nodiscard]] std::size_t peak() const { return 0; }  ///< per joint: largest motor torque at the end of a step so far, N m
-  [[nodiscard]] std::size_t solves() const { return joints; }
-  [[nodiscard]] std::size_t off() const {
-    return joints + 1;
-  }  ///< number of motors and stops whose torque at the end of a step differs from their law
-  [[nodiscard]] std::size_t coarse() const { return joints + 2; }  ///< time in which the shortest steps missed the accuracy, s
-  [[nodiscard]] std::size_t size() const { return joints + 3; }
-};
 
 /// Advances the state by one step. The state has the entries of StateLayout, SI. The constructor allocates. Further memory is
 /// needed only if a search does not converge, or if a step is divided further than any before and the robot has more than about
@@ -64,7 +40,7 @@ class Stepper {
         command_of_solo_(joints_) {
     const std::vector<T> zero(StateLayout::kAngles + 2 * joints_, T(0.0));
     for (auto* state : {&sum_, &stage_, &rate_}) *state = zero;
-    const Way way{zero, 0, 0};
+    const Way<T> way{zero, 0, 0};
     levels_.assign(kLevels, {zero, way, way, way, way, way, way, {std::vector<math::Mask<T>>(joints_), {}}});
     limits_ = levels_[0].limits;
     halved_.assign(kHalvings, zero);
@@ -113,24 +89,6 @@ class Stepper {
   static constexpr std::size_t kMostParts = 1 + 7 * ((std::size_t{1} << kLevels) - 1);
   static constexpr std::size_t kRoom = 32 << 20;  ///< bytes of parts that the constructor allocates
   [[nodiscard]] std::size_t size_of_part() const { return sizeof(Part<T>) + 3 * joints_ * sizeof(T); }
-
-  /// A state, and the parts [from, to) of the steps that led to it.
-  struct Way {
-    std::vector<T> x;
-    std::size_t from = 0, to = 0;
-  };
-  /// Lanes in which a motor is at its limit, by joint, and lanes in which most of the load slides; both after a solve.
-  struct Limits {
-    std::vector<math::Mask<T>> motor;
-    math::Mask<T> slide;
-  };
-  /// Steps tried at one level: one, two and four that together have the length of the level. The first half, the first quarter
-  /// and the first two quarters are the first trials of the next level.
-  struct Level {
-    std::vector<T> start;
-    Way whole, halves, quarters, half, quarter, early;
-    Limits limits;  ///< after the first two quarters
-  };
 
   /// Adds a part for the start of the step under the new command, because the motor torques there may be peaks.
   void take_start(std::span<const T> x, In command) {
@@ -200,7 +158,7 @@ class Stepper {
 
   /// Sets the weights of Richardson's extrapolation for the parts of a way in the lanes `which`. If `finest`, these parts
   /// represent the motion.
-  void weigh(const Way& way, const math::Mask<T>& which, double weight, bool finest) {
+  void weigh(const Way<T>& way, const math::Mask<T>& which, double weight, bool finest) {
     for (std::size_t i = way.from; i < way.to; ++i) {
       Part<T>& part = parts_[i];
       const auto here = math::mask_and(which, part.lanes);
@@ -219,7 +177,7 @@ class Stepper {
   /// and kBaseTurn, because errors of the base change the torques only later. A motor at its limit and
   /// sliding contacts make the tolerance smaller.
   template <class Difference>
-  math::Mask<T> within(double share, const math::Mask<T>& which, const Limits& limits, Difference difference) {
+  math::Mask<T> within(double share, const math::Mask<T>& which, const Limits<T>& limits, Difference difference) {
     math::Mask<T> within = which;
     const T allowed = share * accuracy_;
     math::Mask<T> loose = limits.slide;
@@ -250,26 +208,26 @@ class Stepper {
   }
 
   /// Limits after the last solve of each lane.
-  void look(Limits& limits) const {
+  void look(Limits<T>& limits) const {
     for (std::size_t j = 0; j < joints_; ++j) limits.motor[j] = implicit.motors.at_limit(j);
     limits.slide = math::mask_or(math::fresh(implicit.contacts.mostly_slide(), apart_), math::mask_and(slide_, apart_));
   }
 
   /// Takes an implicit step from `start` to way.x. If `start` is itself a way, the parts of both belong to the new one.
-  void go(Way& way, const std::vector<T>& start, In command, double h, const math::Mask<T>& which) {
+  void go(Way<T>& way, const std::vector<T>& start, In command, double h, const math::Mask<T>& which) {
     std::copy(start.begin(), start.end(), way.x.begin());
     way.from = used_;
     settle(way.x, command, h, which);
     way.to = used_;
   }
-  void go(Way& way, const Way& before, In command, double h, const math::Mask<T>& which) {
+  void go(Way<T>& way, const Way<T>& before, In command, double h, const math::Mask<T>& which) {
     go(way, before.x, command, h, which);
     way.from = before.from;
   }
 
   /// Takes one step and two steps of a level. `before` has them already if this level is the first half of a level whose four
   /// steps missed the accuracy.
-  const Limits& one_and_two(Level& own, In command, double h, const math::Mask<T>& which, const Level* before) {
+  const Limits<T>& one_and_two(Level<T>& own, In command, double h, const math::Mask<T>& which, const Level<T>* before) {
     if (before != nullptr) {
       own.whole = before->half;
       own.half = before->quarter;
@@ -282,7 +240,7 @@ class Stepper {
     look(limits_);
     return limits_;
   }
-  void four(Level& own, In command, double h, const math::Mask<T>& which) {
+  void four(Level<T>& own, In command, double h, const math::Mask<T>& which) {
     go(own.quarter, own.start, command, h / 4, which);
     go(own.early, own.quarter, command, h / 4, which);
     look(own.limits);
@@ -293,10 +251,10 @@ class Stepper {
   }
 
   /// Drops the parts from `first` on, except those that the next level uses.
-  void drop(Level& own, std::size_t first) {
+  void drop(Level<T>& own, std::size_t first) {
     used_ = first;
     const std::size_t of_quarter = own.quarter.to - own.quarter.from;
-    for (Way* way : {&own.half, &own.early}) {
+    for (Way<T>* way : {&own.half, &own.early}) {
       if (way->from < first) continue;  // of the level before
       const std::size_t from = used_;
       for (std::size_t i = way->from; i < way->to; ++i) std::swap(parts_[used_++], parts_[i]);
@@ -309,13 +267,13 @@ class Stepper {
 
   /// Advances the lanes `which` by a step h. At level kLevels the step has second order, regardless of its error.
   void adapt(std::span<T> x, In command, double h, const math::Mask<T>& which, std::size_t level,
-             const Level* before = nullptr) {
+             const Level<T>* before = nullptr) {
     using math::select;
     const bool fixed = level == kLevels;
-    Level& own = levels_[fixed ? 0 : level];
+    Level<T>& own = levels_[fixed ? 0 : level];
     std::copy(x.begin(), x.end(), own.start.begin());
     const std::size_t first = used_;
-    const Limits& limits = one_and_two(own, command, h, which, before);
+    const Limits<T>& limits = one_and_two(own, command, h, which, before);
     const auto &one = own.whole.x, &two = own.halves.x, &four = own.quarters.x;
     auto second = within(kSecondOrder, which, limits, [&](std::size_t e) { return two[e] - one[e]; });
     if (fixed) second = which;
@@ -414,12 +372,12 @@ class Stepper {
   std::size_t joints_;
   T accuracy_;
   std::vector<T> history_, sum_, stage_, rate_;
-  std::vector<Level> levels_;
-  Limits limits_;
+  std::vector<Level<T>> levels_;
+  Limits<T> limits_;
   std::span<const SoloOfLane> solos_;
   std::vector<double> of_solo_, command_of_solo_;
-  math::Mask<T> apart_{},
-      slide_{};  ///< lanes whose last step was that of a solo; of these, lanes where most of the load slides
+  math::Mask<T> apart_{};  ///< lanes whose last step was that of a solo
+  math::Mask<T> slide_{};  ///< of these, lanes where most of the load slides
   std::vector<std::vector<T>> halved_;
   std::vector<Part<T>> parts_;
   std::size_t used_ = 0;

@@ -147,7 +147,7 @@ void Simulation::set_start() {
     const std::string_view unit = actuator_ == nullptr ? "" : actuator_->command_unit();
     lane.recorder = std::make_unique<Recorder>(s, lane.contacts, lane.cpg.get(), unit, sample, records_);
   }
-  // The row at t = 0 is recorded before the first tick; it has the readings of that tick, which come out the same once more.
+  // The row at t = 0 is recorded before the first tick; it has the readings of that tick, which then repeats them.
   if (std::ranges::any_of(lanes_, [](const auto& lane) { return !lane->sensors.empty(); })) sense();
 }
 
