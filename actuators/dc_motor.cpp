@@ -53,7 +53,7 @@ DcMotorActuator::DcMotorActuator(const RobotInfo& robot, const std::vector<const
     for (const Settings* s : lanes) {
       add({s->R[j], s->Kt[j], s->Ks[j], s->gear[j], s->efficiency[j], s->u_max[j], s->i_max[j],
            s->efficiency_model == EfficiencyModel::directional ? s->turn_speed : 0.0},
-          s->rotor_inertia[j], s->of(j));
+          s->gear[j] * s->gear[j] * s->rotor_inertia[j], s->of(j));
     }
   }
 }

@@ -1,7 +1,7 @@
 // Actuator `dc_motor`, which applies core/laws/dc_motor.h with the constants of motor and gear.
 #pragma once
-#include "actuators/motor_bank.h"
 #include "actuators/rating_keys.h"
+#include "core/laws/motor_bank.h"
 #include "core/plugin/registry.h"
 
 namespace gaitlab::actuators {

@@ -1,7 +1,7 @@
 // Actuator `servo`, which applies core/laws/dc_motor.h with the numbers of a servo's data sheet.
 #pragma once
-#include "actuators/motor_bank.h"
 #include "actuators/rating_keys.h"
+#include "core/laws/motor_bank.h"
 #include "core/plugin/registry.h"
 
 namespace gaitlab::actuators {

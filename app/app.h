@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -62,9 +63,11 @@ struct RunArguments : ScenarioArguments {
   bool no_page = false;  ///< do not write report.html
   SummaryOptions shown;
   std::vector<std::string> joints;  ///< names of the joints in the figure; if empty, those that the scenario chooses
+  int draws = 1;                    ///< number of seeds, from that of the scenario on
+  int jobs = 1;                     ///< threads for the draws
 };
-/// Runs a scenario, writes the run folder and prints the summary. Returns the exit code.
-int run(const Scenario& scenario, const RunArguments& arguments);
+/// Runs a scenario and further `draws` of it, writes the run folder and prints the summary. Returns the exit code.
+int run(const Scenario& scenario, const RunArguments& arguments, std::span<const Scenario> draws = {});
 
 /// Prints the summary of a run; the verdict is its first line.
 void print_summary(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
@@ -72,8 +75,8 @@ void print_summary(const Scenario& scenario, const Recording& recording, const r
 /// Verdict on a run. With `shown.demand` the demand twin is simulated too, and its results are added.
 report::Verdict judged(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
                        const report::Overlaps& overlaps, const SummaryOptions& shown);
-/// Exit code of a run. With `shown.fail_infeasible` it is 3 for an infeasible verdict and 1 for a failed run; otherwise it is
-/// 0, also for a run that was not judged.
+/// Exit code of a run. With `shown.fail_infeasible` it is 1 for a failed run, and 3 unless the verdict, and that of every draw,
+/// is feasible; otherwise it is 0, also for a run that was not judged.
 int exit_code(const report::Verdict& verdict, const SummaryOptions& shown);
 
 /// Text `version, build id, Bullet version and precision` of --version.

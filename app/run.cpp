@@ -16,11 +16,14 @@
 #include "core/recording/recording_file.h"
 #include "core/recording/run_folder.h"
 #include "core/scenario/resolved.h"
+#include "core/simulation/batch.h"
 #include "core/simulation/simulation.h"
 #include "report/analysis/summary.h"
 #include "report/figures/run/figure.h"
 #include "report/figures/run/run_figure.h"
 #include "report/page/page.h"
+#include "report/verdict/draws.h"
+#include "report/verdict/number_texts.h"
 #include "report/verdict/spread.h"
 #include "report/verdict/summary_text.h"
 #include "report/verdict/trust.h"
@@ -103,14 +106,29 @@ void take_spread(const Scenario& scenario, Recording& recording, const report::S
 
 }  // namespace
 
-int run(const RunArguments& arguments) {
-  Catalog catalog = standard_catalog();
-  Scenario scenario = read(arguments, catalog);
-  draw_joints(scenario, arguments.joints);
-  return run(scenario, arguments);
+namespace {
+
+/// Scenarios with the seeds after that of `scenario`.
+std::vector<Scenario> other_draws(const Scenario& scenario, const RunArguments& arguments, Catalog& catalog) {
+  std::vector<std::vector<std::string>> seeds;
+  for (int k = 1; k < arguments.draws; ++k) seeds.push_back({fmt::format("seed={}", scenario.seed + k)});
+  if (seeds.empty()) return {};
+  if (!report::has_draws(scenario)) {
+    throw InputError(SourceLocation{"--draws"},
+                     "the seed changes nothing: the scenario has no tolerances and no sensors; add for example tolerances: "
+                     "{mass: 0.03, R: 0.07} (gaitlab explain scenario)");
+  }
+  return rollouts(arguments.file, arguments.sets, seeds, catalog);
 }
 
-namespace {
+/// Simulates the draws for Recording::draws. Without memory for them, the run is written without.
+void take_draws(const Scenario& scenario, std::span<const Scenario> draws, const RunArguments& arguments, Recording& recording,
+                const report::Summary& summary) {
+  if (draws.empty() || !recording.outcome.done()) return;
+  const report::Verdict own = report::verdict(scenario, recording, summary, report::overlaps(scenario, recording));
+  std::optional<Trace> table = report::draws(scenario, {recording, summary, own}, draws, {arguments.jobs, 0}, stopped());
+  if (table) recording.draws = std::move(*table);
+}
 
 /// Runs the simulation. Returns its outcome if the simulation did not reach the end of the run.
 std::optional<Outcome> simulate(const Scenario& scenario, Simulation& simulation, bool quiet) try {
@@ -141,9 +159,16 @@ void print_files(const RunArguments& arguments, const std::filesystem::path& fol
              one_line(folder.string()), arguments.format == "csv" ? "trace.csv, recording.h5" : "trace.h5", "");
 }
 
+int run(const RunArguments& arguments) {
+  Catalog catalog = standard_catalog();
+  Scenario scenario = read(arguments, catalog);
+  draw_joints(scenario, arguments.joints);
+  return run(scenario, arguments, other_draws(scenario, arguments, catalog));
+}
+
 }  // namespace
 
-int run(const Scenario& scenario, const RunArguments& arguments) {
+int run(const Scenario& scenario, const RunArguments& arguments, std::span<const Scenario> draws) {
   warn_of_start(scenario, arguments.quiet);  // printed first, because wrong units may be the reason why a step is refused
   Simulation simulation({&scenario, 1}, Loads::recorded);
   RunFolder folder(arguments.out, scenario.name);
@@ -171,6 +196,7 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
   } catch (const std::bad_alloc&) {  // the trace is written first, then the summary is computed again
   }
   if (made) take_spread(scenario, recording, *made, arguments.quiet);
+  if (made) take_draws(scenario, draws, arguments, recording, *made);
   if (all) all->swap(recording);
   write_run(files, arguments.format, scenario, recording);
   if (all) all->swap(recording);
@@ -182,6 +208,8 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
   write_report(files, seen, recording, summary, verdict, !arguments.no_page);
   if (files.wrote_any()) folder.keep();
   if (!arguments.quiet) print_summary(scenario, recording, summary, verdict, arguments.shown);
+  if (!arguments.quiet && !verdict.draws.empty())
+    fmt::print("{}", report::texts::without_nan(report::draws_table(verdict.draws)));
   if (!arguments.quiet && !files.lost_any()) print_files(arguments, folder.path());
   warn_of_run(scenario, recording, verdict);
   const bool sound = report::not_finite(scenario, recording).empty();
@@ -192,17 +220,23 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
 }
 
 void add_run(Commands& commands) {
-  add_command<RunArguments>(commands, "run", "Simulate a scenario, write a run folder and print the summary.", run,
-                            [](CLI::App& command, RunArguments& arguments) {
-                              add_scenario(command, arguments);
-                              command.add_option("--out", arguments.out,
-                                                 "run folder (default runs/NAME, then NAME-2 ...); new or empty");
-                              command.add_option("--format", arguments.format, "format of the trace: h5 (default) or csv")
-                                  ->check(CLI::IsMember({"h5", "csv"}));
-                              command.add_flag("--no-report", arguments.no_page, "write no report.html");
-                              add_joint(command, arguments.joints);
-                              add_shown(command, arguments.shown);
-                            });
+  add_command<RunArguments>(
+      commands, "run", "Simulate a scenario, write a run folder and print the summary.", run,
+      [](CLI::App& command, RunArguments& arguments) {
+        add_scenario(command, arguments);
+        command.add_option("--out", arguments.out, "run folder (default runs/NAME, then NAME-2 ...); new or empty");
+        command.add_option("--format", arguments.format, "format of the trace: h5 (default) or csv")
+            ->check(CLI::IsMember({"h5", "csv"}));
+        command.add_flag("--no-report", arguments.no_page, "write no report.html");
+        add_joint(command, arguments.joints);
+        command
+            .add_option("--draws", arguments.draws,
+                        "judge the gait for this many seeds, from the scenario's on: other robots "
+                        "within its tolerances, other noise of its sensors")
+            ->check(CLI::Range(1, 100000));
+        command.add_option("-j,--jobs", arguments.jobs, "threads for the draws (default 1)")->check(CLI::Range(1, 1024));
+        add_shown(command, arguments.shown);
+      });
 }
 
 }  // namespace gaitlab::app

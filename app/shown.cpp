@@ -76,13 +76,15 @@ report::Verdict judged(const Scenario& scenario, const Recording& recording, con
 
 int exit_code(const report::Verdict& verdict, const SummaryOptions& shown) {
   if (!shown.fail_infeasible) return 0;
-  return verdict.word == report::Word::feasible ? 0 : verdict.word == report::Word::failed ? 1 : 3;
+  if (verdict.word == report::Word::failed) return 1;
+  const auto fails = [](const report::Draw& draw) { return draw.word != report::Word::feasible; };
+  return verdict.word != report::Word::feasible || std::ranges::any_of(verdict.draws, fails) ? 3 : 0;
 }
 
 void add_shown(CLI::App& command, SummaryOptions& shown) {
   command.add_flag("--joints", shown.joints, "print a row per joint, the most loaded first");
   command.add_flag("--fail-infeasible", shown.fail_infeasible,
-                   "exit code 3 unless the verdict is feasible, 1 if the run failed");
+                   "exit code 3 unless the verdict (and that of every draw) is feasible, 1 if the run failed");
   command.add_flag("--demand", shown.demand,
                    "if joints reach limits of their motors, simulate again without these limits and print how much is missing");
   command.add_flag("--verbose", shown.verbose,

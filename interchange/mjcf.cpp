@@ -152,10 +152,10 @@ class Mjcf {
   const BodyType& type(const Body& body) const { return robot_.types[robot_.modules[body.module].type].bodies[body.type]; }
   /// True if the body's mass or a moment of inertia is below MuJoCo's minimum and raised to it, for example the moment of a rod
   /// about its axis.
-  static bool raised(const BodyType& t) {
+  static bool raised(const Body& body) {
     Vec3 moments;
-    principal_axes(t.inertia, moments);
-    return t.mass < kMassless || moments.minCoeff() < kMassless;
+    principal_axes(body.inertia, moments);
+    return body.mass < kMassless || moments.minCoeff() < kMassless;
   }
   /// Step for MuJoCo. If the scenario's integrator adapts its step, it is the default step of the engine, which is short enough
   /// for RK4.
@@ -172,7 +172,7 @@ class Mjcf {
   std::string massless() const {
     std::string names;
     for (const Body& body : robot_.bodies) {
-      if (raised(type(body))) names += (names.empty() ? "" : ", ") + body.name;
+      if (raised(body)) names += (names.empty() ? "" : ", ") + body.name;
     }
     if (names.empty()) return "";
     return fmt::format(" MuJoCo moves no body without mass and moments of inertia: {} kg and kg m^2 stand in for 0 in {}.",
@@ -180,14 +180,13 @@ class Mjcf {
   }
 
   void write_inertia(Xml& element, const Body& body, Attachment::Kind kind) {
-    const BodyType& t = type(body);
-    if (!(t.mass > 0) && kind != Attachment::Kind::hinge) return;
+    if (!(body.mass > 0) && kind != Attachment::Kind::hinge) return;
     Xml& e = add(element, "inertial");
-    set(e, "pos", text(t.com));
-    set(e, "mass", text({std::max(t.mass, kMassless)}));
+    set(e, "pos", text(body.com));
+    set(e, "mass", text({std::max(body.mass, kMassless)}));
     // MuJoCo also accepts full tensors, but diagonalises them with errors of 1e-12 kg m^2. Principal axes are exact.
     Vec3 moments;
-    const Mat3 axes = principal_axes(t.inertia, moments);
+    const Mat3 axes = principal_axes(body.inertia, moments);
     set(e, "quat", quaternion(Quat(axes)));
     set(e, "diaginertia", text(Vec3(moments.cwiseMax(kMassless))));
   }

@@ -6,7 +6,7 @@
 
 #include "core/laws/hinge_stop.h"
 #include "core/plugin/actuator.h"
-#include "core/plugin/plugin_instance.h"
+#include "core/scenario/built_motors.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab::interchange {
@@ -62,7 +62,7 @@ Mat3 y_from_z() {
 }
 
 std::vector<MotorLimits> motor_limits(const Scenario& scenario) {
-  const std::unique_ptr<Actuator> actuator = make_actuator(scenario.actuator, info(*scenario.robot));
+  const std::unique_ptr<Actuator> actuator = make_motors(scenario);
   if (actuator == nullptr) return {};
   const std::size_t joints = scenario.robot->joints.size();
   const std::vector<double> command(actuator->command_limit().begin(), actuator->command_limit().end());

@@ -135,7 +135,7 @@ class Urdf {
     const Pose body_in_frame = frame(b).inverse() * body.in_link;
     Xml& e = add(root, "link");
     set(e, "name", body.name);
-    if (t.mass > 0) write_inertia(add(e, "inertial"), t, body_in_frame);
+    if (body.mass > 0) write_inertia(add(e, "inertial"), body, body_in_frame);
     for (const Shape& shape : t.shapes) {
       Xml& visual = add(e, "visual");
       const bool round = shape.kind == Shape::Kind::cylinder || shape.kind == Shape::Kind::half_cylinder;
@@ -152,13 +152,13 @@ class Urdf {
     }
   }
 
-  static void write_inertia(Xml& inertial, const BodyType& t, const Pose& body_in_frame) {
-    add_origin(inertial, {body_in_frame.R, body_in_frame * t.com});
-    set(add(inertial, "mass"), "value", text({t.mass}));
+  static void write_inertia(Xml& inertial, const Body& body, const Pose& body_in_frame) {
+    add_origin(inertial, {body_in_frame.R, body_in_frame * body.com});
+    set(add(inertial, "mass"), "value", text({body.mass}));
     Xml& e = add(inertial, "inertia");
     const char* kNames[3][3] = {{"ixx", "ixy", "ixz"}, {"", "iyy", "iyz"}, {"", "", "izz"}};
     for (Eigen::Index i = 0; i < 3; ++i) {
-      for (Eigen::Index j = i; j < 3; ++j) set(e, kNames[i][j], text({t.inertia(i, j)}));
+      for (Eigen::Index j = i; j < 3; ++j) set(e, kNames[i][j], text({body.inertia(i, j)}));
     }
   }
 

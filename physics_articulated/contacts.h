@@ -106,7 +106,8 @@ class Contacts {
         const TreePoint<T>& point = tree_.points[order_[e]];
         if (environment_.plane && !math::any_lane(on_plane(height(body, link, point), point.radius).penetration > -farthest))
           continue;
-        const Touch<T> found = touch(body.point(link, point.centre) + body.origin(), point.radius);
+        Touch<T> found = touch(body.point(link, point.centre) + body.origin(), point.radius);
+        found.friction = found.friction * point.friction;
         const Vec<T> x = found.point - body.origin();
         const Vec<T> v = body.velocity(link, x);
         const T gap = T(reach) * math::sqrt(dot(v, v)) + T(kPull * reach * reach);

@@ -34,7 +34,8 @@ Tree<double> tree(const Robot& robot, Base base, const std::vector<ContactElemen
     parent.leaf = false;
   }
   for (const ContactElement& element : contacts) {
-    all.points.push_back({element.link, vec(frames[element.link].transpose() * element.centre), element.radius});
+    all.points.push_back(
+        {element.link, vec(frames[element.link].transpose() * element.centre), element.radius, element.friction});
   }
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     const Joint& joint = robot.joints[j];

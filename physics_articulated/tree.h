@@ -31,6 +31,7 @@ struct TreePoint {
   std::size_t link = 0;
   Vec<T> centre;  ///< link frame, m
   T radius = 0.0;
+  T friction = 1.0;  ///< factor on the ground's coefficient
 };
 
 /// Constants of the robots of all lanes. All lanes have the same links, joints and points, but may have different numbers.
@@ -103,6 +104,7 @@ Tree<T> side_by_side(std::span<const Tree<double>* const> lanes) {
       all.points[i].link = one.points[i].link;
       put(all.points[i].centre, l, one.points[i].centre);
       put(all.points[i].radius, l, one.points[i].radius);
+      put(all.points[i].friction, l, one.points[i].friction);
     }
     for (std::size_t j = 0; j < all.lo.size(); ++j) {
       put(all.lo[j], l, one.lo[j]);

@@ -161,7 +161,8 @@ class BulletPlant final : public Plant, private InverseMass {
       const double vn = touch.normal.dot(v);
       const Vec3 vt = v - vn * touch.normal;
       const double slip = vt.norm();
-      visit(Contact{element, link, touch, vn, vt, slip, settings_.law(touch.penetration, vn, slip, touch.friction)});
+      visit(Contact{element, link, touch, vn, vt, slip,
+                    settings_.law(touch.penetration, vn, slip, settings_.contacts[element].friction * touch.friction)});
     });
   }
 

@@ -33,16 +33,15 @@ void InverseDynamics::move_links(const Kinematics& k, const Acceleration& accele
 
 Wrench InverseDynamics::needed(const Kinematics& k, std::size_t b, const Vec3& gravity) const {
   const Body& body = robot_.bodies[b];
-  const BodyType& type = robot_.types[robot_.modules[body.module].type].bodies[body.type];
   const Mat3 R = k.R[body.link] * body.in_link.R;
-  const Vec3 com = k.point(body.link, body.in_link * type.com);
+  const Vec3 com = k.point(body.link, body.in_link * body.com);
   const Vec3 arm = com - k.p[body.link];
   const Vec3& w = k.omega[body.link];
   const Vec3& alpha = alpha_[body.link];
   const Vec3 a = a_[body.link] + alpha.cross(arm) + w.cross(w.cross(arm));
-  const Vec3 spin = R * (type.inertia * (R.transpose() * w));
-  const Vec3 force = type.mass * (a - gravity);
-  return {force, R * (type.inertia * (R.transpose() * alpha)) + w.cross(spin) + (com - k.p[0]).cross(force)};
+  const Vec3 spin = R * (body.inertia * (R.transpose() * w));
+  const Vec3 force = body.mass * (a - gravity);
+  return {force, R * (body.inertia * (R.transpose() * alpha)) + w.cross(spin) + (com - k.p[0]).cross(force)};
 }
 
 void InverseDynamics::update(const Kinematics& k, const Acceleration& acceleration, const Vec3& gravity,

@@ -23,8 +23,9 @@ Mat3 axes(const FaceType& face) {
 }
 
 /// Pose of the body of the child in the body of the parent when their faces are docked. The origins coincide, the normals are
-/// opposite, and the references are aligned. Then the child is turned by orientation * pi/2 about its own outward normal.
-Pose docked(const FaceType& child, const FaceType& parent, int orientation) {
+/// opposite, and the references are aligned. Then the child is turned by orientation * pi/2 about its own outward normal, and
+/// by the rotation vector `angle` in the axes of the parent's face.
+Pose docked(const FaceType& child, const FaceType& parent, int orientation, const Vec3& angle) {
   // Quarter turns of (reference, normal x reference) are exact, because they need no sine of pi/2.
   constexpr std::array<std::array<double, 2>, 4> kQuarter{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
   const Vec3 normal = -parent.normal;  // outward normal of the child, in the body of the parent
@@ -34,7 +35,8 @@ Pose docked(const FaceType& child, const FaceType& parent, int orientation) {
   target.col(0) = normal;
   target.col(1) = reference;
   target.col(2) = normal.cross(reference);
-  const Mat3 R = target * axes(child).transpose();
+  Mat3 R = target * axes(child).transpose();
+  if (!angle.isZero(0)) R = turn(axes(parent) * angle).toRotationMatrix() * R;
   return {R, parent.origin - R * child.origin};
 }
 
@@ -42,13 +44,15 @@ Pose docked(const FaceType& child, const FaceType& parent, int orientation) {
 /// module by module, independent of the docking.
 class Builder {
  public:
-  Builder(std::vector<ModuleType> types, const std::vector<std::size_t>& type_of) {
+  /// `builds` has an entry per module, or is empty.
+  Builder(std::vector<ModuleType> types, const std::vector<std::size_t>& type_of, std::span<const ModuleBuild> builds) {
     robot_.types = std::move(types);
     std::size_t body = 0;
     for (const std::size_t type : type_of) {
       robot_.modules.push_back({type, -1, {}, body, {}, 0});
       body += robot_.types[type].bodies.size();
     }
+    for (std::size_t m = 0; m < builds.size(); ++m) robot_.modules[m].build = builds[m];
     robot_.bodies.resize(body);
     number_joints();
   }
@@ -94,7 +98,8 @@ class Builder {
     const FaceType& child_face = *find_face(type(module(index)), dock.child_face);
     const FaceType& parent_face = *find_face(type(parent), dock.parent_face);
     const Body& on = robot_.bodies[parent.first_body + parent_face.body];
-    place_module(index, child_face.body, on.link, on.in_link * docked(child_face, parent_face, dock.orientation));
+    place_module(index, child_face.body, on.link,
+                 on.in_link * docked(child_face, parent_face, dock.orientation, module(index).build.dock_angle));
   }
 
   /// Places the bodies of a module breadth-first over its hinges, starting at its reference body, which is part of `link`.
@@ -125,8 +130,16 @@ class Builder {
 
   void set_body(int index, std::size_t body, std::size_t link, const Pose& in_link) {
     const Module& m = module(index);
-    robot_.bodies[m.first_body + body] = {
-        fmt::format("m{}/{}", index, type(m).bodies[body].name), static_cast<std::size_t>(index), body, link, in_link, false};
+    const BodyType& t = type(m).bodies[body];
+    robot_.bodies[m.first_body + body] = {fmt::format("m{}/{}", index, t.name),
+                                          static_cast<std::size_t>(index),
+                                          body,
+                                          link,
+                                          in_link,
+                                          false,
+                                          m.build.mass * t.mass,
+                                          t.com,
+                                          m.build.mass * m.build.inertia * t.inertia};
   }
 
   void add_joint(int index, const HingeType& hinge, std::size_t near, std::size_t far) {
@@ -150,21 +163,19 @@ class Builder {
   /// Mass, COM and inertia of every link from its bodies; inertia by the parallel-axis theorem.
   void fuse() {
     for (const Body& body : robot_.bodies) {
-      const BodyType& t = type(robot_.modules[body.module]).bodies[body.type];
       Link& link = robot_.links[body.link];
-      link.mass += t.mass;
-      link.com += t.mass * (body.in_link * t.com);
-      robot_.mass += t.mass;
+      link.mass += body.mass;
+      link.com += body.mass * (body.in_link * body.com);
+      robot_.mass += body.mass;
     }
     for (Link& link : robot_.links) {
       if (link.mass > 0) link.com /= link.mass;
     }
     for (const Body& body : robot_.bodies) {
-      const BodyType& t = type(robot_.modules[body.module]).bodies[body.type];
       Link& link = robot_.links[body.link];
-      const Vec3 d = body.in_link * t.com - link.com;
-      link.inertia += body.in_link.R * t.inertia * body.in_link.R.transpose() +
-                      t.mass * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
+      const Vec3 d = body.in_link * body.com - link.com;
+      link.inertia += body.in_link.R * body.inertia * body.in_link.R.transpose() +
+                      body.mass * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
     }
   }
 
@@ -177,9 +188,19 @@ class Builder {
 
 Robot assemble(std::vector<ModuleType> types, const std::vector<std::size_t>& type_of_module, const std::vector<Dock>& docks) {
   check_docks(types, type_of_module, docks);
-  Robot robot = Builder(std::move(types), type_of_module).build(docks);
+  Robot robot = Builder(std::move(types), type_of_module, {}).build(docks);
   check_cells(robot);
   return robot;
+}
+
+Robot as_built(const Robot& drawn, std::span<const ModuleBuild> modules) {
+  std::vector<std::size_t> type_of_module;
+  std::vector<Dock> docks;
+  for (const Module& module : drawn.modules) {
+    type_of_module.push_back(module.type);
+    if (module.parent >= 0) docks.push_back(module.dock);
+  }
+  return Builder(drawn.types, type_of_module, modules).build(docks);
 }
 
 std::vector<ContactElement> contact_elements(const Robot& robot, ContactSet on) {
@@ -198,7 +219,8 @@ std::vector<ContactElement> contact_elements(const Robot& robot, ContactSet on) 
     for (const ContactType& contact : on == ContactSet::feet ? type.feet : type.all) {
       if (contact.body != body.type) continue;
       const std::string name = contact.radius > 0 ? fmt::format("s{}", spheres++) : fmt::format("p{}", points++);
-      elements.push_back({body.name + "/" + name, b, body.link, body.in_link * contact.centre, contact.radius});
+      elements.push_back({body.name + "/" + name, b, body.link, body.in_link * contact.centre, contact.radius,
+                          robot.modules[body.module].build.friction});
     }
   }
   return elements;

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,7 +42,10 @@ struct Body {
   std::size_t type = 0;  ///< index in the bodies of the module type
   std::size_t link = 0;
   Pose in_link = {};
-  bool free = false;  ///< true at the end of the hinge chain of a module; feet are on such bodies
+  bool free = false;            ///< true at the end of the hinge chain of a module; feet are on such bodies
+  double mass = 0;              ///< kg
+  Vec3 com = Vec3::Zero();      ///< m, body frame
+  Mat3 inertia = Mat3::Zero();  ///< kg m^2, about the COM, body axes
 };
 
 /// A point (radius 0) or sphere that may touch the ground.
@@ -51,11 +55,22 @@ struct ContactElement {
   std::size_t link = 0;
   Vec3 centre = Vec3::Zero();  ///< m, link frame
   double radius = 0;           ///< m
+  double friction = 1;         ///< factor on the ground's coefficient of friction
 };
 
 struct Dock {
   int child_face = 0, child_module = 0, parent_face = 0, parent_module = 0, orientation = 0;
   SourceLocation place = {};
+};
+
+/// Differences of a real module from its type.
+struct ModuleBuild {
+  double mass = 1;                 ///< factor on the masses of its bodies, and thereby on their inertias
+  double inertia = 1;              ///< further factor on the inertias
+  double friction = 1;             ///< factor on the coefficient of friction under its contact elements
+  Vec3 dock_angle = Vec3::Zero();  ///< rotation vector of the module at its dock to the parent: normal of the parent's face,
+                                   ///< its reference, and normal x reference; rad
+  bool operator==(const ModuleBuild&) const = default;
 };
 
 struct Module {
@@ -65,6 +80,7 @@ struct Module {
   std::size_t first_body = 0;
   std::vector<std::size_t> joints = {};  ///< breadth-first from the reference body
   std::size_t reference = 0;             ///< docked body (index in Robot::bodies); for module 0 the root of the type
+  ModuleBuild build = {};
 };
 
 struct Robot {
@@ -93,6 +109,10 @@ struct EnumNames<ContactSet> {
 /// module or face, and an orientation that does not exist or that a face does not allow. Problems of the tree are two parents,
 /// a loop, a gap in the numbering, and, in lattice types, two blocks in one cell at zero angles.
 Robot assemble(std::vector<ModuleType> types, const std::vector<std::size_t>& type_of_module, const std::vector<Dock>& docks);
+
+/// The robot `drawn` with these differences of its modules, one entry per module. Links, joints, bodies and names are the same.
+/// Cells of lattices are not checked again.
+Robot as_built(const Robot& drawn, std::span<const ModuleBuild> modules);
 
 /// Contact elements of the set `on`, by body, then in file order. The set `feet` contains the feet of the free body of every
 /// module without children.

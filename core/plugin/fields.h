@@ -27,7 +27,8 @@ struct Spec {
 /// Least number of a range whose numbers must be above 0.
 inline constexpr double kPositive = std::numeric_limits<double>::denorm_min();
 
-/// A value per joint. In YAML it is a number, a list, or a map such as {default: x, m3/passive: y, "*/active": z}.
+/// A value per joint, or per module. In YAML it is a number, a list, or a map such as {default: x, m3/passive: y, "*/active":
+/// z}.
 struct PerJoint {
   double common = 0;
   std::vector<double> each = {};  ///< empty if every joint has the value `common`
@@ -91,6 +92,7 @@ struct EachJoint {
   Spec spec;
   Role role = Role::setting;
   const PerJoint* usual = nullptr;
+  bool of_modules = false;  ///< true for a value per module
 };
 /// A joint, by name or number in the file. `value` is its number.
 struct Joint {
@@ -196,6 +198,10 @@ class Fields {
     if (read != value) value = read;  // Without a change, nothing is written, because threads that only read share the settings
   }
   void per_joint(const char* key, PerJoint& value, Spec spec) { visit({key, spec.about, field::EachJoint{value, spec}}); }
+  /// Field of a value per module, named m0, m1 ...
+  void per_module(const char* key, PerJoint& value, Spec spec) {
+    visit({key, spec.about, field::EachJoint{value, spec, field::Role::setting, nullptr, true}});
+  }
   /// Field of an actuator's limit: its largest command, in the unit of the command, or its largest current.
   void limit(const char* key, PerJoint& value, Spec spec) {
     visit({key, spec.about, field::EachJoint{value, spec, field::Role::limit}});

@@ -73,6 +73,8 @@ struct Recording {
   /// Numbers (report/verdict/spread.h) of this run in the first row, and of runs under a minimally different gravity in the
   /// other rows, for a motion that is not predictable. There are no columns if predictability was not tested.
   Trace spread;
+  /// Verdicts on draws with other seeds (report/verdict/draws.h), this run in the first row. No columns without draws.
+  Trace draws;
   std::vector<JointStatistics> joints;  ///< empty if the robot has no joints, or the format of the run lacks them
   Ledger ledger;                        ///< energies at the end
   StepTally tally;                      ///< counts of the steps of the engine

@@ -105,6 +105,7 @@ std::vector<BesideOf> tables(const Recording& r, const NumberTables& numbers) {
   std::vector<BesideOf> all{{"rest", &r.rest},   {"ticks", &r.ticks},         {"loads", &r.loads},
                             {"poses", &r.poses}, {"joints", &numbers.joints}, {"run", &numbers.run}};
   if (r.spread.rows() > 0) all.push_back({"spread", &r.spread});
+  if (r.draws.rows() > 0) all.push_back({"draws", &r.draws});
   return all;
 }
 
@@ -154,6 +155,7 @@ void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r
   if (find("loads") != beside.end()) r.loads = take("loads");  // older folders lack these tables
   if (find("poses") != beside.end()) r.poses = take("poses");
   if (find("spread") != beside.end()) r.spread = take("spread");
+  if (find("draws") != beside.end()) r.draws = take("draws");
   const Trace joints = take("joints");
   const Trace run = take("run");
   take_numbers(file, joints, run, r);

@@ -10,6 +10,7 @@
 
 #include "core/plugin/plugin_instance.h"
 #include "core/robot_files/type_presets.h"
+#include "core/scenario/built_motors.h"
 #include "core/scenario/ground_section.h"
 #include "core/scenario/old_names.h"
 #include "core/scenario/plugin_files.h"
@@ -76,6 +77,7 @@ class ScenarioReader {
   }
 
   [[nodiscard]] bool driven() const { return scenario_.actuator.entry != nullptr; }
+  [[nodiscard]] bool draws_robots() const { return scenario_.tolerances.any(); }
 
   /// The scenario with further settings of sections other than the robot's. Only the sections that depend on these settings are
   /// read again.
@@ -208,6 +210,8 @@ class ScenarioReader {
     const JointNames joints = joints_.get();
     Reader reader(root_, "the scenario", problems_, joints, folder_);
     if (!touched_.empty()) reader.only(touched_);
+    const std::vector<std::string> modules = scenario_.robot ? module_names(*scenario_.robot) : std::vector<std::string>();
+    reader.modules(scenario_.robot ? &modules : nullptr);
     for (const char* known : {"gaitlab", "name", "plugins", "robot", "controller", "cpg"}) reader.take(known);
     reader.require({"duration"});
     const Node* sensors = reader.take("sensors");
@@ -224,8 +228,10 @@ class ScenarioReader {
     sections.actuator.presets = [&](const Entry& entry, void* settings) { motors.fill(entry, settings, joints, problems_); };
     sections.controller.presets = [&](const Entry& entry, void* settings) { gains.fill(entry, settings, joints, problems_); };
     sections.actuator.none = !reads("actuator") && scenario_.actuator.entry == nullptr;
+    if (touched_.empty()) scenario_.as_built = AsBuilt::unknown();
     sections.fields(reader);
     reader.finish();
+    if (touched_.empty() && scenario_.robot) build_robot();
     if (reads("actuator") && sections.actuator.sound) attempt([&] { tell_replaced_motors(motors); });
     if (const Node* ground = root_.find("ground"); ground != nullptr && reads("ground"))
       finish_ground(*ground, folder_, scenario_, problems_);
@@ -318,7 +324,7 @@ class ScenarioReader {
     std::unique_ptr<Actuator> actuator;
     std::unique_ptr<Controller> controller;
     attempt([&] {
-      if (sections.actuator.sound) actuator = make_actuator(scenario_.actuator, robot);
+      if (sections.actuator.sound) actuator = make_motors(scenario_);
     });
     attempt([&] {
       if (sections.controller.sound && !sections.actuator.none) controller = make_controller(scenario_.controller, robot);
@@ -336,6 +342,20 @@ class ScenarioReader {
     attempt([&] {
       if (actuator) ScenarioChecks(root_, scenario_, catalog_, problems_).rotors(*actuator);
     });
+    if (sections.actuator.sound) ScenarioChecks(root_, scenario_, catalog_, problems_).built_numbers(actuator.get());
+  }
+
+  /// Draws the differences of the robot from the drawings that are not stated, and builds the robot with them.
+  void build_robot() {
+    const Robot& drawn = *scenario_.robot;
+    const std::size_t draws = draw(scenario_.as_built, scenario_.tolerances, drawn, static_cast<std::uint64_t>(scenario_.seed));
+    if (draws == 0 && scenario_.tolerances.any()) {
+      add_note(
+          "tolerances draws nothing: as_built states every number, as in the resolved scenario of a run; for another robot "
+          "use the scenario of that run, or --set as_built={}");
+    }
+    const std::vector<ModuleBuild> modules = module_builds(scenario_.as_built, drawn.modules.size());
+    if (!modules.empty()) scenario_.robot = std::make_shared<const Robot>(as_built(drawn, modules));
   }
 
   std::string path_, folder_;
@@ -380,8 +400,9 @@ Scenario ScenarioTemplate::with(const std::vector<std::string>& own) const {
   const auto whole = [&](const std::string& set) {
     const std::string key = set.substr(0, set.find('='));
     const std::string section = key.substr(0, key.find('.'));
-    constexpr std::array kWhole{"gaitlab", "name", "plugins", "robot"};
-    if (std::ranges::find(kWhole, section) != kWhole.end() || key.ends_with(".type")) return true;
+    constexpr std::array kWhole{"gaitlab", "name", "plugins", "robot", kTolerancesSection, kAsBuiltSection};
+    if (std::ranges::find(kWhole, std::string_view(section)) != kWhole.end() || key.ends_with(".type")) return true;
+    if (section == "seed" && reader_->draws_robots()) return true;
     if (key == section && find_kind(section) != nullptr) return true;  // a whole section of a plugin
     // When the template changed the type, it dropped the model of the previous type, to which this setting may refer.
     const auto types = [&](const std::string& one) { return one.starts_with(section + ".type="); };

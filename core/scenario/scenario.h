@@ -13,6 +13,7 @@
 #include "core/model/robot.h"
 #include "core/names.h"
 #include "core/plugin/plugin_instance.h"
+#include "core/scenario/as_built.h"
 #include "core/settings/node.h"
 
 namespace gaitlab {
@@ -119,7 +120,9 @@ struct SensorSelection {
 struct Scenario {
   std::string file, name;
   std::vector<PluginFile> plugins;
-  std::shared_ptr<const Robot> robot;
+  std::shared_ptr<const Robot> robot;  ///< as built
+  Tolerances tolerances;
+  AsBuilt as_built;  ///< differences of the robot from the drawings, stated and drawn
   /// Documents of the module types as read from files, one per entry of Robot::types. The resolved scenario contains them.
   std::shared_ptr<const std::vector<Node>> module_documents = std::make_shared<const std::vector<Node>>();
   Base base = Base::floating;

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/model/pattern.h"
+#include "core/scenario/built_motors.h"
 #include "core/scenario/section_places.h"
 #include "core/scenario/sections.h"
 #include "core/settings/joint_patterns.h"
@@ -103,6 +104,27 @@ void ScenarioChecks::figure_joints() {
     const std::string wrong = no_joint(named[i], joints);
     const bool placed = list != nullptr && i < list->items.size();
     if (!wrong.empty()) problems_.add(placed ? list->items[i].place : place_of(root_, "figure", "joints"), wrong);
+  }
+}
+
+void ScenarioChecks::built_numbers(const Actuator* actuator) {
+  const AsBuilt drawn;
+  for (std::size_t i = 0; i < kBuiltNumbers.size(); ++i) {
+    const BuiltNumber& number = kBuiltNumbers[i];
+    if (scenario_.as_built.numbers[i] == drawn.numbers[i]) continue;
+    const bool stated = given(root_, kAsBuiltSection, number.key).has_value();
+    const char* section = stated ? kAsBuiltSection : kTolerancesSection;
+    const char* key = stated ? number.key : kTolerances[number.tolerance].key;
+    std::string wrong;
+    if (number.of != BuiltNumber::Of::modules) {
+      wrong = not_buildable(scenario_, actuator, fmt::format("{}.{}", section, key));
+    } else if (number.key == std::string_view("foot_friction") && !scenario_.contact.model().penalty_settings) {
+      wrong = fmt::format("{}.{} does not apply to contact law '{}', which has one coefficient; expected contact.law: penalty",
+                          section, key, scenario_.contact.model().text);
+    }
+    if (wrong.empty()) continue;
+    problems_.add(place_of(root_, section, key), wrong);
+    if (number.of != BuiltNumber::Of::modules) return;  // the other numbers of motors have the same problem
   }
 }
 

@@ -29,6 +29,9 @@ class ScenarioChecks {
   void units(const Actuator& actuator, const Controller& controller);
   /// Refuses rotor inertia if the engine cannot add it. The message names the engines that can.
   void rotors(const Actuator& actuator);
+  /// Refuses differences of motors that the actuator does not have (nullptr for no actuator), and of friction that the contact
+  /// law does not have.
+  void built_numbers(const Actuator* actuator);
 
  private:
   void refuse_law(const Engine& engine);

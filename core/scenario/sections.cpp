@@ -272,6 +272,16 @@ SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems
 
 void SectionFields::fields(Fields& f) {
   GroundFields ground{scenario.ground, writing};
+  if (!writing || scenario.tolerances.any()) {
+    f.group(kTolerancesSection, scenario.tolerances,
+            "Deviations of real robots from the drawings; each seed draws another robot.");
+  }
+  if (!writing || scenario.as_built.any()) {
+    f.group(
+        kAsBuiltSection, scenario.as_built,
+        "Differences of this robot from the drawings, by part, such as mass: {m3: 1.05}. What is not stated is drawn within "
+        "the tolerances.");
+  }
   f.group("initial", scenario.initial, "State at the start.");
   f.group("physics", physics, "Engine and time integration.");
   f.group("ground", ground, "The ground.");
@@ -287,7 +297,10 @@ void SectionFields::fields(Fields& f) {
   f.group("trace", scenario.trace, "The recorded trace.");
   if (!writing || scenario.limits != Limits()) f.group("limits", scenario.limits, "Limits of the verdict.");
   if (!writing || !scenario.figure.joints.empty()) f.group("figure", scenario.figure, "Content of figure.svg.");
-  f.integer("seed", scenario.seed, {"", 0, 9e18, "Seed of all draws of the sensors: noise, zeros, delays, losses."});
+  f.integer(
+      "seed", scenario.seed,
+      {"", 0, 9e18,
+       "Seed of all draws: of the robot within its tolerances, and of the noise, zeros, delays and losses of its sensors."});
 }
 
 std::vector<std::string> joint_names(const Robot& robot) {

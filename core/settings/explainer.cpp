@@ -115,7 +115,7 @@ void Explainer::on(const char* key, const char* about, const field::EachJoint& f
       absent && field.role == field::Role::rating     ? "not stated"
       : absent && field.role == field::Role::required ? ""
                                                       : preset,
-      range.empty() ? "per joint" : range + ", per joint", about);
+      (range.empty() ? "" : range + ", ") + (field.of_modules ? "per module" : "per joint"), about);
 }
 
 void Explainer::on(const char* key, const char* about, const field::Joint& field) {

@@ -37,16 +37,16 @@ std::vector<std::size_t> joints_of(const std::string& text, const std::vector<st
   return numbers;
 }
 
-std::string no_joint(const std::string& text, const std::vector<std::string>& joints) {
+std::string no_joint(const std::string& text, const std::vector<std::string>& joints, const std::string& part) {
   if (!joints_of(text, joints).empty()) return "";
-  if (!is_pattern(text)) return "no joint " + in_quotes(text) + offer(text, joints, "joints");
+  if (!is_pattern(text)) return "no " + part + " " + in_quotes(text) + offer(text, joints, part + "s");
   const std::vector<std::string> usual = usual_patterns(joints);
-  return "no joint matches " + in_quotes(text) +
-         (nearest(clipped(text), usual).empty() ? offer(text, joints, "joints") : offer(text, usual, "patterns"));
+  return "no " + part + " matches " + in_quotes(text) +
+         (nearest(clipped(text), usual).empty() ? offer(text, joints, part + "s") : offer(text, usual, "patterns"));
 }
 
-std::string not_one_joint(const std::string& text, const std::vector<std::string>& joints) {
-  return is_pattern(text) ? in_quotes(text) + " is a pattern; expected the name of one joint" : no_joint(text, joints);
+std::string not_one_joint(const std::string& text, const std::vector<std::string>& joints, const std::string& part) {
+  return is_pattern(text) ? in_quotes(text) + " is a pattern; expected the name of one " + part : no_joint(text, joints, part);
 }
 
 std::vector<std::string> joints_meant(const std::vector<std::string>& list, const std::vector<std::string>& joints) {

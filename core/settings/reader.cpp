@@ -294,11 +294,11 @@ void Reader::read_named(const Node& node, const std::string& what, NamedValues k
 void Reader::read_named_numbers(const Node& node, const std::string& what, PerJoint& value) {
   constexpr Spec kAny{"", -1e300, 1e300, ""};
   if (node.kind == Node::Kind::list) {
-    read_joint_list(node, what, kAny, value);
+    read_joint_list(node, what, kAny, value, joints());
     return;
   }
   const std::size_t before = problems_.size();
-  const bool every = read_joint_map(node, what, kAny, value);
+  const bool every = read_joint_map(node, what, kAny, value, joints());
   if (every || problems_.size() > before) return;
   // Without a default, the remaining joints would have no value.
   problems_.add(node.place, what + " names some joints only; add default: for the others");
@@ -347,6 +347,7 @@ void Reader::read_elements(const char* key, const Node& node, const field::List&
   list.resize(list.self, node.items.size());
   for (std::size_t i = 0; i < node.items.size(); ++i) {
     Reader reader(node.items[i], element(key, i), problems_, joints_, folder_);
+    reader.modules(modules_);
     list.visit(list.self, i, reader);
     reader.finish();
   }
@@ -375,6 +376,7 @@ void Reader::on(const char* key, const field::Group& field) {
   const Node* node = take(key);
   Reader reader =
       node != nullptr ? Reader(*node, key, problems_, joints_, folder_) : Reader(map_->place, problems_, joints_, folder_);
+  reader.modules(modules_);
   field.visit(field.self, reader);
   reader.finish();
 }

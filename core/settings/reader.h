@@ -32,6 +32,8 @@ class Reader final : public Fields {
   bool version(const char* key) { return version(key, 1) != 0; }
   /// Reads a format version from 1 to `newest`. Returns 1 if no version is given, and 0 with a problem for an invalid version.
   std::int64_t version(const char* key, std::int64_t newest);
+  /// Names of the robot's modules, for values per module.
+  void modules(JointNames names) { modules_ = names; }
   /// Restricts reading to these keys. Fields with other keys keep their values.
   void only(std::vector<std::string> keys) { only_ = std::move(keys); }
   /// Reports each of these keys that is missing.
@@ -65,21 +67,30 @@ class Reader final : public Fields {
   void read_elements(const char* key, const Node& node, const field::List& list);
   bool read_one(const Node& node, const std::string& what, const Spec& spec, double& value);
   void read_each(const Node& node, const std::string& key, const Spec& spec, std::span<double> value);
+  /// The parts of the robot that have a value in a field, by name, and their noun.
+  struct Parts {
+    JointNames names;  ///< null if the robot could not be built
+    const char* noun;
+  };
+  [[nodiscard]] Parts joints() const { return {joints_, "joint"}; }
+  [[nodiscard]] Parts parts(const field::EachJoint& field) const {
+    return field.of_modules ? Parts{modules_, "module"} : joints();
+  }
   void read_each_joint(const Node& node, const char* key, const field::EachJoint& field);
   /// Reports the first joint without a value, for a field without a default.
   void require_each(const char* key, const Node* node, const PerJoint& value);
-  void read_joint_list(const Node& node, const std::string& key, const Spec& spec, PerJoint& value);
-  /// Reads a map of values per joint. Returns true if every joint gets a value, by name, pattern or default.
-  bool read_joint_map(const Node& node, const std::string& key, const Spec& spec, PerJoint& value);
+  void read_joint_list(const Node& node, const std::string& key, const Spec& spec, PerJoint& value, Parts of);
+  /// Reads a map of values per part. Returns true if every part gets a value, by name, pattern or default.
+  bool read_joint_map(const Node& node, const std::string& key, const Spec& spec, PerJoint& value, Parts of);
   void read_named(const Node& node, const std::string& what, NamedValues kind, Named& value);
   void read_named_numbers(const Node& node, const std::string& what, PerJoint& value);
-  /// Number of a joint by its name, or -1 with a problem if the name is unknown.
-  std::int64_t joint_number(const std::string& name, const SourceLocation& place);
+  /// Number of a part by its name, or -1 with a problem if the name is unknown.
+  std::int64_t number_of(const std::string& name, const SourceLocation& place, Parts of);
 
   Node empty_;  ///< node used for an absent map, or for a value that is not a map
   const Node* map_;
   Problems& problems_;
-  JointNames joints_;
+  JointNames joints_, modules_ = nullptr;
   std::string folder_;
   std::vector<std::string> known_, only_;
   bool tolerant_ = false;  ///< true if the set of known keys is uncertain, so that unknown keys are not reported

@@ -1,4 +1,4 @@
-// The values of a Reader that depend on joints: a value per joint, and the name of a joint.
+// The values of a Reader that depend on parts of the robot: a value per joint or module, and the name of a joint.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,21 +32,21 @@ void Reader::require_each(const char* key, const Node* node, const PerJoint& val
 
 void Reader::read_each_joint(const Node& node, const char* key, const field::EachJoint& field) {
   if (node.kind == Node::Kind::list) {
-    read_joint_list(node, key, field.spec, field.value);
+    read_joint_list(node, key, field.spec, field.value, parts(field));
   } else if (node.kind == Node::Kind::map) {
-    read_joint_map(node, key, field.spec, field.value);
+    read_joint_map(node, key, field.spec, field.value, parts(field));
   } else if (node.kind == Node::Kind::scalar) {
     if (read_one(node, key, field.spec, field.value.common)) field.value.each.clear();
   } else {
-    problems_.add(node.place, fmt::format("{} is {}; expected a number{}, a list, or a map of joints", key, found(node),
-                                          in_unit(field.spec)));
+    problems_.add(node.place, fmt::format("{} is {}; expected a number{}, a list, or a map of {}s", key, found(node),
+                                          in_unit(field.spec), parts(field).noun));
   }
 }
 
-void Reader::read_joint_list(const Node& node, const std::string& key, const Spec& spec, PerJoint& value) {
-  if (joints_ != nullptr && node.items.size() != joints_->size()) {
+void Reader::read_joint_list(const Node& node, const std::string& key, const Spec& spec, PerJoint& value, Parts of) {
+  if (of.names != nullptr && node.items.size() != of.names->size()) {
     problems_.add(node.place, fmt::format("{} has {}; expected one for each of the robot's {}", key,
-                                          counted(node.items.size(), "number"), counted(joints_->size(), "joint")));
+                                          counted(node.items.size(), "number"), counted(of.names->size(), of.noun)));
     return;
   }
   std::vector<double> each(node.items.size());
@@ -58,34 +58,34 @@ namespace {
 
 using Key = std::pair<std::string, SourceLocation>;
 
-/// Value that an entry of a map gives to a joint.
+/// Value that an entry of a map gives to a part.
 struct Said {
   const Key* key = nullptr;  ///< null if no entry gives a value
   double number = 0;
 };
 
-/// Reports two patterns that give different values to a joint. `more` is the number of further joints with this conflict.
-void report_clash(const std::string& joint, std::size_t more, const Said& first, const Key& key, double number,
-                  Problems& problems) {
+/// Reports two patterns that give different values to a part. `more` is the number of further parts with this conflict.
+void report_clash(const std::string& noun, const std::string& part, std::size_t more, const Said& first, const Key& key,
+                  double number, Problems& problems) {
   problems
       .add(key.second,
-           fmt::format("joint {} is given {} by {} and {} by {}{}; give it by its name, which beats patterns", in_quotes(joint),
-                       number_text(first.number), in_quotes(first.key->first), number_text(number), in_quotes(key.first),
-                       more == 0 ? "" : fmt::format(" (and so {} more)", counted(more, "joint"))))
+           fmt::format("{} {} is given {} by {} and {} by {}{}; give it by its name, which beats patterns", noun,
+                       in_quotes(part), number_text(first.number), in_quotes(first.key->first), number_text(number),
+                       in_quotes(key.first), more == 0 ? "" : fmt::format(" (and so {} more)", counted(more, noun.c_str()))))
       .notes.emplace_back(first.key->second, in_quotes(first.key->first) + " is here");
 }
 
 }  // namespace
 
-bool Reader::read_joint_map(const Node& node, const std::string& key, const Spec& spec, PerJoint& value) {
+bool Reader::read_joint_map(const Node& node, const std::string& key, const Spec& spec, PerJoint& value, Parts of) {
   PerJoint read = value;
   const Node* common = node.find("default");
   if (common != nullptr && read_one(*common, key + ".default", spec, read.common)) read.each.clear();
-  if (node.keys.size() > (common != nullptr ? 1U : 0U) && read.each.empty() && joints_ != nullptr) {
-    read.each.assign(joints_->size(), read.common);
+  if (node.keys.size() > (common != nullptr ? 1U : 0U) && read.each.empty() && of.names != nullptr) {
+    read.each.assign(of.names->size(), read.common);
   }
-  // By joint: the entry with its name, or else with a pattern.
-  std::vector<Said> said(joints_ == nullptr ? 0 : joints_->size());
+  // By part: the entry with its name, or else with a pattern.
+  std::vector<Said> said(of.names == nullptr ? 0 : of.names->size());
   std::vector<std::pair<const Key*, double>> patterns;
   for (std::size_t i = 0; i < node.keys.size(); ++i) {
     const auto& [name, place] = node.keys[i];
@@ -93,26 +93,26 @@ bool Reader::read_joint_map(const Node& node, const std::string& key, const Spec
     double number = 0;
     const bool good = read_one(node.items[i], fmt::format("{} of {}", key, in_quotes(name)), spec, number);
     if (is_pattern(name)) {
-      if (const std::string wrong = joints_ == nullptr ? "" : no_joint(name, *joints_); !wrong.empty())
+      if (const std::string wrong = of.names == nullptr ? "" : no_joint(name, *of.names, of.noun); !wrong.empty())
         problems_.add(place, wrong);
       if (good) patterns.emplace_back(&node.keys[i], number);
       continue;
     }
-    const std::int64_t joint = joint_number(name, place);
+    const std::int64_t joint = number_of(name, place, of);
     if (joint >= 0)
       said[static_cast<std::size_t>(joint)] = {&node.keys[i], good ? number : read.each[static_cast<std::size_t>(joint)]};
   }
   for (const auto& [pattern, number] : patterns) {
     std::size_t clashes = 0;
-    const std::string* joint = nullptr;
+    const std::string* part = nullptr;
     const Said* other = nullptr;
-    for (const std::size_t j : joints_ == nullptr ? std::vector<std::size_t>() : joints_of(pattern->first, *joints_)) {
+    for (const std::size_t j : of.names == nullptr ? std::vector<std::size_t>() : joints_of(pattern->first, *of.names)) {
       if (said[j].key == nullptr) said[j] = {pattern, number};
       if (!is_pattern(said[j].key->first) || said[j].number == number || clashes++ > 0) continue;
-      joint = &(*joints_)[j];
+      part = &(*of.names)[j];
       other = &said[j];
     }
-    if (clashes > 0) report_clash(*joint, clashes - 1, *other, *pattern, number, problems_);
+    if (clashes > 0) report_clash(of.noun, *part, clashes - 1, *other, *pattern, number, problems_);
   }
   for (std::size_t j = 0; j < said.size(); ++j) {
     if (said[j].key != nullptr) read.each[j] = said[j].number;
@@ -121,11 +121,11 @@ bool Reader::read_joint_map(const Node& node, const std::string& key, const Spec
   return common != nullptr || std::ranges::all_of(said, [](const Said& one) { return one.key != nullptr; });
 }
 
-std::int64_t Reader::joint_number(const std::string& name, const SourceLocation& place) {
-  if (joints_ == nullptr) return -1;
-  const auto it = std::find(joints_->begin(), joints_->end(), name);
-  if (it != joints_->end()) return it - joints_->begin();
-  problems_.add(place, not_one_joint(name, *joints_));
+std::int64_t Reader::number_of(const std::string& name, const SourceLocation& place, Parts of) {
+  if (of.names == nullptr) return -1;
+  const auto it = std::find(of.names->begin(), of.names->end(), name);
+  if (it != of.names->end()) return it - of.names->begin();
+  problems_.add(place, not_one_joint(name, *of.names, of.noun));
   return -1;
 }
 
@@ -143,7 +143,7 @@ void Reader::on(const char* key, const field::Joint& field) {
   }
   const Reading<std::int64_t> number = read_integer(*node);
   if (!number.ok()) {
-    const std::int64_t named = joint_number(node->text, node->place);
+    const std::int64_t named = number_of(node->text, node->place, joints());
     if (named >= 0) field.value = named;
   } else if (joints_ == nullptr || (number.value >= 0 && static_cast<std::size_t>(number.value) < joints_->size())) {
     field.value = number.value;

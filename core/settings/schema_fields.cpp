@@ -89,7 +89,9 @@ void SchemaFields::on(const char* key, const char* about, const field::EachJoint
   json["items"] = one;
   json["additionalProperties"] = one;
   const std::string text =
-      std::string(about) + " One number, a list, or {default: x, JOINT: y}; JOINT may be a pattern: \"*/active\".";
+      std::string(about) + (field.of_modules ? " One number, a list, or {default: x, MODULE: y}, such as m3."
+                                             : " One number, a list, or {default: x, JOINT: y}; JOINT may be a pattern: "
+                                               "\"*/active\".");
   properties_[key] = described(std::move(json), text.c_str(), field.spec.unit);
   if (field.role == field::Role::required) return;
   properties_[key] =

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/scenario/built_motors.h"
 #include "core/simulation/lane.h"
 #include "core/simulation/start.h"
 #include "core/simulation/start_check.h"
@@ -37,10 +38,10 @@ Simulation::Simulation(std::span<const Scenario> lanes, Records records, Role ro
       layout_{scenarios_[0].robot->joints.size(), scenarios_.size()},
       first_(layout_, recorded_),
       meter_(std::span(scenarios_).first(recorded_)) {
-  std::vector<const PluginSelection*> actuators;
+  std::vector<const Scenario*> all;
   for (const Scenario& s : scenarios_) {
     if (!can_share(scenarios_[0], s)) throw std::invalid_argument("these scenarios cannot run side by side");
-    actuators.push_back(&s.actuator);
+    all.push_back(&s);
     lanes_.push_back(std::make_unique<Lane>(s, lanes_.size(), records.rows));
     steps_ = std::max(steps_, lanes_.back()->clock.steps());
   }
@@ -50,8 +51,8 @@ Simulation::Simulation(std::span<const Scenario> lanes, Records records, Role ro
     throw std::invalid_argument(fmt::format("engine {} runs {} rollouts side by side, not {}", first.physics.engine->name,
                                             fmt::join(widths, " or "), lanes_.size()));
   }
-  actuator_ = make_actuator(actuators, info(*first.robot));
-  if (recorded_ != lanes_.size()) own_actuator_ = make_actuator(std::span(actuators).first(recorded_), info(*first.robot));
+  actuator_ = make_motors(all);
+  if (recorded_ != lanes_.size()) own_actuator_ = make_motors(std::span(all).first(recorded_));
   plant_ = make_plant(first, plant_settings());
   for (auto* values : {&voltage_, &current_, &saturation_, &power_in_, &copper_, &gear_, &torque_, &slope_}) {
     values->assign(layout_.joints * lanes_.size(), 0.0);

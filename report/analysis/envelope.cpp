@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "core/plugin/plugin_instance.h"
 #include "core/plugin/robot_info.h"
 #include "core/recording/motor_limit.h"
+#include "core/scenario/built_motors.h"
 
 namespace gaitlab::report {
 
@@ -74,8 +74,7 @@ double widest(const std::optional<double>& no_load, double fastest) {
 
 }  // namespace
 
-AvailableTorque::AvailableTorque(const Scenario& scenario)
-    : actuator_(make_actuator(scenario.actuator, info(*scenario.robot))) {
+AvailableTorque::AvailableTorque(const Scenario& scenario) : actuator_(make_motors(scenario)) {
   if (actuator_ == nullptr) return;
   for (const double limit : actuator_->command_limit()) {
     known_.push_back(std::isfinite(limit));

@@ -7,9 +7,9 @@
 #include <string_view>
 
 #include "core/laws/dc_motor.h"
-#include "core/plugin/plugin_instance.h"
 #include "core/plugin/robot_info.h"
 #include "core/robot_files/type_presets.h"
+#include "core/scenario/built_motors.h"
 #include "core/scenario/sections.h"
 #include "core/settings/explainer.h"
 #include "report/analysis/settings_numbers.h"
@@ -24,7 +24,7 @@ std::size_t driven_joints(const Robot& robot) {
 
 std::vector<double> rest_torques(const Scenario& scenario) {
   if (scenario.actuator.entry == nullptr) return {};
-  const std::unique_ptr<Actuator> actuator = make_actuator(scenario.actuator, info(*scenario.robot));
+  const std::unique_ptr<Actuator> actuator = make_motors(scenario);
   const DcMotor* const motors = actuator->dc_motors();
   std::vector<double> torques;
   for (std::size_t j = 0; motors != nullptr && j < scenario.robot->joints.size(); ++j)

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/laws/dc_motor.h"
-#include "core/plugin/plugin_instance.h"
 #include "core/plugin/robot_info.h"
+#include "core/scenario/built_motors.h"
 #include "core/settings/wording.h"
 #include "report/analysis/motion.h"
 #include "report/analysis/motors.h"
@@ -81,7 +81,7 @@ void judge_support(const Scenario& s, const Summary& summary, Evidence& made, st
 /// Sentence on a motor that creates energy; empty if there is none.
 std::string makes_energy(const Scenario& s) {
   if (s.actuator.entry == nullptr || s.robot->joints.empty()) return "";
-  const std::unique_ptr<Actuator> actuator = make_actuator(s.actuator, info(*s.robot));
+  const std::unique_ptr<Actuator> actuator = make_motors(s);
   const DcMotor* const motors = actuator->dc_motors();
   for (std::size_t j = 0; motors != nullptr && j < s.robot->joints.size(); ++j) {
     const DcMotor& m = motors[j];

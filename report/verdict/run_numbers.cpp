@@ -5,6 +5,7 @@
 
 #include "report/verdict/number_list.h"
 #include "report/verdict/number_texts.h"
+#include "report/verdict/rolled.h"
 #include "report/verdict/spread.h"
 #include "report/verdict/trust.h"
 

@@ -96,6 +96,10 @@ std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict,
     head += ": " + why;
   }
   screen.add("verdict", head, tone_of(verdict.word));
+  if (!verdict.draws_text.empty()) {
+    const bool all = std::ranges::all_of(verdict.draws, [](const Draw& draw) { return draw.word == Word::feasible; });
+    screen.add("draws", verdict.draws_text, all ? Tone::good : Tone::bad);
+  }
   const bool led = verdict.word == Word::infeasible || verdict.word == Word::failed;  // the deciding check is printed above
   if (const std::string tightest = tightest_text(verdict); !led && !tightest.empty()) screen.add("tightest", tightest);
   if (!verdict.demand_doubt.empty()) screen.add("demand", verdict.demand_doubt, Tone::doubtful);

@@ -3,54 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/simulation/batch.h"
 #include "report/analysis/collisions.h"
 #include "report/verdict/number_texts.h"
+#include "report/verdict/rolled.h"
 #include "report/verdict/trust.h"
 
 namespace gaitlab::report {
-
-namespace {
-
-/// A rollout: its recording, and the results computed from it.
-struct Rolled {
-  const Recording& record;
-  const Summary& summary;
-  const Verdict& verdict;
-};
-
-double largest(const Recording& record, double JointStatistics::*member) {
-  double most = 0;
-  for (const JointStatistics& joint : record.joints) most = std::max(most, joint.*member);
-  return most;
-}
-
-struct SpreadColumn {
-  Column column;
-  double (*value)(const Rolled& run);
-};
-const std::array kSpreadColumns{
-    SpreadColumn{{"torque_peak", "N m", "largest motor torque of all joints"},
-                 [](const Rolled& run) { return largest(run.record, &JointStatistics::torque_peak); }},
-    SpreadColumn{{"torque_rms", "N m", "largest RMS of a motor torque of all joints"},
-                 [](const Rolled& run) { return largest(run.record, &JointStatistics::torque_rms); }},
-    SpreadColumn{{"distance", "m", "travel of the centre of mass"}, [](const Rolled& run) { return run.summary.distance; }},
-    SpreadColumn{
-        {kLeastMargin, "", "least margin of the checks that can fail"},
-        [](const Rolled& run) { return run.verdict.tightest() == nullptr ? std::nan("") : run.verdict.tightest()->margin; }},
-};
-
-void add_row(const Rolled& run, Trace& to) {
-  for (const SpreadColumn& one : kSpreadColumns) to.values.push_back(one.value(run));
-  for (const Check& check : run.verdict.checks) to.values.push_back(check.margin);
-}
-
-}  // namespace
-
-std::string margin_column(const std::string& check) { return "margin." + check; }
 
 Trace spread(const Scenario& scenario, const Recording& record, const Summary& summary, const Verdict& verdict,
              std::atomic<bool>& stop) {
@@ -58,10 +19,8 @@ Trace spread(const Scenario& scenario, const Recording& record, const Summary& s
   if (!record.outcome.done() || (found != Predictability::chaotic && found != Predictability::ill)) return {};
   const double by = found == Predictability::chaotic ? 1e-9 : 1e-6;
   Trace made;
-  for (const SpreadColumn& one : kSpreadColumns) made.columns.push_back(one.column);
-  for (const Check& check : verdict.checks)
-    made.columns.push_back({margin_column(check.id), "", "margin of the verdict's check"});
-  add_row({record, summary, verdict}, made);
+  made.columns = rolled_columns();
+  add_rolled({record, summary, verdict}, made);
   std::vector<Scenario> others(3, scenario);
   others[0].physics.gravity *= 1 + by;
   others[1].physics.gravity *= 1 - by;
@@ -80,7 +39,7 @@ Trace spread(const Scenario& scenario, const Recording& record, const Summary& s
   for (std::size_t k = 0; k < others.size(); ++k) {
     const Summary own = summarise(others[k], records.at(k), 0);
     const Verdict judged = report::verdict(others[k], records.at(k), own, overlaps(others[k], records.at(k)));
-    add_row({records.at(k), own, judged}, made);
+    add_rolled({records.at(k), own, judged}, made);
   }
   return made;
 }

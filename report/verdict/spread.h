@@ -16,11 +16,6 @@ namespace gaitlab::report {
 Trace spread(const Scenario& scenario, const Recording& record, const Summary& summary, const Verdict& verdict,
              std::atomic<bool>& stop);
 
-/// Name of the column with the least margin of all checks that can fail.
-inline constexpr const char* kLeastMargin = "margin";
-/// Name of the column with the margin of this check.
-std::string margin_column(const std::string& check);
-
 struct Between {
   double low, high;
 };

@@ -13,7 +13,9 @@
 #include "report/analysis/row_statistics.h"
 #include "report/analysis/states.h"
 #include "report/verdict/checks.h"
+#include "report/verdict/draws.h"
 #include "report/verdict/number_texts.h"
+#include "report/verdict/rolled.h"
 #include "report/verdict/spread.h"
 
 namespace gaitlab::report {
@@ -203,6 +205,8 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
   made.chosen_docks = std::ranges::any_of(docks, chosen);
   made.figures = figures_sentence(motors, docks);
   decide(run, made);
+  made.draws = draws_of(record, *scenario.robot);
+  made.draws_text = draws_text(made.draws, scenario.tolerances.any());
   if (const std::vector<JudgedJoint>& whole = summary.judged.whole; Judged::limited(whole) > 0) {
     made.first_joint = run.joint(Judged::first(whole));
     made.first_time = whole[Judged::first(whole)].first_limit_time;

@@ -33,6 +33,21 @@ struct JointDemand {
   double voltage, current, torque, speed;  ///< V, A, N m, rad/s
 };
 
+/// A check that fails in a draw, and the part with the least margin ("" if there is none).
+struct FailedCheck {
+  std::string check, part;
+};
+
+/// Verdict on the gait with another seed (draws.h). Numbers that are not known are NaN.
+struct Draw {
+  double seed = 0;
+  Word word = Word::not_judged;
+  double torque_peak = 0, torque_rms = 0;  ///< largest of all joints, N m
+  double distance = 0;                     ///< m
+  double margin = 0;                       ///< least margin of the checks that can fail
+  std::vector<FailedCheck> failing = {};
+};
+
 struct Verdict {
   /// failed: the run ended early.
   /// infeasible: a check fails.
@@ -60,6 +75,9 @@ struct Verdict {
   /// Id of the deciding check of `failed` and `infeasible`. Among the checks that cause the word it is one of the robot as a
   /// whole (group run), else the one with the least margin.
   std::string decided_by = {};
+  /// Draws of `gaitlab run --draws`, this run first; empty if there are none. The word is that of this run alone.
+  std::vector<Draw> draws = {};
+  std::string draws_text = {};  ///< `feasible in 14 of 16 robots; voltage fails in 2 (m6/active)`; empty without draws
   [[nodiscard]] std::size_t count(CheckStatus status) const;
   /// Failing checks: first the deciding check, then those of the robot as a whole, then by margin.
   [[nodiscard]] std::vector<const Check*> failures() const;

@@ -42,6 +42,26 @@ Json json_of(const Check& c) {
           {"text", c.text}};
 }
 
+Json json_of(const Draw& draw) {
+  Json json{{"seed", json_number(draw.seed)},
+            {"verdict", name_of(draw.word)},
+            {"torque_peak", json_number(draw.torque_peak)},
+            {"torque_rms", json_number(draw.torque_rms)},
+            {"distance", json_number(draw.distance)},
+            {"margin", json_number(draw.margin)},
+            {"fails", Json::array()}};
+  for (const FailedCheck& failed : draw.failing)
+    json["fails"].push_back({{"check", failed.check}, {"worst", failed.part.empty() ? Json() : Json(failed.part)}});
+  return json;
+}
+
+Json draws_of(const Verdict& verdict) {
+  Json draws{{"text", verdict.draws_text}, {"count", verdict.draws.size()}};
+  draws["feasible"] = std::ranges::count(verdict.draws, Word::feasible, &Draw::word);
+  for (const Draw& draw : verdict.draws) draws["each"].push_back(json_of(draw));
+  return draws;
+}
+
 Json demand_of(const Verdict& verdict) {
   Json demand;
   demand["doubt"] = verdict.demand_doubt;
@@ -82,6 +102,7 @@ std::string to_json(const Verdict& verdict) {
   json["counts"] = counts;
   for (const Check& c : verdict.checks) json["checks"].push_back(json_of(c));
   if (!verdict.demands.empty() || !verdict.demand_doubt.empty()) json["demand"] = demand_of(verdict);
+  if (!verdict.draws.empty()) json["draws"] = draws_of(verdict);
   return json.dump(2) + "\n";
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/laws/dc_motor.h"
+#include "core/scenario/built_motors.h"
 #include "core/scenario/sensor_section.h"
 #include "report/analysis/settings_numbers.h"
 
@@ -97,7 +98,7 @@ void check_gain(const Scenario& s, const DcMotor* motors, std::vector<Warning>& 
 
 void check_motors(const Scenario& s, std::vector<Warning>& out) {
   if (s.actuator.entry == nullptr || s.robot->joints.empty()) return;
-  const std::unique_ptr<Actuator> actuator = make_actuator(s.actuator, info(*s.robot));
+  const std::unique_ptr<Actuator> actuator = make_motors(s);
   const DcMotor* const motors = actuator->dc_motors();
   if (motors == nullptr) return;
   check_constants(s, motors, out);

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "report/analysis/motors.h"
-#include "report/verdict/spread.h"
+#include "report/verdict/rolled.h"
 #include "tests/report/verdict/check_changes.h"
 
 namespace gaitlab::test {

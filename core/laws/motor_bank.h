@@ -1,9 +1,9 @@
-// Base class of actuators that apply core/laws/dc_motor.h to every joint and lane, and differ only in their settings.
+// Base class of actuators that apply core/laws/dc_motor.h to every joint and lane.
 #pragma once
 #include "core/laws/dc_motor.h"
 #include "core/plugin/actuator.h"
 
-namespace gaitlab::actuators {
+namespace gaitlab {
 
 class MotorBank : public Actuator {
  public:
@@ -17,8 +17,8 @@ class MotorBank : public Actuator {
   [[nodiscard]] const DcMotor* dc_motors() const override { return motors_.data(); }
 
  protected:
-  /// Adds the next motor, in the order joint * lanes + lane. `inertia` is that of the rotor before the gear, kg m^2.
-  void add(const DcMotor& motor, double inertia, const DriveRatings& ratings);
+  /// Adds the next motor, in the order joint * lanes + lane. The inertia is that of the rotor at the joint, kg m^2.
+  void add(const DcMotor& motor, double reflected_inertia, const DriveRatings& ratings);
 
  private:
   std::vector<DcMotor> motors_;
@@ -26,4 +26,4 @@ class MotorBank : public Actuator {
   std::vector<double> limit_, inertia_;
 };
 
-}  // namespace gaitlab::actuators
+}  // namespace gaitlab

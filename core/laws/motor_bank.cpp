@@ -1,12 +1,12 @@
-#include "actuators/motor_bank.h"
+#include "core/laws/motor_bank.h"
 
-namespace gaitlab::actuators {
+namespace gaitlab {
 
-void MotorBank::add(const DcMotor& motor, double inertia, const DriveRatings& ratings) {
+void MotorBank::add(const DcMotor& motor, double reflected_inertia, const DriveRatings& ratings) {
   motors_.push_back(motor);
   ratings_.push_back(ratings);
   limit_.push_back(motor.u_max);
-  inertia_.push_back(motor.gear * motor.gear * inertia);
+  inertia_.push_back(reflected_inertia);
 }
 
 void MotorBank::effort(In command, In speed, Out torque, Out slope) const {
@@ -37,4 +37,4 @@ void MotorBank::electrical(In command, In speed, Electrical out) const {
   }
 }
 
-}  // namespace gaitlab::actuators
+}  // namespace gaitlab

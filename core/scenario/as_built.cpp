@@ -1,0 +1,162 @@
+#include "core/scenario/as_built.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/math/philox.h"
+
+namespace gaitlab {
+
+namespace {
+
+constexpr double kMostDeviations = 3;
+constexpr double kMostShare = 0.3;  // three deviations leave a tenth
+constexpr double kMostAngle = 0.1;  // rad
+constexpr double kLeastFactor = 0.01;
+constexpr double kMostFactor = 100;
+
+constexpr Spec share(const char* about) { return {"", 0, kMostShare, about}; }
+constexpr Spec factor(const char* about) { return {"", kLeastFactor, kMostFactor, about}; }
+constexpr Spec angle(const char* about) { return {"rad", -0.5, 0.5, about}; }
+
+/// Positions in kTolerances.
+struct Deviation {
+  enum : std::size_t { mass, inertia, dock_angle, foot_friction, R, Kt, gear_friction, supply };
+};
+/// Positions in kBuiltNumbers.
+struct Number {
+  enum At : std::size_t { mass, inertia, dock_x, dock_y, dock_z, foot_friction, R, Kt, gear_friction, supply };
+};
+
+using Of = BuiltNumber::Of;
+
+/// Name by which a draw is addressed, such as m3/active.R.
+std::string draw_name(const std::string& part, const BuiltNumber& number) {
+  return part.empty() ? number.key : part + "." + number.key;
+}
+
+/// Parts that have the number, in its order; empty names for parts that cannot differ.
+std::vector<std::string> parts_of(const BuiltNumber& number, const Robot& robot) {
+  if (number.of == Of::robot) return {"robot"};
+  std::vector<std::string> parts;
+  if (number.of == Of::modules) {
+    parts = module_names(robot);
+    if (number.tolerance == Deviation::dock_angle) parts.front().clear();
+  } else {
+    for (const Joint& joint : robot.joints) parts.push_back(joint.driven() ? joint.name : "");
+  }
+  return parts;
+}
+
+}  // namespace
+
+const std::array<Tolerance, 8> kTolerances{{
+    {"mass", share("Deviation of the mass of a module, as a share. Its moments of inertia follow its mass.")},
+    {"inertia", share("Further deviation of the moments of inertia of a module, as a share.")},
+    {"dock_angle", {"rad", 0, kMostAngle, "Deviation of the angle of a dock, about each of three axes."}},
+    {"foot_friction", share("Deviation of the coefficient of friction under the contact elements of a module, as a share.")},
+    {"R", share("Deviation of the winding resistance of a motor, as a share.")},
+    {"Kt", share("Deviation of the torque constant of a motor, as a share; its back-EMF constant follows.")},
+    {"gear_friction", share("Deviation of the lost share 1 - efficiency of a gear, as a share.")},
+    {"supply", share("Deviation of the voltage limit of all motors, as a share; one draw for the robot, as for its battery.")},
+}};
+
+const std::array<BuiltNumber, 10> kBuiltNumbers{{
+    {"mass", Of::modules, Deviation::mass, 1, factor("Factor on the mass of a module and its moments of inertia.")},
+    {"inertia", Of::modules, Deviation::inertia, 1, factor("Further factor on the moments of inertia of a module.")},
+    {"dock_x", Of::modules, Deviation::dock_angle, 0,
+     angle("Angle of a module at the dock to its parent, about the normal of the parent's face.")},
+    {"dock_y", Of::modules, Deviation::dock_angle, 0, angle("The same about the reference direction of the parent's face.")},
+    {"dock_z", Of::modules, Deviation::dock_angle, 0, angle("The same about normal x reference.")},
+    {"foot_friction", Of::modules, Deviation::foot_friction, 1,
+     factor("Factor on the coefficient of friction under the contact elements of a module.")},
+    {"R", Of::motors, Deviation::R, 1, factor("Factor on the winding resistance of a motor.")},
+    {"Kt", Of::motors, Deviation::Kt, 1, factor("Factor on the torque constant and the back-EMF constant of a motor.")},
+    {"gear_friction", Of::motors, Deviation::gear_friction, 1, factor("Factor on the lost share 1 - efficiency of a gear.")},
+    {"supply", Of::robot, Deviation::supply, 1, factor("Factor on the voltage limits of all motors.")},
+}};
+
+void Tolerances::fields(Fields& f) {
+  for (std::size_t i = 0; i < kTolerances.size(); ++i) f.number(kTolerances[i].key, deviation[i], kTolerances[i].spec);
+}
+
+AsBuilt::AsBuilt() {
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i].common = kBuiltNumbers[i].neutral;
+}
+
+AsBuilt AsBuilt::unknown() {
+  AsBuilt built;
+  for (PerJoint& number : built.numbers) number.common = std::numeric_limits<double>::quiet_NaN();
+  return built;
+}
+
+void AsBuilt::fields(Fields& f) {
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const BuiltNumber& number = kBuiltNumbers[i];
+    if (number.of == Of::robot) {
+      f.number(number.key, numbers[i].common, number.spec);
+    } else if (number.of == Of::modules) {
+      f.per_module(number.key, numbers[i], number.spec);
+    } else {
+      f.per_joint(number.key, numbers[i], number.spec);
+    }
+  }
+}
+
+std::vector<std::string> module_names(const Robot& robot) {
+  std::vector<std::string> names;
+  for (std::size_t m = 0; m < robot.modules.size(); ++m) names.push_back(fmt::format("m{}", m));
+  return names;
+}
+
+std::size_t draw(AsBuilt& built, const Tolerances& tolerances, const Robot& robot, std::uint64_t seed) {
+  std::size_t draws = 0;
+  for (std::size_t i = 0; i < kBuiltNumbers.size(); ++i) {
+    const BuiltNumber& number = kBuiltNumbers[i];
+    const double deviation = tolerances.deviation[number.tolerance];
+    const std::vector<std::string> parts = parts_of(number, robot);
+    std::vector<double> each(parts.size(), number.neutral);
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      if (parts[p].empty()) continue;
+      const double stated = built.numbers[i][p];
+      if (!std::isnan(stated)) {
+        each[p] = stated;
+      } else if (deviation > 0) {
+        const double normal = math::PhiloxStream(seed, draw_name(parts[p], number)).normal(0, 0);
+        each[p] += deviation * std::clamp(normal, -kMostDeviations, kMostDeviations);
+        ++draws;
+      }
+    }
+    const bool equal = std::ranges::all_of(each, [&](double value) { return value == each.front(); });
+    built.numbers[i] = {equal && !each.empty() ? each.front() : number.neutral, {}};
+    if (!equal) built.numbers[i].each = std::move(each);
+  }
+  return draws;
+}
+
+std::vector<ModuleBuild> module_builds(const AsBuilt& built, std::size_t modules) {
+  std::vector<ModuleBuild> all;
+  const auto of = [&](Number::At number, std::size_t m) { return built.numbers[number][m]; };
+  for (std::size_t m = 0; m < modules; ++m) {
+    all.push_back({of(Number::mass, m), of(Number::inertia, m), of(Number::foot_friction, m),
+                   Vec3(of(Number::dock_x, m), of(Number::dock_y, m), of(Number::dock_z, m))});
+  }
+  const bool any = std::ranges::any_of(all, [](const ModuleBuild& one) { return one != ModuleBuild(); });
+  return any ? all : std::vector<ModuleBuild>();
+}
+
+MotorBuild motor_build(const AsBuilt& built, std::size_t joint) {
+  return {built.numbers[Number::R][joint], built.numbers[Number::Kt][joint], built.numbers[Number::gear_friction][joint],
+          built.numbers[Number::supply].common};
+}
+
+bool motors_differ(const AsBuilt& built) {
+  const AsBuilt drawn;
+  return std::ranges::any_of(std::array{Number::R, Number::Kt, Number::gear_friction, Number::supply},
+                             [&](Number::At number) { return built.numbers[number] != drawn.numbers[number]; });
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,84 @@
+// The robot as built: its differences from the drawings, measured or drawn within tolerances.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/model/robot.h"
+#include "core/plugin/fields.h"
+
+namespace gaitlab {
+
+/// Sections `tolerances` and `as_built`. A number of a part (module, joint, or the whole robot) that `as_built` states is used.
+/// Otherwise it is drawn:
+///     x = neutral + deviation * min(max(n, -3), 3),  n normal with mean 0 and deviation 1
+/// where `neutral` is 1 for factors and 0 for angles. n is a Philox draw (core/math/philox.h) with the seed as key and the name
+/// of part and number as counter: the same seed is the same robot, whatever else changes.
+
+/// A deviation in the section `tolerances`.
+struct Tolerance {
+  const char* key;
+  Spec spec;
+};
+
+/// A number in the section `as_built`, for each part of one category.
+struct BuiltNumber {
+  enum class Of { robot, modules, motors };
+  const char* key;
+  Of of;
+  std::size_t tolerance;  ///< index in kTolerances
+  double neutral;         ///< value of a part that is as drawn
+  Spec spec;
+};
+
+inline constexpr const char* kTolerancesSection = "tolerances";
+inline constexpr const char* kAsBuiltSection = "as_built";
+
+extern const std::array<Tolerance, 8> kTolerances;
+extern const std::array<BuiltNumber, 10> kBuiltNumbers;
+
+/// Deviations, in the order of kTolerances.
+struct Tolerances {
+  std::array<double, 8> deviation{};
+  [[nodiscard]] bool any() const { return *this != Tolerances(); }
+  bool operator==(const Tolerances&) const = default;
+  void fields(Fields& f);
+};
+
+/// The numbers, in the order of kBuiltNumbers. All are neutral by default.
+struct AsBuilt {
+  std::array<PerJoint, 10> numbers;
+
+  AsBuilt();
+  /// All numbers unknown (NaN), as before the section is read.
+  static AsBuilt unknown();
+  [[nodiscard]] bool any() const { return *this != AsBuilt(); }
+  bool operator==(const AsBuilt&) const = default;
+  void fields(Fields& f);
+};
+
+/// Names of a robot's modules: m0, m1 ...
+std::vector<std::string> module_names(const Robot& robot);
+
+/// Replaces unknown numbers by draws. Numbers of parts that cannot differ are neutral: docks of module 0, motors of hinges
+/// without a motor. Returns the number of draws.
+std::size_t draw(AsBuilt& built, const Tolerances& tolerances, const Robot& robot, std::uint64_t seed);
+
+/// The differences of each module; empty if there are none.
+std::vector<ModuleBuild> module_builds(const AsBuilt& built, std::size_t modules);
+
+/// Factors on the constants of a motor.
+struct MotorBuild {
+  double R = 1;              ///< factor on the resistance
+  double Kt = 1;             ///< factor on torque constant and back-EMF constant
+  double gear_friction = 1;  ///< factor on the lost share 1 - efficiency
+  double supply = 1;         ///< factor on the largest voltage
+  bool operator==(const MotorBuild&) const = default;
+};
+MotorBuild motor_build(const AsBuilt& built, std::size_t joint);
+/// True if a motor differs from the drawings.
+bool motors_differ(const AsBuilt& built);
+
+}  // namespace gaitlab

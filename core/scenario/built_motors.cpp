@@ -1,0 +1,78 @@
+#include "core/scenario/built_motors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/laws/motor_bank.h"
+#include "core/settings/wording.h"
+
+namespace gaitlab {
+
+namespace {
+
+DcMotor built(DcMotor motor, const MotorBuild& build) {
+  const bool limited_at_stall = motor.i_max == motor.u_max / motor.R;
+  motor.R *= build.R;
+  motor.Kt *= build.Kt;
+  motor.Ks *= build.Kt;
+  motor.u_max *= build.supply;
+  motor.efficiency = 1 - build.gear_friction * (1 - motor.efficiency);
+  if (limited_at_stall) motor.i_max = motor.u_max / motor.R;
+  motor.back_emf_damping = motor.Kt * motor.Ks * motor.gear * motor.gear / motor.R;
+  return motor;
+}
+
+class BuiltMotors final : public MotorBank {
+ public:
+  BuiltMotors(const Actuator& drawn, std::span<const Scenario* const> lanes) {
+    const In inertia = drawn.reflected_inertia();
+    const auto ratings = drawn.ratings();
+    for (std::size_t j = 0; j < lanes[0]->robot->joints.size(); ++j) {
+      for (std::size_t l = 0; l < lanes.size(); ++l) {
+        const std::size_t i = j * lanes.size() + l;
+        const MotorBuild build = motor_build(lanes[l]->as_built, j);
+        const DcMotor& motor = drawn.dc_motors()[i];
+        add(build == MotorBuild() ? motor : built(motor, build), inertia.empty() ? 0 : inertia[i],
+            ratings.empty() ? DriveRatings() : ratings[i]);
+      }
+    }
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Actuator> make_motors(std::span<const Scenario* const> lanes) {
+  std::vector<const PluginSelection*> selections;
+  for (const Scenario* lane : lanes) selections.push_back(&lane->actuator);
+  std::unique_ptr<Actuator> drawn = make_actuator(selections, info(*lanes[0]->robot));
+  const bool differ = std::ranges::any_of(lanes, [](const Scenario* lane) { return motors_differ(lane->as_built); });
+  if (drawn == nullptr || !differ || drawn->dc_motors() == nullptr) return drawn;
+  return std::make_unique<BuiltMotors>(*drawn, lanes);
+}
+
+std::unique_ptr<Actuator> make_motors(const Scenario& scenario) {
+  const Scenario* const one = &scenario;
+  return make_motors({&one, 1});
+}
+
+std::string not_buildable(const Scenario& scenario, const Actuator* actuator, const std::string& of_motors) {
+  if (actuator == nullptr) return of_motors + " is a number of motors, and the robot has none";
+  const DcMotor* const motors = actuator->dc_motors();
+  if (motors == nullptr) {
+    return fmt::format("{} is a number of a DC motor, and actuator {} has none; it applies to dc_motor and servo", of_motors,
+                       in_quotes(std::string(scenario.actuator.entry->name)));
+  }
+  for (std::size_t j = 0; j < scenario.robot->joints.size(); ++j) {
+    const double factor = motor_build(scenario.as_built, j).gear_friction;
+    if (!scenario.robot->joints[j].driven() || factor == 1 || motors[j].efficiency > 0) continue;
+    const double lost = (1 - motors[j].efficiency) / factor;  // of the gear as drawn
+    return fmt::format(
+        "gear_friction {:.4g} of {} makes its efficiency {:.4g}, which was {:.4g}; expected an efficiency above 0, thus a "
+        "factor below {:.4g}",
+        factor, scenario.robot->joints[j].name, motors[j].efficiency, 1 - lost, 1 / lost);
+  }
+  return "";
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,234 @@
+// The robot as built: its numbers act as if they were those of the drawings, and draws are a function of seed and part.
+#include <cmath>
+#include <map>
+#include <mutex>
+
+#include "core/scenario/resolved.h"
+#include "core/simulation/batch.h"
+#include "tests/messages.h"
+#include "tests/program/bits.h"
+#include "tests/program/engines.h"
+#include "tests/validation.h"
+
+namespace gaitlab::test {
+namespace {
+
+const std::string kAll =
+    "tolerances={mass: 0.03, inertia: 0.05, dock_angle: 0.01, foot_friction: 0.1, R: 0.07, Kt: 0.05, gear_friction: 0.1, "
+    "supply: 0.02}";
+const std::string kTorques = "trace.columns=[joint.*, base.*]";
+
+Scenario caterpillar(std::vector<std::string> sets, const std::string& engine = "articulated") {
+  sets.insert(sets.begin(), {"physics.engine=" + engine, "duration=0.3", kTorques});
+  return shipped("caterpillar.yaml", sets);
+}
+
+class AsBuiltOf : public EveryEngine {};
+INSTANTIATE_TEST_SUITE_P(Engine, AsBuiltOf, engines(), engine_name);
+
+// Every pair gives the same numbers by two ways: as_built, and the drawings. All factors are powers of 2, which change no
+// digit.
+TEST_P(AsBuiltOf, FactorsActAsOtherDrawings) {
+  const std::map<std::string, std::vector<std::string>> pairs{
+      {"as_built.R=2", {"actuator.R=8.6"}},
+      {"as_built.Kt=0.5", {"actuator.Kt=0.001975", "actuator.Ks=0.001975"}},
+      {"as_built.supply=0.5", {"actuator.u_max=3.7"}},
+      {"as_built.R.m3/active=2", {"actuator.R={default: 4.3, m3/active: 8.6}"}},
+      {"as_built.foot_friction=0.5", {"ground.friction=0.4"}},
+  };
+  for (const auto& [factor, drawings] : pairs) {
+    EXPECT_EQ(alone(caterpillar({factor}, GetParam())), alone(caterpillar(drawings, GetParam()))) << factor;
+    EXPECT_NE(alone(caterpillar({factor}, GetParam())), alone(caterpillar({}, GetParam()))) << factor;
+  }
+}
+
+// With twice the masses and twice the torque constants, the motion is the same and the torques are twice as large.
+TEST(AsBuilt, MassesScaleTorques) {
+  const std::vector<std::string> pushed{"ground.type=none",   "contact.on=none",    "robot.base=fixed",
+                                        "actuator.i_max=1e6", "actuator.u_max=1e6", "physics.integrator=rk4",
+                                        "physics.step=1e-4"};
+  std::vector<std::string> heavy = pushed;
+  heavy.insert(heavy.end(), {"as_built.mass=2", "actuator.Kt=0.0079", "actuator.Ks=0.001975"});
+  std::vector<std::string> drawn = pushed;
+  drawn.insert(drawn.end(), {"actuator.Kt=0.00395", "actuator.Ks=0.001975"});
+  const Recording a = run(caterpillar(heavy));
+  const Recording b = run(caterpillar(drawn));
+  const Table twice(a.trace);
+  const Table once(b.trace);
+  for (std::size_t row = 0; row < a.trace.rows(); ++row) {
+    for (std::size_t j = 0; j < 16; ++j) {
+      ASSERT_EQ(twice.at(row, fmt::format("joint.{}.angle", j)), once.at(row, fmt::format("joint.{}.angle", j))) << row;
+      ASSERT_EQ(twice.at(row, fmt::format("joint.{}.torque", j)), 2 * once.at(row, fmt::format("joint.{}.torque", j))) << row;
+    }
+  }
+}
+
+TEST(AsBuilt, NothingLeavesTheSameBytes) {
+  const Scenario without = caterpillar({});
+  for (const char* none :
+       {"tolerances={}", "as_built={}", "tolerances={mass: 0, R: 0}", "as_built={mass: 1, R: {m3/active: 1}}"}) {
+    const Scenario with = caterpillar({none});
+    EXPECT_EQ(resolved(with), resolved(without)) << none;
+    EXPECT_EQ(alone(with), alone(without)) << none;
+  }
+}
+
+TEST(AsBuilt, TheResolvedScenarioHoldsTheDraw) {
+  const Scenario drawn = caterpillar({kAll, "seed=7"});
+  const std::string text = resolved(drawn);
+  const Scenario again = scenario(text);
+  EXPECT_EQ(resolved(again), text);
+  EXPECT_EQ(alone(again), alone(drawn));
+  ASSERT_FALSE(again.notes.empty());
+  EXPECT_TRUE(contains(again.notes.back().text, "tolerances draws nothing"));
+  EXPECT_EQ(alone(scenario(text, {"seed=8"})), alone(drawn));
+  EXPECT_EQ(alone(scenario(text, {"seed=8", "as_built={}"})), alone(caterpillar({kAll, "seed=8"})));
+}
+
+TEST(AsBuilt, EverySeedIsAnotherRobotInLanes) {
+  std::vector<std::vector<std::string>> own;
+  for (int seed = 1; seed <= 8; ++seed) own.push_back({fmt::format("seed={}", seed)});
+  const std::vector<Scenario> all =
+      rollouts(kScenarios + "caterpillar.yaml", {"physics.engine=articulated", "duration=0.3", kTorques, kAll}, own, catalog());
+  std::vector<std::string> expected;
+  for (const Scenario& s : all) {
+    Scenario one = s;
+    one.physics.estimate = Estimate::off;
+    expected.push_back(alone(one));
+  }
+  for (const auto& [threads, lanes] : {std::pair(1, std::size_t{1}), {1, std::size_t{4}}, {2, std::size_t{8}}}) {
+    std::vector<std::string> found(all.size());
+    std::vector<Scenario> many = all;
+    for (Scenario& s : many) s.physics.estimate = Estimate::off;
+    std::mutex mutex;
+    run_batch(many, {threads, lanes}, [&](std::size_t i, Recording&& r) {
+      const std::lock_guard lock(mutex);
+      found[i] = bits(r, "done");
+    });
+    EXPECT_EQ(found, expected) << lanes;
+  }
+  for (std::size_t i = 1; i < expected.size(); ++i) EXPECT_NE(expected[i], expected[0]);
+}
+
+// A draw depends on seed and part alone: not on other tolerances, nor on stated numbers, nor on further modules.
+TEST(AsBuilt, ADrawDependsOnSeedAndPartAlone) {
+  const Scenario all = caterpillar({kAll});
+  const Scenario mass_alone = caterpillar({"tolerances={mass: 0.03}"});
+  EXPECT_EQ(all.as_built.numbers[0], mass_alone.as_built.numbers[0]);
+  const Scenario stated = caterpillar({kAll, "as_built={mass: {m3: 1.1}}"});
+  for (std::size_t m = 0; m < 8; ++m) {
+    EXPECT_EQ(stated.as_built.numbers[0][m], m == 3 ? 1.1 : all.as_built.numbers[0][m]) << m;
+  }
+  EXPECT_EQ(all.as_built.numbers[2][0], 0) << "module 0 has no dock";
+}
+
+TEST(AsBuilt, DrawsAreNormalAndCutAtThree) {
+  const Scenario s = caterpillar({});
+  double sum = 0;
+  double squares = 0;
+  double most = 0;
+  int outside = 0;
+  int count = 0;
+  for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+    AsBuilt built = AsBuilt::unknown();
+    Tolerances tolerances;
+    tolerances.deviation[4] = 0.1;
+    EXPECT_EQ(draw(built, tolerances, *s.robot, seed), 16U);
+    for (std::size_t j = 0; j < 16; ++j) {
+      const double n = (built.numbers[6][j] - 1) / 0.1;
+      sum += n;
+      squares += n * n;
+      most = std::max(most, std::abs(n));
+      outside += std::abs(n) > 1 ? 1 : 0;
+      ++count;
+    }
+  }
+  const std::string source = "normal distribution cut at 3 deviations";
+  validate({"closed.tolerances_mean", "mean of 32 000 draws of a tolerance", source, "deviations"}, sum / count, 0, 0.017,
+           "three standard errors of the mean, 3/sqrt(32000)");
+  validate({"closed.tolerances_variance", "variance of 32 000 draws of a tolerance", source, "deviations^2"}, squares / count,
+           0.9989, 0.024, "three standard errors of the variance, 3 sqrt(2/32000)");
+  validate({"closed.tolerances_share", "share of draws beyond one deviation", source, ""}, outside / static_cast<double>(count),
+           0.3173, 0.0078, "three standard errors of the share");
+  EXPECT_NEAR(most, 3, 1e-12);
+}
+
+TEST(AsBuilt, MassesAndInertias) {
+  const Scenario drawn = caterpillar({});
+  const Scenario built = caterpillar({"as_built={mass: {m3: 2}, inertia: {m5: 4}}"});
+  for (std::size_t b = 0; b < drawn.robot->bodies.size(); ++b) {
+    const Body& before = drawn.robot->bodies[b];
+    const Body& after = built.robot->bodies[b];
+    EXPECT_EQ(after.mass, before.mass * (before.module == 3 ? 2 : 1));
+    EXPECT_EQ(after.inertia, Mat3(before.inertia * (before.module == 3 ? 2 : before.module == 5 ? 4 : 1)));
+  }
+  EXPECT_NEAR(built.robot->mass, drawn.robot->mass * 9 / 8, 1e-12);
+}
+
+// The module is turned about the normal of the face on which it is docked, at the dock.
+TEST(AsBuilt, DockAngles) {
+  const Scenario drawn = caterpillar({});
+  const Scenario built = caterpillar({"as_built={dock_x: {m1: 0.1}}"});
+  const auto poses = [](const Scenario& s, std::vector<Pose>& out) {
+    const Kinematics k = at_zero(*s.robot);
+    for (const Body& body : s.robot->bodies) {
+      out.push_back({k.R[body.link] * body.in_link.R, k.point(body.link, body.in_link.p)});
+    }
+  };
+  std::vector<Pose> before;
+  std::vector<Pose> after;
+  poses(drawn, before);
+  poses(built, after);
+  const RobotInfo robot = info(*drawn.robot);
+  const Vec3 normal(robot.modules[1].normal.data());
+  const Pose turned{turn(normal, 0.1).toRotationMatrix(), Vec3::Zero()};
+  for (std::size_t b = 0; b < before.size(); ++b) {
+    const bool child = drawn.robot->bodies[b].module >= 1;
+    const Mat3 expected = child ? Mat3(turned.R * before[b].R) : before[b].R;
+    EXPECT_LT((after[b].R - expected).norm(), 1e-14) << b;
+    // The dock is on the axis of the turn, so that distances along the normal stay.
+    EXPECT_NEAR(normal.dot(after[b].p - before[b].p), 0, 1e-14) << b;
+  }
+}
+
+TEST(AsBuilt, WrongInput) {
+  const auto wrong = [](const std::string& set, std::vector<std::string> more = {}) {
+    more.insert(more.begin(), {"duration=1", set});
+    const std::string text = message_of([&] { shipped("caterpillar.yaml", more); });
+    return text.substr(0, text.find('\n'));
+  };
+  const std::map<std::string, std::string> messages{
+      {"tolerances.mass=0.5", "mass is 0.5; allowed are 0 to 0.3"},
+      {"tolerances.mass=-0.1", "mass is -0.1; allowed are 0 to 0.3"},
+      {"tolerances.dock_angle=1", "dock_angle is 1 rad; allowed are 0 to 0.1 rad"},
+      {"tolerances.dock_angle=5 deg", "dock_angle is '5 deg'; expected a number in rad"},
+      {"tolerances.mas=0.1", "unknown key 'mas'; did you mean 'mass'?"},
+      {"tolerances.zero=0.1",
+       "unknown key 'zero'; known keys: mass, inertia, dock_angle, foot_friction, R, Kt, gear_friction, supply"},
+      {"tolerances=0.1", "tolerances is 0.1; expected a map"},
+      {"tolerances={R: {m3/active: 0.1}}", "R is a map; expected a number"},
+      {"as_built=1", "as_built is 1; expected a map"},
+      {"as_built={mass: {m9: 1}}", "no module 'm9'; did you mean 'm0'?"},
+      {"as_built={mass: {m3/active: 1}}", "no module 'm3/active'; known modules: m0, m1, m2, m3, m4, m5, m6, m7"},
+      {"as_built={mass: {m1: 0}}", "mass of 'm1' is 0; allowed are 0.01 to 100"},
+      {"as_built={mass: [1, 2]}", "mass has 2 numbers; expected one for each of the robot's 8 modules"},
+      {"as_built={mass: heavy}", "mass is 'heavy'; expected a number"},
+      {"as_built={R: {m3/activ: 1}}", "no joint 'm3/activ'; did you mean 'm3/active'?"},
+      {"as_built={R: {m3: 1}}", "no joint 'm3'; known joints: m0/active, m0/passive"},
+      {"as_built={dock_x: {m3: 2}}", "dock_x of 'm3' is 2 rad; allowed are -0.5 to 0.5 rad"},
+      {"as_built={supply: {m3: 1}}", "supply is a map; expected a number"},
+      {"as_built={foot_friction: {\"m*\": 1, \"*1\": 2}}",
+       "module 'm1' is given 1 by 'm*' and 2 by '*1'; give it by its name, which beats patterns"},
+      {"as_built={gear_friction: 9}",
+       "gear_friction 9 of m0/active makes its efficiency -1.7, which was 0.7; expected an efficiency above 0, thus a factor "
+       "below 3.333"},
+  };
+  for (const auto& [set, text] : messages) EXPECT_TRUE(contains(wrong(set), "error: " + text)) << wrong(set);
+  EXPECT_TRUE(contains(wrong("tolerances={Kt: 0.1}", {"actuator={type: torque}", "controller={unit: N m}"}),
+                       "tolerances.Kt is a number of a DC motor, and actuator 'torque' has none"));
+  EXPECT_TRUE(contains(wrong("tolerances={foot_friction: 0.1}", {"physics.engine=bullet", "contact.law=bullet"}),
+                       "tolerances.foot_friction does not apply to contact law 'bullet'"));
+}
+
+}  // namespace
+}  // namespace gaitlab::test
