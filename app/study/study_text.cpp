@@ -215,6 +215,7 @@ std::string points_table(Journal& journal, const studies::Results& results, cons
   }
   for (const std::string& scenario : head.scenarios)
     columns.push_back({"in " + clipped(scenario), columns[objective].under, {}});
+  if (head.replicates > 1) columns.push_back({"feasible", "runs", {}});
   columns.push_back({"violation", "", {}});
   columns.push_back({"verdict", "", {}});
   const std::size_t verdict = place_in(names, "verdict");
@@ -231,6 +232,7 @@ std::string points_table(Journal& journal, const studies::Results& results, cons
     std::size_t behind = objective + head.objectives.size();
     for (std::size_t s = 0; s < head.scenarios.size(); ++s)
       columns[behind++].cells.push_back(in_one_scenario(journal, point, s));
+    if (head.replicates > 1) columns[behind++].cells.push_back(fmt::format("{} of {}", point.feasible_runs, point.runs));
     columns[behind].cells.push_back(failed ? "-" : fmt::format("{:.3g}", point.score.violation));
     columns[behind + 1].cells.push_back(clipped(verdict_on(journal, point, verdict)));
   }

@@ -279,8 +279,8 @@ void SectionFields::fields(Fields& f) {
   if (!writing || scenario.as_built.any()) {
     f.group(
         kAsBuiltSection, scenario.as_built,
-        "Differences of this robot from the drawings, by part, such as mass: {m3: 1.05}. What is not stated is drawn within "
-        "the tolerances.");
+        "Differences of this robot from the drawings, by part, such as mass: {m3: 1.05}. Numbers that it does not state are "
+        "drawn within the tolerances.");
   }
   f.group("initial", scenario.initial, "State at the start.");
   f.group("physics", physics, "Engine and time integration.");

@@ -212,12 +212,30 @@ void Reader::read_each(const Node& node, const std::string& key, const Spec& spe
 
 void Reader::on(const char* key, const field::Vector& field) {
   const std::string expected = "a list of " + counted(field.value.size(), "number") + in_unit(field.spec);
+  if (const Node* map = map_->find(key); map != nullptr && map->kind == Node::Kind::map) {
+    static_cast<void>(take(key));
+    return read_entries(*map, key, field, expected);
+  }
   const Node* node = take_list(key, expected.c_str());
   if (node == nullptr) return;
   if (node->items.size() == field.value.size()) {
     read_each(*node, key, field.spec, field.value);
   } else {
     problems_.add(node->place, fmt::format("{} has {}; expected {}", key, counted(node->items.size(), "number"), expected));
+  }
+}
+
+void Reader::read_entries(const Node& map, const std::string& key, const field::Vector& field, const std::string& expected) {
+  for (std::size_t i = 0; i < map.keys.size(); ++i) {
+    const auto& [name, place] = map.keys[i];
+    std::size_t at = 0;
+    while (at < field.value.size() && name != std::to_string(at)) ++at;
+    if (at == field.value.size()) {
+      problems_.add(place,
+                    fmt::format("{} is {}; {} is not an element (they are numbered from 0)", key, expected, in_quotes(name)));
+    } else {
+      read_one(map.items[i], element(key, at), field.spec, field.value[at]);
+    }
   }
 }
 

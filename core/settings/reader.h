@@ -66,6 +66,8 @@ class Reader final : public Fields {
   const Node* take_list(const char* key, const char* expected);
   void read_elements(const char* key, const Node& node, const field::List& list);
   bool read_one(const Node& node, const std::string& what, const Spec& spec, double& value);
+  /// Reads entries of a list by their numbers, as --set KEY.1=VALUE gives them. The other entries keep their values.
+  void read_entries(const Node& map, const std::string& key, const field::Vector& field, const std::string& expected);
   void read_each(const Node& node, const std::string& key, const Spec& spec, std::span<double> value);
   /// The parts of the robot that have a value in a field, by name, and their noun.
   struct Parts {

@@ -143,6 +143,11 @@ void Journal::create() {
   database_.execute(columns_.sql);
   database_.execute("CREATE VIEW best AS SELECT * FROM run WHERE " + columns_.kept + (" = 1 ORDER BY \"objective.1\" ") +
                     (head_.objectives.front().maximize ? "DESC" : "ASC") + ", run");
+  database_.execute(
+      fmt::format("CREATE VIEW point AS SELECT run / {0} * {0} AS first_run, count(*) AS runs, avg(verdict = 'feasible') AS "
+                  "feasible_share FROM run "
+                  "GROUP BY run / {0}",
+                  head_.replicates));
   database_.prepare("INSERT INTO study VALUES(?,?,?,?,?,?,?,?,?,?,?,?)")
       .bind(0, head_.name)
       .bind(1, utc_now())

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "studies/study/number.h"
@@ -49,8 +50,14 @@ PointResult point_result(const JournalHead& head, std::span<const Brief> runs) {
       bad[k].push_back(head.objectives[k].maximize ? -run.score->objectives[k] : run.score->objectives[k]);
     violation.push_back(run.score->violation);
   }
+  // `share` keeps a point of which this share of the replicates breaks no limit. A failed replicate breaks every limit.
+  const bool shared = head.combine == name_of(Combine::share);
+  if (shared && !violation.empty()) {
+    violation.resize(violation.size() + point.failed, std::numeric_limits<double>::infinity());
+    if (std::isfinite(combined(violation, "quantile", head.quantile))) point.failed = 0;
+  }
   if (point.failed > 0) return point;
-  point.score.violation = combined(violation, head.combine, head.quantile);
+  point.score.violation = combined(violation, shared ? "quantile" : head.combine, head.quantile);
   for (std::size_t k = 0; k < head.objectives.size(); ++k) {
     const double worse = combined(bad[k], head.combine, head.quantile);
     point.score.objectives[k] = head.objectives[k].maximize ? -worse : worse;
@@ -59,9 +66,12 @@ PointResult point_result(const JournalHead& head, std::span<const Brief> runs) {
 }
 
 double combined(std::vector<double> values, const std::string& how, double quantile) {
+  if (how == "share") std::erase_if(values, [](double v) { return std::isnan(v); });
+  if (values.empty()) return std::nan("");
   if (std::ranges::any_of(values, [](double v) { return std::isnan(v); })) return std::nan("");
   std::ranges::sort(values);
-  if (how == "mean") return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  if (how == "mean" || how == "share")
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   if (how == "median") {
     const std::size_t half = values.size() / 2;
     return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);

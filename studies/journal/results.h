@@ -11,12 +11,13 @@ namespace gaitlab::studies {
 /// A point with all its replicates.
 struct PointResult {
   std::uint64_t first_run = 0, runs = 0;
-  std::uint64_t failed = 0;                              ///< number of failed runs
+  std::uint64_t failed = 0;                              ///< number of failed runs; 0 if `share` tolerates them
   Score score;                                           ///< objectives and violation, combined over the replicates
   double lived = 0;                                      ///< shortest simulated time of the failed replicates, s
   std::uint64_t feasible_runs = 0, infeasible_runs = 0;  ///< numbers of runs with verdict `feasible` and `infeasible`
   [[nodiscard]] bool kept() const { return failed == 0 && score.kept(); }
   [[nodiscard]] bool feasible() const { return feasible_runs == runs; }
+  [[nodiscard]] double feasible_share() const { return static_cast<double>(feasible_runs) / static_cast<double>(runs); }
 };
 
 /// Failed runs by outcome, with the number of the first such run.
@@ -77,7 +78,7 @@ bool better(const PointResult& a, const PointResult& b, bool maximize);
 std::vector<std::size_t> ranked(const std::vector<PointResult>& points, bool maximize);
 
 /// Combines the values of the replicates, where a larger value is worse. `worst` is the largest value. `quantile` is the value
-/// that a share `quantile` of the replicates does not exceed.
+/// that a share `quantile` of the replicates does not exceed. `share` is the mean of the known values.
 double combined(std::vector<double> values, const std::string& how, double quantile);
 
 }  // namespace gaitlab::studies

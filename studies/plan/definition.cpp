@@ -51,7 +51,7 @@ std::string definition(const BoundStudy& bound) {
   }
   if (study.replicates.count > 0) {
     text += fmt::format("replicates: {}, {}", study.replicates.count, name_of(study.replicates.combine));
-    if (study.replicates.combine == Combine::quantile) text += " " + number_text(study.replicates.quantile);
+    if (study.replicates.has_argument()) text += " " + number_text(study.replicates.quantile);
     text += "\n";
   }
   for (const Variation& v : study.replicates.vary) text += fmt::format("vary {}: {}\n", v.key, law_text(v));

@@ -121,8 +121,10 @@ std::string answer(const Question& question, const JournalHead& head, std::span<
   text += R"(},"objective":[)";
   for (std::size_t k = 0; k < head.objectives.size(); ++k)
     text += (k == 0 ? "" : ",") + (done ? json_number(point.score.objectives[k]) : "null");
-  text += fmt::format(R"(],"violation":{},"kept":{},"feasible":{}}})", done ? json_number(point.score.violation) : "null",
+  text += fmt::format(R"(],"violation":{},"kept":{},"feasible":{})", done ? json_number(point.score.violation) : "null",
                       done && point.kept(), done && point.feasible());
+  if (head.replicates > 1) text += R"(,"feasible_share":)" + (done ? json_number(point.feasible_share()) : "null");
+  text += "}";
   return text;
 }
 

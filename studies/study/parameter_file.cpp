@@ -167,21 +167,19 @@ void read_law(const Node& node, Variation& v, Problems& problems) {
 }
 
 void read_combine(const Node& node, Replicates& replicates, Problems& problems) {
-  const std::vector<std::string> known{"mean", "worst", "median", "quantile(Q)"};
-  const auto at = std::ranges::find(known, node.text);
-  if (node.kind == Node::Kind::scalar && at != known.end() && node.text != known.back()) {
-    replicates.combine = static_cast<Combine>(at - known.begin());
-    return;
-  }
-  if (node.kind == Node::Kind::scalar && node.text.starts_with("quantile(") && node.text.ends_with(")")) {
+  const std::vector<std::string> known{"mean", "worst", "median", "quantile(Q)", "share(Q)"};
+  const std::string word = node.text.substr(0, node.text.find('('));
+  for (const auto& [combine, name] : EnumNames<Combine>::kTable) {
+    if (node.kind != Node::Kind::scalar || word != name) continue;
+    replicates.combine = combine;
+    if (!replicates.has_argument() && node.text == word) return;
+    if (!replicates.has_argument() || !node.text.ends_with(")")) break;
     Node number = node;
-    number.text = node.text.substr(9, node.text.size() - 10);
+    number.text = node.text.substr(word.size() + 1, node.text.size() - word.size() - 2);
     const Reading<double> q = read_number(number, "");
-    if (q.ok() && q.value >= 0 && q.value <= 1) {
-      replicates.combine = Combine::quantile;
-      replicates.quantile = q.value;
-      return;
-    }
+    if (!q.ok() || !(q.value >= 0 && q.value <= 1)) break;
+    replicates.quantile = q.value;
+    return;
   }
   problems.add(node.place, "combine is " + found(node) + "; expected " + joined(known) + " with Q from 0 to 1");
 }

@@ -48,13 +48,14 @@ struct Variation {
   SourceLocation place = {};
 };
 
-enum class Combine { mean, worst, median, quantile };
+enum class Combine { mean, worst, median, quantile, share };
 
 struct Replicates {
   std::int64_t count = 0;  ///< 0 means one run with the seed of the scenario
   std::vector<Variation> vary;
   Combine combine = Combine::worst;
-  double quantile = 0.5;
+  double quantile = 0.5;  ///< argument of `quantile` and `share`
+  [[nodiscard]] bool has_argument() const { return combine == Combine::quantile || combine == Combine::share; }
   [[nodiscard]] std::uint64_t number() const { return count == 0 ? 1 : static_cast<std::uint64_t>(count); }
 };
 
@@ -89,7 +90,7 @@ template <>
 struct EnumNames<studies::Combine> {
   using enum studies::Combine;
   static constexpr EnumName<studies::Combine> kTable[] = {
-      {mean, "mean"}, {worst, "worst"}, {median, "median"}, {quantile, "quantile"}};
+      {mean, "mean"}, {worst, "worst"}, {median, "median"}, {quantile, "quantile"}, {share, "share"}};
 };
 
 template <>

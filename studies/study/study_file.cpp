@@ -144,7 +144,7 @@ Explainer study_keys() {
   explainer.row("  count", "", "required", "1 to 1e6", "Runs of each point.");
   explainer.row("  vary.KEY", "", "", "normal: [MEAN, DEVIATION] (with low, high), uniform: [LOW, HIGH], values: [...]",
                 "Distribution of a key of the scenario; {times: LAW}: distribution of a factor of the point's value.");
-  explainer.row("  combine", "", "worst", "mean, worst, median or quantile(Q)",
+  explainer.row("  combine", "", "worst", "mean, worst, median, quantile(Q) or share(Q)",
                 "Combination of the replicates of a point, in all its scenarios, into one value.");
   explainer.row("objective", "", "{maximize: QUANTITY}", "{maximize: EXPRESSION} or {minimize: EXPRESSION}",
                 "Order of the points; default: by the first of `quantities`. A list of two or three: the Pareto front, the "

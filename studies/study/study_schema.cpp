@@ -44,7 +44,7 @@ constexpr const char* kStudyRest = R"json({
       "count": {"type": "integer", "minimum": 1, "maximum": 1000000, "description": "Runs of each point."},
       "vary": {"type": "object", "additionalProperties": {"$ref": "#/definitions/variation"},
         "description": "Keys of the scenario that are drawn, with equal draws for every point."},
-      "combine": {"anyOf": [{"enum": ["mean", "worst", "median"]}, {"type": "string", "pattern": "^quantile\\(.+\\)$"}],
+      "combine": {"anyOf": [{"enum": ["mean", "worst", "median"]}, {"type": "string", "pattern": "^(quantile|share)\\(.+\\)$"}],
         "default": "worst", "description": "Combination of the replicates of a point, in all its scenarios, into one value."}}},
   "objective": {"anyOf": [{"$ref": "#/definitions/objective"},
     {"type": "array", "minItems": 1, "maxItems": 3, "items": {"$ref": "#/definitions/objective"}}],

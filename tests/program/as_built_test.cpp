@@ -8,7 +8,6 @@
 #include "tests/messages.h"
 #include "tests/program/bits.h"
 #include "tests/program/engines.h"
-#include "tests/validation.h"
 
 namespace gaitlab::test {
 namespace {
@@ -120,37 +119,6 @@ TEST(AsBuilt, ADrawDependsOnSeedAndPartAlone) {
     EXPECT_EQ(stated.as_built.numbers[0][m], m == 3 ? 1.1 : all.as_built.numbers[0][m]) << m;
   }
   EXPECT_EQ(all.as_built.numbers[2][0], 0) << "module 0 has no dock";
-}
-
-TEST(AsBuilt, DrawsAreNormalAndCutAtThree) {
-  const Scenario s = caterpillar({});
-  double sum = 0;
-  double squares = 0;
-  double most = 0;
-  int outside = 0;
-  int count = 0;
-  for (std::uint64_t seed = 0; seed < 2000; ++seed) {
-    AsBuilt built = AsBuilt::unknown();
-    Tolerances tolerances;
-    tolerances.deviation[4] = 0.1;
-    EXPECT_EQ(draw(built, tolerances, *s.robot, seed), 16U);
-    for (std::size_t j = 0; j < 16; ++j) {
-      const double n = (built.numbers[6][j] - 1) / 0.1;
-      sum += n;
-      squares += n * n;
-      most = std::max(most, std::abs(n));
-      outside += std::abs(n) > 1 ? 1 : 0;
-      ++count;
-    }
-  }
-  const std::string source = "normal distribution cut at 3 deviations";
-  validate({"closed.tolerances_mean", "mean of 32 000 draws of a tolerance", source, "deviations"}, sum / count, 0, 0.017,
-           "three standard errors of the mean, 3/sqrt(32000)");
-  validate({"closed.tolerances_variance", "variance of 32 000 draws of a tolerance", source, "deviations^2"}, squares / count,
-           0.9989, 0.024, "three standard errors of the variance, 3 sqrt(2/32000)");
-  validate({"closed.tolerances_share", "share of draws beyond one deviation", source, ""}, outside / static_cast<double>(count),
-           0.3173, 0.0078, "three standard errors of the share");
-  EXPECT_NEAR(most, 3, 1e-12);
 }
 
 TEST(AsBuilt, MassesAndInertias) {

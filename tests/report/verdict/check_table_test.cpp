@@ -13,7 +13,7 @@ namespace {
 
 /// A check, and the change of a recorded walk that gives the check a value. The limits are numbers, not settings, so that the
 /// test detects a changed default.
-struct Row {
+struct Expected {
   std::string id;
   std::function<Change(double)> change;      ///< change that gives the check a value
   double limit;                              ///< value beyond which the check fails, or warns if it cannot fail
@@ -24,26 +24,26 @@ struct Row {
   [[nodiscard]] double beyond(double share) const { return limit == 0 ? share : limit * (1 + (least() ? -share : share)); }
 };
 
-Row of_tick(const char* id, TickColumn column, double limit, double warns) {
+Expected of_tick(const char* id, TickColumn column, double limit, double warns) {
   return {id, [=](double v) { return tick(column, v); }, limit, warns, [=](double v) { return tick(column, v, kEarly); }};
 }
 
-Row of_joint(const char* id, double JointStatistics::*member, double limit, double warns) {
+Expected of_joint(const char* id, double JointStatistics::*member, double limit, double warns) {
   return {id, [=](double v) { return joint(member, v); }, limit, warns};
 }
 
-Row of_square(const char* id, TickColumn column, double limit) {
+Expected of_square(const char* id, TickColumn column, double limit) {
   return {id, [=](double v) { return rate(column, v * v); }, limit, 0.8 * limit,
           [=](double v) { return early_rate(column, v * v); }};
 }
 
-Row of_dock(const char* id, const char* column, double limit) {
+Expected of_dock(const char* id, const char* column, double limit) {
   return {id, [=](double v) { return load(column, v); }, limit, 0.8 * limit, [=](double v) { return load(column, v, kEarly); }};
 }
 
 /// Rows for a check of saturation: a share of the window in so many pieces that each is short, and one long interval at the
 /// end.
-std::vector<Row> of_saturation(const char* id, TickColumn column) {
+std::vector<Expected> of_saturation(const char* id, TickColumn column) {
   const auto pieces = [](const Change& change) {
     return [change](Case& made) {
       made.scenario.limits.saturated_periods = 1e6;
@@ -61,9 +61,9 @@ std::vector<Row> of_saturation(const char* id, TickColumn column) {
       {id, stretch, 3 * 0.015, 0}};
 }
 
-std::vector<Row> table() {
+std::vector<Expected> table() {
   const double no_load = 7.4 / (0.00395 * 594);  // speed without load u_max / (Ks n), rad/s
-  std::vector<Row> rows{
+  std::vector<Expected> rows{
       {"fall", sinks, 0.5, 0.5, sinks},
       {"progress", [](double v) { return goes(v); }, 0.5, 0.5},
       {"upright", tilts, std::numbers::pi / 2, std::numbers::pi / 3, tilts},
@@ -122,13 +122,13 @@ std::vector<Row> table() {
       {"law", [](double v) { return [v](Case& made) { made.record.tally.off = v; }; }, 0, 0},
   };
   for (const auto& [id, column] : {std::pair{"voltage", kVoltageLimited}, {"current", kCurrentLimited}}) {
-    for (Row& row : of_saturation(id, column)) rows.push_back(std::move(row));
+    for (Expected& row : of_saturation(id, column)) rows.push_back(std::move(row));
   }
   return rows;
 }
 
 TEST(CheckTable, BelowAtAndBeyondEachLimit) {
-  for (const Row& row : table()) {
+  for (const Expected& row : table()) {
     SCOPED_TRACE(row.id);
     const auto at = [&](double value) { return changed(row.id, row.change(value)); };
     const Check beyond = at(row.beyond(1e-4));
@@ -170,7 +170,7 @@ TEST(CheckTable, CountsThePartsBeyondTheirLimits) {
 
 /// A value beyond the limit before the judged window fails a check of the whole run, and does not affect a check of the window.
 TEST(CheckTable, SpansAreJudged) {
-  for (const Row& row : table()) {
+  for (const Expected& row : table()) {
     if (!row.early) continue;
     const auto kind = std::ranges::find_if(check_kinds(), [&](const CheckKind& one) { return row.id == one.id; });
     const CheckStatus whole = kind->can_fail() ? CheckStatus::fail : CheckStatus::warn;
@@ -182,7 +182,7 @@ TEST(CheckTable, SpansAreJudged) {
 /// In a run that is too short, a failed check of the whole run makes the gait infeasible, but not a failed check of the window,
 /// which a longer run may pass.
 TEST(CheckTable, SpansDecideOfARunThatIsTooShort) {
-  for (const Row& row : table()) {
+  for (const Expected& row : table()) {
     Case made = rated_gait();
     row.change(row.beyond(0.5))(made);
     const auto before = made.also;

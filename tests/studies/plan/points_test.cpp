@@ -123,6 +123,37 @@ TEST(Combined, AreTheOrdinaryStatistics) {
   EXPECT_EQ(combined(bad, "quantile", 1), 10);
   EXPECT_EQ(combined(bad, "quantile", 0), 1);
   EXPECT_EQ(combined({5}, "median", 0), 5);
+  EXPECT_EQ(combined({3, std::nan(""), 1}, "share", 0.9), 2) << "the mean of the known values";
+}
+
+// Two of ten replicates break a limit or fail. share(0.8) keeps the point, share(0.9) does not.
+TEST(Combined, ShareOfTheReplicates) {
+  JournalHead head;
+  head.replicates = 10;
+  head.combine = "share";
+  head.objectives = {{"speed", true}};
+  std::vector<Brief> runs(10);
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    runs[k].run = k;
+    runs[k].outcome = "done";
+    runs[k].verdict = k == 3 ? "infeasible" : "feasible";
+    runs[k].score.emplace();
+    runs[k].score->objectives[0] = static_cast<double>(k);
+    runs[k].score->violation = k == 3 ? 0.5 : 0;
+  }
+  runs[7].outcome = "diverged";
+  runs[7].verdict = "failed";
+  head.quantile = 0.8;
+  const PointResult kept = point_result(head, runs);
+  EXPECT_TRUE(kept.kept());
+  EXPECT_EQ(kept.feasible_share(), 0.8);
+  EXPECT_NEAR(kept.score.objectives[0], 38.0 / 9, 1e-15) << "the mean of 0 to 9 without 7";
+  head.quantile = 0.9;
+  EXPECT_FALSE(point_result(head, runs).kept());
+  EXPECT_EQ(point_result(head, runs).failed, 0U) << "one failed run of ten is tolerated";
+  EXPECT_EQ(point_result(head, runs).score.violation, 0.5);
+  head.quantile = 1;
+  EXPECT_EQ(point_result(head, runs).failed, 1U);
 }
 
 /// The quantile of a share of whole hundredths, in whole numbers: the least value that as many values do not exceed.

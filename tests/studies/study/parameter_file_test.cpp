@@ -180,10 +180,13 @@ TEST(ReplicatesKey, CombinesByName) {
   EXPECT_EQ(combined_by("median").replicates.combine, Combine::median);
   EXPECT_EQ(combined_by("quantile(0)").replicates.quantile, 0);
   EXPECT_EQ(combined_by("quantile(1)").replicates.quantile, 1);
-  for (const char* how : {"quantile(Q)", "quantile(1.1)", "quantile(-0.1)", "quantile()", "quantile", "best", "[mean]"}) {
+  EXPECT_EQ(combined_by("share(0.7)").replicates.combine, Combine::share);
+  EXPECT_EQ(combined_by("share(0.7)").replicates.quantile, 0.7);
+  for (const char* how : {"share", "share()", "share(2)", "share(-0.1)", "share(x)", "mean(0.5)", "quantile(Q)",
+                          "quantile(1.1)", "quantile(-0.1)", "quantile()", "quantile", "best", "[mean]"}) {
     const Texts wrong = combined_by(how).wrong;
     ASSERT_EQ(wrong.size(), 1U) << how;
-    EXPECT_TRUE(wrong[0].ends_with("expected mean, worst, median, quantile(Q) with Q from 0 to 1")) << wrong[0];
+    EXPECT_TRUE(wrong[0].ends_with("expected mean, worst, median, quantile(Q), share(Q) with Q from 0 to 1")) << wrong[0];
   }
 }
 

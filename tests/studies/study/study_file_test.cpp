@@ -199,7 +199,7 @@ TEST_F(StudyFile, ItsReplicatesAreChecked) {
       "s.yaml:3:14: error: cpg.frequency is a parameter and drawn for every replicate; expected vary: {cpg.frequency: {times: "
       "...}}, or one of the two");
   EXPECT_EQ(with("replicates: {count: 3, combine: best}\n"),
-            "s.yaml:4:33: error: combine is 'best'; expected mean, worst, median, quantile(Q) with Q from 0 to 1");
+            "s.yaml:4:33: error: combine is 'best'; expected mean, worst, median, quantile(Q), share(Q) with Q from 0 to 1");
   EXPECT_EQ(with("replicates: {count: 3, vary: {robot.modules: {times: {uniform: [1, 2]}}}}\n").substr(0, 20),
             "s.yaml:4:31: error: ");
 }
