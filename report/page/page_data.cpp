@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/scenario/resolved.h"
+#include "report/analysis/changes.h"
 #include "report/analysis/envelope.h"
 #include "report/analysis/harmonic.h"
 #include "report/analysis/legs.h"
@@ -222,6 +223,9 @@ PageData page_data(const Scenario& scenario, const Recording& r, const Summary& 
   meta["missing"] = missing;
   meta["scenario"] = resolved(scenario);
   meta["channels"] = channels_json(packing);
+  for (const ToldChange& change : told_changes(scenario, r.simulated)) {
+    meta["changes"].push_back({{"t", change.t}, {"text", change.text}});
+  }
   leave_folders_out(meta, scenario);
 
   return {scenario.name, json_text(meta), std::move(data)};

@@ -60,6 +60,8 @@ struct Verdict {
   /// Id of the deciding check of `failed` and `infeasible`. Among the checks that cause the word it is one of the robot as a
   /// whole (group run), else the one with the least margin.
   std::string decided_by = {};
+  /// Joints whose own checks are not judged: `m3/active: not judged (dead from t = 10 s)`.
+  std::vector<std::string> faults = {};
   [[nodiscard]] std::size_t count(CheckStatus status) const;
   /// Failing checks: first the deciding check, then those of the robot as a whole, then by margin.
   [[nodiscard]] std::vector<const Check*> failures() const;

@@ -228,5 +228,6 @@ export interface Meta {
   missing: string[];
   scenario: string;
   channels: Channel[];
+  changes?: { t: number; text: string }[]; // changes of the run (section at), s, in words
   overlay?: Overlay;
 }
