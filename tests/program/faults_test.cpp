@@ -96,6 +96,35 @@ TEST(Faults, AStuckJointStaysWhereItIs) {
   EXPECT_LT(std::abs(r.ledger.residual()) / r.ledger.electrical, 1e-3);
 }
 
+// The hold of 50 N m s/rad is the fastest damper of the robot, and the stability rule knows before the run that it will come.
+TEST(Faults, AStuckJointShortensExplicitSteps) {
+  const Scenario s = caterpillar({"duration=0.09", fault("stuck", "0.03")}, "bullet");
+  EXPECT_LT(s.physics.step, 5e-6);
+  const Recording r = run(s);
+  const Table table(r.trace);
+  const double held = table.at(6, std::string(kJoint) + "angle");
+  EXPECT_EQ(table.at(7, std::string(kJoint) + "fault"), 3);
+  EXPECT_NEAR(table.at(18, std::string(kJoint) + "angle"), held, 1e-3);
+  const std::string refused = message_of([] {
+    run(caterpillar({"duration=0.09", fault("stuck", "0.03"), "physics.step=2.5e-5", "physics.estimate=off"}, "bullet"));
+  });
+  EXPECT_NE(refused.find("set by the hinge stop of joint m3/active"), std::string::npos) << refused;
+}
+
+TEST(Faults, NeedAMotor) {
+  const auto error = [](const std::string& joint) {
+    return message_of([&] {
+      static_cast<void>(read_scenario(std::string(GAITLAB_SOURCE_DIR) + "/tests/data/castor-first.yaml",
+                                      {fmt::format("at=[{{t: 1, fault: {{joint: {}, kind: dead}}}}]", joint)}, catalog()));
+    });
+  };
+  EXPECT_TRUE(error("m0/castor").ends_with("error: joint 'm0/castor' has no motor (drive: none)")) << error("m0/castor");
+  EXPECT_EQ(error("'m0/*'"), "no error") << "one of the joints has a motor";
+  const std::string none = message_of([] { caterpillar({"actuator={type: none}", fault("dead")}); });
+  EXPECT_NE(none.find("a fault is one of a motor, but the robot has none (actuator.type: none); remove it"), std::string::npos)
+      << none;
+}
+
 // The motor of a weak joint draws what a whole one would at that speed, and gives a share of the torque.
 TEST(Faults, AWeakJointHasAShareOfTheTorque) {
   const Recording r = run(caterpillar({"duration=0.9", fault("weak, share: 0.25", "0.3"), "trace.columns=[joint.6.*]"}));

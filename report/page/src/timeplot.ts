@@ -150,9 +150,10 @@ export class TimePlot {
     ctx.beginPath();
     ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
     ctx.clip();
-    ctx.fillStyle = this.desk.ink.band;
+    const first = Math.max(u.valToPos(changes[0].t, "x", true), bbox.left);
+    ctx.fillStyle = this.desk.ink.track;
     ctx.globalAlpha = 0.5;
-    ctx.fillRect(u.valToPos(changes[0].t, "x", true), bbox.top, bbox.left + bbox.width, bbox.height);
+    ctx.fillRect(first, bbox.top, bbox.left + bbox.width - first, bbox.height);
     ctx.globalAlpha = 1;
     ctx.fillStyle = this.desk.ink.muted;
     ctx.font = font(10 * ratio);
@@ -160,7 +161,7 @@ export class TimePlot {
     for (const [k, { t, text }] of changes.entries()) {
       const x = u.valToPos(t, "x", true);
       ctx.fillRect(x, bbox.top, ratio, bbox.height);
-      ctx.fillText(text, x + 4 * ratio, bbox.top + (2 + 12 * (k % 3)) * ratio);
+      ctx.fillText(text, Math.max(x, bbox.left) + 4 * ratio, bbox.top + (2 + 12 * (k % 3)) * ratio);
     }
     ctx.restore();
   }
