@@ -233,7 +233,7 @@ void add_run(Commands& commands) {
             .add_option("--draws", arguments.draws,
                         "judge the gait for this many seeds, from the scenario's on: other robots "
                         "within its tolerances, other noise of its sensors")
-            ->check(CLI::Range(1, 100000));
+            ->check(CLI::Range(1, 10000));
         command.add_option("-j,--jobs", arguments.jobs, "threads for the draws (default 1)")->check(CLI::Range(1, 1024));
         add_shown(command, arguments.shown);
       });

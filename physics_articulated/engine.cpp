@@ -93,6 +93,11 @@ class ArticulatedPlant final : public Plant {
     kept_ = history;
   }
   void advance(In command, double h) override { kernel_->step(numbers_, kept_, command, h); }
+  void change_joints(In hold) override {
+    kernel_->change(hold);
+    for (const auto& solo : own_solos_) solo->change(hold);
+    for (const auto& model : models_) model->change(hold);
+  }
   void tally(std::size_t lane, StepTally& out) const override {
     if (explicit_) return;
     const articulated::History at = kernel_->history();

@@ -47,7 +47,8 @@ class Implicit {
         now_(joints_),
         next_(joints_) {
     passive_.assign(tree.passive.size(), T(0.0));
-    for (auto* values : {&stop_, &stop_slope_, &force_, &diagonal_, &end_}) values->assign(joints_, T(0.0));
+    for (auto* values : {&stop_, &stop_slope_, &force_, &diagonal_, &end_, &hold_}) values->assign(joints_, T(0.0));
+    held_.assign(joints_, math::Mask<T>{});
     const In inertia = actuator == nullptr ? In() : actuator->reflected_inertia();
     if (inertia.empty()) return;
     for (std::size_t j = 0; j < joints_; ++j) {
@@ -86,6 +87,23 @@ class Implicit {
     finish(x, h, which);
   }
 
+  /// Takes changed motors and stuck hinges: Plant::change_joints for these lanes.
+  void change(In hold, const LaneRange& lanes) {
+    motors.take(tree_.passive, lanes);
+    holds_ = false;
+    for (std::size_t j = 0; j < joints_; ++j) {
+      T held = 0.0;
+      for (std::size_t l = 0; l < math::kLanes<T>; ++l) {
+        const double angle = hold[j * lanes.all + lanes.first + l];
+        const bool stuck = angle == angle;  // false for NaN
+        holds_ = holds_ || stuck;
+        math::lane(held, l) = stuck ? 1 : 0;
+        math::lane(hold_[j], l) = stuck ? angle : 0;
+      }
+      held_[j] = held > T(0.0);
+    }
+  }
+
   /// Takes the results of a step of the lane `l` alone; `which` contains this lane only.
   void take(const Solo& solo, std::size_t l, const math::Mask<T>& which) {
     for (std::size_t j = 0; j < joints_; ++j) {
@@ -110,7 +128,7 @@ class Implicit {
     contacts.begin(0);
     motors.linearise(command, speeds(x));
     motors.torque = motors.law;
-    for (std::size_t j = 0; j < joints_; ++j) stop_[j] = stop_law(x, j).torque;
+    for (std::size_t j = 0; j < joints_; ++j) stop_[j] = stop_law(x, j);
     for (std::size_t k = 0; k < tree_.passive.size(); ++k) {
       const std::size_t j = tree_.passive[k];
       passive_[k] = tree_.hinges[k].spring(x[StateLayout::kAngles + j]) + tree_.hinges[k].loss(speeds(x)[j]).torque;
@@ -315,11 +333,18 @@ class Implicit {
     const T end = excess + h * qd;
     const T torque = -k * end - c * select(within, (1 / h) * end, qd);
     const auto acts = math::mask_or(math::mask_and(up, torque < zero), math::fresh(torque > zero, up));
-    return {select(acts, torque, zero), select(acts, T(c + h * k), zero)};
+    const Stop own{select(acts, torque, zero), select(acts, T(c + h * k), zero)};
+    if (!holds_) return own;
+    using Hold = BasicHingeHold<T>;
+    return {select(held_[j], Hold::torque(q + h * qd, qd, hold_[j]), own.torque),
+            select(held_[j], T(Hold::kDamping + h * Hold::kStiffness), own.slope)};
   }
 
-  [[nodiscard]] BasicHingeStop<T> stop_law(std::span<const T> x, std::size_t j) const {
-    return BasicHingeStop<T>::at(x[StateLayout::kAngles + j], speeds(x)[j], tree_.lo[j], tree_.hi[j]);
+  /// Torque of a stop or of a stuck hinge.
+  [[nodiscard]] T stop_law(std::span<const T> x, std::size_t j) const {
+    const T &q = x[StateLayout::kAngles + j], &qd = speeds(x)[j];
+    const T own = BasicHingeStop<T>::at(q, qd, tree_.lo[j], tree_.hi[j]).torque;
+    return holds_ ? math::select(held_[j], BasicHingeHold<T>::torque(q, qd, hold_[j]), own) : own;
   }
 
   /// Writes the iterate into the state. Works use the mean of the velocities at start and end of the step.
@@ -363,6 +388,9 @@ class Implicit {
   std::size_t joints_;
   std::vector<T> passive_;  ///< torques of passive hinges, set by evaluate()
   std::vector<T> place_, stop_, stop_slope_, force_, diagonal_, end_;
+  bool holds_ = false;               ///< true if a hinge is stuck
+  std::vector<math::Mask<T>> held_;  ///< by joint: lanes in which it is stuck
+  std::vector<T> hold_;              ///< by joint: angle at which it is stuck, rad
   Iterate now_, next_;
   T missed_ = 0.0;
 };

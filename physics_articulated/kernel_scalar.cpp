@@ -10,7 +10,8 @@ class ScalarSolo final : public Solo {
   ScalarSolo(const KernelSettings& s, std::size_t lane)
       : tree_(s.rollouts[lane].tree),
         environment_(environment<double>({s.rollouts.subspan(lane, 1), s.actuator, s.method, s.query, {}})),
-        implicit_(tree_, environment_, s.actuator, {lane, s.rollouts.size()}) {
+        lanes_{lane, s.rollouts.size()},
+        implicit_(tree_, environment_, s.actuator, lanes_) {
     torque = implicit_.done.torque;
     speed = implicit_.done.speed;
     angle = implicit_.done.angle;
@@ -29,9 +30,12 @@ class ScalarSolo final : public Solo {
     slides = implicit_.contacts.mostly_slide();
   }
 
+  void change(In hold) override { implicit_.change(hold, lanes_); }
+
  private:
   Tree<double> tree_;
   Environment<double> environment_;
+  LaneRange lanes_;
   Implicit<double> implicit_;
 };
 

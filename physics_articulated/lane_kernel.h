@@ -27,6 +27,7 @@ class LaneKernel final : public Kernel {
     std::ranges::copy(math::numbers(std::span<const T>(x_)), state.begin());
     std::ranges::copy(own, history.begin());
   }
+  void change(In hold) override { stepper_.implicit.change(hold, {0, math::kLanes<T>}); }
   [[nodiscard]] History history() const override { return stepper_.layout; }
 
   [[nodiscard]] StepEffort applied() const override {

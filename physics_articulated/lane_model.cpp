@@ -56,6 +56,10 @@ void LaneModel::accelerate(In x, const RobotState& state, In torque, std::span<c
   std::copy(a_.begin() + 6, a_.end(), out.joints.begin());
 }
 
+void LaneModel::change(In hold) {
+  for (std::size_t j = 0; j < rotor_.size(); ++j) monitor_.hold[j] = hold[j * lanes_ + lane_];
+}
+
 void LaneModel::ask(In command, In speed) {
   for (std::size_t j = 0; j < rotor_.size(); ++j) {
     command_[j * lanes_ + lane_] = command[j * lanes_ + lane_];

@@ -17,6 +17,7 @@ class LaneModel final : private InverseMass {
 
   /// See Plant. x is the state of this lane only.
   void accelerate(In x, const RobotState& state, In torque, std::span<const BodyWrench> wrenches, Acceleration& out);
+  void change(In hold);  ///< see Plant::change_joints
   [[nodiscard]] Stability stability(In x, const RobotState& state, In command, bool standing);
 
  private:

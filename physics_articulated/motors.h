@@ -36,10 +36,14 @@ class Motors {
     if (actuator == nullptr) return;
     find_scale(lanes);
     for (const std::size_t j : passive) least_slope_[j] = T(0.0);
-    const DcMotor* from = actuator->dc_motors();
-    if (from == nullptr) return;
-    dc_.resize(joints);
-    from += lanes.first;
+    if (actuator->dc_motors() != nullptr) dc_.resize(joints);
+    take(passive, lanes);
+  }
+
+  /// Takes the constants of DC motors from the actuator.
+  void take(std::span<const std::size_t> passive, const LaneRange& lanes) {
+    if (dc_.empty()) return;
+    const DcMotor* from = actuator_->dc_motors() + lanes.first;
     for (BasicDcMotor<T>& to : dc_) {
       for (std::size_t l = 0; l < math::kLanes<T>; ++l, ++from) {
         const std::array values{from->R,

@@ -16,6 +16,8 @@ class Solo {
   /// Advances x (StateLayout, SI) by a step h (s) and sets the results. `command` has an entry per joint.
   virtual void step(Out x, In command, double h) = 0;
 
+  virtual void change(In hold) = 0;  ///< see Plant::change_joints; `hold` has all lanes of the kernel
+
   In torque, speed, angle;  ///< by joint at the end of the step: N m, rad/s, rad
   In slope;                 ///< by joint: slope of the motor's tangent in the last solve, N m s/rad
   double contact = 0, friction = 0, stops = 0, hinges = 0;  ///< works, J (StepResult)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <new>
 #include <optional>
@@ -69,7 +70,7 @@ class BulletPlant final : public Plant, private InverseMass {
       evaluate(state, command);
       for (std::size_t j = 0; j < torque_.size(); ++j) {
         applied_[j] += weight * torque_[j];
-        const double stop = stop_at(state, j).torque;
+        const double stop = stop_at(state, j);
         work_[2] -= weight * h * stop * state.qd[j];
         body_.add_torque(j, torque_[j] + stop);
       }
@@ -103,6 +104,8 @@ class BulletPlant final : public Plant, private InverseMass {
     for_each_contact([&](const Contact& c) { out[c.element] = {c.world(), c.force.fn, c.touch.penetration, c.touch.point}; });
   }
 
+  void change_joints(In hold) override { std::ranges::copy(hold, monitor_.hold.begin()); }
+
   [[nodiscard]] Stability stability(std::size_t, In command, bool standing) override {
     layout_.read(numbers_, 0, state_);
     evaluate(state_, command);
@@ -135,8 +138,11 @@ class BulletPlant final : public Plant, private InverseMass {
     rotors_->add_to(out);
   }
 
-  [[nodiscard]] HingeStop stop_at(const RobotState& state, std::size_t j) const {
-    return HingeStop::at(state.q[j], state.qd[j], robot_.joints[j].lo, robot_.joints[j].hi);
+  /// Torque of a stop or of a stuck hinge.
+  [[nodiscard]] double stop_at(const RobotState& state, std::size_t j) const {
+    const double hold = monitor_.hold[j];
+    if (!std::isnan(hold)) return HingeHold::torque(state.q[j], state.qd[j], hold);
+    return HingeStop::at(state.q[j], state.qd[j], robot_.joints[j].lo, robot_.joints[j].hi).torque;
   }
 
   /// Geometry and velocities of one element in contact.

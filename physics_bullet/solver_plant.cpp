@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "core/laws/hinge_stop.h"
@@ -32,9 +33,9 @@ class SolverPlant final : public Plant {
     state_.q.resize(n);
     state_.qd.resize(n);
     for (auto* values : {&torque_, &slope_, &limited_, &limited_slope_, &applied_, &start_speed_}) values->resize(n);
-    least_.assign(n, -kUnlimited);
-    most_.assign(n, kUnlimited);
-    for (const double sign : {-1.0, 1.0}) find_limits(sign, sign < 0 ? most_ : least_);
+    hold_.assign(n, NAN);
+    for (auto* values : {&least_, &most_, &off_, &fast_}) values->resize(n);
+    find_limits();
     elements_of_body_.resize(robot_.bodies.size());
     for (std::size_t e = 0; e < s.contacts.size(); ++e) elements_of_body_[s.contacts[e].body].push_back(e);
   }
@@ -71,15 +72,25 @@ class SolverPlant final : public Plant {
 
   void boxes(std::span<BoxMotion> out) const override { world_.boxes(out); }
 
+  void change_joints(In hold) override {
+    std::ranges::copy(hold, hold_.begin());
+    find_limits();
+  }
+
  private:
+  void find_limits() {
+    std::ranges::fill(least_, -kUnlimited);
+    std::ranges::fill(most_, kUnlimited);
+    for (const double sign : {-1.0, 1.0}) find_limits(sign, sign < 0 ? most_ : least_);
+  }
+
   /// Fills `limit` with the torque of limited motors that are driven fast in the direction `sign`. This is the largest torque
   /// against that direction at any speed.
   void find_limits(double sign, std::vector<double>& limit) {
     if (settings_.actuator == nullptr) return;
-    const std::vector<double> off(limit.size(), 0.0);
-    const std::vector<double> fast(limit.size(), sign * kFast);
-    settings_.actuator->effort(off, fast, limited_, limited_slope_);
-    settings_.actuator->unlimited(off, fast, torque_, slope_);
+    std::ranges::fill(fast_, sign * kFast);
+    settings_.actuator->effort(off_, fast_, limited_, limited_slope_);
+    settings_.actuator->unlimited(off_, fast_, torque_, slope_);
     for (std::size_t j = 0; j < limit.size(); ++j) {
       if (limited_[j] != torque_[j]) limit[j] = limited_[j];
     }
@@ -131,8 +142,15 @@ class SolverPlant final : public Plant {
     stop(j, h);
   }
 
-  /// Sets the row of a stop: -ks (q + h qd+ - q_lim) - cs qd+, with torques that oppose the excess only.
+  /// Sets the row of a stop: -ks (q + h qd+ - q_lim) - cs qd+, with torques that oppose the excess only, or of a stuck hinge,
+  /// with torques in both directions.
   void stop(std::size_t j, double h) {
+    if (!std::isnan(hold_[j])) {
+      const double slope = HingeHold::kDamping + h * HingeHold::kStiffness;
+      const double target = -HingeHold::kStiffness * (state_.q[j] - hold_[j]) / slope;
+      world_.stop(j).set(slope, target, -kUnlimited, kUnlimited);
+      return;
+    }
     const Joint& joint = robot_.joints[j];
     const double excess = state_.q[j] - std::clamp(state_.q[j], joint.lo, joint.hi);
     const double slope = HingeStop::kDamping + h * HingeStop::kStiffness;
@@ -202,6 +220,8 @@ class SolverPlant final : public Plant {
   Kinematics kinematics_, after_;
   RobotState state_;
   std::vector<double> torque_, slope_, limited_, limited_slope_, applied_, start_speed_, least_, most_;
+  std::vector<double> hold_;        ///< angles of stuck hinges, rad; NaN for the others
+  std::vector<double> off_, fast_;  ///< commands 0, and speeds of find_limits()
   std::vector<ContactSample> samples_;
   std::vector<std::vector<std::size_t>> elements_of_body_;
   std::array<double, 4> work_ = {};  ///< works of the last step, J: contact, friction, stops, hinges

@@ -120,6 +120,20 @@ int finish_search(const Plan& plan, Journal& journal, const studies::Results& re
   return 3;
 }
 
+/// Simulates the winner with each joint dead in turn if the study wants it. Returns false if interrupted.
+bool add_faults(const Plan& plan, Journal& journal, const studies::Results& results,
+                const std::vector<studies::Verification>& tried, const studies::Executor& executor, bool quiet) {
+  const std::vector<std::uint64_t> stood = studies::verified(tried);
+  if (plan.study().verify.faults == studies::VerifyFaults::none || stood.empty()) return true;
+  const auto winner = std::ranges::find(results.points, stood.front(), &studies::PointResult::first_run);
+  const auto dead = with_dead_joints(plan, journal, *winner, executor, AgainProgress(quiet), stopped());
+  if (!dead) return false;
+  std::vector<studies::Verification> all = tried;
+  all.insert(all.end(), dead->begin(), dead->end());
+  journal.write(all);
+  return true;
+}
+
 int optimize_study(const OptimizeArguments& a) {
   refuse_copies("gaitlab optimize");
   Catalog catalog = standard_catalog();
@@ -157,6 +171,7 @@ int optimize_study(const OptimizeArguments& a) {
   const auto tried = verify(plan, journal, results, best, executor, AgainProgress(a.quiet), stopped());
   if (!tried) return interrupted();
   journal.write(*tried);
+  if (!add_faults(plan, journal, results, *tried, executor, a.quiet)) return interrupted();
   const int code = finish_search(plan, journal, results, *tried, folder, end == SearchEnd::converged, a.quiet);
   return stopped() ? interrupted() : code;
 }

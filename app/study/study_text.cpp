@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "app/study/study_sensitivity.h"
+#include "app/study/verification_text.h"
 #include "core/files/atomic_file.h"
 #include "core/settings/wording.h"
 #include "studies/study/number.h"
@@ -280,28 +281,6 @@ std::string study_summary(Journal& journal, const studies::Results& results, con
   if (results.runs > 0)
     text += fmt::format("to repeat a run with its trace: gaitlab study rerun {} RUN\n", shell_word(folder.string()));
   return text;
-}
-
-std::string verification_text(Journal& journal) {
-  const std::vector<studies::Verification> all = journal.verifications();
-  std::string text;
-  std::uint64_t run = 0;
-  for (std::size_t k = 0; k < all.size();) {
-    run = all[k].run;
-    std::string ways;
-    std::string reasons;
-    for (; k < all.size() && all[k].run == run; ++k) {
-      const studies::Verification& v = all[k];
-      const double objective = v.objectives.front();
-      ways += fmt::format("{}{} {}", ways.empty() ? "" : ", ", clipped(v.what),
-                          std::isnan(objective) ? "-" : fmt::format("{:.4g}", objective));
-      if (!v.reason.empty())
-        reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", clipped(v.what), one_line(v.reason));
-    }
-    text += fmt::format("run {} {} ({}){}\n", run, reasons.empty() ? "verified" : "not verified", ways,
-                        reasons.empty() ? "" : "\n  " + reasons);
-  }
-  return text.empty() ? "" : "verification of the best points (" + objective_text(journal.head()) + "):\n" + text;
 }
 
 void write_table(Journal& journal, const std::filesystem::path& file, Existing existing) {

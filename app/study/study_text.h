@@ -42,9 +42,6 @@ std::vector<std::string> write_search_files(studies::Journal& journal, const stu
 /// Text below a figure: number of runs, guards, build.
 std::string study_note(const studies::JournalHead& head, std::uint64_t runs);
 
-/// Text with the result of the verification of each best point, and the reasons if it failed. Empty if no point was verified.
-std::string verification_text(studies::Journal& journal);
-
 /// Progress of a study: a bar on a terminal, otherwise a line every 30 s.
 class StudyProgress {
  public:

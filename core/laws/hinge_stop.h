@@ -27,4 +27,16 @@ struct BasicHingeStop {
 
 using HingeStop = BasicHingeStop<double>;
 
+/// Hinge that is stuck at an angle: torque = -kh (q - q_hold) - ch qd, in both directions, instead of the stop. (chosen: a
+/// hundred times the constants of the stop, so that motors of 2 N m turn the hinge by less than 1e-3 rad; docs/faults.md)
+template <class T>
+struct BasicHingeHold {
+  static constexpr double kStiffness = 100 * BasicHingeStop<T>::kStiffness;  ///< kh, N m/rad
+  static constexpr double kDamping = 100 * BasicHingeStop<T>::kDamping;      ///< ch, N m s/rad
+
+  static T torque(const T& q, const T& qd, const T& hold) { return -kStiffness * (q - hold) - kDamping * qd; }
+};
+
+using HingeHold = BasicHingeHold<double>;
+
 }  // namespace gaitlab

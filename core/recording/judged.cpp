@@ -15,14 +15,14 @@ constexpr double kShareOfStart = 0.2;  // share of the run, without a limit cycl
 constexpr double kWholePeriod = 1e-3;  // tolerance of a whole period, as a share of a period
 constexpr double kSameInstant = 1e-9;  // s
 
-void window(Judged& judged, double end, const MotionCycle& cycle, bool repeats) {
+void window(Judged& judged, double end, const MotionCycle& cycle, bool repeats, double since) {
   judged.to = end;
-  judged.from = cycle.found ? std::min(cycle.from, cycle.period) : repeats ? left_out_start(end) : 0;
+  judged.from = since + (cycle.found ? std::min(cycle.from - since, cycle.period) : repeats ? left_out_start(end - since) : 0);
   if (!cycle.found) return;
   judged.periods = static_cast<std::size_t>((end - judged.from) / cycle.period + kWholePeriod);
   const auto start = [&] { return end - static_cast<double>(judged.periods) * cycle.period; };
-  if (start() > (1 + kWholePeriod) * cycle.period) ++judged.periods;
-  judged.from = std::max(0.0, start());
+  if (start() - since > (1 + kWholePeriod) * cycle.period) ++judged.periods;
+  judged.from = std::max(since, start());
 }
 
 /// Last row whose time is at most `time` + `within`.
@@ -112,9 +112,9 @@ std::size_t Judged::first(const std::vector<JudgedJoint>& joints) {
 
 double left_out_start(double end) { return std::min(kLongestStart, kShareOfStart * end); }
 
-Judged judge(const Recording& r, const MotionCycle& cycle, bool repeats) {
+Judged judge(const Recording& r, const MotionCycle& cycle, bool repeats, double since) {
   Judged judged;
-  window(judged, r.simulated, cycle, repeats);
+  window(judged, r.simulated, cycle, repeats, since);
   judged.joints.resize(r.ticked());
   judged.whole.resize(r.ticked());
   const bool known = r.ticked() > 0 && !r.tick(0, kCurrentLimited).empty();

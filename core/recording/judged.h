@@ -56,7 +56,8 @@ double left_out_start(double end);
 /// begins at the limit cycle, or earlier if more than one period would be omitted. Otherwise motors at their limits before a
 /// late limit cycle would not count. Without a limit cycle, the window begins at 2 s or a fifth of the run, whichever is
 /// earlier. If the set points do not repeat (`repeats` is false), the window begins at 0. The start is rounded down to a row of
-/// Recording::ticks. These cover all steps, so that the result does not depend on trace.period.
-Judged judge(const Recording& recording, const MotionCycle& cycle, bool repeats);
+/// Recording::ticks. These cover all steps, so that the result does not depend on trace.period. `since` is the time of the last
+/// change of the run, s, from which the window and these times count.
+Judged judge(const Recording& recording, const MotionCycle& cycle, bool repeats, double since = 0);
 
 }  // namespace gaitlab

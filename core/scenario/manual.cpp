@@ -5,6 +5,7 @@
 #include <array>
 
 #include "core/plugin/plugin_instance.h"
+#include "core/scenario/change_section.h"
 #include "core/scenario/robot_section.h"
 #include "core/scenario/sections.h"
 #include "core/settings/explainer.h"
@@ -16,6 +17,20 @@ namespace {
 
 constexpr const char* kRenewed =
     "<!-- Written by `tests/gates/reference.sh build/release --renew`; CI fails where it is stale. -->\n\n";
+
+void add_changes(Explainer& all) {
+  all.row("at", "", "[]", "list", kAboutChanges);
+  Change change;
+  JointFault fault;
+  Explainer keys;
+  ChangeKeys{change}.fields(keys);
+  keys.row("set", "", "", "map", kAboutSet);
+  keys.row("fault", "", "", "map | list", kAboutFault);
+  for (const KeyRow& row : keys.rows()) all.row("at[]." + row.key, row.unit, "", row.range, row.about);
+  Explainer of_fault;
+  FaultKeys{fault, true}.fields(of_fault);
+  for (const KeyRow& row : of_fault.rows()) all.row("at[].fault." + row.key, row.unit, "", row.range, row.about);
+}
 
 std::vector<KeyRow> scenario_keys(const Catalog& catalog) {
   Explainer explainer;
@@ -41,6 +56,7 @@ std::vector<KeyRow> scenario_keys(const Catalog& catalog) {
       "sensors", "", "{}", "NAME: map",
       "Sensors by name, each with a type: {NAME: {type: TYPE, ...}}; a map with a key type is a single one. Their keys: "
       "gaitlab explain sensor TYPE.");
+  add_changes(explainer);
   std::vector<KeyRow> rows = explainer.rows();
   for (KeyRow& row : rows) {
     if (row.key == "duration") row.preset.clear();

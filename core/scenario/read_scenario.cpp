@@ -11,6 +11,7 @@
 #include "core/plugin/plugin_instance.h"
 #include "core/robot_files/type_presets.h"
 #include "core/scenario/built_motors.h"
+#include "core/scenario/change_section.h"
 #include "core/scenario/ground_section.h"
 #include "core/scenario/old_names.h"
 #include "core/scenario/plugin_files.h"
@@ -69,6 +70,7 @@ class ScenarioReader {
     read_body();
     read_sections();
     raise();
+    read_changes();
     choose_step();
     Scenario::Places places;
     note_places(root_, "", places);
@@ -92,8 +94,10 @@ class ScenarioReader {
     own.follow_dependencies();
     own.read_sections();
     own.raise();
+    own.read_changes();
     own.choose_step();
-    own.note_own_places();
+    note_own_places(
+        own.root_, [&](const std::string& section) { return own.reads(section); }, *scenario_.places, own.scenario_.own_places);
     return std::move(own.scenario_);
   }
 
@@ -113,30 +117,10 @@ class ScenarioReader {
     add_note(source_note_.text);
   }
 
-  /// Stores the places of those touched keys whose places differ from the template's.
-  void note_own_places() {
-    Node touched{Node::Kind::map};
-    for (std::size_t i = 0; i < root_.keys.size(); ++i) {
-      if (!reads(root_.keys[i].first)) continue;
-      touched.keys.push_back(root_.keys[i]);
-      touched.items.push_back(root_.items[i]);
-    }
-    note_places(touched, "", scenario_.own_places);
-    std::erase_if(scenario_.own_places, [&](const auto& own) {
-      const auto common = scenario_.places->find(own.first);
-      return common != scenario_.places->end() && to_string(common->second) == to_string(own.second);
-    });
-  }
-
   void read_name(Reader& reader) {
     scenario_.name = std::filesystem::path(path_).stem().string();
     reader.text("name", scenario_.name, "");
-    const Node* node = root_.find("name");
-    if (is_name(scenario_.name, "_.-") && scenario_.name[0] != '.') return;
-    if (node != nullptr && node->kind != Node::Kind::scalar) return;
-    problems_.add(node != nullptr ? node->place : SourceLocation{path_},
-                  "name " + in_quotes(scenario_.name) + " is not allowed; expected letters, digits, _ . and -, not a . first" +
-                      (node != nullptr ? "" : " (it is the file's name; give another with name:)"));
+    ScenarioChecks(root_, scenario_, catalog_, problems_).name();
   }
 
   void read_body() {
@@ -153,7 +137,11 @@ class ScenarioReader {
     reader.finish();
     const bool counted = base.numbers == 2 || base.numbers == 3;
     const Node* position = node->find("position");
-    if (position != nullptr && counted) check_height(*position, base.numbers == 3, node->find("on_ground"));
+    if (position != nullptr && counted) {
+      const bool height = base.numbers == 3;  // if it is given, on_ground need not be false
+      ScenarioChecks(root_, scenario_, catalog_, problems_).height(*position, height, node->find("on_ground"));
+      scenario_.on_ground = !height;
+    }
     scenario_.robot = std::move(parts.robot);
     scenario_.module_documents = std::make_shared<const std::vector<Node>>(std::move(parts.documents));
     if (scenario_.robot) joints_ = std::make_shared<const std::vector<std::string>>(joint_names(*scenario_.robot));
@@ -195,17 +183,6 @@ class ScenarioReader {
     }
   }
 
-  /// Checks that a height and on_ground: true do not occur together. If a height is given, on_ground need not be false.
-  void check_height(const Node& position, bool given, const Node* on_ground) {
-    if (on_ground != nullptr && scenario_.on_ground == given) {
-      problems_
-          .add(position.place, given ? "position has a height and on_ground is true; expected [x, y], or no on_ground"
-                                     : "position has no height and on_ground is false; expected [x, y, z], or no on_ground")
-          .notes.emplace_back(on_ground->place, "on_ground is here");
-    }
-    scenario_.on_ground = !given;
-  }
-
   void read_sections() {
     const JointNames joints = joints_.get();
     Reader reader(root_, "the scenario", problems_, joints, folder_);
@@ -215,6 +192,7 @@ class ScenarioReader {
     for (const char* known : {"gaitlab", "name", "plugins", "robot", "controller", "cpg"}) reader.take(known);
     reader.require({"duration"});
     const Node* sensors = reader.take("sensors");
+    reader.take("at");  // read_changes() reads it when all else is known
     const TypePresets motors(Kind::actuator, scenario_.robot.get(), *scenario_.module_documents);
     const TypePresets gains(Kind::controller, scenario_.robot.get(), *scenario_.module_documents);
     if (!motors.agreed() && !given(root_, "actuator")) {
@@ -243,6 +221,26 @@ class ScenarioReader {
     const auto concerns = [&](const char* section) { return reads(section); };
     constexpr std::array kOfPlugins{"physics", "contact", "actuator", "controller", "cpg", "sensors"};
     if (std::ranges::any_of(kOfPlugins, concerns)) make_plugins(sections);
+  }
+
+  void read_changes() {
+    const auto read = [this](const Node& root, const std::vector<std::string>& sections, Problems& problems) {
+      ScenarioReader own = *this;
+      own.root_ = root;
+      own.problems_ = {};
+      own.touched_ = sections;
+      try {
+        own.follow_dependencies();
+        own.read_sections();
+        own.raise();
+      } catch (const InputError& error) {
+        add_all(error, problems);
+      }
+      return std::move(own.scenario_);
+    };
+    scenario_.changes = gaitlab::read_changes(root_, scenario_, joints_.get(), read, problems_);
+    raise();
+    if (!given(root_, "trace", "columns")) scenario_.trace.columns = default_columns(scenario_);
   }
 
   /// Checks rules that concern several sections.

@@ -1,5 +1,6 @@
 #include "core/scenario/resolved.h"
 
+#include "core/scenario/change_section.h"
 #include "core/scenario/robot_section.h"
 #include "core/scenario/sections.h"
 #include "core/scenario/sensor_section.h"
@@ -44,6 +45,7 @@ std::string resolved(const Scenario& scenario) {
   sections.has_cpg = scenario.cpg.entry != nullptr;
   sections.fields(writer);
   writer.add("sensors", sensors_node(scenario, joints));
+  if (!scenario.changes.empty()) writer.add("at", changes_node(scenario, joints));  // older goldens do not contain it
   return print_yaml(writer.take());
 }
 

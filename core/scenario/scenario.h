@@ -117,6 +117,33 @@ struct SensorSelection {
   PluginSelection plugin;
 };
 
+/// Fault of a joint (docs/faults.md). The numbers in the column `joint.J.fault` are those of the enum.
+enum class FaultKind { none, dead, open, stuck, weak, lost, late };
+
+template <>
+struct EnumNames<FaultKind> {
+  using enum FaultKind;
+  static constexpr EnumName<FaultKind> kTable[] = {{none, "none"}, {dead, "dead"}, {open, "open"}, {stuck, "stuck"},
+                                                   {weak, "weak"}, {lost, "lost"}, {late, "late"}};
+};
+
+/// A fault, and the joints that get it.
+struct JointFault {
+  std::vector<std::string> joints;  ///< names or patterns
+  FaultKind kind = FaultKind::none;
+  double share = 0;  ///< weak: share of the torque that is left; lost: share of the set points that are lost
+  double delay = 0;  ///< late: s
+};
+
+/// A change at a time of the run: settings, a fault of joints, or both. The change takes effect at the first control tick at
+/// `t` or later.
+struct Change {
+  double t = 0;                     ///< s
+  Node set = {Node::Kind::map};     ///< settings by key, such as `cpg.frequency`
+  PluginSelection cpg, controller;  ///< with the settings of this change and of all before it
+  std::vector<JointFault> faults;
+};
+
 struct Scenario {
   std::string file, name;
   std::vector<PluginFile> plugins;
@@ -142,6 +169,7 @@ struct Scenario {
   FigureSettings figure;
   Limits limits;
   std::vector<SensorSelection> sensors;
+  std::vector<Change> changes;  ///< section `at`, by rising times
   std::int64_t seed = 1;
   std::vector<Note> notes;
   /// Place at which the user gave a key, such as `physics.step` or `trace.columns`. For a rollout of a template, `own_places`

@@ -11,6 +11,10 @@ class ScenarioChecks {
   ScenarioChecks(const Node& root, const Scenario& scenario, const Catalog& catalog, Problems& problems)
       : root_(root), scenario_(scenario), catalog_(catalog), problems_(problems) {}
 
+  /// Checks that the name is one of a run folder.
+  void name();
+  /// Checks that a height of the base and on_ground: true do not occur together.
+  void height(const Node& position, bool given, const Node* on_ground);
   /// Refuses settings that Bullet's own solver does not support.
   void law();
   /// Refuses the section `controller`, because the actuator is none.

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "core/scenario/change_section.h"
 #include "core/scenario/sections.h"
 #include "core/settings/overlay.h"
 #include "core/settings/schema_fields.h"
@@ -188,6 +189,30 @@ Json sensors_section() {
           {"else", {{"additionalProperties", one}}}};
 }
 
+/// Schema of the section `at`.
+Json changes_section() {
+  JointFault fault;
+  SchemaFields of_fault;
+  FaultKeys{fault, true}.fields(of_fault);
+  for (auto& [key, value] : of_fault.properties().items()) value.erase("default");
+  Json one = object_schema(std::move(of_fault.properties()));
+  one["required"] = Json::array({"joint", "kind"});
+  Change change;
+  SchemaFields keys;
+  ChangeKeys{change}.fields(keys);
+  Json properties = std::move(keys.properties());
+  properties["t"].erase("default");
+  properties["set"] = {{"description", kAboutSet},
+                       {"type", "object"},
+                       {"minProperties", 1},
+                       {"propertyNames", {{"pattern", "^(cpg|controller)\\."}}}};
+  properties["fault"] = {{"description", kAboutFault}, {"anyOf", {one, {{"type", "array"}, {"minItems", 1}, {"items", one}}}}};
+  Json each = object_schema(std::move(properties));
+  each["required"] = Json::array({"t"});
+  each["anyOf"] = Json::array({{{"required", {"set"}}}, {{"required", {"fault"}}}});
+  return {{"description", kAboutChanges}, {"default", Json::array()}, {"type", "array"}, {"items", each}};
+}
+
 Json physics_section(const Json& head, const Catalog& catalog) {
   Alternatives all(head, "engine", "bullet");
   for (const std::string& name : catalog.engines()) {
@@ -235,6 +260,7 @@ std::string scenario_schema(const Catalog& catalog) {
   properties["cpg"] = plugin_section(sections.cpg, heads["cpg"], catalog, describe(Kind::cpg).default_type);
   properties["duration"].erase("default");
   properties["sensors"] = sensors_section();
+  properties["at"] = changes_section();
 
   Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
               {"title", "gaitlab scenario"},

@@ -27,6 +27,21 @@ void note_places(const Node& map, const std::string& prefix, std::map<std::strin
   }
 }
 
+void note_own_places(const Node& root, const std::function<bool(const std::string& section)>& reads,
+                     const std::map<std::string, SourceLocation>& common, std::map<std::string, SourceLocation>& own) {
+  Node touched{Node::Kind::map};
+  for (std::size_t i = 0; i < root.keys.size(); ++i) {
+    if (!reads(root.keys[i].first)) continue;
+    touched.keys.push_back(root.keys[i]);
+    touched.items.push_back(root.items[i]);
+  }
+  note_places(touched, "", own);
+  std::erase_if(own, [&](const auto& one) {
+    const auto known = common.find(one.first);
+    return known != common.end() && to_string(known->second) == to_string(one.second);
+  });
+}
+
 std::vector<Problem> in_order(std::vector<Problem> problems, const std::string& file) {
   const auto before = [&](const Problem& a, const Problem& b) {
     if (a.place.file != file || b.place.file != file) return a.place.file == file && b.place.file != file;

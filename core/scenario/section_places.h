@@ -1,5 +1,6 @@
 // Places of the sections and keys of a scenario in its file, and the order in which problems are reported.
 #pragma once
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -18,6 +19,10 @@ SourceLocation place_of(const Node& root, const std::string& section, const std:
 
 /// Adds the place of every key of a map, under a path such as `physics.step`.
 void note_places(const Node& map, const std::string& prefix, std::map<std::string, SourceLocation>& places);
+
+/// Adds the places of the keys in the sections that `reads` names, if they differ from the places in `common`.
+void note_own_places(const Node& root, const std::function<bool(const std::string& section)>& reads,
+                     const std::map<std::string, SourceLocation>& common, std::map<std::string, SourceLocation>& own);
 
 /// Problems sorted by their places within the scenario file, so that they are reported in reading order. Equal places keep
 /// their order.

@@ -144,6 +144,12 @@ void check_keys(const Node& node, const PluginSelection& plugin, const Scenario&
   visit_settings(*plugin.entry, plugin.settings.get(), checks);
 }
 
+void check_names_and_times(const Node& node, const std::function<void(Fields&)>& visit, const Scenario& scenario,
+                           Problems& problems) {
+  KeyChecks checks(&node, scenario, problems);
+  visit(checks);
+}
+
 void check_sensors(const std::vector<PlacedSensor>& sensors, const Scenario& scenario, Problems& problems) {
   const auto of_motor = [](const SensorReading& reading) { return reading.replaces == Replaces::torque; };
   for (const PlacedSensor& one : sensors) {

@@ -1,5 +1,6 @@
 // Checks of sensors that need the robot, the control period, or other sensors.
 #pragma once
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -18,6 +19,10 @@ struct PlacedSensor {
 /// Checks that the names in the keys of a sensor exist in the robot, and that its times are whole control periods. `node` is
 /// the map of the sensor.
 void check_keys(const Node& node, const PluginSelection& plugin, const Scenario& scenario, Problems& problems);
+
+/// The same for the fields of any map; `visit` visits them.
+void check_names_and_times(const Node& node, const std::function<void(Fields&)>& visit, const Scenario& scenario,
+                           Problems& problems);
 
 /// Checks that every sensor measures something that the robot has, that no value or column has two sensors, and that no streams
 /// of random numbers are equal.

@@ -143,6 +143,7 @@ std::vector<std::string> default_columns(const Scenario& scenario) {
   const std::vector<SensorReading> readings = sensor_readings(scenario);
   const auto of_no_joint = [](const SensorReading& reading) { return reading.column.starts_with("sensor."); };
   if (std::ranges::any_of(readings, of_no_joint)) columns.emplace_back("sensor.*");
+  if (!scenario.changes.empty()) columns.emplace_back("segment");
   return columns;
 }
 

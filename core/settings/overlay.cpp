@@ -215,6 +215,16 @@ std::vector<Retyped> apply_sets(Node& root, const std::vector<std::string>& sets
   return retyped;
 }
 
+void overlay(Node& root, const std::string& path, Node value, const SourceLocation& place, Problems& problems) {
+  Setting setting{split(path), std::move(value), place};
+  const bool whole = std::ranges::none_of(setting.path, [](const std::string& part) { return part.empty(); });
+  if (!whole || setting.path.size() > kMaxPath) {
+    problems.add(place, fmt::format("{} is not a key; expected SECTION.KEY, such as cpg.frequency", in_quotes(path)));
+    return;
+  }
+  apply(root, setting, problems);
+}
+
 std::string drop_source(Node& root, const std::vector<std::string>& sets) {
   const auto figure = [](const std::string& set) {
     return set.starts_with("actuator.") && !set.starts_with("actuator.source=");

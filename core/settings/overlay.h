@@ -18,6 +18,10 @@ struct Retyped {
 /// changed node is the option. Malformed settings are added to `problems`.
 std::vector<Retyped> apply_sets(Node& root, const std::vector<std::string>& sets, Problems& problems);
 
+/// Sets the value of a key such as `cpg.frequency`. New nodes on the way to it, and messages, have the place `place`; the value
+/// keeps its own.
+void overlay(Node& root, const std::string& path, Node value, const SourceLocation& place, Problems& problems);
+
 /// Removes the key `source` of `actuator` if --set changes other keys of that section but not `source`, because the source does
 /// not state the new values. Returns a message for the user, or "" if nothing was removed.
 std::string drop_source(Node& root, const std::vector<std::string>& sets);

@@ -169,6 +169,7 @@ void Simulation::estimate_in_window(bool asked, double t) {
 /// initial state.
 void Simulation::step_companion(int times) try {
   for (int i = 0; i < times; ++i) {
+    apply_faults();
     if (any(&Simulation::control_tick)) {
       sense();
       command();

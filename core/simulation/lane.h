@@ -8,6 +8,7 @@
 #include "core/plugin/plugin_instance.h"
 #include "core/scenario/sensor_section.h"
 #include "core/simulation/cpg_integrator.h"
+#include "core/simulation/lane_changes.h"
 #include "core/simulation/lane_clock.h"
 #include "core/simulation/lane_sensors.h"
 #include "core/simulation/recorder.h"
@@ -25,13 +26,14 @@ struct Simulation::Lane {
         index(lane_index),
         clock(s, rows),
         contacts(std::move(elements)),
-        cpg(make_cpg(s.cpg, info)),
-        controller(make_controller(s.controller, info)),
+        changes(s, info),
+        cpg(changes.cpg()),
+        controller(changes.controller()),
         sample(*s.robot, contacts.size(), cpg == nullptr ? 0 : cpg->states()),
         integrator(sample.cpg.size()),
         sensors(s) {
     const std::size_t n = info.joints.size();
-    for (auto* values : {&angle, &speed, &torque, &setpoint, &command, &limit}) values->assign(n, 0.0);
+    for (auto* values : {&angle, &speed, &torque, &setpoint, &command, &limit, &angle_now}) values->assign(n, 0.0);
     for (std::size_t j = 0; j < n; ++j) {
       if (!robot.joints[j].driven()) passive.push_back(j);
     }
@@ -50,6 +52,25 @@ struct Simulation::Lane {
                        [&](double at) { return measured(at); });
   }
 
+  /// Begins the segment of a control tick.
+  void begin_tick(std::int64_t tick, In state, const StateLayout& layout) {
+    if (scenario.changes.empty()) return;
+    for (std::size_t j = 0; j < layout.joints; ++j) angle_now[j] = state[layout.angles() + j * layout.lanes + index];
+    changes.begin(tick, angle_now);
+    cpg = changes.cpg();
+    controller = changes.controller();
+  }
+
+  /// Writes segment and faults into a sample.
+  void read_changes(Sample& to) const {
+    if (scenario.changes.empty()) return;
+    to.segment = static_cast<double>(changes.segment());
+    for (std::size_t j = 0; j < to.fault.size(); ++j) {
+      to.fault[j] = static_cast<double>(changes.fault(j).kind);
+      to.hold[j] = changes.hold(j);
+    }
+  }
+
   const Scenario& scenario;
   const Robot& robot;
   std::size_t index;
@@ -58,11 +79,13 @@ struct Simulation::Lane {
   Outcome outcome;
   std::vector<ContactElement> contacts;
   std::vector<std::size_t> passive = {};  ///< joints without a motor
-  std::unique_ptr<Cpg> cpg;
-  std::unique_ptr<Controller> controller;
+  LaneChanges changes;
+  Cpg* cpg;  ///< CPG and controller of the present segment
+  Controller* controller;
   Out cpg_state, controller_state, ledger;                                       // parts of Simulation::state_
   double energy_at_start = 0;                                                    // J
   std::vector<double> angle, speed, torque, touching, setpoint, command, limit;  // by joint (touching: by module), for plugins
+  std::vector<double> angle_now;                                                 // scratch: true angles, rad
   std::vector<double> channels;                                                  // values of sensors, for plugins
   Sample sample;
   CpgIntegrator integrator;

@@ -38,7 +38,8 @@ struct LaneSettings {
   Ground ground;  ///< NoGround without contacts
   std::vector<ContactElement> contacts;
   PenaltyContact law;
-  double accuracy = 0;  ///< relative accuracy of the torques, for integrators that choose their steps
+  double accuracy = 0;                  ///< relative accuracy of the torques, for integrators that choose their steps
+  std::vector<std::size_t> stuck = {};  ///< joints that may be stuck in the run, for the stability at the start
 };
 
 /// Settings from which an engine makes a plant. All referenced objects must outlive the plant. The base class has the settings
@@ -89,6 +90,9 @@ class Plant {
   virtual void boxes(std::span<BoxMotion> /*out*/) const {}
   /// Writes all members except the estimate of the torque error.
   virtual void tally(std::size_t /*lane*/, StepTally& /*out*/) const {}
+  /// Takes the motors of the actuator anew, whose constants have changed, and the angles at which hinges are stuck: index joint
+  /// * lanes + lane, rad, NaN for a hinge that is not stuck. Called between steps. By default the engine refuses this.
+  virtual void change_joints(In /*hold*/) { throw std::logic_error("this engine takes no faults of motors and hinges"); }
   /// nullptr if the actuator evaluates its laws itself.
   [[nodiscard]] virtual MotorLaws* motor_laws() { return nullptr; }
 

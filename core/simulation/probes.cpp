@@ -42,7 +42,9 @@ void Probes::add_all(const Scenario& scenario, const std::vector<ContactElement>
                      std::string_view command_unit) {
   const Robot& robot = *scenario.robot;
   add("t", "s", "time", sample_.t);
-  add_joints(robot, scenario.actuator.entry != nullptr, command_unit);
+  if (!scenario.changes.empty()) add("segment", "", "number of changes (section at) up to t, exclusive", sample_.segment);
+  const auto faults = [](const Change& change) { return !change.faults.empty(); };
+  add_joints(robot, scenario.actuator.entry != nullptr, command_unit, std::ranges::any_of(scenario.changes, faults));
   add_base();
   add_vector("com", "m", "centre of mass, world axes", [](const Sample& s) { return s.sums.com; });
   add_contacts(contacts);
@@ -90,7 +92,7 @@ void Probes::add_vector(const std::string& name, const std::string& unit, const 
   }
 }
 
-void Probes::add_joints(const Robot& robot, bool motors, std::string_view command_unit) {
+void Probes::add_joints(const Robot& robot, bool motors, std::string_view command_unit, bool faults) {
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     const std::string of = " of joint " + robot.joints[j].name;
     const bool driven = motors && robot.joints[j].driven();
@@ -113,6 +115,7 @@ void Probes::add_joints(const Robot& robot, bool motors, std::string_view comman
     }
     joint("stop_torque", "N m", "torque of the hinge stop, positive along the axis,", &Sample::stop_torque);
     if (driven) joint("saturation", "", "0 none, 1 voltage, 2 current:", &Sample::saturation);
+    if (driven && faults) joint("fault", "", "0 none, 1 dead, 2 open, 3 stuck, 4 weak, 5 lost, 6 late: fault", &Sample::fault);
   }
 }
 

@@ -40,7 +40,7 @@ class Probes {
   void add(std::string name, std::string unit, std::string definition, const double& number);
   void add_vector(const std::string& name, const std::string& unit, const std::string& definition,
                   const std::function<Vec3(const Sample&)>& read);
-  void add_joints(const Robot& robot, bool motors, std::string_view command_unit);
+  void add_joints(const Robot& robot, bool motors, std::string_view command_unit, bool faults);
   void add_base();
   void add_contacts(const std::vector<ContactElement>& contacts);
   void add_loads(const Robot& robot, const std::vector<ContactElement>& contacts);

@@ -39,6 +39,7 @@ Sample& Simulation::take_sample(Lane& lane, bool places) {
     s.saturation[j] = saturation_[i];
     s.torque[j] = torque_[i];
   }
+  lane.read_changes(s);
   s.compute_hinges(lane.robot, lane.passive);
   std::copy(lane.cpg_state.begin(), lane.cpg_state.end(), s.cpg.begin());
   std::ranges::copy(lane.sensors.values(), s.sensed.begin());
@@ -154,6 +155,7 @@ void Simulation::record_loads(Lane& lane) {
   s.sums.com = centre_of_mass(lane.robot, s.kinematics);
   plant_->contacts(lane.index, s.contacts);
   for (std::size_t j = 0; j < layout_.joints; ++j) s.torque[j] = torque_[j * lanes_.size() + lane.index];
+  lane.read_changes(s);
   s.compute_hinges(lane.robot, lane.passive);
   if (meter.want_reactions()) s.compute_reactions(lane.contacts, *plant_, lane.index);
   recorder.add_loads();

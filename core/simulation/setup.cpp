@@ -53,6 +53,7 @@ Simulation::Simulation(std::span<const Scenario> lanes, Records records, Role ro
   }
   actuator_ = make_motors(all);
   if (recorded_ != lanes_.size()) own_actuator_ = make_motors(std::span(all).first(recorded_));
+  prepare_faults();
   plant_ = make_plant(first, plant_settings());
   for (auto* values : {&voltage_, &current_, &saturation_, &power_in_, &copper_, &gear_, &torque_, &slope_}) {
     values->assign(layout_.joints * lanes_.size(), 0.0);
@@ -74,7 +75,8 @@ Simulation::~Simulation() = default;
 PlantSettings Simulation::plant_settings() const {
   const auto own = [](const Lane& lane) {
     const Scenario& s = lane.scenario;
-    return LaneSettings{s.robot, s.physics.gravity, s.ground, lane.contacts, s.contact.penalty, s.physics.accuracy};
+    return LaneSettings{s.robot,           s.physics.gravity,  s.ground,       lane.contacts,
+                        s.contact.penalty, s.physics.accuracy, stuck_joints(s)};
   };
   PlantSettings settings;
   static_cast<LaneSettings&>(settings) = own(*lanes_[0]);
@@ -92,13 +94,13 @@ std::size_t Simulation::state_size() const {
   std::size_t size = 1 + layout_.size() + plant_->history() + 2 * layout_.joints * lanes_.size();
   for (const auto& lane : lanes_) {
     size += lane->sample.cpg.size() + (lane->controller == nullptr ? 0 : lane->controller->states()) + Ledger::kSums;
-    size += lane->sensors.states();
+    size += lane->sensors.states() + lane->changes.states();
   }
   return size;
 }
 
 /// Divides `numbers` into step counter | plant | its history | set points | commands | per lane: CPG states, controller states,
-/// sums of the ledger, sensors. The present values are copied.
+/// sums of the ledger, sensors, changes. The present values are copied.
 void Simulation::cut_state(Out numbers) {
   std::ranges::copy(own_, numbers.begin());
   own_ = numbers.first(state_size());
@@ -119,6 +121,7 @@ void Simulation::cut_state(Out numbers) {
     lane->controller_state = cut(lane->controller == nullptr ? 0 : lane->controller->states());
     lane->ledger = cut(Ledger::kSums);
     lane->sensors.bind(cut(lane->sensors.states()));
+    lane->changes.bind(cut(lane->changes.states()));
   }
   saved_.resize(state_.size());
   measured_.resize(lanes_.size());
@@ -146,7 +149,7 @@ void Simulation::set_start() {
     }
     if (!recorded(lane)) continue;
     const std::string_view unit = actuator_ == nullptr ? "" : actuator_->command_unit();
-    lane.recorder = std::make_unique<Recorder>(s, lane.contacts, lane.cpg.get(), unit, sample, records_);
+    lane.recorder = std::make_unique<Recorder>(s, lane.contacts, lane.cpg, unit, sample, records_);
   }
   // The row at t = 0 is recorded before the first tick; it has the readings of that tick, which then repeats them.
   if (std::ranges::any_of(lanes_, [](const auto& lane) { return !lane->sensors.empty(); })) sense();

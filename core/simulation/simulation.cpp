@@ -32,6 +32,7 @@ bool Simulation::any(bool (Simulation::*tick)(const Lane&) const) const {
 }
 
 void Simulation::step() try {
+  apply_faults();
   if (step_error_) begin_window();
   if (any(&Simulation::trace_tick)) record();
   if (any(&Simulation::control_tick)) {
@@ -190,6 +191,7 @@ void Simulation::command() {
     if (recorded(*lane)) lane->recorder->tick_due() ? record_tick(*lane) : lane->recorder->skip_tick();
     guard(*lane, [&] { command(*lane); });
   }
+  apply_faults();
   if (role_ == Role::companion) return;
   record_loads([](const Lane& lane) { return !lane.closed; });
   watch_stability();
@@ -198,6 +200,8 @@ void Simulation::command() {
 void Simulation::command(Lane& lane) {
   const std::size_t lanes = lanes_.size();
   const Measured measured = lane.measured(time());
+  const std::int64_t tick = lane.clock.tick(step_number());
+  lane.begin_tick(tick, plant_state_, layout_);
   if (lane.cpg != nullptr) {
     lane.cpg->event(measured, lane.cpg_state);
     std::fill(lane.setpoint.begin(), lane.setpoint.end(), NAN);  // check_cpg finds entries that the CPG does not write
@@ -206,9 +210,11 @@ void Simulation::command(Lane& lane) {
     for (std::size_t j = 0; j < lane.setpoint.size(); ++j) lane.setpoint[j] = lane.scenario.initial.angles[j];
   }
   for (const std::size_t j : lane.passive) lane.setpoint[j] = plant_state_[layout_.angles() + j * lanes + lane.index];
+  lane.changes.lose(tick, setpoint_, lane.index, lane.setpoint);
   if (lane.controller != nullptr) {
     lane.controller->update(measured, lane.setpoint, lane.limit, lane.controller_state, lane.command);
   }
+  lane.changes.cut(lane.command);
   for (const std::size_t j : lane.passive) lane.command[j] = 0;
   for (std::size_t j = 0; j < lane.setpoint.size(); ++j) {
     setpoint_[j * lanes + lane.index] = lane.setpoint[j];

@@ -18,6 +18,7 @@
 
 namespace gaitlab {
 
+class FaultyActuator;
 class PluginError;
 struct Sample;
 struct Rotors;
@@ -87,6 +88,8 @@ class Simulation {
   void sense(Lane& lane);
   void command();
   void command(Lane& lane);
+  void prepare_faults();
+  void apply_faults();
   void advance(double h, const std::function<bool(const Lane&)>& measured);
   void check();
   void check(Lane& lane);
@@ -133,6 +136,9 @@ class Simulation {
   double h_;
   std::int64_t steps_ = 0;  ///< number of steps of the longest lane
   std::unique_ptr<Actuator> actuator_;
+  /// The actuators with their faults; nullptr if no fault of the scenarios changes motors or hinges.
+  FaultyActuator *faulty_ = nullptr, *own_faulty_ = nullptr;
+  std::vector<double> hold_;  ///< angles at which hinges of plant_ are stuck, rad, or NaN; empty like faulty_
   std::unique_ptr<Plant> plant_;
   std::vector<std::unique_ptr<Lane>> lanes_;
   StateLayout layout_;

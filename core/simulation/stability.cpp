@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "core/laws/hinge_stop.h"
 #include "core/laws/passive_hinge.h"
 #include "core/simulation/support.h"
 
@@ -37,6 +36,7 @@ RateMonitor::RateMonitor(const Robot& robot)
     : motor(robot.joints.size(), 0.0),
       stop(robot.joints.size(), 0.0),
       hinge(robot.joints.size(), 0.0),
+      hold(robot.joints.size(), NAN),
       x_(6 + robot.joints.size()),
       kx_(x_.size()),
       y_(x_.size()),
@@ -45,9 +45,10 @@ RateMonitor::RateMonitor(const Robot& robot)
       force_(robot.links.size()),
       moment_(robot.links.size()) {}
 
-void RateMonitor::stop_at(const Robot& robot, const RobotState& state) {
+void RateMonitor::stop_at(const Robot& robot, const RobotState& state, double step) {
   for (std::size_t j = 0; j < stop.size(); ++j) {
-    stop[j] = HingeStop::at(state.q[j], state.qd[j], robot.joints[j].lo, robot.joints[j].hi).damping;
+    const HingeStop own = HingeStop::at(state.q[j], state.qd[j], robot.joints[j].lo, robot.joints[j].hi);
+    stop[j] = std::isnan(hold[j]) ? own.damping : held(step);
   }
 }
 

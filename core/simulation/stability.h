@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "core/laws/hinge_stop.h"
 #include "core/simulation/plant.h"
 
 namespace gaitlab {
@@ -46,6 +47,7 @@ class RateMonitor {
   /// Inputs of largest(), which the caller fills. The constructor sets one 0 per joint, and no contacts.
   std::vector<double> motor, stop;     ///< damping slopes, N m s/rad
   std::vector<double> hinge;           ///< damping slopes of passive hinges plus stiffness times step, N m s/rad
+  std::vector<double> hold;            ///< angles of stuck hinges, rad; NaN for the others, as after the constructor
   std::vector<ContactSlope> contacts;  ///< the caller reserves the capacity
 
   /// Rate that limits the step. The caller has filled `motor`. For a standing robot these are the slopes at rest, because
@@ -55,7 +57,8 @@ class RateMonitor {
   template <class Touching>
   [[nodiscard]] Stability rule(const LaneSettings& lane, Base base, const Kinematics& kinematics, const RobotState& state,
                                bool standing, double step, InverseMass& inverse_mass, Touching touching) {
-    stop_at(*lane.robot, state);
+    stop_at(*lane.robot, state, step);
+    for (const std::size_t j : lane.stuck) stop[j] = standing ? held(step) : stop[j];
     hinge_at(*lane.robot, state, standing, step);
     contacts.clear();
     if (standing && base != Base::fixed) {
@@ -72,7 +75,9 @@ class RateMonitor {
   static constexpr int kStartIterations = 200;  ///< used once, before the run
 
  private:
-  void stop_at(const Robot& robot, const RobotState& state);
+  void stop_at(const Robot& robot, const RobotState& state, double step);
+  /// Damping slope of a stuck hinge plus its stiffness times step, N m s/rad.
+  static double held(double step) { return HingeHold::kDamping + step * HingeHold::kStiffness; }
   void hinge_at(const Robot& robot, const RobotState& state, bool standing, double step);
   void damp(const Robot& robot, const Kinematics& k, In velocity, Out force);
   [[nodiscard]] Vec3 velocity_at(const Kinematics& k, const ContactSlope& c) const;

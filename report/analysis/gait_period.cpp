@@ -9,6 +9,7 @@
 #include "core/errors.h"
 #include "core/math/periods.h"
 #include "core/plugin/plugin_instance.h"
+#include "core/scenario/change_section.h"
 #include "core/scenario/sensor_section.h"
 #include "core/simulation/cpg_integrator.h"
 #include "core/simulation/simulation.h"
@@ -28,7 +29,7 @@ constexpr double kSameSetPoint = 1e-5;      // rad; recorded set points are sing
 /// Least frequency above 0 of a driven joint in the CPG's settings, Hz; 0 if there is none.
 double least_frequency(const Scenario& s) {
   double least = 0;
-  const SettingsNumbers settings(s.cpg);
+  const SettingsNumbers settings(s.changes.empty() ? s.cpg : s.changes.back().cpg);
   for (const SettingsNumbers::Found& one : settings.all()) {
     if (one.unit != "Hz") continue;
     for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
@@ -110,6 +111,11 @@ std::optional<MotionCycle> cycle_alone(const Scenario& s, const Recording& r) tr
 double set_point_period(const Scenario& s, const Recording& r) {
   if (s.cpg.entry == nullptr) return 0;
   if (const MotionCycle seen = set_point_cycle(s, r); seen.found) return seen.period;
+  const double since = last_change(s, r.simulated);
+  if (since > 0) {  // the CPG alone starts as the run does
+    const double frequency = least_frequency(s);
+    return frequency > 0 && (r.simulated - since) * frequency < kPeriodsNeeded ? 1 / frequency : 0;
+  }
   if (const std::optional<MotionCycle> alone = cycle_alone(s, r)) return alone->found ? alone->period : 0;
   const double frequency = least_frequency(s);
   return frequency > 0 && r.simulated * frequency < kPeriodsNeeded ? 1 / frequency : 0;

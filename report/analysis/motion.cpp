@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/scenario/change_section.h"
 #include "report/analysis/states.h"
 
 namespace gaitlab::report {
@@ -47,13 +48,17 @@ Grid grid(const Scenario& scenario, const Recording& r) {
   return made;
 }
 
-MotionCycle cycle(const Grid& grid, const std::vector<Series>& columns) {
+/// Cycle in the rows at or after the time `since`, s.
+MotionCycle cycle(const Grid& grid, const std::vector<Series>& columns, double since) {
+  const auto first = since > 0 ? static_cast<std::size_t>(std::ceil(since / grid.spacing - kOnGrid)) : 0;
   std::vector<double> all;
   all.reserve(grid.rows * columns.size());
-  for (std::size_t k = 0; k < grid.rows; ++k) {
+  for (std::size_t k = first; k < grid.rows; ++k) {
     for (const Series& column : columns) all.push_back(column[k]);
   }
-  return find_limit_cycle(all, columns.size(), grid.spacing);
+  MotionCycle found = find_limit_cycle(all, columns.size(), grid.spacing);
+  if (found.found && first > 0) found.from += static_cast<double>(first) * grid.spacing;
+  return found;
 }
 
 }  // namespace
@@ -112,12 +117,12 @@ MotionCycle limit_cycle(const Scenario& scenario, const Recording& r) {
     if (const Series angle = of_joint(r, j, "angle"); !angle.empty()) columns.push_back(angle);
   }
   for (const Series& one : set_points(scenario, r)) columns.push_back(one);
-  return columns.empty() ? MotionCycle() : cycle(grid(scenario, r), columns);
+  return columns.empty() ? MotionCycle() : cycle(grid(scenario, r), columns, last_change(scenario, r.simulated));
 }
 
 MotionCycle set_point_cycle(const Scenario& scenario, const Recording& r) {
   const std::vector<Series> columns = set_points(scenario, r);
-  return columns.empty() ? MotionCycle() : cycle(grid(scenario, r), columns);
+  return columns.empty() ? MotionCycle() : cycle(grid(scenario, r), columns, last_change(scenario, r.simulated));
 }
 
 }  // namespace gaitlab::report

@@ -36,7 +36,8 @@ std::vector<Series> ground_loads(const Scenario& scenario, const Recording& reco
 /// Recorded set points of the joints with a motor, at the rows of the motion, rad.
 std::vector<Series> set_points(const Scenario& scenario, const Recording& record);
 
-/// Limit cycle of all angles and set points together, and of the set points alone.
+/// Limit cycle of all angles and set points together, and of the set points alone, after the last change of the run (section
+/// `at`).
 MotionCycle limit_cycle(const Scenario& scenario, const Recording& record);
 MotionCycle set_point_cycle(const Scenario& scenario, const Recording& record);
 

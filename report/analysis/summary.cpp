@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/build_id.h"
+#include "core/scenario/change_section.h"
 #include "core/settings/wording.h"
 #include "core/simulation/start.h"
 #include "core/simulation/step_advice.h"
@@ -67,7 +68,7 @@ Summary summarise(const Scenario& scenario, const Recording& r, double wall_time
       r.control_ticks > 0 ? static_cast<double>(r.control_ticks_above_1) / static_cast<double>(r.control_ticks) : 0;
   const auto contacts = contact_elements(*scenario.robot, scenario.contact.on);
   if (r.worst.rate > 0) s.stability_source = source_of(r.worst, *scenario.robot, contacts);
-  s.judged = judge(r, s.limit_cycle, s.set_point_period > 0);
+  s.judged = judge(r, s.limit_cycle, s.set_point_period > 0, last_change(scenario, r.simulated));
   s.posture = posture(scenario, r, s.judged);
   s.fall = fall(scenario, r);
   return s;

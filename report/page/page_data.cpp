@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/scenario/resolved.h"
+#include "core/scenario/sensor_section.h"
+#include "report/analysis/changes.h"
 #include "report/analysis/envelope.h"
 #include "report/analysis/harmonic.h"
 #include "report/analysis/legs.h"
@@ -138,6 +140,17 @@ Json verdict_json(const Verdict& verdict, const Robot& robot, const Judged& judg
   return all;
 }
 
+/// Sensors at a point of a body, such as an IMU.
+Json sensors_json(const Scenario& scenario) {
+  Json all = Json::array();
+  const auto sensors = make_sensors(scenario);
+  for (std::size_t k = 0; k < sensors.size(); ++k) {
+    for (const BodyPoint& at : sensors[k]->points())
+      all.push_back({{"name", scenario.sensors[k].name}, {"body", at.body}, {"position", at.position}});
+  }
+  return all;
+}
+
 double fastest_joint(const Recording& r) {
   double fastest = 0;
   for (const JointStatistics& joint : r.joints) fastest = std::max(fastest, joint.speed_peak);
@@ -222,6 +235,10 @@ PageData page_data(const Scenario& scenario, const Recording& r, const Summary& 
   meta["missing"] = missing;
   meta["scenario"] = resolved(scenario);
   meta["channels"] = channels_json(packing);
+  for (const ToldChange& change : told_changes(scenario, r.simulated)) {
+    meta["changes"].push_back({{"t", change.t}, {"text", change.text}});
+  }
+  if (Json sensors = sensors_json(scenario); !sensors.empty()) meta["sensors"] = std::move(sensors);
   leave_folders_out(meta, scenario);
 
   return {scenario.name, json_text(meta), std::move(data)};

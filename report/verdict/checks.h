@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/scenario/change_section.h"
 #include "report/analysis/envelope.h"
 #include "report/analysis/fall.h"
 #include "report/analysis/motors.h"
@@ -26,15 +27,25 @@ struct CheckedRun {
   std::string motor_source = report::motor_source(scenario);
   std::optional<Fall> fall = summary.fall ? *summary.fall : report::fall(scenario, record);
   Evidence evidence = report::evidence(scenario, record, summary);
+  std::vector<FaultSpan> faults = fault_spans(scenario);
   std::vector<double> torque_errors = report::torque_errors(record);  ///< RMS torque error of each joint, as a share of its
                                                                       ///< largest torque
 
   [[nodiscard]] const std::string& joint(std::size_t j) const { return scenario.robot->joints[j].name; }
   [[nodiscard]] const Limits& limits() const { return scenario.limits; }
+  /// True if the joint has a fault in the span of a check, which does not judge it then.
+  [[nodiscard]] bool faulty(std::size_t joint, CheckSpan span) const;
+  /// True for a joint with a motor and without a fault.
+  [[nodiscard]] bool judges(std::size_t joint, CheckSpan span) const {
+    return scenario.robot->joints[joint].driven() && !faulty(joint, span);
+  }
   [[nodiscard]] bool driven() const { return !motors.of_joint.empty(); }
   /// Reason why checks that read this column of Recording::ticks cannot be judged; empty if they can.
   [[nodiscard]] std::string unknown(TickColumn column) const;
 };
+
+/// Reason why a check of joints is not judged if every joint has a fault.
+inline constexpr const char* kAllFaulty = "every joint has a fault";
 
 /// Status `pass` up to `pass`, `warn` up to `warn`, and `fail` above and for NaN.
 CheckStatus graded(double value, double pass, double warn);

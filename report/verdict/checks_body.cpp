@@ -111,7 +111,15 @@ void upright(const CheckedRun& run, Check& made) {
 void tracking(const CheckedRun& run, Check& made) {
   made.text = run.unknown(kErrorPeak);
   if (!made.text.empty()) return;
-  const std::vector<JudgedJoint>& joints = run.summary.judged.joints;
+  std::vector<JudgedJoint> joints = run.summary.judged.joints;
+  std::size_t faulty = 0;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (!run.faulty(j, made.span)) continue;
+    joints[j] = {};
+    ++faulty;
+  }
+  made.text = kAllFaulty;
+  if (faulty > 0 && faulty == driven_joints(*run.scenario.robot)) return;
   const std::size_t worst = Judged::farthest(joints);
   judge(made, "tracking_error", &Limits::tracking_error, run);
   const double warns = made.limit;
@@ -126,7 +134,10 @@ void tracking(const CheckedRun& run, Check& made) {
 }
 
 void stops(const CheckedRun& run, Check& made) {
-  const std::vector<BeyondRange> joints = beyond_range(*run.scenario.robot, run.record);
+  std::vector<BeyondRange> joints = beyond_range(*run.scenario.robot, run.record);
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (run.faulty(j, CheckSpan::whole_run)) joints[j] = {};
+  }
   made.text = "neither statistics of all steps were recorded nor the angle of every joint";
   if (joints.empty() && !run.scenario.robot->joints.empty()) return;
   made.value = 0;

@@ -25,6 +25,12 @@ std::string CheckedRun::unknown(TickColumn column) const {
   return lacks.empty() ? "" : fmt::format("the trace has no column {}", lacks);
 }
 
+bool CheckedRun::faulty(std::size_t joint, CheckSpan span) const {
+  const double from = span == CheckSpan::window ? summary.judged.from : 0;
+  return std::ranges::any_of(
+      faults, [&](const FaultSpan& fault) { return fault.joint == joint && fault.to > from && fault.from < record.simulated; });
+}
+
 std::pair<double, double> row_before(const Recording& record, double time) {
   const Series t(record.ticks, 0);
   for (std::size_t k = 1; k < t.size(); ++k) {
@@ -110,7 +116,7 @@ void find_first(const CheckedRun& run, std::size_t after, TickColumn column, con
   const Series t(run.record.ticks, 0);
   for (std::size_t j = 0; j < run.summary.judged.joints.size(); ++j) {
     const Series values = run.record.tick(j, column);
-    if (values.empty() || !run.scenario.robot->joints[j].driven()) continue;
+    if (values.empty() || !run.judges(j, made.span)) continue;
     for (std::size_t k = after + 1; k < t.size() && !(t[k] >= made.first); ++k) {
       if (!beyond(j, values[k], values[k - 1])) continue;
       made.first = t[k];
@@ -170,7 +176,7 @@ Saturated saturated(const CheckedRun& run, MotorLimit limit) {
   };
   Saturated made;
   for (std::size_t j = 0; j < run.summary.judged.joints.size(); ++j) {
-    if (!run.scenario.robot->joints[j].driven()) continue;
+    if (!run.judges(j, CheckSpan::window)) continue;
     const AtLimit one = at_limit(run, j, 0, limit);
     if (one.share > 0) ++made.joints;
     if (worse(one, made.worst)) made.worst = one;
@@ -207,6 +213,7 @@ void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn
   if (!made.text.empty()) return;
   const Saturated found = saturated(run, limit);
   made.parts = found.joints;
+  if (!found.worst && !run.faults.empty()) made.text = kAllFaulty;
   if (!found.worst) return;
   made.text = unstated(run, limit, found.worst->share);
   if (!made.text.empty()) return;
@@ -247,10 +254,11 @@ std::vector<ErrorBar> rated(const CheckedRun& run, Check& made, TickColumn colum
   made.text = run.unknown(column);
   std::vector<ErrorBar> bars;
   if (!made.text.empty()) return bars;
-  made.text = none;
+  bool faulty = !run.faults.empty();
   double worst = -1;
   for (std::size_t j = 0; j < run.summary.judged.joints.size(); ++j) {
-    if (!run.scenario.robot->joints[j].driven()) continue;
+    if (!run.judges(j, made.span)) continue;
+    faulty = false;
     const Rated of = rate(j);
     if (!std::isfinite(of.limit) || !(of.limit > 0)) continue;
     const double share = of.value / of.limit;
@@ -264,6 +272,7 @@ std::vector<ErrorBar> rated(const CheckedRun& run, Check& made, TickColumn colum
     made.worst = run.joint(j);
     std::tie(made.from, made.to) = row_before(run.record, of.time);
   }
+  made.text = faulty ? kAllFaulty : none;
   if (worst < 0) return bars;
   made.status = graded(worst, pass, warn);
   made.source = run.motor_source;
@@ -302,6 +311,7 @@ void speed(const CheckedRun& run, Check& made) {
   // kept from the first step on.
   const double share = run.limits().warn_share;
   Check broken = made;
+  broken.span = CheckSpan::whole_run;
   rated(run, broken, kSpeedPeak, none, share, 1, [&](std::size_t j) {
     const JudgedJoint& joint = run.summary.judged.whole[j];
     return Rated{joint.speed_peak, rating(j), joint.speed_peak_time};

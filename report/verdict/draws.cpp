@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "core/scenario/as_built.h"
@@ -40,15 +41,16 @@ std::vector<Column> draw_columns() {
   return columns;
 }
 
-void add_draw(const Scenario& scenario, const Rolled& run, const std::vector<std::string>& parts, Trace& to) {
-  to.values.push_back(static_cast<double>(scenario.seed));
-  to.values.push_back(static_cast<double>(run.verdict.word));
-  add_rolled(run, to);
+/// Row of draw_columns().
+std::vector<double> draw_row(const Scenario& scenario, const Rolled& run, const std::vector<std::string>& parts) {
+  std::vector<double> row{static_cast<double>(scenario.seed), static_cast<double>(run.verdict.word)};
+  std::ranges::copy(rolled_row(run), std::back_inserter(row));
   for (const Check& check : run.verdict.checks) {
     const auto part = std::ranges::find(parts, check.worst);
-    to.values.push_back(check.status == CheckStatus::fail ? 1 : 0);
-    to.values.push_back(part == parts.end() ? std::nan("") : static_cast<double>(part - parts.begin()));
+    row.push_back(check.status == CheckStatus::fail ? 1 : 0);
+    row.push_back(part == parts.end() ? std::nan("") : static_cast<double>(part - parts.begin()));
   }
+  return row;
 }
 
 /// Entry of a list by an index from a file; nothing for an index that is not valid.
@@ -70,24 +72,29 @@ bool has_draws(const Scenario& scenario) { return scenario.tolerances.any() || !
 std::optional<Trace> draws(const Scenario& scenario, const Rolled& run, std::span<const Scenario> others,
                            const BatchSettings& settings, std::atomic<bool>& stop) {
   const std::vector<std::string> parts = part_names(*scenario.robot);
-  Trace made;
-  made.columns = draw_columns();
-  add_draw(scenario, run, parts, made);
+  // Each rollout is judged as it ends, so that few recordings exist at a time.
+  std::vector<std::vector<double>> rows(1 + others.size());
+  std::vector<std::vector<Problem>> refused(others.size());
+  rows[0] = draw_row(scenario, run, parts);
   std::vector<Scenario> drawn(others.begin(), others.end());
   for (Scenario& one : drawn) {
     one.physics.estimate = Estimate::off;
     one.physics.estimated_by_others = true;
   }
-  std::vector<RolloutEnd> ends(drawn.size());
-  if (!run_all(drawn, settings, kVerdictReads, stop, [&](std::size_t k, RolloutEnd&& end) { ends[k] = std::move(end); }))
-    return {};
-  for (std::size_t k = 0; k < drawn.size(); ++k) {
-    if (!ends[k].refused.empty()) throw InputError(std::move(ends[k].refused));
-    const Recording& record = ends[k].recording;
-    const Summary summary = summarise(drawn[k], record, 0);
-    const Verdict judged = verdict(drawn[k], record, summary, overlaps(drawn[k], record));
-    add_draw(drawn[k], {record, summary, judged}, parts, made);
+  const auto judge = [&](std::size_t k, RolloutEnd&& end) {
+    refused[k] = std::move(end.refused);
+    if (!refused[k].empty()) return;
+    const Summary summary = summarise(drawn[k], end.recording, 0);
+    const Verdict judged = verdict(drawn[k], end.recording, summary, overlaps(drawn[k], end.recording));
+    rows[k + 1] = draw_row(drawn[k], {end.recording, summary, judged}, parts);
+  };
+  if (!run_all(drawn, settings, kVerdictReads, stop, judge)) return {};
+  for (std::vector<Problem>& problems : refused) {
+    if (!problems.empty()) throw InputError(std::move(problems));
   }
+  Trace made;
+  made.columns = draw_columns();
+  for (const std::vector<double>& row : rows) made.values.insert(made.values.end(), row.begin(), row.end());
   return made;
 }
 

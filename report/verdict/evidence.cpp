@@ -8,6 +8,7 @@
 #include "core/laws/dc_motor.h"
 #include "core/plugin/robot_info.h"
 #include "core/scenario/built_motors.h"
+#include "core/scenario/change_section.h"
 #include "core/settings/wording.h"
 #include "report/analysis/motion.h"
 #include "report/analysis/motors.h"
@@ -30,16 +31,28 @@ bool moves(const std::vector<Series>& set_points) {
   return false;
 }
 
-void judge_length(const Recording& r, const Summary& summary, Evidence& made) {
+void judge_length(const Scenario& s, const Recording& r, const Summary& summary, Evidence& made) {
   const MotionCycle& cycle = summary.limit_cycle;
   const double period = summary.set_point_period;
   made.repeats = period > 0;
+  if (const double since = last_change(s, r.simulated); since > 0 && period > 0) {
+    const double left = r.simulated - since;
+    const double needed = kPeriodsNeeded * period;
+    if (left < needed * (1 - kEstimate)) {
+      made.rests_on = fmt::format("{:.3g} s after the last change", left);
+      made.too_short = {fmt::format("{:.3g} s after the last change (t = {:.4g} s), needs {:.4g}: a gait's {:g} periods of "
+                                    "{:.4g} s; take duration: {:.4g}",
+                                    left, since, needed, kPeriodsNeeded, period, since + needed),
+                        "duration"};
+      return;
+    }
+  }
   if (cycle.found && cycle.error <= kSettled && summary.judged.periods > 0) {
     made.rests_on = fmt::format("{} of {:.4g} s", counted(summary.judged.periods, "period"), cycle.period);
     return;
   }
   if (period > 0) {
-    const double held = r.simulated / period;
+    const double held = (r.simulated - last_change(s, r.simulated)) / period;
     made.rests_on = fmt::format("{:.3g} periods of {:.4g} s; the motion does not settle", held, period);
     if (held < kPeriodsNeeded * (1 - kEstimate)) {
       made.too_short = {fmt::format("{:.3g} s are {:.2g} of a gait's {:g} periods of {:.4g} s; take duration: {:.4g}",
@@ -142,7 +155,7 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made, std::vec
 Evidence evidence(const Scenario& s, const Recording& r, const Summary& summary) {
   Evidence made;
   std::vector<std::string> unknown;
-  judge_length(r, summary, made);
+  judge_length(s, r, summary, made);
   judge_support(s, summary, made, unknown);
   judge_trust(s, r, made, unknown);
   if (!unknown.empty()) made.rests_on += fmt::format("; not known: {}", fmt::join(unknown, " and "));

@@ -42,9 +42,11 @@ std::vector<Column> rolled_columns() {
   return columns;
 }
 
-void add_rolled(const Rolled& run, Trace& to) {
-  for (const RolledColumn& one : kRolledColumns) to.values.push_back(one.value(run));
-  for (const Check& check : run.verdict.checks) to.values.push_back(check.margin);
+std::vector<double> rolled_row(const Rolled& run) {
+  std::vector<double> row;
+  for (const RolledColumn& one : kRolledColumns) row.push_back(one.value(run));
+  for (const Check& check : run.verdict.checks) row.push_back(check.margin);
+  return row;
 }
 
 }  // namespace gaitlab::report

@@ -19,7 +19,7 @@ std::string margin_column(const std::string& check);
 
 /// Columns torque_peak, torque_rms, distance, margin, and the margin of each check.
 std::vector<Column> rolled_columns();
-/// Appends the values of rolled_columns() to the table.
-void add_rolled(const Rolled& run, Trace& to);
+/// The values of rolled_columns().
+std::vector<double> rolled_row(const Rolled& run);
 
 }  // namespace gaitlab::report

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/settings/wording.h"
+#include "report/analysis/changes.h"
 #include "report/analysis/posture.h"
 #include "report/verdict/number_texts.h"
 
@@ -111,6 +112,12 @@ std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict,
   if (const auto open = of_status(verdict, CheckStatus::not_judged); !open.empty())
     screen.add("unknown", names(open) + " (gaitlab explain verdict)");
   if (const std::string text = gait(run); !text.empty()) screen.add("gait", text);
+  const char* title = "changes";
+  for (const ToldChange& change : told_changes(run.scenario, run.record.simulated)) {
+    screen.add(title, fmt::format("{:.4g} s: {}", change.t, change.text));
+    title = "";
+  }
+  for (const std::string& fault : verdict.faults) screen.add("", fault, Tone::doubtful);
   for (const std::string& rows : {verdict.of_rows, verdict.window_of_rows}) {
     if (!rows.empty()) screen.add("rows", rows, Tone::doubtful);
   }

@@ -20,7 +20,11 @@ Trace spread(const Scenario& scenario, const Recording& record, const Summary& s
   const double by = found == Predictability::chaotic ? 1e-9 : 1e-6;
   Trace made;
   made.columns = rolled_columns();
-  add_rolled({record, summary, verdict}, made);
+  const auto add = [&](const Rolled& run) {
+    const std::vector<double> row = rolled_row(run);
+    made.values.insert(made.values.end(), row.begin(), row.end());
+  };
+  add({record, summary, verdict});
   std::vector<Scenario> others(3, scenario);
   others[0].physics.gravity *= 1 + by;
   others[1].physics.gravity *= 1 - by;
@@ -39,7 +43,7 @@ Trace spread(const Scenario& scenario, const Recording& record, const Summary& s
   for (std::size_t k = 0; k < others.size(); ++k) {
     const Summary own = summarise(others[k], records.at(k), 0);
     const Verdict judged = report::verdict(others[k], records.at(k), own, overlaps(others[k], records.at(k)));
-    add_rolled({records.at(k), own, judged}, made);
+    add({records.at(k), own, judged});
   }
   return made;
 }

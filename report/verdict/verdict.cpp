@@ -204,6 +204,12 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
   made.chosen_motors = std::ranges::any_of(motors, chosen);
   made.chosen_docks = std::ranges::any_of(docks, chosen);
   made.figures = figures_sentence(motors, docks);
+  for (const FaultSpan& fault : run.faults) {
+    if (fault.from >= record.simulated) continue;
+    const std::string until = std::isfinite(fault.to) ? fmt::format(" to {:.4g} s", fault.to) : "";
+    made.faults.push_back(
+        fmt::format("{}: not judged ({} from t = {:.4g} s{})", run.joint(fault.joint), name_of(fault.kind), fault.from, until));
+  }
   decide(run, made);
   made.draws = draws_of(record, *scenario.robot);
   made.draws_text = draws_text(made.draws, scenario.tolerances.any());

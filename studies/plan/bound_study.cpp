@@ -176,10 +176,15 @@ void BoundStudy::check_stops(Problems& problems) const {
   }
 }
 
-/// Refuses an engine of `verify` that the study already uses.
+/// Refuses an engine of `verify` that the study already uses, and its faults if the scenario has changes of its own.
 void BoundStudy::check_engines(const Catalog& catalog, std::vector<Problems>& found) const {
   const std::string& engine = study_.verify.engine;
   for (std::size_t s = 0; s < scenarios_.size(); ++s) {
+    if (study_.verify.faults == VerifyFaults::each && !scenarios_[s].nominal.changes.empty()) {
+      found[s].add(study_.verify.place,
+                   "verify.faults is each, and the scenario has changes of its own (at); expected a scenario without them, or "
+                   "faults: none");
+    }
     if (scenarios_[s].nominal.physics.engine->name == engine) {
       found[s].add(study_.verify.place,
                    fmt::format("verify.engine {} is the engine of the study itself; expected another, or none: known are {}",

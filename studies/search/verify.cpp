@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
+#include <string_view>
 
 #include "core/math/functions.h"
 #include "core/settings/wording.h"
@@ -18,7 +20,7 @@ namespace {
 /// Another way to run a point. `sets` gives the settings for one of its runs.
 struct Way {
   std::string what;
-  std::vector<std::string> (*sets)(const Plan& plan, std::uint64_t run);
+  std::function<std::vector<std::string>(const Plan& plan, std::uint64_t run)> sets;
 };
 
 std::vector<std::string> halved(const Plan& plan, std::uint64_t run) {
@@ -144,17 +146,40 @@ std::vector<std::size_t> candidates(const Plan& plan, const Results& results) {
   return chosen;
 }
 
-std::optional<std::vector<Verification>> verify(const Plan& plan, Journal& journal, const Results& results,
-                                                const std::vector<std::size_t>& points, const Executor& executor,
-                                                const std::function<void(std::size_t done, std::size_t of)>& told,
-                                                std::atomic<bool>& stop) {
-  const std::vector<Way> tried = ways(plan);
+namespace {
+
+/// A point with another run of it: its rows, one per run of the point, and its result.
+struct Tried {
+  const PointResult& point;
+  const Way& way;
+  std::vector<Row> rows;
+  PointResult is;
+};
+
+/// Verification without a reason.
+Verification told_so(const Plan& plan, const Tried& tried) {
+  Verification v{tried.point.first_run, tried.way.what, {}, tried.is.score.violation, tried.rows.front().verdict, ""};
+  for (const Row& row : tried.rows) {
+    if (row.verdict == "infeasible") v.verdict = row.verdict;
+  }
+  for (std::size_t k = 0; k < plan.study().objectives.size(); ++k)
+    v.objectives.push_back(tried.is.failed > 0 ? std::nan("") : tried.is.score.objectives[k]);
+  return v;
+}
+
+/// Runs each point in every way. The result is ordered by point, then by way. Nothing if `stop` was set.
+std::optional<std::vector<Tried>> try_ways(const Plan& plan, Journal& journal, const std::vector<const PointResult*>& points,
+                                           const std::vector<Way>& ways, const Executor& executor,
+                                           const std::function<void(std::size_t done, std::size_t of)>& told,
+                                           std::atomic<bool>& stop) {
   const std::uint64_t runs_of_point = plan.points().runs_of_point();
   std::vector<Job> jobs;
-  for (const std::size_t point : points) {
-    for (const Way& way : tried) {
+  std::vector<Tried> all;
+  for (const PointResult* const point : points) {
+    for (const Way& way : ways) {
+      all.push_back({*point, way, std::vector<Row>(runs_of_point), {}});
       for (std::uint64_t r = 0; r < runs_of_point; ++r) {
-        const std::uint64_t run = results.points[point].first_run + r;
+        const std::uint64_t run = point->first_run + r;
         Job job{plan.row(run), plan.sets(run), plan.points().scenario(run)};
         job.row.run = jobs.size();
         std::ranges::copy(way.sets(plan, run), std::back_inserter(job.sets));
@@ -162,39 +187,70 @@ std::optional<std::vector<Verification>> verify(const Plan& plan, Journal& journ
       }
     }
   }
-  std::vector<Row> rows(jobs.size());
   const Again again{.count = jobs.size(),
                     .job = [&](std::size_t k) { return jobs[k]; },
                     .take =
                         [&](std::vector<Row>&& ended) {
-                          for (Row& row : ended) rows[row.run] = std::move(row);
+                          for (Row& row : ended) all[row.run / runs_of_point].rows[row.run % runs_of_point] = std::move(row);
                         },
                     .told = told};
   if (!do_again(again, executor, stop)) return {};
+  for (Tried& one : all) {
+    std::vector<Brief> briefs;
+    for (std::size_t r = 0; r < runs_of_point; ++r) {
+      const Row& row = one.rows[r];
+      briefs.push_back({one.point.first_run + r, row.outcome, row.message, row.simulated, row.score, row.verdict});
+    }
+    one.is = point_result(journal.head(), briefs);
+  }
+  return all;
+}
+
+constexpr std::string_view kDead = " dead";
+
+}  // namespace
+
+std::optional<std::vector<Verification>> verify(const Plan& plan, Journal& journal, const Results& results,
+                                                const std::vector<std::size_t>& points, const Executor& executor,
+                                                const std::function<void(std::size_t done, std::size_t of)>& told,
+                                                std::atomic<bool>& stop) {
+  const std::vector<Way> how = ways(plan);
+  std::vector<const PointResult*> chosen;
+  for (const std::size_t point : points) chosen.push_back(&results.points[point]);
+  const std::optional<std::vector<Tried>> tried = try_ways(plan, journal, chosen, how, executor, told, stop);
+  if (!tried) return {};
   std::vector<Verification> all;
   std::size_t at = 0;
-  for (const std::size_t number : points) {
-    const PointResult& point = results.points[number];
-    all.push_back(as_run(plan, journal, point));
-    for (const Way& way : tried) {
-      std::vector<Row> own(rows.begin() + static_cast<std::ptrdiff_t>(at),
-                           rows.begin() + static_cast<std::ptrdiff_t>(at + runs_of_point));
-      std::vector<Brief> briefs;
-      for (std::size_t r = 0; r < runs_of_point; ++r)
-        briefs.push_back({point.first_run + r, own[r].outcome, own[r].message, own[r].simulated, own[r].score, own[r].verdict});
-      const PointResult is = point_result(journal.head(), briefs);
-      Verification v{point.first_run, way.what, {}, is.score.violation, own.front().verdict, reason(plan, own, point, is)};
-      for (const Row& row : own) {
-        if (row.verdict == "infeasible") v.verdict = row.verdict;
-      }
-      for (std::size_t k = 0; k < plan.study().objectives.size(); ++k)
-        v.objectives.push_back(is.failed > 0 ? std::nan("") : is.score.objectives[k]);
-      all.push_back(std::move(v));
-      at += runs_of_point;
+  for (const PointResult* const point : chosen) {
+    all.push_back(as_run(plan, journal, *point));
+    for (std::size_t k = 0; k < how.size(); ++k, ++at) {
+      const Tried& one = (*tried)[at];
+      all.push_back(told_so(plan, one));
+      all.back().reason = reason(plan, one.rows, *point, one.is);
     }
   }
   return all;
 }
+
+std::optional<std::vector<Verification>> with_dead_joints(const Plan& plan, Journal& journal, const PointResult& point,
+                                                          const Executor& executor,
+                                                          const std::function<void(std::size_t done, std::size_t of)>& told,
+                                                          std::atomic<bool>& stop) {
+  std::vector<Way> how;
+  const Scenario scenario = plan.scenario(point.first_run);
+  for (const Joint& joint : scenario.robot->joints) {
+    if (!joint.driven()) continue;
+    const std::string set = fmt::format("at=[{{t: 0, fault: {{joint: {}, kind: dead}}}}]", joint.name);
+    how.push_back({joint.name + std::string(kDead), [set](const Plan&, std::uint64_t) { return std::vector{set}; }});
+  }
+  const std::optional<std::vector<Tried>> tried = try_ways(plan, journal, {&point}, how, executor, told, stop);
+  if (!tried) return {};
+  std::vector<Verification> all;
+  for (const Tried& one : *tried) all.push_back(told_so(plan, one));
+  return all;
+}
+
+bool is_fault(const Verification& verification) { return verification.what.ends_with(kDead); }
 
 std::vector<std::uint64_t> verified(const std::vector<Verification>& tried) {
   std::vector<std::uint64_t> runs;

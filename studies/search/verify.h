@@ -19,6 +19,16 @@ std::optional<std::vector<Verification>> verify(const Plan& plan, Journal& journ
                                                 const std::function<void(std::size_t done, std::size_t of)>& told,
                                                 std::atomic<bool>& stop);
 
+/// Runs a point again with each joint that has a motor dead in turn, from t = 0, so that the whole run is that of the broken
+/// robot. The result has an entry for each joint, `m3/active dead`, which neither verifies nor rejects the point. Returns
+/// nothing if `stop` was set.
+std::optional<std::vector<Verification>> with_dead_joints(const Plan& plan, Journal& journal, const PointResult& point,
+                                                          const Executor& executor,
+                                                          const std::function<void(std::size_t done, std::size_t of)>& told,
+                                                          std::atomic<bool>& stop);
+/// True for an entry of with_dead_joints().
+bool is_fault(const Verification& verification);
+
 /// First runs of the points that passed every verification, in the order of `tried`.
 std::vector<std::uint64_t> verified(const std::vector<Verification>& tried);
 

@@ -126,12 +126,16 @@ struct SearchKeys {
   double sigma = 0.25;          ///< first step of cma and xnes, as a share of each parameter's range
 };
 
+/// Faults with which the winner of a search is simulated again: none, or each joint with a motor dead in turn.
+enum class VerifyFaults { none, each };
+
 /// Settings for the verification of the best points.
 struct Verify {
   std::int64_t best = 3;  ///< number of points to verify
   bool halve_step = true;
   std::string engine = "none";
   double change = 0.02;  ///< largest relative change of an objective for which a point is verified
+  VerifyFaults faults = VerifyFaults::none;
   SourceLocation place = {};
 };
 

@@ -62,6 +62,9 @@ struct VerifyKeys {
            "Simulate these points again in this engine, with its default step; none: no other engine.");
     f.number("change", verify.change,
              {"", 1e-6, 10, "Largest relative change of an objective for which a point counts as verified."});
+    static constexpr std::array kFaults{"none", "each"};
+    f.choice("faults", verify.faults, kFaults,
+             "each: simulate the winner again with each joint dead in turn, from t = 0; the results are printed, not ranked.");
   }
 };
 

@@ -1,5 +1,6 @@
 // Tests of `gaitlab optimize`: verification of the best points, exit codes, words as parameters, other commands for a search.
 #include "studies/journal/journal.h"
+#include "studies/search/verify.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -53,6 +54,43 @@ TEST_F(Optimize, ABestThatStandsHasItsFolder) {
   EXPECT_EQ(fewer.err.rfind("o: note: has runs up to number 23, beyond the budget of 20; all of them count\n", 0), 0U)
       << fewer.err;
   EXPECT_NE(fewer.out.find("24 of 24 runs ended"), std::string::npos) << fewer.out;
+}
+
+TEST_F(Optimize, TriesTheWinnerWithEachJointDead) {
+  study(
+      "parameters: {cpg.amplitude: {low: 0.05, high: 0.2}}\nobjective: {minimize: torque.peak}\nverify: {best: 1, change: 0.5, "
+      "faults: each}\nbudget: {runs: 16}\n");
+  const Result result = call("optimize s.yaml --out o");
+  ASSERT_EQ(result.code, 0) << result.err;
+  studies::Journal journal = this->journal("o");
+  std::vector<studies::Verification> tried = journal.verifications();
+  ASSERT_EQ(tried.size(), 6U);
+  EXPECT_EQ(studies::verified(tried), std::vector<std::uint64_t>{tried[0].run});
+  const std::string dead = result.out.substr(result.out.find(fmt::format("run {} with a joint dead", tried[0].run)));
+  std::vector<std::string> verdicts;
+  for (std::size_t k = 2; k < 6; ++k) {
+    EXPECT_TRUE(studies::is_fault(tried[k])) << tried[k].what;
+    EXPECT_EQ(tried[k].reason, "");
+    EXPECT_NE(dead.find(tried[k].what), std::string::npos) << dead;
+    EXPECT_FALSE(tried[k].verdict.empty());
+  }
+  EXPECT_EQ(tried[2].what, "m0/active dead");
+  EXPECT_EQ(call("study show o").out.find("with a joint dead from t = 0:\n") == std::string::npos, false);
+  // The same by hand.
+  const std::vector<std::string> row = journal.row(tried[0].run);
+  EXPECT_NE(tried[2].objectives[0], tried[0].objectives[0]);
+}
+
+TEST_F(Optimize, FaultsNeedAScenarioWithoutChanges) {
+  study(
+      "parameters: {cpg.amplitude: {low: 0.05, high: 0.2}}\nobjective: {minimize: torque.peak}\nset: ['at=[{t: 1, set: "
+      "{cpg.frequency: 1}}]']\nverify: {faults: each}\nbudget: {runs: 16}\n");
+  const Result result = call("optimize s.yaml --dry-run");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("verify.faults is each, and the scenario has changes of its own (at); expected a scenario without "
+                            "them, or faults: none"),
+            std::string::npos)
+      << result.err;
 }
 
 TEST_F(Optimize, TellsWhatItWouldDo) {

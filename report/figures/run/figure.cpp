@@ -26,6 +26,8 @@ constexpr Style kSetpoint{.stroke = colour::kBlack, .width = 1.1, .dash = "2 3"}
 constexpr Style kTorque{.stroke = colour::kVermillion, .width = 1.6, .dash = "8 3"};
 constexpr Style kRestTorque{.stroke = colour::kVermillion, .width = 1, .dash = "10 3 2 3"};
 
+constexpr Style kChange{.stroke = colour::kBlack, .width = 1, .dash = "1 3"};
+
 struct LimitLook {
   MotorLimit limit;
   std::string_view fill;
@@ -70,6 +72,9 @@ class JointChart {
     }
     shade_limits(plot);
     plot.draw_axes();
+    for (const double change : panel_.changes) {
+      if (change >= time_[first_]) plot.moment(change, kChange);
+    }
     for (const Side side : {Side::right, Side::left}) {
       for (const Curve& curve : curves_) {
         if (curve.side == side) plot.curve(time_, *curve.values, curve.style, side);

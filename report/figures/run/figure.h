@@ -28,6 +28,7 @@ struct JointPanel {
   std::vector<double> limit;            ///< 1 at the limit of voltage, 2 at the limit of current; both are shaded
   double peak = 0, peak_time = 0;       ///< N m and s, largest torque of the judged window; not drawn if 0
   double rest_torque = 0;               ///< N m, largest torque of the motor at rest; 0 if not known
+  std::vector<double> changes = {};     ///< s, times of changes (section `at`), drawn as vertical lines
   double least_angle = 0;  ///< rad, least half range of the angle axis, which prevents noise of a resting joint from filling
                            ///< the panel
 };

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/math/periods.h"
+#include "core/scenario/change_section.h"
 #include "report/analysis/motors.h"
 #include "report/figures/run/run_footfalls.h"
 #include "report/figures/run/run_views.h"
@@ -26,6 +27,13 @@ constexpr double kSamePlace = 1e-3;   // m, distances that differ by less are eq
 JointPanel joint_panel(const Scenario& scenario, const Recording& r, const Summary& summary, std::size_t joint) {
   JointPanel panel;
   panel.joint = std::to_string(joint) + " (" + scenario.robot->joints[joint].name + ")";
+  for (const FaultSpan& fault : fault_spans(scenario)) {
+    if (fault.joint == joint && fault.from < r.simulated)
+      panel.joint += fmt::format(", {} from {:.4g} s", name_of(fault.kind), fault.from);
+  }
+  for (const Change& change : scenario.changes) {
+    if (change.t < r.simulated) panel.changes.push_back(change.t);
+  }
   panel.angle = r.joint(joint, "angle").values();
   if (scenario.actuator.entry != nullptr && scenario.robot->joints[joint].driven()) {
     panel.setpoint = r.joint(joint, "setpoint").values();

@@ -149,6 +149,7 @@ export interface Verdict {
   chosen_motors?: boolean; // data of the motors are chosen, not the manufacturer's
   chosen_docks?: boolean; // strengths of the docks are chosen
   demand?: { doubt: string; joints: Demand[] }; // only with --demand
+  draws?: { text: string; count: number; feasible: number }; // only with --draws
 }
 
 /** Largest magnitudes of a joint in a run without motor limits, V, A, N m and rad/s. */
@@ -228,5 +229,7 @@ export interface Meta {
   missing: string[];
   scenario: string;
   channels: Channel[];
+  changes?: { t: number; text: string }[]; // changes of the run (section at), s, in words
+  sensors?: { name: string; body: number; position: [number, number, number] }[]; // position in body axes, m
   overlay?: Overlay;
 }

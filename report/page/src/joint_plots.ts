@@ -23,7 +23,7 @@ const curve = (values: Values | null | undefined, look: Omit<Curve, "values">): 
   values ? [{ values, ...look }] : [];
 
 /** Signals of the chosen joint. Names that end in B are signals of the second run. */
-type Signals = Record<"angle" | "setpoint" | "torque" | "stopped" | "angleB" | "torqueB", Values | null>;
+type Signals = Record<"angle" | "measured" | "setpoint" | "torque" | "stopped" | "angleB" | "torqueB", Values | null>;
 
 export class JointPlots implements Panel {
   private plots: TimePlot[] = [];
@@ -121,6 +121,7 @@ export class JointPlots implements Panel {
     const pushed = torque && own("stop_torque");
     return {
       angle: own("angle"),
+      measured: own("measured"),
       setpoint: own("setpoint"),
       torque,
       stopped: pushed?.some((v) => v !== 0) ? pushed : null,
@@ -129,10 +130,11 @@ export class JointPlots implements Panel {
     };
   }
 
-  private motionCurves({ angle, setpoint, torque, stopped, angleB, torqueB }: Signals): Curve[] {
+  private motionCurves({ angle, measured, setpoint, torque, stopped, angleB, torqueB }: Signals): Curve[] {
     const { ink, ghost } = this.desk;
     const label = ghost?.label ?? "";
     return [
+      ...curve(measured, { label: "measured angle", colour: ink.orange, width: 3.5, axis: "left" }),
       ...curve(angle, { label: "angle", colour: ink.blue, width: 2, axis: "left" }),
       ...curve(setpoint, { label: "set point", colour: ink.ink, dash: [2, 3], width: 1.3, axis: "left" }),
       ...curve(torque, { label: "torque", colour: ink.vermillion, width: 1.5, axis: "right" }),
@@ -142,12 +144,13 @@ export class JointPlots implements Panel {
     ];
   }
 
-  private motionKeys({ setpoint, torque, stopped, angleB, torqueB }: Signals): Key[] {
+  private motionKeys({ measured, setpoint, torque, stopped, angleB, torqueB }: Signals): Key[] {
     const { ghost } = this.desk;
     const label = ghost?.label ?? "";
     return [
       ["dash", "--ink", setpoint ? "set point" : ""],
       ["", "--blue", "angle (left)"],
+      ["", "--orange", measured ? "measured by its encoder (left)" : ""],
       ["", "--vermillion", torque ? "torque (right)" : ""],
       ["", "--green", stopped ? "torque of the hinge's stops (right)" : ""],
       ["dash", "--ink2", angleB || torqueB ? `${label}: dashed` : ""],

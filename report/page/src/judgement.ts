@@ -19,6 +19,15 @@ export interface Judgement {
 const few = 2; // largest number of further failed checks in the sentence; the table of checks contains all
 
 export function judgement(run: Run): Judgement {
+  const judged = ofRun(run);
+  const { draws } = run.recording.meta.verdict ?? {};
+  if (!draws) return judged;
+  const why = [...judged.why, `With other seeds: ${sentence(draws.text)}`];
+  if (judged.mood !== "good" || draws.feasible === draws.count) return { ...judged, why };
+  return { ...judged, mood: "open", said: `Feasible with ${draws.feasible} of ${draws.count} seeds`, why };
+}
+
+function ofRun(run: Run): Judgement {
   const { outcome, verdict } = run.recording.meta;
   if (outcome === "not run") return planned(run);
   switch (verdict.verdict) {

@@ -1,5 +1,6 @@
 // Marks in the 3D picture for the assembly of a robot: numbers of the faces, and hinge axes with their positive sense.
 import {
+  BoxGeometry,
   CanvasTexture,
   ConeGeometry,
   CylinderGeometry,
@@ -34,6 +35,7 @@ export class Marks {
   axes = false;
   private readonly decals: Decals[] = [];
   private readonly parts: InstancedMesh[] = [];
+  private readonly sensors: InstancedMesh;
   private readonly material = new MeshBasicMaterial({ transparent: true, opacity: 0.95 });
 
   constructor(
@@ -73,6 +75,14 @@ export class Marks {
       scene.add(mesh);
       this.parts.push(mesh);
     }
+    this.sensors = cubes(meta.sensors?.length ?? 0);
+    scene.add(this.sensors);
+  }
+
+  /** Names and positions of the sensors at points of bodies. */
+  sensorsAt(): { name: string; at: Vector3 }[] {
+    const at = (body: number, p: [number, number, number]) => new Vector3(...p).applyMatrix4(this.robot.matrix(body));
+    return (this.meta.sensors ?? []).map(({ name, body, position: p }) => ({ name, at: at(body, p) }));
   }
 
   get anyFaces(): boolean {
@@ -91,6 +101,12 @@ export class Marks {
       places.forEach(({ body, local }, n) => mesh.setMatrixAt(n, matrix.multiplyMatrices(robot.matrix(body), local)));
       mesh.instanceMatrix.needsUpdate = true;
     }
+    this.meta.sensors?.forEach(({ body, position: p }, n) => {
+      const size = 0.14 * robot.unit;
+      matrix.copy(robot.matrix(body)).multiply(new Matrix4().makeTranslation(...p));
+      this.sensors.setMatrixAt(n, matrix.scale(new Vector3(size, size, size)));
+      this.sensors.instanceMatrix.needsUpdate = true;
+    });
     for (const mesh of this.parts) {
       mesh.visible = this.axes;
       if (!this.axes) continue;
@@ -189,4 +205,14 @@ function plate({ id, gender }: Face, quarters: number): CanvasTexture {
   const texture = new CanvasTexture(canvas);
   texture.colorSpace = SRGBColorSpace;
   return texture;
+}
+
+/** Small cubes for sensors, visible through their bodies. */
+function cubes(count: number): InstancedMesh {
+  const look = new MeshBasicMaterial({ color: 0xe69f00, depthTest: false, transparent: true });
+  const mesh = new InstancedMesh(new BoxGeometry(1, 1, 1), look, Math.max(count, 1));
+  mesh.count = count;
+  mesh.frustumCulled = false;
+  mesh.renderOrder = 3;
+  return mesh;
 }

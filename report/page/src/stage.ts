@@ -1,5 +1,6 @@
 // Panel of the 3D picture: buttons, legends, labels, and clicks on hinges. Without WebGL 2, the panel contains only a
 // note, and the other panels work.
+import type { Vector3 } from "three";
 import { gradient } from "./colour";
 import { element, make } from "./dom";
 import { Labels } from "./labels";
@@ -159,14 +160,14 @@ export class Stage implements Panel {
       this.tag.style.transform = `translate(${(x - half).toFixed(1)}px, ${y})`;
     }
     const order = joints.map((_, k) => k).filter((k) => k !== j);
-    this.labels.show(
-      !view.marks.axes
-        ? []
-        : order.flatMap((k) => {
-            const tip = view.project(view.marks.tip(k));
-            return tip ? [{ text: joints[k].name, x: tip[0], y: tip[1] }] : [];
-          }),
-    );
+    const label = (text: string, at: Vector3) => {
+      const tip = view.project(at);
+      return tip ? [{ text, x: tip[0], y: tip[1] }] : [];
+    };
+    this.labels.show([
+      ...view.marks.sensorsAt().flatMap(({ name, at }) => label(name, at)),
+      ...(view.marks.axes ? order.flatMap((k) => label(joints[k].name, view.marks.tip(k))) : []),
+    ]);
   }
 
   private pointer(canvas: HTMLCanvasElement, view: View): void {

@@ -98,6 +98,7 @@ export class TimePlot {
   private hooks({ bands = [], tubes = [], levels = [] }: Plot): uPlot.Hooks.Arrays {
     const { desk } = this;
     const below = (u: uPlot) => {
+      this.changes(u);
       this.bands(u, bands);
       this.tubes(u, tubes);
     };
@@ -137,6 +138,32 @@ export class TimePlot {
     const [from, to] = this.desk.state.span;
     this.head.style.display = t >= from && t <= to ? "" : "none";
     this.head.style.transform = `translateX(${u.valToPos(t, "x")}px)`;
+  }
+
+  /** Shades the time after the first change of the run, and names each change at its time. */
+  private changes(u: uPlot): void {
+    const { changes = [] } = this.desk.recording.meta;
+    if (changes.length === 0) return;
+    const { ctx, bbox } = u;
+    const ratio = window.devicePixelRatio || 1;
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+    ctx.clip();
+    const first = Math.max(u.valToPos(changes[0].t, "x", true), bbox.left);
+    ctx.fillStyle = this.desk.ink.track;
+    ctx.globalAlpha = 0.5;
+    ctx.fillRect(first, bbox.top, bbox.left + bbox.width - first, bbox.height);
+    ctx.globalAlpha = 1;
+    ctx.fillStyle = this.desk.ink.muted;
+    ctx.font = font(10 * ratio);
+    ctx.textBaseline = "top";
+    for (const [k, { t, text }] of changes.entries()) {
+      const x = u.valToPos(t, "x", true);
+      ctx.fillRect(x, bbox.top, ratio, bbox.height);
+      ctx.fillText(text, Math.max(x, bbox.left) + 4 * ratio, bbox.top + (2 + 12 * (k % 3)) * ratio);
+    }
+    ctx.restore();
   }
 
   private bands(u: uPlot, bands: Span[]): void {

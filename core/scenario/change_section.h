@@ -1,0 +1,64 @@
+// The section `at` of a scenario: changes of settings and faults of joints at times of the run.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/scenario/scenario.h"
+#include "core/settings/reader.h"
+
+namespace gaitlab {
+
+/// Keys of a fault. A reader and a writer visit only those of its kind.
+struct FaultKeys {
+  JointFault& fault;
+  bool all = false;  ///< true to visit the keys of every kind
+  void fields(Fields& f);
+};
+
+/// Keys of a change, except `set` and `fault`.
+struct ChangeKeys {
+  Change& change;
+  void fields(Fields& f) {
+    f.number("t", change.t, {"s", 0, 1e6, "Time of the change; it takes effect at the first control tick from then on."});
+  }
+};
+/// Sentences on the other keys.
+inline constexpr const char* kAboutChanges =
+    "Changes at times of the run, by rising times; each has set, fault or both (docs/faults.md).";
+inline constexpr const char* kAboutSet =
+    "New values of keys of cpg and controller, such as {cpg.frequency: 0.5}; not type, period, step, or one that changes the "
+    "number of states.";
+inline constexpr const char* kAboutFault = "A fault of joints, or a list of faults.";
+
+/// Sections whose settings may change in a run, and the reading of a scenario in which they have changed. The function reads
+/// these sections of a whole scenario, `root`, and returns it; it adds problems, and the result then counts for nothing.
+using ReadSegment = std::function<Scenario(const Node& root, const std::vector<std::string>& sections, Problems& problems)>;
+
+/// Reads and checks the section. Each change is read over the settings of all changes before it. All other sections of
+/// `scenario` must be known and free of problems. Returns an empty list if the section is absent.
+std::vector<Change> read_changes(const Node& root, const Scenario& scenario, JointNames joints, const ReadSegment& read,
+                                 Problems& problems);
+
+/// The section for the resolved scenario, with the settings as given.
+Node changes_node(const Scenario& scenario, const std::vector<std::string>& joints);
+
+/// Joints with a motor that a fault names, ascending.
+std::vector<std::size_t> joints_of(const JointFault& fault, const Robot& robot);
+
+/// Fault of a joint from the time of a change until the time of another one; infinity until the end of the run.
+struct FaultSpan {
+  std::size_t joint = 0;
+  FaultKind kind = FaultKind::none;
+  double from = 0, to = 0;  ///< s
+};
+/// The faults of a run, by the times at which they begin, then by joint.
+std::vector<FaultSpan> fault_spans(const Scenario& scenario);
+
+/// Time of the last change before `end`, s; 0 without changes.
+double last_change(const Scenario& scenario, double end);
+
+/// True if a joint gets a fault in the run.
+bool has_faults(const Scenario& scenario);
+
+}  // namespace gaitlab
