@@ -94,9 +94,10 @@ class ChangeReader {
   [[nodiscard]] static std::string refused(const std::string& key) {
     const std::string section = key.substr(0, key.find('.'));
     const bool known = std::ranges::find(kSections, section) != kSections.end();
-    if (known && key == section)
+    if (known && key == section) {
       return fmt::format("{} is a section; expected a key of it, such as {}", key,
                          section == "cpg" ? "cpg.frequency" : "controller.Kp");
+    }
     if (key == "cpg.type" || key == "cpg.step" || key == "controller.type" || key == "controller.period")
       return key + " cannot change in a run: it sets the plugins, their states or the control ticks";
     if (known) return "";
@@ -149,6 +150,7 @@ class ChangeReader {
     if (fault.kind == FaultKind::late) reader.require({"delay"});
     reader.finish();
     if (problems_.size() > before) return;
+    if (fault.joints.empty()) problems_.add(node.find("joint")->place, "joint names no joint; expected a name or a pattern");
     check_names_and_times(
         node, [&](Fields& f) { keys.fields(f); }, scenario_, problems_);
     change.faults.push_back(std::move(fault));
@@ -221,8 +223,7 @@ std::vector<std::size_t> joints_of(const JointFault& fault, const Robot& robot) 
     }
   }
   std::ranges::sort(all);
-  const auto [first, last] = std::ranges::unique(all);
-  all.erase(first, last);
+  all.erase(std::unique(all.begin(), all.end()), all.end());  // std::ranges::unique is beyond clang 14
   return all;
 }
 

@@ -97,8 +97,7 @@ std::vector<std::size_t> stuck_joints(const Scenario& scenario) {
     }
   }
   std::ranges::sort(all);
-  const auto [first, last] = std::ranges::unique(all);
-  all.erase(first, last);
+  all.erase(std::unique(all.begin(), all.end()), all.end());  // std::ranges::unique is beyond clang 14
   return all;
 }
 

@@ -207,8 +207,9 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
   for (const FaultSpan& fault : run.faults) {
     if (fault.from >= record.simulated) continue;
     const std::string until = std::isfinite(fault.to) ? fmt::format(" to {:.4g} s", fault.to) : "";
-    made.faults.push_back(
-        fmt::format("{}: not judged ({} from t = {:.4g} s{})", run.joint(fault.joint), name_of(fault.kind), fault.from, until));
+    const char* const by = fault.to > made.from ? "" : " by checks of the whole run";
+    made.faults.push_back(fmt::format("{}: not judged{} ({} from t = {:.4g} s{})", run.joint(fault.joint), by,
+                                      name_of(fault.kind), fault.from, until));
   }
   decide(run, made);
   made.draws = draws_of(record, *scenario.robot);

@@ -149,6 +149,7 @@ TEST_F(ChangesTest, WrongFaults) {
            Wrong{"[{t: 0.2, fault: {joint: m0/h, kind: daed}}]", "42: error: kind 'daed' is unknown; did you mean 'dead'?"},
            Wrong{"[{t: 0.2, fault: {joint: m7/h, kind: dead}}]", "30: error: no joint 'm7/h'; did you mean 'm0/h'?"},
            Wrong{"[{t: 0.2, fault: {joint: 'm7/*', kind: dead}}]", "30: error: no joint matches 'm7/*'; did you mean 'm0/*'?"},
+           Wrong{"[{t: 0.2, fault: {joint: [], kind: dead}}]", "30: error: joint names no joint; expected a name or a pattern"},
            Wrong{"[{t: 0.2, fault: {joint: m0/h, kind: weak}}]", "22: error: missing key 'share'"},
            Wrong{"[{t: 0.2, fault: {joint: m0/h, kind: weak, share: 2}}]", "55: error: share is 2; allowed are 0 to 1"},
            Wrong{"[{t: 0.2, fault: {joint: m0/h, kind: dead, share: 1}}]",

@@ -76,7 +76,8 @@ TEST(FaultVerdict, AFaultThatEndsIsPartOfWholeRunChecksOnly) {
                          "at=[{t: 4, fault: {joint: m3/active, kind: weak, share: 0.3}}, "
                          "{t: 8, fault: {joint: m3/active, kind: none}}]"});
   EXPECT_EQ(ended.judged.word, Word::feasible) << ended.judged.why();
-  EXPECT_EQ(ended.judged.faults, std::vector<std::string>{"m3/active: not judged (weak from t = 4 s to 8 s)"});
+  EXPECT_EQ(ended.judged.faults,
+            std::vector<std::string>{"m3/active: not judged by checks of the whole run (weak from t = 4 s to 8 s)"});
   EXPECT_GE(ended.summary.judged.from, 8);
 }
 
