@@ -16,6 +16,7 @@
 #include "core/recording/recording_file.h"
 #include "core/recording/run_folder.h"
 #include "core/scenario/resolved.h"
+#include "core/scenario/sensor_section.h"
 #include "core/simulation/batch.h"
 #include "core/simulation/simulation.h"
 #include "report/analysis/summary.h"
@@ -110,24 +111,44 @@ namespace {
 
 /// Scenarios with the seeds after that of `scenario`.
 std::vector<Scenario> other_draws(const Scenario& scenario, const RunArguments& arguments, Catalog& catalog) {
-  std::vector<std::vector<std::string>> seeds;
-  for (int k = 1; k < arguments.draws; ++k) seeds.push_back({fmt::format("seed={}", scenario.seed + k)});
-  if (seeds.empty()) return {};
-  if (!report::has_draws(scenario)) {
-    throw InputError(SourceLocation{"--draws"},
-                     "the seed changes nothing: the scenario has no tolerances and no sensors; add for example tolerances: "
+  constexpr std::int64_t kMostSeed = 9'000'000'000'000'000'000;
+  if (arguments.draws == 1) return {};
+  const SourceLocation place{"--draws"};
+  if (!seed_matters(scenario)) {
+    throw InputError(place,
+                     "the seed changes nothing: no tolerance draws a number, and no sensor draws; add for example tolerances: "
                      "{mass: 0.03, R: 0.07} (gaitlab explain scenario)");
   }
+  if (scenario.seed > kMostSeed - arguments.draws)
+    throw InputError(
+        place, fmt::format("{} draws from seed {} exceed the largest seed, {}", arguments.draws, scenario.seed, kMostSeed));
+  std::vector<std::vector<std::string>> seeds;
+  for (int k = 1; k < arguments.draws; ++k) seeds.push_back({fmt::format("seed={}", scenario.seed + k)});
   return rollouts(arguments.file, arguments.sets, seeds, catalog);
 }
 
-/// Simulates the draws for Recording::draws. Without memory for them, the run is written without.
-void take_draws(const Scenario& scenario, std::span<const Scenario> draws, const RunArguments& arguments, Recording& recording,
-                const report::Summary& summary) {
-  if (draws.empty() || !recording.outcome.done()) return;
+/// Simulates the draws for Recording::draws. Returns false if they are incomplete. If memory is short or a plugin throws, the
+/// run is written without them.
+bool take_draws(const Scenario& scenario, std::span<const Scenario> draws, const RunArguments& arguments, Recording& recording,
+                const report::Summary& summary) try {
+  if (draws.empty()) return true;
+  if (!recording.outcome.done()) {
+    say("--draws", "warning", "the other seeds are not simulated, because the run ended early");
+    return false;
+  }
   const report::Verdict own = report::verdict(scenario, recording, summary, report::overlaps(scenario, recording));
-  std::optional<Trace> table = report::draws(scenario, {recording, summary, own}, draws, {arguments.jobs, 0}, stopped());
-  if (table) recording.draws = std::move(*table);
+  report::Drawn drawn = report::draws(scenario, {recording, summary, own}, draws, {arguments.jobs, 0}, stopped());
+  recording.draws = std::move(drawn.table);
+  for (const std::string& refused : drawn.refused) say("--draws", "warning", refused);
+  if (recording.draws.rows() == 1 + draws.size()) return true;
+  say("--draws", "error", fmt::format("interrupted after {} of {}", recording.draws.rows(), 1 + draws.size()));
+  return false;
+} catch (const std::bad_alloc&) {
+  say("--draws", "error", "not simulated: out of memory");
+  return false;
+} catch (const PluginError& error) {
+  say("--draws", "error", error.what());
+  return false;
 }
 
 /// Runs the simulation. Returns its outcome if the simulation did not reach the end of the run.
@@ -169,6 +190,7 @@ int run(const RunArguments& arguments) {
 }  // namespace
 
 int run(const Scenario& scenario, const RunArguments& arguments, std::span<const Scenario> draws) {
+  constexpr std::size_t kMostDraws = 40;     // rows of the table of draws
   warn_of_start(scenario, arguments.quiet);  // printed first, because wrong units may be the reason why a step is refused
   Simulation simulation({&scenario, 1}, Loads::recorded);
   RunFolder folder(arguments.out, scenario.name);
@@ -196,7 +218,7 @@ int run(const Scenario& scenario, const RunArguments& arguments, std::span<const
   } catch (const std::bad_alloc&) {  // the trace is written first, then the summary is computed again
   }
   if (made) take_spread(scenario, recording, *made, arguments.quiet);
-  if (made) take_draws(scenario, draws, arguments, recording, *made);
+  const bool complete = made ? take_draws(scenario, draws, arguments, recording, *made) : draws.empty();
   if (all) all->swap(recording);
   write_run(files, arguments.format, scenario, recording);
   if (all) all->swap(recording);
@@ -209,11 +231,12 @@ int run(const Scenario& scenario, const RunArguments& arguments, std::span<const
   if (files.wrote_any()) folder.keep();
   if (!arguments.quiet) print_summary(scenario, recording, summary, verdict, arguments.shown);
   if (!arguments.quiet && !verdict.draws.empty())
-    fmt::print("{}", report::texts::without_nan(report::draws_table(verdict.draws)));
+    fmt::print("{}", report::texts::without_nan(
+                         report::draws_table(verdict.draws, arguments.shown.verbose ? verdict.draws.size() : kMostDraws)));
   if (!arguments.quiet && !files.lost_any()) print_files(arguments, folder.path());
   warn_of_run(scenario, recording, verdict);
   const bool sound = report::not_finite(scenario, recording).empty();
-  if (recording.outcome.done()) return files.lost_any() || !sound ? 1 : exit_code(verdict, arguments.shown);
+  if (recording.outcome.done()) return files.lost_any() || !sound || !complete ? 1 : exit_code(verdict, arguments.shown);
   say(scenario.file, "error",
       fmt::format("{}; the rows up to that time are in {}", recording.outcome.message, folder.path().string()));
   return 1;
@@ -231,7 +254,7 @@ void add_run(Commands& commands) {
         add_joint(command, arguments.joints);
         command
             .add_option("--draws", arguments.draws,
-                        "judge the gait for this many seeds, from the scenario's on: other robots "
+                        "judge the gait with this many seeds, starting with the scenario's: other robots "
                         "within its tolerances, other noise of its sensors")
             ->check(CLI::Range(1, 10000));
         command.add_option("-j,--jobs", arguments.jobs, "threads for the draws (default 1)")->check(CLI::Range(1, 1024));

@@ -6,7 +6,7 @@
 
 #include "core/laws/hinge_stop.h"
 #include "core/plugin/actuator.h"
-#include "core/scenario/built_motors.h"
+#include "core/scenario/built_robot.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab::interchange {
@@ -91,6 +91,8 @@ std::string left_out(const Scenario& s) {
                      number_text(s.contact.penalty.kn), number_text(s.contact.penalty.k), number_text(s.contact.penalty.cd),
                      number_text(s.contact.penalty.d), number_text(s.ground.friction), number_text(s.contact.penalty.v_lim));
   }
+  if (std::ranges::any_of(s.robot->modules, [](const Module& module) { return module.build.friction != 1; }))
+    out += " Friction of each module times as_built.foot_friction.";
   const auto name = [](const PluginSelection& choice) {
     return choice.entry == nullptr ? "none" : std::string(choice.entry->name);
   };

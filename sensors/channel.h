@@ -33,6 +33,10 @@ class Channel {
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] std::size_t states() const { return size_ * (2 + slots()); }
   [[nodiscard]] bool quantises() const { return keys_.resolution > 0; }
+  [[nodiscard]] bool draws() const {
+    return keys_.noise > 0 || keys_.zero > 0 || keys_.gain_deviation > 0 || keys_.walk > 0 || keys_.lost > 0 ||
+           keys_.delay_most > keys_.delay_least;
+  }
   [[nodiscard]] std::int64_t delay() const { return delay_; }            ///< d
   [[nodiscard]] double sample_period() const { return sample_period_; }  ///< N Ts, s
   /// True if the value at this tick is a sample that was not there at the tick before.

@@ -17,6 +17,9 @@ class ChannelBank {
   }
   [[nodiscard]] std::size_t states() const { return states_; }
   [[nodiscard]] const std::vector<Channel>& channels() const { return channels_; }
+  [[nodiscard]] bool draws() const {
+    return std::ranges::any_of(channels_, [](const Channel& channel) { return channel.draws(); });
+  }
   [[nodiscard]] bool quantises() const {
     return std::ranges::any_of(channels_, [](const Channel& channel) { return channel.quantises(); });
   }

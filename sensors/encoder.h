@@ -22,6 +22,7 @@ class EncoderSensor final : public Sensor {
   [[nodiscard]] const std::vector<SensorReading>& readings() const override { return readings_; }
   [[nodiscard]] std::vector<SensorStream> streams() const override;
   [[nodiscard]] bool quantises() const override { return angles_.quantises() || speeds_.quantises(); }
+  [[nodiscard]] bool draws() const override { return angles_.draws() || speeds_.draws(); }
   [[nodiscard]] std::size_t states() const override { return angles_.states() + speeds_.states() + joints_.size(); }
   void sense(const Truth& truth, Out state, Out values) const override;
 

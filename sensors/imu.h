@@ -26,6 +26,7 @@ class ImuSensor final : public Sensor {
   [[nodiscard]] const std::vector<SensorReading>& readings() const override { return readings_; }
   [[nodiscard]] std::vector<SensorStream> streams() const override { return channels_.streams(); }
   [[nodiscard]] bool quantises() const override { return channels_.quantises(); }
+  [[nodiscard]] bool draws() const override { return channels_.draws(); }
   [[nodiscard]] std::span<const BodyPoint> points() const override { return {&point_, 1}; }
   [[nodiscard]] std::size_t states() const override { return channels_.states() + 3; }
   void sense(const Truth& truth, Out state, Out values) const override;

@@ -59,6 +59,8 @@ class Sensor {
   [[nodiscard]] virtual bool needs_current() const { return false; }
   /// True if values are multiples of a resolution. Such a step in a loop amplifies the last bit of a number.
   [[nodiscard]] virtual bool quantises() const { return false; }
+  /// True if values depend on the seed.
+  [[nodiscard]] virtual bool draws() const { return false; }
   /// Number of values that the sensor keeps from tick to tick.
   [[nodiscard]] virtual std::size_t states() const = 0;
   /// Computes the values, one per reading. Called at every control tick in order. At tick 0 the state has no meaning yet.

@@ -38,19 +38,6 @@ std::string draw_name(const std::string& part, const BuiltNumber& number) {
   return part.empty() ? number.key : part + "." + number.key;
 }
 
-/// Parts that have the number, in its order; empty names for parts that cannot differ.
-std::vector<std::string> parts_of(const BuiltNumber& number, const Robot& robot) {
-  if (number.of == Of::robot) return {"robot"};
-  std::vector<std::string> parts;
-  if (number.of == Of::modules) {
-    parts = module_names(robot);
-    if (number.tolerance == Deviation::dock_angle) parts.front().clear();
-  } else {
-    for (const Joint& joint : robot.joints) parts.push_back(joint.driven() ? joint.name : "");
-  }
-  return parts;
-}
-
 }  // namespace
 
 const std::array<Tolerance, 8> kTolerances{{
@@ -112,12 +99,24 @@ std::vector<std::string> module_names(const Robot& robot) {
   return names;
 }
 
+std::vector<std::string> parts_with(const BuiltNumber& number, const Robot& robot) {
+  if (number.of == Of::robot) return {"robot"};
+  std::vector<std::string> parts;
+  if (number.of == Of::modules) {
+    parts = module_names(robot);
+    if (number.tolerance == Deviation::dock_angle) parts.front().clear();
+  } else {
+    for (const Joint& joint : robot.joints) parts.push_back(joint.driven() ? joint.name : "");
+  }
+  return parts;
+}
+
 std::size_t draw(AsBuilt& built, const Tolerances& tolerances, const Robot& robot, std::uint64_t seed) {
   std::size_t draws = 0;
   for (std::size_t i = 0; i < kBuiltNumbers.size(); ++i) {
     const BuiltNumber& number = kBuiltNumbers[i];
     const double deviation = tolerances.deviation[number.tolerance];
-    const std::vector<std::string> parts = parts_of(number, robot);
+    const std::vector<std::string> parts = parts_with(number, robot);
     std::vector<double> each(parts.size(), number.neutral);
     for (std::size_t p = 0; p < parts.size(); ++p) {
       if (parts[p].empty()) continue;

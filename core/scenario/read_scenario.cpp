@@ -10,7 +10,7 @@
 
 #include "core/plugin/plugin_instance.h"
 #include "core/robot_files/type_presets.h"
-#include "core/scenario/built_motors.h"
+#include "core/scenario/built_robot.h"
 #include "core/scenario/change_section.h"
 #include "core/scenario/ground_section.h"
 #include "core/scenario/old_names.h"
@@ -144,7 +144,9 @@ class ScenarioReader {
     }
     scenario_.robot = std::move(parts.robot);
     scenario_.module_documents = std::make_shared<const std::vector<Node>>(std::move(parts.documents));
-    if (scenario_.robot) joints_ = std::make_shared<const std::vector<std::string>>(joint_names(*scenario_.robot));
+    if (!scenario_.robot) return;
+    joints_ = std::make_shared<const std::vector<std::string>>(joint_names(*scenario_.robot));
+    modules_ = std::make_shared<const std::vector<std::string>>(module_names(*scenario_.robot));
   }
 
   [[nodiscard]] bool reads(const std::string& section) const {
@@ -187,8 +189,7 @@ class ScenarioReader {
     const JointNames joints = joints_.get();
     Reader reader(root_, "the scenario", problems_, joints, folder_);
     if (!touched_.empty()) reader.only(touched_);
-    const std::vector<std::string> modules = scenario_.robot ? module_names(*scenario_.robot) : std::vector<std::string>();
-    reader.modules(scenario_.robot ? &modules : nullptr);
+    reader.modules(modules_.get());
     for (const char* known : {"gaitlab", "name", "plugins", "robot", "controller", "cpg"}) reader.take(known);
     reader.require({"duration"});
     const Node* sensors = reader.take("sensors");
@@ -202,14 +203,14 @@ class ScenarioReader {
     SectionFields sections(scenario_, &catalog_, &problems_, without_motors() ? "none" : motors.type());
     sections.controller.type = gains.type();
     sections.has_cpg = root_.find("cpg") != nullptr;
-    sections.physics.law = wanted_law();
+    sections.physics.law = wanted_law(root_);
     sections.actuator.presets = [&](const Entry& entry, void* settings) { motors.fill(entry, settings, joints, problems_); };
     sections.controller.presets = [&](const Entry& entry, void* settings) { gains.fill(entry, settings, joints, problems_); };
     sections.actuator.none = !reads("actuator") && scenario_.actuator.entry == nullptr;
     if (touched_.empty()) scenario_.as_built = AsBuilt::unknown();
     sections.fields(reader);
     reader.finish();
-    if (touched_.empty() && scenario_.robot) build_robot();
+    if (touched_.empty() && scenario_.robot) add_note(build_robot(scenario_, given(root_, kAsBuiltSection).has_value()));
     if (reads("actuator") && sections.actuator.sound) attempt([&] { tell_replaced_motors(motors); });
     if (const Node* ground = root_.find("ground"); ground != nullptr && reads("ground"))
       finish_ground(*ground, folder_, scenario_, problems_);
@@ -287,13 +288,6 @@ class ScenarioReader {
     scenario_.actuator_source = replaced.source();
   }
 
-  /// Contact law, found before its section is read, because the earlier key of the step has a default that depends on it.
-  [[nodiscard]] ContactLaw wanted_law() const {
-    const Node* contact = root_.find("contact");
-    const Node* law = contact == nullptr ? nullptr : contact->find("law");
-    return law == nullptr ? ContactLaw::penalty : named<ContactLaw>(law->text).value_or(ContactLaw::penalty);
-  }
-
   /// True if the robot has hinges, but none with a motor.
   [[nodiscard]] bool without_motors() const {
     return scenario_.robot && !scenario_.robot->joints.empty() &&
@@ -335,25 +329,11 @@ class ScenarioReader {
       scenario_.notes.push_back(cpg_note_);
     });
     attempt([&] {
-      if (actuator && controller) ScenarioChecks(root_, scenario_, catalog_, problems_).units(*actuator, *controller);
+      ScenarioChecks checks(root_, scenario_, catalog_, problems_);
+      if (actuator && controller) checks.units(*actuator, *controller);
+      if (actuator) checks.rotors(*actuator);
+      if (sections.actuator.sound) checks.built_numbers(actuator.get());
     });
-    attempt([&] {
-      if (actuator) ScenarioChecks(root_, scenario_, catalog_, problems_).rotors(*actuator);
-    });
-    if (sections.actuator.sound) ScenarioChecks(root_, scenario_, catalog_, problems_).built_numbers(actuator.get());
-  }
-
-  /// Draws the differences of the robot from the drawings that are not stated, and builds the robot with them.
-  void build_robot() {
-    const Robot& drawn = *scenario_.robot;
-    const std::size_t draws = draw(scenario_.as_built, scenario_.tolerances, drawn, static_cast<std::uint64_t>(scenario_.seed));
-    if (draws == 0 && scenario_.tolerances.any()) {
-      add_note(
-          "tolerances draws nothing: as_built states every number, as in the resolved scenario of a run; for another robot "
-          "use the scenario of that run, or --set as_built={}");
-    }
-    const std::vector<ModuleBuild> modules = module_builds(scenario_.as_built, drawn.modules.size());
-    if (!modules.empty()) scenario_.robot = std::make_shared<const Robot>(as_built(drawn, modules));
   }
 
   std::string path_, folder_;
@@ -362,7 +342,7 @@ class ScenarioReader {
   Problems problems_;
   Node root_;
   Scenario scenario_;
-  std::shared_ptr<const std::vector<std::string>> joints_;  ///< null if the robot could not be read
+  std::shared_ptr<const std::vector<std::string>> joints_, modules_;  ///< names; null if the robot could not be read
   Note cpg_note_, source_note_;
   std::vector<Note> motor_notes_;
   std::vector<std::string> touched_;  ///< names of the sections to read; empty for all

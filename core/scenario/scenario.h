@@ -149,7 +149,8 @@ struct Scenario {
   std::vector<PluginFile> plugins;
   std::shared_ptr<const Robot> robot;  ///< as built
   Tolerances tolerances;
-  AsBuilt as_built;  ///< differences of the robot from the drawings, stated and drawn
+  AsBuilt as_built;       ///< differences of the robot from the drawings, stated and drawn
+  std::size_t drawn = 0;  ///< how many numbers of as_built were drawn; not a setting
   /// Documents of the module types as read from files, one per entry of Robot::types. The resolved scenario contains them.
   std::shared_ptr<const std::vector<Node>> module_documents = std::make_shared<const std::vector<Node>>();
   Base base = Base::floating;

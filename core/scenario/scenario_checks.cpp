@@ -6,7 +6,7 @@
 #include <map>
 
 #include "core/model/pattern.h"
-#include "core/scenario/built_motors.h"
+#include "core/scenario/built_robot.h"
 #include "core/scenario/section_places.h"
 #include "core/scenario/sections.h"
 #include "core/settings/joint_patterns.h"
@@ -124,7 +124,23 @@ void ScenarioChecks::figure_joints() {
   }
 }
 
+void ScenarioChecks::parts_as_built() {
+  const Node* section = root_.find(kAsBuiltSection);
+  for (std::size_t i = 0; section != nullptr && scenario_.robot && i < kBuiltNumbers.size(); ++i) {
+    const Node* map = section->find(kBuiltNumbers[i].key);
+    if (map == nullptr || map->kind != Node::Kind::map) continue;
+    const std::vector<std::string> parts = parts_with(kBuiltNumbers[i], *scenario_.robot);
+    for (const auto& [name, place] : map->keys) {
+      if (name == "default" || is_pattern(name) || std::ranges::find(parts, name) != parts.end()) continue;
+      problems_.add(place, fmt::format("{} has no {}: {}", name, kBuiltNumbers[i].key,
+                                       kBuiltNumbers[i].of == BuiltNumber::Of::modules ? "it is docked to no parent"
+                                                                                       : "its hinge has no motor"));
+    }
+  }
+}
+
 void ScenarioChecks::built_numbers(const Actuator* actuator) {
+  parts_as_built();
   const AsBuilt drawn;
   for (std::size_t i = 0; i < kBuiltNumbers.size(); ++i) {
     const BuiltNumber& number = kBuiltNumbers[i];

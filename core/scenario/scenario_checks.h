@@ -38,6 +38,8 @@ class ScenarioChecks {
   void built_numbers(const Actuator* actuator);
 
  private:
+  /// Refuses numbers in as_built of parts, given by name, that cannot differ.
+  void parts_as_built();
   void refuse_law(const Engine& engine);
   /// Place of a joint's initial angle.
   [[nodiscard]] SourceLocation angle_place(std::size_t joint) const;

@@ -19,6 +19,12 @@ SourceLocation place_of(const Node& root, const std::string& section, const std:
   return given(root, section).value_or(root.place);
 }
 
+ContactLaw wanted_law(const Node& root) {
+  const Node* contact = root.find("contact");
+  const Node* law = contact == nullptr ? nullptr : contact->find("law");
+  return law == nullptr ? ContactLaw::penalty : named<ContactLaw>(law->text).value_or(ContactLaw::penalty);
+}
+
 void note_places(const Node& map, const std::string& prefix, std::map<std::string, SourceLocation>& places) {
   for (std::size_t i = 0; i < map.keys.size(); ++i) {
     const std::string key = prefix + map.keys[i].first;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/laws/contact_model.h"
 #include "core/settings/node.h"
 
 namespace gaitlab {
@@ -16,6 +17,9 @@ std::optional<SourceLocation> given(const Node& root, const std::string& section
 
 /// Place of a key's value, or else of the section's name, or else of the whole map.
 SourceLocation place_of(const Node& root, const std::string& section, const std::string& key);
+
+/// Contact law of a scenario, found before its section is read, because the default of the step depends on it.
+ContactLaw wanted_law(const Node& root);
 
 /// Adds the place of every key of a map, under a path such as `physics.step`.
 void note_places(const Node& map, const std::string& prefix, std::map<std::string, SourceLocation>& places);

@@ -276,7 +276,7 @@ void SectionFields::fields(Fields& f) {
     f.group(kTolerancesSection, scenario.tolerances,
             "Deviations of real robots from the drawings; each seed draws another robot.");
   }
-  if (!writing || scenario.as_built.any()) {
+  if (!writing || scenario.as_built.any() || scenario.tolerances.any()) {  // stated neutral numbers are not drawn
     f.group(
         kAsBuiltSection, scenario.as_built,
         "Differences of this robot from the drawings, by part, such as mass: {m3: 1.05}. Numbers that it does not state are "

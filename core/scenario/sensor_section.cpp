@@ -138,6 +138,10 @@ bool quantised(const Scenario& scenario) {
   return std::ranges::any_of(make_sensors(scenario), [](const auto& sensor) { return sensor->quantises(); });
 }
 
+bool seed_matters(const Scenario& scenario) {
+  return scenario.drawn > 0 || std::ranges::any_of(make_sensors(scenario), [](const auto& sensor) { return sensor->draws(); });
+}
+
 std::vector<std::string> default_columns(const Scenario& scenario) {
   std::vector<std::string> columns = TraceSettings().columns;
   const std::vector<SensorReading> readings = sensor_readings(scenario);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "core/scenario/built_motors.h"
+#include "core/scenario/built_robot.h"
 #include "core/simulation/lane.h"
 #include "core/simulation/start.h"
 #include "core/simulation/start_check.h"

@@ -19,7 +19,8 @@ void static_contact_slopes(const LaneSettings& s, const Kinematics& k, std::vect
   }
   for (const SupportElement& on : support_elements(std::move(elements), sums(*s.robot, k, s.gravity).com)) {
     const Ground::Touch& touch = touches[on.element];
-    out.push_back({on.element, s.contacts[on.element].link, on.point, touch.normal, Vec3::Zero(), touch.friction, 0});
+    const ContactElement& element = s.contacts[on.element];
+    out.push_back({on.element, element.link, on.point, touch.normal, Vec3::Zero(), element.friction * touch.friction, 0});
   }
   if (out.empty()) return;
   const double load = s.robot->mass * s.gravity.norm() / static_cast<double>(out.size());

@@ -6,7 +6,7 @@
 
 #include "core/plugin/robot_info.h"
 #include "core/recording/motor_limit.h"
-#include "core/scenario/built_motors.h"
+#include "core/scenario/built_robot.h"
 
 namespace gaitlab::report {
 

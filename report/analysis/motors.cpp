@@ -9,7 +9,7 @@
 #include "core/laws/dc_motor.h"
 #include "core/plugin/robot_info.h"
 #include "core/robot_files/type_presets.h"
-#include "core/scenario/built_motors.h"
+#include "core/scenario/built_robot.h"
 #include "core/scenario/sections.h"
 #include "core/settings/explainer.h"
 #include "report/analysis/settings_numbers.h"

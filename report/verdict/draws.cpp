@@ -9,16 +9,17 @@
 
 #include "core/scenario/as_built.h"
 #include "core/scenario/sections.h"
-#include "core/scenario/sensor_section.h"
 #include "report/analysis/collisions.h"
 #include "report/verdict/number_texts.h"
+#include "report/verdict/trust.h"
 
 namespace gaitlab::report {
 
 namespace {
 
-constexpr const char* kSeed = "seed";
+constexpr const char* kAfter = "after";
 constexpr const char* kWord = "verdict";
+constexpr double kMostDraws = 1e6;  // a larger number is from a damaged file
 
 std::string fails_column(const std::string& check) { return "fails." + check; }
 std::string part_column(const std::string& check) { return "part." + check; }
@@ -32,7 +33,8 @@ std::vector<std::string> part_names(const Robot& robot) {
 }
 
 std::vector<Column> draw_columns() {
-  std::vector<Column> columns{{kSeed, "", "seed of the draw"}, {kWord, "", "index of the verdict's word"}};
+  std::vector<Column> columns{{kAfter, "", "seed of the draw, minus that of the run"},
+                              {kWord, "", "index of the verdict's word"}};
   std::ranges::move(rolled_columns(), std::back_inserter(columns));
   for (const CheckKind& kind : check_kinds()) {
     columns.push_back({fails_column(kind.id), "", "1 if the check fails"});
@@ -42,8 +44,8 @@ std::vector<Column> draw_columns() {
 }
 
 /// Row of draw_columns().
-std::vector<double> draw_row(const Scenario& scenario, const Rolled& run, const std::vector<std::string>& parts) {
-  std::vector<double> row{static_cast<double>(scenario.seed), static_cast<double>(run.verdict.word)};
+std::vector<double> draw_row(std::size_t after, const Rolled& run, const std::vector<std::string>& parts) {
+  std::vector<double> row{static_cast<double>(after), static_cast<double>(run.verdict.word)};
   std::ranges::copy(rolled_row(run), std::back_inserter(row));
   for (const Check& check : run.verdict.checks) {
     const auto part = std::ranges::find(parts, check.worst);
@@ -60,6 +62,14 @@ auto entry(const List& list, double index) -> std::optional<std::decay_t<decltyp
   return list[static_cast<std::size_t>(index)];
 }
 
+/// True if the errors of the torques hardly matter for the verdict, also not those of a similar run.
+bool accurate(const Scenario& scenario, const Recording& record) {
+  constexpr double kSmall = 0.2;  // share of the limit
+  const TorqueError error = torque_error(record);
+  return error.estimated && error.share < kSmall * scenario.limits.torque_error &&
+         predictability(scenario, record) == Predictability::predictable;
+}
+
 std::string spaced(std::string id) {
   std::ranges::replace(id, '_', ' ');
   return id;
@@ -67,40 +77,40 @@ std::string spaced(std::string id) {
 
 }  // namespace
 
-bool has_draws(const Scenario& scenario) { return scenario.tolerances.any() || !scenario.sensors.empty(); }
-
-std::optional<Trace> draws(const Scenario& scenario, const Rolled& run, std::span<const Scenario> others,
-                           const BatchSettings& settings, std::atomic<bool>& stop) {
+Drawn draws(const Scenario& scenario, const Rolled& run, std::span<const Scenario> others, const BatchSettings& settings,
+            std::atomic<bool>& stop) {
   const std::vector<std::string> parts = part_names(*scenario.robot);
-  // Each rollout is judged as it ends, so that few recordings exist at a time.
-  std::vector<std::vector<double>> rows(1 + others.size());
-  std::vector<std::vector<Problem>> refused(others.size());
-  rows[0] = draw_row(scenario, run, parts);
   std::vector<Scenario> drawn(others.begin(), others.end());
   for (Scenario& one : drawn) {
+    if (!accurate(scenario, run.record)) continue;
     one.physics.estimate = Estimate::off;
     one.physics.estimated_by_others = true;
   }
+  // Each rollout is judged as it ends, so that few recordings exist at a time.
+  std::vector<std::vector<double>> rows(1 + others.size());
+  std::vector<std::string> refused(others.size());
+  rows[0] = draw_row(0, run, parts);
   const auto judge = [&](std::size_t k, RolloutEnd&& end) {
-    refused[k] = std::move(end.refused);
-    if (!refused[k].empty()) return;
+    if (!end.refused.empty()) {
+      refused[k] = fmt::format("seed {}: {}", drawn[k].seed, end.refused.front().text);
+      end.recording.outcome = {Ended::diverged, refused[k]};
+    }
     const Summary summary = summarise(drawn[k], end.recording, 0);
     const Verdict judged = verdict(drawn[k], end.recording, summary, overlaps(drawn[k], end.recording));
-    rows[k + 1] = draw_row(drawn[k], {end.recording, summary, judged}, parts);
+    rows[k + 1] = draw_row(k + 1, {end.recording, summary, judged}, parts);
   };
-  if (!run_all(drawn, settings, kVerdictReads, stop, judge)) return {};
-  for (std::vector<Problem>& problems : refused) {
-    if (!problems.empty()) throw InputError(std::move(problems));
-  }
-  Trace made;
-  made.columns = draw_columns();
-  for (const std::vector<double>& row : rows) made.values.insert(made.values.end(), row.begin(), row.end());
+  run_all(drawn, settings, kVerdictReads, stop, judge);
+  Drawn made;
+  made.table.columns = draw_columns();
+  for (const std::vector<double>& row : rows) made.table.values.insert(made.table.values.end(), row.begin(), row.end());
+  std::erase(refused, "");
+  made.refused = std::move(refused);
   return made;
 }
 
-std::vector<Draw> draws_of(const Recording& record, const Robot& robot) {
+std::vector<Draw> draws_of(const Recording& record, const Scenario& scenario) {
   const Trace& table = record.draws;
-  const std::vector<std::string> parts = part_names(robot);
+  const std::vector<std::string> parts = part_names(*scenario.robot);
   std::vector<Draw> all;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const auto value = [&](const std::string& column) {
@@ -108,9 +118,14 @@ std::vector<Draw> draws_of(const Recording& record, const Robot& robot) {
       return at == table.columns.size() ? std::nan("") : table.at(row, at);
     };
     const auto word = entry(EnumNames<Word>::kTable, value(kWord));
-    Draw one{value(kSeed),         word ? word->value : Word::not_judged,
-             value("torque_peak"), value("torque_rms"),
-             value("distance"),    value(kLeastMargin)};
+    const double after = value(kAfter);
+    const std::int64_t seed = scenario.seed + (after >= 0 && after < kMostDraws ? static_cast<std::int64_t>(after) : 0);
+    Draw one{seed,
+             word ? word->value : Word::not_judged,
+             value("torque_peak"),
+             value("torque_rms"),
+             value("distance"),
+             value(kLeastMargin)};
     for (const CheckKind& kind : check_kinds()) {
       if (value(fails_column(kind.id)) != 1) continue;
       one.failing.push_back({kind.id, entry(parts, value(part_column(kind.id))).value_or("")});
@@ -155,17 +170,23 @@ std::string draws_text(std::span<const Draw> draws, bool robots) {
   return text;
 }
 
-std::string draws_table(std::span<const Draw> draws) {
+std::string draws_table(std::span<const Draw> draws, std::size_t most) {
   std::string text = fmt::format("  {:>10}  {:<10}  {:>11}  {:>10}  {:>9}  {:>8}  fails\n", "seed", "verdict", "torque, N m",
                                  "RMS, N m", "travel, m", "margin");
+  std::size_t shown = 0;
   for (const Draw& draw : draws) {
+    if (draws.size() > most && (draw.word == Word::feasible || shown == most)) continue;
+    ++shown;
     std::string failing;
     for (const FailedCheck& failed : draw.failing) {
       failing += (failing.empty() ? "" : ", ") + spaced(failed.check) + (failed.part.empty() ? "" : " of " + failed.part);
     }
-    text += fmt::format("  {:>10.0f}  {:<10}  {:>11.3f}  {:>10.3f}  {:>9.4f}  {:>8}  {}\n", draw.seed, name_of(draw.word),
-                        draw.torque_peak, draw.torque_rms, draw.distance, texts::percent(draw.margin), failing);
+    std::string row = fmt::format("  {:>10}  {:<10}  {:>11.3f}  {:>10.3f}  {:>9.4f}  {:>8}  {}", draw.seed, name_of(draw.word),
+                                  draw.torque_peak, draw.torque_rms, draw.distance, texts::percent(draw.margin), failing);
+    row.erase(row.find_last_not_of(' ') + 1);
+    text += row + "\n";
   }
+  if (shown < draws.size()) text += fmt::format("  and {} more (verdict.json)\n", draws.size() - shown);
   return text;
 }
 

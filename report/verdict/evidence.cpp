@@ -7,7 +7,7 @@
 
 #include "core/laws/dc_motor.h"
 #include "core/plugin/robot_info.h"
-#include "core/scenario/built_motors.h"
+#include "core/scenario/built_robot.h"
 #include "core/scenario/change_section.h"
 #include "core/settings/wording.h"
 #include "report/analysis/motion.h"

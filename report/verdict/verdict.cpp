@@ -212,8 +212,8 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
                                       name_of(fault.kind), fault.from, until));
   }
   decide(run, made);
-  made.draws = draws_of(record, *scenario.robot);
-  made.draws_text = draws_text(made.draws, scenario.tolerances.any());
+  made.draws = draws_of(record, scenario);
+  made.draws_text = draws_text(made.draws, scenario.drawn > 0 || scenario.tolerances.any());
   if (const std::vector<JudgedJoint>& whole = summary.judged.whole; Judged::limited(whole) > 0) {
     made.first_joint = run.joint(Judged::first(whole));
     made.first_time = whole[Judged::first(whole)].first_limit_time;

@@ -1,6 +1,7 @@
 // The verdict on a run: whether the actual robot can perform the gait. It compares every known limit with the judged window or
 // the whole run.
 #pragma once
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -40,7 +41,7 @@ struct FailedCheck {
 
 /// Verdict on the gait with another seed (draws.h). Numbers that are not known are NaN.
 struct Draw {
-  double seed = 0;
+  std::int64_t seed = 0;
   Word word = Word::not_judged;
   double torque_peak = 0, torque_rms = 0;  ///< largest of all joints, N m
   double distance = 0;                     ///< m

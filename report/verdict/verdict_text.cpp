@@ -43,7 +43,7 @@ Json json_of(const Check& c) {
 }
 
 Json json_of(const Draw& draw) {
-  Json json{{"seed", json_number(draw.seed)},
+  Json json{{"seed", draw.seed},
             {"verdict", name_of(draw.word)},
             {"torque_peak", json_number(draw.torque_peak)},
             {"torque_rms", json_number(draw.torque_rms)},

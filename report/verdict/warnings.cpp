@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "core/laws/dc_motor.h"
-#include "core/scenario/built_motors.h"
+#include "core/scenario/built_robot.h"
 #include "core/scenario/sensor_section.h"
 #include "report/analysis/settings_numbers.h"
 

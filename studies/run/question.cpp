@@ -100,7 +100,8 @@ std::string answer(const Question& question, const JournalHead& head, std::span<
                    std::span<const std::vector<std::string>> quantities) {
   std::string text = fmt::format(R"({{"id":{})", question.id);
   const auto failed = std::ranges::find_if(runs, [](const Brief& run) { return run.outcome != "done"; });
-  const bool done = !runs.empty() && failed == runs.end();
+  const PointResult point = runs.empty() ? PointResult{} : point_result(head, runs);
+  const bool done = !runs.empty() && point.failed == 0;  // `share` tolerates some failed replicates
   if (runs.empty()) {
     text += R"(,"run":null,"outcome":"refused","message":)" + json_text(question.refused);
   } else {
@@ -117,13 +118,12 @@ std::string answer(const Question& question, const JournalHead& head, std::span<
     if (head.replicates > 1) values = "[" + values + "]";
     text += (k == 0 ? "" : ",") + json_text(head.quantities[k].name) + ":" + values;
   }
-  const PointResult point = done ? point_result(head, runs) : PointResult{};
   text += R"(},"objective":[)";
   for (std::size_t k = 0; k < head.objectives.size(); ++k)
     text += (k == 0 ? "" : ",") + (done ? json_number(point.score.objectives[k]) : "null");
   text += fmt::format(R"(],"violation":{},"kept":{},"feasible":{})", done ? json_number(point.score.violation) : "null",
                       done && point.kept(), done && point.feasible());
-  if (head.replicates > 1) text += R"(,"feasible_share":)" + (done ? json_number(point.feasible_share()) : "null");
+  if (head.replicates > 1) text += R"(,"feasible_share":)" + (runs.empty() ? "null" : json_number(point.feasible_share()));
   text += "}";
   return text;
 }

@@ -70,11 +70,19 @@ TEST_F(DrawnRobots, DecideTheExitCode) {
 TEST_F(DrawnRobots, NeedSomethingToDraw) {
   const Result none = call("run walk.yaml --set tolerances={} --draws 4 --out none");
   EXPECT_EQ(none.code, 2);
-  EXPECT_TRUE(contains(none.err, "--draws: error: the seed changes nothing: the scenario has no tolerances and no sensors"))
+  EXPECT_TRUE(contains(none.err, "--draws: error: the seed changes nothing: no tolerance draws a number, and no sensor draws"))
       << none.err;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "none"));
   const Result stated = call("run walk.yaml --set as_built={mass:\\ 1} --draws 1 --no-report --out stated");
   EXPECT_EQ(stated.code, 0) << stated.err;
+  // Neither the resolved scenario of a run, nor an encoder without errors, nor a single module has draws.
+  ASSERT_EQ(call("run walk.yaml --set duration=1 --no-report --out drawn").code, 0);
+  for (const char* same :
+       {"run drawn/scenario.resolved.yaml", "run walk.yaml --set tolerances={} --set 'sensors={type: encoder}'",
+        "run walk.yaml --set robot.docks=[] --set 'tolerances={dock_angle: 0.01}'"}) {
+    EXPECT_EQ(call(std::string(same) + " --draws 2 --out none").code, 2) << same;
+  }
+  EXPECT_EQ(call("run walk.yaml --seed 8999999999999999999 --draws 3 --out none").code, 2);
   const Result zero = call("run walk.yaml --draws 0 --out none");
   EXPECT_EQ(zero.code, 2);
   const Result sensors =

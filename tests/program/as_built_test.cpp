@@ -12,12 +12,12 @@
 namespace gaitlab::test {
 namespace {
 
-const std::string kAll =
+const std::string kEveryTolerance =
     "tolerances={mass: 0.03, inertia: 0.05, dock_angle: 0.01, foot_friction: 0.1, R: 0.07, Kt: 0.05, gear_friction: 0.1, "
     "supply: 0.02}";
 const std::string kTorques = "trace.columns=[joint.*, base.*]";
 
-Scenario caterpillar(std::vector<std::string> sets, const std::string& engine = "articulated") {
+Scenario built(std::vector<std::string> sets, const std::string& engine = "articulated") {
   sets.insert(sets.begin(), {"physics.engine=" + engine, "duration=0.3", kTorques});
   return shipped("caterpillar.yaml", sets);
 }
@@ -36,8 +36,8 @@ TEST_P(AsBuiltOf, FactorsActAsOtherDrawings) {
       {"as_built.foot_friction=0.5", {"ground.friction=0.4"}},
   };
   for (const auto& [factor, drawings] : pairs) {
-    EXPECT_EQ(alone(caterpillar({factor}, GetParam())), alone(caterpillar(drawings, GetParam()))) << factor;
-    EXPECT_NE(alone(caterpillar({factor}, GetParam())), alone(caterpillar({}, GetParam()))) << factor;
+    EXPECT_EQ(alone(built({factor}, GetParam())), alone(built(drawings, GetParam()))) << factor;
+    EXPECT_NE(alone(built({factor}, GetParam())), alone(built({}, GetParam()))) << factor;
   }
 }
 
@@ -50,8 +50,8 @@ TEST(AsBuilt, MassesScaleTorques) {
   heavy.insert(heavy.end(), {"as_built.mass=2", "actuator.Kt=0.0079", "actuator.Ks=0.001975"});
   std::vector<std::string> drawn = pushed;
   drawn.insert(drawn.end(), {"actuator.Kt=0.00395", "actuator.Ks=0.001975"});
-  const Recording a = run(caterpillar(heavy));
-  const Recording b = run(caterpillar(drawn));
+  const Recording a = run(built(heavy));
+  const Recording b = run(built(drawn));
   const Table twice(a.trace);
   const Table once(b.trace);
   for (std::size_t row = 0; row < a.trace.rows(); ++row) {
@@ -63,17 +63,17 @@ TEST(AsBuilt, MassesScaleTorques) {
 }
 
 TEST(AsBuilt, NothingLeavesTheSameBytes) {
-  const Scenario without = caterpillar({});
+  const Scenario without = built({});
   for (const char* none :
        {"tolerances={}", "as_built={}", "tolerances={mass: 0, R: 0}", "as_built={mass: 1, R: {m3/active: 1}}"}) {
-    const Scenario with = caterpillar({none});
+    const Scenario with = built({none});
     EXPECT_EQ(resolved(with), resolved(without)) << none;
     EXPECT_EQ(alone(with), alone(without)) << none;
   }
 }
 
 TEST(AsBuilt, TheResolvedScenarioHoldsTheDraw) {
-  const Scenario drawn = caterpillar({kAll, "seed=7"});
+  const Scenario drawn = built({kEveryTolerance, "seed=7"});
   const std::string text = resolved(drawn);
   const Scenario again = scenario(text);
   EXPECT_EQ(resolved(again), text);
@@ -81,14 +81,15 @@ TEST(AsBuilt, TheResolvedScenarioHoldsTheDraw) {
   ASSERT_FALSE(again.notes.empty());
   EXPECT_TRUE(contains(again.notes.back().text, "tolerances draws nothing"));
   EXPECT_EQ(alone(scenario(text, {"seed=8"})), alone(drawn));
-  EXPECT_EQ(alone(scenario(text, {"seed=8", "as_built={}"})), alone(caterpillar({kAll, "seed=8"})));
+  EXPECT_EQ(alone(scenario(text, {"seed=8", "as_built={}"})), alone(built({kEveryTolerance, "seed=8"})));
 }
 
 TEST(AsBuilt, EverySeedIsAnotherRobotInLanes) {
   std::vector<std::vector<std::string>> own;
   for (int seed = 1; seed <= 8; ++seed) own.push_back({fmt::format("seed={}", seed)});
   const std::vector<Scenario> all =
-      rollouts(kScenarios + "caterpillar.yaml", {"physics.engine=articulated", "duration=0.3", kTorques, kAll}, own, catalog());
+      rollouts(kScenarios + "caterpillar.yaml", {"physics.engine=articulated", "duration=0.3", kTorques, kEveryTolerance}, own,
+               catalog());
   std::vector<std::string> expected;
   for (const Scenario& s : all) {
     Scenario one = s;
@@ -109,12 +110,32 @@ TEST(AsBuilt, EverySeedIsAnotherRobotInLanes) {
   for (std::size_t i = 1; i < expected.size(); ++i) EXPECT_NE(expected[i], expected[0]);
 }
 
+// A stated number is not drawn, also not from the resolved scenario, even if it is neutral.
+TEST(AsBuilt, StatedNeutralNumbersStay) {
+  const Scenario stated = built({"tolerances={mass: 0.03}", "as_built={mass: 1}"});
+  EXPECT_EQ(stated.as_built, AsBuilt());
+  EXPECT_EQ(scenario(resolved(stated)).as_built, AsBuilt());
+}
+
+// The limit of an explicit step has the friction of each element.
+TEST(AsBuilt, FrictionLimitsTheStep) {
+  const auto refusal = [](const std::string& slippery) {
+    return message_of([&] {
+      const Scenario s = built({"physics.integrator=rk4", "physics.step=2e-5", slippery});
+      const Simulation simulation({&s, 1});
+    });
+  };
+  const std::string by_ground = refusal("ground.friction=80");
+  EXPECT_TRUE(contains(by_ground, "physics.step")) << by_ground;
+  EXPECT_EQ(refusal("as_built.foot_friction=100"), by_ground);
+}
+
 // A draw depends on seed and part alone: not on other tolerances, nor on stated numbers, nor on further modules.
 TEST(AsBuilt, ADrawDependsOnSeedAndPartAlone) {
-  const Scenario all = caterpillar({kAll});
-  const Scenario mass_alone = caterpillar({"tolerances={mass: 0.03}"});
+  const Scenario all = built({kEveryTolerance});
+  const Scenario mass_alone = built({"tolerances={mass: 0.03}"});
   EXPECT_EQ(all.as_built.numbers[0], mass_alone.as_built.numbers[0]);
-  const Scenario stated = caterpillar({kAll, "as_built={mass: {m3: 1.1}}"});
+  const Scenario stated = built({kEveryTolerance, "as_built={mass: {m3: 1.1}}"});
   for (std::size_t m = 0; m < 8; ++m) {
     EXPECT_EQ(stated.as_built.numbers[0][m], m == 3 ? 1.1 : all.as_built.numbers[0][m]) << m;
   }
@@ -122,21 +143,21 @@ TEST(AsBuilt, ADrawDependsOnSeedAndPartAlone) {
 }
 
 TEST(AsBuilt, MassesAndInertias) {
-  const Scenario drawn = caterpillar({});
-  const Scenario built = caterpillar({"as_built={mass: {m3: 2}, inertia: {m5: 4}}"});
+  const Scenario drawn = built({});
+  const Scenario other = built({"as_built={mass: {m3: 2}, inertia: {m5: 4}}"});
   for (std::size_t b = 0; b < drawn.robot->bodies.size(); ++b) {
     const Body& before = drawn.robot->bodies[b];
-    const Body& after = built.robot->bodies[b];
+    const Body& after = other.robot->bodies[b];
     EXPECT_EQ(after.mass, before.mass * (before.module == 3 ? 2 : 1));
     EXPECT_EQ(after.inertia, Mat3(before.inertia * (before.module == 3 ? 2 : before.module == 5 ? 4 : 1)));
   }
-  EXPECT_NEAR(built.robot->mass, drawn.robot->mass * 9 / 8, 1e-12);
+  EXPECT_NEAR(other.robot->mass, drawn.robot->mass * 9 / 8, 1e-12);
 }
 
 // The module is turned about the normal of the face on which it is docked, at the dock.
 TEST(AsBuilt, DockAngles) {
-  const Scenario drawn = caterpillar({});
-  const Scenario built = caterpillar({"as_built={dock_x: {m1: 0.1}}"});
+  const Scenario drawn = built({});
+  const Scenario other = built({"as_built={dock_x: {m1: 0.1}}"});
   const auto poses = [](const Scenario& s, std::vector<Pose>& out) {
     const Kinematics k = at_zero(*s.robot);
     for (const Body& body : s.robot->bodies) {
@@ -146,7 +167,7 @@ TEST(AsBuilt, DockAngles) {
   std::vector<Pose> before;
   std::vector<Pose> after;
   poses(drawn, before);
-  poses(built, after);
+  poses(other, after);
   const RobotInfo robot = info(*drawn.robot);
   const Vec3 normal(robot.modules[1].normal.data());
   const Pose turned{turn(normal, 0.1).toRotationMatrix(), Vec3::Zero()};
@@ -183,6 +204,7 @@ TEST(AsBuilt, WrongInput) {
       {"as_built={mass: heavy}", "mass is 'heavy'; expected a number"},
       {"as_built={R: {m3/activ: 1}}", "no joint 'm3/activ'; did you mean 'm3/active'?"},
       {"as_built={R: {m3: 1}}", "no joint 'm3'; known joints: m0/active, m0/passive"},
+      {"as_built={dock_x: {m0: 0.1}}", "m0 has no dock_x: it is docked to no parent"},
       {"as_built={dock_x: {m3: 2}}", "dock_x of 'm3' is 2 rad; allowed are -0.5 to 0.5 rad"},
       {"as_built={supply: {m3: 1}}", "supply is a map; expected a number"},
       {"as_built={foot_friction: {\"m*\": 1, \"*1\": 2}}",

@@ -22,7 +22,7 @@ export function judgement(run: Run): Judgement {
   const judged = ofRun(run);
   const { draws } = run.recording.meta.verdict ?? {};
   if (!draws) return judged;
-  const why = [...judged.why, `With other seeds: ${sentence(draws.text)}`];
+  const why = [...judged.why, sentence(draws.text)];
   if (judged.mood !== "good" || draws.feasible === draws.count) return { ...judged, why };
   return { ...judged, mood: "open", said: `Feasible with ${draws.feasible} of ${draws.count} seeds`, why };
 }

@@ -164,8 +164,9 @@ export class Stage implements Panel {
       const tip = view.project(at);
       return tip ? [{ text, x: tip[0], y: tip[1] }] : [];
     };
+    const above = 16; // pixels, so that the name does not hide its sensor
     this.labels.show([
-      ...view.marks.sensorsAt().flatMap(({ name, at }) => label(name, at)),
+      ...view.marks.sensorsAt().flatMap(({ name, at }) => label(name, at).map((l) => ({ ...l, y: l.y - above }))),
       ...(view.marks.axes ? order.flatMap((k) => label(joints[k].name, view.marks.tip(k))) : []),
     ]);
   }

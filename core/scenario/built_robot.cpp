@@ -1,4 +1,4 @@
-#include "core/scenario/built_motors.h"
+#include "core/scenario/built_robot.h"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,17 @@ namespace gaitlab {
 
 namespace {
 
-DcMotor built(DcMotor motor, const MotorBuild& build) {
-  const bool limited_at_stall = motor.i_max == motor.u_max / motor.R;
+/// Finds the joints whose key `i_max` is not stated, so that the actuator derives their limits from the current at stall.
+struct DerivedLimits final : Fields {
+  PerJoint i_max{1};
+  void visit(const Field& field) override {
+    const auto* each = std::get_if<field::EachJoint>(&field.value);
+    if (each != nullptr && std::string_view(field.key) == "i_max") i_max = each->value;
+  }
+  void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
+};
+
+DcMotor built(DcMotor motor, const MotorBuild& build, bool limited_at_stall) {
   motor.R *= build.R;
   motor.Kt *= build.Kt;
   motor.Ks *= build.Kt;
@@ -28,12 +37,15 @@ class BuiltMotors final : public MotorBank {
   BuiltMotors(const Actuator& drawn, std::span<const Scenario* const> lanes) {
     const In inertia = drawn.reflected_inertia();
     const auto ratings = drawn.ratings();
+    std::vector<DerivedLimits> limits(lanes.size());
+    for (std::size_t l = 0; l < lanes.size(); ++l)
+      visit_settings(*lanes[l]->actuator.entry, lanes[l]->actuator.settings.get(), limits[l]);
     for (std::size_t j = 0; j < lanes[0]->robot->joints.size(); ++j) {
       for (std::size_t l = 0; l < lanes.size(); ++l) {
         const std::size_t i = j * lanes.size() + l;
         const MotorBuild build = motor_build(lanes[l]->as_built, j);
         const DcMotor& motor = drawn.dc_motors()[i];
-        add(build == MotorBuild() ? motor : built(motor, build), inertia.empty() ? 0 : inertia[i],
+        add(build == MotorBuild() ? motor : built(motor, build, !(limits[l].i_max[j] > 0)), inertia.empty() ? 0 : inertia[i],
             ratings.empty() ? DriveRatings() : ratings[i]);
       }
     }
@@ -41,6 +53,17 @@ class BuiltMotors final : public MotorBank {
 };
 
 }  // namespace
+
+std::string build_robot(Scenario& scenario, bool stated) {
+  const Robot& drawn = *scenario.robot;
+  scenario.drawn = draw(scenario.as_built, scenario.tolerances, drawn, static_cast<std::uint64_t>(scenario.seed));
+  const std::vector<ModuleBuild> modules = module_builds(scenario.as_built, drawn.modules.size());
+  if (!modules.empty()) scenario.robot = std::make_shared<const Robot>(as_built(drawn, modules));
+  if (scenario.drawn > 0 || !scenario.tolerances.any()) return "";
+  return stated ? "tolerances draws nothing: as_built states every number, as in the resolved scenario of a run; for another "
+                  "robot use the scenario of that run, or --set as_built={}"
+                : "tolerances draws nothing: no part of the robot has such a number";
+}
 
 std::unique_ptr<Actuator> make_motors(std::span<const Scenario* const> lanes) {
   std::vector<const PluginSelection*> selections;
@@ -67,10 +90,14 @@ std::string not_buildable(const Scenario& scenario, const Actuator* actuator, co
     const double factor = motor_build(scenario.as_built, j).gear_friction;
     if (!scenario.robot->joints[j].driven() || factor == 1 || motors[j].efficiency > 0) continue;
     const double lost = (1 - motors[j].efficiency) / factor;  // of the gear as drawn
-    return fmt::format(
-        "gear_friction {:.4g} of {} makes its efficiency {:.4g}, which was {:.4g}; expected an efficiency above 0, thus a "
-        "factor below {:.4g}",
-        factor, scenario.robot->joints[j].name, motors[j].efficiency, 1 - lost, 1 / lost);
+    const std::string wrong = fmt::format(
+        "gear_friction {:.4g} of {} makes its efficiency {:.4g}, which was {:.4g}; expected an efficiency above 0, ", factor,
+        scenario.robot->joints[j].name, motors[j].efficiency, 1 - lost);
+    if (of_motors.starts_with(kTolerancesSection)) {
+      return wrong +
+             fmt::format("for every seed with a deviation below {:.4g} (this is seed {})", (1 / lost - 1) / 3, scenario.seed);
+    }
+    return wrong + fmt::format("thus a factor below {:.4g}", 1 / lost);
   }
   return "";
 }

@@ -1,4 +1,4 @@
-// The actuator of a robot as built.
+// The robot of a scenario as built, and its actuator.
 #pragma once
 #include <memory>
 #include <span>
@@ -8,6 +8,10 @@
 #include "core/scenario/scenario.h"
 
 namespace gaitlab {
+
+/// Draws the differences of the robot from the drawings that are not stated, and builds the robot with them. `stated` is true
+/// if the scenario has a section `as_built`. Returns a note if the tolerances draw nothing, else "".
+std::string build_robot(Scenario& scenario, bool stated);
 
 /// The actuator of scenarios with the same plugin, one lane each, with the constants of their motors as built
 /// (core/scenario/as_built.h). A current limit that is the current at stall follows resistance and voltage limit. Null if the
