@@ -16,9 +16,17 @@ std::vector<double> Series::values() const {
 }
 
 const std::vector<std::string>& report_columns() {
-  static const std::vector<std::string> kPatterns{"joint.*.setpoint", "joint.*.angle", "joint.*.measured", "joint.*.torque", "joint.*.saturation",
-                                                  "base.?",           "base.q?",       "com.?",          "load.*",
-                                                  "box.*.?",          "box.*.q?"};
+  static const std::vector<std::string> kPatterns{"joint.*.setpoint",
+                                                  "joint.*.angle",
+                                                  "joint.*.measured",
+                                                  "joint.*.torque",
+                                                  "joint.*.saturation",
+                                                  "base.?",
+                                                  "base.q?",
+                                                  "com.?",
+                                                  "load.*",
+                                                  "box.*.?",
+                                                  "box.*.q?"};
   return kPatterns;
 }
 
