@@ -96,7 +96,8 @@ class Race {
     return at == references.end() ? nullptr : &*at;
   }
 
-  /// Adds a runner for each step of a contender. Every lane has other motor values, because rollouts also differ in a study.
+  /// Adds a benchmark for each time step of a contender. Every lane has other motor values, because rollouts also differ in a
+  /// study.
   void enter(const std::string& file, const std::string& name, const Contender& c, const std::vector<Converged>& references,
              std::vector<Runner>& runners) {
     const Converged* reference = find(references, c.reference);

@@ -25,7 +25,7 @@ class Hopf final : public OscillatorCpg<HopfModel> {
   [[nodiscard]] double pace(double y) const;
 
  private:
-  double scale_ = 1;  ///< factor by which the mean frequency becomes f
+  double scale_ = 1;  ///< factor on the frequency, so that its mean is f
   PhaseTable angle_;  ///< angle on the circle as a function of the phase, and the inverse
 };
 

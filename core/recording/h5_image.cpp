@@ -305,7 +305,8 @@ StoredTrace from_image(const Image& file_bytes) {
   const Handle file(H5Fopen(nowhere().c_str(), H5F_ACC_RDONLY, access), H5Fclose, "opening the file");
   const auto text = [&](const char* name) { return read_texts(file, name, 0, view(file_bytes)).front(); };
   const std::string format = text("format");
-  if (!view(file_bytes).starts_with(format + "\n")) throw ImageError("the attribute `format` is not that of the first line");
+  if (!view(file_bytes).starts_with(format + "\n"))
+    throw ImageError("the attribute `format` differs from the format in the first line of the file");
   const bool first = format == kTraceFormats[0];
   StoredTrace stored;
   stored.origin = {text("scenario"), read_number(file, "seed"), text("build"), first ? "" : text("outcome"),

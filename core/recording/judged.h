@@ -45,7 +45,7 @@ struct Judged {
   /// the first of them.
   [[nodiscard]] static std::size_t farthest(const std::vector<JudgedJoint>& joints);
   [[nodiscard]] static std::size_t strongest(const std::vector<JudgedJoint>& joints);
-  /// Joint that is the first to reach a limit. At least one joint must reach a limit.
+  /// Joint that is the first to reach a limit. Requires that at least one joint reaches a limit.
   [[nodiscard]] static std::size_t first(const std::vector<JudgedJoint>& joints);
 };
 

@@ -23,6 +23,39 @@ constexpr const char* kSection = "at";
 constexpr std::array kSections{"cpg", "controller"};
 constexpr double kLongestDelay = 100;  // s
 
+/// Time of the first control tick at t or later.
+double tick_time(double t, const Scenario& scenario) {
+  return static_cast<double>(first_tick(t, scenario.control_period)) * scenario.control_period;
+}
+
+/// True if a fault changes anything.
+bool acts(const JointFault& fault) {
+  using enum FaultKind;
+  return fault.kind != none && !(fault.kind == weak && fault.share == 1) && !(fault.kind == lost && fault.share == 0) &&
+         !(fault.kind == late && fault.delay == 0);
+}
+
+/// Keys of a plugin's settings in full.
+Node settings_node(const PluginSelection& plugin, const std::vector<std::string>& joints) {
+  Writer writer(joints);
+  if (plugin.entry != nullptr) visit_settings(*plugin.entry, plugin.settings.get(), writer);
+  return writer.take();
+}
+
+/// Adds the keys of a section that `set` names, or that differ from the segment before, to `all`.
+void add_set(const std::string& section, const PluginSelection& before, const PluginSelection& now, const Node& set,
+             const std::vector<std::string>& joints, Writer& all) {
+  const Node old = settings_node(before, joints);
+  Node keys = settings_node(now, joints);
+  for (std::size_t i = 0; i < keys.keys.size(); ++i) {
+    const std::string key = section + "." + keys.keys[i].first;
+    const auto names = [&](const auto& one) { return one.first == key || one.first.starts_with(key + "."); };
+    const Node* const then = old.find(keys.keys[i].first);
+    if (std::ranges::none_of(set.keys, names) && then != nullptr && print_yaml(*then) == print_yaml(keys.items[i])) continue;
+    all.add(key, std::move(keys.items[i]));
+  }
+}
+
 /// Reads the entries of the section one after another.
 class ChangeReader {
  public:
@@ -61,6 +94,9 @@ class ChangeReader {
     } else if (t >= scenario_.duration) {
       problems_.add(node.place,
                     fmt::format("t is {} s; the run ends at {} s", number_text(t), number_text(scenario_.duration)));
+    } else if (const double tick = tick_time(t, scenario_); tick >= scenario_.duration) {
+      problems_.add(node.place, fmt::format("t is {} s, whose control tick is at {:.6g} s; the run ends at {} s",
+                                            number_text(t), tick, number_text(scenario_.duration)));
     }
   }
 
@@ -197,10 +233,18 @@ std::vector<Change> read_changes(const Node& root, const Scenario& scenario, Joi
 
 Node changes_node(const Scenario& scenario, const std::vector<std::string>& joints) {
   Node all{Node::Kind::list};
-  for (Change change : scenario.changes) {
+  const PluginSelection* cpg = &scenario.cpg;
+  const PluginSelection* controller = &scenario.controller;
+  for (const Change& entry : scenario.changes) {
+    Change change = entry;
     Writer one(joints);
     ChangeKeys{change}.fields(one);
-    if (!change.set.items.empty()) one.add("set", change.set);
+    Writer set(joints);
+    add_set("cpg", *cpg, entry.cpg, entry.set, joints, set);
+    add_set("controller", *controller, entry.controller, entry.set, joints, set);
+    if (Node keys = set.take(); !keys.items.empty()) one.add("set", std::move(keys));
+    cpg = &entry.cpg;
+    controller = &entry.controller;
     Node faults{Node::Kind::list};
     for (JointFault& fault : change.faults) {
       Writer keys(joints);
@@ -230,22 +274,31 @@ std::vector<std::size_t> joints_of(const JointFault& fault, const Robot& robot) 
 std::vector<FaultSpan> fault_spans(const Scenario& scenario) {
   std::vector<FaultSpan> all;
   for (const Change& change : scenario.changes) {
+    const double from = tick_time(change.t, scenario);
     for (const JointFault& fault : change.faults) {
       for (const std::size_t joint : joints_of(fault, *scenario.robot)) {
         for (FaultSpan& one : all) {
-          if (one.joint == joint && !std::isfinite(one.to)) one.to = change.t;
+          if (one.joint == joint && !std::isfinite(one.to)) one.to = from;
         }
-        if (fault.kind == FaultKind::none) continue;
-        all.push_back({joint, fault.kind, change.t, std::numeric_limits<double>::infinity()});
+        if (acts(fault)) all.push_back({joint, fault.kind, from, std::numeric_limits<double>::infinity()});
       }
     }
   }
+  std::erase_if(all, [](const FaultSpan& one) { return one.to <= one.from; });  // replaced within its change
   return all;
+}
+
+std::int64_t first_tick(double t, double control_period) {
+  constexpr double kSameTick = 1e-7;  // ticks; more than the rounding error of times
+  return static_cast<std::int64_t>(std::ceil(t / control_period - kSameTick));
 }
 
 double last_change(const Scenario& scenario, double end) {
   double last = 0;
-  for (const Change& change : scenario.changes) last = change.t < end ? change.t : last;
+  for (const Change& change : scenario.changes) {
+    const double t = tick_time(change.t, scenario);
+    last = t < end ? t : last;
+  }
   return last;
 }
 

@@ -1,5 +1,6 @@
 // The section `at` of a scenario: changes of settings and faults of joints at times of the run.
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -40,22 +41,27 @@ using ReadSegment = std::function<Scenario(const Node& root, const std::vector<s
 std::vector<Change> read_changes(const Node& root, const Scenario& scenario, JointNames joints, const ReadSegment& read,
                                  Problems& problems);
 
-/// The section for the resolved scenario, with the settings as given.
+/// The section for the resolved scenario. `set` has the settings that it states and those that differ from the segment before,
+/// in full.
 Node changes_node(const Scenario& scenario, const std::vector<std::string>& joints);
+
+/// Number of the first control tick at a time or later.
+std::int64_t first_tick(double t, double control_period);
 
 /// Joints with a motor that a fault names, ascending.
 std::vector<std::size_t> joints_of(const JointFault& fault, const Robot& robot);
 
-/// Fault of a joint from the time of a change until the time of another one; infinity until the end of the run.
+/// Fault of a joint from the control tick of a change until that of another one; infinity until the end of the run.
 struct FaultSpan {
   std::size_t joint = 0;
   FaultKind kind = FaultKind::none;
   double from = 0, to = 0;  ///< s
 };
-/// The faults of a run, by the times at which they begin, then by joint.
+/// The faults of a run, by the times at which they begin, then by joint. A fault without an effect (`weak` with share 1, `lost`
+/// with share 0, `late` with delay 0) is none.
 std::vector<FaultSpan> fault_spans(const Scenario& scenario);
 
-/// Time of the last change before `end`, s; 0 without changes.
+/// Time of the control tick of the last change before `end`, s; 0 without changes.
 double last_change(const Scenario& scenario, double end);
 
 /// True if a joint gets a fault in the run.

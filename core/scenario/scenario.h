@@ -65,7 +65,7 @@ struct TraceSettings {
   void fields(Fields& f);
 };
 
-/// Joints of the file figure.svg.
+/// Joints that figure.svg draws.
 struct FigureSettings {
   std::vector<std::string> joints;  ///< joint names from top to bottom; empty if the figure chooses the joints
   void fields(Fields& f);
@@ -135,8 +135,8 @@ struct JointFault {
   double delay = 0;  ///< late: s
 };
 
-/// A change at a time of the run: settings, a fault of joints, or both. The change takes effect at the first control tick at
-/// `t` or later.
+/// A change at a given time of the run: new settings, faults of joints, or both. The change takes effect at the first control
+/// tick at `t` or later.
 struct Change {
   double t = 0;                     ///< s
   Node set = {Node::Kind::map};     ///< settings by key, such as `cpg.frequency`

@@ -190,7 +190,7 @@ void Limits::fields(Fields& f) {
   f.number("warn_share", warn_share,
            {"", 0, 1,
             "Share of the limits of motors, gears and docks (torque at that speed, ratings) above which the verdict warns. "
-            "Default: chosen."});
+            "Default: our choice."});
   f.number("tracking_error", tracking_error,
            {"rad", kPositive, 1000,
             "Largest allowed difference of set point and angle; up to twice this is a warning, more is a failure. Default: the "
@@ -200,21 +200,24 @@ void Limits::fields(Fields& f) {
       {"", 0, 1,
        "Share of the judged window that a joint may be at a limit of its motor; less is a warning, more a failure. Default: "
        "chosen."});
-  f.number("saturated_periods", saturated_periods,
-           {"", 0, 1e6,
-            "Longest stretch at the limit, in control periods; a longer one is a failure. Default: chosen; a step of the set "
-            "point takes one or two."});
-  f.number("height", height,
-           {"", 0, 1,
-            "Share of its height above the ground at the start below which the centre of mass has fallen. Default: chosen."});
+  f.number(
+      "saturated_periods", saturated_periods,
+      {"", 0, 1e6,
+       "Longest stretch at the limit, in control periods; a longer one is a failure. Default: our choice; a step of the set "
+       "point takes one or two."});
+  f.number(
+      "height", height,
+      {"", 0, 1,
+       "Share of its height above the ground at the start below which the centre of mass has fallen. Default: our choice."});
   f.number(
       "tilt", tilt,
-      {"rad", kPositive, 4, "Tilt of the base from its start above which the verdict warns. Default: 60 degrees, chosen."});
-  f.number("beyond_range", beyond_range,
-           {"rad", 0, 100,
-            "Largest angle of a joint beyond its range; less is a warning. Default: chosen, the deflection of a soft stop."});
+      {"rad", kPositive, 4, "Tilt of the base from its start above which the verdict warns. Default: 60 degrees, our choice."});
+  f.number(
+      "beyond_range", beyond_range,
+      {"rad", 0, 100,
+       "Largest angle of a joint beyond its range; less is a warning. Default: our choice, the deflection of a soft stop."});
   f.number("beyond_range_share", beyond_range_share,
-           {"", 0, 1, "Share of the time that a joint may be beyond its range; less is a warning. Default: chosen."});
+           {"", 0, 1, "Share of the time that a joint may be beyond its range; less is a warning. Default: our choice."});
   f.number(
       "start_jump", start_jump,
       {"rad", 0, 100,
@@ -224,7 +227,7 @@ void Limits::fields(Fields& f) {
             "Overlap of two bodies above which there is a warning. Default: covers the error of cylinders (computed as prisms) "
             "and the deflection of a hinge's stop."});
   f.number("collision", collision,
-           {"m", 0, 10, "Largest overlap of two bodies; less is a warning, more a failure. Default: chosen."});
+           {"m", 0, 10, "Largest overlap of two bodies; less is a warning, more a failure. Default: our choice."});
   f.number("sink", sink, {"m", 0, 10, "Largest depth of a body in the ground. Default: covers the compression of the ground."});
   f.number(
       "energy_residual", energy_residual,
@@ -232,11 +235,11 @@ void Limits::fields(Fields& f) {
        "Share of the energy drawn that may be unaccounted for without a warning; above 5 % a run is not judged. Default: the "
        "error of the torques that is judged."});
   f.number("energy_created", energy_created,
-           {"", 0, 1, "Share of the energy drawn that back-driven gears may create (eq. 2). Default: chosen."});
+           {"", 0, 1, "Share of the energy drawn that back-driven gears may create (eq. 2). Default: our choice."});
   f.number("slip", slip,
            {"", 0, 1e6,
             "Largest slip distance of the feet, weighted by their loads, as a share of the robot's path; more is a warning. "
-            "Default: chosen."});
+            "Default: our choice."});
   f.number("torque_error", torque_error,
            {"", kPositive, 1,
             "Estimated error of a joint's torque, as a share of its largest torque, above which a run is not judged. Default: "
@@ -297,10 +300,10 @@ void SectionFields::fields(Fields& f) {
   f.group("trace", scenario.trace, "The recorded trace.");
   if (!writing || scenario.limits != Limits()) f.group("limits", scenario.limits, "Limits of the verdict.");
   if (!writing || !scenario.figure.joints.empty()) f.group("figure", scenario.figure, "Content of figure.svg.");
-  f.integer(
-      "seed", scenario.seed,
-      {"", 0, 9e18,
-       "Seed of all draws: of the robot within its tolerances, and of the noise, zeros, delays and losses of its sensors."});
+  f.integer("seed", scenario.seed,
+            {"", 0, 9e18,
+             "Seed of all draws: of the robot within its tolerances, of the noise, zeros, delays and losses of its sensors, "
+             "and of lost set points (at)."});
 }
 
 std::vector<std::string> joint_names(const Robot& robot) {

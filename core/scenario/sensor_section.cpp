@@ -139,7 +139,12 @@ bool quantised(const Scenario& scenario) {
 }
 
 bool seed_matters(const Scenario& scenario) {
-  return scenario.drawn > 0 || std::ranges::any_of(make_sensors(scenario), [](const auto& sensor) { return sensor->draws(); });
+  const auto loses = [](const JointFault& fault) {
+    return fault.kind == FaultKind::lost && fault.share > 0 && fault.share < 1;
+  };
+  const auto draws = [&](const Change& change) { return std::ranges::any_of(change.faults, loses); };
+  return scenario.drawn > 0 || std::ranges::any_of(scenario.changes, draws) ||
+         std::ranges::any_of(make_sensors(scenario), [](const auto& sensor) { return sensor->draws(); });
 }
 
 std::vector<std::string> default_columns(const Scenario& scenario) {

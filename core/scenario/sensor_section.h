@@ -26,7 +26,7 @@ std::vector<SensorReading> sensor_readings(const Scenario& scenario);
 /// True if a sensor has a resolution. Runs of the scenario with other steps, or of another build, then differ by a large share
 /// of their torques, because the loop amplifies the last bit. Throws PluginError.
 bool quantised(const Scenario& scenario);
-/// True if the seed changes the robot or a value of a sensor. Throws PluginError.
+/// True if the seed changes the robot, a value of a sensor, or the losses of set points. Throws PluginError.
 bool seed_matters(const Scenario& scenario);
 /// Columns of the trace by default: those of TraceSettings, those of sensors that belong to no joint, and
 /// `segment` in a run with changes. Throws PluginError.

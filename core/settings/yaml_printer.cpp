@@ -115,7 +115,7 @@ std::string print_yaml(const Node& node, int indent) {
   for (std::size_t i = 0; i < node.items.size(); ++i) {
     const Node& item = node.items[i];
     if (node.kind == Node::Kind::list) {
-      // The text of the item. A dash replaces the margin of its first line.
+      // The text of the item. A dash replaces the indentation of the first line.
       out += margin + "- " + print_yaml(item, indent + 2).substr(margin.size() + 2);
     } else if (fits_block(item)) {
       out += margin + key_text(node.keys[i].first) + ": " + block(item.text, indent + 2);

@@ -12,9 +12,6 @@ namespace gaitlab {
 namespace {
 
 constexpr std::uint32_t kDraw = 16;  // of lost set points; sensors have the draws below
-constexpr double kSameTick = 1e-7;   // ticks; more than the rounding error of times
-
-std::int64_t first_tick(double t, double period) { return static_cast<std::int64_t>(std::ceil(t / period - kSameTick)); }
 
 }  // namespace
 

@@ -263,16 +263,17 @@ std::vector<bool> matched(const Scenario& scenario, const std::vector<Column>& c
       if (!glob(pattern, columns[i].name)) continue;
       wanted[i] = found = true;
     }
-    const bool of_no_joint =
-        scenario.robot->joints.empty() && pattern.starts_with("joint.");  // the default patterns include joint.*
-    if (found || of_no_joint) continue;
+    // The default patterns include joint.*, and segment in a scenario with changes.
+    const bool of_default = pattern == "segment" || (scenario.robot->joints.empty() && pattern.starts_with("joint."));
+    if (found || of_default) continue;
     constexpr std::size_t kMostOffers = 200;  // largest number of names shown
     const std::string near = problems.size() < kMostOffers ? nearest(pattern, names) : "";
-    problems.add(scenario.place("trace.columns"),
-                 fmt::format("{} matches no column{}", in_quotes(pattern),
-                             near.empty() ? "; groups are t, joint, base, com, contact, load, body, box, "
-                                            "cpg, energy, momentum, angular_momentum, steps, torque_error, reaction, sensor"
-                                          : "; did you mean '" + near + "'?"));
+    problems.add(
+        scenario.place("trace.columns"),
+        fmt::format("{} matches no column{}", in_quotes(pattern),
+                    near.empty() ? "; groups are t, joint, base, com, contact, load, body, box, "
+                                   "cpg, energy, momentum, angular_momentum, steps, torque_error, reaction, sensor, segment"
+                                 : "; did you mean '" + near + "'?"));
   }
   problems.raise();
   return wanted;

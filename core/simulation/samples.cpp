@@ -109,6 +109,7 @@ void Simulation::record_within_step() {
     std::ranges::copy(saved_, state_.begin());
     if (lanes_.size() > 1) {
       for (Lane* lane : ended_) place_at_start(*lane);
+      apply_faults();
     }
     at = row;
   }

@@ -114,7 +114,9 @@ void Simulation::fail(Lane& lane, const SimulationError& error) {
 /// produce NaN.
 void Simulation::end(Lane& lane) {
   close(lane);
-  if (lanes_.size() > 1) place_at_start(lane);
+  if (lanes_.size() == 1) return;
+  place_at_start(lane);
+  apply_faults();
 }
 
 /// Evaluates the actuator law at `speeds` under the commands in force.

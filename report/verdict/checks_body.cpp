@@ -135,9 +135,14 @@ void tracking(const CheckedRun& run, Check& made) {
 
 void stops(const CheckedRun& run, Check& made) {
   std::vector<BeyondRange> joints = beyond_range(*run.scenario.robot, run.record);
+  std::size_t faulty = 0;
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    if (run.faulty(j, CheckSpan::whole_run)) joints[j] = {};
+    if (!run.faulty(j, CheckSpan::whole_run)) continue;
+    joints[j] = {};
+    ++faulty;
   }
+  made.text = kAllFaulty;
+  if (faulty > 0 && faulty == joints.size()) return;
   made.text = "neither statistics of all steps were recorded nor the angle of every joint";
   if (joints.empty() && !run.scenario.robot->joints.empty()) return;
   made.value = 0;

@@ -40,7 +40,7 @@ void judge_length(const Scenario& s, const Recording& r, const Summary& summary,
     const double needed = kPeriodsNeeded * period;
     if (left < needed * (1 - kEstimate)) {
       made.rests_on = fmt::format("{:.3g} s after the last change", left);
-      made.too_short = {fmt::format("{:.3g} s after the last change (t = {:.4g} s), needs {:.4g}: a gait's {:g} periods of "
+      made.too_short = {fmt::format("{:.3g} s after the last change (t = {:.3g} s), needs {:.4g}: a gait's {:g} periods of "
                                     "{:.4g} s; take duration: {:.4g}",
                                     left, since, needed, kPeriodsNeeded, period, since + needed),
                         "duration"};

@@ -89,6 +89,11 @@ TEST_F(DrawnRobots, NeedSomethingToDraw) {
       call("run walk.yaml --set tolerances={} --set 'sensors={type: encoder, noise: 0.001}' --draws 2 --no-report --out noise");
   EXPECT_EQ(sensors.code, 0) << sensors.err;
   EXPECT_TRUE(contains(sensors.out, "of 2 draws")) << sensors.out;
+  const Result lost = call(
+      "run walk.yaml --set tolerances={} --set 'at=[{t: 0, fault: {joint: \"*\", kind: lost, share: 0.1}}]' --draws 2 "
+      "--no-report "
+      "--out lost");
+  EXPECT_EQ(lost.code, 0) << lost.err;
 }
 
 TEST_F(DrawnRobots, ReplicatesOfAStudyAreRobots) {

@@ -24,7 +24,7 @@ class Swap : public ::testing::Test {
   Folder folder;
 };
 
-/// Cells of a CSV text whose cells contain no quotes and no line breaks.
+/// Cells of a CSV text without quotes and without line breaks in cells.
 std::vector<std::vector<std::string>> cells(const std::string& text) {
   std::vector<std::vector<std::string>> rows;
   std::istringstream lines(text);

@@ -80,6 +80,18 @@ TEST_P(FaultsOf, AnOpenJointHasNeitherTorqueNorCurrent) {
 }
 
 // Motors of 1.97 N m against 5000 N m/rad: 4e-4 rad, as much again by the weight of the modules, and a little by the impact.
+// The resolved scenario states the settings of a segment in full: values by joint are lists.
+TEST(Faults, TheResolvedScenarioCanBeReadAgain) {
+  const Scenario s =
+      shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=1.2", "cpg.amplitude={default: 0.6, 'm0/*': 0.3}",
+                                   "at=[{t: 0.3, set: {cpg.amplitude.m3/active: 0.1, controller.Kp.m1/active: 50}}, "
+                                   "{t: 0.6, set: {controller.Kp.m1/active: 50}}]"});
+  const std::string text = resolved(s);
+  const Scenario again = scenario(text);
+  EXPECT_EQ(resolved(again), text);
+  EXPECT_EQ(alone(again), alone(s));
+}
+
 TEST(Faults, AStuckJointStaysWhereItIs) {
   const Recording r =
       run(caterpillar({"duration=6", fault("stuck", "2"), "trace.columns=[joint.*, energy.*]", "physics.estimate=off"}));

@@ -1,10 +1,12 @@
 // Verdict, window and demand of runs with changes and faults (section `at`).
 #include <algorithm>
 
+#include "core/scenario/change_section.h"
 #include "report/analysis/changes.h"
 #include "report/analysis/fall.h"
 #include "report/verdict/demand.h"
 #include "report/verdict/screen.h"
+#include "tests/messages.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -77,7 +79,7 @@ TEST(FaultVerdict, AFaultThatEndsIsPartOfWholeRunChecksOnly) {
                          "{t: 8, fault: {joint: m3/active, kind: none}}]"});
   EXPECT_EQ(ended.judged.word, Word::feasible) << ended.judged.why();
   EXPECT_EQ(ended.judged.faults,
-            std::vector<std::string>{"m3/active: not judged by checks of the whole run (weak from t = 4 s to 8 s)"});
+            std::vector<std::string>{"m3/active: not judged by checks of the whole run (weak from t = 4.005 s to 8.01 s)"});
   EXPECT_GE(ended.summary.judged.from, 8);
 }
 
@@ -87,6 +89,33 @@ TEST(FaultVerdict, WithoutAnyHealthyJointMotorsAreNotJudged) {
   EXPECT_EQ(all.check("voltage").text, "every joint has a fault");
   EXPECT_EQ(all.check("heat").text, "every joint has a fault");
   EXPECT_EQ(all.check("tracking").text, "every joint has a fault");
+  EXPECT_EQ(all.check("stops").text, "every joint has a fault");
+  EXPECT_EQ(all.check("stops").status, CheckStatus::not_judged);
+}
+
+// A fault that is replaced within its change, or has no effect, leaves the joint to the checks.
+TEST(FaultVerdict, WithoutEffectThereIsNoFault) {
+  const Scenario s = shipped(
+      "caterpillar.yaml", {"at=[{t: 4, fault: [{joint: '*', kind: weak, share: 0.5}, {joint: m3/active, kind: none}]}, "
+                           "{t: 5, fault: [{joint: '*', kind: lost, share: 0}, {joint: m4/active, kind: weak, share: 1}]}]"});
+  const std::vector<FaultSpan> spans = fault_spans(s);
+  EXPECT_EQ(spans.size(), 15U);
+  for (const FaultSpan& span : spans) {
+    EXPECT_NE(s.robot->joints[span.joint].name, "m3/active");
+    EXPECT_NEAR(span.from, 267 * 0.015, 1e-12);
+    EXPECT_NEAR(span.to, 334 * 0.015, 1e-12);
+  }
+}
+
+// A time between control ticks counts from the next tick, which may be the end of the run.
+TEST(FaultVerdict, ChangesCountFromTheirTick) {
+  const auto at = [](const std::string& t) {
+    return shipped("caterpillar.yaml", {"duration=20", "at=[{t: " + t + ", fault: {joint: m3/active, kind: dead}}]"});
+  };
+  EXPECT_NEAR(last_change(at("10"), 20), 667 * 0.015, 1e-12);
+  EXPECT_NEAR(last_change(at("0.015"), 20), 0.015, 1e-12);
+  EXPECT_NE(message_of([&] { at("19.996"); }).find("t is 19.996 s, whose control tick is at 20.01 s; the run ends at 20 s"),
+            std::string::npos);
 }
 
 TEST(FaultVerdict, TheRunWithoutMotorLimitsHasTheFaults) {
