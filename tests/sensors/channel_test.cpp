@@ -5,8 +5,12 @@
 
 #include <cmath>
 
+#include "tests/validation.h"
+
 namespace gaitlab::sensors {
 namespace {
+
+using test::validate;
 
 constexpr double kPeriod = 0.015;  // s
 const RobotInfo kNoRobot;
@@ -77,7 +81,8 @@ TEST(Channel, QuantisationErrorIsUniform) {
   k.resolution = 0.00511;
   std::vector<double> error = values(channel(k), 20000, curve);
   for (std::size_t i = 0; i < error.size(); ++i) error[i] -= curve(static_cast<std::int64_t>(i));
-  EXPECT_NEAR(deviation(error) / (k.resolution / std::sqrt(12)), 1, 0.01);
+  validate({"closed.encoder_quantisation", "RMS error of an encoder's steps over q / sqrt(12)", "Widrow and Kollar 2008", ""},
+           deviation(error) / (k.resolution / std::sqrt(12)), 1, 0.01, "three standard errors of 20 000 uniform errors");
 }
 
 TEST(Channel, DelaysByWholeTicks) {
@@ -147,7 +152,8 @@ TEST(Channel, HoldsTheLastSampleWhereOneIsLost) {
     ++lost;
   }
   // Four standard errors of a share of 0.3: 4 sqrt(0.21 / 20000).
-  EXPECT_NEAR(static_cast<double>(lost) / kTicks, 0.3, 0.013);
+  validate({"closed.encoder_losses", "share of lost samples, lost: 0.3", "binomial distribution", ""},
+           static_cast<double>(lost) / kTicks, 0.3, 0.013, "four standard errors of 20 000 samples, 4 sqrt(0.21/20000)");
   k.lost = 1;
   for (const double one : values(channel(k), 20, curve)) EXPECT_EQ(one, curve(0));
 }
@@ -182,7 +188,9 @@ TEST(Channel, WalkGrowsAsTheRootOfTime) {
   ChannelKeys k = keys();
   k.walk = 0.2;
   for (const std::int64_t n : {1, 4, 67}) {
-    EXPECT_NEAR(deviation(ensemble(k, n)) / (0.2 * std::sqrt(static_cast<double>(n) * kPeriod)), 1, kFourErrors) << n;
+    validate({"closed.sensor_walk", "deviation of a walk over walk sqrt(t), 2000 seeds", "random walk, IEEE Std 952-1997", ""},
+             deviation(ensemble(k, n)) / (0.2 * std::sqrt(static_cast<double>(n) * kPeriod)), 1, kFourErrors,
+             "four standard errors of 2000 draws, 4/sqrt(4000)");
   }
   // With its own period the walk makes fewer and longer steps: 17 samples of four ticks.
   k.period = 4 * kPeriod;
@@ -194,7 +202,10 @@ TEST(Channel, WalkOfACorrelationTimeIsBounded) {
   k.walk = 0.2;
   k.walk_time = 0.1;
   // After ten correlation times: walk sqrt(tau / 2).
-  EXPECT_NEAR(deviation(ensemble(k, 67)) / (0.2 * std::sqrt(0.05)), 1, kFourErrors);
+  const std::string source = "first-order Gauss-Markov process, IEEE Std 952-1997, annex B";
+  validate(
+      {"closed.sensor_markov_deviation", "deviation of a bounded walk after ten correlation times, 2000 seeds", source, ""},
+      deviation(ensemble(k, 67)) / (0.2 * std::sqrt(0.05)), 1, kFourErrors, "four standard errors of 2000 draws, 4/sqrt(4000)");
   // Correlation over a tick: e^(-Ts / tau). Its deviation over 20000 ticks is below sqrt(1 / 20000).
   const std::vector<double> y = zeros(channel(k), 20000);
   double product = 0;
@@ -203,7 +214,8 @@ TEST(Channel, WalkOfACorrelationTimeIsBounded) {
     product += y[i] * y[i - 1];
     square += y[i] * y[i];
   }
-  EXPECT_NEAR(product / square, std::exp(-kPeriod / 0.1), 4 * std::sqrt(1.0 / 20000));
+  validate({"closed.sensor_markov_correlation", "correlation of a bounded walk over one tick", source, ""}, product / square,
+           std::exp(-kPeriod / 0.1), 4 * std::sqrt(1.0 / 20000), "four standard errors over 20 000 ticks");
   // A long correlation time is the walk without a bound, to Ts / tau.
   k.walk_time = 1e6;
   ChannelKeys unbounded = k;

@@ -31,7 +31,7 @@ run() {
   [[ -n $chosen ]] || return 0 # no file in these folders writes rows
   expect 0 "$program" --gtest_filter="$chosen" --gtest_brief=1
 }
-run core core controllers cpg golden physics_articulated
+run core core controllers cpg golden physics_articulated sensors
 run program app interchange program report
 [[ -s $GAITLAB_VALIDATION ]] || fail "no test wrote a row"
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/validation.h"
+
 namespace gaitlab::math {
 namespace {
 
@@ -17,7 +19,10 @@ TEST(Philox, GivesTheKnownAnswers) {
 
 // The 10000th number of std::philox4x32 with its default seed, 20111115, which the C++26 standard states: the last word of
 // block 2499.
-TEST(Philox, GivesTheNumberOfTheStandard) { EXPECT_EQ(philox({2499, 0, 0, 0}, {20111115, 0})[3], 1955073260U); }
+TEST(Philox, GivesTheNumberOfTheStandard) {
+  test::validate({"published.philox", "10 000th number of Philox4x32-10, seed 20111115", "C++26 standard, std::philox4x32", ""},
+                 philox({2499, 0, 0, 0}, {20111115, 0})[3], 1955073260, 0, "a whole number");
+}
 
 TEST(Fnv1a32, GivesTheKnownAnswers) {
   EXPECT_EQ(fnv1a32(""), 0x811c9dc5U);
@@ -30,7 +35,9 @@ TEST(PhiloxStream, KeyIsTheSeedAndCounterTickNameDraw) {
   EXPECT_EQ(philox({0, 0, 0x314556ed, 0}, {1, 0}), (PhiloxBlock{0xc4e7aa3b, 0xadca4e0f, 0xec98c46c, 0xb615625a}));
   const PhiloxStream stream(1, "encoder.m0/active");
   // 1 ulp of each of log, cos and sqrt: core/math and the reference in Python need not round alike.
-  EXPECT_NEAR(stream.normal(0, 0), 0.6438930316106422, 4e-16);
+  test::validate(
+      {"published.philox_normal", "first normal number of seed 1, encoder.m0/active", "the same computed in Python", ""},
+      stream.normal(0, 0), 0.6438930316106422, 4e-16, "1 ulp of each of log, cos and sqrt");
   EXPECT_EQ(stream.uniform(0, 0), (static_cast<double>((0xc4e7aa3bULL << 21U) ^ (0xadca4e0fULL >> 11U)) + 0.5) * 0x1p-53);
   // Upper halves of seed and tick matter.
   EXPECT_NE(stream.uniform(1ULL << 32U, 0), stream.uniform(0, 0));
