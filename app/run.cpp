@@ -119,9 +119,10 @@ std::vector<Scenario> other_draws(const Scenario& scenario, const RunArguments& 
                      "the seed changes nothing: no tolerance draws a number, and no sensor draws; add for example tolerances: "
                      "{mass: 0.03, R: 0.07} (gaitlab explain scenario)");
   }
-  if (scenario.seed > kMostSeed - arguments.draws)
+  if (scenario.seed > kMostSeed - arguments.draws) {
     throw InputError(
         place, fmt::format("{} draws from seed {} exceed the largest seed, {}", arguments.draws, scenario.seed, kMostSeed));
+  }
   std::vector<std::vector<std::string>> seeds;
   for (int k = 1; k < arguments.draws; ++k) seeds.push_back({fmt::format("seed={}", scenario.seed + k)});
   return rollouts(arguments.file, arguments.sets, seeds, catalog);
@@ -230,9 +231,10 @@ int run(const Scenario& scenario, const RunArguments& arguments, std::span<const
   write_report(files, seen, recording, summary, verdict, !arguments.no_page);
   if (files.wrote_any()) folder.keep();
   if (!arguments.quiet) print_summary(scenario, recording, summary, verdict, arguments.shown);
-  if (!arguments.quiet && !verdict.draws.empty())
+  if (!arguments.quiet && !verdict.draws.empty()) {
     fmt::print("{}", report::texts::without_nan(
                          report::draws_table(verdict.draws, arguments.shown.verbose ? verdict.draws.size() : kMostDraws)));
+  }
   if (!arguments.quiet && !files.lost_any()) print_files(arguments, folder.path());
   warn_of_run(scenario, recording, verdict);
   const bool sound = report::not_finite(scenario, recording).empty();

@@ -71,7 +71,7 @@ void report_clash(const std::string& noun, const std::string& part, std::size_t 
       .add(key.second,
            fmt::format("{} {} is given {} by {} and {} by {}{}; give it by its name, which beats patterns", noun,
                        in_quotes(part), number_text(first.number), in_quotes(first.key->first), number_text(number),
-                       in_quotes(key.first), more == 0 ? "" : fmt::format(" (and so {} more)", counted(more, noun.c_str()))))
+                       in_quotes(key.first), more == 0 ? "" : fmt::format(" (and so {} more)", counted(more, noun))))
       .notes.emplace_back(first.key->second, in_quotes(first.key->first) + " is here");
 }
 
