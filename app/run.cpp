@@ -116,7 +116,7 @@ std::vector<Scenario> other_draws(const Scenario& scenario, const RunArguments& 
   const SourceLocation place{"--draws"};
   if (!seed_matters(scenario)) {
     throw InputError(place,
-                     "the seed changes nothing: no tolerance draws a number, and no sensor draws; add for example tolerances: "
+                     "the seed changes nothing: no tolerance or sensor draws, and no set points are lost; add for example tolerances: "
                      "{mass: 0.03, R: 0.07} (gaitlab explain scenario)");
   }
   if (scenario.seed > kMostSeed - arguments.draws) {

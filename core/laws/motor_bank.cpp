@@ -9,25 +9,25 @@ void MotorBank::add(const DcMotor& motor, double reflected_inertia, const DriveR
   inertia_.push_back(reflected_inertia);
 }
 
-void MotorBank::effort(In command, In speed, Out torque, Out slope) const {
-  for (std::size_t i = 0; i < motors_.size(); ++i) {
-    const DcMotor::Effort e = motors_[i](command[i], speed[i]);
+void motors::effort(std::span<const DcMotor> motors, In command, In speed, Out torque, Out slope) {
+  for (std::size_t i = 0; i < motors.size(); ++i) {
+    const DcMotor::Effort e = motors[i](command[i], speed[i]);
     torque[i] = e.torque;
     slope[i] = e.slope;
   }
 }
 
-void MotorBank::unlimited(In command, In speed, Out torque, Out slope) const {
-  for (std::size_t i = 0; i < motors_.size(); ++i) {
-    const DcMotor::Effort e = motors_[i].unlimited(command[i], speed[i]);
+void motors::unlimited(std::span<const DcMotor> motors, In command, In speed, Out torque, Out slope) {
+  for (std::size_t i = 0; i < motors.size(); ++i) {
+    const DcMotor::Effort e = motors[i].unlimited(command[i], speed[i]);
     torque[i] = e.torque;
     slope[i] = e.slope;
   }
 }
 
-void MotorBank::electrical(In command, In speed, Electrical out) const {
-  for (std::size_t i = 0; i < motors_.size(); ++i) {
-    const DcMotor::Effort e = motors_[i](command[i], speed[i]);
+void motors::electrical(std::span<const DcMotor> motors, In command, In speed, const Actuator::Electrical& out) {
+  for (std::size_t i = 0; i < motors.size(); ++i) {
+    const DcMotor::Effort e = motors[i](command[i], speed[i]);
     out.voltage[i] = e.voltage;
     out.current[i] = e.current;
     out.saturation[i] = e.saturation();

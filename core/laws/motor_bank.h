@@ -1,18 +1,30 @@
-// Base class of actuators that apply core/laws/dc_motor.h to every joint and lane.
+// DC motors of every joint and lane: their law over lists, and the base class of actuators that apply it.
 #pragma once
 #include "core/laws/dc_motor.h"
 #include "core/plugin/actuator.h"
 
 namespace gaitlab {
 
+/// The functions of Actuator with these names, for a list of motors.
+namespace motors {
+void effort(std::span<const DcMotor> motors, In command, In speed, Out torque, Out slope);
+void unlimited(std::span<const DcMotor> motors, In command, In speed, Out torque, Out slope);
+void electrical(std::span<const DcMotor> motors, In command, In speed, const Actuator::Electrical& out);
+}  // namespace motors
+
+/// Applies core/laws/dc_motor.h.
 class MotorBank : public Actuator {
  public:
   [[nodiscard]] std::string_view command_unit() const override { return "V"; }
   [[nodiscard]] In command_limit() const override { return limit_; }
   [[nodiscard]] In reflected_inertia() const override { return inertia_; }
-  void effort(In command, In speed, Out torque, Out slope) const override;
-  void electrical(In command, In speed, Electrical out) const override;
-  void unlimited(In command, In speed, Out torque, Out slope) const override;
+  void effort(In command, In speed, Out torque, Out slope) const override {
+    motors::effort(motors_, command, speed, torque, slope);
+  }
+  void electrical(In command, In speed, Electrical out) const override { motors::electrical(motors_, command, speed, out); }
+  void unlimited(In command, In speed, Out torque, Out slope) const override {
+    motors::unlimited(motors_, command, speed, torque, slope);
+  }
   [[nodiscard]] std::span<const DriveRatings> ratings() const override { return ratings_; }
   [[nodiscard]] const DcMotor* dc_motors() const override { return motors_.data(); }
 

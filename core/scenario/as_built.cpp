@@ -33,11 +33,6 @@ struct Number {
 
 using Of = BuiltNumber::Of;
 
-/// Name by which a draw is addressed, such as m3/active.R.
-std::string draw_name(const std::string& part, const BuiltNumber& number) {
-  return part.empty() ? number.key : part + "." + number.key;
-}
-
 }  // namespace
 
 const std::array<Tolerance, 8> kTolerances{{
@@ -124,7 +119,7 @@ std::size_t draw(AsBuilt& built, const Tolerances& tolerances, const Robot& robo
       if (!std::isnan(stated)) {
         each[p] = stated;
       } else if (deviation > 0) {
-        const double normal = math::PhiloxStream(seed, draw_name(parts[p], number)).normal(0, 0);
+        const double normal = math::PhiloxStream(seed, parts[p] + "." + number.key).normal(0, 0);
         each[p] += deviation * std::clamp(normal, -kMostDeviations, kMostDeviations);
         ++draws;
       }

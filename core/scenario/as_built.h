@@ -14,8 +14,8 @@ namespace gaitlab {
 /// Sections `tolerances` and `as_built`. A number of a part (module, joint, or the whole robot) that `as_built` states is used.
 /// Otherwise it is drawn:
 ///     x = neutral + deviation * min(max(n, -3), 3),  n normal with mean 0 and deviation 1
-/// where `neutral` is 1 for factors and 0 for angles. n is a Philox draw (core/math/philox.h) with the seed as key and the name
-/// of part and number as counter: the same seed is the same robot, whatever else changes.
+/// where `neutral` is 1 for factors and 0 for angles. n is a Philox draw (core/math/philox.h) with the seed as key and the
+/// names of part and number as counter, such as m3/active.R or robot.supply: the same seed is the same robot.
 
 /// A deviation in the section `tolerances`.
 struct Tolerance {

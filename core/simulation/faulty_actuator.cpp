@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "core/laws/motor_bank.h"
+
 namespace gaitlab {
 
 FaultyActuator::FaultyActuator(std::unique_ptr<Actuator> whole, std::size_t size) : whole_(std::move(whole)), faults_(size) {
@@ -32,49 +34,26 @@ void FaultyActuator::scale(Out torque, Out slope) const {
 }
 
 void FaultyActuator::effort(In command, In speed, Out torque, Out slope) const {
-  if (motors_.empty()) {
-    whole_->effort(command, speed, torque, slope);
-    return scale(torque, slope);
-  }
-  for (std::size_t i = 0; i < motors_.size(); ++i) {
-    const DcMotor::Effort e = motors_[i](command[i], speed[i]);
-    torque[i] = e.torque;
-    slope[i] = e.slope;
-  }
+  if (!motors_.empty()) return motors::effort(motors_, command, speed, torque, slope);
+  whole_->effort(command, speed, torque, slope);
+  scale(torque, slope);
 }
 
 void FaultyActuator::unlimited(In command, In speed, Out torque, Out slope) const {
-  if (motors_.empty()) {
-    whole_->unlimited(command, speed, torque, slope);
-    return scale(torque, slope);
-  }
-  for (std::size_t i = 0; i < motors_.size(); ++i) {
-    const DcMotor::Effort e = motors_[i].unlimited(command[i], speed[i]);
-    torque[i] = e.torque;
-    slope[i] = e.slope;
-  }
+  if (!motors_.empty()) return motors::unlimited(motors_, command, speed, torque, slope);
+  whole_->unlimited(command, speed, torque, slope);
+  scale(torque, slope);
 }
 
 void FaultyActuator::electrical(In command, In speed, Electrical out) const {
-  if (motors_.empty()) {
-    whole_->electrical(command, speed, out);
-    for (std::size_t i = 0; i < faults_.size(); ++i) {
-      if (faults_[i].open) {
-        for (const Out values : {out.voltage, out.current, out.saturation, out.power_in, out.copper, out.gear}) values[i] = 0;
-      } else if (faults_[i].share != 1) {
-        out.gear[i] += (1 - faults_[i].share) * (out.power_in[i] - out.copper[i] - out.gear[i]);
-      }
+  if (!motors_.empty()) return motors::electrical(motors_, command, speed, out);
+  whole_->electrical(command, speed, out);
+  for (std::size_t i = 0; i < faults_.size(); ++i) {
+    if (faults_[i].open) {
+      for (const Out values : {out.voltage, out.current, out.saturation, out.power_in, out.copper, out.gear}) values[i] = 0;
+    } else if (faults_[i].share != 1) {
+      out.gear[i] += (1 - faults_[i].share) * (out.power_in[i] - out.copper[i] - out.gear[i]);
     }
-    return;
-  }
-  for (std::size_t i = 0; i < motors_.size(); ++i) {
-    const DcMotor::Effort e = motors_[i](command[i], speed[i]);
-    out.voltage[i] = e.voltage;
-    out.current[i] = e.current;
-    out.saturation[i] = e.saturation();
-    out.power_in[i] = e.drawn;
-    out.copper[i] = e.copper;
-    out.gear[i] = e.gear;
   }
 }
 

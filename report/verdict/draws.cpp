@@ -81,8 +81,9 @@ Drawn draws(const Scenario& scenario, const Rolled& run, std::span<const Scenari
             std::atomic<bool>& stop) {
   const std::vector<std::string> parts = part_names(*scenario.robot);
   std::vector<Scenario> drawn(others.begin(), others.end());
+  const bool shared = accurate(scenario, run.record);
   for (Scenario& one : drawn) {
-    if (!accurate(scenario, run.record)) continue;
+    if (!shared) continue;
     one.physics.estimate = Estimate::off;
     one.physics.estimated_by_others = true;
   }

@@ -1,11 +1,9 @@
 // Faults of joints and changes of settings in a run.
 #include <cmath>
-#include <mutex>
 
 #include "core/scenario/resolved.h"
-#include "core/simulation/batch.h"
 #include "tests/program/allocations.h"
-#include "tests/program/bits.h"
+#include "tests/program/as_alone.h"
 #include "tests/program/engines.h"
 #include "tests/validation.h"
 
@@ -217,18 +215,8 @@ TEST_P(FaultsInLanes, AreAsAlone) {
       kScenarios + "caterpillar.yaml",
       {"physics.engine=articulated", "physics.estimate=off", std::string("physics.step=") + GetParam(), "duration=0.3"}, own,
       catalog());
-  std::vector<std::string> expected;
-  for (const Scenario& one : all) expected.push_back(alone(one));
+  const std::vector<std::string> expected = expect_as_alone(all, 7);
   EXPECT_NE(expected[0], expected[3]);
-  for (const std::size_t lanes : {1U, 4U, 8U}) {
-    std::mutex lock;
-    std::vector<std::string> ends(all.size());
-    run_batch(all, {1, lanes}, [&](std::size_t i, Recording&& end) {
-      const std::lock_guard hold(lock);
-      ends[i] = bits(end, end.outcome.text());
-    });
-    for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(ends[i], expected[i]) << i << ", " << lanes << " lanes";
-  }
 }
 
 TEST(Faults, RowsWithinAStepChangeNothing) {

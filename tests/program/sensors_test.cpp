@@ -1,14 +1,12 @@
 // Sensors in a run: what the controller gets, what the trace shows, and that nothing else changes.
 #include <cmath>
-#include <mutex>
 
 #include "controllers/pid.h"
 #include "core/math/philox.h"
 #include "core/scenario/resolved.h"
-#include "core/simulation/batch.h"
 #include "tests/oracles/pendulum.h"
 #include "tests/program/allocations.h"
-#include "tests/program/bits.h"
+#include "tests/program/as_alone.h"
 #include "tests/program/engines.h"
 
 namespace gaitlab::test {
@@ -138,18 +136,8 @@ TEST_P(SensorsInLanes, AreAsAlone) {
       kScenarios + "caterpillar.yaml",
       {"physics.engine=articulated", "physics.estimate=off", std::string("physics.step=") + GetParam(), "duration=0.3"}, own,
       catalog());
-  std::vector<std::string> expected;
-  for (const Scenario& one : all) expected.push_back(alone(one));
+  const std::vector<std::string> expected = expect_as_alone(all, 7);
   EXPECT_NE(expected[0], expected[3]);
-  for (const std::size_t lanes : {1U, 4U, 8U}) {
-    std::mutex lock;
-    std::vector<std::string> ends(all.size());
-    run_batch(all, {7, lanes}, [&](std::size_t i, Recording&& end) {
-      const std::lock_guard hold(lock);
-      ends[i] = bits(end, end.outcome.text());
-    });
-    for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(ends[i], expected[i]) << i << ", " << lanes << " lanes";
-  }
 }
 
 TEST(Sensors, RowsWithinAStepChangeNothing) {

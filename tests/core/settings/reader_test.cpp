@@ -48,6 +48,16 @@ std::string write(T& settings) {
   return print_yaml(writer.take());
 }
 
+TEST(Reader, EntriesOfAVectorByNumber) {
+  Gains s;
+  EXPECT_EQ(read("window: {1: 2}\n", s), test::kNoError);
+  EXPECT_EQ(s.window, (std::array<double, 2>{0, 2})) << "the other entry keeps its default";
+  EXPECT_EQ(read("window: {2: 2, x: 1, 0: 11}\n", s),
+            "f:1:10: error: window is a list of 2 numbers in s; '2' is not an element (they are numbered from 0)\n"
+            "f:1:16: error: window is a list of 2 numbers in s; 'x' is not an element (they are numbered from 0)\n"
+            "f:1:25: error: window[0] is 11 s; allowed are 0 to 10 s");
+}
+
 TEST(Reader, ReadsWhatIsThereAndKeepsDefaults) {
   Gains s;
   EXPECT_EQ(read("window: [0.5, 2]\nleader: m1/active\non: true\nmode: fast\n", s), test::kNoError);
