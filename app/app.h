@@ -63,7 +63,7 @@ struct RunArguments : ScenarioArguments {
   bool no_page = false;  ///< do not write report.html
   SummaryOptions shown;
   std::vector<std::string> joints;  ///< names of the joints in the figure; if empty, those that the scenario chooses
-  int draws = 1;                    ///< number of seeds, from that of the scenario on
+  int draws = 1;                    ///< number of seeds, starting with the scenario's
   int jobs = 1;                     ///< threads for the draws
 };
 /// Runs a scenario and further `draws` of it, writes the run folder and prints the summary. Returns the exit code.
@@ -75,8 +75,8 @@ void print_summary(const Scenario& scenario, const Recording& recording, const r
 /// Verdict on a run. With `shown.demand` the demand twin is simulated too, and its results are added.
 report::Verdict judged(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
                        const report::Overlaps& overlaps, const SummaryOptions& shown);
-/// Exit code of a run. With `shown.fail_infeasible` it is 1 for a failed run, and 3 unless the verdict, and that of every draw,
-/// is feasible; otherwise it is 0, also for a run that was not judged.
+/// Exit code of a run. If `shown.fail_infeasible`, it is 1 for a failed run, and 3 unless this run and every draw are feasible;
+/// otherwise it is 0, also for a run that was not judged.
 int exit_code(const report::Verdict& verdict, const SummaryOptions& shown);
 
 /// Text `version, build id, Bullet version and precision` of --version.

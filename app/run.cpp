@@ -109,15 +109,16 @@ void take_spread(const Scenario& scenario, Recording& recording, const report::S
 
 namespace {
 
-/// Scenarios with the seeds after that of `scenario`.
+/// Scenarios with the next seeds after the seed of `scenario`.
 std::vector<Scenario> other_draws(const Scenario& scenario, const RunArguments& arguments, Catalog& catalog) {
   constexpr std::int64_t kMostSeed = 9'000'000'000'000'000'000;
   if (arguments.draws == 1) return {};
   const SourceLocation place{"--draws"};
   if (!seed_matters(scenario)) {
-    throw InputError(place,
-                     "the seed changes nothing: no tolerance or sensor draws, and no set points are lost; add for example tolerances: "
-                     "{mass: 0.03, R: 0.07} (gaitlab explain scenario)");
+    throw InputError(
+        place,
+        "the seed changes nothing: no tolerance or sensor draws, and no set points are lost; add for example tolerances: "
+        "{mass: 0.03, R: 0.07} (gaitlab explain scenario)");
   }
   if (scenario.seed > kMostSeed - arguments.draws) {
     throw InputError(

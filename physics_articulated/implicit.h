@@ -389,8 +389,8 @@ class Implicit {
   std::vector<T> passive_;  ///< torques of passive hinges, set by evaluate()
   std::vector<T> place_, stop_, stop_slope_, force_, diagonal_, end_;
   bool holds_ = false;               ///< true if a hinge is stuck
-  std::vector<math::Mask<T>> held_;  ///< by joint: lanes in which it is stuck
-  std::vector<T> hold_;              ///< by joint: angle at which it is stuck, rad
+  std::vector<math::Mask<T>> held_;  ///< lanes that hold a stuck joint, by joint
+  std::vector<T> hold_;              ///< angle of a stuck joint, rad, by joint
   Iterate now_, next_;
   T missed_ = 0.0;
 };

@@ -7,7 +7,7 @@
 namespace gaitlab::app {
 
 /// Text with the result of the verification of each best point, and the reasons if it failed. Empty if no point was verified.
-/// If the study asks for faults, a table of the winner with each joint dead in turn follows.
+/// A table of the winner with each joint dead in turn follows if `verify.faults` is each.
 std::string verification_text(studies::Journal& journal);
 
 }  // namespace gaitlab::app

@@ -29,7 +29,7 @@ class MotorBank : public Actuator {
   [[nodiscard]] const DcMotor* dc_motors() const override { return motors_.data(); }
 
  protected:
-  /// Adds the next motor, in the order joint * lanes + lane. The inertia is that of the rotor at the joint, kg m^2.
+  /// Adds the next motor, in the order joint * lanes + lane. The inertia is of the rotor, as seen at the joint, kg m^2.
   void add(const DcMotor& motor, double reflected_inertia, const DriveRatings& ratings);
 
  private:

@@ -57,7 +57,7 @@ double left_out_start(double end);
 /// late limit cycle would not count. Without a limit cycle, the window begins at 2 s or a fifth of the run, whichever is
 /// earlier. If the set points do not repeat (`repeats` is false), the window begins at 0. The start is rounded down to a row of
 /// Recording::ticks. These cover all steps, so that the result does not depend on trace.period. `since` is the time of the last
-/// change of the run, s, from which the window and these times count.
+/// change of the run, s, the start of the window and of these times.
 Judged judge(const Recording& recording, const MotionCycle& cycle, bool repeats, double since = 0);
 
 }  // namespace gaitlab

@@ -62,8 +62,8 @@ struct AsBuilt {
 /// Names of a robot's modules: m0, m1 ...
 std::vector<std::string> module_names(const Robot& robot);
 
-/// Parts of the robot that have a number, with an empty name for each that cannot differ: module 0, which has no dock to a
-/// parent, or a hinge without a motor.
+/// Parts of the robot that have a number. The name is empty for a part that cannot differ: for module 0, the root, in numbers
+/// of docks, and for a hinge without a motor.
 std::vector<std::string> parts_with(const BuiltNumber& number, const Robot& robot);
 
 /// Replaces unknown numbers by draws. Numbers of parts that cannot differ are neutral: docks of module 0, motors of hinges

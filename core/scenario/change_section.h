@@ -10,7 +10,7 @@
 
 namespace gaitlab {
 
-/// Keys of a fault. A reader and a writer visit only those of its kind.
+/// Keys of a fault. A reader and a writer visit only the keys of its kind.
 struct FaultKeys {
   JointFault& fault;
   bool all = false;  ///< true to visit the keys of every kind
@@ -32,8 +32,8 @@ inline constexpr const char* kAboutSet =
     "number of states.";
 inline constexpr const char* kAboutFault = "A fault of joints, or a list of faults.";
 
-/// Sections whose settings may change in a run, and the reading of a scenario in which they have changed. The function reads
-/// these sections of a whole scenario, `root`, and returns it; it adds problems, and the result then counts for nothing.
+/// Function that reads a scenario after a change. It reads the sections whose settings may change in a run of a whole scenario,
+/// `root`, and returns it; it adds problems, and the result then counts for nothing.
 using ReadSegment = std::function<Scenario(const Node& root, const std::vector<std::string>& sections, Problems& problems)>;
 
 /// Reads and checks the section. Each change is read over the settings of all changes before it. All other sections of
@@ -41,8 +41,7 @@ using ReadSegment = std::function<Scenario(const Node& root, const std::vector<s
 std::vector<Change> read_changes(const Node& root, const Scenario& scenario, JointNames joints, const ReadSegment& read,
                                  Problems& problems);
 
-/// The section for the resolved scenario. `set` has the settings that it states and those that differ from the segment before,
-/// in full.
+/// The section for the resolved scenario. `set` has its own settings and all that differ from the segment before, in full.
 Node changes_node(const Scenario& scenario, const std::vector<std::string>& joints);
 
 /// Number of the first control tick at a time or later.
@@ -51,13 +50,13 @@ std::int64_t first_tick(double t, double control_period);
 /// Joints with a motor that a fault names, ascending.
 std::vector<std::size_t> joints_of(const JointFault& fault, const Robot& robot);
 
-/// Fault of a joint from the control tick of a change until that of another one; infinity until the end of the run.
+/// Fault of a joint from the control tick of a change until the tick of another one; infinity until the end of the run.
 struct FaultSpan {
   std::size_t joint = 0;
   FaultKind kind = FaultKind::none;
   double from = 0, to = 0;  ///< s
 };
-/// The faults of a run, by the times at which they begin, then by joint. A fault without an effect (`weak` with share 1, `lost`
+/// The faults of a run, sorted by their start, then by joint. A fault without an effect (`weak` with share 1, `lost`
 /// with share 0, `late` with delay 0) is none.
 std::vector<FaultSpan> fault_spans(const Scenario& scenario);
 

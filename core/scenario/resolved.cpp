@@ -32,7 +32,7 @@ Node robot_node(Scenario& scenario, const std::vector<std::string>& joints) {
 }  // namespace
 
 std::string resolved(const Scenario& scenario) {
-  Scenario copy = scenario;  // the visitor that prints a scenario also reads one, and therefore takes no const reference
+  Scenario copy = scenario;  // the visitor also reads scenarios, and therefore needs write access
   const std::vector<std::string> joints = joint_names(*scenario.robot);
   Writer writer(joints);
   writer.add("gaitlab", scalar_node("1"));

@@ -117,7 +117,7 @@ struct SensorSelection {
   PluginSelection plugin;
 };
 
-/// Fault of a joint (docs/faults.md). The numbers in the column `joint.J.fault` are those of the enum.
+/// Fault of a joint (docs/faults.md). The column `joint.J.fault` has the numbers of the enum.
 enum class FaultKind { none, dead, open, stuck, weak, lost, late };
 
 template <>

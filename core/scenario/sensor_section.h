@@ -28,8 +28,8 @@ std::vector<SensorReading> sensor_readings(const Scenario& scenario);
 bool quantised(const Scenario& scenario);
 /// True if the seed changes the robot, a value of a sensor, or the losses of set points. Throws PluginError.
 bool seed_matters(const Scenario& scenario);
-/// Columns of the trace by default: those of TraceSettings, those of sensors that belong to no joint, and
-/// `segment` in a run with changes. Throws PluginError.
+/// Columns of the trace by default: TraceSettings::columns, columns of sensors without a joint, and `segment` in a run with
+/// changes. Throws PluginError.
 std::vector<std::string> default_columns(const Scenario& scenario);
 /// Description of the robot and its sensors for CPG and controller. Throws PluginError.
 RobotInfo plugin_info(const Scenario& scenario);

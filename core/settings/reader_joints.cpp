@@ -84,7 +84,7 @@ bool Reader::read_joint_map(const Node& node, const std::string& key, const Spec
   if (node.keys.size() > (common != nullptr ? 1U : 0U) && read.each.empty() && of.names != nullptr) {
     read.each.assign(of.names->size(), read.common);
   }
-  // By part: the entry with its name, or else with a pattern.
+  // The entry of each part, with its name or else with a pattern.
   std::vector<Said> said(of.names == nullptr ? 0 : of.names->size());
   std::vector<std::pair<const Key*, double>> patterns;
   for (std::size_t i = 0; i < node.keys.size(); ++i) {

@@ -9,8 +9,9 @@
 namespace gaitlab {
 
 /// Applies faults to the motors of another actuator:
-///     weak    torque and slope times a share. Current and electrical power are those of the whole motor, and the power that
-///             does not reach the joint is lost in the gear.
+///     weak    torque and slope times a share. Current and electrical power are as in the whole motor; the rest of the power is
+///     lost
+///             in the gear.
 ///     open    no torque, slope, current and power, and voltage 0.
 /// A motor without a fault has the bits of the actuator's. If the actuator has DC motors, so does this one, with other
 /// constants (weak: Kt and the slope at rest times the share; open: Kt = Ks = 0), so that engines evaluate one law. Only the
@@ -23,7 +24,7 @@ class FaultyActuator final : public Actuator {
     bool operator==(const Fault&) const = default;
   };
 
-  /// `size` is the number of joints times that of lanes.
+  /// `size` is the number of joints times the number of lanes.
   FaultyActuator(std::unique_ptr<Actuator> whole, std::size_t size);
   /// Sets the fault of the motor with the index joint * lanes + lane. Returns false if it has that fault already.
   bool set(std::size_t motor, const Fault& fault);

@@ -29,7 +29,7 @@ class LaneChanges {
 
   [[nodiscard]] std::size_t states() const;
   void bind(Out numbers) { numbers_ = numbers; }
-  /// Begins the segment of a control tick. `angle` are the joint angles, rad, at which joints may become stuck.
+  /// Begins the segment of a control tick. A joint that becomes stuck is held at its entry of `angle`, rad.
   void begin(std::int64_t tick, In angle);
 
   [[nodiscard]] std::size_t segment() const { return numbers_.empty() ? 0 : static_cast<std::size_t>(numbers_[0]); }
@@ -37,13 +37,13 @@ class LaneChanges {
   [[nodiscard]] Cpg* cpg() const { return segments_[segment()].cpg.get(); }
   [[nodiscard]] Controller* controller() const { return segments_[segment()].controller.get(); }
   [[nodiscard]] const FaultInForce& fault(std::size_t joint) const { return segments_[segment()].faults[joint]; }
-  /// Angle at which a joint is stuck, rad; NaN if it is not.
+  /// Angle of a stuck joint, rad; NaN for a joint that is not stuck.
   [[nodiscard]] double hold(std::size_t joint) const;
   /// True if a fault of the scenario changes motors or hinges.
   [[nodiscard]] bool change_joints() const { return change_joints_; }
 
-  /// Replaces the set points of a tick by those that reach the controllers. `before` has the set points of the tick before,
-  /// with the index joint * lanes + lane.
+  /// Replaces the set points of a tick by the set points that reach the controllers. `before` has the set points of the tick
+  /// before, with the index joint * lanes + lane.
   void lose(std::int64_t tick, In before, std::size_t lane, Out setpoint);
   /// Sets the commands of dead motors to 0.
   void cut(Out command) const;

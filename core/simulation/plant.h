@@ -90,8 +90,8 @@ class Plant {
   virtual void boxes(std::span<BoxMotion> /*out*/) const {}
   /// Writes all members except the estimate of the torque error.
   virtual void tally(std::size_t /*lane*/, StepTally& /*out*/) const {}
-  /// Takes the motors of the actuator anew, whose constants have changed, and the angles at which hinges are stuck: index joint
-  /// * lanes + lane, rad, NaN for a hinge that is not stuck. Called between steps. By default the engine refuses this.
+  /// Takes the motors of the actuator anew, whose constants have changed, and the angles of stuck hinges: index joint
+  /// * lanes + lane, rad, NaN for a hinge that is not stuck. Called between steps. The default refuses this.
   virtual void change_joints(In /*hold*/) { throw std::logic_error("this engine takes no faults of motors and hinges"); }
   /// nullptr if the actuator evaluates its laws itself.
   [[nodiscard]] virtual MotorLaws* motor_laws() { return nullptr; }

@@ -36,7 +36,7 @@ struct Sample {
   Sums sums;
   Vec3 gravity = Vec3::Zero();
   std::vector<double> setpoint, command, voltage, current, saturation, torque, stop_torque, passive_torque;
-  std::vector<double> fault, hold;  ///< number of the fault of each joint; angle at which it is stuck, rad, or NaN
+  std::vector<double> fault, hold;  ///< number of the fault of each joint; its angle if it is stuck, rad, else NaN
   double segment = 0;
   std::vector<ContactSample> contacts;
   std::vector<BoxMotion> boxes;  ///< one per box of the ground; empty if none can move

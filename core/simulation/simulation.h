@@ -138,7 +138,7 @@ class Simulation {
   std::unique_ptr<Actuator> actuator_;
   /// The actuators with their faults; nullptr if no fault of the scenarios changes motors or hinges.
   FaultyActuator *faulty_ = nullptr, *own_faulty_ = nullptr;
-  std::vector<double> hold_;  ///< angles at which hinges of plant_ are stuck, rad, or NaN; empty like faulty_
+  std::vector<double> hold_;  ///< angles of stuck hinges of plant_, rad; NaN for others; empty like faulty_
   std::unique_ptr<Plant> plant_;
   std::vector<std::unique_ptr<Lane>> lanes_;
   StateLayout layout_;

@@ -24,7 +24,7 @@ constexpr double kMostDraws = 1e6;  // a larger number is from a damaged file
 std::string fails_column(const std::string& check) { return "fails." + check; }
 std::string part_column(const std::string& check) { return "part." + check; }
 
-/// Names that Check::worst can have, by which a table of numbers refers to them.
+/// Names that Check::worst can have. The table of draws refers to them by index.
 std::vector<std::string> part_names(const Robot& robot) {
   std::vector<std::string> names = joint_names(robot);
   for (const Body& body : robot.bodies) names.push_back(body.name);
@@ -33,7 +33,7 @@ std::vector<std::string> part_names(const Robot& robot) {
 }
 
 std::vector<Column> draw_columns() {
-  std::vector<Column> columns{{kAfter, "", "seed of the draw, minus that of the run"},
+  std::vector<Column> columns{{kAfter, "", "seed of the draw, minus the seed of the run"},
                               {kWord, "", "index of the verdict's word"}};
   std::ranges::move(rolled_columns(), std::back_inserter(columns));
   for (const CheckKind& kind : check_kinds()) {
@@ -62,7 +62,7 @@ auto entry(const List& list, double index) -> std::optional<std::decay_t<decltyp
   return list[static_cast<std::size_t>(index)];
 }
 
-/// True if the errors of the torques hardly matter for the verdict, also not those of a similar run.
+/// True if the torque errors of this run, and of similar ones, hardly matter for the verdict.
 bool accurate(const Scenario& scenario, const Recording& record) {
   constexpr double kSmall = 0.2;  // share of the limit
   const TorqueError error = torque_error(record);

@@ -76,7 +76,7 @@ struct Verdict {
   /// Id of the deciding check of `failed` and `infeasible`. Among the checks that cause the word it is one of the robot as a
   /// whole (group run), else the one with the least margin.
   std::string decided_by = {};
-  /// Draws of `gaitlab run --draws`, this run first; empty if there are none. The word is that of this run alone.
+  /// Draws of `gaitlab run --draws`, this run first; empty if there are none. `word` belongs to this run alone.
   std::vector<Draw> draws = {};
   std::string draws_text = {};  ///< `feasible in 14 of 16 robots; voltage fails in 2 (m6/active)`; empty without draws
   /// Joints whose own checks are not judged: `m3/active: not judged (dead from t = 10 s)`.

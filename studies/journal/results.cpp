@@ -50,7 +50,7 @@ PointResult point_result(const JournalHead& head, std::span<const Brief> runs) {
       bad[k].push_back(head.objectives[k].maximize ? -run.score->objectives[k] : run.score->objectives[k]);
     violation.push_back(run.score->violation);
   }
-  // `share` keeps a point of which this share of the replicates breaks no limit. A failed replicate breaks every limit.
+  // `share` keeps a point if this share of its replicates breaks no limit. A failed replicate breaks every limit.
   const bool shared = head.combine == name_of(Combine::share);
   if (shared && !violation.empty()) {
     violation.resize(violation.size() + point.failed, std::numeric_limits<double>::infinity());

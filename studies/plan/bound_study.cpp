@@ -176,7 +176,7 @@ void BoundStudy::check_stops(Problems& problems) const {
   }
 }
 
-/// Refuses an engine of `verify` that the study already uses, and its faults if the scenario has changes of its own.
+/// Refuses an engine of `verify` that the study already uses, and its faults if the scenario has a section `at`.
 void BoundStudy::check_engines(const Catalog& catalog, std::vector<Problems>& found) const {
   const std::string& engine = study_.verify.engine;
   if (study_.verify.faults == VerifyFaults::each && scenarios_.size() > 1)
@@ -185,7 +185,7 @@ void BoundStudy::check_engines(const Catalog& catalog, std::vector<Problems>& fo
   for (std::size_t s = 0; s < scenarios_.size(); ++s) {
     if (study_.verify.faults == VerifyFaults::each && !scenarios_[s].nominal.changes.empty()) {
       found[s].add(study_.verify.place,
-                   "verify.faults is each, and the scenario has changes of its own (at); expected a scenario without them, or "
+                   "verify.faults is each, and the scenario has a section at; expected a scenario without one, or "
                    "faults: none");
     }
     if (scenarios_[s].nominal.physics.engine->name == engine) {

@@ -126,7 +126,7 @@ struct SearchKeys {
   double sigma = 0.25;          ///< first step of cma and xnes, as a share of each parameter's range
 };
 
-/// Faults with which the winner of a search is simulated again: none, or each joint with a motor dead in turn.
+/// Faults of repeated runs of the winner: none, or each joint with a motor dead in turn.
 enum class VerifyFaults { none, each };
 
 /// Settings for the verification of the best points.

@@ -1,4 +1,4 @@
-// The robot as built: its numbers act as if they were those of the drawings, and draws are a function of seed and part.
+// The robot as built: its numbers act as other drawings would, and draws are a function of seed and part.
 #include <cmath>
 #include <map>
 
@@ -40,7 +40,7 @@ TEST_P(AsBuiltOf, FactorsActAsOtherDrawings) {
   }
 }
 
-// With twice the masses and twice the torque constants, the motion is the same and the torques are twice as large.
+// Twice the masses and twice the torque constants give the same motion and twice the torques.
 TEST(AsBuilt, MassesScaleTorques) {
   const std::vector<std::string> pushed{"ground.type=none",   "contact.on=none",    "robot.base=fixed",
                                         "actuator.i_max=1e6", "actuator.u_max=1e6", "physics.integrator=rk4",

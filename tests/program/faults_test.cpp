@@ -135,7 +135,7 @@ TEST(Faults, NeedAMotor) {
       << none;
 }
 
-// The motor of a weak joint draws what a whole one would at that speed, and gives a share of the torque.
+// The motor of a weak joint draws the current of a whole one at that speed, and gives a share of the torque.
 TEST(Faults, AWeakJointHasAShareOfTheTorque) {
   const Recording r = run(caterpillar({"duration=0.9", fault("weak, share: 0.25", "0.3"), "trace.columns=[joint.6.*]"}));
   const Table table(r.trace);
@@ -226,7 +226,7 @@ TEST(Faults, RowsWithinAStepChangeNothing) {
   EXPECT_EQ(with_rows("0.0023"), with_rows("0.005"));
 }
 
-// Companions have the same faults: their torques stay as near to those of the run as without faults.
+// Companions have the same faults: their torques stay as near to the run as without faults.
 TEST(Faults, TheEstimateOfTheTorqueErrorHasThem) {
   for (const char* step : {"auto", "5e-4"}) {
     const Recording r = run(caterpillar({"duration=2", kAll, std::string("physics.step=") + step}));
@@ -263,7 +263,7 @@ TEST(Changes, PhaseAndAmplitudeFollowTheirEquations) {
                  why);
 }
 
-// With this coupling the wave of the 16 joints has turned about after 10 s.
+// This coupling turns the wave of the 16 joints about within 10 s.
 TEST(Changes, TheCaterpillarTurnsBack) {
   const auto last = [](const std::vector<std::string>& own) {
     std::vector<std::string> sets{"trace.period=1", "trace.columns=[com.x]", "physics.estimate=off", "cpg.model.coupling=4"};

@@ -1,4 +1,4 @@
-// Draws: those that cannot begin, those that are stopped, and tables of damaged files.
+// Draws that cannot begin or are stopped, and their tables in damaged files.
 #include "report/verdict/draws.h"
 
 #include "tests/program/fixture.h"

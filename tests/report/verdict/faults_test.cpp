@@ -14,7 +14,7 @@ namespace {
 
 using namespace report;
 
-/// A run of the caterpillar, whose period is 4 s, and what is said of it.
+/// A run of the caterpillar (period 4 s) with its verdict.
 struct JudgedRun {
   explicit JudgedRun(std::vector<std::string> sets)
       : scenario(shipped("caterpillar.yaml", with_engine(std::move(sets)))),
@@ -137,7 +137,7 @@ TEST(FaultVerdict, TheRunWithoutMotorLimitsHasTheFaults) {
   EXPECT_EQ(made.joints[6].torque_peak, 0);
 }
 
-// A weak motor at the limit of its current gives all that it can: the available torque has the fault, too.
+// A weak motor at the limit of its current gives its available torque, which has the fault.
 TEST(FaultVerdict, AvailableTorqueHasTheFault) {
   const JudgedRun weak({"duration=4", "at=[{t: 0, fault: {joint: m3/active, kind: weak, share: 0.1}}]"});
   const JudgedRun whole({"duration=4"});
