@@ -22,6 +22,7 @@
 #include "golden/golden.h"
 #include "golden/report.h"
 #include "golden/runs.h"
+#include "golden/starts.h"
 
 namespace gaitlab::app {
 
@@ -135,15 +136,16 @@ struct Calibration {
 Calibration bands_around(const GoldenRun& base, const Scenario& scenario, int jobs) {
   std::vector<Scenario> scenarios;
   std::vector<std::string> names;
-  for (int i = 0; i < kEnsemble; ++i) {
+  const int members = base.deviations.empty() ? kEnsemble : 0;  // means over starts have their own deviations
+  for (int i = 0; i < members; ++i) {
     scenarios.push_back(perturbed(scenario, i));
-    names.push_back(fmt::format("{}, start {} of {} moved by 1e-7 rad", scenario.file, i + 1, kEnsemble));
+    names.push_back(fmt::format("{}, start {} of {} moved by 1e-7 rad", scenario.file, i + 1, members));
   }
   scenarios.push_back(scenario);
   scenarios.back().physics.refine(finer_by(scenario.physics));
   names.push_back(scenario.file + (scenario.physics.adapts() ? ", a finer accuracy" : ", half the step"));
   std::vector<GoldenRun> runs = simulate(scenarios, names, jobs);
-  Bands bands = calibrate(base, std::span(runs).first(kEnsemble), runs.back());
+  Bands bands = calibrate(base, std::span(runs).first(runs.size() - 1), runs.back());
   return {std::move(bands), std::move(runs.back())};
 }
 
@@ -185,8 +187,15 @@ void tell(const Golden& golden, const GoldenRun& run, const fs::path& folder, bo
   const auto line = [](const std::string& name, const Band& band) {
     fmt::print("  widest band: {} {} = {}\n", name, percent(band.width()), parts(band));
   };
-  const std::size_t column = widest_of(golden.bands);
-  line(label(run, golden.run.trace.columns[column].name), golden.bands[column]);
+  if (golden.starts > 1) {
+    fmt::print(
+        "  numbers are means over {} starts that differ by up to 1e-3 rad; no column is compared, because a sensor has a "
+        "resolution\n",
+        golden.starts);
+  } else {
+    const std::size_t column = widest_of(golden.bands);
+    line(label(run, golden.run.trace.columns[column].name), golden.bands[column]);
+  }
   const std::size_t number = widest_of(golden.number_bands);
   line(readable_number(golden.numbers[number].name), golden.number_bands[number]);
 }
@@ -209,6 +218,7 @@ Golden golden_of(const GoldenRun& base, const Scenario& scenario, const fs::path
   golden.run = {base.trace, std::move(rounded.precision)};
   golden.numbers = golden_numbers(base);
   golden.verdict = base.verdict;
+  if (!base.deviations.empty()) golden.starts = kStarts;
   return golden;
 }
 

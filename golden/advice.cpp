@@ -13,6 +13,7 @@
 #include "core/simulation/step_advice.h"
 #include "golden/report.h"
 #include "golden/runs.h"
+#include "golden/starts.h"
 
 namespace gaitlab::golden {
 
@@ -47,7 +48,6 @@ std::string setting_text(double setting) { return fmt::format("{:.12g}", setting
 /// Text such as `physics.step: 5e-05 (...)` with the setting that should pass. It is computed from the bands at the scenario's
 /// setting and at a finer setting.
 std::string finer_setting(const Scenario& scenario, double band, double finer_band) {
-  if (quantised(scenario)) return "noise of the deviation resolution/sqrt(12) in place of the resolution of sensors";
   const Physics& physics = scenario.physics;
   const bool adapts = physics.adapts();
   const double by = finer_by(physics);
@@ -91,6 +91,12 @@ std::vector<std::size_t> wide(const Golden& golden) {
 
 /// Reason for the width of a number's band, and the remedy.
 std::string explanation(const Number& number, const Band& band, const Scenario& scenario) {
+  if (band.ensemble > band.halving && quantised(scenario)) {
+    return fmt::format(
+        "the band is {} standard errors of the difference of two means over {} starts; a longer run spreads less, and noise of "
+        "the deviation resolution/sqrt(12) in place of the resolution of a sensor gives a golden of one run",
+        kStandardErrors, kStarts);
+  }
   if (band.ensemble > band.halving) {
     return fmt::format(
         "starts that differ by 1e-7 rad change this number by {}, and the band is ten times this change; shorten the run, in "

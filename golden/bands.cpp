@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "golden/starts.h"
+
 namespace gaitlab::golden {
 
 namespace {
@@ -39,6 +41,9 @@ double range_of(const Trace& trace, std::size_t column) {
   }
   return trace.rows() == 0 ? 0 : high - low;
 }
+
+/// kStandardErrors of the difference of two means over kStarts runs, whose numbers have the given deviation.
+double band_of_means(double deviation) { return kStandardErrors * deviation * std::sqrt(2.0 / kStarts); }
 
 const Number& number(const GoldenRun& run, const std::string& name) {
   const auto named = [&](const Number& n) { return n.name == name; };
@@ -96,6 +101,7 @@ Bands calibrate(const GoldenRun& base, std::span<const GoldenRun> ensemble, cons
     };
     Band band;
     for (const GoldenRun& run : ensemble) band.ensemble = std::max(band.ensemble, kEnsembleFactor * change(run));
+    if (!base.deviations.empty()) band.ensemble = band_of_means(base.deviations[i]) / size[i];
     band.halving = kHalvingFactor * change(halved);
     band.floor = kLeastOfRange;
     bands.numbers.push_back(band);

@@ -15,6 +15,8 @@ struct GoldenRun {
   std::vector<std::string> joints = {};  ///< joint names, by their numbers in the columns
   std::string verdict = {};              ///< word such as `feasible`; empty if not judged
   std::string why = {};                  ///< sentence that follows a word other than `feasible` (report/verdict/verdict.h)
+  /// Standard deviations of the numbers over the starts (starts.h), in their order; empty unless the numbers are means.
+  std::vector<double> deviations = {};
 };
 
 /// Scales of differences, one per column, in the unit of the column. A scale is the range of the column, but at least 1e-3 of
@@ -33,6 +35,9 @@ double mean_square(const Trace& a, const Trace& b, std::size_t column);
 std::vector<double> mean_squares(const Trace& a, const Trace& b);
 
 inline constexpr double kEnsembleFactor = 10, kHalvingFactor = 3;  ///< factors from the measured differences to the bands
+/// Band of a mean over starts, in standard errors of the difference of two such means. Student's t with 15 degrees of freedom
+/// exceeds 6 once in 40 000 numbers.
+inline constexpr double kStandardErrors = 6;
 
 struct Bands {
   std::vector<Band> columns, numbers;  ///< bands of the columns and of the numbers, as in Golden
@@ -40,9 +45,10 @@ struct Bands {
 
 /// Bands of the run `base`. For a column the band is the maximum of kEnsembleFactor x the largest RMS difference of a run of
 /// the ensemble, kHalvingFactor x the RMS difference of the run with half the step, and 1e-6 of the range. For a number the
-/// band follows likewise from its differences. A band may be narrower than the precision of the stored golden, because its
-/// rounding error is known exactly (Golden::rounding) and is subtracted. All runs must have at least the columns, rows and
-/// numbers of `base`, with finite values. Throws std::invalid_argument if a run lacks a number.
+/// band follows likewise from its differences; if `base` has means over starts, the ensemble is not needed, and that part of
+/// the band is kStandardErrors of the difference of two means. A band may be narrower than the precision of the stored golden,
+/// because its rounding error is known exactly (Golden::rounding) and is subtracted. All runs must have at least the columns,
+/// rows and numbers of `base`, with finite values. Throws std::invalid_argument if a run lacks a number.
 Bands calibrate(const GoldenRun& base, std::span<const GoldenRun> ensemble, const GoldenRun& halved);
 
 }  // namespace gaitlab::golden

@@ -150,7 +150,7 @@ void judge(GoldenCase& c, Attempt& outcome) {
   try {
     // If the columns are the same, the golden may belong to a scenario that was renamed and changed. This is a regression,
     // whose message contains both names.
-    const std::size_t columns = c.golden->run.trace.columns.size();
+    const std::size_t columns = c.golden->run.trace.columns.size();  // `t` only for means over starts
     if (!c.given_golden && (c.run.trace.columns.size() != columns || c.difference.columns.size() + 1 != columns))
       check_own(*c.golden, c.folder, *c.scenario, c.difference);
   } catch (const InputError& error) {

@@ -35,7 +35,8 @@ class Comparison {
         rows_(std::min(a_.rows(), b_.rows())) {}
 
   GoldenDifference made() {
-    match_columns();
+    match_starts();
+    if (found_.findings.empty()) match_columns();
     match_rows();
     const std::vector<double> scale = scales(a_);
     for (std::size_t i = 1; i < a_.columns.size(); ++i) {
@@ -49,6 +50,14 @@ class Comparison {
  private:
   [[nodiscard]] std::string label(const std::string& column) const { return readable_column(column, names_); }
   void find(std::string sentence) { found_.findings.push_back(std::move(sentence)); }
+
+  /// Numbers of one run are not compared with means, which a golden has if a sensor has a resolution.
+  void match_starts() {
+    const bool mean = !run_.deviations.empty();
+    if ((golden_.starts > 1) == mean) return;
+    find(mean ? "a sensor has a resolution, so that this run has means over starts, but the golden is of one run"
+              : "no sensor has a resolution, so that this is one run, but the golden has means over starts");
+  }
 
   void match_columns() {
     const auto missing = [&](const Trace& from, const Trace& in) {

@@ -102,6 +102,7 @@ std::string json_text(const Golden& golden, std::string_view trace_bytes) {
   add("reason", text_of(golden.history.empty() ? "" : golden.history.back().reason));
   add("history", history_text(golden));
   if (!golden.verdict.empty()) add("verdict", text_of(golden.verdict));
+  if (golden.starts > 1) add("starts", text_of(golden.starts));
   add("rows", text_of(trace.rows()));
   add("trace", text_of(hash(trace_bytes)));
   add("columns", columns_text(golden));
@@ -166,6 +167,7 @@ Golden from_json(const Json& json) {
                    json.at("build"), json.at("compiler"), json.at("scenario")};
   if (json.contains("resolved")) golden.origin.resolved = resolved_of(json["resolved"], golden.origin.scenario);
   if (json.contains("verdict")) golden.verdict = json["verdict"].get<std::string>();
+  if (json.contains("starts")) golden.starts = json["starts"].get<int>();
   for (const Json& entry : json.at("history"))
     golden.history.push_back({entry.at("number"), entry.at("reason"), entry.at("build")});
   if (golden.history.empty()) throw std::runtime_error("its history is empty");

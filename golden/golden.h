@@ -13,9 +13,10 @@ namespace gaitlab::golden {
 /// Allowed deviation (band) of a column or number, as a share of its scale (bands.h), with the three parts from which it
 /// results.
 struct Band {
-  double ensemble = 0;  ///< 10 x the difference between runs whose starts differ by rounding
-  double halving = 0;   ///< 3 x the change caused by halving the step
-  double floor = 0;     ///< lower limit, above the effect of rounding by other builds
+  /// 10 x the difference between runs whose starts differ by rounding. For means over starts (starts.h): 6 standard errors.
+  double ensemble = 0;
+  double halving = 0;  ///< 3 x the change caused by halving the step
+  double floor = 0;    ///< lower limit, above the effect of rounding by other builds
   [[nodiscard]] double width() const;
 };
 
@@ -50,6 +51,8 @@ struct Golden {
   std::vector<Number> numbers;
   std::vector<Band> number_bands;  ///< one band per element of `numbers`
   std::string verdict = {};        ///< word of the verdict, such as `feasible`; empty in an older golden
+  /// Number of runs whose mean the numbers are (starts.h); the trace then has the column `t` only.
+  int starts = 1;
 };
 
 /// Folder of a scenario's golden: `scenarios/hexapod.golden` for `scenarios/hexapod.yaml`.

@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdint>
 #include <functional>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "core/build_id.h"
-#include "core/math/random.h"
 #include "core/parallel.h"
 #include "core/scenario/resolved.h"
 #include "core/simulation/simulation.h"
+#include "golden/starts.h"
 #include "report/verdict/numbers.h"
 #include "report/verdict/verdict.h"
 
@@ -20,9 +20,8 @@ namespace gaitlab::golden {
 
 namespace {
 
-constexpr double kRowEvery = 0.02;      // s; a gait has about 0.5 Hz, and spikes of contacts do not drift
-constexpr double kLeastTravel = 0.01;   // m; for a robot that travels less, the cost of transport is noise
-constexpr double kPerturbation = 1e-7;  // rad; above the rounding of another compiler, far below a visible change of a torque
+constexpr double kRowEvery = 0.02;     // s; a gait has about 0.5 Hz, and spikes of contacts do not drift
+constexpr double kLeastTravel = 0.01;  // m; for a robot that travels less, the cost of transport is noise
 
 std::vector<std::string> columns(const Scenario& scenario) {
   std::vector<std::string> names;
@@ -109,10 +108,9 @@ class Bar {
   const std::function<void(double)>& progress_;
 };
 
-}  // namespace
-
-std::vector<Attempt> golden_runs(const std::vector<Scenario>& scenarios, int jobs, const std::function<void(double)>& progress,
-                                 bool judged) {
+/// One run per scenario, up to `jobs` at once.
+std::vector<Attempt> attempts(const std::vector<Scenario>& scenarios, int jobs, const std::function<void(double)>& progress,
+                              bool judged) {
   std::vector<Attempt> outcomes(scenarios.size());
   Bar bar(scenarios, progress);
   parallel(scenarios.size(), jobs, [&](std::size_t i) {
@@ -132,6 +130,36 @@ std::vector<Attempt> golden_runs(const std::vector<Scenario>& scenarios, int job
     }
     stop();
   });
+  return outcomes;
+}
+
+/// Result of a scenario from those of its starts: the mean of the runs, or the first error.
+Attempt mean_of_attempts(std::span<const Attempt> attempts) {
+  Attempt mean;
+  std::vector<GoldenRun> runs;
+  for (const Attempt& attempt : attempts) {
+    mean.seconds += attempt.seconds;
+    if (attempt.error && !mean.error) mean.error = attempt.error;
+    runs.push_back(attempt.run);
+  }
+  if (!mean.error) mean.run = mean_of(runs);
+  return mean;
+}
+
+}  // namespace
+
+std::vector<Attempt> golden_runs(const std::vector<Scenario>& scenarios, int jobs, const std::function<void(double)>& progress,
+                                 bool judged) {
+  std::vector<Scenario> all;
+  std::vector<std::size_t> first{0};  // of the starts of each scenario, and their end
+  for (const Scenario& scenario : scenarios) {
+    for (Scenario& start : starts(scenario)) all.push_back(std::move(start));
+    first.push_back(all.size());
+  }
+  const std::vector<Attempt> runs = attempts(all, jobs, progress, judged);
+  std::vector<Attempt> outcomes;
+  for (std::size_t i = 0; i < scenarios.size(); ++i)
+    outcomes.push_back(mean_of_attempts(std::span(runs).subspan(first[i], first[i + 1] - first[i])));
   return outcomes;
 }
 
@@ -156,19 +184,6 @@ GoldenProvenance golden_origin(const Scenario& scenario) {
   return {scenario.name,         engine.name,    scenario.physics.integrator->name,
           scenario.physics.step, build,          build.substr(from, build.find_first_of(";)", from) - from),
           std::move(text_hash),  std::move(text)};
-}
-
-Scenario perturbed(const Scenario& scenario, int member) {
-  Scenario moved = scenario;
-  const std::size_t joints = scenario.robot->joints.size();
-  PerJoint& angles = moved.initial.angles;
-  angles.each.resize(joints);
-  for (std::size_t j = 0; j < joints; ++j) {
-    const std::uint64_t counter = static_cast<std::uint64_t>(member) * joints + j + 1;
-    const std::uint64_t seed = math::splitmix64(static_cast<std::uint64_t>(scenario.seed) + 1);
-    angles.each[j] = scenario.initial.angles[j] + kPerturbation * math::symmetric(math::splitmix64(seed + counter));
-  }
-  return moved;
 }
 
 }  // namespace gaitlab::golden

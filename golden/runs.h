@@ -14,7 +14,8 @@ namespace gaitlab::golden {
 struct Attempt {
   /// Trace, numbers and, on request, the verdict. The trace has torque, current and angle of every joint (only the angle for a
   /// joint without a motor) and the pose of the base, for any `trace.columns`. It has a row every 20 ms, or at the largest
-  /// multiple of the trace period below that, at least one period.
+  /// multiple of the trace period below that, at least one period. If a sensor has a resolution: the mean over starts
+  /// (starts.h).
   GoldenRun run;
   double seconds = 0;        ///< duration of the run, for reports only, s
   std::exception_ptr error;  ///< InputError if the step is too long, RunError if the run diverged
@@ -32,9 +33,5 @@ std::vector<Number> golden_numbers(const GoldenRun& run);
 
 /// Origin of a golden's run, for Golden::origin.
 GoldenProvenance golden_origin(const Scenario& scenario);
-
-/// Scenario for member number `member` of the ensemble: `scenario` with each initial joint angle changed by up to 1e-7 rad. The
-/// changes depend only on scenario.seed, `member` and the joint, by splitmix64 of a counter.
-Scenario perturbed(const Scenario& scenario, int member);
 
 }  // namespace gaitlab::golden

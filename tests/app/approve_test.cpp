@@ -166,6 +166,40 @@ TEST_F(ApproveCommand, WhatARefusalAdvisesHelps) {
   expect_helps("accuracy: " + advised(result.err, "take physics.accuracy"));
 }
 
+// The golden of a scenario whose encoders have a resolution holds means over 16 starts. The same bits pass, for any number of
+// threads; 2 % more motor constant exceed the bands.
+TEST_F(ApproveCommand, AQuantisedScenarioHasAGoldenOfMeans) {
+  const auto write = [&](const std::string& more) {
+    folder.write("steps.yaml",
+                 "gaitlab: 1\nname: steps\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\ncontact: {on: all}\n"
+                 "physics: {engine: articulated}\nduration: 3\n"
+                 "cpg: {type: phase_oscillator, frequency: 1, amplitude: 0.6, phase_lag: 1.2}\n"
+                 "sensors: {encoder: {type: encoder, resolution: 0.00511}}\n" +
+                     more);
+  };
+  write("");
+  const Result approved_means = call("approve steps.yaml --reason 'ten bits' -j 2");
+  ASSERT_EQ(approved_means.code, 0) << approved_means.err;
+  expect_contains(approved_means.out, "numbers are means over 16 starts that differ by up to 1e-3 rad; no column is compared");
+  const Golden golden = read_golden(folder / "steps.golden");
+  EXPECT_EQ(golden.starts, 16);
+  EXPECT_EQ(golden.run.trace.columns.size(), 1U);
+  for (const char* jobs : {"1", "3"}) {
+    const Result same = call(std::string("test steps.yaml -j ") + jobs);
+    EXPECT_EQ(same.code, 0) << same.out;
+    expect_contains(same.out, "distance                0  passed");
+  }
+  write("actuator: {Kt: 0.00403}\n");
+  const Result stronger = call("test steps.yaml -j 2");
+  EXPECT_EQ(stronger.code, 4) << stronger.out;
+  expect_contains(stronger.out, "actuator.Kt: 0.00395 -> 0.00403");
+  write("");
+  folder.write("steps.yaml", read(folder / "steps.yaml").substr(0, read(folder / "steps.yaml").find("sensors:")));
+  const Result exact = call("test steps.yaml");
+  EXPECT_EQ(exact.code, 4);
+  expect_contains(exact.out, "no sensor has a resolution, so that this is one run, but the golden has means over starts");
+}
+
 TEST_F(ApproveCommand, AnyNumberOfThreadsWritesTheSameBytes) {
   const std::string before = bytes("good.golden");
   for (const char* jobs : {"1", "2", "7"}) {
