@@ -11,6 +11,7 @@
 #include "core/plugin/catalog.h"
 #include "core/scenario/scenario.h"
 #include "report/analysis/summary.h"
+#include "report/verdict/screen.h"
 #include "report/verdict/verdict.h"
 
 namespace gaitlab::app {
@@ -64,10 +65,26 @@ struct RunArguments : ScenarioArguments {
   SummaryOptions shown;
   std::vector<std::string> joints;  ///< names of the joints in the figure; if empty, those that the scenario chooses
   int draws = 1;                    ///< number of seeds, starting with the scenario's
-  int jobs = 1;                     ///< threads for the draws
+  int jobs = 1;                     ///< threads for the draws and the remedy
+  bool remedy = false;              ///< true: search the changes that make the gait feasible, or its reserves
+  bool map = false;                 ///< true: the remedy has a map of frequency and amplitude
+  std::vector<std::string> by;      ///< settings that the remedy tries; empty for all
 };
+/// Reads and runs a scenario as the arguments say.
+int run(const RunArguments& arguments);
 /// Runs a scenario and further `draws` of it, writes the run folder and prints the summary. Returns the exit code.
 int run(const Scenario& scenario, const RunArguments& arguments, std::span<const Scenario> draws = {});
+
+/// Result of take_remedy(): the lines to print, and false if the search was interrupted or impossible, which was reported.
+struct Remedied {
+  std::vector<report::ScreenLine> lines = {};
+  bool complete = true;
+};
+/// Searches a remedy for a judged run if the arguments ask for it, and stores it in the verdict.
+Remedied take_remedy(const Scenario& scenario, report::Verdict& verdict, const RunArguments& arguments);
+/// Prints lines of a summary, in colour on a terminal.
+void print_lines(const std::vector<report::ScreenLine>& lines);
+inline constexpr const char* kRemedyFile = "remedy.json";  ///< name of the remedy in a run folder
 
 /// Prints the summary of a run; the verdict is its first line.
 void print_summary(const Scenario& scenario, const Recording& recording, const report::Summary& summary,

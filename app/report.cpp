@@ -72,6 +72,18 @@ void keep_demand(report::Verdict& verdict, const fs::path& file) {
   say(file.string(), "note", "belongs to another recording; its --demand results are not shown");
 }
 
+/// Adds the remedy of an earlier search to the verdict, from remedy.json.
+void keep_remedy(report::Verdict& verdict, const fs::path& file) {
+  if (kind_of(file) != fs::file_type::regular) return;
+  std::string text = read_file(file, kMostJson);
+  const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  if (json.is_object() && json.value("format", 0) == 1) {
+    verdict.remedy = std::move(text);
+  } else {
+    say(file.string(), "note", "is not a remedy of this program; it is not shown");
+  }
+}
+
 /// A run folder, read and judged.
 struct JudgedRun {
   std::string name;  ///< folder as the user typed it
@@ -110,6 +122,7 @@ JudgedRun judged_run(const std::string& name, Catalog& catalog, const std::vecto
   run.overlaps = report::overlaps(scenario, recording);
   run.verdict = judged(scenario, recording, run.summary, run.overlaps, shown);
   if (!shown.demand) keep_demand(run.verdict, trace.parent_path() / "verdict.json");
+  keep_remedy(run.verdict, trace.parent_path() / kRemedyFile);
   return run;
 }
 

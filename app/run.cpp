@@ -182,14 +182,14 @@ void print_files(const RunArguments& arguments, const std::filesystem::path& fol
              one_line(folder.string()), arguments.format == "csv" ? "trace.csv, recording.h5" : "trace.h5", "");
 }
 
+}  // namespace
+
 int run(const RunArguments& arguments) {
   Catalog catalog = standard_catalog();
   Scenario scenario = read(arguments, catalog);
   draw_joints(scenario, arguments.joints);
   return run(scenario, arguments, other_draws(scenario, arguments, catalog));
 }
-
-}  // namespace
 
 int run(const Scenario& scenario, const RunArguments& arguments, std::span<const Scenario> draws) {
   constexpr std::size_t kMostDraws = 40;     // rows of the table of draws
@@ -228,7 +228,9 @@ int run(const Scenario& scenario, const RunArguments& arguments, std::span<const
   const report::Summary summary = made ? std::move(*made) : summarised();
   if (files.lost_any()) files.write_text("summary.json", [&] { return report::to_json(summary, scenario, recording); });
   const report::Overlaps overlaps = report::overlaps(seen, recording);
-  const report::Verdict verdict = judged(seen, recording, summary, overlaps, arguments.shown);
+  report::Verdict verdict = judged(seen, recording, summary, overlaps, arguments.shown);
+  const Remedied remedied = take_remedy(scenario, verdict, arguments);
+  if (!verdict.remedy.empty()) files.write_text(kRemedyFile, [&] { return verdict.remedy; });
   write_report(files, seen, recording, summary, verdict, !arguments.no_page);
   if (files.wrote_any()) folder.keep();
   if (!arguments.quiet) print_summary(scenario, recording, summary, verdict, arguments.shown);
@@ -236,10 +238,12 @@ int run(const Scenario& scenario, const RunArguments& arguments, std::span<const
     fmt::print("{}", report::texts::without_nan(
                          report::draws_table(verdict.draws, arguments.shown.verbose ? verdict.draws.size() : kMostDraws)));
   }
+  if (!arguments.quiet) print_lines(remedied.lines);
   if (!arguments.quiet && !files.lost_any()) print_files(arguments, folder.path());
   warn_of_run(scenario, recording, verdict);
   const bool sound = report::not_finite(scenario, recording).empty();
-  if (recording.outcome.done()) return files.lost_any() || !sound || !complete ? 1 : exit_code(verdict, arguments.shown);
+  if (recording.outcome.done())
+    return files.lost_any() || !sound || !complete || !remedied.complete ? 1 : exit_code(verdict, arguments.shown);
   say(scenario.file, "error",
       fmt::format("{}; the rows up to that time are in {}", recording.outcome.message, folder.path().string()));
   return 1;
@@ -260,7 +264,10 @@ void add_run(Commands& commands) {
                         "judge the gait with this many seeds, starting with the scenario's: other robots "
                         "within its tolerances, other noise of its sensors")
             ->check(CLI::Range(1, 10000));
-        command.add_option("-j,--jobs", arguments.jobs, "threads for the draws (default 1)")->check(CLI::Range(1, 1024));
+        command.add_option("-j,--jobs", arguments.jobs, "threads for the draws and the remedy (default 1)")
+            ->check(CLI::Range(1, 1024));
+        command.add_flag("--remedy", arguments.remedy,
+                         "also search the settings that would make the gait feasible (gaitlab remedy)");
         add_shown(command, arguments.shown);
       });
 }

@@ -41,8 +41,7 @@ std::string printed_table(const std::string& text) { return report::texts::witho
 
 }  // namespace
 
-void print_summary(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
-                   const report::Verdict& verdict, const SummaryOptions& shown) {
+void print_lines(const std::vector<report::ScreenLine>& lines) {
   const char* const no_color = std::getenv("NO_COLOR");
   const bool coloured = isatty(fileno(stdout)) != 0 && (no_color == nullptr || *no_color == '\0');
   const auto painted = [&](const std::string& text, report::Tone tone) {
@@ -50,11 +49,15 @@ void print_summary(const Scenario& scenario, const Recording& recording, const r
     const int colour = tone == report::Tone::good ? 32 : tone == report::Tone::bad ? 31 : 33;
     return fmt::format("\033[{}m{}\033[0m", colour, text);
   };
+  for (const report::ScreenLine& line : lines) fmt::print("  {:<9} {}\n", line.title, painted(printed(line.text), line.tone));
+}
+
+void print_summary(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
+                   const report::Verdict& verdict, const SummaryOptions& shown) {
   const report::RunData run{scenario, recording, summary};
   for (const std::string& line : report::texts::simulated(run)) fmt::print("{}\n", printed(line));
   constexpr std::size_t kFew = 4;  // largest number of lines for checks of one status
-  for (const report::ScreenLine& line : report::first_screen(run, verdict, shown.verbose ? verdict.checks.size() : kFew))
-    fmt::print("  {:<9} {}\n", line.title, painted(printed(line.text), line.tone));
+  print_lines(report::first_screen(run, verdict, shown.verbose ? verdict.checks.size() : kFew));
   if (shown.verbose) fmt::print("{}", printed_table(report::to_text(summary, scenario, recording)));
   if (shown.joints) fmt::print("{}", printed_table(report::joint_table(summary, scenario)));
 }

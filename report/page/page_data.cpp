@@ -137,6 +137,7 @@ Json verdict_json(const Verdict& verdict, const Robot& robot, const Judged& judg
   }
   all["why"] = verdict.why();
   all["longest"] = longest_json(robot, judged);
+  if (!verdict.remedy.empty()) all["remedy"] = Json::parse(verdict.remedy);
   return all;
 }
 

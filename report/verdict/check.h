@@ -113,6 +113,7 @@ struct CheckKind {
   void (*judge)(const CheckedRun& run, Check& made);
   bool least = false;         ///< the limit is a lower limit
   bool of_all_loads = false;  ///< true: without a stated limit the check needs Loads::recorded to compute its number
+  bool rating = false;        ///< true: the limit is a rated load, which does not act on the motion
   [[nodiscard]] bool can_fail() const { return *fails != '\0'; }
 };
 /// All kinds of checks, in the order of the verdict.

@@ -87,8 +87,8 @@ TEST_F(Optimize, FaultsNeedAScenarioWithoutChanges) {
       "{cpg.frequency: 1}}]']\nverify: {faults: each}\nbudget: {runs: 16}\n");
   const Result result = call("optimize s.yaml --dry-run");
   EXPECT_EQ(result.code, 2);
-  EXPECT_NE(result.err.find("verify.faults is each, and the scenario has changes of its own (at); expected a scenario without "
-                            "them, or faults: none"),
+  EXPECT_NE(result.err.find("verify.faults is each, and the scenario has a section at; expected a scenario without one, "
+                            "or faults: none"),
             std::string::npos)
       << result.err;
 }

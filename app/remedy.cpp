@@ -1,0 +1,144 @@
+// `gaitlab remedy`, which searches the changes that make a gait feasible: of a scenario, which it runs first, or of a run
+// folder.
+#include "report/remedy/remedy.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "app/commands.h"
+#include "app/progress.h"
+#include "app/stop_on_signal.h"
+#include "app/stored_scenario.h"
+#include "core/errors.h"
+#include "core/files/atomic_file.h"
+#include "core/recording/run_files.h"
+#include "core/scenario/resolved.h"
+#include "core/settings/wording.h"
+#include "report/page/page.h"
+#include "report/remedy/remedy_text.h"
+
+namespace gaitlab::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RemedyArguments : RunArguments {
+  PluginArguments plugins;  ///< that a run folder may load
+};
+
+/// Throws InputError if an option for new runs is given with the folder of a run.
+void check_options(const RunArguments& arguments) {
+  const auto refuse = [&](const char* option) {
+    throw InputError(SourceLocation{option},
+                     fmt::format("is for a scenario, but {} is a run; its remedy is written into its folder", arguments.file));
+  };
+  if (arguments.out) refuse("--out");
+  if (!arguments.sets.empty()) refuse("--set");
+  if (arguments.seed) refuse("--seed");
+}
+
+int remedy_of_run(const RemedyArguments& arguments) {
+  check_options(arguments);
+  const fs::path trace = trace_file(arguments.file);
+  Catalog catalog = careful_catalog(arguments.plugins);
+  StoredRun run = read_run(arguments.file, catalog);
+  const Recording& recording = run.stored.recording;
+  report::Summary summary = report::summarise(run.scenario, recording, 0);
+  summary.build = run.stored.origin.build;
+  report::Verdict verdict =
+      judged(run.scenario, recording, summary, report::overlaps(run.scenario, recording), arguments.shown);
+  const StopOnSignal stop(StopOnSignal::Second::is_ignored);
+  const Remedied remedied = take_remedy(run.scenario, verdict, arguments);
+  if (!remedied.complete) return 1;
+  const fs::path folder = trace.parent_path();
+  write_file(folder / kRemedyFile, verdict.remedy, Existing::replaced);
+  if (!arguments.no_page) {
+    write_file(folder / kPageFile, report::page(report::page_data(run.scenario, recording, summary, verdict)),
+               check_page((folder / kPageFile).string(), folder / kPageFile));
+  }
+  print_summary(run.scenario, recording, summary, verdict, arguments.shown);
+  print_lines(remedied.lines);
+  if (!arguments.no_page) print_page(folder / kPageFile);
+  return exit_code(verdict, arguments.shown);
+}
+
+/// Names of the settings of a remedy.
+std::vector<std::string> setting_names() {
+  std::vector<std::string> names;
+  for (const report::RemedyKey& key : report::remedy_keys()) names.emplace_back(key.name);
+  return names;
+}
+
+void check_names(const std::vector<std::string>& by) {
+  const std::vector<std::string> known = setting_names();
+  for (const std::string& name : by) {
+    if (std::ranges::count(known, name) == 0)
+      throw InputError(SourceLocation{"--by"}, fmt::format("setting '{}' is unknown{}", name, offer(name, known, "settings")));
+  }
+}
+
+int remedy(const RemedyArguments& arguments) {
+  check_names(arguments.by);
+  RemedyArguments asked = arguments;
+  asked.remedy = true;
+  const bool is_run = kind_of(asked.file) == fs::file_type::directory || fs::path(asked.file).extension() == ".h5";
+  return is_run ? remedy_of_run(asked) : run(asked);
+}
+
+}  // namespace
+
+Remedied take_remedy(const Scenario& scenario, report::Verdict& verdict, const RunArguments& arguments) try {
+  if (!arguments.remedy) return {};
+  Catalog catalog = standard_catalog();  // the plugins of the run are already loaded
+  const StoredScenario same{"", scenario.file + " (its remedy)", resolved(scenario)};
+  std::optional<report::Remedy> made;
+  {
+    const Progress progress(arguments.quiet);
+    const report::RemedyTask task{
+        scenario,
+        verdict,
+        [&](const std::vector<std::string>& sets) { return read_stored(same, catalog, OtherPlugins::taken, sets); },
+        arguments.map,
+        arguments.by,
+        {arguments.jobs, 0},
+        std::cref(progress)};
+    made = report::remedy(task, stopped());
+  }
+  if (!made) {
+    say("gaitlab remedy", "error", "interrupted; the run is complete, but has no remedy");
+    return {{}, false};
+  }
+  verdict.remedy = report::to_json(*made, scenario);
+  return {report::remedy_lines(*made, scenario), true};
+} catch (const InputError& error) {
+  say(error.what());
+  return {{}, false};
+}
+
+void add_remedy(Commands& commands) {
+  add_command<RemedyArguments>(
+      commands, "remedy",
+      "Search the settings that would make a gait feasible, one at a time; of a feasible gait, its reserves.", remedy,
+      [](CLI::App& command, RemedyArguments& arguments) {
+        add_scenario(command, arguments);
+        command.get_option("SCENARIO")->description("scenario file (YAML), or a run folder");
+        command.add_option("--out", arguments.out, "run folder (default runs/NAME, then NAME-2 ...); new or empty");
+        command.add_flag("--no-report", arguments.no_page, "write no report.html");
+        command.add_flag("--map", arguments.map, "also draw the verdict over frequency and amplitude, 13 x 13 runs");
+        command
+            .add_option("--by", arguments.by,
+                        fmt::format("only this setting, once per setting: {}", fmt::join(setting_names(), ", ")))
+            ->allow_extra_args(false);
+        command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
+        add_trust(command, arguments.plugins);
+        add_shown(command, arguments.shown);
+      });
+}
+
+}  // namespace gaitlab::app

@@ -1,0 +1,42 @@
+// Settings that a remedy changes, with their numbers in a scenario.
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/settings/node.h"
+
+namespace gaitlab::report {
+
+/// A setting, or several that change by the same factor.
+struct RemedyKey {
+  const char* name;                ///< name in messages and in remedy.json
+  std::vector<const char*> paths;  ///< keys of the scenario
+  const char* unit;
+  bool stretches = false;  ///< true: a smaller value makes the duration longer, so that the run has as many periods
+};
+
+/// All settings, in the order in which they are printed.
+std::span<const RemedyKey> remedy_keys();
+
+/// Numbers of a resolved scenario, by key. Values of single joints and entries of lists count as numbers of their key.
+class RemedySettings {
+ public:
+  /// Throws InputError if the text is not a scenario.
+  explicit RemedySettings(const std::string& resolved);
+
+  /// True if every path of the key exists and has a number other than 0.
+  [[nodiscard]] bool has(const RemedyKey& key) const;
+  /// The number of the first path; NaN if it has several.
+  [[nodiscard]] double value(const RemedyKey& key) const;
+  /// Settings in the form of --set that multiply every number of the key by `factor`. A key that stretches also sets the
+  /// duration, rounded up to 1 ms.
+  [[nodiscard]] std::vector<std::string> scaled(const RemedyKey& key, double factor) const;
+
+ private:
+  [[nodiscard]] const Node* find(const std::string& path) const;
+
+  Node root_;
+};
+
+}  // namespace gaitlab::report
