@@ -75,7 +75,7 @@ std::vector<std::string> common_names(const Json& a, const Json& b, const char* 
 void print_robots(const Json& a, const Json& b) {
   for (const char* names : {"joints", "contacts"}) {
     if (a.contains(names) && b.contains(names) && a[names] != b[names]) {
-      fmt::print("the robots' {} differ ({} and {}), but columns with the same number are compared\n", names, a[names].size(),
+      fmt::print("the robots have other {} ({} and {}); columns are matched by their numbers alone\n", names, a[names].size(),
                  b[names].size());
     }
   }

@@ -150,7 +150,7 @@ std::string renewed(const std::string& page, const std::string& part) {
   const std::size_t begin = page.find(kBegin);
   const std::size_t end = page.find(kEnd);
   if (begin == std::string::npos || end == std::string::npos || end < begin) {
-    throw RunError(fmt::format("the page has no lines '{}' and, below it, '{}'", kBegin, kEnd));
+    throw RunError(fmt::format("the page must contain the line '{}' and, further down, the line '{}'", kBegin, kEnd));
   }
   return page.substr(0, begin + kBegin.size()) + "\n\n" + part + "\n" + page.substr(end);
 }

@@ -106,7 +106,7 @@ struct Parsed {
     }
   }
 
-  /// Tree of a text. An empty text has been reported as a fault; its tree is 0.
+  /// Syntax tree of an expression. An empty text has been reported as a fault; its tree is 0.
   Term tree(const char* key, const std::string& name, const std::string& text, Where where, std::size_t slot) {
     if (text.empty()) return {};
     std::vector<expression::Fault> wrong;

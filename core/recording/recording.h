@@ -117,8 +117,8 @@ struct AllRows {
   void swap(Recording& r);
 };
 
-/// Reduces the rows of a recording to every k-th row and the last one, with the least k for which `trace` and `rest` have at
-/// most `most` bytes together. Returns all rows, or nothing if k is 1. For readers of the reduced rows the trace period is k
+/// Keeps every k-th row of a recording and the last one. k is the smallest number for which `trace` and `rest` together do not
+/// exceed `most` bytes. Returns all rows, or nothing if k is 1. For readers of the reduced rows the trace period is k
 /// times as long. travel(), figures and pages use the reduced rows. Peaks and checks use `ticks`, `poses` and `loads`, which
 /// are not reduced.
 std::optional<AllRows> thin_rows(Recording& r, std::size_t most = kMostInMemory);

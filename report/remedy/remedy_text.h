@@ -8,8 +8,8 @@
 
 namespace gaitlab::report {
 
-/// Lines for the terminal. Of an infeasible run: `feasible with i_max >= 0.719 A (now 0.408 A): 0.0263 m/s`, and the settings
-/// that do not help. Of a feasible run: `stays feasible with frequency up to 0.34 Hz (now 0.25 Hz)`.
+/// Lines for the terminal. An infeasible run has lines such as `feasible with i_max >= 0.719 A (now 0.408 A): 0.0263 m/s`, and
+/// the settings that do not help. A feasible run has lines such as `stays feasible with frequency up to 0.34 Hz`.
 std::vector<ScreenLine> remedy_lines(const Remedy& remedy, const Scenario& scenario);
 
 /// The text of remedy.json, with all points of the search's answers.

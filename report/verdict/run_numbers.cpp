@@ -102,7 +102,7 @@ std::vector<SummaryNumber> run_numbers() {
        .value = [](R r) { return r.scenario.physics.integrator->name; },
        .compare = {.place = 30, .if_different = true}},
       {.key = "accuracy",
-       .definition = "`physics.accuracy`; null if the integrator does not choose its steps.",
+       .definition = "`physics.accuracy`; null for an integrator with a fixed step.",
        .value = [](R r) { return r.scenario.physics.adapts() ? Json(r.scenario.physics.accuracy) : Json(); }},
       {.key = "solves",
        .definition = "Number of solutions of the equations of motion, repeated solutions of a step included; 0: "

@@ -11,8 +11,8 @@ namespace gaitlab::studies {
 void read_parameters(const Node& node, Study& study, Problems& problems);
 void read_replicates(const Node& node, Replicates& replicates, Problems& problems);
 
-/// Reads an option `--grid KEY=A:B:N`, `KEY=log:A:B:N` or `KEY=v,v,v`; if `drawn`, `--random KEY=A:B`, `KEY=log:A:B` or
-/// `KEY=v,v,v`.
+/// Reads the value of an option: `--random` (KEY=A:B, KEY=log:A:B or KEY=v,v,v) if `drawn`, otherwise `--grid` (KEY=A:B:N,
+/// KEY=log:A:B:N or KEY=v,v,v).
 Parameter read_parameter(const std::string& option, const std::string& text, bool drawn, Problems& problems);
 
 }  // namespace gaitlab::studies

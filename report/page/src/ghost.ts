@@ -42,7 +42,7 @@ export class Ghost {
     return this.numbers[kind][ours] ?? -1;
   }
 
-  /** Number in the first run of a joint of the second run; -1 if the first run does not have the joint. */
+  /** Index in the first run for a joint of the second run; -1 if the first run lacks the joint. */
   jointBack(theirs: number): number {
     return this.numbers.joint.indexOf(theirs);
   }

@@ -56,7 +56,7 @@ TEST(Convergence, TwoStepsHaveNoOrder) {
   EXPECT_FALSE(row.order);
 }
 
-// The rounding error of a column that should be 0 is compared with the size of the other columns in its unit.
+// The rounding error of a column that should be 0 is compared with the magnitude of the columns that have the same unit.
 TEST(Convergence, RoundingIsNoError) {
   std::vector<Trace> traces = halved(0.5, 1);
   for (std::size_t i = 0; i < traces.size(); ++i) {

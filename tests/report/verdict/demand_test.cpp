@@ -61,7 +61,7 @@ TEST(Demand, IsTheRunWithLimitsTwentyTimesAsLarge) {
   EXPECT_TRUE(contains(to_json(weak.judged), "\"demand\": {"));
 }
 
-/// An actuator without limits has no demand, and no second run takes place.
+/// For an actuator without limits no second run is simulated and no demand is reported.
 TEST(Demand, OfAnActuatorWithoutLimitsIsNotKnown) {
   Scenario held = shipped("pendulum.yaml");
   EXPECT_FALSE(raise_limits(held));
