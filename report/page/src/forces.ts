@@ -2,9 +2,9 @@
 import {
   ConeGeometry,
   CylinderGeometry,
+  DoubleSide,
   GreaterDepth,
   InstancedMesh,
-  LessEqualDepth,
   Matrix4,
   MeshBasicMaterial,
   Quaternion,
@@ -30,11 +30,12 @@ export class Forces {
   /** Length of an arrow per force, m/N. */
   readonly scale: number;
   private readonly arrows: Arrow[];
-  // Arrows are faint behind bodies. Dots are visible through all bodies, because a foot covers its contact.
+  // Arrows are lighter behind bodies. Dots are visible through all bodies, because a foot covers its contact. Two sides
+  // of opaque faces need no shader that the shadows do not need.
   private readonly materials = [
-    new MeshBasicMaterial({ transparent: true, opacity: 0.5, depthFunc: GreaterDepth, depthWrite: false }),
-    new MeshBasicMaterial({ transparent: true, depthFunc: LessEqualDepth }),
-    new MeshBasicMaterial({ transparent: true, opacity: 0.9, depthTest: false }),
+    new MeshBasicMaterial({ side: DoubleSide, depthFunc: GreaterDepth, depthWrite: false }),
+    new MeshBasicMaterial({ side: DoubleSide }),
+    new MeshBasicMaterial({ side: DoubleSide, depthTest: false }),
   ];
   private readonly shafts: InstancedMesh[];
   private readonly tips: InstancedMesh[];
@@ -123,6 +124,7 @@ export class Forces {
   }
 
   paint(theme: Theme): void {
-    for (const material of this.materials) material.color.set(theme === "dark" ? 0x2cc597 : 0x007a59);
+    const [hidden, seen] = theme === "dark" ? [0x2a8a70, 0x2cc597] : [0x4d9c86, 0x007a59];
+    this.materials.forEach((material, n) => material.color.set(n ? seen : hidden));
   }
 }

@@ -38,7 +38,7 @@ export class Legends {
     };
     show("legend-load", recording.ran && recording.meta.joints.length > 0);
     element("ramp-words").textContent = `${robot.tinted ? "hinge, body" : "hinge"}: ${
-      loads.limited ? "share of the available torque, 0 to 100 %" : "torque, of the largest in this run"
+      loads.limited ? "share of the available torque" : "torque, of the largest in this run"
     }`;
     show("legend-faces", marks.faces);
     show("legend-axes", marks.axes);
@@ -47,7 +47,11 @@ export class Legends {
     show("legend-travel", travel.any && travel.shown);
     const chosen = recording.meta.docks[rings.chosen];
     show("legend-rings", rings.any && (rings.all || !!chosen));
-    const words = !view.docks.any ? "" : view.docks.limited ? ", share of its strength" : ", load, of the largest";
+    const words = !view.docks.any
+      ? ""
+      : view.docks.limited
+        ? ", share of its strength"
+        : ", load as a share of the largest";
     element("ring-words").textContent =
       `${chosen && !rings.all ? `ring: ${dockName(chosen.name)}` : "ring: a dock"}${words}`;
     this.scale();

@@ -214,6 +214,7 @@ function cubes(count: number): InstancedMesh {
   const look = new MeshBasicMaterial({ color: 0xe69f00, depthTest: false, transparent: true });
   const mesh = new InstancedMesh(new BoxGeometry(1, 1, 1), look, Math.max(count, 1));
   mesh.count = count;
+  mesh.visible = count > 0;
   mesh.frustumCulled = false;
   mesh.renderOrder = 3;
   return mesh;

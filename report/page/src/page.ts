@@ -70,7 +70,8 @@ export class Page implements Desk {
     view?.look((link.get("look") as Look | null) ?? "iso");
     if (check) run.mark(dockAt(run.recording.meta, check.part, check.worst));
     // The camera comes near the part of a failed check, unless the reader has asked for another place.
-    if (check && check.status !== "pass" && !["look", "joint", "t"].some((key) => link.has(key))) near(check);
+    const free = !["look", "joint", "t"].some((key) => link.has(key));
+    if (check && ["fail", "too close"].includes(check.status) && free) near(check);
     new Problems(run, near);
     for (const marks of ["faces", "axes"] as const) {
       if ((planned || link.has(marks)) && !element(marks).hidden) this.stage.switch(marks);

@@ -15,7 +15,7 @@ const words: Record<Status, string> = {
   "not judged": "Not judged",
 };
 
-/** Checks of a run in the order of their urgency. Checks of the numbers' accuracy are left out. */
+/** Checks of a run in the order of their urgency: first the check that the page opens at. */
 export function problemsOf(run: Run): Check[] {
   const { meta } = run.recording;
   if (meta.outcome === "not run") return [];
@@ -25,7 +25,7 @@ export function problemsOf(run: Run): Check[] {
       .sort((a, b) => (a.margin ?? 1e300) - (b.margin ?? 1e300));
   const first = leading(run);
   const found = [...failures(meta).filter((c) => c.group !== "trust"), ...of("too close"), ...of("warn")];
-  return first && !found.includes(first) ? [first, ...found] : found;
+  return first ? [first, ...found.filter((c) => c !== first)] : found;
 }
 
 export class Problems {
@@ -60,7 +60,9 @@ export class Problems {
     const { status } = all[at];
     const count = all.length > 1 ? ` ${at + 1} of ${all.length}` : "";
     element("problem").dataset.status = status;
-    element("problem-text").replaceChildren(make("b", `${words[status]}${count}`), ` ${this.found(all[at])}`);
+    const found = this.found(all[at]);
+    element("problem-text").replaceChildren(make("b", `${words[status]}${count}`), ` ${found}`);
+    element("problem-text").title = found;
     element("next-problem").firstChild!.textContent = all.length > 1 ? "Next " : "Show ";
   }
 

@@ -15,7 +15,6 @@ import { rim, ringLoad, type Theme } from "./colour";
 import type { DockLoads } from "./dock_loads";
 import type { Meta } from "./format";
 import { position } from "./kinematics";
-import { corners } from "./outline";
 import type { Robot } from "./robot";
 
 const unseen = new Matrix4().makeScale(0, 0, 0);
@@ -74,7 +73,7 @@ export class Rings {
 
   /** Pose of the ring of a dock, around the body of the docked module at its face; null if the face is not known. */
   private place(n: number): { body: number; local: Matrix4 } | null {
-    const { bodies, faces, geometry, docks } = this.meta;
+    const { bodies, faces, docks } = this.meta;
     const { module, face: id } = docks[n];
     const body = bodies.findIndex((b) => b.module === module && faces[b.type]?.some((f) => f.id === id));
     if (body < 0) return null;
@@ -83,7 +82,8 @@ export class Rings {
     const normal = new Vector3(...face.normal).normalize();
     const centre = position([...face.origin, 1, 0, 0, 0]);
     const away = (p: Vector3) => p.clone().sub(centre).projectOnPlane(normal).length();
-    const points = (geometry[type] ?? []).flatMap(corners);
+    const beside = (p: Vector3) => Math.abs(p.clone().sub(centre).dot(normal)) < 0.12 * this.robot.unit;
+    const points = this.robot.surface(body).filter(beside);
     const radius = points.length ? 1.04 * Math.max(...points.map(away)) : 0.7 * this.robot.unit;
     return {
       body,
@@ -106,6 +106,7 @@ function hoops(count: number, kind: number): InstancedMesh {
     transparent: true,
     opacity: kind ? 1 : 0.85,
     depthTest: false,
+    forceSinglePass: true, // two passes would need two shaders
   });
   if (!kind) look.color.setRGB(r / 255, g / 255, b / 255, SRGBColorSpace);
   const mesh = new InstancedMesh(new CylinderGeometry(1, 1, 1, 36, 1, true), look, Math.max(count, 1));

@@ -267,6 +267,14 @@ export class Robot {
     return found.length ? found : positions;
   }
 
+  /** Points of the surface of a body, in its frame. */
+  surface(body: number): Vector3[] {
+    return this.edgesOf(body).flatMap(({ piece }) => {
+      const at = piece.body.getAttribute("position");
+      return Array.from({ length: at.count }, (_, k) => new Vector3().fromBufferAttribute(at, k));
+    });
+  }
+
   private edgesOf(body: number): Kind[] {
     return this.kinds.filter((k) => k.bodies.includes(body));
   }

@@ -129,6 +129,9 @@ export class Stage implements Panel {
     const { joints } = recording.meta;
     const j = view.hovered >= 0 ? view.hovered : state.joint;
     this.point(j, j >= 0 ? view.place(j) : null);
+    const mass = view.support.shown && view.support.any ? view.project(view.support.centre) : null;
+    element("mass").hidden = !mass;
+    if (mass) element("mass").style.transform = `translate(${mass.map((x) => `${(x - 9).toFixed(1)}px`).join(",")})`;
     const order = joints.map((_, k) => k).filter((k) => k !== j);
     const label = (text: string, at: Vector3) => {
       const tip = view.project(at);

@@ -1,29 +1,25 @@
-// Balance in the 3D picture: the centre of mass, its projection on the ground, and the support polygon.
+// Balance in the 3D picture: the centre of mass, its projection on the ground, and the support polygon. The symbol of
+// the centre of mass is an element in front of the picture (stage.ts).
 import {
   BufferAttribute,
   BufferGeometry,
-  CanvasTexture,
-  CircleGeometry,
-  DoubleSide,
   DynamicDrawUsage,
   Line,
   LineBasicMaterial,
   Matrix4,
   Mesh,
   MeshBasicMaterial,
-  SRGBColorSpace,
   Scene,
-  Sprite,
-  SpriteMaterial,
   Vector3,
 } from "three";
 import type { Theme } from "./colour";
 import { hull, type Point } from "./outline";
 import type { Recording } from "./recording";
 
+type Corner = [x: number, y: number, z: number];
+
 const share = 0.005; // of the weight, which a foot of the polygon carries at least (column `stability` of the trace)
 const touch = 1e-4; // m, above the ground: a contact element that is lower touches it; the page rounds positions
-const symbol = 22; // px, width of the symbol of the centre of mass
 const most = 64; // largest number of corners that are drawn
 
 export class Support {
@@ -31,19 +27,17 @@ export class Support {
   readonly any: boolean;
   readonly anyPolygon: boolean;
   private readonly height: number;
-  private readonly centre = new Sprite(
-    new SpriteMaterial({ map: quarters(), depthTest: false, sizeAttenuation: false }),
-  );
+  /** Centre of mass at the time shown. */
+  readonly centre = new Vector3();
   private readonly plumb: Line;
   private readonly foot: Mesh;
   private readonly area: Mesh;
   private readonly edge: Line;
   private readonly ink = new LineBasicMaterial();
   private readonly outline = new LineBasicMaterial();
-  private readonly fill = new MeshBasicMaterial({
+  private readonly shade = new MeshBasicMaterial({
     transparent: true,
     opacity: 0.22,
-    side: DoubleSide,
     depthWrite: false,
   });
 
@@ -59,11 +53,9 @@ export class Support {
     this.any = recording.ran && recording.has("com.x");
     this.anyPolygon = this.any && ground.kind === "plane" && recording.has("foot.0.x");
     this.plumb = new Line(room(2), this.ink);
-    this.foot = new Mesh(
-      new CircleGeometry(0.06 * unit, 20),
-      new MeshBasicMaterial({ side: DoubleSide, depthTest: false, transparent: true }),
-    );
-    this.area = new Mesh(fan(), this.fill);
+    this.foot = new Mesh(fan(), new MeshBasicMaterial({ depthTest: false, transparent: true }));
+    fill(this.foot, disc(0.06 * unit));
+    this.area = new Mesh(fan(), this.shade);
     this.edge = new Line(room(most + 1), this.outline);
     this.parts.forEach((part, n) => {
       part.frustumCulled = false;
@@ -73,13 +65,8 @@ export class Support {
     });
   }
 
-  /** Sets the size of a pixel at the distance 1 from the camera. */
-  set pixel(size: number) {
-    this.centre.scale.setScalar(symbol * size);
-  }
-
   private get parts() {
-    return [this.area, this.edge, this.plumb, this.foot, this.centre];
+    return [this.area, this.edge, this.plumb, this.foot];
   }
 
   set(t: number): void {
@@ -89,21 +76,20 @@ export class Support {
     const [x, y, z] = ["x", "y", "z"].map((c) => recording.at(recording.channel(`com.${c}`), t));
     const grounded = recording.meta.ground.kind === "plane";
     const ground = this.height + 0.004 * this.unit;
-    this.centre.position.set(x, y, z);
+    this.centre.set(x, y, z);
     this.plumb.visible = this.foot.visible = grounded;
     this.foot.position.set(x, y, ground);
     write(this.plumb, [x, y, z, x, y, ground]);
     const corners = this.anyPolygon ? this.polygon(t).slice(0, most) : [];
     this.area.visible = this.edge.visible = corners.length > 1;
-    write(
+    fill(
       this.area,
-      corners.flatMap(([a, b]) => [a, b, ground]),
+      corners.map(([a, b]) => [a, b, ground]),
     );
     write(
       this.edge,
       [...corners, ...corners.slice(0, 1)].flatMap(([a, b]) => [a, b, ground]),
     );
-    this.area.geometry.setDrawRange(0, 3 * Math.max(corners.length - 2, 0));
   }
 
   /** Corners of the support polygon, seen from above: the hull of the contact elements that touch the ground, m. */
@@ -123,32 +109,10 @@ export class Support {
 
   paint(theme: Theme): void {
     const colour = theme === "dark" ? 0xc9aaff : 0x5a3a96;
-    for (const material of [this.fill, this.outline]) material.color.set(colour);
+    for (const material of [this.shade, this.outline]) material.color.set(colour);
     this.ink.color.set(theme === "dark" ? 0xe9edf1 : 0x1b2127);
     (this.foot.material as MeshBasicMaterial).color.copy(this.ink.color);
   }
-}
-
-/** Symbol of a centre of mass: a disc of black and white quarters. */
-function quarters(): CanvasTexture {
-  const canvas = document.createElement("canvas");
-  const pen = canvas.getContext("2d")!;
-  canvas.width = canvas.height = 64;
-  for (let k = 0; k < 4; k++) {
-    pen.fillStyle = k % 2 ? "#fff" : "#0c1014";
-    pen.beginPath();
-    pen.moveTo(32, 32);
-    pen.arc(32, 32, 27, (k * Math.PI) / 2, ((k + 1) * Math.PI) / 2);
-    pen.fill();
-  }
-  pen.lineWidth = 5;
-  pen.strokeStyle = "#0c1014";
-  pen.beginPath();
-  pen.arc(32, 32, 28, 0, 2 * Math.PI);
-  pen.stroke();
-  const texture = new CanvasTexture(canvas);
-  texture.colorSpace = SRGBColorSpace;
-  return texture;
 }
 
 function room(points: number): BufferGeometry {
@@ -162,6 +126,19 @@ function fan(): BufferGeometry {
   const made = room(most);
   made.setIndex(Array.from({ length: most - 2 }, (_, k) => [0, k + 1, k + 2]).flat());
   return made;
+}
+
+/** Corners of a disc around the origin. */
+const disc = (radius: number): Corner[] =>
+  Array.from({ length: 20 }, (_, k): Corner => {
+    const turn = (k * Math.PI) / 10;
+    return [radius * Math.cos(turn), radius * Math.sin(turn), 0];
+  });
+
+/** Draws a convex polygon with corners in counterclockwise order. */
+function fill(mesh: Mesh, corners: readonly Corner[]): void {
+  write(mesh, corners.flat());
+  mesh.geometry.setDrawRange(0, 3 * Math.max(corners.length - 2, 0));
 }
 
 function write({ geometry }: Line | Mesh, values: number[]): void {

@@ -2,7 +2,6 @@
 import {
   BufferAttribute,
   BufferGeometry,
-  DoubleSide,
   Line,
   LineBasicMaterial,
   Mesh,
@@ -22,7 +21,7 @@ export class Travel {
   private readonly flat: boolean;
   private readonly line: Line;
   private readonly arrow: Mesh;
-  private readonly look = new MeshBasicMaterial({ side: DoubleSide });
+  private readonly look = new MeshBasicMaterial({ transparent: true });
 
   /** `unit` is the size of a typical body and `size` the size of the robot, m. */
   constructor(

@@ -249,7 +249,7 @@ export class View {
     this.renderer.setSize(host.width, host.height, false);
     this.camera.aspect = host.width / host.height;
     this.camera.updateProjectionMatrix();
-    this.gauges.pixel = this.support.pixel = this.pixelAt1;
+    this.gauges.pixel = this.pixelAt1;
     this.dirty = true;
   }
 
