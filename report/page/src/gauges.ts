@@ -1,5 +1,5 @@
 // Gauges of the joints in the 3D picture: an unlit ring at each hinge that faces the reader. Its coloured arc is the
-// load. A ring is in front of the two bodies of its hinge; behind another body it is faint.
+// load. A ring is in front of the two bodies of its hinge; behind other bodies it is faint, except of the chosen joint.
 import {
   Color,
   DynamicDrawUsage,
@@ -42,7 +42,7 @@ void main() {
   colour = tint;
   load = state;
   gl_Position = projectionMatrix * vec4(eye.xy + at * r, eye.z, 1.0);
-  vec4 front = projectionMatrix * vec4(eye.xy, min(eye.z + ahead, 0.2 * eye.z), 1.0);
+  vec4 front = projectionMatrix * vec4(eye.xy, min(eye.z + ahead * (state.y > 0.9 ? 9.0 : 1.0), 0.1 * eye.z), 1.0);
   gl_Position.z = front.z / front.w * gl_Position.w;
 }`;
 

@@ -14,11 +14,11 @@ import {
   Matrix4,
   MeshBasicMaterial,
   MeshLambertMaterial,
+  Raycaster,
   SRGBColorSpace,
   Scene,
   Vector3,
   type Intersection,
-  type Raycaster,
   type Material,
 } from "three";
 import { bodyColours, ringLoad, type Theme } from "./colour";
@@ -256,6 +256,13 @@ export class Robot {
       (a, b) => this.kinematics.pivots[a].distanceTo(hit.point) - this.kinematics.pivots[b].distanceTo(hit.point),
     );
     return near[0] ?? -1;
+  }
+
+  /** True if a place is in sight from a direction: no body on the way is more than `slack` in front of the place, m. */
+  seen(at: Vector3, from: Vector3, slack: number): boolean {
+    const start = from.clone().multiplyScalar(slack).add(at);
+    const meshes = this.kinds.map((k) => k.mesh);
+    return !new Raycaster(start, from).intersectObjects(meshes, false).length;
   }
 
   /** Corners of all bodies, which a view must contain. */

@@ -53,7 +53,7 @@ export class Travel {
     const centre = this.at(t);
     const front = Math.max(...points().map((p) => (p.x - centre.x) * way.x + (p.y - centre.y) * way.y));
     this.arrow.position.copy(centre).addScaledVector(way, front + 0.3 * this.unit);
-    this.arrow.position.z = this.ground + 0.003 * this.unit;
+    this.arrow.position.z = this.ground + 0.006 * this.unit;
     this.arrow.rotation.z = Math.atan2(way.y, way.x);
   }
 

@@ -127,17 +127,27 @@ export class View {
     const at = spot(this, part, name);
     const r = 2.6 * this.robot.unit;
     if (!at || this.size < 3 * r) return false;
-    this.look("iso", surroundings(at, r));
+    // Of four sides, the camera comes from the first from which no other body hides the part.
+    const { x, y, z } = directions.iso;
+    const sides = [
+      [x, y],
+      [-x, y],
+      [x, -y],
+      [-x, -y],
+    ].map(([a, b]) => new Vector3(a, b, z).normalize());
+    const open = sides.find((d) => this.robot.seen(at, d, 0.85 * this.robot.unit));
+    this.look(open ?? sides[0], surroundings(at, r));
     return true;
   }
 
   /** Moves the camera so that points, or else the robot, fill the picture, with space for the labels at the top. */
-  look(from: Look, points = this.everything()): void {
+  look(from: Look | Vector3, points = this.everything()): void {
+    const direction = (typeof from === "string" ? directions[from] : from).clone().normalize();
     const centre = new Box3().setFromPoints(points).getCenter(new Vector3());
     const v = new Vector3();
     let distance = this.size;
     for (let i = 0; i < 6; i++) {
-      this.camera.position.copy(directions[from]).normalize().multiplyScalar(distance).add(centre);
+      this.camera.position.copy(direction).multiplyScalar(distance).add(centre);
       this.camera.lookAt(centre);
       this.camera.updateMatrixWorld();
       const seen = new Box3().setFromPoints(points.map((p) => v.copy(p).project(this.camera).clone()));
@@ -149,7 +159,7 @@ export class View {
       );
       distance *= Math.min(Math.max(half.x / 0.86, half.y / 0.74, 0.25), 4);
     }
-    this.camera.position.copy(directions[from]).normalize().multiplyScalar(distance).add(centre);
+    this.camera.position.copy(direction).multiplyScalar(distance).add(centre);
     this.controls.target.copy(centre);
     this.controls.update();
     this.dirty = true;
