@@ -45,6 +45,7 @@ for (const [name, file] of Object.entries(pages)) {
         await frames(page, 3);
         const wide = await page.evaluate(() => document.documentElement.scrollWidth);
         assert.ok(wide <= width, `${wide} px of ${width}`);
+        if (await page.isVisible("#time")) assert.ok((await page.locator("#time").boundingBox()).width > 0.7 * width, "the slider is wide enough for a finger");
       }
     });
     await page.setViewportSize({ width: 1440, height: 900 });
@@ -350,6 +351,28 @@ on("feasible: arrows of forces begin where the forces act and have one scale, th
   near(bar, Number(/([\d.]+)\sN$/.exec(words)[1]) * scale * perMetre, 0.1, "bar, px");
 });
 
+on("feasible: bodies and docks have the colours of their loads", pages.feasible, {}, async (page, meta) => {
+  for (const key of ["l", "k"]) await page.keyboard.press(key);
+  const { shares, drawn, colours, docks, rings } = await page.evaluate(() => {
+    const { page: desk, colours: { ringLoad } } = window.gaitlab, { recording: r, loads, stage: { view } } = desk, row = 500;
+    desk.goTo(r.times[row]);
+    const all = ["tension", "shear", "bending", "torsion"].map((kind) => r.meta.docks.map((_, n) => [...r.channel(`dock.${n}.${kind}`)]));
+    return {
+      shares: r.meta.joints.map((_, j) => loads.share(j)[row]), colours: Array.from({ length: 1001 }, (_, k) => ringLoad("light", k / 1000)),
+      drawn: view.robot.kinds.flatMap(({ mesh, bodies }) => bodies.map((body, n) => ({ body, colour: [...mesh.instanceColor.array.slice(3 * n, 3 * n + 3)] }))),
+      docks: r.meta.docks.map((_, n) => Math.max(0, ...all.map((one, k) => (k ? Math.abs(one[n][row]) : Math.max(one[n][row], 0)) / Math.max(...one.flat().map(Math.abs))))),
+      rings: [...view.rings.fills.instanceColor.array],
+    };
+  });
+  const linear = (v) => (v / 255 <= 0.04045 ? v / 255 / 12.92 : ((v / 255 + 0.055) / 1.055) ** 2.4);
+  const same = (found, share, what) => colours[Math.round(1000 * share)].forEach((c, k) => near(found[k], linear(c), 0.02, what));
+  for (const { body, colour } of drawn) {
+    const on = shares.filter((_, j) => meta.bodies.some((b, i) => b.joint === j && (i === body || b.parent === body)));
+    same(colour, Math.max(0, ...on), meta.bodies[body].name);
+  }
+  docks.forEach((share, n) => same(rings.slice(3 * n), share, meta.docks[n].name));
+});
+
 on("fall: it is when it fell", pages.fall, { link: "" }, async (page, meta) => {
   // The height of the start pose lowered onto the ground, of which check.value is the share at the lowest point.
   const check = failing(meta), { t } = await state(page), [before, at] = await page.evaluate(({ from, to, value }) => {
@@ -436,6 +459,7 @@ on("built: shows hinges, faces and axes, and no time", pages.built, {}, async (p
   for (const id of ["#transport", "#checks", "#motion", "#heat", "#path"]) assert.equal(await page.isVisible(id), false, id);
   const rows = await page.$$eval("#parts tbody tr", (all) => all.map((r) => r.firstChild.textContent));
   assert.deepEqual(rows, [...meta.docks.map((d) => meta.modules[d.module].name), ...meta.joints.map((j) => j.name)]);
+  assert.ok(await page.$$eval("#parts .scroll", (all) => all.every((e) => e.scrollHeight <= e.clientHeight + 1)), "no list is cut");
   // A dock that is clicked has a ring, which lies where the two faces meet.
   assert.equal(await page.isVisible("#legend-rings"), false);
   await page.click("#parts tbody tr:nth-child(2) button");
