@@ -197,6 +197,9 @@ for (const name of ["feasible", "infeasible"]) {
     assert.equal(await page.getAttribute("html", "data-theme"), "dark", "as it was before");
     await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
     assert.ok(await page.evaluate(() => document.querySelector("#stage img").naturalWidth > 100), "an image of the robot");
+    // Marks of a size in pixels have it on paper, too: a picture of 262 px in an angle of 32 degrees.
+    const [pixel, height] = await page.evaluate(() => [window.gaitlab.page.stage.view.gauges.colours.pixel.value, document.getElementById("stage").clientHeight]);
+    near(pixel * height, 2 * Math.tan(Math.PI * 16 / 180), 1e-3, `a pixel of ${height}`);
     assert.equal(await page.getAttribute("html", "data-theme"), "light");
   });
 }
@@ -333,6 +336,19 @@ on("feasible: the support polygon is the engine's", pages.feasible, {}, async (p
   // Quantum of the column: 0.5 mm. An element with less than 0.5 % of the weight belongs to the drawn polygon only.
   const close = off.filter((v) => v < 6e-4).length;
   assert.ok(close >= 0.9 * off.length, `${close} of ${off.length}: ${off.sort((a, b) => b - a).slice(0, 9)}`);
+});
+
+on("feasible: the arrow of travel points the way that the run went", pages.feasible, {}, async (page, meta) => {
+  const { ways, went, ahead } = await page.evaluate(() => {
+    const { recording: r, stage: { view } } = window.gaitlab.page, [x, y] = ["x", "y"].map((c) => r.channel(`com.${c}`)), last = r.rows - 1;
+    window.gaitlab.page.goTo(4);
+    const { position: p } = view.travel.arrow, row = r.row(4), way = view.travel.direction(4);
+    return { ways: [2, 4, 6].map((t) => view.travel.direction(t).toArray()), went: [x[last] - x[0], y[last] - y[0]], ahead: Math.min(...view.robot.points().map((c) => (p.x - c.x) * way.x + (p.y - c.y) * way.y)), row };
+  });
+  const length = Math.hypot(...went);
+  assert.ok(length > 0.2 * meta.summary.path_length && length > 0.1, String(length));
+  for (const [x, y] of ways) assert.ok((x * went[0] + y * went[1]) / length > 0.9, `${x}, ${y}`);
+  assert.ok(ahead > 0, "it begins before the robot");
 });
 
 on("feasible: arrows of forces begin where the forces act and have one scale, that of the legend", pages.feasible, {}, async (page, meta) => {

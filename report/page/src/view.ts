@@ -61,6 +61,7 @@ export class View {
   private readonly sun = new DirectionalLight(0xffffff, 1.75);
   private readonly gauges: Gauges;
   private readonly size: number;
+  private height = 1; // of the picture, CSS px
   private readonly recording: Recording;
   /** Translucent robot of the second run. */
   readonly second: { ghost: Ghost; kinematics: Kinematics; robot: Robot } | null = null;
@@ -231,7 +232,7 @@ export class View {
 
   // Size of a pixel of the canvas at the distance 1 from the camera.
   private get pixelAt1(): number {
-    return (2 * Math.tan((this.camera.fov * Math.PI) / 360)) / Math.max(this.canvas.clientHeight, 1);
+    return (2 * Math.tan((this.camera.fov * Math.PI) / 360)) / this.height;
   }
 
   /** Position of a hinge on the canvas, CSS px; null if the hinge is behind the camera. */
@@ -257,6 +258,7 @@ export class View {
     if (host.width < 2 || host.height < 2) return;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2) * (this.lightened > 1 ? 0.7 : 1));
     this.renderer.setSize(host.width, host.height, false);
+    this.height = host.height;
     this.camera.aspect = host.width / host.height;
     this.camera.updateProjectionMatrix();
     this.gauges.pixel = this.pixelAt1;
