@@ -9,6 +9,7 @@ import type { View } from "./view";
 const longest = 92; // px, of the bar that shows a force
 
 export class Legends {
+  private width = ""; // of the bar that shows a force
   constructor(
     private readonly desk: Desk,
     private readonly view: View,
@@ -65,7 +66,10 @@ export class Legends {
     if (!on) return;
     const perNewton = this.view.pixels(arrows.scale);
     const force = rounded(longest / perNewton);
-    element("force-bar").style.width = `${(force * perNewton).toFixed(1)}px`;
+    const width = `${(force * perNewton).toFixed(1)}px`;
+    if (width === this.width) return;
+    this.width = width;
+    element("force-bar").style.width = width;
     element("force-words").textContent = `force of the ground, ${number(force)}\u00a0N`;
   }
 }

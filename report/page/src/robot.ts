@@ -66,6 +66,7 @@ export class Robot {
   private readonly matrices: Matrix4[];
   private readonly press: Matrix4 | null;
   private readonly corners = new Map<string, Vector3[]>(); // corners of the pieces, by body type
+  private readonly radii: number[]; // largest distance of a corner of each body from the origin of the body, m
   private theme: Theme = "light";
 
   private readonly all = new Group();
@@ -98,6 +99,7 @@ export class Robot {
     this.outlines.renderOrder = light ? 0 : 3;
     this.all.add(this.outlines, this.chosen);
     this.axes = axesOf(meta);
+    this.radii = bodies.map(({ type }) => Math.max(0, ...(this.corners.get(type) ?? []).map((c) => c.length())));
     this.hingesOn = bodies.map((_, i) =>
       bodies.flatMap(({ joint, parent }, k) => (joint >= 0 && (k === i || parent === i) ? [joint] : [])),
     );
@@ -256,6 +258,15 @@ export class Robot {
       (a, b) => this.kinematics.pivots[a].distanceTo(hit.point) - this.kinematics.pivots[b].distanceTo(hit.point),
     );
     return near[0] ?? -1;
+  }
+
+  /** Distance from a point, along a horizontal unit vector, at which the robot ends at the latest, m. */
+  front(from: Vector3, way: Vector3): number {
+    const { positions } = this.kinematics;
+    return this.radii.reduce((most, r, i) => {
+      const p = positions[i];
+      return Math.max(most, (p.x - from.x) * way.x + (p.y - from.y) * way.y + r);
+    }, -Infinity);
   }
 
   /** True if a place is in sight from a direction: no body on the way is more than `slack` in front of the place, m. */

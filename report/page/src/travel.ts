@@ -39,8 +39,8 @@ export class Travel {
     scene.add(this.line, this.arrow);
   }
 
-  /** Moves the arrow before the robot, of which `points` are the corners. */
-  set(t: number, points: () => Vector3[]): void {
+  /** Moves the arrow before the robot; `front` is the distance at which the robot ends in a direction. */
+  set(t: number, front: (from: Vector3, way: Vector3) => number): void {
     this.line.visible = this.any && this.shown;
     if (!this.line.visible) {
       this.arrow.visible = false;
@@ -51,8 +51,7 @@ export class Travel {
     this.arrow.visible = !!way;
     if (!way) return;
     const centre = this.at(t);
-    const front = Math.max(...points().map((p) => (p.x - centre.x) * way.x + (p.y - centre.y) * way.y));
-    this.arrow.position.copy(centre).addScaledVector(way, front + 0.3 * this.unit);
+    this.arrow.position.copy(centre).addScaledVector(way, front(centre, way) + 0.15 * this.unit);
     this.arrow.position.z = this.ground + 0.006 * this.unit;
     this.arrow.rotation.z = Math.atan2(way.y, way.x);
   }

@@ -188,7 +188,7 @@ export class View {
     this.ground.set(t);
     this.arrows.set(t);
     this.support.set(t);
-    this.travel.set(t, () => this.robot.points());
+    this.travel.set(t, (from, way) => this.robot.front(from, way));
     this.dirty = true;
   }
 
