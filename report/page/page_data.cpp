@@ -79,6 +79,17 @@ Json motors_json(const Motors& motors) {
   return all;
 }
 
+/// Contact elements of a body, as [x, y, z, radius] in body axes; the radius of a point is 0.
+Json points_json(const Scenario& scenario, std::size_t body) {
+  Json all = Json::array();
+  for (const ContactElement& element : contact_elements(*scenario.robot, scenario.contact.on)) {
+    if (element.body != body) continue;
+    const Vec3 at = scenario.robot->bodies[body].in_link.inverse() * element.centre;
+    all.push_back({at.x(), at.y(), at.z(), element.radius});
+  }
+  return all;
+}
+
 Json feet_json(const Scenario& scenario, const std::vector<Foot>& feet, const RobotTree& tree) {
   std::vector<std::size_t> bodies;
   bodies.reserve(feet.size());
@@ -86,8 +97,11 @@ Json feet_json(const Scenario& scenario, const std::vector<Foot>& feet, const Ro
   const std::vector<std::string> titles = foot_names(scenario, bodies);
   Json all = Json::array();
   for (std::size_t i = 0; i < feet.size(); ++i) {
-    all.push_back(
-        {{"name", feet[i].name}, {"title", titles[i]}, {"module", feet[i].module}, {"body", tree.place(feet[i].body)}});
+    all.push_back({{"name", feet[i].name},
+                   {"title", titles[i]},
+                   {"module", feet[i].module},
+                   {"body", tree.place(feet[i].body)},
+                   {"points", points_json(scenario, feet[i].body)}});
   }
   return all;
 }

@@ -25,12 +25,12 @@ constexpr const char* kStyle = R"(
 body { margin: 0; padding: 24px; background: var(--bg); color: var(--ink); font: 14px/1.45 Inter, ui-sans-serif, system-ui, "Segoe UI", Roboto, "Liberation Sans", Arial, sans-serif; font-variant-numeric: tabular-nums; }
 h1 { font-size: 20px; margin: 0 0 4px; }
 p { margin: 0 0 16px; color: var(--muted); }
-main { background: var(--panel); border-radius: 10px; padding: 4px 0 12px; overflow-x: auto; }
+main { border-radius: 10px; padding: 4px 0 12px; overflow-x: auto; background: linear-gradient(90deg, var(--panel) 40%, transparent) local, linear-gradient(270deg, var(--panel) 40%, transparent) 100% 0 local, radial-gradient(farthest-side at 0 50%, var(--muted), transparent) scroll, radial-gradient(farthest-side at 100% 50%, var(--muted), transparent) 100% 0 scroll; background-color: var(--panel); background-repeat: no-repeat; background-size: 48px 100%, 48px 100%, 12px 100%, 12px 100%; }
 table { border-collapse: collapse; width: 100%; }
 th, td { padding: 10px 6px; border-bottom: 1px solid var(--rule); text-align: right; vertical-align: middle; white-space: nowrap; }
 th { font-weight: 500; color: var(--muted); vertical-align: bottom; }
 th:first-child, td:first-child, th.l, td.l { text-align: left; }
-th:first-child, td:first-child { padding-left: 16px; }
+th:first-child, td:first-child { padding-left: 16px; position: sticky; left: 0; background: var(--panel); }
 th:last-child, td:last-child { padding-right: 16px; }
 td.l { white-space: normal; min-width: 150px; max-width: 340px; }
 a { color: inherit; font-weight: 650; text-underline-offset: 3px; }
@@ -164,7 +164,7 @@ std::string swap_page(const std::string& name, const std::vector<SwapEntry>& ent
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{0}: CPGs side by side</title>\n"
       "<style>{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n<p>under {2} CPGs; a name leads to the page of its "
-      "run</p>\n{5}<main>\n"
+      "run</p>\n{5}<main tabindex=\"0\" aria-label=\"table of the CPGs\">\n"
       "<table>\n<thead><tr>{3}</tr></thead>\n<tbody>\n{4}</tbody>\n</table>\n</main>\n</body>\n</html>\n",
       xml_escaped(name), kStyle, entries.size(), head, rows, robot_picture(entries));
 }

@@ -45,6 +45,7 @@ for (const [name, file] of Object.entries(pages)) {
         await frames(page, 3);
         const wide = await page.evaluate(() => document.documentElement.scrollWidth);
         assert.ok(wide <= width, `${wide} px of ${width}`);
+        if (await page.isVisible("#time")) assert.ok((await page.locator("#time").boundingBox()).width > 0.7 * width, "the slider is wide enough for a finger");
       }
     });
     await page.setViewportSize({ width: 1440, height: 900 });
@@ -109,7 +110,7 @@ for (const name of ["feasible", "infeasible"]) {
     assert.equal((await state(page)).joint, joint);
     await page.keyboard.press("d");
     assert.equal(await page.getAttribute("html", "data-theme"), "dark");
-    for (const [key, button] of [["f", "#follow"], ["n", "#faces"], ["a", "#axes"], ...(meta.docks.length ? [["k", "#rings"]] : [])]) {
+    for (const [key, button] of [["f", "#follow"], ["l", "#tint"], ["c", "#forces"], ["b", "#balance-marks"], ["t", "#travel"], ["n", "#faces"], ["a", "#axes"], ...(meta.docks.length ? [["k", "#rings"]] : [])]) {
       const before = await page.getAttribute(button, "aria-pressed");
       await page.keyboard.press(key);
       assert.notEqual(await page.getAttribute(button, "aria-pressed"), before, key);
@@ -196,6 +197,9 @@ for (const name of ["feasible", "infeasible"]) {
     assert.equal(await page.getAttribute("html", "data-theme"), "dark", "as it was before");
     await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
     assert.ok(await page.evaluate(() => document.querySelector("#stage img").naturalWidth > 100), "an image of the robot");
+    // Marks of a size in pixels have it on paper, too: a picture of 262 px in an angle of 32 degrees.
+    const [pixel, height] = await page.evaluate(() => [window.gaitlab.page.stage.view.gauges.colours.pixel.value, document.getElementById("stage").clientHeight]);
+    near(pixel * height, 2 * Math.tan(Math.PI * 16 / 180), 1e-3, `a pixel of ${height}`);
     assert.equal(await page.getAttribute("html", "data-theme"), "light");
   });
 }
@@ -265,6 +269,125 @@ for (const name of ["infeasible", "fall", "current"]) {
     assert.ok(saturated > 0, "the motor is at its limit at the row shown");
   });
 }
+
+// Contrast of WCAG 2, 1.4.11, of what lies next to each other: body and rim, rim and the colour of the load.
+on("loads are readable on every body", Object.values(pages)[0], {}, async (page) => {
+  const { bodies, rim, colours, stops } = await page.evaluate(() => {
+    const { bodyColours, rim: around, ringLoad, ringGradient } = window.gaitlab.colours, shares = Array.from({ length: 101 }, (_, k) => k / 100), themes = ["light", "dark"];
+    return { bodies: bodyColours, rim: around, colours: themes.map((t) => shares.map((x) => ringLoad(t, x))), stops: themes.map(ringGradient) };
+  });
+  const linear = (v) => (v / 255 <= 0.04045 ? v / 255 / 12.92 : ((v / 255 + 0.055) / 1.055) ** 2.4);
+  const luminance = ([r, g, b]) => 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);
+  const contrast = (a, b) => (Math.max(luminance(a), luminance(b)) + 0.05) / (Math.min(luminance(a), luminance(b)) + 0.05);
+  const rgb = (hex) => [hex >> 16, (hex >> 8) & 255, hex & 255];
+  for (const [n, theme] of ["light", "dark"].entries()) {
+    for (const name of ["active", "passive", "other"]) assert.ok(contrast(rgb(bodies[theme][name]), rim) >= 3, `${theme}, ${name}`);
+    colours[n].forEach((c, k) => assert.ok(contrast(c, rim) >= 3, `${theme}, ${k} %: ${contrast(c, rim)}`));
+    const lightness = colours[n].map(luminance), up = lightness[100] > lightness[0] ? 1 : -1;
+    lightness.slice(1).forEach((l, k) => assert.ok(up * (l - lightness[k]) >= -0.004, `${theme}: the lightness is monotonic, ${k} %`));
+    // The legend is a gradient through the same colours.
+    for (const [, c, x] of stops[n].matchAll(/rgb\(([\d,]+)\) ([\d.]+)%/g)) assert.deepEqual(c.split(",").map(Number), colours[n][Math.round(Number(x))]);
+  }
+});
+
+for (const name of ["infeasible", "current", "fall"]) {
+  on(`${name}: the camera is near the part that fails, and a key leads to the next problem`, pages[name], { link: "" }, async (page, meta) => {
+    const near = () => page.evaluate(() => {
+      const { stage: { view }, state: { joint, t } } = window.gaitlab.page, { clientWidth: w, clientHeight: h } = view.canvas, [x, y] = view.place(joint), [across, up] = [x / w, y / h];
+      return { across, up, joint, t };
+    });
+    const first = failing(meta), shown = await near(), text = () => page.textContent("#problem-text");
+    if (first.part === "joint") assert.ok(Math.abs(shown.across - 0.5) < 0.4 && Math.abs(shown.up - 0.5) < 0.4, JSON.stringify(shown));
+    assert.match(await text(), /^Problem/);
+    const count = Number(/ of (\d+)/.exec(await text())?.[1] ?? 1), seen = [await text()];
+    for (let k = 1; k < count; k++) {
+      await page.keyboard.press("x");
+      seen.push(await text());
+      const now = await near();
+      assert.ok(Math.abs(now.across - 0.5) < 0.5 && Math.abs(now.up - 0.5) < 0.5, `${seen.at(-1)}: ${JSON.stringify(now)}`);
+    }
+    assert.equal(new Set(seen).size, count);
+    await page.keyboard.press("x");
+    assert.equal(await text(), seen[0], "after the last the first");
+    const joint = (await near()).joint;
+    if (first.part === "joint") assert.equal(meta.joints[joint].name, first.worst);
+  });
+}
+
+// The column `stability` is the engine's distance of the centre of mass inside the edge of the hull of all elements with load.
+on("feasible: the support polygon is the engine's", pages.feasible, {}, async (page) => {
+  const rows = await page.evaluate(() => {
+    const { recording: r, stage: { view } } = window.gaitlab.page, out = [];
+    for (let i = 40; i < r.rows; i += 31) {
+      window.gaitlab.page.goTo(r.times[i]);
+      out.push({ corners: view.support.polygon(r.times[i]), com: ["x", "y"].map((c) => r.channel(`com.${c}`)[i]), stability: r.channel("stability")[i] });
+    }
+    return out;
+  });
+  const off = rows.map(({ corners, com: [x, y], stability }) => {
+    const turn = (a, b) => (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]), sides = corners.map((a, k) => [a, corners[(k + 1) % corners.length]]);
+    const turns = sides.map(([a, b]) => turn(a, b)), inside = turns.every((v) => v > 0) || turns.every((v) => v < 0);
+    const away = Math.min(...sides.map(([a, b]) => {
+      const [u, v] = [b[0] - a[0], b[1] - a[1]], f = Math.min(Math.max(((x - a[0]) * u + (y - a[1]) * v) / (u * u + v * v), 0), 1);
+      return Math.hypot(x - a[0] - f * u, y - a[1] - f * v);
+    }));
+    return Math.abs((inside ? away : -away) - stability);
+  });
+  // Quantum of the column: 0.5 mm. An element with less than 0.5 % of the weight belongs to the drawn polygon only.
+  const close = off.filter((v) => v < 6e-4).length;
+  assert.ok(close >= 0.9 * off.length, `${close} of ${off.length}: ${off.sort((a, b) => b - a).slice(0, 9)}`);
+});
+
+on("feasible: the arrow of travel points the way that the run went", pages.feasible, {}, async (page, meta) => {
+  const { ways, went, ahead } = await page.evaluate(() => {
+    const { recording: r, stage: { view } } = window.gaitlab.page, [x, y] = ["x", "y"].map((c) => r.channel(`com.${c}`)), last = r.rows - 1;
+    window.gaitlab.page.goTo(4);
+    const { position: p } = view.travel.arrow, row = r.row(4), way = view.travel.direction(4);
+    return { ways: [2, 4, 6].map((t) => view.travel.direction(t).toArray()), went: [x[last] - x[0], y[last] - y[0]], ahead: Math.min(...view.robot.points().map((c) => (p.x - c.x) * way.x + (p.y - c.y) * way.y)), row };
+  });
+  const length = Math.hypot(...went);
+  assert.ok(length > 0.2 * meta.summary.path_length && length > 0.1, String(length));
+  for (const [x, y] of ways) assert.ok((x * went[0] + y * went[1]) / length > 0.9, `${x}, ${y}`);
+  assert.ok(ahead > 0, "it begins before the robot");
+});
+
+on("feasible: arrows of forces begin where the forces act and have one scale, that of the legend", pages.feasible, {}, async (page, meta) => {
+  const { arrows, scale, bar, words, perMetre } = await page.evaluate(() => {
+    const { recording: r, stage: { view } } = window.gaitlab.page, { shafts: [shaft], tips: [tip], scale: length } = view.arrows, t = r.times[500];
+    window.gaitlab.page.goTo(t);
+    const at = (n, names) => names.map((c) => r.channel(`foot.${n}.${c}`)[500]), ends = (mesh, n) => [0, 1].map((y) => [0, 1, 2].map((k) => mesh.instanceMatrix.array[16 * n + 12 + k] + y * mesh.instanceMatrix.array[16 * n + 4 + k]));
+    return { arrows: r.meta.feet.map((_, n) => ({ force: at(n, ["fx", "fy", "fz"]), point: at(n, ["x", "y", "z"]), start: ends(shaft, n)[0], end: ends(tip, n)[1] })), scale: length, bar: parseFloat(document.getElementById("force-bar").style.width), words: document.getElementById("force-words").textContent, perMetre: view.pixels(1) };
+  });
+  const loaded = arrows.filter(({ force }) => Math.hypot(...force) > 0.01 * meta.weight);
+  assert.ok(loaded.length >= 3);
+  for (const { force, point, start, end } of loaded) force.forEach((f, k) => {
+    near(start[k], point[k], 1e-5, "start, m");
+    near(end[k] - start[k], scale * f, 1e-5, "length, m");
+  });
+  near(bar, Number(/([\d.]+)\sN$/.exec(words)[1]) * scale * perMetre, 0.1, "bar, px");
+});
+
+on("feasible: bodies and docks have the colours of their loads", pages.feasible, {}, async (page, meta) => {
+  for (const key of ["l", "k"]) await page.keyboard.press(key);
+  const { shares, drawn, colours, docks, rings } = await page.evaluate(() => {
+    const { page: desk, colours: { ringLoad } } = window.gaitlab, { recording: r, loads, stage: { view } } = desk, row = 500;
+    desk.goTo(r.times[row]);
+    const all = ["tension", "shear", "bending", "torsion"].map((kind) => r.meta.docks.map((_, n) => [...r.channel(`dock.${n}.${kind}`)]));
+    return {
+      shares: r.meta.joints.map((_, j) => loads.share(j)[row]), colours: Array.from({ length: 1001 }, (_, k) => ringLoad("light", k / 1000)),
+      drawn: view.robot.kinds.flatMap(({ mesh, bodies }) => bodies.map((body, n) => ({ body, colour: [...mesh.instanceColor.array.slice(3 * n, 3 * n + 3)] }))),
+      docks: r.meta.docks.map((_, n) => Math.max(0, ...all.map((one, k) => (k ? Math.abs(one[n][row]) : Math.max(one[n][row], 0)) / Math.max(...one.flat().map(Math.abs))))),
+      rings: [...view.rings.fills.instanceColor.array],
+    };
+  });
+  const linear = (v) => (v / 255 <= 0.04045 ? v / 255 / 12.92 : ((v / 255 + 0.055) / 1.055) ** 2.4);
+  const same = (found, share, what) => colours[Math.round(1000 * share)].forEach((c, k) => near(found[k], linear(c), 0.02, what));
+  for (const { body, colour } of drawn) {
+    const on = shares.filter((_, j) => meta.bodies.some((b, i) => b.joint === j && (i === body || b.parent === body)));
+    same(colour, Math.max(0, ...on), meta.bodies[body].name);
+  }
+  docks.forEach((share, n) => same(rings.slice(3 * n), share, meta.docks[n].name));
+});
 
 on("fall: it is when it fell", pages.fall, { link: "" }, async (page, meta) => {
   // The height of the start pose lowered onto the ground, of which check.value is the share at the lowest point.
@@ -352,6 +475,7 @@ on("built: shows hinges, faces and axes, and no time", pages.built, {}, async (p
   for (const id of ["#transport", "#checks", "#motion", "#heat", "#path"]) assert.equal(await page.isVisible(id), false, id);
   const rows = await page.$$eval("#parts tbody tr", (all) => all.map((r) => r.firstChild.textContent));
   assert.deepEqual(rows, [...meta.docks.map((d) => meta.modules[d.module].name), ...meta.joints.map((j) => j.name)]);
+  assert.ok(await page.$$eval("#parts .scroll", (all) => all.every((e) => e.scrollHeight <= e.clientHeight + 1)), "no list is cut");
   // A dock that is clicked has a ring, which lies where the two faces meet.
   assert.equal(await page.isVisible("#legend-rings"), false);
   await page.click("#parts tbody tr:nth-child(2) button");

@@ -1,4 +1,4 @@
-// Canvas that fills its parent, and its common parts: ticks, axes, frame, playhead.
+// Canvas that fills its parent, and its common parts: ticks, axes, frame.
 import type { Ink } from "./colour";
 import { fixed } from "./numbers";
 import type { Span } from "./panel";
@@ -71,12 +71,23 @@ export interface Scale {
   Y: (v: number) => number;
 }
 
-/** Draws the grid, numbers and names of two axes. Returns the functions from values to pixels. */
-export function frame(pen: Pen, ink: Ink, box: Box, x: Span, y: Span, names: { x: string; y: string }): Scale {
+/**
+ * Draws the grid, numbers and names of two axes. Returns the functions from values to pixels. `marks` replaces ticks of
+ * an axis.
+ */
+export function frame(
+  pen: Pen,
+  ink: Ink,
+  box: Box,
+  x: Span,
+  y: Span,
+  names: { x: string; y: string },
+  marks: { x?: Ticks; y?: Ticks } = {},
+): Scale {
   const X = (v: number) => box.left + ((v - x[0]) / (x[1] - x[0])) * (box.right - box.left);
   const Y = (v: number) => box.bottom - ((v - y[0]) / (y[1] - y[0])) * (box.bottom - box.top);
-  const across = ticks(x[0], x[1], Math.max(2, (box.right - box.left) / 72));
-  const up = ticks(y[0], y[1], Math.max(2, (box.bottom - box.top) / 38));
+  const across = marks.x ?? ticks(x[0], x[1], Math.max(2, (box.right - box.left) / 72));
+  const up = marks.y ?? ticks(y[0], y[1], Math.max(2, (box.bottom - box.top) / 38));
   pen.font = font(11);
   pen.fillStyle = ink.muted;
   pen.strokeStyle = ink.grid;
@@ -102,7 +113,7 @@ export function frame(pen: Pen, ink: Ink, box: Box, x: Span, y: Span, names: { x
   return { X, Y };
 }
 
-export function axisName(pen: Pen, ink: Ink, x: number, y: number, name: string): void {
+function axisName(pen: Pen, ink: Ink, x: number, y: number, name: string): void {
   pen.font = font(11.5);
   pen.fillStyle = ink.ink2;
   pen.textAlign = "center";
@@ -125,28 +136,6 @@ export function clipped(pen: Pen, box: Box, draw: () => void): void {
   pen.clip();
   draw();
   pen.restore();
-}
-
-/** Draws the seconds along the lower edge of a drawing. */
-export function timeAxis(pen: Pen, ink: Ink, left: number, width: number, y: number, [from, to]: Span): void {
-  const marks = ticks(from, to, width / 64);
-  pen.font = font(11);
-  pen.fillStyle = ink.muted;
-  pen.textAlign = "center";
-  pen.textBaseline = "top";
-  for (const [i, t] of marks.at.entries()) {
-    const x = left + ((t - from) / (to - from)) * width;
-    const text = marks.text(t) + (i === marks.at.length - 1 ? " s" : "");
-    const half = pen.measureText(text).width / 2;
-    pen.fillText(text, Math.min(Math.max(x, left + half), left + width - half), y);
-  }
-}
-
-/** Moves a playhead to a time, or hides the playhead if the time is outside the span. */
-export function placeHead(head: HTMLElement, t: number, [from, to]: Span, left: number, width: number): void {
-  const x = (t - from) / (to - from);
-  head.style.display = x >= 0 && x <= 1 ? "" : "none";
-  head.style.transform = `translateX(${left + x * width}px)`;
 }
 
 /** A text cut to a width, with an ellipsis. */

@@ -13,6 +13,7 @@ export function captions(desk: Desk): void {
   const twoRuns = desk.ghost && !desk.ghost.overlay.strayed;
   element("name").textContent = title(desk.runs);
   element("about").textContent = twoRuns ? "" : about(meta);
+  document.documentElement.classList.toggle("planned", !ran);
   headline(desk);
   element("foot-text").textContent = origin(desk).join(" ");
   element("scenario").textContent = meta.scenario;

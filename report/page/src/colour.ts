@@ -2,7 +2,7 @@
 // darkened for contrast. style.css contains all other colours.
 
 export type Theme = "light" | "dark";
-type Rgb = [number, number, number];
+export type Rgb = [number, number, number];
 
 /** Theme of the page, and the colours of style.css that drawings use. */
 export interface Ink {
@@ -59,13 +59,14 @@ export function inkOf(page: HTMLElement): Ink {
   return { theme: page.dataset.theme === "dark" ? "dark" : "light", ...colours };
 }
 
-const ramps: Record<Theme, [number, Rgb][]> = {
+type Ramp = [at: number, colour: Rgb][];
+const ramps: Record<Theme, Ramp> = {
   light: [
     [0, [236, 239, 242]],
     [0.25, [254, 226, 178]],
     [0.5, [252, 178, 92]],
-    [0.8, [222, 84, 28]],
-    [1, [140, 0, 34]],
+    [0.8, [232, 96, 34]],
+    [1, [208, 22, 52]],
   ],
   dark: [
     [0, [33, 39, 46]],
@@ -76,9 +77,51 @@ const ramps: Record<Theme, [number, Rgb][]> = {
   ],
 };
 
+/**
+ * Colours of the loads in the 3D picture, next to bodies of any colour. Every colour has a contrast of at least 3 with
+ * the rim around it, and the rim with every body (tests/page/page_test.mjs).
+ */
+const rings: Record<Theme, Ramp> = {
+  light: ramps.light,
+  dark: [
+    [0, [104, 114, 124]],
+    [0.25, [160, 110, 54]],
+    [0.5, [212, 122, 34]],
+    [0.8, [246, 136, 70]],
+    [1, [255, 196, 172]],
+  ],
+};
+export const rim: Rgb = [12, 16, 20];
+
+/** Colours of the bodies, of their edges and of the selection in the 3D picture. */
+export const bodyColours = {
+  light: {
+    ghost: 0x8f4a86,
+    active: 0x6fb9e3,
+    passive: 0xe8ab3a,
+    other: 0x98a1a9,
+    edge: 0x27313a,
+    shadow: 0xd0d7dd,
+    accent: 0x0b5f9e,
+  },
+  dark: {
+    ghost: 0xe39cc1,
+    active: 0x4b97c6,
+    passive: 0xc98d22,
+    other: 0x7b858e,
+    edge: 0x05080b,
+    shadow: 0x090c0f,
+    accent: 0x8fd0ff,
+  },
+};
+
 /** Colour of a share of a limit, 0 to 1. The lightness is monotonic, so that the colours are also readable in grey. */
-export function load(theme: Theme, share: number): Rgb {
-  const ramp = ramps[theme];
+export const load = (theme: Theme, share: number): Rgb => between(ramps[theme], share);
+
+/** Colour of a share of a limit in the 3D picture, 0 to 1. */
+export const ringLoad = (theme: Theme, share: number): Rgb => between(rings[theme], share);
+
+function between(ramp: Ramp, share: number): Rgb {
   const x = Math.min(Math.max(share, 0), 1);
   let k = 1;
   while (k < ramp.length - 1 && ramp[k][0] < x) k++;
@@ -111,10 +154,11 @@ export function difference(theme: Theme, x: number): Rgb {
 
 export const css = (rgb: Rgb): string => `rgb(${rgb.join(",")})`;
 
-const stops = (colours: [at: number, colour: Rgb][]): string =>
+const stops = (colours: Ramp): string =>
   `linear-gradient(90deg,${colours.map(([x, c]) => `${css(c)} ${100 * x}%`).join(",")})`;
 
 /** CSS gradients of the colour scales, for legends. */
 export const gradient = (theme: Theme): string => stops(ramps[theme]);
+export const ringGradient = (theme: Theme): string => stops(rings[theme]);
 export const differenceGradient = (theme: Theme): string =>
   stops([-1, -0.5, 0, 0.5, 1].map((x) => [(x + 1) / 2, difference(theme, x)]));

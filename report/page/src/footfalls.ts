@@ -1,12 +1,13 @@
 // Plot of the footfalls: load of each foot over time, and the duty factor in the judged window. A darker colour is a
 // larger load.
-import { Board, fitted, font, placeHead, timeAxis, type Pen } from "./board";
+import { Board, fitted, font, type Pen } from "./board";
 import type { Values } from "./channels";
 import { element, leaveOut } from "./dom";
 import type { Meta } from "./format";
 import { keys } from "./keyline";
 import type { Desk, Panel } from "./panel";
 import type { Recording } from "./recording";
+import { TimeRows } from "./time_rows";
 
 const left = 116;
 const right = 46;
@@ -23,7 +24,7 @@ interface Foot {
 export class Footfalls implements Panel {
   private readonly board: Board | null = null;
   private readonly host = element("foot");
-  private readonly head: HTMLElement | null;
+  private readonly time: TimeRows;
   private readonly feet: Foot[];
   private readonly on: number;
   private readonly most: number;
@@ -33,7 +34,7 @@ export class Footfalls implements Panel {
     this.on = threshold * recording.meta.weight;
     this.feet = feetOf(recording, this.on);
     this.most = Math.max(1e-9, ...this.feet.map((f) => f.load.reduce((a, b) => Math.max(a, b), 0)));
-    this.head = this.host.querySelector<HTMLElement>(".playhead");
+    this.time = new TimeRows(this.host, desk, left, right);
     if (!this.feet.length) {
       leaveOut(this.host, lacking(recording.meta));
       return;
@@ -60,20 +61,17 @@ export class Footfalls implements Panel {
   }
 
   seek(t: number): void {
-    if (!this.board || !this.head) return;
-    placeHead(this.head, t, this.desk.state.span, left, this.host.clientWidth - left - right);
+    if (this.board) this.time.seek(t);
   }
 
   private click(e: MouseEvent): void {
-    const r = this.host.getBoundingClientRect();
-    const x = (e.clientX - r.left - left) / (r.width - left - right);
-    const [from, to] = this.desk.state.span;
-    if (x >= 0 && x <= 1) this.desk.goTo(from + x * (to - from));
+    const t = this.time.timeAt(e);
+    if (t !== null) this.desk.goTo(t);
   }
 
   private draw(pen: Pen, fullWidth: number, fullHeight: number): void {
     const { feet, desk } = this;
-    const { ink, recording, state } = desk;
+    const { recording, state } = desk;
     const width = Math.floor(fullWidth - left - right);
     const height = fullHeight - foot;
     const each = height / feet.length;
@@ -86,8 +84,7 @@ export class Footfalls implements Panel {
       last = middle;
       this.name(pen, one, fullWidth, middle);
     });
-    timeAxis(pen, ink, left, width, height + 7, state.span);
-    this.seek(state.t);
+    this.time.axis(pen, width, height + 7);
   }
 
   // Draws the row of a foot. For two runs, the lower third of the row is the second run.

@@ -18,6 +18,7 @@ import {
 import type { Theme } from "./colour";
 import type { Heightfield } from "./format";
 import { position, rotation } from "./kinematics";
+import { rounded } from "./numbers";
 import type { Recording } from "./recording";
 import { lines, place } from "./robot";
 
@@ -47,7 +48,7 @@ export class Ground {
     size: number,
   ) {
     const { ground } = recording.meta;
-    this.spacing = 10 ** Math.round(Math.log10(size / 7));
+    this.spacing = rounded(size / 4);
     if (ground.kind === "none") return;
     const room = Math.max(50 * this.spacing, 5 * size);
     const step = 10 * this.spacing;

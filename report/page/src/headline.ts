@@ -69,7 +69,6 @@ function settings({ differs, labels: [a, b], strayed }: Overlay): HTMLElement | 
 function cards(own: HTMLElement, desk: Desk, { labels }: Overlay): void {
   const second = own.cloneNode(true) as HTMLElement;
   second.removeAttribute("id");
-  second.setAttribute("aria-labelledby", "said-second");
   for (const one of second.querySelectorAll("[id]")) one.id = `${one.id}-second`;
   own.after(second);
   own.parentElement!.classList.add("two-runs");
@@ -78,6 +77,8 @@ function cards(own: HTMLElement, desk: Desk, { labels }: Overlay): void {
     const { meta } = run.recording;
     const made = judgement(run);
     const tag = make(`span.tag-${n ? "second" : "own"}`, labels[n]);
+    host.removeAttribute("aria-labelledby");
+    host.setAttribute("aria-label", `${labels[n]}: ${made.said}`); // both may have the same verdict
     card(host, run, { ...made, facts: made.facts.slice(0, 4) }, aside(meta, n === 0));
     host.querySelector(".words")!.prepend(make("p.whose", tag, make("b", meta.name), ` ${about(meta)}`));
   });

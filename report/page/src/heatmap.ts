@@ -1,12 +1,13 @@
 // Heat map of the load of every joint over time. A darker colour is a larger load. A pixel shows the largest value of
 // the rows that it covers, so that no peak is lost.
-import { Board, fitted, font, placeHead, timeAxis, type Pen } from "./board";
+import { Board, fitted, font, type Pen } from "./board";
 import type { Values } from "./channels";
 import { difference, differenceGradient, gradient, load } from "./colour";
 import { element, leaveOut } from "./dom";
 import type { Quantity } from "./loads";
 import { number } from "./numbers";
 import type { Desk, Panel } from "./panel";
+import { TimeRows } from "./time_rows";
 
 const left = 96;
 const foot = 22;
@@ -17,7 +18,7 @@ type Side = "own" | "second" | "difference";
 export class HeatMap implements Panel {
   private readonly board: Board;
   private readonly host = element("heat");
-  private readonly head: HTMLElement;
+  private readonly time: TimeRows;
   private quantity: Quantity;
   private order: Order = "number";
   private side: Side;
@@ -28,7 +29,7 @@ export class HeatMap implements Panel {
     this.board = new Board(this.host, "Load of every joint over time", (pen, width, height) =>
       this.draw(pen, width, height),
     );
-    this.head = this.host.querySelector<HTMLElement>(".playhead")!;
+    this.time = new TimeRows(this.host, desk, left);
     const what = element<HTMLSelectElement>("what");
     const order = element<HTMLSelectElement>("order");
     const side = element<HTMLSelectElement>("side");
@@ -144,7 +145,7 @@ export class HeatMap implements Panel {
   }
 
   seek(t: number): void {
-    placeHead(this.head, t, this.desk.state.span, left, this.host.clientWidth - left);
+    this.time.seek(t);
   }
 
   private get rows(): number[] {
@@ -155,14 +156,13 @@ export class HeatMap implements Panel {
   }
 
   private click(e: MouseEvent): void {
-    const { left: x0, top, width, height } = this.host.getBoundingClientRect();
+    const { top, height } = this.host.getBoundingClientRect();
     const { rows, desk } = this;
-    const [from, to] = desk.state.span;
     const row = rows[Math.floor(((e.clientY - top) / (height - foot)) * rows.length)];
-    const x = (e.clientX - x0 - left) / (width - left);
     if (row === undefined) return;
     desk.choose(row);
-    if (x >= 0) desk.goTo(from + x * (to - from));
+    const t = this.time.timeAt(e);
+    if (t !== null) desk.goTo(t);
   }
 
   private draw(pen: Pen, fullWidth: number, fullHeight: number): void {
@@ -189,8 +189,7 @@ export class HeatMap implements Panel {
       pen.lineWidth = 1.5;
       pen.strokeRect(left + 0.75, chosen * each + 0.75, width - 1.5, Math.max(each - 1.5, 2));
     }
-    timeAxis(pen, ink, left, width, height + 7, state.span);
-    this.seek(state.t);
+    this.time.axis(pen, width, height + 7);
   }
 
   // Image of the loads, with one row of pixels per joint. Pixels without a known value are transparent.

@@ -138,7 +138,7 @@ export class JointPlots implements Panel {
       ...curve(angle, { label: "angle", colour: ink.blue, width: 2, axis: "left" }),
       ...curve(setpoint, { label: "set point", colour: ink.ink, dash: [2, 3], width: 1.3, axis: "left" }),
       ...curve(torque, { label: "torque", colour: ink.vermillion, width: 1.5, axis: "right" }),
-      ...curve(stopped, { label: "torque of the stops", colour: ink.green, width: 1.2, axis: "right" }),
+      ...curve(stopped, { label: "torque of the stops", colour: ink.sky, width: 1.2, axis: "right" }),
       ...(angleB ? [second(angleB, `angle, ${label}`, ink.blue, "left")] : []),
       ...(torqueB ? [second(torqueB, `torque, ${label}`, ink.vermillion, "right")] : []),
     ];
@@ -148,11 +148,11 @@ export class JointPlots implements Panel {
     const { ghost } = this.desk;
     const label = ghost?.label ?? "";
     return [
-      ["dash", "--ink", setpoint ? "set point" : ""],
+      ["dots", "--ink", setpoint ? "set point" : ""],
       ["", "--blue", "angle (left)"],
       ["", "--orange", measured ? "measured by its encoder (left)" : ""],
       ["", "--vermillion", torque ? "torque (right)" : ""],
-      ["", "--green", stopped ? "torque of the hinge's stops (right)" : ""],
+      ["", "--sky", stopped ? "torque of the hinge's stops (right)" : ""],
       ["dash", "--ink2", angleB || torqueB ? `${label}: dashed` : ""],
       ["", "", ghost && !angleB && !torqueB ? `${label} has no such joint` : ""],
     ];

@@ -104,7 +104,7 @@ function feasible(run: Run): Judgement {
 }
 
 /** Failed checks: first the check that decides the verdict, then checks of group `run`, then others by margin. */
-function failures({ verdict: { checks, decided_by } }: Meta): Check[] {
+export function failures({ verdict: { checks, decided_by } }: Meta): Check[] {
   const urgency = ({ id, group, margin }: Check) =>
     id === decided_by ? [0, 0] : [group === "run" ? 1 : 2, margin ?? -1e300];
   const sooner = ([a, m]: number[], [b, n]: number[]) => a - b || m - n;

@@ -17,6 +17,7 @@ export class Labels {
     this.spans.forEach((span, i) => {
       const label = labels[i];
       const half = label ? 3.4 * label.text.length + 4 : 0;
+      if (label) label.x = Math.min(Math.max(label.x, half), Math.max(this.host.clientWidth - half, half));
       const free =
         !!label && !taken.some(([x, y, w, h]) => Math.abs(x - label.x) < w + half && Math.abs(y - label.y) < h + 8);
       span.hidden = !free;

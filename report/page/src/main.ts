@@ -1,5 +1,6 @@
 // Start of the page: reads its data, creates it, and draws its frames.
 import { unpack } from "./channels";
+import { bodyColours, rim, ringGradient, ringLoad } from "./colour";
 import { make } from "./dom";
 import { least, most, use } from "./motor";
 import { capital, decimalsOf, percent, quantity } from "./numbers";
@@ -14,6 +15,7 @@ declare global {
       unpack: typeof unpack;
       motor: { most: typeof most; least: typeof least; use: typeof use };
       texts: object;
+      colours: object;
     };
   }
 }
@@ -25,7 +27,13 @@ Recording.of(document)
       page.tick(now);
       requestAnimationFrame(frame);
     };
-    window.gaitlab = { page, unpack, motor: { most, least, use }, texts: { capital, decimalsOf, percent, quantity } };
+    window.gaitlab = {
+      page,
+      unpack,
+      motor: { most, least, use },
+      texts: { capital, decimalsOf, percent, quantity },
+      colours: { bodyColours, ringGradient, ringLoad, rim },
+    };
     requestAnimationFrame((now) => {
       frame(now);
       document.documentElement.dataset.ready = "";

@@ -28,7 +28,7 @@ interface Decals {
 }
 
 const screenUp = new Vector3(-0.25, 0.34, 0.9); // upward direction on the screen in the first view
-const lift = 0.032; // height of a decal above its face, in sizes of a body; the disc of a hinge may be on the face
+const lift = 0.01; // height of a decal above its face, in sizes of a body
 
 export class Marks {
   faces = false;
@@ -36,7 +36,8 @@ export class Marks {
   private readonly decals: Decals[] = [];
   private readonly parts: InstancedMesh[] = [];
   private readonly sensors: InstancedMesh;
-  private readonly material = new MeshBasicMaterial({ transparent: true, opacity: 0.95 });
+  // Axes are visible through bodies, because an axis often ends within the next module.
+  private readonly material = new MeshBasicMaterial({ transparent: true, opacity: 0.95, depthTest: false });
 
   constructor(
     private readonly meta: Meta,
@@ -72,6 +73,7 @@ export class Marks {
       const mesh = new InstancedMesh(part, this.material, Math.max(meta.joints.length, 1));
       mesh.count = meta.joints.length;
       mesh.frustumCulled = false;
+      mesh.renderOrder = 5;
       scene.add(mesh);
       this.parts.push(mesh);
     }
@@ -111,7 +113,7 @@ export class Marks {
       mesh.visible = this.axes;
       if (!this.axes) continue;
       robot.hinges.forEach((hinge, j) => {
-        const length = hinge.size.y + 0.3 * robot.unit;
+        const length = hinge.half + 0.3 * robot.unit;
         mesh.setMatrixAt(
           j,
           matrix.compose(
@@ -131,7 +133,7 @@ export class Marks {
     return robot.axes[joint]
       .clone()
       .applyQuaternion(kinematics.pivotTurns[joint])
-      .multiplyScalar(1.5 * (robot.hinges[joint].size.y + 0.3 * robot.unit))
+      .multiplyScalar(1.5 * (robot.hinges[joint].half + 0.3 * robot.unit))
       .add(kinematics.pivots[joint]);
   }
 
@@ -212,6 +214,7 @@ function cubes(count: number): InstancedMesh {
   const look = new MeshBasicMaterial({ color: 0xe69f00, depthTest: false, transparent: true });
   const mesh = new InstancedMesh(new BoxGeometry(1, 1, 1), look, Math.max(count, 1));
   mesh.count = count;
+  mesh.visible = count > 0;
   mesh.frustumCulled = false;
   mesh.renderOrder = 3;
   return mesh;

@@ -36,6 +36,12 @@ export const fixed = (x: number, decimals: number): string =>
 export const decimalsOf = (peak: number, unit: string): number =>
   floored(peak, unit) === 0 ? 2 : Math.max(2, Math.ceil(-Math.log10(peak)) + 1);
 
+/** Largest number up to x that is 1, 2 or 5 times a power of ten. */
+export function rounded(x: number): number {
+  const power = 10 ** Math.floor(Math.log10(x));
+  return ([5, 2, 1].find((m) => m * power <= x * (1 + 1e-9)) ?? 1) * power;
+}
+
 export const percent = (share: number, digits = 3): string => `${number(100 * floored(share, ""), digits)}${space}%`;
 
 /** Value with its unit. Shares (unit "") are in percent, lengths below 0.1 m in mm, large energies in MJ or GJ. */

@@ -4,7 +4,7 @@ import { BufferAttribute, BufferGeometry, SphereGeometry, Vector3 } from "three"
 import type { Pose, Shape } from "./format";
 import { matrix, position, rotation } from "./kinematics";
 
-type Point = [number, number];
+export type Point = [number, number];
 
 /** Geometry of a piece, and a simpler geometry for the shadow of the piece. */
 export interface Piece {
@@ -19,7 +19,7 @@ interface Prism {
   points: Point[];
 }
 
-function hull(points: readonly Point[]): Point[] {
+export function hull(points: readonly Point[]): Point[] {
   const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
   const half = (list: Point[]) => {
     const out: Point[] = [];

@@ -4,12 +4,14 @@ import { captions } from "./captions";
 import { inkOf, type Ink, type Theme } from "./colour";
 import { controls } from "./controls";
 import { element } from "./dom";
+import type { Check } from "./format";
 import { Ghost } from "./ghost";
 import { arrange } from "./layout";
 import { Loads } from "./loads";
 import { opening, type Opening } from "./opening";
 import type { Desk, Panel, Run, Span, State } from "./panel";
 import { dockAt } from "./places";
+import { Problems } from "./problems";
 import type { Recording, Second } from "./recording";
 import { Stage } from "./stage";
 import { Transport } from "./transport";
@@ -61,12 +63,23 @@ export class Page implements Desk {
   private open({ run, check, joint }: Opening): void {
     const { link } = this.address;
     const planned = this.recording.meta.outcome === "not run";
+    const { view } = this.stage;
+    const near = ({ part, worst }: Check) =>
+      !!view && (run.recording === this.recording ? view.near(part, worst) : view.near("joint", this.jointName));
     this.choose(joint);
-    this.stage.view?.look((link.get("look") as Look | null) ?? "iso");
+    view?.look((link.get("look") as Look | null) ?? "iso");
     if (check) run.mark(dockAt(run.recording.meta, check.part, check.worst));
+    // The camera comes near the part of a failed check, unless the reader has asked for another place.
+    const free = !["look", "joint", "t"].some((key) => link.has(key));
+    if (check && ["fail", "too close"].includes(check.status) && free) near(check);
+    new Problems(run, near);
     for (const marks of ["faces", "axes"] as const) {
       if ((planned || link.has(marks)) && !element(marks).hidden) this.stage.switch(marks);
     }
+  }
+
+  private get jointName(): string | null {
+    return this.recording.meta.joints[this.state.joint]?.name ?? null;
   }
 
   private transport(): Panel[] {

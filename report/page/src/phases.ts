@@ -1,5 +1,5 @@
 // Plot of the first harmonics in the limit cycle: amplitude of each joint, and lag behind the first oscillating joint.
-import { Board, axisName, font, line, type Box, type Pen } from "./board";
+import { Board, frame, type Box, type Pen, type Scale } from "./board";
 import { element, leaveOut } from "./dom";
 import { keys } from "./keyline";
 import type { Desk, Panel } from "./panel";
@@ -8,9 +8,7 @@ const low = -Math.PI / 2 - 0.25; // lower end of the axis of the lag, rad; the f
 const wrap = (a: number): number => a - 2 * Math.PI * Math.floor((a - low) / (2 * Math.PI));
 
 /** Horizontal position of a joint, vertical position of a lag, and radius of the largest disc, px. */
-interface Place {
-  X: (joint: number) => number;
-  Y: (lag: number) => number;
+interface Place extends Scale {
   most: number;
 }
 
@@ -49,46 +47,27 @@ export class Phases implements Panel {
     this.board?.paint();
   }
 
-  private axes(pen: Pen, box: Box, { X, Y }: Place): void {
+  private axes(pen: Pen, box: Box): Scale {
     const { ink, recording } = this.desk;
     const n = recording.meta.phases.length;
-    pen.font = font(11);
-    pen.strokeStyle = ink.grid;
-    pen.lineWidth = 1;
-    pen.fillStyle = ink.muted;
-    pen.textAlign = "right";
-    pen.textBaseline = "middle";
-    for (const [v, text] of [
-      [-Math.PI / 2, "−π/2"],
-      [0, "0"],
-      [Math.PI / 2, "π/2"],
-      [Math.PI, "π"],
-    ] as const) {
-      line(pen, box.left, Y(v), box.right, Y(v));
-      pen.fillText(text, box.left - 7, Y(v));
-    }
-    axisName(pen, ink, (box.left + box.right) / 2, box.bottom + 24, "joint number");
-    pen.save();
-    pen.translate(2, (box.top + box.bottom) / 2);
-    pen.rotate(-Math.PI / 2);
-    axisName(pen, ink, 0, 0, "lag (rad)");
-    pen.restore();
-    pen.font = font(11);
-    pen.fillStyle = ink.muted;
-    pen.textAlign = "center";
     const every = [1, 2, 5, 10, 20, 50].find((k) => (k * (box.right - box.left)) / n > 22) ?? 100;
-    for (let j = 0; j < n; j += every) pen.fillText(String(j), X(j), box.bottom + 6);
+    const quarters = ["−π/2", "0", "π/2", "π"];
+    const lags = {
+      at: quarters.map((_, k) => ((k - 1) * Math.PI) / 2),
+      text: (v: number) => quarters[Math.round(v / (Math.PI / 2)) + 1],
+    };
+    const joints = { at: Array.from({ length: Math.ceil(n / every) }, (_, k) => k * every), text: String };
+    const names = { x: "joint number", y: "lag (rad)" };
+    return frame(pen, ink, box, [-0.5, n - 0.5], [low, low + 2 * Math.PI], names, { x: joints, y: lags });
   }
 
   private draw(pen: Pen, width: number, height: number): void {
     const n = this.desk.recording.meta.phases.length;
     const box: Box = { left: 52, right: width - 8, top: 8, bottom: height - 44 };
     const place: Place = {
-      X: (j) => box.left + ((j + 0.5) / n) * (box.right - box.left),
-      Y: (lag) => box.bottom - ((lag - low) / (2 * Math.PI)) * (box.bottom - box.top),
+      ...this.axes(pen, box),
       most: Math.max(2.5, Math.min(9, ((box.right - box.left) / n) * 0.46)),
     };
-    this.axes(pen, box, place);
     this.squares(pen, place);
     this.discs(pen, place);
   }

@@ -1,10 +1,9 @@
-// Robot in the 3D picture: bodies with their edges and shadows, hinges coloured by load. Each piece of a body type is
-// one instanced mesh, so that the time to draw hardly depends on the number of joints.
+// Robot in the 3D picture: bodies with their edges and shadows, in their own colours or coloured by load. Each piece of
+// a body type is one instanced mesh, so that the time to draw hardly depends on the number of joints.
 import {
   BufferAttribute,
   BufferGeometry,
   Color,
-  CylinderGeometry,
   DoubleSide,
   DynamicDrawUsage,
   EdgesGeometry,
@@ -15,14 +14,14 @@ import {
   Matrix4,
   MeshBasicMaterial,
   MeshLambertMaterial,
+  Raycaster,
   SRGBColorSpace,
   Scene,
   Vector3,
   type Intersection,
-  type Raycaster,
   type Material,
 } from "three";
-import { load, type Theme } from "./colour";
+import { bodyColours, ringLoad, type Theme } from "./colour";
 import type { Meta } from "./format";
 import { axesOf, hingesOf, type Hinge } from "./hinge";
 import type { Kinematics } from "./kinematics";
@@ -33,31 +32,11 @@ interface Kind {
   piece: Piece;
   bodies: number[];
   mesh: InstancedMesh;
+  look: Material; // material of the mesh if the bodies have their own colours
   shadow: InstancedMesh | null;
   edges: Float32Array; // ends of the edges of one body, in the frame of the body
   first: number; // index of the first point of this kind in the edges of all kinds
 }
-
-const looks = {
-  light: {
-    ghost: 0x8f4a86,
-    active: 0x6fb9e3,
-    passive: 0xe8ab3a,
-    other: 0x98a1a9,
-    edge: 0x27313a,
-    shadow: 0xd0d7dd,
-    accent: 0x0b5f9e,
-  },
-  dark: {
-    ghost: 0xe39cc1,
-    active: 0x4b97c6,
-    passive: 0xc98d22,
-    other: 0x7b858e,
-    edge: 0x05080b,
-    shadow: 0x090c0f,
-    accent: 0x8fd0ff,
-  },
-};
 
 export class Robot {
   /** Size of a typical body, m. */
@@ -65,7 +44,6 @@ export class Robot {
   readonly axes: Vector3[]; // axis of each joint, in the frame of its pivot
   readonly hinges: Hinge[];
   private readonly kinds: Kind[] = [];
-  private readonly discs: InstancedMesh;
   private readonly outlines: LineSegments;
   private readonly chosen: LineSegments;
   private readonly materials = {
@@ -73,6 +51,10 @@ export class Robot {
     passive: new MeshLambertMaterial(),
     other: new MeshLambertMaterial(),
   };
+  /** True if each body has the colour of the load of its hinges. */
+  tinted = false;
+  private readonly flat = new MeshBasicMaterial();
+  private readonly hingesOn: number[][]; // joints of which a body is the parent or the child
   private readonly shade = new MeshBasicMaterial({ side: DoubleSide });
   private readonly unseen = new MeshBasicMaterial({
     colorWrite: false,
@@ -84,6 +66,7 @@ export class Robot {
   private readonly matrices: Matrix4[];
   private readonly press: Matrix4 | null;
   private readonly corners = new Map<string, Vector3[]>(); // corners of the pieces, by body type
+  private readonly radii: number[]; // largest distance of a corner of each body from the origin of the body, m
   private theme: Theme = "light";
 
   private readonly all = new Group();
@@ -116,10 +99,11 @@ export class Robot {
     this.outlines.renderOrder = light ? 0 : 3;
     this.all.add(this.outlines, this.chosen);
     this.axes = axesOf(meta);
+    this.radii = bodies.map(({ type }) => Math.max(0, ...(this.corners.get(type) ?? []).map((c) => c.length())));
+    this.hingesOn = bodies.map((_, i) =>
+      bodies.flatMap(({ joint, parent }, k) => (joint >= 0 && (k === i || parent === i) ? [joint] : [])),
+    );
     this.hinges = hingesOf(meta, this.axes, this.unit);
-    this.discs = discs(meta.joints.length);
-    this.discs.visible = !!light;
-    this.all.add(this.discs);
     if (!light) this.fade();
   }
 
@@ -168,7 +152,7 @@ export class Robot {
       this.all.add(one);
     }
     const edges = new EdgesGeometry(piece.body, 35).getAttribute("position").array as Float32Array;
-    this.kinds.push({ piece, bodies: members, mesh, shadow, edges, first });
+    this.kinds.push({ piece, bodies: members, mesh, look: material, shadow, edges, first });
     return (members.length * edges.length) / 3;
   }
 
@@ -186,11 +170,10 @@ export class Robot {
   }
 
   /** Moves the meshes to the poses of the kinematics. `shares` is the load of each joint, 0 to 1. */
-  set(shares: readonly number[], selected: number, hovered: number): void {
+  set(shares: readonly number[], selected: number): void {
     const { kinematics } = this;
     const one = new Vector3(1, 1, 1);
     const matrix = new Matrix4();
-    const colour = new Color();
     this.matrices.forEach((m, i) => m.compose(kinematics.positions[i], kinematics.turns[i], one));
     const all = this.outlines.geometry.getAttribute("position") as BufferAttribute;
     for (const kind of this.kinds) {
@@ -207,26 +190,31 @@ export class Robot {
     }
     all.needsUpdate = true;
     if (!this.light) return;
-    this.hinges.forEach((hinge, j) => {
-      const wide = j === selected ? 1.16 : j === hovered ? 1.1 : 1;
-      const size = hinge.size.clone().multiply(new Vector3(wide, 1, wide));
-      if (j === selected) size.y += 0.005 * this.unit; // less than the lift of a face's number
-      this.discs.setMatrixAt(
-        j,
-        matrix.compose(kinematics.pivots[j], kinematics.pivotTurns[j].clone().multiply(hinge.turn), size),
-      );
-      const [r, g, b] = load(this.theme, shares[j]);
-      this.discs.setColorAt(j, colour.setRGB(r / 255, g / 255, b / 255, SRGBColorSpace));
-    });
-    this.discs.instanceMatrix.needsUpdate = true;
-    this.discs.boundingSphere = null;
-    if (this.discs.instanceColor) this.discs.instanceColor.needsUpdate = true;
+    this.tint(this.tinted ? shares : null);
     this.frame(this.meta.joints[selected]?.body ?? -1);
+  }
+
+  /** Colours each body by the largest load of the hinges on it; null restores the colours of the bodies. */
+  private tint(shares: readonly number[] | null): void {
+    const colour = new Color();
+    for (const { mesh, look, bodies: members } of this.kinds) {
+      if (!shares) {
+        mesh.material = look;
+        mesh.instanceColor = null;
+        continue;
+      }
+      mesh.material = this.flat;
+      members.forEach((body, n) => {
+        const [r, g, b] = ringLoad(this.theme, Math.max(0, ...this.hingesOn[body].map((j) => shares[j])));
+        mesh.setColorAt(n, colour.setRGB(r / 255, g / 255, b / 255, SRGBColorSpace));
+      });
+      mesh.instanceColor!.needsUpdate = true;
+    }
   }
 
   paint(theme: Theme): void {
     this.theme = theme;
-    const look = looks[theme];
+    const look = bodyColours[theme];
     for (const key of ["active", "passive", "other"] as const) {
       this.materials[key].color.set(this.light ? look[key] : look.ghost);
     }
@@ -251,12 +239,14 @@ export class Robot {
     return this.matrices[body];
   }
 
-  /** Joint of the first disc on the ray, or the nearest joint of the first body on the ray; -1 if there is none. */
+  /** Nearest joint of the first body on the ray; -1 if there is none. */
   pick(ray: Raycaster): number {
-    const hits: Intersection[] = ray.intersectObjects([this.discs, ...this.kinds.map((k) => k.mesh)], false);
+    const hits: Intersection[] = ray.intersectObjects(
+      this.kinds.map((k) => k.mesh),
+      false,
+    );
     const hit = hits[0];
-    if (!hit || hit.instanceId === undefined) return -1;
-    if (hit.object === this.discs) return hit.instanceId;
+    if (hit?.instanceId === undefined) return -1;
     const kind = this.kinds.find((k) => k.mesh === hit.object);
     if (!kind) return -1;
     const body = kind.bodies[hit.instanceId];
@@ -270,25 +260,37 @@ export class Robot {
     return near[0] ?? -1;
   }
 
-  /** Points that a view must contain: points around a joint, or for joint -1 the corners of all bodies. */
-  points(joint = -1): Vector3[] {
-    const { positions, turns, pivots } = this.kinematics;
-    if (joint < 0) {
-      const corners = this.meta.bodies.flatMap((b, i) =>
-        (this.corners.get(b.type) ?? []).map((c) => c.clone().applyQuaternion(turns[i]).add(positions[i])),
-      );
-      return corners.length ? corners : positions;
-    }
-    const p = pivots[joint];
-    const r = 1.6 * this.unit;
-    return [
-      [r, 0, 0],
-      [-r, 0, 0],
-      [0, r, 0],
-      [0, -r, 0],
-      [0, 0, r],
-      [0, 0, -r],
-    ].map(([x, y, z]) => new Vector3(p.x + x, p.y + y, p.z + z));
+  /** Distance from a point, along a horizontal unit vector, at which the robot ends at the latest, m. */
+  front(from: Vector3, way: Vector3): number {
+    const { positions } = this.kinematics;
+    return this.radii.reduce((most, r, i) => {
+      const p = positions[i];
+      return Math.max(most, (p.x - from.x) * way.x + (p.y - from.y) * way.y + r);
+    }, -Infinity);
+  }
+
+  /** True if a place is in sight from a direction: no body on the way is more than `slack` in front of the place, m. */
+  seen(at: Vector3, from: Vector3, slack: number): boolean {
+    const start = from.clone().multiplyScalar(slack).add(at);
+    const meshes = this.kinds.map((k) => k.mesh);
+    return !new Raycaster(start, from).intersectObjects(meshes, false).length;
+  }
+
+  /** Corners of all bodies, which a view must contain. */
+  points(): Vector3[] {
+    const { positions, turns } = this.kinematics;
+    const found = this.meta.bodies.flatMap((b, i) =>
+      (this.corners.get(b.type) ?? []).map((c) => c.clone().applyQuaternion(turns[i]).add(positions[i])),
+    );
+    return found.length ? found : positions;
+  }
+
+  /** Points of the surface of a body, in its frame. */
+  surface(body: number): Vector3[] {
+    return this.edgesOf(body).flatMap(({ piece }) => {
+      const at = piece.body.getAttribute("position");
+      return Array.from({ length: at.count }, (_, k) => new Vector3().fromBufferAttribute(at, k));
+    });
   }
 
   private edgesOf(body: number): Kind[] {
@@ -345,13 +347,4 @@ function typicalSize(meta: Meta): number {
     })
     .sort((a, b) => a - b);
   return sizes[sizes.length >> 1] || 0.1;
-}
-
-/** A disc for each hinge. */
-function discs(count: number): InstancedMesh {
-  const made = new InstancedMesh(new CylinderGeometry(1, 1, 2, 28), new MeshLambertMaterial(), Math.max(count, 1));
-  made.count = count;
-  made.frustumCulled = false;
-  made.setColorAt(0, new Color());
-  return made;
 }

@@ -1,12 +1,12 @@
-// Panel of the 3D picture: buttons, legends, labels, and clicks on hinges. Without WebGL 2, the panel contains only a
-// note, and the other panels work.
+// Panel of the 3D picture: buttons, labels, and clicks on hinges. Without WebGL 2, the panel contains only a note, and
+// the other panels work.
 import type { Vector3 } from "three";
-import { gradient } from "./colour";
 import { element, make } from "./dom";
 import { Labels } from "./labels";
-import { decimalsOf, fixed, number, percent } from "./numbers";
+import { Legends } from "./legends";
+import { decimalsOf, fixed, percent } from "./numbers";
 import type { Desk, Panel } from "./panel";
-import { dockName } from "./places";
+import { surroundings } from "./spot";
 import { View, type Look } from "./view";
 
 export class Stage implements Panel {
@@ -14,6 +14,7 @@ export class Stage implements Panel {
   private readonly host = element("stage");
   private readonly tag = element("tag");
   private readonly labels = new Labels(element("names"));
+  private readonly legends: Legends | null = null;
   private image: HTMLImageElement | null = null;
 
   constructor(
@@ -24,31 +25,24 @@ export class Stage implements Panel {
     this.view = opened(canvas, desk);
     if (!this.view) {
       // Hiding the buttons also disables their keys.
-      for (const part of this.host.querySelectorAll<HTMLElement>("*")) part.hidden = true;
+      for (const part of document.querySelectorAll<HTMLElement>("#stage *, .stage .tools *")) part.hidden = true;
       this.host.append(
         make("p.empty", "This browser cannot draw in 3D (it has no WebGL 2). Everything else on this page works."),
       );
       return;
     }
     const { view } = this;
-    const { meta } = desk.recording;
-    element("grid-size").textContent =
-      meta.ground.kind === "plane" || meta.ground.kind === "boxes" ? `grid ${number(view.ground.spacing)} m` : "";
-    element("ramp-words").textContent =
-      !desk.recording.ran || !meta.joints.length
-        ? ""
-        : desk.loads.limited
-          ? "hinge: share of the available torque"
-          : "hinge: torque, of the largest in this run";
+    const { ran, meta } = desk.recording;
+    this.legends = new Legends(desk, view);
     for (const b of document.querySelectorAll<HTMLElement>("[data-look]")) {
       b.addEventListener("click", () => view.look(b.dataset.look as Look));
     }
-    this.option("follow", desk.recording.ran, view, "follow");
-    this.option("forces", view.arrows.any, view, "forces");
+    this.option("follow", ran, view, "follow");
+    this.option("tint", ran && meta.joints.length > 0, view.robot, "tinted");
+    this.option("forces", view.arrows.any, view.arrows, "shown");
+    this.option("balance-marks", view.support.any, view.support, "shown");
+    this.option("travel", view.travel.any, view.travel, "shown");
     this.option("faces", view.marks.anyFaces, view.marks, "faces");
-    for (const words of document.querySelectorAll<HTMLElement>("[data-gender]")) {
-      words.hidden = !view.marks.hasFaces(words.dataset.gender!);
-    }
     this.option("axes", meta.joints.length > 0, view.marks, "axes");
     this.option("rings", view.rings.any, view.rings, "all");
     const { ghost } = desk;
@@ -58,16 +52,15 @@ export class Stage implements Panel {
   }
 
   paint(): void {
-    element("ramp").style.background = gradient(this.desk.ink.theme);
-    element("legend-load").hidden = !element("ramp-words").textContent;
     this.view?.resize();
     this.view?.paint(this.desk.ink.theme);
+    this.legends?.paint(this.desk.ink.theme);
   }
 
   /** Marks a dock; -1 removes the mark. */
   mark(dock: number): void {
     this.view?.mark(dock);
-    this.ringWords();
+    this.legends?.set();
   }
 
   seek(t: number): void {
@@ -81,15 +74,18 @@ export class Stage implements Panel {
   draw(): boolean {
     if (!this.view?.render()) return false;
     this.annotate(this.view);
+    this.legends?.scale();
     return true;
   }
 
   /** Moves the camera to a joint; -1 shows the whole robot. */
   frame(joint: number): void {
-    this.view?.look("iso", joint);
+    const { view } = this;
+    const pivot = view?.kinematics.pivots[joint];
+    view?.look("iso", pivot && surroundings(pivot, 1.6 * view.robot.unit));
   }
 
-  switch(what: "faces" | "axes" | "follow" | "forces"): void {
+  switch(what: "faces" | "axes"): void {
     element(what).click();
   }
 
@@ -123,42 +119,19 @@ export class Stage implements Panel {
     button.addEventListener("click", () => {
       set(!get());
       button.setAttribute("aria-pressed", String(get()));
-      if (id === "faces") element("legend-faces").hidden = !get();
-      if (id === "axes") element("legend-axes").hidden = !get();
-      if (id === "rings") this.ringWords();
       this.view?.set(this.desk.state.t);
+      this.legends?.set();
     });
   }
 
-  private ringWords(): void {
-    const { rings } = this.view ?? {};
-    const { docks } = this.desk.recording.meta;
-    const chosen = docks[rings?.chosen ?? -1];
-    element("legend-rings").hidden = !rings?.any || !(rings.all || chosen);
-    element("ring-words").textContent = chosen ? `ring: ${dockName(chosen.name)}` : "ring: a dock";
-  }
-
   private annotate(view: View): void {
-    const { recording, loads, state } = this.desk;
+    const { recording, state } = this.desk;
     const { joints } = recording.meta;
     const j = view.hovered >= 0 ? view.hovered : state.joint;
-    const at = j >= 0 ? view.place(j) : null;
-    this.tag.hidden = !at;
-    if (at) {
-      const torque = recording.find(`joint.${j}.torque`);
-      const width = this.host.clientWidth;
-      const decimals = decimalsOf(loads.peak, "N m");
-      const share = loads.limited ? `, ${percent(Math.round(100 * loads.shareAt(j, state.t)) / 100)}` : "";
-      const numbers = recording.ran && torque ? ` ${fixed(recording.at(torque, state.t), decimals)} N m${share}` : "";
-      this.tag.replaceChildren(make("b", joints[j].name), numbers);
-      const half = this.tag.offsetWidth / 2;
-      const x = Math.min(Math.max(at[0], half + 8), width - half - 8);
-      const under = at[1] < 84;
-      this.tag.classList.toggle("under", under);
-      this.tag.style.setProperty("--point", `${(at[0] - x + half).toFixed(1)}px`);
-      const y = under ? `${(at[1] + 22).toFixed(1)}px` : `calc(${(at[1] - 18).toFixed(1)}px - 100%)`;
-      this.tag.style.transform = `translate(${(x - half).toFixed(1)}px, ${y})`;
-    }
+    this.point(j, j >= 0 ? view.place(j) : null);
+    const mass = view.support.shown && view.support.any ? view.project(view.support.centre) : null;
+    element("mass").hidden = !mass;
+    if (mass) element("mass").style.transform = `translate(${mass.map((x) => `${(x - 9).toFixed(1)}px`).join(",")})`;
     const order = joints.map((_, k) => k).filter((k) => k !== j);
     const label = (text: string, at: Vector3) => {
       const tip = view.project(at);
@@ -169,6 +142,26 @@ export class Stage implements Panel {
       ...view.marks.sensorsAt().flatMap(({ name, at }) => label(name, at).map((l) => ({ ...l, y: l.y - above }))),
       ...(view.marks.axes ? order.flatMap((k) => label(joints[k].name, view.marks.tip(k))) : []),
     ]);
+  }
+
+  /** Writes name, torque and load of a joint next to its place in the picture; hides the text without a place. */
+  private point(j: number, at: [number, number] | null): void {
+    const { recording, loads, state } = this.desk;
+    this.tag.hidden = !at;
+    if (!at) return;
+    const torque = recording.find(`joint.${j}.torque`);
+    const width = this.host.clientWidth;
+    const decimals = decimalsOf(loads.peak, "N m");
+    const share = loads.limited ? `, ${percent(Math.round(100 * loads.shareAt(j, state.t)) / 100)}` : "";
+    const numbers = recording.ran && torque ? ` ${fixed(recording.at(torque, state.t), decimals)} N m${share}` : "";
+    this.tag.replaceChildren(make("b", recording.meta.joints[j].name), numbers);
+    const half = this.tag.offsetWidth / 2;
+    const x = Math.min(Math.max(at[0], half + 8), width - half - 8);
+    const under = at[1] < 84;
+    this.tag.classList.toggle("under", under);
+    this.tag.style.setProperty("--point", `${(at[0] - x + half).toFixed(1)}px`);
+    const y = under ? `${(at[1] + 22).toFixed(1)}px` : `calc(${(at[1] - 20).toFixed(1)}px - 100%)`;
+    this.tag.style.transform = `translate(${(x - half).toFixed(1)}px, ${y})`;
   }
 
   private pointer(canvas: HTMLCanvasElement, view: View): void {

@@ -1,14 +1,10 @@
-// The 3D picture: scene with robot, ground, arrows, marks and rings; camera, and selection of joints by the pointer.
+// The 3D picture: scene with robot, ground, gauges, arrows and marks; camera, and selection of joints by the pointer.
 import {
   Box3,
-  BufferAttribute,
-  BufferGeometry,
   Color,
   DirectionalLight,
   Fog,
   HemisphereLight,
-  Line,
-  LineBasicMaterial,
   PerspectiveCamera,
   Raycaster,
   Scene,
@@ -18,7 +14,10 @@ import {
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Theme } from "./colour";
+import { DockLoads } from "./dock_loads";
 import { Forces } from "./forces";
+import type { Meta, Part } from "./format";
+import { Gauges } from "./gauges";
 import { Ground, type Area } from "./ground";
 import type { Ghost } from "./ghost";
 import { Kinematics } from "./kinematics";
@@ -27,6 +26,9 @@ import type { Desk } from "./panel";
 import type { Recording } from "./recording";
 import { Rings } from "./rings";
 import { Robot } from "./robot";
+import { spot, surroundings } from "./spot";
+import { Support } from "./support";
+import { Travel } from "./travel";
 
 export type Look = "iso" | "side" | "top" | "front";
 
@@ -36,28 +38,30 @@ const directions: Record<Look, Vector3> = {
   top: new Vector3(0, -0.001, 1),
   front: new Vector3(1, 0, 0.14),
 };
-const looks = { light: { sky: 0xeef1f4, trail: 0x0072b2 }, dark: { sky: 0x14181d, trail: 0x5fb3e6 } };
-const trailStep = 8; // rows between two points of the drawn path
+const skies = { light: 0xeef1f4, dark: 0x14181d };
 
 export class View {
   selected = -1;
   hovered = -1;
   follow = true;
-  forces = true;
   dirty = true;
   readonly kinematics: Kinematics;
   readonly robot: Robot;
   readonly marks: Marks;
   readonly rings: Rings;
   readonly arrows: Forces;
+  readonly support: Support;
+  readonly travel: Travel;
+  readonly docks: DockLoads;
   readonly ground: Ground;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly camera = new PerspectiveCamera(32, 1, 0.02, 60);
   private readonly controls: OrbitControls;
   private readonly sun = new DirectionalLight(0xffffff, 1.75);
-  private readonly trail: Line;
+  private readonly gauges: Gauges;
   private readonly size: number;
+  private height = 1; // of the picture, CSS px
   private readonly recording: Recording;
   /** Translucent robot of the second run. */
   readonly second: { ghost: Ghost; kinematics: Kinematics; robot: Robot } | null = null;
@@ -85,9 +89,11 @@ export class View {
     this.ground = new Ground(recording, this.scene, this.area(), this.size);
     this.arrows = new Forces(recording, this.scene, this.robot.unit, this.size);
     this.marks = new Marks(recording.meta, this.kinematics, this.robot, this.scene);
-    this.rings = new Rings(recording.meta, this.robot, this.scene);
-    this.trail = this.path();
-    this.scene.add(this.trail);
+    this.docks = new DockLoads(recording);
+    this.rings = new Rings(recording.meta, this.robot, this.docks, this.scene);
+    this.gauges = new Gauges(this.kinematics, this.robot.unit, this.scene);
+    this.support = new Support(recording, (body) => this.robot.matrix(body), this.robot.unit, this.scene);
+    this.travel = new Travel(recording, this.robot.unit, this.size, this.scene);
     this.camera.up.set(0, 0, 1);
     this.camera.near = 0.02 * this.robot.unit;
     this.camera.far = 60 * this.size;
@@ -102,23 +108,47 @@ export class View {
   }
 
   paint(theme: Theme): void {
-    const look = looks[theme];
-    this.scene.background = new Color(look.sky);
-    this.scene.fog = new Fog(look.sky, 4.5 * this.size, 14 * this.size);
-    (this.trail.material as LineBasicMaterial).color.set(look.trail);
-    for (const part of [this.robot, this.ground, this.arrows, this.marks, this.rings]) part.paint(theme);
+    const { robot, ground, arrows, marks, rings, gauges, support, travel } = this;
+    this.scene.background = new Color(skies[theme]);
+    this.scene.fog = new Fog(skies[theme], 3 * this.size, 12 * this.size);
+    for (const part of [robot, ground, arrows, marks, rings, gauges, support, travel]) part.paint(theme);
     this.second?.robot.paint(theme);
     this.set(this.time);
   }
 
-  /** Moves the camera so that the robot, or a joint, fills the picture, with space for the labels at the top. */
-  look(from: Look, joint = -1): void {
-    const points = joint < 0 ? this.everything() : this.robot.points(joint);
+  get meta(): Meta {
+    return this.recording.meta;
+  }
+
+  /**
+   * Moves the camera so that the surroundings of a part, at least four bodies wide, fill the picture. Returns false,
+   * without a change, if the robot has no such part or is so small that the whole of it is in the picture anyway.
+   */
+  near(part: Part, name: string | null): boolean {
+    const at = spot(this, part, name);
+    const r = 2.6 * this.robot.unit;
+    if (!at || this.size < 3 * r) return false;
+    // The camera comes from the first of four sides from which no other body hides the part.
+    const { x, y, z } = directions.iso;
+    const sides = [
+      [x, y],
+      [-x, y],
+      [x, -y],
+      [-x, -y],
+    ].map(([a, b]) => new Vector3(a, b, z).normalize());
+    const open = sides.find((d) => this.robot.seen(at, d, 0.85 * this.robot.unit));
+    this.look(open ?? sides[0], surroundings(at, r));
+    return true;
+  }
+
+  /** Moves the camera so that points, or else the robot, fill the picture, with space for the labels at the top. */
+  look(from: Look | Vector3, points = this.everything()): void {
+    const direction = (typeof from === "string" ? directions[from] : from).clone().normalize();
     const centre = new Box3().setFromPoints(points).getCenter(new Vector3());
     const v = new Vector3();
-    let distance = joint < 0 ? this.size : 6 * this.robot.unit;
+    let distance = this.size;
     for (let i = 0; i < 6; i++) {
-      this.camera.position.copy(directions[from]).normalize().multiplyScalar(distance).add(centre);
+      this.camera.position.copy(direction).multiplyScalar(distance).add(centre);
       this.camera.lookAt(centre);
       this.camera.updateMatrixWorld();
       const seen = new Box3().setFromPoints(points.map((p) => v.copy(p).project(this.camera).clone()));
@@ -130,7 +160,7 @@ export class View {
       );
       distance *= Math.min(Math.max(half.x / 0.86, half.y / 0.74, 0.25), 4);
     }
-    this.camera.position.copy(directions[from]).normalize().multiplyScalar(distance).add(centre);
+    this.camera.position.copy(direction).multiplyScalar(distance).add(centre);
     this.controls.target.copy(centre);
     this.controls.update();
     this.dirty = true;
@@ -145,18 +175,20 @@ export class View {
     this.time = t;
     this.kinematics.set(t);
     const shares = this.recording.meta.joints.map((_, j) => this.desk.loads.shareAt(j, t));
-    this.robot.set(shares, this.selected, this.hovered);
+    this.robot.set(shares, this.selected);
+    this.gauges.set(shares, this.selected, this.hovered);
     if (this.second) {
       const { ghost, kinematics, robot } = this.second;
       robot.visible = ghost.covers(t);
       kinematics.set(ghost.time(t));
-      robot.set([], -1, -1);
+      robot.set([], -1);
     }
     this.marks.set();
-    this.rings.set();
+    this.rings.set(t);
     this.ground.set(t);
-    this.arrows.set(t, this.forces);
-    this.trail.geometry.setDrawRange(0, Math.max(2, Math.floor(this.recording.row(t) / trailStep)));
+    this.arrows.set(t);
+    this.support.set(t);
+    this.travel.set(t, (from, way) => this.robot.front(from, way));
     this.dirty = true;
   }
 
@@ -174,9 +206,33 @@ export class View {
   /** Number of the joint at a point of the window, CSS px; -1 if there is no joint. */
   pick(x: number, y: number): number {
     const r = this.canvas.getBoundingClientRect();
+    const gauge = this.gaugeAt(x - r.left, y - r.top);
+    if (gauge >= 0) return gauge;
     const ray = new Raycaster();
     ray.setFromCamera(new Vector2(((x - r.left) / r.width) * 2 - 1, 1 - ((y - r.top) / r.height) * 2), this.camera);
     return this.robot.pick(ray);
+  }
+
+  /** Joint of the nearest gauge at a point of the canvas, CSS px; -1 if there is no gauge. */
+  private gaugeAt(x: number, y: number): number {
+    const away = (j: number) => this.camera.position.distanceTo(this.kinematics.pivots[j]);
+    const hit = this.kinematics.pivots
+      .map((_, j) => j)
+      .filter((j) => {
+        const at = this.place(j);
+        return at && Math.hypot(at[0] - x, at[1] - y) <= this.gauges.reach(away(j));
+      });
+    return hit.length ? hit.reduce((a, b) => (away(b) < away(a) ? b : a)) : -1;
+  }
+
+  /** Length on the canvas, px, of a length in m at the point to which the camera turns. */
+  pixels(length: number): number {
+    return length / (this.pixelAt1 * this.camera.position.distanceTo(this.controls.target));
+  }
+
+  // Size of a pixel of the canvas at the distance 1 from the camera.
+  private get pixelAt1(): number {
+    return (2 * Math.tan((this.camera.fov * Math.PI) / 360)) / this.height;
   }
 
   /** Position of a hinge on the canvas, CSS px; null if the hinge is behind the camera. */
@@ -202,8 +258,10 @@ export class View {
     if (host.width < 2 || host.height < 2) return;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2) * (this.lightened > 1 ? 0.7 : 1));
     this.renderer.setSize(host.width, host.height, false);
+    this.height = host.height;
     this.camera.aspect = host.width / host.height;
     this.camera.updateProjectionMatrix();
+    this.gauges.pixel = this.pixelAt1;
     this.dirty = true;
   }
 
@@ -244,11 +302,22 @@ export class View {
   }
 
   private everything(): Vector3[] {
-    return [...this.robot.points(), ...(this.second?.ghost.covers(this.time) ? this.second.robot.points() : [])];
+    return [
+      ...this.robot.points(),
+      ...this.travel.points(),
+      ...(this.second?.ghost.covers(this.time) ? this.second.robot.points() : []),
+    ];
   }
 
   private extent(): number {
-    return Math.max(new Box3().setFromPoints(this.everything()).getSize(new Vector3()).length(), this.robot.unit);
+    const second = this.second?.robot.points() ?? [];
+    return Math.max(
+      new Box3()
+        .setFromPoints([...this.robot.points(), ...second])
+        .getSize(new Vector3())
+        .length(),
+      this.robot.unit,
+    );
   }
 
   private area(): Area {
@@ -269,24 +338,5 @@ export class View {
       out[k + 1] = Math.min(out[k + 1], start + far);
     }
     return out;
-  }
-
-  private path(): Line {
-    const { recording } = this;
-    const n = Math.ceil(recording.rows / trailStep);
-    const xyz = new Float32Array(3 * n);
-    const { ground } = recording.meta;
-    const [x, y, z] = ["x", "y", "z"].map((c) => recording.channel(`com.${c}`));
-    const flat = ground.kind === "plane" || ground.kind === "boxes";
-    for (let i = 0; i < n; i++) {
-      const k = Math.min(trailStep * i, recording.rows - 1);
-      xyz.set([x[k], y[k], flat ? ground.height + 0.002 * this.size : z[k]], 3 * i);
-    }
-    const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new BufferAttribute(xyz, 3));
-    const line = new Line(geometry, new LineBasicMaterial());
-    line.frustumCulled = false;
-    line.visible = recording.ran && recording.has("com.x");
-    return line;
   }
 }

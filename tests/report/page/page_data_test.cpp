@@ -237,6 +237,35 @@ TEST(PageData, FeetGoByTheirLegs) {
     EXPECT_EQ(title, name) << "a caterpillar has no legs";
 }
 
+// The elements of a passive block in scenarios/modules/mtran.yaml, section contacts: vertices of the end face (points), and two
+// spheres.
+TEST(PageData, FeetHaveTheContactElementsOfTheirBody) {
+  const json vertices = {{0.0325, 0.0325, 0.0325, 0.0},
+                         {0.0325, 0.0325, -0.0325, 0.0},
+                         {0.0325, -0.0325, 0.0325, 0.0},
+                         {0.0325, -0.0325, -0.0325, 0.0}};
+  const json spheres = {{0.0, 0.0325, 0.0, 0.0325}, {0.0, -0.0325, 0.0, 0.0325}};
+  json all = vertices;
+  all.insert(all.end(), spheres.begin(), spheres.end());
+  for (const auto& [file, expected] : {std::pair("hexapod.yaml", vertices), std::pair("caterpillar.yaml", all)}) {
+    const Scenario s = shipped(file, {"duration=0.5", "physics.engine=articulated"});
+    Simulation simulation({&s, 1}, Loads::recorded);
+    simulation.run();
+    const json meta = json::parse(data_of(s, simulation.take_recording(0)).meta);
+    std::size_t passive = 0;
+    for (const json& foot : meta["feet"]) {
+      if (!foot["name"].get<std::string>().ends_with("/passive")) continue;
+      ++passive;
+      ASSERT_EQ(foot["points"].size(), expected.size()) << foot["name"];
+      for (std::size_t i = 0; i < expected.size(); ++i) {
+        for (std::size_t k = 0; k < 4; ++k)
+          EXPECT_NEAR(foot["points"][i][k].get<double>(), expected[i][k].get<double>(), 1e-9) << foot["name"] << " " << i;
+      }
+    }
+    EXPECT_GT(passive, 2U) << file;
+  }
+}
+
 TEST(PageData, ABodyWithoutJoints) {
   const Folder folder;
   folder.write("ball.yaml",
