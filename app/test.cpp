@@ -122,9 +122,10 @@ std::vector<report::OverlayPanel> panels(const GoldenCase& c) {
   std::vector<report::OverlayPanel> panels;
   for (const auto& [check, others] : strayed(c)) {
     report::OverlayPanel panel{check->label, check->unit};
-    if (others > 0)
+    if (others > 0) {
       panel.others =
           fmt::format(" and {} more, late by {} s", others, report::with_minus(fmt::format("{:.2g}", check->time_shift)));
+    }
     const Trace& golden = c.golden->run.trace;
     for (std::size_t k = 0; k < std::min(golden.rows(), c.run.trace.rows()); ++k) {
       panel.time.push_back(golden.at(k, 0));
