@@ -116,15 +116,15 @@ void check_free(const fs::path& figure, const fs::path& file, const std::string&
 
 std::string picture(const report::PaperFigure& figure, const fs::path& file) {
   if (file.extension() == ".svg") {
-    report::Svg svg(figure.paper());
+    report::Svg svg(figure.paper(), figure.title());
     figure.draw(svg);
     return svg.finish();
   }
-  report::Pdf pdf(figure.paper());
+  report::Pdf pdf(figure.paper(), figure.title());
   figure.draw(pdf);
   for (const char32_t code : pdf.missing()) {
     say(file.string(), "note",
-        fmt::format("U+{:04X} is in neither Helvetica nor Symbol; the PDF has a ? for it", static_cast<unsigned>(code)));
+        fmt::format("U+{:04X} is not in the font of figures; the PDF has a ? for it", static_cast<unsigned>(code)));
   }
   return pdf.finish();
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <system_error>
@@ -21,6 +22,7 @@
 #include "golden/report.h"
 #include "report/figures/run/overlay.h"
 #include "report/plot/svg.h"
+#include "report/plot/ticks.h"
 
 namespace gaitlab::app {
 
@@ -80,9 +82,15 @@ std::string counts(const std::vector<GoldenCase>& cases) {
 
 // ---- what failed
 
+/// A column that is drawn, and the number of others that are late by the same time.
+struct Strayed {
+  const ColumnCheck* check;
+  std::size_t others = 0;
+};
+
 /// The at most kMostDrawn columns that exceed their bands most, in the order in which they leave their bands. If only numbers
 /// are outside their bands, the column that is nearest to the limit of its band.
-std::vector<const ColumnCheck*> strayed(const GoldenCase& c) {
+std::vector<Strayed> strayed(const GoldenCase& c) {
   std::vector<const ColumnCheck*> found;
   for (const ColumnCheck& check : c.difference.columns) {
     if (!check.passed()) found.push_back(&check);
@@ -90,20 +98,34 @@ std::vector<const ColumnCheck*> strayed(const GoldenCase& c) {
   if (const ColumnCheck* worst = c.difference.worst_column(); found.empty() && worst != nullptr) found.push_back(worst);
   std::stable_sort(found.begin(), found.end(),
                    [](const ColumnCheck* a, const ColumnCheck* b) { return a->ratio() > b->ratio(); });
-  found.resize(std::min(found.size(), kMostDrawn));
+  // Columns of the whole robot that are late by the same time show one fact: the worst of them is drawn.
+  std::vector<Strayed> groups;
+  for (const ColumnCheck* check : found) {
+    const auto same = [&](const Strayed& group) {
+      constexpr double kEqual = 0.02;  // share of the shift, which is estimated
+      const double shift = group.check->time_shift;
+      return shift != 0 && std::abs(check->time_shift - shift) <= kEqual * std::abs(shift);
+    };
+    if (const auto group = std::ranges::find_if(groups, same); group != groups.end()) {
+      ++group->others;
+    } else {
+      groups.push_back({check});
+    }
+  }
+  groups.resize(std::min(groups.size(), kMostDrawn));
   const double never = c.scenario->duration + 1;
-  std::stable_sort(found.begin(), found.end(), [&](const ColumnCheck* a, const ColumnCheck* b) {
-    const double from_a = a->outside.value_or(never);
-    const double from_b = b->outside.value_or(never);
-    return from_a < from_b;
-  });
-  return found;
+  std::ranges::stable_sort(groups, {}, [&](const Strayed& group) { return group.check->outside.value_or(never); });
+  return groups;
 }
 
 std::vector<report::OverlayPanel> panels(const GoldenCase& c) {
   std::vector<report::OverlayPanel> panels;
-  for (const ColumnCheck* check : strayed(c)) {
+  for (const auto& [check, others] : strayed(c)) {
     report::OverlayPanel panel{check->label, check->unit};
+    if (others > 0) {
+      panel.others =
+          fmt::format(" and {} more, late by {} s", others, report::with_minus(fmt::format("{:.2g}", check->time_shift)));
+    }
     const Trace& golden = c.golden->run.trace;
     for (std::size_t k = 0; k < std::min(golden.rows(), c.run.trace.rows()); ++k) {
       panel.time.push_back(golden.at(k, 0));

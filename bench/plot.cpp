@@ -118,9 +118,9 @@ std::string plot(const Results& results) {
   const std::vector<std::string> contenders = unique(results, &Point::contender);
   const std::size_t lines = (contenders.size() + 2) / 3;  // three entries per line
   double top = kTitleHeight + kLegendLine * static_cast<double>(lines) + kHead;
-  report::Svg svg(kWidth, top + (kHeight + kFoot + kHead) * static_cast<double>(scenarios.size()) - kHead);
-  svg.text({kWidth / 2, 28}, "Cost of a simulated second, and error of its torques",
-           {.size = 18, .anchor = report::Anchor::middle, .bold = true});
+  constexpr std::string_view kTitle = "Cost of a simulated second, and error of its torques";
+  report::Svg svg(kWidth, top + (kHeight + kFoot + kHead) * static_cast<double>(scenarios.size()) - kHead, kTitle);
+  svg.text({kWidth / 2, 28}, kTitle, {.size = 18, .anchor = report::Anchor::middle, .bold = true});
   for (std::size_t c = 0; c < contenders.size(); ++c) {
     const std::size_t line = c / 3;
     const double x = kLeft + static_cast<double>(c % 3) * (kRight - kLeft) / 3;

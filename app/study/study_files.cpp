@@ -6,15 +6,18 @@
 #include <iterator>
 #include <numeric>
 
+#include "app/app.h"
 #include "app/study/study_sensitivity.h"
 #include "app/study/study_text.h"
 #include "core/files/atomic_file.h"
+#include "core/scenario/manual.h"
 #include "core/settings/wording.h"
 #include "report/figures/study/box_figure.h"
 #include "report/figures/study/many_figure.h"
 #include "report/figures/study/study_figure.h"
 #include "studies/search/verify.h"
 #include "studies/study/number.h"
+#include "studies/study/scenarios.h"
 
 namespace gaitlab::app {
 
@@ -57,7 +60,30 @@ std::size_t best_of(Journal& journal, const Results& results) {
   return results.points.size();
 }
 
-report::StudyAxis axis_of(const JournalParameter& p) { return {clipped(p.key), "", p.log}; }
+/// True if the text contains the name of a quantity, and not only as a part of a longer name.
+bool contains_word(const std::string& text, const std::string& name) {
+  const auto of_name = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.';
+  };
+  for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+    const std::size_t end = at + name.size();
+    if ((at == 0 || !of_name(text[at - 1])) && (end == text.size() || !of_name(text[end]))) return true;
+  }
+  return false;
+}
+
+/// Units of all parameters, by the scenario of the study. Empty for those of plugin libraries.
+std::vector<std::string> units_of(const JournalHead& head) {
+  const std::vector<studies::ScenarioText> several = studies::scenario_texts(head.scenario);
+  Problems problems;
+  const std::optional<Node> scenario =
+      parse_yaml(several.empty() ? head.scenario : several.front().text, "scenario.resolved.yaml", problems);
+  const Catalog catalog = standard_catalog();
+  std::vector<std::string> units;
+  for (const JournalParameter& p : head.parameters)
+    units.push_back(p.words || !scenario ? "" : unit_of_key(catalog, *scenario, p.key));
+  return units;
+}
 
 /// Values of all runs, in the order of the runs. A word is represented by its index.
 struct Values {
@@ -124,12 +150,22 @@ struct Drawn {
   const Results& results;
   const Values& values;
   const std::vector<std::size_t>& parameters;
+  std::vector<std::string> units;  ///< units of all parameters of the study
   std::vector<std::size_t> rows;
   std::string note;
   std::size_t best_point;  ///< index of the best point; the number of points if there is none
 
   [[nodiscard]] std::string title(const studies::Quantity& name) const {
     return clipped(head.name) + ": " + clipped(name.name);
+  }
+  /// Axis of a parameter of the study.
+  [[nodiscard]] report::StudyAxis axis(std::size_t parameter) const {
+    const JournalParameter& p = head.parameters[parameter];
+    return {clipped(p.key), units[parameter], p.log};
+  }
+  /// True if the first objective, which decides the best point, contains the quantity.
+  [[nodiscard]] bool is_objective(const studies::Quantity& name) const {
+    return contains_word(head.objectives.front().expression, name.name);
   }
   [[nodiscard]] std::size_t best() const { return std::min(best_point, rows.size()); }
 };
@@ -138,9 +174,9 @@ report::StudyFigure map_of(const Drawn& drawn, std::size_t number, const studies
   report::StudyFigure figure;
   figure.title = drawn.title(name);
   figure.note = drawn.note;
-  figure.x = axis_of(drawn.head.parameters[drawn.parameters[0]]);
+  figure.x = drawn.axis(drawn.parameters[0]);
   figure.map = drawn.parameters.size() == 2;
-  if (figure.map) figure.y = axis_of(drawn.head.parameters[drawn.parameters[1]]);
+  if (figure.map) figure.y = drawn.axis(drawn.parameters[1]);
   figure.value = {clipped(name.name), clipped(name.unit)};
   figure.grid = drawn.head.definition.find("\nmethod: grid\n") != std::string::npos;
   for (std::size_t k = 0; k < drawn.rows.size(); ++k) {
@@ -150,6 +186,7 @@ report::StudyFigure map_of(const Drawn& drawn, std::size_t number, const studies
     figure.points.push_back(point);
   }
   figure.best = drawn.best();
+  figure.objective = drawn.is_objective(name);
   return figure;
 }
 
@@ -161,7 +198,7 @@ report::ManyFigure many_of(const Drawn& drawn, std::size_t number, const studies
     const JournalParameter& p = drawn.head.parameters[k];
     std::vector<std::string> words;
     for (const std::string& word : p.values) words.push_back(clipped(word));
-    figure.axes.push_back({axis_of(p), p.words ? words : std::vector<std::string>()});
+    figure.axes.push_back({drawn.axis(k), p.words ? words : std::vector<std::string>()});
   }
   figure.value = {clipped(name.name), clipped(name.unit)};
   for (std::size_t k = 0; k < drawn.rows.size(); ++k) {
@@ -169,6 +206,7 @@ report::ManyFigure many_of(const Drawn& drawn, std::size_t number, const studies
     figure.points.push_back({drawn.values.parameters[drawn.rows[k]], point.value, point.state});
   }
   figure.best = drawn.best();
+  figure.objective = drawn.is_objective(name);
   return figure;
 }
 
@@ -224,8 +262,14 @@ std::vector<std::string> write_study_files(Journal& journal, const Results& resu
         static_cast<std::size_t>(std::ranges::find(head.quantities, name, &studies::Quantity::name) - head.quantities.begin()));
   }
   const Values values = values_of(journal, parameters, figures);
-  const Drawn drawn{
-      head, results, values, parameters, rows_of(results, values), study_note(head, results.runs), best_of(journal, results)};
+  const Drawn drawn{head,
+                    results,
+                    values,
+                    parameters,
+                    units_of(head),
+                    rows_of(results, values),
+                    study_note(head, results.runs),
+                    best_of(journal, results)};
   const bool map = is_map(head, parameters);
   for (std::size_t k = 0; k < figures.size() && !parameters.empty(); ++k) {
     const studies::Quantity& figure = head.quantities[figures[k]];

@@ -33,6 +33,16 @@ std::vector<std::size_t> by_weight(const Sensitivity& s) {
 
 bool of_trajectories(const Sensitivity& s) { return s.measures.front().name == "mu_star"; }
 
+/// True if the shares of a parameter are impossible, which is due to the sampling: exact shares are 0 <= first <= total <= 1. A
+/// hundredth of the variance is not visible in the bars.
+bool too_few_samples(const Sensitivity& s, std::size_t parameter) {
+  constexpr double kHidden = 0.01;
+  if (of_trajectories(s)) return false;
+  const double total = s.measures[0].of[parameter].value;
+  const double first = s.measures[1].of[parameter].value;
+  return first < -kHidden || first > total + kHidden || total > 1 + kHidden;
+}
+
 /// Text on the number of samples that were used, for example `12 of 20 trajectories; the others contain 8 points without a
 /// value`.
 std::string basis(const Sensitivity& s) {
@@ -99,7 +109,7 @@ report::BarFigure figure_of_bars(const Sensitivity& s, const std::string& study,
   figure.kinds = of_trajectories(s) ? std::vector<std::string>{"mean magnitude, mu*", "mean, mu", "deviation, sigma"}
                                     : std::vector<std::string>{"total, with interactions", "first order, without interactions"};
   for (const std::size_t k : by_weight(s)) {
-    report::BarRow row{clipped(s.parameters[k]), {}};
+    report::BarRow row{clipped(s.parameters[k]), {}, too_few_samples(s, k) ? "too few samples" : ""};
     for (const studies::Measure95& measure : s.measures)
       row.bars.push_back({measure.of[k].value, measure.of[k].low, measure.of[k].high});
     figure.rows.push_back(std::move(row));
@@ -115,6 +125,11 @@ std::string sensitivity_text(studies::Journal& journal, const studies::Results& 
     const std::string unit =
         of_trajectories(s) && !s.unit.empty() ? ", " + clipped(s.unit) + " per range of the parameter" : "";
     text += fmt::format("influence on {}{}: {}\n{}", clipped(s.output), unit, basis(s), table_of(s));
+    std::string few;
+    for (const std::size_t k : by_weight(s)) {
+      if (too_few_samples(s, k)) few += (few.empty() ? "" : ", ") + clipped(s.parameters[k]);
+    }
+    if (!few.empty()) text += "too few samples, the shares are impossible: " + few + "\n";
   }
   return text;
 }

@@ -70,6 +70,19 @@ std::vector<KeyRow> plugin_keys(const Entry& entry) {
   return explainer.rows();
 }
 
+/// Unit of the row whose path of keys begins `key`; the rest of `key` is an element of a list or a part of the robot.
+std::string unit_in(const std::vector<KeyRow>& rows, const std::string& key) {
+  std::vector<std::string> path;
+  for (const KeyRow& row : rows) {
+    const std::size_t indent = std::min(row.key.find_first_not_of(' '), row.key.size());
+    path.resize(indent / 2);
+    path.push_back(row.key.substr(indent, row.key.find(':') - indent));
+    const std::string whole = fmt::format("{}", fmt::join(path, "."));
+    if (!row.unit.empty() && (key == whole || key.starts_with(whole + "."))) return row.unit;
+  }
+  return "";
+}
+
 /// Code block in Markdown, so that equations keep their lines.
 std::string fenced(const std::string& text) { return "```text\n" + text + (text.ends_with('\n') ? "" : "\n") + "```\n"; }
 
@@ -81,6 +94,18 @@ std::string explain_plugin(const Entry& entry) {
   const std::string text = wrapped(std::string(entry.manual));
   const std::vector<KeyRow> keys = plugin_keys(entry);
   return keys.empty() ? text : text + "\n" + table(keys);
+}
+
+std::string unit_of_key(const Catalog& catalog, const Node& scenario, const std::string& key) {
+  const std::size_t dot = std::min(key.find('.'), key.size());
+  const PluginKind* kind = find_kind(key.substr(0, dot));
+  const Node* section = scenario.find(key.substr(0, dot));
+  const Node* type = kind == nullptr || section == nullptr ? nullptr : section->find("type");
+  const Entry* entry = type == nullptr ? nullptr : catalog.find(kind->kind, type->text);
+  if (entry != nullptr && dot < key.size()) {
+    if (std::string unit = unit_in(plugin_keys(*entry), key.substr(dot + 1)); !unit.empty()) return unit;
+  }
+  return unit_in(scenario_keys(catalog), key);
 }
 
 std::string scenario_page(const Catalog& catalog) {

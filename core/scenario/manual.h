@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/plugin/catalog.h"
+#include "core/settings/node.h"
 
 namespace gaitlab {
 
@@ -10,6 +11,10 @@ namespace gaitlab {
 std::string explain_scenario(const Catalog& catalog);
 /// Manual of a plugin: its text, followed by a table of its fields. Throws PluginError.
 std::string explain_plugin(const Entry& entry);
+
+/// Unit of the number at a path of keys in a scenario: `rad` of cpg.amplitude. Types of plugins are those of `scenario`. Empty
+/// if the number has none, or if the catalog does not have its plugin. Throws PluginError.
+std::string unit_of_key(const Catalog& catalog, const Node& scenario, const std::string& key);
 
 /// Text on the step that an engine uses if the scenario gives none: a number of seconds, or auto with the alternatives.
 std::string default_step(const Engine& engine);

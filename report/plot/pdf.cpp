@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <iterator>
+#include <utility>
 
 #include "core/recording/trace.h"
-#include "report/plot/deflate.h"
+#include "report/plot/characters.h"
 
 namespace gaitlab::report {
 
@@ -28,31 +31,26 @@ std::string rgb(std::string_view colour) {
   return text;
 }
 
-/// String in PDF syntax: brackets and backslashes are escaped, bytes beyond ASCII are octal.
-std::string literal(std::string_view bytes) {
-  std::string text = "(";
-  for (const char c : bytes) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '(' || c == ')' || c == '\\') {
-      text += '\\';
-      text += c;
-    } else if (byte < 0x20 || byte > 0x7E) {
-      text += fmt::format("\\{:03o}", byte);
+/// Text string in PDF syntax, in UTF-16 with a byte order mark, as hexadecimal digits.
+std::string text_string(std::string_view text) {
+  std::string digits = "<FEFF";
+  while (!text.empty()) {
+    const Character character = first_character(text);
+    const auto code = static_cast<std::uint32_t>(character.length > 0 ? character.code : U'\uFFFD');
+    constexpr std::uint32_t kBasic = 0x10000;
+    if (code < kBasic) {
+      digits += fmt::format("{:04X}", code);
     } else {
-      text += c;
+      digits += fmt::format("{:04X}{:04X}", 0xD800 + ((code - kBasic) >> 10U), 0xDC00 + ((code - kBasic) & 0x3FFU));
     }
+    text.remove_prefix(std::max<std::size_t>(1, character.length));
   }
-  return text + ")";
-}
-
-std::string font_object(Font font) {
-  const char* const names[] = {"Helvetica /Encoding /WinAnsiEncoding", "Helvetica-Bold /Encoding /WinAnsiEncoding", "Symbol"};
-  return fmt::format("<< /Type /Font /Subtype /Type1 /BaseFont /{} >>", names[static_cast<std::size_t>(font)]);
+  return digits + ">";
 }
 
 }  // namespace
 
-Pdf::Pdf(const Paper& paper) : paper_(paper) {
+Pdf::Pdf(const Paper& paper, std::string_view title) : paper_(paper), title_(title) {
   const double scale = paper.mm / kPoint;
   // Converts px with y downwards to pt with y upwards.
   page_ = fmt::format("{0:.8f} 0 0 -{0:.8f} 0 {1:.4f} cm\n", scale, paper.height * scale);
@@ -124,30 +122,33 @@ void Pdf::polygons(std::span<const Polygon> polygons, const Style& style) {
 
 void Pdf::text(Point where, std::string_view content, const TextStyle& style) {
   if (!finite(where) || content.empty()) return;
-  const SetText set = set_in_helvetica(content, style.bold);
+  const Face face = style.bold ? Face::bold : Face::regular;
+  const SetText set = set_text(content, face);
   missing_.insert(set.missing.begin(), set.missing.end());
   const double back = set.width * style.size * (style.anchor == Anchor::start ? 0 : style.anchor == Anchor::middle ? 0.5 : 1);
   const Point start = style.upwards ? Point{where.x, where.y + back} : Point{where.x - back, where.y};
-  // The text matrix turns letters upright, because y points downwards on the page.
-  page_ += fmt::format("BT {}rg {} {} Tm", rgb(style.fill), style.upwards ? "0 -1 -1 0" : "1 0 0 -1", at(start));
-  for (const TextRun& run : set.runs) {
-    fonts_.insert(run.font);
-    page_ += fmt::format(" /F{} {} Tf {} Tj", static_cast<int>(run.font) + 1, coordinate(style.size), literal(run.bytes));
+  UsedGlyphs& used = fonts_[face];
+  std::string glyphs;
+  for (const auto& [glyph, code] : set.letters) {
+    const auto entry = used.try_emplace(glyph, code).first;
+    entry->second = std::min(entry->second, code);
+    fmt::format_to(std::back_inserter(glyphs), "{:04X}", glyph);
   }
-  page_ += " ET\n";
+  // The text matrix turns letters upright, because y points downwards on the page.
+  page_ += fmt::format("BT {}rg {} {} Tm /F{} {} Tf <{}> Tj ET\n", rgb(style.fill), style.upwards ? "0 -1 -1 0" : "1 0 0 -1",
+                       at(start), static_cast<int>(face) + 1, coordinate(style.size), glyphs);
 }
 
 std::string Pdf::finish() const {
-  const std::string packed = deflated(page_, kMostDeflated);
   const double scale = paper_.mm / kPoint;
   std::vector<std::string> objects{
-      "<< /Type /Catalog /Pages 2 0 R >>", "<< /Type /Pages /Kids [3 0 R] /Count 1 >>", "",
-      fmt::format("<< /Length {} /Filter /FlateDecode >>\nstream\n", packed.size()) + packed + "\nendstream",
-      "<< /Producer (gaitlab) >>"};
+      "<< /Type /Catalog /Pages 2 0 R >>", "<< /Type /Pages /Kids [3 0 R] /Count 1 >>", "", pdf_stream(page_),
+      fmt::format("<< /Producer (gaitlab){} >>", title_.empty() ? "" : " /Title " + text_string(title_))};
   std::string fonts;
-  for (const Font font : fonts_) {
-    objects.push_back(font_object(font));
-    fonts += fmt::format(" /F{} {} 0 R", static_cast<int>(font) + 1, objects.size());
+  for (const auto& [face, used] : fonts_) {
+    const std::size_t number = objects.size() + 1;
+    fonts += fmt::format(" /F{} {} 0 R", static_cast<int>(face) + 1, number);
+    for (std::string& object : pdf_font(face, used, number)) objects.push_back(std::move(object));
   }
   objects[2] =
       fmt::format("<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {} {}] /Contents 4 0 R\n/Resources << /Font <<{} >> >> >>",

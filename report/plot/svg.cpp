@@ -43,14 +43,6 @@ std::string_view entity(std::string_view text) {
   }
 }
 
-// Start of a file for a drawing of this size in px. `size` is the displayed size in any unit.
-std::string head(double width, double height, const std::string& size, const char* font) {
-  return fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" {} viewBox=\"0 0 {} {}\" font-family=\"{}\">\n",
-      size, coordinate(width), coordinate(height), font);
-}
-
 }  // namespace
 
 std::string xml_escaped(std::string_view text) {
@@ -63,17 +55,31 @@ std::string xml_escaped(std::string_view text) {
   return escaped;
 }
 
-Svg::Svg(double width, double height)
-    : head_(
-          head(width, height, fmt::format("width=\"{}\" height=\"{}\"", coordinate(width), coordinate(height)), "sans-serif")) {
+namespace {
+
+// Start of a file for a drawing of this size in px. `size` is the displayed size in any unit.
+std::string head(double width, double height, const std::string& size, const char* font, std::string_view title) {
+  const std::string name = title.empty() ? "" : "<title>" + xml_escaped(title) + "</title>\n";
+  return fmt::format(
+             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" {} viewBox=\"0 0 {} {}\"{} font-family=\"{}\">\n",
+             size, coordinate(width), coordinate(height), title.empty() ? "" : " role=\"img\"", font) +
+         name;
+}
+
+}  // namespace
+
+Svg::Svg(double width, double height, std::string_view title)
+    : head_(head(width, height, fmt::format("width=\"{}\" height=\"{}\"", coordinate(width), coordinate(height)), "sans-serif",
+                 title)) {
   rectangle({0, 0}, width, height, {.fill = colour::kWhite});
 }
 
-Svg::Svg(const Paper& paper)
+Svg::Svg(const Paper& paper, std::string_view title)
     : head_(head(paper.width, paper.height,
                  fmt::format("width=\"{}mm\" height=\"{}mm\"", coordinate(paper.width * paper.mm),
                              coordinate(paper.height * paper.mm)),
-                 "Helvetica, Arial, 'Liberation Sans', sans-serif")) {
+                 "Helvetica, Arial, 'Liberation Sans', sans-serif", title)) {
   rectangle({0, 0}, paper.width, paper.height, {.fill = colour::kWhite});
 }
 

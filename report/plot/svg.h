@@ -4,13 +4,14 @@
 
 namespace gaitlab::report {
 
-/// SVG writer with a white background. Coordinates are in px with at most two decimals. The file is a valid XML document.
+/// SVG writer with a white background. Coordinates are in px with at most two decimals. The file is a valid XML document. Its
+/// title is the name of the picture for programs that read it aloud; without a title it has no role.
 class Svg final : public Canvas {
  public:
   /// Drawing for the screen, whose size is in px, with any sans-serif font.
-  Svg(double width, double height);
+  Svg(double width, double height, std::string_view title = {});
   /// Drawing for print, whose size is in mm, with Helvetica or a font of the same widths.
-  explicit Svg(const Paper& paper);
+  explicit Svg(const Paper& paper, std::string_view title = {});
   void line(Point a, Point b, const Style& style) override;
   void rectangle(Point corner, double width, double height, const Style& style) override;
   void circle(Point centre, double radius, const Style& style) override;

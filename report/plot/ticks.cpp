@@ -14,6 +14,7 @@ namespace {
 constexpr double kSlack = 1e-9;  // share of a step; a tick that rounding moved out of the range is kept
 // Share of a step; a peak may exceed the axis by this instead of extending the axis by a whole step.
 constexpr double kTouch = 0.01;
+constexpr double kRoom = 0.03;  // share of an axis, added at each end for a curve that touches it
 constexpr double kAnyWaste = 1e300;
 constexpr double kMostWaste = 9;  // largest (axis length / range), multiplied over both axes
 constexpr double kHuge = 1e300;
@@ -71,9 +72,9 @@ std::vector<Tick> log_marks(double lo, double hi, int count) {
       if (within && decade % every == 0 && (digit < 2 || !many)) marks.push_back({at, short_number(at, true)});
     }
   }
-  constexpr std::size_t kFew = 2;
+  constexpr std::size_t kFew = 3;
   if (marks.size() >= kFew) return marks;
-  // If the range is below a factor of 5, ticks are round numbers as on a linear axis.
+  // If the range is below a factor of 10, ticks may be round numbers as on a linear axis.
   marks = ticks_within(power_of_ten(lo), power_of_ten(hi), count).marks;
   for (Tick& mark : marks) mark.at = log10_of(mark.at);
   return marks;
@@ -169,6 +170,19 @@ TwinTicks twin_ticks(double a_lo, double a_hi, double b_lo, double b_hi) {
     }
   }
   return least_waste > kMostWaste ? separate : best;
+}
+
+void make_room(TwinTicks& ticks, const Bounds& a, const Bounds& b) {
+  const auto touches = [](const Ticks& axis, const Bounds& values) {
+    const double near = 0.5 * kRoom * (axis.hi - axis.lo);
+    return !values.empty() && (values.lo < axis.lo + near || values.hi > axis.hi - near);
+  };
+  if (!touches(ticks.a, a) && !touches(ticks.b, b)) return;
+  for (Ticks* axis : {&ticks.a, &ticks.b}) {
+    const double room = kRoom * (axis->hi - axis->lo);
+    axis->lo -= room;
+    axis->hi += room;
+  }
 }
 
 }  // namespace gaitlab::report

@@ -13,6 +13,8 @@ struct Bounds {
   void add(double value);
   void add(std::span<const double> values);
   [[nodiscard]] bool empty() const { return lo > hi; }
+  /// True for a number outside the range. False if the range is empty, or for a value that is not finite.
+  [[nodiscard]] bool beyond(double value) const { return !empty() && (value < lo || value > hi); }
   /// Position of a value in the range, from 0 at the lower end to 1 at the upper end; 0.5 if the range is a single value.
   [[nodiscard]] double share(double value) const { return hi > lo ? (value - lo) / (hi - lo) : 0.5; }
 };
@@ -55,6 +57,10 @@ struct TwinTicks {
   Ticks a, b;
 };
 TwinTicks twin_ticks(double a_lo, double a_hi, double b_lo, double b_hi);
+
+/// Extends both axes by the same share at both ends if a value touches an end of its axis, so that its curve is not on the
+/// frame. The zeros still coincide.
+void make_room(TwinTicks& ticks, const Bounds& a, const Bounds& b);
 
 /// Smallest number of the form 1, 2 or 5 times a power of ten that is not below `least` (> 0).
 double nice_step(double least);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/plugin/plugin_instance.h"
+#include "core/scenario/change_section.h"
 #include "core/simulation/simulation.h"
 #include "report/analysis/fall.h"
 #include "report/analysis/plugin_names.h"

@@ -1,7 +1,9 @@
 // Tests of `gaitlab sweep` and `gaitlab study`: rows equal runs, unsuitable folders are refused, failed runs are results.
 #include <fmt/format.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "core/files/atomic_file.h"
 #include "studies/journal/journal.h"
@@ -314,7 +316,7 @@ TEST_F(Sweep, OfMoreThanTwoParametersIsDrawn) {
   EXPECT_EQ(csv.substr(0, csv.find('\n')), "cpg.amplitude,cpg.phase_lag,cpg.type,speed,state,best");
   EXPECT_EQ(std::ranges::count(csv, '\n'), 13);
   EXPECT_TRUE(contains(csv, "0.2,1,hopf,"));
-  EXPECT_TRUE(contains(read(folder_ / "s/speed.svg"), ">cpg.phase_lag<"));
+  EXPECT_TRUE(contains(read(folder_ / "s/speed.svg"), ">cpg.phase_lag (rad)<"));
 }
 
 TEST_F(Sweep, OfSensitivityEndsWithATable) {
@@ -333,7 +335,26 @@ TEST_F(Sweep, OfSensitivityEndsWithATable) {
   EXPECT_EQ(table("s").size(), 16U);
   EXPECT_TRUE(
       contains(read(folder_ / "s/sensitivity.csv"), "output,parameter,measure,value,low,high\nspeed,cpg.amplitude,total,"));
-  EXPECT_TRUE(contains(read(folder_ / "s/sensitivity-speed.svg"), "share of the variance"));
+  const std::string bars = read(folder_ / "s/sensitivity-speed.svg");
+  EXPECT_TRUE(contains(bars, "share of the variance"));
+  // Shares are 0 <= first <= total <= 1 by definition. Figure and table report estimates that contradict this.
+  std::map<std::string, double> value;
+  static const std::regex kRow("speed,([a-zA-Z.]+),(total|first),([^,]*),");
+  const std::string csv = read(folder_ / "s/sensitivity.csv");
+  for (std::sregex_iterator it(csv.begin(), csv.end(), kRow), end; it != end; ++it)
+    value[std::string((*it)[1]) + std::string((*it)[2])] = std::stod((*it)[3]);
+  ASSERT_EQ(value.size(), 4U);
+  std::size_t few = 0;
+  for (const std::string key : {"cpg.amplitude", "actuator.R"}) {
+    const double first = value[key + "first"];
+    const double total = value[key + "total"];
+    few += first < -0.01 || first > total + 0.01 || total > 1.01 ? 1U : 0U;
+  }
+  EXPECT_GT(few, 0U);  // with 4 samples; choose another number if this ever fails
+  std::size_t remarks = 0;
+  for (std::size_t at = 0; (at = bars.find(">too few samples<", at)) != std::string::npos; ++at) ++remarks;
+  EXPECT_EQ(remarks, few);
+  EXPECT_TRUE(contains(call("study show s").out, "too few samples, the shares are impossible: "));
 }
 
 /// A sweep continues with a database without tables, which a kill or a full disk leaves during the creation of the journal.

@@ -251,6 +251,7 @@ class CurvesOfPanel final : public PaperPanel {
     };
     const bool both = has(Side::left) && has(Side::right) && panel_.left.range.empty() && panel_.right.range.empty();
     ticks_ = both ? twin_ticks(a.lo, a.hi, b.lo, b.hi) : TwinTicks{ticks_around(a, 5), ticks_around(b, 5)};
+    make_room(ticks_, a, b);
     given(panel_.left.range, ticks_.a);
     given(panel_.right.range, ticks_.b);
   }

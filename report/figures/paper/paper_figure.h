@@ -17,6 +17,8 @@ class PaperFigure {
   /// joint or leg that the run does not have, incompatible units, a time beyond the run, or a size that is too small.
   PaperFigure(const Recipe& recipe, std::span<const PaperRun> runs);
   [[nodiscard]] const Paper& paper() const { return paper_; }
+  /// Kinds of the panels with their runs, for programs that read the figure aloud: `views of hexapod; footfalls of hexapod`.
+  [[nodiscard]] const std::string& title() const { return title_; }
   void draw(Canvas& canvas) const;
   /// Data of the figure, one table per panel.
   [[nodiscard]] std::vector<Trace> data() const;
@@ -34,6 +36,7 @@ class PaperFigure {
 
   std::vector<Placed> panels_;
   Paper paper_;
+  std::string title_;
   bool letters_ = false;
 };
 

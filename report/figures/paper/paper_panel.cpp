@@ -130,7 +130,7 @@ std::string with_unit_after(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : name + " [" + unit + "]";
 }
 
-double regular_width(std::string_view text, double size) { return helvetica_width(text, size); }
+double regular_width(std::string_view text, double size) { return print_width(text, size); }
 
 Axis time_axis(double from, double to) { return {.ticks = ticks_within(from, to, 8), .title = "time (s)"}; }
 

@@ -10,7 +10,7 @@
 #include "core/scenario/scenario.h"
 #include "report/figures/paper/panel_kinds.h"
 #include "report/figures/run/views.h"
-#include "report/plot/helvetica.h"
+#include "report/plot/font.h"
 #include "report/plot/legend.h"
 #include "report/plot/plot.h"
 

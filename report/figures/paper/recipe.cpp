@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "core/settings/explainer.h"
+#include "core/settings/number_syntax.h"
 #include "core/settings/reader.h"
 #include "core/settings/value.h"
 #include "core/settings/wording.h"
@@ -27,7 +28,7 @@ struct NamedSize {
 constexpr std::array<NamedSize, 2> kSizes{{{"ieee-column", 88.9}, {"ieee-page", 181.864}}};
 
 const std::string& names_of_sizes() {
-  static const std::string kText = "ieee-column, ieee-page or [width, height] in mm";
+  static const std::string kText = "ieee-column, ieee-page, a width in mm or [width, height] in mm";
   return kText;
 }
 
@@ -47,6 +48,10 @@ void read_size(const Node& node, Recipe& recipe, Problems& problems) {
   if (node.kind == Node::Kind::list && node.items.size() == 2) {
     read_length(node.items[0], "size[0], the width,", recipe.width, problems);
     read_length(node.items[1], "size[1], the height,", recipe.height, problems);
+    return;
+  }
+  if (node.kind == Node::Kind::scalar && looks_like_a_number(node.text)) {
+    read_length(node, "size, the width,", recipe.width, problems);
     return;
   }
   const auto* const named = std::find_if(kSizes.begin(), kSizes.end(), [&](const NamedSize& size) {
@@ -70,8 +75,8 @@ Explainer recipe_keys(const PanelKind& kind) {
   explainer.row("gaitlab", "", "1", "1", "Format version.");
   explainer.row(
       "size", "mm", kSizes[0].name, names_of_sizes(),
-      "Size on paper: one or two columns of an IEEE journal (88.9 or 181.9 mm wide), as high as the panels need; or width "
-      "and height.");
+      "Size on paper: one or two columns of an IEEE journal (88.9 or 181.9 mm wide) or another width (84 and 174 are usual), "
+      "as high as the panels need; or width and height.");
   Recipe recipe;
   recipe.panels.resize(1);
   recipe.panels.front().kind = &kind;

@@ -45,7 +45,7 @@ class FootfallsOfPanel final : public PaperPanel {
 
   [[nodiscard]] Margins margins() const override {
     double names = 0;
-    for (const Footfall& row : rows_) names = std::max(names, helvetica_width(row.name, 13));
+    for (const Footfall& row : rows_) names = std::max(names, print_width(row.name, 13));
     return {11 + names, 8 + text_width("0.00", 13) + 1};  // widths as in draw_footfalls
   }
   [[nodiscard]] double head(const Edges&) const override { return kFootfallHead; }
@@ -130,8 +130,7 @@ class ViewsOfPanel final : public PaperPanel {
 
   [[nodiscard]] Margins margins() const override {
     double times = 0;
-    for (const View& view : input_.views)
-      times = std::max(times, helvetica_width(fmt::format("{:.6g} s", view.time), 13, true));
+    for (const View& view : input_.views) times = std::max(times, print_width(fmt::format("{:.6g} s", view.time), 13, true));
     return {10 + times, 4};
   }
   [[nodiscard]] double head(const Edges&) const override { return 0; }

@@ -78,7 +78,7 @@ std::string curves_svg(const CurvesInput& input) {
   const std::vector<CurveStyle> style = styles(input);
   double top = runs_legend(nullptr, input, style);
   constexpr double kPanel = kRunsHead + kRunsHeight + kRunsFoot;
-  Svg svg(kWidth, top + kPanel * static_cast<double>(input.panels.size()));
+  Svg svg(kWidth, top + kPanel * static_cast<double>(input.panels.size()), input.title);
   draw_run_title(svg, input.title);
   runs_legend(&svg, input, style);
   for (const CurvesPanel& shown : input.panels) {

@@ -109,8 +109,11 @@ class JointChart {
     }
     Bounds b = torques_;
     b.add(rest_torques());
-    if (!has(Side::left) || !has(Side::right)) return {ticks_around(a.lo, a.hi, 6), ticks_around(b.lo, b.hi, 6)};
-    return twin_ticks(a.lo, a.hi, b.lo, b.hi);
+    const bool both = has(Side::left) && has(Side::right);
+    TwinTicks twin =
+        both ? twin_ticks(a.lo, a.hi, b.lo, b.hi) : TwinTicks{ticks_around(a.lo, a.hi, 6), ticks_around(b.lo, b.hi, 6)};
+    make_room(twin, angles_, torques_);
+    return twin;
   }
 
   [[nodiscard]] std::string time_title() const {
@@ -205,7 +208,7 @@ std::string figure_svg(const FigureInput& input) {
   const double footfall_top = kTitleHeight + kChart * static_cast<double>(charts.size());
   const Edges edges{left_edge(input), kRight};
   const double views_top = footfall_top + (footfalls ? footfall_height(input.footfalls.size()) : 0);
-  Svg svg(kWidth, views_top + (input.views.empty() ? 0 : views_height(input, edges) + 8));
+  Svg svg(kWidth, views_top + (input.views.empty() ? 0 : views_height(input, edges) + 8), input.title);
   draw_run_title(svg, input.title);
   double top = kTitleHeight + kChartHead;
   for (const JointChart& chart : charts) {

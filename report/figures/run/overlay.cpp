@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "report/figures/run/run_sheet.h"
 #include "report/plot/legend.h"
@@ -15,7 +16,12 @@ namespace {
 
 constexpr double kOverlayLeft = 110, kOverlayRight = 970;                              // px
 constexpr double kHead = 30, kSignals = 150, kGap = 14, kDifference = 80, kFoot = 52;  // px
+constexpr double kTitleAway = 56;                                                      // px
 constexpr double kOverlayHeight = kHead + kSignals + kGap + kDifference + kFoot;
+
+constexpr double kLeast = -2;    // logarithm to base 10 of the least multiple of the tolerance that is shown
+constexpr double kMost = 1e9;    // largest multiple
+constexpr double kLowTop = 0.5;  // least upper end of that axis, so that the tolerance is visible
 
 constexpr Style kReference{.stroke = colour::kBlue, .width = 2};
 constexpr Style kNow{.stroke = colour::kVermillion, .width = 1.4, .dash = "7 3"};
@@ -23,19 +29,25 @@ constexpr Style kDifferenceLine{.stroke = colour::kBlack, .width = 1.2};
 constexpr Style kTolerance{.stroke = colour::kGreen, .width = 1.2, .dash = "3 3"};
 constexpr Style kOutside{.stroke = colour::kPurple, .width = 1.5};
 
+/// Logarithm to base 10 of the magnitude of the difference as a multiple of the tolerance, at least kLeast.
 std::vector<double> difference(const OverlayPanel& panel) {
   std::vector<double> d;
-  for (std::size_t i = 0; i < panel.time.size(); ++i) d.push_back(panel.now[i] - panel.reference[i]);
+  for (std::size_t i = 0; i < panel.time.size(); ++i) {
+    const double apart = std::abs(panel.now[i] - panel.reference[i]);
+    const double ratio = std::min(panel.tolerance > 0 ? apart / panel.tolerance : kMost, kMost);
+    d.push_back(std::isnan(ratio) ? ratio : apart > 0 ? std::max(kLeast, log10_of(ratio)) : kLeast);
+  }
   return d;
 }
 
 void draw_head(Canvas& canvas, const OverlayPanel& panel, double top) {
   const std::string unit = panel.unit.empty() ? "" : " (" + panel.unit + ")";
-  canvas.text({kOverlayLeft, top + 18}, panel.name + unit, {.bold = true});
   std::vector<LegendEntry> entries{line_entry("golden", kReference), line_entry("now", kNow),
                                    line_entry("3 bands", kTolerance)};
   if (panel.outside) entries.push_back(line_entry(fmt::format("outside from {:.6g} s", *panel.outside), kOutside));
-  draw_legend_row(canvas, entries, kOverlayRight, top + 18);
+  const double room = draw_legend_row(canvas, entries, kOverlayRight, top + 18) - 20 - kOverlayLeft;
+  const std::string name = panel.name + unit + panel.others;
+  canvas.text({kOverlayLeft, top + 18}, name, {.size = fitting_size(name, 13, 9, room), .bold = true});
 }
 
 void draw_overlay(Canvas& canvas, const OverlayPanel& panel, double top) {
@@ -45,20 +57,18 @@ void draw_overlay(Canvas& canvas, const OverlayPanel& panel, double top) {
   both.add(panel.reference);
   both.add(panel.now);
   const Plot upper(canvas, {kOverlayLeft, kOverlayRight, signals, signals + kSignals}, {.ticks = time, .texts = false},
-                   {ticks_around(both, 5)});
+                   {.ticks = ticks_around(both, 5), .title = panel.unit, .away = kTitleAway});
   upper.draw_axes();
   upper.curve(panel.time, panel.reference, kReference);
   upper.curve(panel.time, panel.now, kNow);
   const std::vector<double> d = difference(panel);
-  Bounds apart;
+  Bounds apart{kLeast, kLowTop};
   apart.add(d);
-  apart.add(panel.tolerance);
-  apart.add(-panel.tolerance);
   const double below = signals + kSignals + kGap;
   const Plot lower(canvas, {kOverlayLeft, kOverlayRight, below, below + kDifference}, {.ticks = time, .title = "time (s)"},
-                   {.ticks = ticks_around(apart, 3), .title = "difference", .away = 80});
+                   {.ticks = ticks_over(apart, true, 3), .title = "\u00D7 3 bands", .away = kTitleAway});
   lower.draw_axes();
-  for (const double edge : {-panel.tolerance, panel.tolerance}) lower.level(edge, kTolerance);
+  lower.level(0, kTolerance);
   lower.curve(panel.time, d, kDifferenceLine);
   if (panel.outside) {
     upper.moment(*panel.outside, kOutside);
@@ -72,7 +82,7 @@ void draw_overlay(Canvas& canvas, const OverlayPanel& panel, double top) {
 std::string overlay_svg(const std::string& title, const std::vector<OverlayPanel>& panels) {
   const auto drawn = [](const OverlayPanel& panel) { return !panel.time.empty(); };
   const auto count = std::count_if(panels.begin(), panels.end(), drawn);
-  Svg svg(kWidth, kTitleHeight + kOverlayHeight * static_cast<double>(count));
+  Svg svg(kWidth, kTitleHeight + kOverlayHeight * static_cast<double>(count), title);
   draw_run_title(svg, title);
   double top = kTitleHeight;
   for (const OverlayPanel& panel : panels) {

@@ -56,6 +56,23 @@ double periods_from(const Summary& s) {
   return s.simulated - std::floor(shown / period + 1e-3) * period;
 }
 
+/// Sides of the view at which the robot's front is and to which the robot moves: `, front at the right, moves to the left`.
+/// Empty if neither is along the axis.
+std::string directions(const Robot& robot, const Recording& r, const Sight& from) {
+  constexpr double kAlong = 0.7;   // a smaller component means that the robot is seen from the front rather than from the side
+  constexpr double kMoved = 0.02;  // m
+  const auto side = [](double along) { return along > 0 ? "right" : "left"; };
+  std::string text;
+  const double ahead = from.camera.right.dot(r.state(robot, r.rows() - 1).orientation * Vec3::UnitX());
+  if (std::abs(ahead) >= kAlong) text += fmt::format(", front at the {}", side(ahead));
+  const Series x = r.series("com.x");
+  const Series y = r.series("com.y");
+  if (x.empty() || y.empty()) return text;
+  const double moved = from.camera.right.dot(Vec3(x.back() - x.front(), y.back() - y.front(), 0));
+  if (std::abs(moved) > kMoved) text += fmt::format(", moves to the {}", side(moved));
+  return text;
+}
+
 // Adds five views from the start of the last period on. A view at its end would be equal to the first one.
 void add_period(FigureInput& input, const Scenario& scenario, const Recording& r, const Summary& s, const Sight& from,
                 std::size_t joint) {
@@ -70,10 +87,7 @@ void add_period(FigureInput& input, const Scenario& scenario, const Recording& r
   input.views_title =
       fmt::format("{} over {} {:.3g} s (arrow: {})", from.view,
                   cycle.found && cycle.period <= span ? "one period," : "the last", span, scenario.robot->joints[joint].name);
-  input.views_axis = from.axis + ", " + from.scale();
-  const double ahead = from.camera.right.dot(r.state(*scenario.robot, r.rows() - 1).orientation * Vec3::UnitX());
-  if (std::abs(ahead) < 0.7) return;  // the robot is seen from the front rather than from the side
-  input.views_axis = fmt::format("{}, forward is {}; {}", from.axis, ahead > 0 ? "right" : "left", from.scale());
+  input.views_axis = fmt::format("{}{}; {}", from.axis, directions(*scenario.robot, r, from), from.scale());
 }
 
 struct Drawn {

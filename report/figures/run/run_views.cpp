@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/math/functions.h"
+#include "report/plot/ticks.h"
 
 namespace gaitlab::report {
 
@@ -98,10 +99,10 @@ Sight sight(const Scenario& scenario, const Recording& r) {
     if (std::abs(along.y()) > kOffX) {
       s.camera = {along, Vec3::UnitZ(), Vec3(-along.y(), along.x(), 0)};
       const double degrees = std::remainder(angle, 2 * std::numbers::pi) * 180 / std::numbers::pi;
-      s.axis = fmt::format("along the way (m), {:.0f} degrees from x", degrees);
+      s.axis = fmt::format("along the way (m), {} degrees from x", with_minus(fmt::format("{:.0f}", degrees)));
       if (std::abs(std::abs(along.y()) - 1) < kAlongY) {
         s.camera = {Vec3(0, along.y() > 0 ? 1 : -1, 0), Vec3::UnitZ(), Vec3(along.y() > 0 ? -1 : 1, 0, 0)};
-        s.axis = along.y() > 0 ? "y (m)" : "-y (m)";
+        s.axis = along.y() > 0 ? "y (m)" : "\u2212y (m)";
       }
     }
   }

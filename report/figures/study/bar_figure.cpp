@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::size_t kMostRows = 200;
 constexpr double kBarHigh = 13, kRowGap = 12;  // px
+constexpr double kRemark = 11;                 // px, size of remarks
 constexpr std::array<std::string_view, 3> kBarFills{colour::kBlue, "#9CC8E8", colour::kPale};
 constexpr Style kWhisker{.stroke = colour::kInk, .width = 1.3};
 
@@ -62,9 +63,11 @@ std::string bar_svg(const BarFigure& figure) {
   const Axis left{.ticks = row_ticks(names), .lines = TickLines::none};
   const double row_high = kBarHigh * static_cast<double>(figure.kinds.size()) + kRowGap;
   const double bottom = kSheetTop + row_high * static_cast<double>(std::max<std::size_t>(rows.size(), 1));
-  const PlotArea area{std::max(60.0, widest_text(left.ticks, 12)) + 36, kSheetWidth - 40, kSheetTop, bottom};
+  double remarks = 0;
+  for (const BarRow& row : rows) remarks = std::max(remarks, text_width(row.remark, kRemark));
+  const PlotArea area{std::max(60.0, widest_text(left.ticks, 12)) + 36, kSheetWidth - 40 - remarks, kSheetTop, bottom};
   const Bounds range = bounds_of(rows);
-  Svg svg(kSheetWidth, bottom + 126);
+  Svg svg(kSheetWidth, bottom + 126, figure.title);
   draw_sheet_title(svg, figure.title);
   const Ticks across = range.lo < range.hi ? ticks_around(range, 7) : ticks_around(0, 1, 5);
   const Plot plot(svg, area, {.ticks = across, .title = figure.axis}, left, {.text = 12});
@@ -75,6 +78,10 @@ std::string bar_svg(const BarFigure& figure) {
       draw_bar(svg, plot, rows[k].bars[b], top + kBarHigh * static_cast<double>(b), kBarFills[b % kBarFills.size()]);
   }
   plot.moment(0, kAxisLine);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const double middle = area.top + row_high * (static_cast<double>(k) + 0.5);
+    svg.text({area.right + 10, middle + 4}, rows[k].remark, {.size = kRemark, .fill = colour::kVermillion});
+  }
   draw_legend_of_bars(svg, figure, area.left, bottom + 66);
   draw_sheet_note(svg, figure.note, bottom + 112);
   return svg.finish();

@@ -12,7 +12,8 @@ struct Bar {
 
 struct BarRow {
   std::string name;
-  std::vector<Bar> bars;  ///< one bar for each entry of BarFigure::kinds
+  std::vector<Bar> bars;    ///< one bar for each entry of BarFigure::kinds
+  std::string remark = {};  ///< short text at the right of the row
 };
 
 struct BarFigure {

@@ -61,7 +61,7 @@ std::string box_svg(const BoxFigure& figure) {
     range.add(group.values);
     names.push_back(group.name);
   }
-  Svg svg(kSheetWidth, kBoxSheetHigh);
+  Svg svg(kSheetWidth, kBoxSheetHigh, figure.title);
   draw_sheet_title(svg, figure.title);
   const Ticks across = groups.empty() ? Ticks{} : word_ticks(names);
   const Plot plot(svg, kBoxPlot, {.ticks = across, .title = figure.below, .lines = TickLines::none},

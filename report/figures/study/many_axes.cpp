@@ -24,6 +24,14 @@ Bounds ended_range(const ManyFigure& figure) {
   return range;
 }
 
+Bounds value_range(const ManyFigure& figure) {
+  Bounds kept;
+  for (const ManyPoint& p : figure.points) {
+    if (p.state == PointState::kept) kept.add(p.value);
+  }
+  return shown_range(kept, ended_range(figure));
+}
+
 Bounds colour_range(const ManyFigure& figure) {
   Bounds range;
   for (const ManyPoint& p : figure.points) {

@@ -15,6 +15,9 @@ Ticks parameter_ticks(const ManyFigure& figure, std::size_t parameter, int count
 /// Range of the values of the points that did not fail.
 Bounds ended_range(const ManyFigure& figure);
 
+/// Range of the axis of values: kept points decide it (shown_range).
+Bounds value_range(const ManyFigure& figure);
+
 /// Range of values for the colours: that of the kept points or, if these have only one value or none, that of all points with a
 /// value.
 Bounds colour_range(const ManyFigure& figure);

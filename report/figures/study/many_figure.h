@@ -24,7 +24,9 @@ struct ManyFigure {
   std::vector<ManyAxis> axes;
   StudyAxis value;
   std::vector<ManyPoint> points;
-  std::size_t best = 0;  ///< index of the best point; points.size() if there is none
+  std::size_t best = 0;   ///< index of the best point; points.size() if there is none
+  bool objective = true;  ///< true if the value is an objective of the study; otherwise the best point is only in the table
+  [[nodiscard]] bool marks_best() const { return objective && best < points.size(); }
 };
 
 /// SVG with parallel coordinates: one axis per parameter, at most 16, and one line per point. Kept points are coloured by their

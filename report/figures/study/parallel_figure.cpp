@@ -21,16 +21,17 @@ constexpr std::size_t kMostAxes = 16;
 constexpr double kParallelHeight = 600;               // px
 constexpr PlotArea kParallelPlot{70, 670, 124, 470};  // px
 constexpr std::string_view kUnfit = "#CFCFCF";
+constexpr double kTip = 4;  // px, half the width of an arrow for a value beyond the axis
 constexpr Bins kLevelsOfAxis{0, 1, 32};
 
 class Parallel {
  public:
   explicit Parallel(const ManyFigure& figure)
       : f_(figure),
-        svg_(kSheetWidth, kParallelHeight),
+        svg_(kSheetWidth, kParallelHeight, figure.title),
         axes_(std::min(figure.axes.size(), kMostAxes)),
         range_(colour_range(figure)),
-        all_(ended_range(figure)) {
+        all_(value_range(figure)) {
     const int count = axes_ > 8 ? 4 : 6;
     for (std::size_t k = 0; k < axes_; ++k) ticks_.push_back(parameter_ticks(f_, k, count));
     ticks_.push_back(ticks_over(all_, false, count));
@@ -73,7 +74,12 @@ class Parallel {
     std::vector<Point> points;
     const bool valued = p.state != PointState::failed && std::isfinite(p.value);
     for (std::size_t k = 0; k < axes_ + (valued ? 1U : 0U); ++k) points.push_back({across(k), up(share(p, k))});
+    const bool beyond = valued && all_.beyond(p.value);
+    if (beyond) points.back().y = up(p.value > all_.hi ? 1 : 0);
     svg_.polyline(points, style);
+    if (!beyond) return;
+    const bool above = p.value > all_.hi;
+    draw_arrow(svg_, {points.back().x, points.back().y + (above ? -2 * kTip : 2 * kTip)}, above, {.fill = style.stroke}, kTip);
   }
 
   /// Draws points that are not kept first, then the others from the palest to the darkest, and the best one last.
@@ -86,18 +92,19 @@ class Parallel {
       return fit ? std::pair{1, p.value} : std::pair{0, 0.0};
     };
     std::ranges::stable_sort(order, {}, rank);
-    const bool many = f_.points.size() > 200;
+    constexpr double kFewLines = 40;  // more lines are thinner, so that they cover about the same area
+    const double thin = std::sqrt(kFewLines / std::max(kFewLines, static_cast<double>(f_.points.size())));
     for (const std::size_t k : order) {
       const ManyPoint& p = f_.points[k];
       const bool fit = rank(k).first == 1;
       const std::string colour = fit ? shade(range_.share(p.value)) : std::string(kUnfit);
-      line(p, {.stroke = colour, .width = fit ? (many ? 1.0 : 1.5) : 0.7});
+      line(p, {.stroke = colour, .width = std::max(0.4, (fit ? 1.5 : 0.7) * thin)});
     }
     best();
   }
 
   void best() {
-    if (f_.best >= f_.points.size()) return;
+    if (!f_.marks_best()) return;
     line(f_.points[f_.best], {.stroke = colour::kWhite, .width = 5});
     line(f_.points[f_.best], {.stroke = colour::kBlack, .width = 2.4});
   }
@@ -113,7 +120,7 @@ class Parallel {
     Stretches found;
     for (const ManyPoint& p : f_.points) {
       const bool valued = p.state != PointState::failed && std::isfinite(p.value);
-      if (k + 1 == axes_ && !valued) continue;
+      if (k + 1 == axes_ && (!valued || all_.beyond(p.value))) continue;
       Stretch& one = found[{kLevelsOfAxis.of(share(p, k)), kLevelsOfAxis.of(share(p, k + 1))}];
       ++one.points;
       if (p.state != PointState::kept || !valued) continue;
@@ -179,7 +186,7 @@ class Parallel {
     const Anchor anchor = k == 0 ? Anchor::start : last ? Anchor::end : Anchor::middle;
     const double from = k == 0 ? x - 50 : last ? x + 60 : x;
     svg_.line({x, kParallelPlot.top}, {x, y + 4}, {.stroke = colour::kGrey, .width = 0.7});
-    svg_.text({from, y}, shortened(last ? f_.value.title() : f_.axes[k].axis.name),
+    svg_.text({from, y}, shortened(last ? f_.value.title() : f_.axes[k].axis.title()),
               {.size = axes_ > 6 ? 11.0 : 13.0, .anchor = anchor, .bold = last});
   }
 
@@ -191,14 +198,20 @@ class Parallel {
     const std::string middle = shade(0.6);
     if (any(true)) entries.push_back(line_entry("kept, by its value", {.stroke = middle, .width = 1.5}));
     if (any(false)) entries.push_back(line_entry("not kept or failed", {.stroke = kUnfit, .width = 1.2}));
-    if (f_.best < f_.points.size()) entries.push_back(line_entry("best", {.stroke = colour::kBlack, .width = 2.4}));
+    const auto beyond = [&](const ManyPoint& p) { return p.state != PointState::failed && all_.beyond(p.value); };
+    if (f_.points.size() * axes_ <= kMostMarks && std::ranges::any_of(f_.points, beyond)) {
+      entries.push_back({"beyond the axis", [](Canvas& canvas, Point at) {
+                           draw_arrow(canvas, {at.x, at.y - kTip}, true, {.fill = kUnfit}, kTip);
+                         }});
+    }
+    if (f_.marks_best()) entries.push_back(line_entry("best", {.stroke = colour::kBlack, .width = 2.4}));
     draw_legend(&svg_, entries, kParallelPlot.left, kSheetWidth, kParallelPlot.bottom + 42);
   }
 
   const ManyFigure& f_;
   Svg svg_;
   std::size_t axes_;
-  Bounds range_, all_;        ///< range of the values that have a colour, and range of all values
+  Bounds range_, all_;        ///< range of the values that have a colour, and range of the axis of values
   std::vector<Ticks> ticks_;  ///< ticks of the parameters, then of the value
 };
 

@@ -15,21 +15,30 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr std::size_t kMostPanels = 24, kInRow = 3;
-constexpr double kPanelWide = 186, kPanelHigh = 130;                  // px
-constexpr double kPanelLeft = 84, kColumnWide = 224, kRowHigh = 196;  // px
-constexpr double kDot = 2.6;                                          // px
+constexpr std::size_t kMostPanels = 24;
+constexpr double kPanelHigh = 130, kRowHigh = 196;                         // px
+constexpr double kPanelLeft = 84, kPanelsWide = 672, kBetweenPanels = 38;  // px
+constexpr double kDot = 2.6;                                               // px
 constexpr std::string_view kUnfitDot = "#B0B0B0";
+constexpr Style kBeyondDot{.stroke = kUnfitDot, .fill = colour::kWhite, .width = 1};
 
 constexpr double kEdge = 0.04;  // share of an axis beyond the outermost dots
+
+/// Panels per row: three, or the number with which no panel is in a row of its own.
+std::size_t panels_in_row(std::size_t panels) {
+  if (panels == 4) return 2;
+  return panels % 3 == 1 && panels % 4 != 1 ? 4 : 3;
+}
 
 class Scatter {
  public:
   explicit Scatter(const ManyFigure& figure)
       : f_(figure),
         panels_(std::min(figure.axes.size(), kMostPanels)),
-        svg_(kSheetWidth, height()),
-        values_(ticks_over(ended_range(figure), false, 5, kEdge)) {}
+        in_row_(panels_in_row(panels_)),
+        range_(value_range(figure)),
+        svg_(kSheetWidth, height(), figure.title),
+        values_(ticks_over(range_, false, 5, kEdge)) {}
 
   std::string drawn() {
     draw_sheet_title(svg_, f_.title);
@@ -43,16 +52,17 @@ class Scatter {
   }
 
  private:
-  [[nodiscard]] std::size_t rows() const { return std::max<std::size_t>(1, (panels_ + kInRow - 1) / kInRow); }
+  [[nodiscard]] std::size_t rows() const { return std::max<std::size_t>(1, (panels_ + in_row_ - 1) / in_row_); }
   [[nodiscard]] double height() const { return kSheetTop + kRowHigh * static_cast<double>(rows()) + 70; }
 
   void panel(std::size_t k, bool histogram) {
-    const double left = kPanelLeft + kColumnWide * static_cast<double>(k % kInRow);
-    const std::size_t row = k / kInRow;
+    const double column = kPanelsWide / static_cast<double>(in_row_);
+    const double left = kPanelLeft + column * static_cast<double>(k % in_row_);
+    const std::size_t row = k / in_row_;
     const double top = kSheetTop + kRowHigh * static_cast<double>(row);
-    const bool first = k % kInRow == 0;
+    const bool first = k % in_row_ == 0;
     const Ticks across = parameter_ticks(f_, k, 4, kEdge);
-    const Plot plot(svg_, {left, left + kPanelWide, top, top + kPanelHigh},
+    const Plot plot(svg_, {left, left + column - kBetweenPanels, top, top + kPanelHigh},
                     {.ticks = across, .title = shortened(f_.axes[k].axis.title())},
                     {.ticks = values_, .title = first ? shortened(f_.value.title()) : "", .texts = first});
     plot.draw_axes();
@@ -61,7 +71,7 @@ class Scatter {
     } else {
       dots(plot, k);
     }
-    if (f_.best < f_.points.size() && std::isfinite(f_.points[f_.best].value))
+    if (f_.marks_best() && std::isfinite(f_.points[f_.best].value))
       svg_.circle(place(plot, f_.points[f_.best], k), kDot + 3, {.stroke = colour::kBlack, .width = 1.8});
   }
 
@@ -74,8 +84,14 @@ class Scatter {
     for (const bool fit : {false, true}) {
       for (const ManyPoint& p : f_.points) {
         if ((p.state == PointState::kept) != fit || p.state == PointState::failed || !std::isfinite(p.value)) continue;
-        if (fit) svg_.circle(place(plot, p, k), kDot, {.fill = colour::kBlue});
-        if (!fit) svg_.circle(place(plot, p, k), kDot - 0.4, {.stroke = kUnfitDot, .width = 1});
+        Point at = place(plot, p, k);
+        if (range_.beyond(p.value)) {
+          const bool above = p.value > range_.hi;
+          at.y = plot.at(0, above ? values_.hi : values_.lo).y;
+          draw_arrow(svg_, at, above, kBeyondDot, kDot);
+        } else {
+          svg_.circle(at, fit ? kDot : kDot - 0.4, fit ? Style{.fill = colour::kBlue} : Style{.stroke = kUnfitDot});
+        }
       }
     }
   }
@@ -110,13 +126,20 @@ class Scatter {
     } else {
       if (any(PointState::kept)) entries.push_back(dot_entry("kept", {.fill = colour::kBlue}, kDot));
       if (*others != '\0') entries.push_back(dot_entry(others, {.stroke = kUnfitDot, .width = 1}, kDot));
+      const auto beyond = [&](const ManyPoint& p) { return p.state != PointState::failed && range_.beyond(p.value); };
+      if (std::ranges::any_of(f_.points, beyond)) {
+        entries.push_back({"beyond the axis", [](Canvas& canvas, Point at) {
+                             draw_arrow(canvas, {at.x, at.y - kDot}, true, kBeyondDot, kDot);
+                           }});
+      }
     }
-    if (f_.best < f_.points.size()) entries.push_back(dot_entry("best", {.stroke = colour::kBlack, .width = 1.8}, kDot + 3));
+    if (f_.marks_best()) entries.push_back(dot_entry("best", {.stroke = colour::kBlack, .width = 1.8}, kDot + 3));
     draw_legend(&svg_, entries, kPanelLeft, kSheetWidth, kSheetTop + kRowHigh * static_cast<double>(rows()) + 14);
   }
 
   const ManyFigure& f_;
-  std::size_t panels_;
+  std::size_t panels_, in_row_;
+  Bounds range_;  ///< range of the values that are shown
   Svg svg_;
   Ticks values_;
 };

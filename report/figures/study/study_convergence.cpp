@@ -64,7 +64,7 @@ void draw_convergence_legend(Canvas& canvas, const ConvergenceFigure& figure) {
 }  // namespace
 
 std::string convergence_svg(const ConvergenceFigure& figure) {
-  Svg svg(kSheetWidth, kConvergenceHeight);
+  Svg svg(kSheetWidth, kConvergenceHeight, figure.title);
   draw_sheet_title(svg, figure.title);
   std::vector<Curves> all;
   Bounds generations;

@@ -16,9 +16,11 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kSheetHeight = 560;         // px
-constexpr PlotArea kPlot{96, 620, 64, 440};  // px
+constexpr PlotArea kMap{96, 620, 64, 440};   // px; a colour bar is at the right
+constexpr PlotArea kLine{96, 730, 64, 440};  // px
 constexpr double kStudyMargin = 0.03;        // share of an axis beyond the outermost marks
 constexpr std::string_view kBand = "#C6DDF0";
+constexpr Style kBeyond{.stroke = colour::kBlue, .fill = colour::kWhite, .width = 1.4};  // a point beyond the axis
 constexpr Style kPaleHatch{.stroke = colour::kWhite, .width = 0.8};
 
 double on_axis(const StudyAxis& axis, double value) { return axis.log ? log10_of(value) : value; }
@@ -136,20 +138,19 @@ StudyFigure histogram(const StudyFigure& figure) {
 
 class Drawing {
  public:
-  explicit Drawing(StudyFigure figure) : f_(std::move(figure)), svg_(kSheetWidth, kSheetHeight) {
+  explicit Drawing(StudyFigure figure)
+      : f_(std::move(figure)), area_(f_.map ? kMap : kLine), svg_(kSheetWidth, kSheetHeight, f_.title) {
+    Bounds kept;
     for (const StudyPoint& p : f_.points) {
       x_.add(on_axis(f_.x, p.x));
       if (f_.map) y_.add(on_axis(f_.y, p.y));
-      if (p.state == PointState::failed || (f_.map && p.state != PointState::kept)) continue;
-      values_.add(p.value);
-      if (!f_.map) values_.add(p.low);
-      if (!f_.map) values_.add(p.high);
+      if (p.state == PointState::failed) continue;
+      const std::array<double, 3> values{p.value, f_.map ? p.value : p.low, f_.map ? p.value : p.high};
+      all_.add(values);
+      if (p.state == PointState::kept) kept.add(values);
     }
     // The colours of a map are scaled to the kept points. Points that exploit the simulation would make all others pale.
-    if (values_.lo < values_.hi || !f_.map) return;
-    for (const StudyPoint& p : f_.points) {
-      if (p.state != PointState::failed) values_.add(p.value);
-    }
+    values_ = !f_.map ? shown_range(kept, all_) : kept.lo < kept.hi ? kept : all_;
   }
 
   std::string drawn() {
@@ -170,7 +171,7 @@ class Drawing {
   [[nodiscard]] double y_of(const StudyPoint& p) const { return on_axis(f_.y, p.y); }
 
   void line() {
-    const Plot plot(svg_, kPlot, {.ticks = ticks_over(x_, f_.x.log, 8, kStudyMargin), .title = shortened(f_.x.title())},
+    const Plot plot(svg_, area_, {.ticks = ticks_over(x_, f_.x.log, 8, kStudyMargin), .title = shortened(f_.x.title())},
                     {.ticks = ticks_over(values_, false, 7, kStudyMargin), .title = shortened(f_.value.title())});
     plot.draw_axes();
     std::vector<StudyPoint> points = f_.points;
@@ -178,28 +179,34 @@ class Drawing {
     curve(plot, points);
     for (const StudyPoint& p : points) {
       if (p.state == PointState::failed) {
-        draw_cross(svg_, {plot.at(x_of(p), 0).x, kPlot.bottom - 8}, kMark);
+        draw_cross(svg_, {plot.at(x_of(p), 0).x, area_.bottom - 8}, kMark);
+      } else if (values_.beyond(p.value)) {
+        const bool above = p.value > values_.hi;
+        draw_arrow(svg_, {plot.at(x_of(p), 0).x, above ? area_.top : area_.bottom}, above, kBeyond);
       } else {
         dot(plot.at(x_of(p), p.value), p.state == PointState::kept ? colour::kBlue : colour::kWhite);
       }
     }
-    if (f_.best < f_.points.size()) draw_ring(svg_, plot.at(x_of(f_.points[f_.best]), f_.points[f_.best].value));
+    if (f_.marks_best()) draw_ring(svg_, plot.at(x_of(f_.points[f_.best]), f_.points[f_.best].value));
   }
 
   /// Draws the values as a curve, with a band from the least to the largest value. `points` are by rising x.
   void curve(const Plot& plot, const std::vector<StudyPoint>& points) {
     Polygon band;
     std::vector<Point> lower;
-    std::vector<Point> middle;
+    std::vector<double> x;
+    std::vector<double> middle;
+    const auto within = [&](double value) { return std::clamp(value, values_.lo, values_.hi); };
     for (const StudyPoint& p : points) {
       if (p.state == PointState::failed || !std::isfinite(p.value)) continue;
-      band.push_back(plot.at(x_of(p), p.high));
-      lower.push_back(plot.at(x_of(p), p.low));
-      middle.push_back(plot.at(x_of(p), p.value));
+      band.push_back(plot.at(x_of(p), within(p.high)));
+      lower.push_back(plot.at(x_of(p), within(p.low)));
+      x.push_back(x_of(p));
+      middle.push_back(p.value);
     }
     band.insert(band.end(), lower.rbegin(), lower.rend());
     if (band.size() > 2) svg_.polygons({&band, 1}, {.fill = kBand});
-    svg_.polyline(middle, {.stroke = colour::kBlue, .width = 1.8});
+    plot.curve(x, middle, {.stroke = colour::kBlue, .width = 1.8});
   }
 
   void dot(Point at, std::string_view fill) { svg_.circle(at, kMark, {.stroke = colour::kBlue, .fill = fill, .width = 1.4}); }
@@ -222,7 +229,7 @@ class Drawing {
     }
     const Edges1 across(xs);
     const Edges1 upwards(ys);
-    const Plot plot(svg_, kPlot, map_axis(f_.x, x_, across), map_axis(f_.y, y_, upwards));
+    const Plot plot(svg_, area_, map_axis(f_.x, x_, across), map_axis(f_.y, y_, upwards));
     for (const StudyPoint& p : f_.points) {
       if (f_.grid) {
         const auto [left, right] = across.cell(x_of(p));
@@ -234,8 +241,8 @@ class Drawing {
     }
     plot.draw_axes();
     const std::string unit = f_.value.unit.empty() ? "" : " (" + f_.value.unit + ")";
-    draw_shades(svg_, kPlot, values_, shortened(f_.value.name) + unit);
-    if (f_.best >= f_.points.size()) return;
+    draw_shades(svg_, area_, values_, all_, shortened(f_.value.name) + unit);
+    if (!f_.marks_best()) return;
     const StudyPoint& best = f_.points[f_.best];
     const auto [left, right] = across.cell(x_of(best));
     const auto [low, high] = upwards.cell(y_of(best));
@@ -289,15 +296,23 @@ class Drawing {
       entries.push_back(dot_entry("kept", {.stroke = colour::kBlue, .fill = colour::kBlue, .width = 1.4}, kMark));
     if (const char* const text = not_kept_text(f_.points); *text != '\0') entries.push_back(not_kept_entry(text));
     if (any(PointState::failed)) entries.push_back({"failed", [](Canvas& canvas, Point at) { draw_cross(canvas, at, kMark); }});
-    if (f_.best < f_.points.size()) entries.push_back(dot_entry("best", kBestMark, kMark + 3));
+    const auto beyond = [&](const StudyPoint& p) { return p.state != PointState::failed && values_.beyond(p.value); };
+    if (!f_.map && std::ranges::any_of(f_.points, beyond)) {
+      entries.push_back({"beyond the axis", [](Canvas& canvas, Point at) {
+                           draw_arrow(canvas, {at.x, at.y - kMark}, true, kBeyond);
+                         }});
+    }
+    if (f_.marks_best()) entries.push_back(dot_entry("best", kBestMark, kMark + 3));
     if (!f_.map && std::ranges::any_of(f_.points, [](const StudyPoint& p) { return p.low < p.high; }))
       entries.push_back(box_entry("least to largest of the replicates", {.fill = kBand}));
-    draw_legend(&svg_, entries, kPlot.left, kSheetWidth, kSheetHeight - 47.5);
+    draw_legend(&svg_, entries, area_.left, kSheetWidth, kSheetHeight - 47.5);
   }
 
   StudyFigure f_;
+  PlotArea area_;
   Svg svg_;
-  Bounds x_, y_, values_;
+  Bounds x_, y_;
+  Bounds values_, all_;  ///< range of the values that are shown, and range of all values
 };
 
 }  // namespace

@@ -58,10 +58,14 @@ struct StudyFigure {
   bool map = false;   ///< true for two parameters
   bool grid = false;  ///< true if the points of a map are a grid of cells; otherwise they are dots
   std::vector<StudyPoint> points;
-  std::size_t best = 0;  ///< index of the best point; points.size() if there is none
+  std::size_t best = 0;   ///< index of the best point; points.size() if there is none
+  bool objective = true;  ///< true if the value is an objective of the study; otherwise the best point is only in the table
+  [[nodiscard]] bool marks_best() const { return objective && best < points.size(); }
 };
 
-/// SVG with at most 20 000 marks. For more points it is a histogram, whose cells show the mean of their kept points.
+/// SVG with at most 20 000 marks. For more points it is a histogram, whose cells show the mean of their kept points. Kept
+/// points decide the range of the values: others beyond it are arrows at the edge, or have the last colour of a bar with an
+/// arrow.
 std::string study_svg(const StudyFigure& figure);
 /// CSV table of the points.
 std::string study_csv(const StudyFigure& figure);

@@ -66,7 +66,7 @@ void draw_front_legend(Canvas& canvas, bool verified) {
 }  // namespace
 
 std::string front_svg(const FrontFigure& f) {
-  Svg svg(kSheetWidth, kFrontHeight);
+  Svg svg(kSheetWidth, kFrontHeight, f.title);
   draw_sheet_title(svg, f.title);
   const Plot plot(svg, kFrontArea, front_axis(f, 0, 8), front_axis(f, 1, 7));
   plot.draw_axes();

@@ -72,7 +72,14 @@ std::string shade(double share) {
   return ramp(kPaleToDark, share);
 }
 
-void draw_shades(Canvas& canvas, const PlotArea& area, const Bounds& bounds, const std::string& title) {
+Bounds shown_range(const Bounds& kept, const Bounds& all) {
+  constexpr double kBeyond = 0.25;
+  if (!(kept.lo < kept.hi)) return all;
+  const double room = kBeyond * (kept.hi - kept.lo);
+  return {std::max(all.lo, kept.lo - room), std::min(all.hi, kept.hi + room)};
+}
+
+void draw_shades(Canvas& canvas, const PlotArea& area, const Bounds& bounds, const Bounds& all, const std::string& title) {
   if (bounds.empty()) return;
   constexpr double kGap = 28;      // px
   constexpr double kBarWide = 16;  // px
@@ -82,11 +89,25 @@ void draw_shades(Canvas& canvas, const PlotArea& area, const Bounds& bounds, con
   const Ticks ticks = ticks_over(bounds, false, 6);
   const double away = std::min(widest_text(ticks, 11) + 26, kSheetWidth - 10 - bar.right);
   draw_colours(canvas, bar, shades, {.ticks = ticks, .title = title, .away = away});
+  constexpr double kTip = 12;  // px
+  const double middle = (bar.left + bar.right) / 2;
+  const auto beyond = [&](double edge, double tip, const std::string& colour, const std::string& text) {
+    const std::vector<Polygon> arrow{{{bar.left, edge}, {bar.right, edge}, {middle, tip}}};
+    canvas.polygons(arrow, {.stroke = kAxisLine.stroke, .fill = colour, .width = kAxisLine.width});
+    canvas.text({bar.right + 8, tip + (tip < edge ? 2 : 6)}, text, {.size = 11});
+  };
+  if (all.hi > bounds.hi) beyond(bar.top, bar.top - kTip, shade(1), "to " + with_minus(fmt::format("{:.3g}", all.hi)));
+  if (all.lo < bounds.lo) beyond(bar.bottom, bar.bottom + kTip, shade(0), "to " + with_minus(fmt::format("{:.3g}", all.lo)));
 }
 
 void draw_cross(Canvas& canvas, Point centre, double half) {
   canvas.line({centre.x - half, centre.y - half}, {centre.x + half, centre.y + half}, kCross);
   canvas.line({centre.x - half, centre.y + half}, {centre.x + half, centre.y - half}, kCross);
+}
+
+void draw_arrow(Canvas& canvas, Point tip, bool upwards, const Style& style, double half) {
+  const double tail = tip.y + (upwards ? 2 * half : -2 * half);
+  canvas.polygons(std::vector<Polygon>{{tip, {tip.x - half, tail}, {tip.x + half, tail}}}, style);
 }
 
 void draw_ring(Canvas& canvas, Point centre) {

@@ -37,11 +37,19 @@ void draw_sheet_note(Canvas& canvas, const std::string& note, double y);
 /// Colour `#RRGGBB` of a share, from pale (0) to dark blue (1). It darkens steadily, so that it is also readable in grey.
 std::string shade(double share);
 
-/// Draws the colour scale right of an area, with ticks and a title. Draws nothing if the bounds are empty.
-void draw_shades(Canvas& canvas, const PlotArea& area, const Bounds& bounds, const std::string& title);
+/// Range of an axis of values: the range of the kept points, extended towards `all` by at most a quarter of its size. `all` if
+/// the kept points have one value or none. Points that exploit the simulation would compress the others.
+Bounds shown_range(const Bounds& kept, const Bounds& all);
+
+/// Draws the colour scale right of an area, with ticks and a title. If values of `all` are beyond `bounds`, an arrow at that
+/// end has the last colour, and a text states the farthest value. Draws nothing if the bounds are empty.
+void draw_shades(Canvas& canvas, const PlotArea& area, const Bounds& bounds, const Bounds& all, const std::string& title);
 
 /// Draws the mark of a failed point.
 void draw_cross(Canvas& canvas, Point centre, double half);
+/// Draws an arrow whose tip is at an edge of a plot, for a point beyond the edge.
+/// `half` is half its width, px.
+void draw_arrow(Canvas& canvas, Point tip, bool upwards, const Style& style, double half = kMark);
 /// Draws the mark of the best point.
 void draw_ring(Canvas& canvas, Point centre);
 

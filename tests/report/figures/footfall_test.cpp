@@ -149,8 +149,8 @@ TEST(Footfall, FigureOfAHexapodShowsItsGait) {
   EXPECT_EQ(svg, run_figure(scenario, record, summary));
   for (const std::string part :
        {"joint 5 (m2/passive), middle of the spine", ">m9 front left<", ">m10 front right<", ">m7 middle left<",
-        ">m8 middle right<", ">m5 rear left<", ">m6 rear right<", "load above 2 % of the weight", "forward is right",
-        ", most loaded", "arrow: m", "centre of mass", "far side"}) {
+        ">m8 middle right<", ">m5 rear left<", ">m6 rear right<", "load above 2 % of the weight",
+        "front at the right, moves to the right;", ", most loaded", "arrow: m", "centre of mass", "far side"}) {
     EXPECT_NE(svg.find(part), std::string::npos) << part;
   }
   // The figure has five views a fifth of the 2 s cycle apart, also without a limit cycle (ramp of 1 s, duration of 4 s).

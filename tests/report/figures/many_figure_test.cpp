@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <regex>
 
 #include "report/figures/study/bar_figure.h"
 #include "report/figures/study/box_figure.h"
@@ -49,6 +51,31 @@ TEST(ManyFigure, EveryPointIsALine) {
   EXPECT_EQ(many_csv(figure).substr(0, 78), "cpg.frequency,cpg.phase_lag,cpg.type,speed,state,best\n0.1,1,hopf,-0.2,kept,0\n0");
 }
 
+TEST(ManyFigure, PointsFarFromTheKeptOnesAreArrows) {
+  ManyFigure figure = three(9);
+  EXPECT_FALSE(scatter_svg(figure).find(">beyond the axis<") != std::string::npos);
+  figure.points[1].value = 1e3;  // infeasible
+  for (const std::string& svg : {parallel_svg(figure), scatter_svg(figure)}) EXPECT_EQ(number_of_parts(svg, ">1000<"), 0U);
+  EXPECT_EQ(number_of_parts(scatter_svg(figure), "Z\" fill=\"#FFFFFF\" stroke=\"#B0B0B0\""), 3U + 1);  // panels, legend
+  figure.objective = false;
+  for (const std::string& svg : {parallel_svg(figure), scatter_svg(figure)}) EXPECT_EQ(number_of_parts(svg, ">best<"), 0U);
+}
+
+/// No panel of a scatter figure is alone in the last row.
+TEST(ManyFigure, PanelsAreInEvenRows) {
+  for (std::size_t panels = 2; panels <= 12; ++panels) {
+    ManyFigure figure = three(5);
+    figure.axes.assign(panels, {{"a", "", false}});
+    for (ManyPoint& point : figure.points) point.at.assign(panels, point.value);
+    const std::string svg = scatter_svg(figure);
+    std::map<double, std::size_t> rows;  // panels by the top of their frame
+    static const std::regex kFrame("<rect x=\"[0-9.]+\" y=\"([0-9.]+)\" [^>]*fill=\"none\" stroke=\"#333333\"");
+    for (std::sregex_iterator it(svg.begin(), svg.end(), kFrame), end; it != end; ++it) ++rows[std::stod((*it)[1])];
+    EXPECT_GE(rows.rbegin()->second, 2U) << panels;
+    EXPECT_LE(rows.begin()->second, 4U) << panels;
+  }
+}
+
 /// Figures of special cases contain no NaN: no points, one point, only failed points, equal values.
 TEST(ManyFigure, ItsCornersAreDrawn) {
   for (const std::size_t points : {0U, 1U, 9U}) {
@@ -85,7 +112,9 @@ TEST(BarFigure, DrawsNoBarOfWhatIsNotKnown) {
   EXPECT_EQ(number_of_parts(bar_svg(figure), "nan"), 0U);
   figure.rows = {{"a.key", {{0.5, 0.4, 0.6}, {-0.02, -0.1, 0.1}}},
                  {"another", {{std::nan(""), std::nan(""), std::nan("")}, {0.1, std::nan(""), std::nan("")}}}};
+  figure.rows[1].remark = "too few samples";
   const std::string svg = bar_svg(figure);
+  EXPECT_EQ(number_of_parts(svg, ">too few samples<"), 1U);
   EXPECT_EQ(number_of_parts(svg, "nan"), 0U);
   EXPECT_EQ(svg, bar_svg(figure));
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "report/figures/study/study_sheet.h"
 #include "report/verdict/quantities.h"
 #include "tests/program/fixture.h"
 
@@ -51,6 +52,40 @@ TEST(StudyFigure, AMapMarksWhatIsNotKeptAndTheBest) {
   EXPECT_EQ(occurrences(svg, "nan"), 0U);
   EXPECT_EQ(study_csv(figure).substr(0, 107),
             "cpg.amplitude,cpg.phase_lag,speed,least,largest,state,best\n0.2,1,0,0,0,kept,0\n0.30000000000000004,1,0.1,0.1");
+}
+
+/// Kept points decide the range of a line's axis: a point beyond it is an arrow, and no tick is near its value.
+TEST(StudyFigure, KeptPointsDecideTheAxis) {
+  EXPECT_EQ(shown_range({1, 2}, {0.9, 50}).hi, 2.25);
+  EXPECT_EQ(shown_range({1, 2}, {0.9, 50}).lo, 0.9);
+  EXPECT_EQ(shown_range({1, 1}, {0.9, 50}).hi, 50);
+  StudyFigure figure = small_map();
+  figure.map = figure.grid = false;
+  EXPECT_FALSE(contains(study_svg(figure), ">beyond the axis<"));
+  figure.points[1].value = figure.points[1].high = 40;
+  const std::string svg = study_svg(figure);
+  EXPECT_TRUE(contains(svg, ">beyond the axis<"));
+  EXPECT_FALSE(contains(svg, ">40<"));
+  EXPECT_EQ(occurrences(svg, "Z\" fill=\"#FFFFFF\" stroke=\"#0072B2\""), 2U);  // the point, and the legend
+  figure.points[1].state = PointState::kept;
+  EXPECT_TRUE(contains(study_svg(figure), ">40<"));
+}
+
+/// A colour bar that ends below values of the map has an arrow and states the largest value.
+TEST(StudyFigure, AClippedMapSaysSo) {
+  StudyFigure figure = small_map();
+  EXPECT_EQ(occurrences(study_svg(figure), ">to "), 0U);
+  figure.points[1].value = 574.2;
+  EXPECT_EQ(occurrences(study_svg(figure), ">to 574<"), 1U);
+  figure.points[1].value = -0.1234;
+  EXPECT_EQ(occurrences(study_svg(figure), ">to \u22120.123<"), 1U);
+}
+
+TEST(StudyFigure, TheBestIsMarkedForTheObjectiveOnly) {
+  StudyFigure figure = small_map();
+  figure.objective = false;
+  EXPECT_FALSE(contains(study_svg(figure), ">best<"));
+  EXPECT_TRUE(contains(study_csv(figure), ",kept,1\n"));
 }
 
 /// The legend distinguishes points that violate a guard from points with the verdict `infeasible`.

@@ -3,10 +3,11 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
-#include "report/plot/helvetica.h"
+#include "report/plot/font.h"
 
 namespace gaitlab::report {
 namespace {
@@ -17,9 +18,10 @@ std::size_t number_after(const std::string& text, const std::string& key, std::s
   return at == std::string::npos ? 0 : std::stoul(text.substr(at + key.size()));
 }
 
-std::string stream_of(const std::string& file) {
-  const std::size_t start = file.find("stream\n") + 7;
-  const std::string packed = file.substr(start, number_after(file, "/Length "));
+/// Content of the first stream of a file at or behind `from`. The page is the first stream of a file.
+std::string stream_of(const std::string& file, std::size_t from = 0) {
+  const std::size_t start = file.find("stream\n", from) + 7;
+  const std::string packed = file.substr(start, number_after(file, "/Length ", from));
   std::string page(1 << 20, '\0');
   uLongf size = page.size();
   EXPECT_EQ(
@@ -68,22 +70,55 @@ TEST(Pdf, PathsAreThoseOfSvg) {
   EXPECT_EQ(page.find("nan"), std::string::npos);
 }
 
-TEST(Pdf, TextIsEscaped) {
+/// The text that a reader copies: the glyphs of the page, in order, through the map /ToUnicode of their font.
+std::u32string copied(const std::string& file) {
+  const std::string page = stream_of(file);
+  std::u32string text;
+  for (std::size_t at = page.find(" Tf <"); at != std::string::npos; at = page.find(" Tf <", at + 1)) {
+    const std::size_t font = page.rfind("/F", at);
+    const std::size_t object = number_after(file, " /F" + page.substr(font + 2, 1) + " ");
+    const std::size_t map = number_after(file, "/ToUnicode ", file.find("\n" + std::to_string(object) + " 0 obj"));
+    const std::string unicode = stream_of(file, file.find("\n" + std::to_string(map) + " 0 obj"));
+    for (std::size_t digit = at + 5; page[digit] != '>'; digit += 4) {
+      const std::size_t entry = unicode.find("\n<" + page.substr(digit, 4) + "> <");
+      EXPECT_NE(entry, std::string::npos) << page.substr(digit, 4);
+      if (entry != std::string::npos) text += static_cast<char32_t>(std::stoul(unicode.substr(entry + 9, 4), nullptr, 16));
+    }
+  }
+  return text;
+}
+
+TEST(Pdf, TextCanBeCopied) {
   Pdf pdf({100, 50, 0.2});
-  pdf.text({5, 5}, "a(b)\\c \xC3\xA9", {});
-  EXPECT_NE(stream_of(pdf.finish()).find("/F1 13 Tf (a\\(b\\)\\\\c \\351) Tj"), std::string::npos);
+  pdf.text({5, 5}, "a(b)\\c \u00E9 \u22122\u00B7\u03C4\u00B2, m s\u207B\u00B9", {});
+  pdf.text({5, 9}, "\u03A9 \u2264 \u0161", {.bold = true});
+  EXPECT_EQ(copied(pdf.finish()), U"a(b)\\c \u00E9 \u22122\u00B7\u03C4\u00B2, m s\u207B\u00B9\u03A9 \u2264 \u0161");
   EXPECT_TRUE(pdf.missing().empty());
 }
 
-TEST(Pdf, GreekAndMinusAreInSymbolAndWhatIsMissingIsTold) {
+TEST(Pdf, MissingCharactersAreReported) {
   Pdf pdf({100, 50, 0.2});
-  pdf.text({5, 5},
-           "\xE2\x88\x92"
-           "2 \xCF\x84\xE2\x9C\x93",
-           {});  // contains a minus, a tau and a check mark
-  EXPECT_NE(stream_of(pdf.finish()).find("/F3 13 Tf (-) Tj /F1 13 Tf (2 ) Tj /F3 13 Tf (t) Tj /F1 13 Tf (?) Tj"),
-            std::string::npos);
-  EXPECT_EQ(pdf.missing(), (std::set<char32_t>{0x2713}));
+  pdf.text({5, 5}, "1\u2713\xFF", {});  // a check mark and an invalid byte
+  EXPECT_EQ(copied(pdf.finish()), U"1??");
+  EXPECT_EQ(pdf.missing(), (std::set<char32_t>{0x2713, 0xFFFD}));
+}
+
+TEST(Pdf, OnlyUsedFontsAreEmbedded) {
+  Pdf pdf({100, 50, 0.2});
+  EXPECT_EQ(pdf.finish().find("/FontFile2"), std::string::npos);
+  pdf.text({5, 5}, "x", {});
+  const std::string one = pdf.finish();
+  EXPECT_NE(one.find("/FontName /GAITLA+GaitlabSans "), std::string::npos);
+  EXPECT_EQ(one.find("Bold"), std::string::npos);
+  const std::size_t file = number_after(one, "/FontFile2 ");
+  EXPECT_EQ(stream_of(one, one.find("\n" + std::to_string(file) + " 0 obj")), font_of(Face::regular).file());
+  pdf.text({5, 5}, "x", {.bold = true});
+  EXPECT_NE(pdf.finish().find("/FontName /GAITLB+GaitlabSans-Bold "), std::string::npos);
+}
+
+TEST(Pdf, TitleIsInUtf16) {
+  EXPECT_EQ(Pdf({100, 50, 0.2}).finish().find("/Title"), std::string::npos);
+  EXPECT_NE(Pdf({100, 50, 0.2}, "a\u2212\U0001F9BE").finish().find("/Title <FEFF00612212D83EDDBE>"), std::string::npos);
 }
 
 TEST(Pdf, AnchorsUseTheWidthOfTheText) {
@@ -95,20 +130,46 @@ TEST(Pdf, AnchorsUseTheWidthOfTheText) {
   EXPECT_NE(page.find("0 -1 -1 0 50 29.44 Tm"), std::string::npos) << page;  // moved down by 9.44
 }
 
-/// Widths of characters equal the metrics of Adobe (Core14_AFMs: Helvetica.afm, Helvetica-Bold.afm, Symbol.afm).
-TEST(Helvetica, HasItsPublishedWidths) {
-  const auto width = [](const char* text, bool bold = false) { return std::lround(helvetica_width(text, 1000, bold)); };
-  EXPECT_EQ(width(" "), 278);
-  EXPECT_EQ(width("A"), 667);
-  EXPECT_EQ(width("m"), 833);
-  EXPECT_EQ(width("W"), 944);
-  EXPECT_EQ(width("@"), 1015);
-  EXPECT_EQ(width("0123456789"), 5560);
-  EXPECT_EQ(width("\xC3\x86"), 1000);      // AE
-  EXPECT_EQ(width("\xE2\x80\x94"), 1000);  // em dash
-  EXPECT_EQ(width("@", true), 975);
-  EXPECT_EQ(width("\xCE\xA9"), 768);      // Omega of the font Symbol
-  EXPECT_EQ(width("\xE2\x88\x92"), 549);  // minus
+// Adobe's metrics of Helvetica and Helvetica-Bold (Core14_AFMs), for the characters 0x20 to 0x7E, in thousandths.
+// clang-format off
+constexpr std::array<int, 95> kHelvetica{
+    278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278,
+    556, 556, 556, 556, 556, 556, 556, 556, 556, 556, 278, 278, 584, 584, 584, 556,
+    1015, 667, 667, 722, 722, 667, 611, 778, 722, 278, 500, 667, 556, 833, 722, 778,
+    667, 778, 722, 667, 611, 722, 667, 944, 667, 667, 611, 278, 278, 278, 469, 556,
+    333, 556, 556, 500, 556, 556, 278, 556, 556, 222, 222, 500, 222, 833, 556, 556,
+    556, 556, 333, 500, 278, 556, 500, 722, 500, 500, 500, 334, 260, 334, 584};
+constexpr std::array<int, 95> kHelveticaBold{
+    278, 333, 474, 556, 556, 889, 722, 238, 333, 333, 389, 584, 278, 333, 278, 278,
+    556, 556, 556, 556, 556, 556, 556, 556, 556, 556, 333, 333, 584, 584, 584, 611,
+    975, 722, 722, 722, 722, 667, 611, 778, 722, 278, 556, 722, 611, 833, 722, 778,
+    667, 778, 722, 667, 611, 722, 667, 944, 667, 667, 611, 333, 278, 333, 584, 556,
+    333, 556, 611, 556, 611, 556, 333, 611, 611, 278, 278, 556, 278, 889, 611, 611,
+    611, 611, 389, 556, 333, 611, 556, 778, 556, 556, 500, 389, 280, 389, 584};
+// clang-format on
+
+/// An SVG for print names Helvetica first, so that the layout must fit it.
+TEST(Font, HasTheWidthsOfHelvetica) {
+  for (std::size_t k = 0; k < kHelvetica.size(); ++k) {
+    const std::string text(1, static_cast<char>(0x20 + k));
+    EXPECT_EQ(std::lround(print_width(text, 1000)), kHelvetica[k]) << text;
+    EXPECT_EQ(std::lround(print_width(text, 1000, true)), kHelveticaBold[k]) << text;
+  }
+  EXPECT_EQ(std::lround(print_width("\u00C6", 1000)), 1000);
+  EXPECT_EQ(std::lround(print_width("\u2014", 1000)), 1000);
+  EXPECT_EQ(std::lround(print_width("\u2212", 1000)), 584);  // as wide as the plus sign
+}
+
+TEST(Font, HasGreekSuperscriptsAndSigns) {
+  for (const Face face : {Face::regular, Face::bold}) {
+    const SetText set = set_text(
+        "\u0391\u03A9\u03B1\u03C9\u00B5\u00B0\u2070\u00B9\u00B2\u00B3\u2074\u2079\u207B\u2080\u2089\u208B\u2190\u2192\u2202"
+        "\u2206\u2211\u221A\u221E\u222B\u2248\u2260\u2264\u2265\u00D7\u00F7\u2009\u202F\u0141\u017E",
+        face);
+    EXPECT_TRUE(set.missing.empty());
+    EXPECT_GT(font_of(face).ascent(), font_of(face).capital());
+    EXPECT_LT(font_of(face).descent(), 0);
+  }
 }
 
 }  // namespace

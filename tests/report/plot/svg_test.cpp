@@ -32,6 +32,17 @@ TEST(Svg, IsAWholeDocument) {
             "</svg>\n");
 }
 
+/// The title is the name of the picture for assistive programs (SVG Accessibility API Mappings: the first child `title`).
+TEST(Svg, TitleIsTheAccessibleName) {
+  for (const std::string& file : {Svg(10, 20, "a <b>").finish(), Svg(Paper{10, 20}, "a <b>").finish()}) {
+    const std::size_t root = file.find("<svg ");
+    const std::size_t end = file.find(">\n", root);
+    EXPECT_NE(file.substr(root, end - root).find(" role=\"img\""), std::string::npos) << file;
+    EXPECT_EQ(file.substr(end + 2, 32), "<title>a &lt;b&gt;</title>\n<rect");
+  }
+  EXPECT_EQ(Svg(10, 20).finish().find("role"), std::string::npos);
+}
+
 TEST(Svg, NumbersHaveTwoDecimalsAtMost) {
   Svg svg(1, 1);
   svg.polyline(std::vector<Point>{{-0.001, 1.10}, {1.0 / 3, 1000}}, {.stroke = colour::kInk});
@@ -96,9 +107,29 @@ TEST(Axes, LogarithmicTicksAreOneTwoFive) {
   EXPECT_EQ(over(0.1, 5, 8), (std::vector<std::string>{"0.1", "0.2", "0.5", "1", "2", "5"}));
   EXPECT_EQ(over(1, 1e5, 6), (std::vector<std::string>{"1", "10", "100", "1000", "10000", "100000"}));
   EXPECT_EQ(over(1, 1e5, 4), (std::vector<std::string>{"1", "100", "10000"}));
-  EXPECT_EQ(over(1.1, 1.3, 3), (std::vector<std::string>{"1.1", "1.2", "1.3"}));  // contains no 1, 2 or 5; linear ticks
+  // Fewer than three of these numbers are in the range: linear ticks.
+  EXPECT_EQ(over(1.1, 1.3, 3), (std::vector<std::string>{"1.1", "1.2", "1.3"}));
+  EXPECT_EQ(over(0.19, 0.52, 4), (std::vector<std::string>{"0.2", "0.3", "0.4", "0.5"}));
   EXPECT_EQ(over(3, 3, 5), (std::vector<std::string>{"3"}));
   EXPECT_NEAR(ticks_over({0, 1}, true, 5).marks[1].at, 0.30103, 1e-5);  // log10(2)
+}
+
+/// Room at both ends of both axes keeps zero at one height.
+TEST(Axes, CurvesDoNotTouchTheFrame) {
+  const auto zero = [](const Ticks& ticks) { return -ticks.lo / (ticks.hi - ticks.lo); };
+  const Bounds a{-0.6, 0.6};
+  const Bounds b{-1.1, 0.4};
+  TwinTicks twin = twin_ticks(a.lo, a.hi, b.lo, b.hi);
+  ASSERT_NEAR(twin.a.hi, 0.6, 1e-12);  // a multiple of a step
+  make_room(twin, a, b);
+  EXPECT_GT(twin.a.hi, 0.61);
+  EXPECT_LT(twin.a.lo, -0.61);
+  EXPECT_NEAR(zero(twin.a), zero(twin.b), 1e-12);  // rounding of a few operations on numbers near 1
+  EXPECT_EQ(labels(twin.a).size(), 7U);
+  TwinTicks loose{ticks_around(-0.45, 0.55, 5), ticks_around(-0.45, 0.55, 5)};
+  const double top = loose.a.hi;
+  make_room(loose, {-0.45, 0.55}, {-0.45, 0.55});
+  EXPECT_EQ(loose.a.hi, top);
 }
 
 TEST(Axes, WordsAreInTheirOrder) {
