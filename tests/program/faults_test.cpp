@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/scenario/resolved.h"
+#include "tests/messages.h"
 #include "tests/program/allocations.h"
 #include "tests/program/as_alone.h"
 #include "tests/program/engines.h"
@@ -10,7 +11,7 @@
 namespace gaitlab::test {
 namespace {
 
-Scenario caterpillar(std::vector<std::string> sets, const std::string& engine = "articulated") {
+Scenario faulty_caterpillar(std::vector<std::string> sets, const std::string& engine = "articulated") {
   sets.push_back("physics.engine=" + engine);
   return shipped("caterpillar.yaml", sets);
 }
@@ -38,10 +39,10 @@ INSTANTIATE_TEST_SUITE_P(Engine, FaultsOf, engines(), engine_name);
 TEST_P(FaultsOf, WithoutEffectLeaveTheSameBits) {
   const auto of = [](std::vector<std::string> own) {
     own.insert(own.end(), {"duration=0.45", "trace.columns=[joint.*.torque, joint.*.setpoint, base.*, cpg.*]"});
-    return common(caterpillar(own, GetParam()));
+    return common(faulty_caterpillar(own, GetParam()));
   };
   const std::string without = of({});
-  EXPECT_EQ(resolved(caterpillar({"at=[]"}, GetParam())), resolved(caterpillar({}, GetParam())));
+  EXPECT_EQ(resolved(faulty_caterpillar({"at=[]"}, GetParam())), resolved(faulty_caterpillar({}, GetParam())));
   EXPECT_EQ(of({"at=[]"}), without);
   EXPECT_EQ(of({"at=[{t: 0.1, set: {cpg.frequency: 0.25, controller.Kp: 100}}]"}), without);
   for (const char* kind : {"none", "lost, share: 0", "late, delay: 0", "weak, share: 1"}) EXPECT_EQ(of({fault(kind)}), without);
@@ -63,7 +64,7 @@ TEST_P(FaultsOf, ADeadJointIsOneWithoutGains) {
 
 TEST_P(FaultsOf, AnOpenJointHasNeitherTorqueNorCurrent) {
   const Recording r =
-      run(caterpillar({"duration=1.5", fault("open", "0.5"), "trace.columns=[joint.*, energy.residual]"}, GetParam()));
+      run(faulty_caterpillar({"duration=1.5", fault("open", "0.5"), "trace.columns=[joint.*, energy.residual]"}, GetParam()));
   const Table table(r.trace);
   for (std::size_t row = 0; row < r.trace.rows(); ++row) {
     const bool open = table.at(row, "t") > 0.511;
@@ -92,7 +93,7 @@ TEST(Faults, TheResolvedScenarioCanBeReadAgain) {
 
 TEST(Faults, AStuckJointStaysWhereItIs) {
   const Recording r =
-      run(caterpillar({"duration=6", fault("stuck", "2"), "trace.columns=[joint.*, energy.*]", "physics.estimate=off"}));
+      run(faulty_caterpillar({"duration=6", fault("stuck", "2"), "trace.columns=[joint.*, energy.*]", "physics.estimate=off"}));
   const Table table(r.trace);
   double held = NAN;
   double farthest = 0;
@@ -108,7 +109,7 @@ TEST(Faults, AStuckJointStaysWhereItIs) {
 
 // The hold of 50 N m s/rad is the fastest damper of the robot, and the stability rule knows before the run that it will come.
 TEST(Faults, AStuckJointShortensExplicitSteps) {
-  const Scenario s = caterpillar({"duration=0.09", fault("stuck", "0.03")}, "bullet");
+  const Scenario s = faulty_caterpillar({"duration=0.09", fault("stuck", "0.03")}, "bullet");
   EXPECT_LT(s.physics.step, 5e-6);
   const Recording r = run(s);
   const Table table(r.trace);
@@ -116,7 +117,7 @@ TEST(Faults, AStuckJointShortensExplicitSteps) {
   EXPECT_EQ(table.at(7, std::string(kJoint) + "fault"), 3);
   EXPECT_NEAR(table.at(18, std::string(kJoint) + "angle"), held, 1e-3);
   const std::string refused = message_of([] {
-    run(caterpillar({"duration=0.09", fault("stuck", "0.03"), "physics.step=2.5e-5", "physics.estimate=off"}, "bullet"));
+    run(faulty_caterpillar({"duration=0.09", fault("stuck", "0.03"), "physics.step=2.5e-5", "physics.estimate=off"}, "bullet"));
   });
   EXPECT_NE(refused.find("set by the hinge stop of joint m3/active"), std::string::npos) << refused;
 }
@@ -130,14 +131,14 @@ TEST(Faults, NeedAMotor) {
   };
   EXPECT_TRUE(error("m0/castor").ends_with("error: joint 'm0/castor' has no motor (drive: none)")) << error("m0/castor");
   EXPECT_EQ(error("'m0/*'"), "no error") << "one of the joints has a motor";
-  const std::string none = message_of([] { caterpillar({"actuator={type: none}", fault("dead")}); });
+  const std::string none = message_of([] { faulty_caterpillar({"actuator={type: none}", fault("dead")}); });
   EXPECT_NE(none.find("a fault is one of a motor, but the robot has none (actuator.type: none); remove it"), std::string::npos)
       << none;
 }
 
 // The motor of a weak joint draws the current of a whole one at that speed, and gives a share of the torque.
 TEST(Faults, AWeakJointHasAShareOfTheTorque) {
-  const Recording r = run(caterpillar({"duration=0.9", fault("weak, share: 0.25", "0.3"), "trace.columns=[joint.6.*]"}));
+  const Recording r = run(faulty_caterpillar({"duration=0.9", fault("weak, share: 0.25", "0.3"), "trace.columns=[joint.6.*]"}));
   const Table table(r.trace);
   constexpr double kWhole = 0.7 * 0.00395 * 594;  // eta Kt n of the module type
   for (std::size_t row = 0; row < r.trace.rows(); ++row) {
@@ -148,10 +149,10 @@ TEST(Faults, AWeakJointHasAShareOfTheTorque) {
 
 TEST(Faults, LateSetPointsAreThoseOfEarlierTicks) {
   const std::vector<std::string> sets{"duration=0.6", "trace.period=0.015", "trace.columns=[joint.6.*]"};
-  const Recording on_time = run(caterpillar(sets));
+  const Recording on_time = run(faulty_caterpillar(sets));
   std::vector<std::string> own = sets;
   own.push_back(fault("late, delay: 0.03", "0.3"));
-  const Recording late = run(caterpillar(own));
+  const Recording late = run(faulty_caterpillar(own));
   for (std::size_t row = 0; row < late.trace.rows(); ++row) {
     const std::size_t from = row > 20 ? row - 2 : row;  // a row shows the set point in force before it
     ASSERT_EQ(Table(late.trace).at(row, "joint.6.setpoint"), Table(on_time.trace).at(from, "joint.6.setpoint")) << row;
@@ -159,8 +160,8 @@ TEST(Faults, LateSetPointsAreThoseOfEarlierTicks) {
 }
 
 TEST(Faults, LostSetPointsAreHeld) {
-  const Recording r = run(caterpillar({"duration=15", "trace.period=0.015", "trace.columns=[joint.6.*]", "physics.estimate=off",
-                                       fault("lost, share: 0.3", "0")}));
+  const Recording r = run(faulty_caterpillar({"duration=15", "trace.period=0.015", "trace.columns=[joint.6.*]",
+                                              "physics.estimate=off", fault("lost, share: 0.3", "0")}));
   const Table table(r.trace);
   std::size_t held = 0;
   for (std::size_t row = 2; row < r.trace.rows(); ++row) {
@@ -172,7 +173,7 @@ TEST(Faults, LostSetPointsAreHeld) {
 TEST_P(FaultsOf, SnapshotGoesOn) {
   std::string all = kAll;
   if (GetParam() == "bullet") all.replace(all.find("stuck"), 5, "weak, share: 0.9");  // needs steps of 2.5e-6 s
-  const Scenario s = caterpillar({"duration=1", all}, GetParam());
+  const Scenario s = faulty_caterpillar({"duration=1", all}, GetParam());
   const auto go = [](Simulation& simulation, double until) {
     while (simulation.time() < until) simulation.step();
     return std::vector<double>(simulation.state().begin(), simulation.state().end());
@@ -190,7 +191,7 @@ TEST_P(FaultsOf, SnapshotGoesOn) {
 TEST_P(FaultsOf, AllocateNothingInTheSteadyState) {
   std::string all = kAll;
   if (GetParam() == "bullet") all.replace(all.find("stuck"), 5, "weak, share: 0.9");
-  const Scenario s = caterpillar({"duration=12", all}, GetParam());
+  const Scenario s = faulty_caterpillar({"duration=12", all}, GetParam());
   Simulation simulation({&s, 1});
   for (int i = 0; i < 4000; ++i) simulation.step();
   const Allocations allocations;
@@ -221,7 +222,7 @@ TEST_P(FaultsInLanes, AreAsAlone) {
 
 TEST(Faults, RowsWithinAStepChangeNothing) {
   const auto with_rows = [](const std::string& period) {
-    return bits(run(caterpillar({"duration=0.18", kAll, "trace.period=" + period})));
+    return bits(run(faulty_caterpillar({"duration=0.18", kAll, "trace.period=" + period})));
   };
   EXPECT_EQ(with_rows("0.0023"), with_rows("0.005"));
 }
@@ -229,7 +230,7 @@ TEST(Faults, RowsWithinAStepChangeNothing) {
 // Companions have the same faults: their torques stay as near to the run as without faults.
 TEST(Faults, TheEstimateOfTheTorqueErrorHasThem) {
   for (const char* step : {"auto", "5e-4"}) {
-    const Recording r = run(caterpillar({"duration=2", kAll, std::string("physics.step=") + step}));
+    const Recording r = run(faulty_caterpillar({"duration=2", kAll, std::string("physics.step=") + step}));
     double worst = 0;
     for (std::size_t j = 0; j < r.joints.size(); ++j) {
       const double peak = r.joints[j].torque_peak;
@@ -241,9 +242,9 @@ TEST(Faults, TheEstimateOfTheTorqueErrorHasThem) {
 }
 
 TEST(Changes, PhaseAndAmplitudeFollowTheirEquations) {
-  const Recording r = run(caterpillar({"duration=14", "controller.period=0.01", "trace.period=0.01",
-                                       "trace.columns=[cpg.*, segment]", "physics.estimate=off", "cpg.model.coupling=1",
-                                       "at=[{t: 10, set: {cpg.phase_lag: -1.2, cpg.amplitude: 0.4}}]"}));
+  const Recording r = run(faulty_caterpillar({"duration=14", "controller.period=0.01", "trace.period=0.01",
+                                              "trace.columns=[cpg.*, segment]", "physics.estimate=off", "cpg.model.coupling=1",
+                                              "at=[{t: 10, set: {cpg.phase_lag: -1.2, cpg.amplitude: 0.4}}]"}));
   const Table table(r.trace);
   double phase = 0;
   double amplitude = 0;
@@ -268,7 +269,7 @@ TEST(Changes, TheCaterpillarTurnsBack) {
   const auto last = [](const std::vector<std::string>& own) {
     std::vector<std::string> sets{"trace.period=1", "trace.columns=[com.x]", "physics.estimate=off", "cpg.model.coupling=4"};
     sets.insert(sets.end(), own.begin(), own.end());
-    const Recording r = run(caterpillar(sets));
+    const Recording r = run(faulty_caterpillar(sets));
     return Table(r.trace).at(r.trace.rows() - 1, "com.x") - Table(r.trace).at(r.trace.rows() - 9, "com.x");
   };
   const double turned = last({"duration=40", "at=[{t: 20, set: {cpg.phase_lag: -1.2}}]"});

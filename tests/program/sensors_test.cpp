@@ -19,7 +19,7 @@ const std::string kImu =
 const std::string kFeet = "sensors.feet={type: load, bodies: m3/active, noise: 0.2, period: 0.03}";
 const std::string kDrives = "sensors.drives={type: motor, current: {noise: 0.01}, torque: {range: [-1, 1]}}";
 
-Scenario caterpillar(std::vector<std::string> sets, const std::string& engine = "articulated") {
+Scenario sensed_caterpillar(std::vector<std::string> sets, const std::string& engine = "articulated") {
   sets.push_back("physics.engine=" + engine);
   return shipped("caterpillar.yaml", sets);
 }
@@ -30,7 +30,7 @@ INSTANTIATE_TEST_SUITE_P(Engine, SensorsOf, engines(), engine_name);
 // A row shows the values in force just before it: those of the tick before. The row at t = 0 has those of tick 0.
 TEST_P(SensorsOf, ADelayIsExact) {
   const Recording r =
-      run(caterpillar({"duration=0.6", "trace.period=0.015", "sensors={type: encoder, delay: 0.03}"}, GetParam()));
+      run(sensed_caterpillar({"duration=0.6", "trace.period=0.015", "sensors={type: encoder, delay: 0.03}"}, GetParam()));
   const Table table(r.trace);
   ASSERT_EQ(r.trace.rows(), 41U);
   for (std::size_t j = 0; j < 16; ++j) {
@@ -46,9 +46,9 @@ TEST_P(SensorsOf, ADelayIsExact) {
 }
 
 TEST_P(SensorsOf, CurrentTorqueAndLoadAreThoseOfTheTrace) {
-  const Recording r = run(caterpillar({"duration=0.3", "trace.period=0.015", "trace.columns=[joint.*, load.*, sensor.*]",
-                                       "sensors={d: {type: motor}, f: {type: load}}"},
-                                      GetParam()));
+  const Recording r = run(sensed_caterpillar({"duration=0.3", "trace.period=0.015", "trace.columns=[joint.*, load.*, sensor.*]",
+                                              "sensors={d: {type: motor}, f: {type: load}}"},
+                                             GetParam()));
   const Table table(r.trace);
   for (std::size_t row = 1; row < r.trace.rows(); ++row) {
     for (const char* quantity : {"current", "torque"}) {
@@ -66,7 +66,7 @@ TEST_P(SensorsOf, CurrentTorqueAndLoadAreThoseOfTheTrace) {
 }
 
 TEST_P(SensorsOf, SnapshotGoesOnWithinADelay) {
-  const Scenario s = caterpillar({"duration=1", kNoisy, kImu, kFeet, kDrives}, GetParam());
+  const Scenario s = sensed_caterpillar({"duration=1", kNoisy, kImu, kFeet, kDrives}, GetParam());
   const auto go = [](Simulation& simulation, int steps) {
     for (int i = 0; i < steps; ++i) simulation.step();
     return std::vector<double>(simulation.state().begin(), simulation.state().end());
@@ -80,7 +80,7 @@ TEST_P(SensorsOf, SnapshotGoesOnWithinADelay) {
 }
 
 TEST_P(SensorsOf, AllocateNothingInTheSteadyState) {
-  const Scenario s = caterpillar({"duration=12", kNoisy, kImu, kFeet, kDrives}, GetParam());
+  const Scenario s = sensed_caterpillar({"duration=12", kNoisy, kImu, kFeet, kDrives}, GetParam());
   Simulation simulation({&s, 1});
   for (int i = 0; i < 1000; ++i) simulation.step();
   const Allocations allocations;
@@ -90,14 +90,15 @@ TEST_P(SensorsOf, AllocateNothingInTheSteadyState) {
 
 TEST(Sensors, NoneLeavesTheSameBytes) {
   const std::vector<std::string> plain{"duration=0.45"};
-  const Scenario without = caterpillar(plain);
-  const Scenario none = caterpillar({"duration=0.45", "sensors={}"});
+  const Scenario without = sensed_caterpillar(plain);
+  const Scenario none = sensed_caterpillar({"duration=0.45", "sensors={}"});
   EXPECT_EQ(resolved(none), resolved(without));
   EXPECT_EQ(alone(none), alone(without));
   const std::string encoder = "sensors={type: encoder, noise: 0.001}";
   const std::string explicit_zeros =
       "sensors={type: encoder, noise: 0.001, delay: 0, lost: 0, walk: 0, zero: 0, gain: 1, bias: 0}";
-  EXPECT_EQ(alone(caterpillar({"duration=0.45", encoder})), alone(caterpillar({"duration=0.45", explicit_zeros})));
+  EXPECT_EQ(alone(sensed_caterpillar({"duration=0.45", encoder})),
+            alone(sensed_caterpillar({"duration=0.45", explicit_zeros})));
 }
 
 // An exact encoder gives the true angles, and the controller uses no speed: the motion has the same bits.
@@ -105,7 +106,7 @@ TEST(Sensors, AnExactEncoderChangesNothing) {
   const auto torques = [](const std::vector<std::string>& own) {
     std::vector<std::string> sets{"duration=0.45", "trace.columns=[joint.*.torque, joint.*.angle]"};
     sets.insert(sets.end(), own.begin(), own.end());
-    const Recording r = run(caterpillar(sets));
+    const Recording r = run(sensed_caterpillar(sets));
     return hash(r.trace) + bits(r);  // the other columns have the measured angles
   };
   EXPECT_EQ(torques({"sensors={type: encoder}"}), torques({}));
@@ -116,7 +117,7 @@ TEST(Sensors, ASensorMoreChangesNoOther) {
   const auto imu = [](const std::vector<std::string>& own) {
     std::vector<std::string> sets{"duration=0.45", "trace.columns=[t, sensor.head.*, joint.*.torque]", kImu};
     sets.insert(sets.end(), own.begin(), own.end());
-    return hash(run(caterpillar(sets)).trace);
+    return hash(run(sensed_caterpillar(sets)).trace);
   };
   const std::string one = imu({});
   EXPECT_EQ(imu({kFeet}), one);
@@ -142,7 +143,7 @@ TEST_P(SensorsInLanes, AreAsAlone) {
 
 TEST(Sensors, RowsWithinAStepChangeNothing) {
   const auto with_rows = [](const std::string& period) {
-    return bits(run(caterpillar({"duration=0.09", kNoisy, kImu, "trace.period=" + period})));
+    return bits(run(sensed_caterpillar({"duration=0.09", kNoisy, kImu, "trace.period=" + period})));
   };
   EXPECT_EQ(with_rows("0.0023"), with_rows("0.005"));
 }
@@ -207,8 +208,10 @@ TEST(Sensors, ControllerBehindTheEncoderHasTheBitsOfOneWithAnEncoderInside) {
         {"noise: 0.0035", "noise: 0.0035"},
         {"delay: 0.03", "delay: 2"},
         {"resolution: 0.00511, noise: 0.0035, delay: 0.015", "resolution: 0.00511, noise: 0.0035, delay: 1"}}) {
-    const Recording a = run(caterpillar({"duration=1", columns, fmt::format("sensors.e={{type: encoder, {}}}", sensor)}));
-    const Recording b = run(caterpillar({"duration=1", columns, fmt::format("controller={{type: behind, {}}}", controller)}));
+    const Recording a =
+        run(sensed_caterpillar({"duration=1", columns, fmt::format("sensors.e={{type: encoder, {}}}", sensor)}));
+    const Recording b =
+        run(sensed_caterpillar({"duration=1", columns, fmt::format("controller={{type: behind, {}}}", controller)}));
     EXPECT_EQ(hash(a.trace), hash(b.trace)) << sensor;
   }
 }
@@ -234,7 +237,7 @@ double limited(const Recording& r) {
 // share, is a part of both: twice these changes are allowed.
 TEST(Sensors, CaterpillarMovesTheSameAndItsTorquesDoNot) {
   const auto walk = [](const std::string& keys) {
-    return run(caterpillar({"duration=4", "physics.estimate=off", fmt::format("sensors.e={{type: encoder{}}}", keys)}));
+    return run(sensed_caterpillar({"duration=4", "physics.estimate=off", fmt::format("sensors.e={{type: encoder{}}}", keys)}));
   };
   const Recording ideal = walk("");
   EXPECT_EQ(limited(ideal), 0);
@@ -254,7 +257,7 @@ TEST(Sensors, CaterpillarMovesTheSameAndItsTorquesDoNot) {
 TEST(Sensors, EstimateSeesTheSameNoise) {
   for (const char* step : {"auto", "5e-4"}) {
     const Recording r =
-        run(caterpillar({"duration=1", "sensors={type: encoder, noise: 0.0035}", fmt::format("physics.step={}", step)}));
+        run(sensed_caterpillar({"duration=1", "sensors={type: encoder, noise: 0.0035}", fmt::format("physics.step={}", step)}));
     for (std::size_t j = 0; j < 16; ++j) {
       EXPECT_LT(r.tally.torque_error[j], 0.05 * r.tally.torque_peak[j]) << step << ", joint " << j;
     }

@@ -150,7 +150,27 @@ export interface Verdict {
   chosen_motors?: boolean; // data of the motors are chosen, not the manufacturer's
   chosen_docks?: boolean; // strengths of the docks are chosen
   demand?: { doubt: string; joints: Demand[] }; // only with --demand
+  remedy?: Remedy; // only with `gaitlab remedy`
   draws?: { text: string; count: number; feasible: number }; // only with --draws
+}
+
+/** Result of `gaitlab remedy`: remedy.json. */
+export interface Remedy {
+  verdict: Verdict["verdict"];
+  text: string[]; // lines as on the terminal
+  runs: number;
+  map?: RemedyMap;
+}
+
+/**
+ * Runs over frequency and amplitude. The cells are row by row, one row per amplitude. A factor multiplies the value
+ * `now`.
+ */
+export interface RemedyMap {
+  factors: number[];
+  frequency: { now: number | null; unit: string }; // null if joints have different values
+  amplitude: { now: number | null; unit: string };
+  cells: { verdict: Verdict["verdict"]; margin: number | null; speed: number | null; weakest: string }[];
 }
 
 /** Largest magnitudes of a joint in a run without motor limits, V, A, N m and rad/s. */

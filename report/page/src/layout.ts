@@ -15,6 +15,7 @@ import type { Desk, Panel } from "./panel";
 import { parts } from "./parts";
 import { Path } from "./path";
 import { Phases } from "./phases";
+import { remedy } from "./remedy";
 import { Strays } from "./strays";
 
 /** Fills the tables, and returns the panels that change with time or joint. */
@@ -42,6 +43,8 @@ function tables(desk: Desk): void {
   const { recording, runs, ghost } = desk;
   const run = recording.meta.outcome !== "not run";
   const verdicts = runs.map((r) => r.recording.meta.verdict);
+  const found = ghost ? undefined : verdicts[0].remedy;
+  if (keep("remedy", !!found) && found) remedy(found);
   const demanded = verdicts.some((v) => v.demand?.joints.length);
   if (keep("checks", run && verdicts.some((v) => v.checks.length > 0))) checks(desk);
   if (keep("demand", demanded)) demand(desk);
