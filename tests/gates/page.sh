@@ -53,6 +53,17 @@ expect 0 "$program" run "${fast[@]}" --out infeasible
 # Runs with too little current, with a robot that falls, and with ideal torque sources, whose commands are in N m.
 crawl=("$root/scenarios/caterpillar.yaml" --set physics.engine=articulated --quiet)
 expect 0 "$program" run "${crawl[@]}" --set actuator.i_max=0.35 --set duration=14 --out current
+# A remedy with a map of which the gaits with less than the present frequency and amplitude are feasible.
+cp -r -- current cured
+python3 - >cured/remedy.json <<'END'
+import json
+cells = [{"verdict": "feasible" if f < 6 and a < 6 else "infeasible", "margin": 0.1, "speed": f * a / 1000, "weakest": "current of <m1>"}
+         for a in range(13) for f in range(13)]
+one = {"now": 0.25, "unit": "Hz"}, {"now": None, "unit": "rad"}
+print(json.dumps({"format": 1, "verdict": "infeasible", "text": ["feasible with i_max >= 0.719 A", "not by Kp <b>"], "runs": 200,
+                  "map": {"factors": [5 ** (k / 6 - 1) for k in range(13)], "frequency": one[0], "amplitude": one[1], "cells": cells}}))
+END
+expect 0 "$program" report cured --page cured.html
 expect 0 "$program" run "${crawl[@]}" --set duration=5 --set robot.position='[0, 0, 0.4]' --set robot.orientation='[0, -1.4, 0]' --set contact.on=all --out fall
 expect 0 "$program" run "${crawl[@]}" --set duration=2 --set actuator.type=torque --set 'controller={type: pid, unit: N m, Kp: 5, Kd: 0.05}' --out torque
 expect 0 "$program" run "$root/scenarios/pendulum.yaml" --set duration=2 --quiet --out open
@@ -110,7 +121,7 @@ cmp infeasible/report.html again/report.html || fail "the same run gives another
 
 pages=(feasible=feasible/report.html infeasible=infeasible/report.html open=open/report.html built=built.html markup=markup/report.html
   failed=failed/report.html csv=csv/report.html old=old.html jointless=jointless/report.html built_ball=built_ball.html castor=castor/report.html motorless=motorless/report.html
-  current=current/report.html fall=fall/report.html torque=torque/report.html pair=pair.html pair_second=pair_second.html robots=robots.html ball=ball.html strayed=strayed/caterpillar-8.failure.html)
+  current=current/report.html cured=cured.html fall=fall/report.html torque=torque/report.html pair=pair.html pair_second=pair_second.html robots=robots.html ball=ball.html strayed=strayed/caterpillar-8.failure.html)
 if ! node "$page/test/page_test.mjs" "${pages[@]}" trace=trace.csv >"$work/log" 2>&1; then
   grep -A 30 '^not ok' "$work/log" | head -n 300 >&2 || show_log # show_log would mostly show passed tests
   fail "the page in $("$CHROMIUM" --version 2>/dev/null || printf %s "$CHROMIUM")"

@@ -1,6 +1,6 @@
 // The report page in a browser. usage: node page_test.mjs NAME=FILE...
 // feasible, infeasible, failed, open (not judged), built: pages by what they say; markup: one of a scenario with markup in its text; csv, old
-// (a folder of format 1), jointless, built_ball: what there is little of; castor, motorless: joint 0 has no motor, none has; fall, current: runs that fail in other ways; torque: of torque sources; pair, robots, ball, pair_second: two runs; strayed: of a golden.
+// (a folder of format 1), jointless, built_ball: what there is little of; castor, motorless: joint 0 has no motor, none has; cured: a run with a remedy; fall, current: runs that fail in other ways; torque: of torque sources; pair, robots, ball, pair_second: two runs; strayed: of a golden.
 // trace: CSV of the feasible run with body.* columns.
 import assert from "node:assert/strict";
 import { createRequire } from "node:module";
@@ -468,6 +468,22 @@ on("feasible: the envelope is that of the motor", pages.feasible, {}, async (pag
     near(use, available > 0 ? Math.min(0.4 / available, 1) : 1, available > 0.4 ? off / available : 0, `share at ${w} rad/s`);
   }
 });
+
+on("cured: what would make the gait feasible, and its map", pages.cured, {}, async (page) => {
+  assert.equal(await page.textContent("#remedy-h"), "What would make it feasible");
+  assert.deepEqual(await page.$$eval("#remedy li", (all) => all.map((l) => l.textContent)), ["Feasible with i_max ≥ 0.719 A", "Not by Kp <b>"]);
+  assert.equal(await page.$$eval(".remedy-map rect.feasible", (all) => all.length), 36);
+  assert.equal(await page.getAttribute(".remedy-map", "aria-label"), "Verdict over frequency and amplitude: 36 of 169 gaits are feasible");
+  assert.equal(await page.textContent(".remedy-map rect:nth-of-type(15) title"), "0.0654 Hz, 0.262 times, feasible, 0.001 m/s, margin 10\u00a0%, current of <m1>");
+  // The ring lies on the cell of factor 1, which is the middle one.
+  const [ring, cell] = await page.evaluate(() => [".remedy-map circle", ".remedy-map rect:nth-of-type(85)"].map((s) => {
+    const { x, y, width, height } = document.querySelector(s).getBoundingClientRect();
+    return [x + width / 2, y + height / 2];
+  }));
+  near(Math.hypot(ring[0] - cell[0], ring[1] - cell[1]), 0, 1, "ring on its cell, px");
+});
+
+on("feasible: no remedy was searched", pages.feasible, {}, async (page) => assert.equal(await page.isVisible(".remedy"), false));
 
 on("built: shows hinges, faces and axes, and no time", pages.built, {}, async (page, meta) => {
   assert.deepEqual(await page.$$eval("[data-gender]:not([hidden])", (all) => all.map((e) => e.textContent)), ["active face", "passive face"]);

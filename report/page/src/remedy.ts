@@ -12,12 +12,14 @@ const bottom = 34;
 
 export function remedy({ verdict, text, runs, map }: Remedy): void {
   element("remedy-h").textContent = verdict === "feasible" ? "Reserves of this gait" : "What would make it feasible";
-  element("remedy").append(...text.map((line) => make("li", capital(line.replaceAll("-", "−")))));
+  element("remedy").append(...text.map((line) => make("li", capital(symbols(line)))));
   element("remedy-note").textContent =
     `${runs} runs, one setting at a time.` +
     (map ? " In the map the ring is this run; stronger colours are faster." : "");
   if (map) element("remedy-map").append(drawn(map));
 }
+
+const symbols = (line: string): string => line.replaceAll("<=", "≤").replaceAll(">=", "≥");
 
 function svg(tag: string, attributes: Record<string, number | string>, text = ""): SVGElement {
   const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
