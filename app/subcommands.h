@@ -7,9 +7,9 @@ struct Commands;
 
 /// Registration functions, in the order of the program's help.
 void add_run(Commands& commands);
-void add_remedy(Commands& commands);
 void add_report(Commands& commands);
 void add_check(Commands& commands);
+void add_remedy(Commands& commands);
 void add_manuals(Commands& commands);
 void add_converge(Commands& commands);
 void add_swap(Commands& commands);
