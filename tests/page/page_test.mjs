@@ -470,7 +470,7 @@ on("feasible: the envelope is that of the motor", pages.feasible, {}, async (pag
 });
 
 on("cured: what would make the gait feasible, and its map", pages.cured, {}, async (page) => {
-  assert.equal(await page.textContent("#remedy-h"), "What would make it feasible");
+  assert.equal(await page.textContent("#remedy-h"), "Changes that make it feasible");
   assert.deepEqual(await page.$$eval("#remedy li", (all) => all.map((l) => l.textContent)), ["Feasible with i_max ≥ 0.719 A", "Not by Kp <b>"]);
   assert.equal(await page.$$eval(".remedy-map rect.feasible", (all) => all.length), 36);
   assert.equal(await page.getAttribute(".remedy-map", "aria-label"), "Verdict over frequency and amplitude: 36 of 169 gaits are feasible");

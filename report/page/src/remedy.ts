@@ -11,7 +11,7 @@ const top = 4;
 const bottom = 34;
 
 export function remedy({ verdict, text, runs, map }: Remedy): void {
-  element("remedy-h").textContent = verdict === "feasible" ? "Reserves of this gait" : "What would make it feasible";
+  element("remedy-h").textContent = verdict === "feasible" ? "Reserves of this gait" : "Changes that make it feasible";
   element("remedy").append(...text.map((line) => make("li", capital(symbols(line)))));
   element("remedy-note").textContent =
     `${runs} runs, one setting at a time.` +
