@@ -75,12 +75,14 @@ int run(const RunArguments& arguments);
 /// Runs a scenario and further `draws` of it, writes the run folder and prints the summary. Returns the exit code.
 int run(const Scenario& scenario, const RunArguments& arguments, std::span<const Scenario> draws = {});
 
-/// Result of take_remedy(): the lines to print, and false if the search was interrupted or impossible, which was reported.
+/// Result of take_remedy(): the lines to print, the text of remedy.json, and false if the search was interrupted or impossible,
+/// which was reported.
 struct Remedied {
   std::vector<report::ScreenLine> lines = {};
+  std::string json = {};
   bool complete = true;
 };
-/// Searches a remedy for a judged run if the arguments ask for it, and stores it in the verdict.
+/// Searches a remedy for a judged run if the arguments ask for it, and stores what the page shows in the verdict.
 Remedied take_remedy(const Scenario& scenario, report::Verdict& verdict, const RunArguments& arguments);
 /// Prints lines of a summary, in colour on a terminal.
 void print_lines(const std::vector<report::ScreenLine>& lines);

@@ -136,7 +136,7 @@ struct Calibration {
 Calibration bands_around(const GoldenRun& base, const Scenario& scenario, int jobs) {
   std::vector<Scenario> scenarios;
   std::vector<std::string> names;
-  const int members = base.deviations.empty() ? kEnsemble : 0;  // means over starts have their own deviations
+  const int members = base.starts == 1 ? kEnsemble : 0;  // means over starts have their own deviations
   for (int i = 0; i < members; ++i) {
     scenarios.push_back(perturbed(scenario, i));
     names.push_back(fmt::format("{}, start {} of {} moved by 1e-7 rad", scenario.file, i + 1, members));
@@ -218,7 +218,7 @@ Golden golden_of(const GoldenRun& base, const Scenario& scenario, const fs::path
   golden.run = {base.trace, std::move(rounded.precision)};
   golden.numbers = golden_numbers(base);
   golden.verdict = base.verdict;
-  if (!base.deviations.empty()) golden.starts = kStarts;
+  golden.starts = base.starts;
   return golden;
 }
 
@@ -272,7 +272,7 @@ void add_approve(Commands& commands) {
         command.add_option("SCENARIO", arguments.file, "scenario file (YAML)")->required();
         command.add_option("--reason", arguments.reason, "why these numbers are right; kept in the golden");
         command.add_flag("--calibrate", arguments.calibrate,
-                         "compute new bands from five more runs, even if this run is within the old bands");
+                         "compute new bands from further runs, even if this run is within the old bands");
         command.add_flag("--replace", arguments.replace,
                          "replace a golden that cannot be read or belongs to another scenario; the old history is lost");
         command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));

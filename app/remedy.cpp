@@ -8,15 +8,16 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <new>
 #include <optional>
 
 #include "app/commands.h"
+#include "app/judged_run.h"
 #include "app/progress.h"
 #include "app/stop_on_signal.h"
 #include "app/stored_scenario.h"
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
-#include "core/recording/run_files.h"
 #include "core/scenario/resolved.h"
 #include "core/settings/wording.h"
 #include "report/page/page.h"
@@ -45,27 +46,24 @@ void check_options(const RunArguments& arguments) {
 
 int remedy_of_run(const RemedyArguments& arguments) {
   check_options(arguments);
-  const fs::path trace = trace_file(arguments.file);
   Catalog catalog = careful_catalog(arguments.plugins);
-  StoredRun run = read_run(arguments.file, catalog);
-  const Recording& recording = run.stored.recording;
-  report::Summary summary = report::summarise(run.scenario, recording, 0);
-  summary.build = run.stored.origin.build;
-  report::Verdict verdict =
-      judged(run.scenario, recording, summary, report::overlaps(run.scenario, recording), arguments.shown);
+  JudgedRun run = judged_run(arguments.file, catalog, {}, arguments.shown);
+  Scenario scenario = run.read.scenario;
+  scenario.trace.period = run.period;
+  print_summary(run.read.scenario, run.recording(), run.summary, run.verdict, arguments.shown);
+  warn(run);
   const StopOnSignal stop(StopOnSignal::Second::is_ignored);
-  const Remedied remedied = take_remedy(run.scenario, verdict, arguments);
+  const Remedied remedied = take_remedy(scenario, run.verdict, arguments);
   if (!remedied.complete) return 1;
-  const fs::path folder = trace.parent_path();
-  write_file(folder / kRemedyFile, verdict.remedy, Existing::replaced);
+  const fs::path folder = run.trace.parent_path();
+  write_file(folder / kRemedyFile, remedied.json, Existing::replaced);
   if (!arguments.no_page) {
-    write_file(folder / kPageFile, report::page(report::page_data(run.scenario, recording, summary, verdict)),
-               check_page((folder / kPageFile).string(), folder / kPageFile));
+    const fs::path page = folder / kPageFile;
+    write_file(page, report::page(run.page_data()), check_page(page.string(), page));
   }
-  print_summary(run.scenario, recording, summary, verdict, arguments.shown);
-  print_lines(remedied.lines);
-  if (!arguments.no_page) print_page(folder / kPageFile);
-  return exit_code(verdict, arguments.shown);
+  if (!arguments.quiet) print_lines(remedied.lines);
+  if (!arguments.no_page && !arguments.quiet) print_page(folder / kPageFile);
+  return exit_code(run.verdict, arguments.shown);
 }
 
 /// Names of the settings of a remedy.
@@ -112,13 +110,22 @@ Remedied take_remedy(const Scenario& scenario, report::Verdict& verdict, const R
   }
   if (!made) {
     say("gaitlab remedy", "error", "interrupted; the run is complete, but has no remedy");
-    return {{}, false};
+    return {.complete = false};
   }
-  verdict.remedy = report::to_json(*made, scenario);
-  return {report::remedy_lines(*made, scenario), true};
+  const std::string json = report::to_json(*made);
+  verdict.remedy = report::shown_remedy(json, made->scenario, verdict.word);
+  if (arguments.map && !made->map)
+    say("--map", "note", "no map is drawn, because the scenario has no frequency and amplitude that can be changed");
+  return {report::remedy_lines(*made), json, true};
 } catch (const InputError& error) {
   say(error.what());
-  return {{}, false};
+  return {.complete = false};
+} catch (const std::bad_alloc&) {
+  say("gaitlab remedy", "error", "not searched: out of memory");
+  return {.complete = false};
+} catch (const RunError& error) {  // also PluginError
+  say("gaitlab remedy", "error", error.what());
+  return {.complete = false};
 }
 
 void add_remedy(Commands& commands) {

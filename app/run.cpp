@@ -229,14 +229,18 @@ int run(const Scenario& scenario, const RunArguments& arguments, std::span<const
   if (files.lost_any()) files.write_text("summary.json", [&] { return report::to_json(summary, scenario, recording); });
   const report::Overlaps overlaps = report::overlaps(seen, recording);
   report::Verdict verdict = judged(seen, recording, summary, overlaps, arguments.shown);
-  const Remedied remedied = take_remedy(scenario, verdict, arguments);
-  if (!verdict.remedy.empty()) files.write_text(kRemedyFile, [&] { return verdict.remedy; });
   write_report(files, seen, recording, summary, verdict, !arguments.no_page);
   if (files.wrote_any()) folder.keep();
   if (!arguments.quiet) print_summary(scenario, recording, summary, verdict, arguments.shown);
   if (!arguments.quiet && !verdict.draws.empty()) {
     fmt::print("{}", report::texts::without_nan(
                          report::draws_table(verdict.draws, arguments.shown.verbose ? verdict.draws.size() : kMostDraws)));
+  }
+  const bool interrupted = recording.outcome.ended == Ended::interrupted;
+  const Remedied remedied = interrupted ? Remedied() : take_remedy(scenario, verdict, arguments);
+  if (!remedied.json.empty()) {
+    files.write_text(kRemedyFile, [&] { return remedied.json; });
+    write_report(files, seen, recording, summary, verdict, !arguments.no_page);
   }
   if (!arguments.quiet) print_lines(remedied.lines);
   if (!arguments.quiet && !files.lost_any()) print_files(arguments, folder.path());

@@ -101,7 +101,7 @@ Bands calibrate(const GoldenRun& base, std::span<const GoldenRun> ensemble, cons
     };
     Band band;
     for (const GoldenRun& run : ensemble) band.ensemble = std::max(band.ensemble, kEnsembleFactor * change(run));
-    if (!base.deviations.empty()) band.ensemble = band_of_means(base.deviations[i]) / size[i];
+    if (base.numbers[i].deviation) band.ensemble = band_of_means(*base.numbers[i].deviation) / size[i];
     band.halving = kHalvingFactor * change(halved);
     band.floor = kLeastOfRange;
     bands.numbers.push_back(band);

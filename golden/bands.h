@@ -15,8 +15,7 @@ struct GoldenRun {
   std::vector<std::string> joints = {};  ///< joint names, by their numbers in the columns
   std::string verdict = {};              ///< word such as `feasible`; empty if not judged
   std::string why = {};                  ///< sentence that follows a word other than `feasible` (report/verdict/verdict.h)
-  /// Standard deviations of the numbers over the starts (starts.h), in their order; empty unless the numbers are means.
-  std::vector<double> deviations = {};
+  int starts = 1;                        ///< number of runs of which the numbers are means (starts.h)
 };
 
 /// Scales of differences, one per column, in the unit of the column. A scale is the range of the column, but at least 1e-3 of

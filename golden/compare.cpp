@@ -53,10 +53,10 @@ class Comparison {
 
   /// Numbers of one run are not compared with means, which a golden has if a sensor has a resolution.
   void match_starts() {
-    const bool mean = !run_.deviations.empty();
-    if ((golden_.starts > 1) == mean) return;
-    find(mean ? "a sensor has a resolution, so that this run has means over starts, but the golden is of one run"
-              : "no sensor has a resolution, so that this is one run, but the golden has means over starts");
+    if (golden_.starts == run_.starts) return;
+    find(golden_.starts == 1 ? "a sensor has a resolution, so that this run has means over starts, but the golden is of one run"
+         : run_.starts == 1  ? "no sensor has a resolution, so that this is one run, but the golden has means over starts"
+                             : fmt::format("means over {} starts, in the golden over {}", run_.starts, golden_.starts));
   }
 
   void match_columns() {

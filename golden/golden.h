@@ -24,7 +24,8 @@ struct Band {
 struct Number {
   std::string name, unit;
   double value = 0;
-  std::optional<double> at_start = {};  ///< time of a peak that precedes the judged window, s
+  std::optional<double> at_start = {};   ///< time of a peak that precedes the judged window, s
+  std::optional<double> deviation = {};  ///< standard deviation over the starts, if the value is a mean (starts.h)
 };
 
 struct Approval {

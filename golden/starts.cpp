@@ -51,13 +51,14 @@ GoldenRun mean_of(std::span<const GoldenRun> runs) {
   if (runs.size() == 1) return mean;
   const auto count = static_cast<double>(runs.size());
   mean.trace = times_of(runs.front().trace);
+  mean.starts = static_cast<int>(runs.size());
   for (std::size_t i = 0; i < mean.numbers.size(); ++i) {
     double sum = 0;
     for (const GoldenRun& run : runs) sum += run.numbers[i].value;
     mean.numbers[i].value = sum / count;
     double squares = 0;
     for (const GoldenRun& run : runs) squares += std::pow(run.numbers[i].value - sum / count, 2);
-    mean.deviations.push_back(std::sqrt(squares / (count - 1)));
+    mean.numbers[i].deviation = std::sqrt(squares / (count - 1));
   }
   return mean;
 }

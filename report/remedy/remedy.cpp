@@ -6,11 +6,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <string_view>
 #include <utility>
 
+#include "core/files/hash.h"
 #include "core/scenario/resolved.h"
 #include "report/analysis/collisions.h"
-#include "report/verdict/trust.h"
+#include "report/verdict/load_checks.h"
 
 namespace gaitlab::report {
 
@@ -22,7 +24,9 @@ constexpr int kPointsEachWay = 4;      // geometric points of a setting in a dir
 constexpr int kCuts = 3;               // interior points of a bracket that are tried at once
 constexpr double kTolerance = 0.02;    // width of the last bracket, as a share of the change
 constexpr double kLess = 0.9;          // share of the change that must not suffice
-constexpr int kMostRounds = 6;         // attempts to confirm an answer
+constexpr double kNarrowest = 1e-3;    // least width of a bracket, for changes close to the present value
+constexpr double kMore = 1.08;         // factor on the logarithm of a change that does not suffice
+constexpr int kMostRounds = 8;         // attempts to confirm an answer
 constexpr int kMapEachWay = 6;         // cells of the map on either side of the run
 constexpr std::size_t kMostPairs = 5;  // pairs to confirm, the fastest first
 constexpr double kRunsPerAnswer = 8;   // for the estimate of the work only
@@ -53,7 +57,9 @@ RemedyRun judged(const Scenario& scenario, const Recording& recording) {
   const Summary summary = summarise(scenario, recording, 0);
   const Verdict made = verdict(scenario, recording, summary, overlaps(scenario, recording));
   const Check* const tightest = made.tightest();
-  return {made.word, tightest == nullptr ? kNone : tightest->margin, summary.speed, weakest(made)};
+  const auto progress = std::ranges::find(made.checks, "progress", &Check::id);
+  const bool still = progress != made.checks.end() && progress->status == CheckStatus::warn;
+  return {made.word, tightest == nullptr ? kNone : tightest->margin, summary.speed, weakest(made), still, true};
 }
 
 /// Rounds to a hundredth of the change or finer: up if `up`, else down.
@@ -66,42 +72,50 @@ double rounded(double value, double now, bool up) {
   return (up ? std::ceil(count - kSame) : std::floor(count + kSame)) * unit;
 }
 
+/// True if all parts with this check have the same rating.
+bool same_ratings(const Scenario& scenario, const RemedySettings& settings, const CheckKind& kind) {
+  constexpr std::pair<std::string_view, DockQuantity> kDocks[] = {{"dock_tension", DockQuantity::tension},
+                                                                  {"dock_shear", DockQuantity::shear},
+                                                                  {"dock_bending", DockQuantity::bending},
+                                                                  {"dock_torsion", DockQuantity::torsion}};
+  for (const auto& [id, quantity] : kDocks) {
+    if (id != kind.id) continue;
+    std::vector<double> limits = dock_limits(*scenario.robot, quantity);
+    std::erase_if(limits, [](double limit) { return std::isnan(limit); });
+    return std::ranges::adjacent_find(limits, std::ranges::not_equal_to()) == limits.end();
+  }
+  return settings.uniform(kind.key);
+}
+
+struct Stopped {};
+
 class Search {
  public:
   Search(const RemedyTask& task, std::atomic<bool>& stop)
-      : task_(task), stop_(stop), settings_(resolved(task.scenario)), own_(task.scenario.physics.engine->name) {
+      : task_(task), stop_(stop), made_{RemedySettings(resolved(task.scenario)), hash(resolved(task.scenario))} {
     made_.word = task.verdict.word;
-    made_.engine = "articulated";
-    // Without an engine `articulated` for this scenario, the search uses its own engine.
-    if (own_ != made_.engine) {
-      faster_ = {"physics.engine=articulated", "physics.integrator=adaptive", "physics.step=auto", "physics.accuracy=0.01"};
-      try {
-        (void)task_.with(faster_);
-      } catch (const InputError&) {
-        faster_.clear();
-        made_.engine = own_;
-      }
-    }
+    made_.engine = made_.own_engine = task.scenario.physics.engine->name;
   }
 
   Remedy made() {
     add_ratings();
     for (const RemedyKey& key : remedy_keys()) {
       if (!task_.by.empty() && std::ranges::count(task_.by, key.name) == 0) continue;
-      if (settings_.has(key)) {
-        for (const bool up : {false, true}) made_.answers.push_back({.key = &key, .up = up});
+      if (const std::string reason = made_.settings.missing(key); !reason.empty()) {
+        made_.lacking.push_back({&key, reason});
       } else {
-        made_.lacking.push_back(&key);
+        for (const bool up : {false, true}) made_.answers.push_back({.key = &key, .up = up});
       }
     }
     expected_ = static_cast<double>(made_.answers.size()) * (kPointsEachWay + kRunsPerAnswer) + (task_.map ? cells() : 0);
+    choose_engine();
     find_brackets();
     narrow();
     confirm();
-    const bool helps = std::ranges::any_of(made_.answers, [](const RemedyAnswer& a) { return a.crosses && a.confirmed; });
-    const bool pairs =
-        !feasible() && !helps && task_.by.empty() && has("frequency") && has("amplitude") && !made_.ratings_suffice;
-    if (pairs || (task_.map && has("frequency") && has("amplitude"))) draw_map();
+    const bool helps = std::ranges::any_of(made_.answers, &RemedyAnswer::confirmed);
+    const bool grid = made_.settings.missing(key("frequency")).empty() && made_.settings.missing(key("amplitude")).empty();
+    const bool pairs = grid && !feasible() && !helps && task_.by.empty() && !made_.ratings_suffice;
+    if (grid && (pairs || task_.map)) draw_map();
     if (pairs) find_pair();
     return std::move(made_);
   }
@@ -111,12 +125,12 @@ class Search {
   struct Bracket {
     RemedyAnswer* answer;
     double inner, outer;
-    [[nodiscard]] bool wide() const { return std::abs(outer - inner) > kTolerance * std::abs(outer - 1); }
+    [[nodiscard]] bool wide() const { return std::abs(outer - inner) > std::max(kNarrowest, kTolerance * std::abs(outer - 1)); }
+    [[nodiscard]] double at(int cut) const { return inner + (outer - inner) * cut / (kCuts + 1); }
   };
 
   [[nodiscard]] bool feasible() const { return made_.word == Word::feasible; }
   static double cells() { return std::pow(2 * kMapEachWay + 1, 2); }
-  [[nodiscard]] bool has(const std::string& name) const { return settings_.has(key(name)); }
   static const RemedyKey& key(const std::string& name) {
     return *std::ranges::find_if(remedy_keys(), [&](const RemedyKey& k) { return k.name == name; });
   }
@@ -124,7 +138,7 @@ class Search {
   [[nodiscard]] std::vector<std::string> sets(const Change& change) const {
     std::vector<std::string> all;
     for (const auto& [key, factor] : change) {
-      for (std::string& set : settings_.scaled(*key, factor)) all.push_back(std::move(set));
+      for (std::string& set : made_.settings.scaled(*key, factor)) all.push_back(std::move(set));
     }
     return all;
   }
@@ -140,7 +154,7 @@ class Search {
       try {
         scenarios.push_back(task_.with(all));
       } catch (const InputError& error) {
-        results[i] = {Word::failed, kNone, kNone, error.problems().front().text};
+        results[i] = refused(error.problems());
         continue;
       }
       if (!confirming) {
@@ -150,10 +164,9 @@ class Search {
       numbers.push_back(i);
     }
     const auto judge = [&](std::size_t k, RolloutEnd&& end) {
-      RemedyRun& result = results[numbers[k]];
-      result = end.refused.empty() ? judged(scenarios[k], end.recording)
-                                   : RemedyRun{Word::failed, kNone, kNone, end.refused.front().text};
-      tell(1);
+      results[numbers[k]] = end.refused.empty() ? judged(scenarios[k], end.recording) : refused(end.refused);
+      const double done = done_.fetch_add(1) + 1;
+      if (task_.progress) task_.progress(std::min(0.99, done / expected_));
     };
     run_all(scenarios, task_.batch, kVerdictReads, stop_, judge);
     if (stop_) throw Stopped{};
@@ -161,24 +174,37 @@ class Search {
     return results;
   }
 
-  void tell(double more) {
-    const double done = done_.fetch_add(more) + more;
-    if (task_.progress) task_.progress(std::min(0.99, done / expected_));
+  static RemedyRun refused(const std::vector<Problem>& problems) {
+    return {.margin = kNone, .speed = kNone, .refused = problems.front().text};
+  }
+
+  /// Takes engine `articulated` for the search if it can run the scenario and has the same verdict on the run itself.
+  void choose_engine() {
+    const char* const fast = "articulated";
+    if (made_.own_engine == fast) return;
+    faster_ = {std::string("physics.engine=") + fast, "physics.integrator=adaptive", "physics.step=auto",
+               "physics.accuracy=0.01"};
+    const RemedyRun same = run({Change{}}, false).front();
+    if (same.refused.empty() && same.feasible() == feasible()) {
+      made_.engine = fast;
+    } else {
+      faster_.clear();
+    }
   }
 
   void add_ratings() {
-    const std::vector<const Check*> failures = task_.verdict.failures();
-    made_.ratings_suffice = task_.verdict.word == Word::infeasible;
-    for (const Check* check : failures) {
-      const auto kind = std::ranges::find_if(check_kinds(), [&](const CheckKind& k) { return k.id == check->id; });
+    made_.ratings_suffice = made_.word == Word::infeasible;
+    for (const Check& check : task_.verdict.checks) {
+      if (check.status != CheckStatus::fail && check.status != CheckStatus::too_close) continue;
+      const auto kind = std::ranges::find_if(check_kinds(), [&](const CheckKind& k) { return k.id == check.id; });
       if (!kind->rating) {
         made_.ratings_suffice = false;
         continue;
       }
-      const double most = check->value * (1 + check->error);
-      const std::string setting = kind->key;
-      made_.ratings.push_back({check->id, check->worst, setting.substr(setting.rfind('.') + 1), rounded(most, 0, true),
-                               check->limit, check->unit, check->parts});
+      const std::string path = kind->key;
+      made_.ratings.push_back({check.id, check.worst, path.substr(path.rfind('.') + 1),
+                               rounded(check.value * (1 + check.error), 0, true), check.limit, check.unit, check.parts,
+                               same_ratings(task_.scenario, made_.settings, *kind)});
     }
   }
 
@@ -186,30 +212,36 @@ class Search {
   void find_brackets() {
     const double step = std::pow(kFarthest, 2.0 / (2 * kPointsEachWay - 1));
     std::vector<Change> changes;
-    std::vector<double> factors;
     for (const RemedyAnswer& answer : made_.answers) {
-      for (int k = 0; k < kPointsEachWay; ++k) {
-        const double factor = std::pow(step, (answer.up ? 1 : -1) * (k + 0.5));
-        factors.push_back(factor);
-        changes.push_back({{answer.key, factor}});
-      }
+      for (int k = 0; k < kPointsEachWay; ++k)
+        changes.push_back({{answer.key, std::pow(step, (answer.up ? 1 : -1) * (k + 0.5))}});
     }
     const std::vector<RemedyRun> runs = run(changes, false);
     for (std::size_t a = 0; a < made_.answers.size(); ++a) {
-      RemedyAnswer& answer = made_.answers[a];
-      double inner = 1;
       for (std::size_t k = a * kPointsEachWay; k < (a + 1) * kPointsEachWay; ++k) {
-        if (answer.crosses && runs[k].feasible() == feasible()) break;
-        answer.farthest = runs[k];
-        answer.until = factors[k];
-        if (!answer.crosses && runs[k].feasible() != feasible()) {
-          answer.crosses = true;
-          brackets_.push_back({&answer, inner, factors[k]});
-          if (feasible()) break;
-        }
-        inner = factors[k];
+        if (!extends(made_.answers[a], changes[k].front().second, runs[k])) break;
       }
     }
+  }
+
+  /// Takes the next point outwards. Returns false if no further point matters.
+  bool extends(RemedyAnswer& answer, double factor, const RemedyRun& tried) {
+    if (!tried.refused.empty()) {
+      answer.refused = tried.refused;
+      return false;
+    }
+    const bool other = tried.feasible() != feasible();
+    if (answer.crosses && !other) return false;
+    if (other && !answer.crosses) {
+      answer.crosses = true;
+      brackets_.push_back({&answer, answer.until, factor});
+      if (feasible()) {
+        answer.beyond = tried;
+        return false;
+      }
+    }
+    answer.until = factor;
+    return true;
   }
 
   void narrow() {
@@ -219,45 +251,43 @@ class Search {
       for (Bracket& bracket : brackets_) {
         if (!bracket.wide()) continue;
         wide.push_back(&bracket);
-        for (int k = 1; k <= kCuts; ++k) changes.push_back({{bracket.answer->key, between(bracket, k)}});
+        for (int k = 1; k <= kCuts; ++k) changes.push_back({{bracket.answer->key, bracket.at(k)}});
       }
       if (wide.empty()) return;
       const std::vector<RemedyRun> runs = run(changes, false);
-      for (std::size_t b = 0; b < wide.size(); ++b) {
-        const Bracket old = *wide[b];
-        for (int k = 1; k <= kCuts; ++k) {
-          const RemedyRun& tried = runs[b * kCuts + static_cast<std::size_t>(k) - 1];
-          if (tried.feasible() == feasible()) {
-            wide[b]->inner = between(old, k);
-          } else {
-            wide[b]->outer = between(old, k);
-            break;
-          }
-        }
-      }
+      for (std::size_t b = 0; b < wide.size(); ++b) shrink(*wide[b], &runs[b * kCuts]);
     }
   }
 
-  static double between(const Bracket& bracket, int cut) {
-    return bracket.inner + (bracket.outer - bracket.inner) * cut / (kCuts + 1);
+  /// Takes the runs of the interior points of a bracket, from inside to outside.
+  void shrink(Bracket& bracket, const RemedyRun* runs) const {
+    const Bracket old = bracket;
+    for (int k = 1; k <= kCuts; ++k, ++runs) {
+      if (runs->feasible() == feasible()) {
+        bracket.inner = old.at(k);
+        continue;
+      }
+      bracket.outer = old.at(k);
+      if (feasible()) bracket.answer->beyond = *runs;
+      return;
+    }
   }
 
   /// The factor with a rounded value, on the safe side: farther from 1, or nearer to 1 for a feasible gait.
   [[nodiscard]] double safe(const RemedyAnswer& answer, double factor) const {
-    const double now = settings_.value(*answer.key);
+    const double now = made_.settings.value(*answer.key);
     const bool up = answer.up != feasible();
     return std::isnan(now) ? rounded(factor, 1, up) : rounded(now * factor, now, up) / now;
   }
 
   void confirm() {
     std::vector<RemedyAnswer*> open;
-    std::map<const RemedyAnswer*, double> searched;  // factors by the search
     for (const Bracket& bracket : brackets_) {
       RemedyAnswer& answer = *bracket.answer;
       answer.factor = safe(answer, feasible() ? bracket.inner : bracket.outer);
-      searched[bracket.answer] = answer.factor;
       if (answer.factor != 1) open.push_back(&answer);
     }
+    std::map<const RemedyAnswer*, RemedyAnswer> first;  // answers after the first round
     for (int round = 0; round < kMostRounds && !open.empty(); ++round) {
       std::vector<Change> changes;
       for (const RemedyAnswer* answer : open) {
@@ -268,31 +298,32 @@ class Search {
       std::vector<RemedyAnswer*> still;
       for (std::size_t a = 0; a < open.size(); ++a) {
         const std::size_t at = feasible() ? a : 2 * a;
-        if (!settle(*open[a], runs[at], !feasible() && runs[at + 1].feasible())) still.push_back(open[a]);
+        const double next = next_factor(*open[a], runs[at], !feasible() && runs[at + 1].feasible());
+        first.try_emplace(open[a], *open[a]);
+        if (next == open[a]->factor) continue;
+        open[a]->factor = next;
+        still.push_back(open[a]);
       }
       open = std::move(still);
     }
     for (RemedyAnswer& answer : made_.answers) {
       if (!answer.crosses) continue;
-      if (!answer.confirmed) answer.factor = searched[&answer];
-      answer.sets = settings_.scaled(*answer.key, answer.factor);
+      if (const auto tried = first.find(&answer); !answer.confirmed && tried != first.end()) answer = tried->second;
+      answer.sets = made_.settings.scaled(*answer.key, answer.factor);
       if (feasible() || std::abs(answer.until - 1) < std::abs(answer.factor - 1)) answer.until = answer.factor;
     }
   }
 
-  /// Takes the result of a confirming run. Returns false, with another factor to try, unless the answer is final.
-  [[nodiscard]] bool settle(RemedyAnswer& answer, const RemedyRun& with, bool less_suffices) const {
+  /// Takes the result of a confirming run. Returns the next factor to try, or the same factor if the answer is final.
+  [[nodiscard]] double next_factor(RemedyAnswer& answer, const RemedyRun& with, bool less_suffices) const {
     answer.run = with;
-    const double change = answer.factor - 1;
-    if (with.feasible() && !less_suffices) {
-      answer.confirmed = true;
-      return true;
-    }
-    const double grown = feasible() || with.feasible() ? kLess : 1.08;
-    const double next = safe(answer, 1 + grown * change);
-    if (next == answer.factor || next == 1) return true;
-    answer.factor = next;
-    return false;
+    answer.less_suffices = with.feasible() && less_suffices;
+    answer.confirmed = with.feasible() && !less_suffices;
+    if (answer.confirmed) return answer.factor;
+    const bool inwards = feasible() || with.feasible();
+    const double next = inwards ? 1 + kLess * (answer.factor - 1) : std::pow(answer.factor, kMore);
+    const double rounded = safe(answer, std::clamp(next, 1 / kFarthest, kFarthest));
+    return rounded == 1 ? answer.factor : rounded;
   }
 
   void draw_map() {
@@ -319,22 +350,15 @@ class Search {
       RemedyPair pair{map.factors[cell % map.factors.size()], map.factors[cell / map.factors.size()]};
       const Change change{{&key("frequency"), pair.frequency}, {&key("amplitude"), pair.amplitude}};
       pair.run = run({change}, true).front();
-      pair.confirmed = pair.run.feasible();
+      if (!pair.run.feasible()) continue;
       pair.sets = sets(change);
-      if (!pair.confirmed) continue;
       made_.pair = std::move(pair);
       return;
     }
   }
 
- public:
-  struct Stopped {};
-
- private:
   const RemedyTask& task_;
   std::atomic<bool>& stop_;
-  RemedySettings settings_;
-  std::string own_;
   std::vector<std::string> faster_;  ///< settings of the search
   std::vector<Bracket> brackets_;
   std::atomic<double> done_ = 0;
@@ -351,7 +375,7 @@ std::optional<Remedy> remedy(const RemedyTask& task, std::atomic<bool>& stop) {
   }
   try {
     return Search(task, stop).made();
-  } catch (const Search::Stopped&) {
+  } catch (const Stopped&) {
     return {};
   }
 }

@@ -14,14 +14,14 @@ namespace gaitlab::report {
 namespace {
 
 const std::vector<RemedyKey> kKeys{
-    {"frequency", {"cpg.frequency"}, "Hz", true},
+    {"frequency", {"cpg.frequency"}, "Hz", {}, true},
     {"amplitude", {"cpg.amplitude"}, "rad"},
     {"u_max", {"actuator.u_max"}, "V"},
     {"i_max", {"actuator.i_max"}, "A"},
-    {"u_max and i_max", {"actuator.u_max", "actuator.i_max"}, ""},
-    {"stall_torque", {"actuator.stall_torque"}, "N m"},
+    {"u_max with i_max", {"actuator.u_max", "actuator.i_max"}, ""},
+    {"stall_torque", {"actuator.stall_torque"}, "N m", {"actuator.stall_current"}},
     {"Kp", {"controller.Kp"}, ""},
-    {"friction", {"ground.friction"}, ""},
+    {"friction", {"ground.friction"}, "", {"ground.boxes.friction"}},
 };
 
 std::optional<double> number(const Node& node) {
@@ -40,17 +40,26 @@ void add_numbers(const Node& node, std::vector<double>& all) {
 
 std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
 
-/// YAML text of a node on one line, with every number multiplied.
-std::string scaled_text(const Node& node, double factor) {
-  if (const std::optional<double> value = number(node)) return fmt::format("{:.10g}", *value * factor);
+/// YAML text of a node on one line. Every number is multiplied; if `only` is not empty, those under this key of a map.
+std::string scaled_text(const Node& node, double factor, const std::string& only) {
+  const std::optional<double> value = only.empty() ? number(node) : std::nullopt;
+  if (value) return fmt::format("{:.10g}", *value * factor);
+  if (node.kind == Node::Kind::null) return "";
   if (node.kind == Node::Kind::scalar) return node.quoted ? quoted(node.text) : node.text;
+  const bool map = node.kind == Node::Kind::map;
   std::string text;
   for (std::size_t i = 0; i < node.items.size(); ++i) {
     if (i > 0) text += ", ";
-    if (node.kind == Node::Kind::map) text += quoted(node.keys[i].first) + ": ";
-    text += scaled_text(node.items[i], factor);
+    if (map) text += quoted(node.keys[i].first) + ": ";
+    text += scaled_text(node.items[i], factor, map && node.keys[i].first == only ? "" : only);
   }
-  return node.kind == Node::Kind::map ? "{" + text + "}" : "[" + text + "]";
+  return map ? "{" + text + "}" : "[" + text + "]";
+}
+
+/// The path without its last part, and that part.
+std::pair<std::string, std::string> split(const std::string& path) {
+  const std::size_t dot = path.rfind('.');
+  return {path.substr(0, dot), path.substr(dot + 1)};
 }
 
 }  // namespace
@@ -69,12 +78,30 @@ const Node* RemedySettings::find(const std::string& path) const {
   return node;
 }
 
-bool RemedySettings::has(const RemedyKey& key) const {
-  return std::ranges::all_of(key.paths, [&](const char* path) {
-    std::vector<double> numbers;
-    if (const Node* node = find(path)) add_numbers(*node, numbers);
-    return std::ranges::any_of(numbers, [](double value) { return value != 0; });
-  });
+std::vector<double> RemedySettings::numbers(const std::string& path) const {
+  std::vector<double> all;
+  if (const Node* node = find(path)) add_numbers(*node, all);
+  return all;
+}
+
+bool RemedySettings::changes_in_time(const std::string& path) const {
+  const Node* at = find("at");
+  const auto sets = [&](const Node& entry) {
+    const Node* set = entry.find("set");
+    const auto meant = [&](const auto& key) {
+      return key.first == path || path.starts_with(key.first + ".") || key.first.starts_with(path + ".");
+    };
+    return set != nullptr && std::ranges::any_of(set->keys, meant);
+  };
+  return at != nullptr && std::ranges::any_of(at->items, sets);
+}
+
+std::string RemedySettings::missing(const RemedyKey& key) const {
+  for (const char* path : key.paths) {
+    if (std::ranges::none_of(numbers(path), [](double value) { return value != 0; })) return "missing or 0";
+    if (changes_in_time(path)) return "set by `at`";
+  }
+  return "";
 }
 
 double RemedySettings::value(const RemedyKey& key) const {
@@ -83,9 +110,26 @@ double RemedySettings::value(const RemedyKey& key) const {
   return only.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
+bool RemedySettings::uniform(const std::string& path) const {
+  const std::vector<double> all = numbers(path);
+  return std::ranges::adjacent_find(all, std::ranges::not_equal_to()) == all.end();
+}
+
+void RemedySettings::add_scaled(const std::string& path, double factor, std::vector<std::string>& sets) const {
+  if (const Node* node = find(path)) {
+    sets.push_back(fmt::format("{}={}", path, scaled_text(*node, factor, "")));
+    return;
+  }
+  const auto [list, key] = split(path);
+  const Node* node = find(list);
+  if (node != nullptr && node->kind == Node::Kind::list && !node->items.empty())
+    sets.push_back(fmt::format("{}={}", list, scaled_text(*node, factor, key)));
+}
+
 std::vector<std::string> RemedySettings::scaled(const RemedyKey& key, double factor) const {
   std::vector<std::string> sets;
-  for (const char* path : key.paths) sets.push_back(fmt::format("{}={}", path, scaled_text(*find(path), factor)));
+  for (const char* path : key.paths) add_scaled(path, factor, sets);
+  for (const char* path : key.also) add_scaled(path, factor, sets);
   const Node* duration = find("duration");
   if (key.stretches && factor < 1 && duration != nullptr) {
     constexpr double kTick = 1000;  // 1/s

@@ -13,28 +13,36 @@ struct RemedyKey {
   const char* name;                ///< name in messages and in remedy.json
   std::vector<const char*> paths;  ///< keys of the scenario
   const char* unit;
-  bool stretches = false;  ///< true: a smaller value makes the duration longer, so that the run has as many periods
+  std::vector<const char*> also = {};  ///< keys that change by the same factor if the scenario has them
+  bool stretches = false;              ///< true: a smaller value makes the duration longer, so that the run has as many periods
 };
 
 /// All settings, in the order in which they are printed.
 std::span<const RemedyKey> remedy_keys();
 
-/// Numbers of a resolved scenario, by key. Values of single joints and entries of lists count as numbers of their key.
+/// Numbers of a resolved scenario, by key. Values of single joints and entries of lists count as numbers of their key. A path
+/// `ground.boxes.friction` means this key in every entry of a list.
 class RemedySettings {
  public:
   /// Throws InputError if the text is not a scenario.
   explicit RemedySettings(const std::string& resolved);
 
-  /// True if every path of the key exists and has a number other than 0.
-  [[nodiscard]] bool has(const RemedyKey& key) const;
-  /// The number of the first path; NaN if it has several.
+  /// Reason why the key cannot be changed: a path is missing, has no number other than 0, or is set by an entry of `at`. Empty
+  /// if it can be changed.
+  [[nodiscard]] std::string missing(const RemedyKey& key) const;
+  /// The number of the first path; NaN if there are several numbers or paths.
   [[nodiscard]] double value(const RemedyKey& key) const;
+  /// True if all numbers of a path are equal.
+  [[nodiscard]] bool uniform(const std::string& path) const;
   /// Settings in the form of --set that multiply every number of the key by `factor`. A key that stretches also sets the
   /// duration, rounded up to 1 ms.
   [[nodiscard]] std::vector<std::string> scaled(const RemedyKey& key, double factor) const;
 
  private:
   [[nodiscard]] const Node* find(const std::string& path) const;
+  [[nodiscard]] std::vector<double> numbers(const std::string& path) const;
+  [[nodiscard]] bool changes_in_time(const std::string& path) const;
+  void add_scaled(const std::string& path, double factor, std::vector<std::string>& sets) const;
 
   Node root_;
 };

@@ -81,7 +81,7 @@ struct Verdict {
   std::string draws_text = {};  ///< `feasible in 14 of 16 robots; voltage fails in 2 (m6/active)`; empty without draws
   /// Joints whose own checks are not judged: `m3/active: not judged (dead from t = 10 s)`.
   std::vector<std::string> faults = {};
-  std::string remedy = {};  ///< text of remedy.json (report/remedy/remedy_text.h); empty if no remedy was searched
+  std::string remedy = {};  ///< shown_remedy() (report/remedy/remedy_text.h); empty if no remedy was searched
   [[nodiscard]] std::size_t count(CheckStatus status) const;
   /// Failing checks: first the deciding check, then those of the robot as a whole, then by margin.
   [[nodiscard]] std::vector<const Check*> failures() const;

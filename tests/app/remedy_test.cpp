@@ -66,9 +66,9 @@ TEST_F(RemedyCommand, NeededCurrentIsThatOfAStrongerMotor) {
   const Result of_run = call("remedy again --by i_max -j 2");
   ASSERT_EQ(of_run.code, 0) << of_run.err;
   EXPECT_EQ(read(folder_ / "again/remedy.json"), read(folder_ / "weak/remedy.json"));
-  EXPECT_TRUE(contains(read(folder_ / "again/report.html"), "\"remedy\":{\"format\":1"));
+  EXPECT_TRUE(contains(read(folder_ / "again/report.html"), "\"remedy\":{\"verdict\":\"infeasible\""));
   ASSERT_EQ(call("report again --out later").code, 0);  // reads remedy.json of the folder
-  EXPECT_TRUE(contains(read(folder_ / "later/report.html"), "\"remedy\":{\"format\":1"));
+  EXPECT_TRUE(contains(read(folder_ / "later/report.html"), "\"remedy\":{\"verdict\":\"infeasible\""));
 }
 
 TEST_F(RemedyCommand, AFeasibleGaitHasReserves) {
@@ -80,6 +80,25 @@ TEST_F(RemedyCommand, AFeasibleGaitHasReserves) {
   const json answer = answer_by(read_json("strong/remedy.json"), "i_max", "down");
   EXPECT_GE(answer["value"], needed * 0.99);
   EXPECT_LE(answer["value"], needed + 0.15 * (1.2 - needed));  // a tenth of the change, and the error of the torque
+}
+
+// If the ratings of joints differ, the answer is a factor on all of them.
+TEST_F(RemedyCommand, RatingsThatDifferAreAFactor) {
+  const Result result = call(
+      "remedy creep.yaml --no-report --by friction --out rated --set actuator.i_continuous='{default: 0.1, m0/active: 0.01}'");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const json rating = read_json("rated/remedy.json")["ratings"][0];
+  EXPECT_EQ(rating["same"], false);
+  const double times = rating["rating"].get<double>() / rating["now"].get<double>();
+  EXPECT_TRUE(contains(result.out, "remedy    feasible with i_continuous of ")) << result.out;
+  EXPECT_TRUE(contains(result.out, " times the ratings (")) << result.out;
+  const auto code_with = [&](double factor) {
+    return call("run creep.yaml --no-report --quiet --fail-infeasible --set actuator.i_continuous='{default: " +
+                std::to_string(0.1 * factor) + ", m0/active: " + std::to_string(0.01 * factor) + "}'")
+        .code;
+  };
+  EXPECT_EQ(code_with(times), 0);
+  EXPECT_EQ(code_with(1 + 0.9 * (times - 1)), 3);
 }
 
 TEST_F(RemedyCommand, ARunThatIsNotJudgedHasNone) {
@@ -100,10 +119,16 @@ TEST_F(RemedyCommand, OptionsOfNewRunsAreRefusedForAFolder) {
   }
   EXPECT_EQ(call("remedy missing.yaml").code, 2);
   refused("remedy creep.yaml --by imax", "--by: error: setting 'imax' is unknown; did you mean 'i_max'?");
-  folder_.write("old/remedy.json", "{}");
-  const Result report = call("report old");
-  EXPECT_EQ(report.code, 0);
-  EXPECT_TRUE(contains(report.err, "old/remedy.json: note: is not a remedy of this program; it is not shown")) << report.err;
+  // A file that is damaged or forged is not shown.
+  const std::string deep = R"({"format": 1, "text": )" + std::string(200000, '[') + std::string(200000, ']') + "}";
+  for (const std::string& text :
+       {std::string(), std::string("{}"), std::string(R"({"format": "x"})"), std::string(R"({"format": 1})"), deep}) {
+    folder_.write("old/remedy.json", text);
+    const Result report = call("report old");
+    EXPECT_EQ(report.code, 0) << text.substr(0, 40);
+    EXPECT_TRUE(contains(report.err, "old/remedy.json: note: is damaged or belongs to another run or verdict; it is not shown"))
+        << report.err;
+  }
 }
 
 }  // namespace

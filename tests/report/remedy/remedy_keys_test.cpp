@@ -1,9 +1,11 @@
-// Numbers of a resolved scenario multiplied by key: scalars, maps by joint, lists, and keys that are missing.
+// Numbers of a resolved scenario multiplied by key: scalars, maps by joint, lists, boxes, keys that are missing or change in
+// time.
 #include "report/remedy/remedy_keys.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include "core/scenario/resolved.h"
+#include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
@@ -28,10 +30,10 @@ TEST(RemedySettings, MultipliesNumbersWhereTheyStand) {
   EXPECT_EQ(settings.scaled(remedy_key("u_max"), 0.5), Sets{"actuator.u_max=3.7"});
   EXPECT_EQ(settings.scaled(remedy_key("amplitude"), 2),
             Sets{"cpg.amplitude={\"default\": 1, \"*/gamma\": 0, \"m3/active\": 0.4}"});
-  EXPECT_EQ(settings.scaled(remedy_key("u_max and i_max"), 2), (Sets{"actuator.u_max=14.8", "actuator.i_max=[2.4, 1.2]"}));
+  EXPECT_EQ(settings.scaled(remedy_key("u_max with i_max"), 2), (Sets{"actuator.u_max=14.8", "actuator.i_max=[2.4, 1.2]"}));
   EXPECT_EQ(settings.value(remedy_key("frequency")), 0.25);
   EXPECT_TRUE(std::isnan(settings.value(remedy_key("amplitude"))));
-  EXPECT_TRUE(std::isnan(settings.value(remedy_key("u_max and i_max"))));
+  EXPECT_TRUE(std::isnan(settings.value(remedy_key("u_max with i_max"))));
 }
 
 TEST(RemedySettings, ASlowerGaitIsRunForLonger) {
@@ -43,12 +45,47 @@ TEST(RemedySettings, ASlowerGaitIsRunForLonger) {
 
 TEST(RemedySettings, AKeyWithoutNumbersIsMissing) {
   const RemedySettings settings("cpg: {type: table, amplitude: {default: 0}}\nactuator: {u_max: 0, i_max: 1}\nduration: 1\n");
-  EXPECT_FALSE(settings.has(remedy_key("frequency")));
-  EXPECT_FALSE(settings.has(remedy_key("amplitude")));
-  EXPECT_FALSE(settings.has(remedy_key("u_max")));
-  EXPECT_FALSE(settings.has(remedy_key("u_max and i_max")));
-  EXPECT_FALSE(settings.has(remedy_key("friction")));
-  EXPECT_TRUE(settings.has(remedy_key("i_max")));
+  for (const char* name : {"frequency", "amplitude", "u_max", "u_max with i_max", "friction"})
+    EXPECT_EQ(settings.missing(remedy_key(name)), "missing or 0") << name;
+  EXPECT_EQ(settings.missing(remedy_key("i_max")), "");
+}
+
+TEST(RemedySettings, AKeyThatChangesDuringTheRunIsLeftOut) {
+  const RemedySettings settings(
+      "cpg: {frequency: 1, amplitude: 0.5}\ncontroller: {Kp: 100}\nduration: 9\n"
+      "at:\n  - {t: 3, set: {cpg.amplitude: 0.3}}\n  - {t: 4, set: {controller.Kp.m3/active: 80}}\n  - {t: 5, fault: {joint: "
+      "m3/active, kind: dead}}\n");
+  EXPECT_EQ(settings.missing(remedy_key("amplitude")), "set by `at`");
+  EXPECT_EQ(settings.missing(remedy_key("Kp")), "set by `at`");
+  EXPECT_EQ(settings.missing(remedy_key("frequency")), "");
+}
+
+TEST(RemedySettings, FrictionIsThatOfBoxesToo) {
+  const RemedySettings settings(
+      "ground: {friction: 0.5, boxes: [{center: [1, 2, 3], friction: 0.4, mass: 0}, {center: [0, 0, 1], friction: 0.8}]}\n");
+  EXPECT_EQ(settings.scaled(remedy_key("friction"), 2),
+            (Sets{"ground.friction=1",
+                  "ground.boxes=[{\"center\": [1, 2, 3], \"friction\": 0.8, \"mass\": 0}, {\"center\": [0, 0, "
+                  "1], \"friction\": 1.6}]"}));
+}
+
+// The settings of an answer mean the same for the user's file and for the resolved scenario, which the search reads.
+TEST(RemedySettings, MeanTheSameForTheFileAndTheResolvedScenario) {
+  const Folder folder;
+  for (const char* file :
+       {"caterpillar.yaml", "hexapod.yaml", "rubble.yaml", "library/rofi-snake.yaml", "library/dtto-caterpillar.yaml"}) {
+    const std::vector<std::string> own{"duration=1"};
+    const std::string text = resolved(shipped(file, own));
+    folder.write("resolved.yaml", text);
+    const RemedySettings settings(text);
+    for (const RemedyKey& key : remedy_keys()) {
+      if (!settings.missing(key).empty()) continue;
+      std::vector<std::string> sets = settings.scaled(key, 1.1);
+      const std::string of_record = resolved(read_scenario(folder / "resolved.yaml", sets, catalog(), ReadAs::record));
+      sets.insert(sets.begin(), own.begin(), own.end());
+      EXPECT_EQ(resolved(shipped(file, sets)), of_record) << file << " " << key.name;
+    }
+  }
 }
 
 }  // namespace
