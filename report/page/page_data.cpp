@@ -146,7 +146,7 @@ Json verdict_json(const Verdict& verdict, const Robot& robot, const Judged& judg
   all.emplace("checks", Json::array());
   for (Json& check : all["checks"]) {
     for (const CheckKind& kind : check_kinds()) {
-      if (check["id"] == kind.id) check["advice"] = kind.remedy;
+      if (check["id"] == kind.id) check["advice"] = verdict.remedy.empty() ? kind.remedy : "";  // a search says more
     }
   }
   all["why"] = verdict.why();

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -78,8 +77,7 @@ Json shown_axis(const Json& axis) {
 
 Json shown_cell(const Json& cell) {
   const std::string word = cell.at("verdict");
-  const bool known = std::ranges::any_of(EnumNames<Word>::kTable, [&](const auto& entry) { return word == entry.text; });
-  if (!known) refuse("verdict");
+  if (!named<Word>(word)) refuse("verdict");
   return {{"verdict", word},
           {"margin", number_or_null(cell.at("margin"))},
           {"speed", number_or_null(cell.at("speed"))},
@@ -105,7 +103,11 @@ std::string to_json(const Remedy& remedy) {
             {"engine", remedy.engine},
             {"runs", remedy.runs}};
   json["text"] = Json::array();
-  for (const ScreenLine& line : remedy_lines(remedy)) json["text"].push_back(line.text);
+  json["tones"] = Json::array();
+  for (const ScreenLine& line : remedy_lines(remedy)) {
+    json["text"].push_back(line.text);
+    json["tones"].push_back(name_of(line.tone));
+  }
   json["answers"] = Json::array();
   for (const RemedyAnswer& answer : remedy.answers) json["answers"].push_back(json_of(answer, remedy.settings));
   json["ratings"] = Json::array();
@@ -131,6 +133,12 @@ std::string shown_remedy(const std::string& text, const std::string& scenario_ha
     return "";
   Json shown{{"verdict", name_of(word)}, {"runs", json.at("runs").get<std::size_t>()}};
   shown["text"] = json.at("text").get<std::vector<std::string>>();
+  shown["tones"] = Json::array();
+  for (const std::string& tone : json.at("tones").get<std::vector<std::string>>()) {
+    if (!named<Tone>(tone)) refuse("tones");
+    shown["tones"].push_back(tone);
+  }
+  if (shown["tones"].size() != shown["text"].size()) refuse("tones");
   if (json.contains("map")) shown["map"] = shown_map(json["map"]);
   return shown.dump(-1, ' ', false, Json::error_handler_t::replace);
 } catch (const Json::exception&) {

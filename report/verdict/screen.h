@@ -10,6 +10,17 @@ namespace gaitlab::report {
 
 enum class Tone { plain, good, doubtful, bad };
 
+}  // namespace gaitlab::report
+
+template <>
+struct gaitlab::EnumNames<gaitlab::report::Tone> {
+  using enum gaitlab::report::Tone;
+  static constexpr EnumName<gaitlab::report::Tone> kTable[] = {
+      {plain, "plain"}, {good, "good"}, {doubtful, "doubtful"}, {bad, "bad"}};
+};
+
+namespace gaitlab::report {
+
 struct ScreenLine {
   std::string title;  ///< "" if the line continues the previous line
   std::string text;

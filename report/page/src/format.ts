@@ -125,7 +125,7 @@ export interface Check {
   first: number | null; // first time at which a part is beyond the limit, s
   first_part: string | null; // name of the part that is beyond the limit first
   remedy: string; // setting that helps, if one is known
-  advice: string; // general remedy
+  advice: string; // general remedy; "" if a remedy was searched
   missing: string;
   definition: string;
   source: string;
@@ -158,6 +158,7 @@ export interface Verdict {
 export interface Remedy {
   verdict: Verdict["verdict"];
   text: string[]; // lines as on the terminal
+  tones: ("good" | "plain" | "doubtful" | "bad")[]; // of the lines
   runs: number;
   map?: RemedyMap;
 }

@@ -10,9 +10,9 @@ const left = 46;
 const top = 4;
 const bottom = 34;
 
-export function remedy({ verdict, text, runs, map }: Remedy): void {
+export function remedy({ verdict, text, tones, runs, map }: Remedy): void {
   element("remedy-h").textContent = verdict === "feasible" ? "Reserves of this gait" : "Changes that make it feasible";
-  element("remedy").append(...text.map((line) => make("li", capital(symbols(line)))));
+  element("remedy").append(...text.map((line, k) => make(`li.${tones[k]}`, capital(symbols(line)))));
   element("remedy-note").textContent =
     `${runs} runs, one setting at a time.` +
     (map ? " In the map the ring is this run; stronger colours are faster." : "");
