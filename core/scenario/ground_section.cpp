@@ -61,8 +61,8 @@ struct HeightfieldFields {
   }
 };
 
-/// Visits the settings of a type of ground. Their key is the name of the type. A type without settings has no overload. `writing` is
-/// true if the whole ground is of this type and is being written.
+/// Visits the settings of a type of ground. Their key is the name of the type. A type without settings has no overload.
+/// `writing` is true if the whole ground is of this type and is being written.
 template <class Shape>
 void shape_fields(Fields&, Shape&, bool /*writing*/) {}
 
