@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/app.h"
 #include "app/stored_scenario.h"
 #include "report/page/page_data.h"
 

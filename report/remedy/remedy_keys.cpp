@@ -19,7 +19,7 @@ const std::vector<RemedyKey> kKeys{
     {"u_max", {"actuator.u_max"}, "V"},
     {"i_max", {"actuator.i_max"}, "A"},
     {"u_max with i_max", {"actuator.u_max", "actuator.i_max"}, ""},
-    {"stall_torque", {"actuator.stall_torque"}, "N m", {"actuator.stall_current"}},
+    {"stall_torque", {"actuator.stall_torque"}, "N m"},
     {"Kp", {"controller.Kp"}, ""},
     {"friction", {"ground.friction"}, "", {"ground.boxes.friction"}},
 };
