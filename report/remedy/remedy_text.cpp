@@ -129,7 +129,7 @@ void add_cures(const Remedy& remedy, Lines& lines) {
   }
   if (remedy.ratings_suffice) return;
   for (const std::string& rating : ratings)
-    lines.add("without a change of the motion " + rating + ", which alone does not suffice");
+    lines.add("the present motion also needs " + rating + ", which alone does not suffice");
 }
 
 /// Lines on answers that are not confirmed, and on values that the scenario cannot have.
