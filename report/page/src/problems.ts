@@ -57,11 +57,13 @@ export class Problems {
 
   private say(): void {
     const { all, at } = this;
-    const { status } = all[at];
+    const { status, id } = all[at];
+    const { tightest } = this.run.recording.meta.verdict;
+    const word = status === "pass" && id !== tightest ? "Hardest worked" : words[status];
     const count = all.length > 1 ? ` ${at + 1} of ${all.length}` : "";
     element("problem").dataset.status = status;
     const found = this.found(all[at]);
-    element("problem-text").replaceChildren(make("b", `${words[status]}${count}`), ` ${found}`);
+    element("problem-text").replaceChildren(make("b", `${word}${count}`), ` ${found}`);
     element("problem-text").title = found;
     element("next-problem").firstChild!.textContent = all.length > 1 ? "Next " : "Show ";
   }

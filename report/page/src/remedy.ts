@@ -14,8 +14,10 @@ export function remedy({ verdict, text, tones, runs, map }: Remedy): void {
   element("remedy-h").textContent = verdict === "feasible" ? "Reserves of this gait" : "Changes that make it feasible";
   element("remedy").append(...text.map((line, k) => make(`li.${tones[k]}`, capital(symbols(line)))));
   element("remedy-note").textContent =
-    `${runs} runs, one setting at a time.` +
-    (map ? " In the map the ring is this run; stronger colours are faster." : "");
+    `${runs} runs; each line changes one setting.` +
+    (map
+      ? " Map: green gaits are feasible, stronger green is faster; the ring is this run; both axes are logarithmic."
+      : "");
   if (map) element("remedy-map").append(drawn(map));
 }
 
