@@ -56,7 +56,7 @@ CASES = [
     ("elbows", "elbows.yaml", ["actuator.stall_torque=1"], ["amplitude"]),
     ("upside down", "hexapod", FAST + ["duration=8", "robot.orientation=[0.9,0,0]"], []),
     ("overlap", "caterpillar", FAST + ["duration=8", "cpg.offset=1.35"], []),
-    ("soft ground", "hexapod", FAST + ["duration=8", "contact.stiffness=150"], []),
+    ("few contacts", "library/ckbot-worm", ["duration=8", "contact.on=feet"], []),
 ]
 
 
