@@ -50,7 +50,7 @@ CASES = [
     ("tracking", "caterpillar", FAST + ["controller.Kp=14"], ["Kp"]),
     ("heat", "caterpillar", FAST + ["actuator.i_continuous=0.25"], ["i_continuous"]),
     ("gears", "caterpillar", FAST + ["actuator.gear_torque_peak=0.9"], ["gear_torque_peak"]),
-    ("servo", "library/yamor-worm", ["actuator.stall_torque=0.4"], ["stall_torque"]),
+    ("servo", "library/yamor-worm", ["duration=10", "actuator.stall_torque=0.4"], ["stall_torque"]),
     ("polybot", "library/polybot-worm", ["cpg.frequency=3"], ["frequency"]),
     ("docks", "elbows.yaml", [], ["docks"]),
     ("elbows", "elbows.yaml", ["actuator.stall_torque=1"], ["amplitude"]),
