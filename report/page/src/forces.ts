@@ -40,6 +40,7 @@ export class Forces {
   private readonly shafts: InstancedMesh[];
   private readonly tips: InstancedMesh[];
   private readonly dots: InstancedMesh[];
+  private readonly ends: (Vector3 | null)[] = []; // of the arrows at the present time; null without an arrow
 
   constructor(
     private readonly recording: Recording,
@@ -90,6 +91,11 @@ export class Forces {
     return most;
   }
 
+  /** Ends of the arrows that are shown, which the picture has to contain. */
+  points(): Vector3[] {
+    return this.shown ? this.ends.filter((end) => end !== null) : [];
+  }
+
   get any(): boolean {
     return this.arrows.length > 0;
   }
@@ -118,6 +124,7 @@ export class Forces {
       const matrix = shown ? new Matrix4().compose(middle, turn, size) : unseen;
       for (const mesh of meshes) mesh.setMatrixAt(n, matrix);
     };
+    this.ends[n] = shown ? up.clone().applyQuaternion(turn).multiplyScalar(length).add(point) : null;
     put(this.shafts, 0, new Vector3(wide, length - tip, wide));
     put(this.tips, length - tip, new Vector3(wide, tip, wide));
     put(this.dots, 0, new Vector3(unit, unit, unit));

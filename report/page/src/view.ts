@@ -305,6 +305,7 @@ export class View {
     return [
       ...this.robot.points(),
       ...this.travel.points(),
+      ...this.arrows.points(),
       ...(this.second?.ghost.covers(this.time) ? this.second.robot.points() : []),
     ];
   }
