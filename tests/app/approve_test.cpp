@@ -172,7 +172,7 @@ TEST_F(ApproveCommand, AQuantisedScenarioHasAGoldenOfMeans) {
   const auto write = [&](const std::string& more) {
     folder.write("steps.yaml",
                  "gaitlab: 1\nname: steps\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\ncontact: {on: all}\n"
-                 "physics: {engine: articulated}\nduration: 3\n"
+                 "physics: {engine: articulated}\nduration: 1.5\n"
                  "cpg: {type: phase_oscillator, frequency: 1, amplitude: 0.6, phase_lag: 1.2}\n"
                  "sensors: {encoder: {type: encoder, resolution: 0.00511}}\n" +
                      more);
