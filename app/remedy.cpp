@@ -1,5 +1,4 @@
-// `gaitlab remedy`, which searches the changes that make a gait feasible: of a scenario, which it runs first, or of a run
-// folder.
+// `gaitlab remedy`: search for the changes that make a gait feasible. A scenario is run first; a run folder is read.
 #include "report/remedy/remedy.h"
 
 #include <fmt/format.h>
@@ -115,7 +114,7 @@ Remedied take_remedy(const Scenario& scenario, report::Verdict& verdict, const R
   const std::string json = report::to_json(*made);
   verdict.remedy = report::shown_remedy(json, made->scenario, verdict.word);
   if (arguments.map && !made->map)
-    say("--map", "note", "no map is drawn, because the scenario has no frequency and amplitude that can be changed");
+    say("--map", "note", "the map is left out, because frequency or amplitude cannot be changed in this scenario");
   return {report::remedy_lines(*made), json, true};
 } catch (const InputError& error) {
   say(error.what());

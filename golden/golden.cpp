@@ -12,6 +12,7 @@
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
 #include "core/files/folder_lock.h"
+#include "core/files/shallow_json.h"
 
 namespace gaitlab::golden {
 
@@ -116,22 +117,12 @@ std::string json_text(const Golden& golden, std::string_view trace_bytes) {
 
 InputError wrong(const fs::path& file, std::string text) { return {SourceLocation{file.string()}, std::move(text)}; }
 
-/// Parses JSON. The result is discarded if the text is not JSON, or nested deeper than a golden, because copies of deeply
-/// nested data would overflow the stack.
-Json parsed(const std::string& text) {
-  constexpr int kDeepest = 8;
-  bool deep = false;
-  Json json = Json::parse(
-      text, [&](int depth, Json::parse_event_t, Json&) { return !(deep = deep || depth > kDeepest); }, false);
-  return deep ? Json(Json::value_t::discarded) : json;
-}
-
 // Parses the document and checks version and checksum.
 Json checked(const fs::path& file, const std::string& text) {
   if (text.empty()) throw wrong(file, "is truncated: 0 bytes");
   const std::string start = fmt::format("{{\n  \"{}\": ", kVersionKey);
   const bool ours = text.starts_with(start);
-  Json json = parsed(text);
+  Json json = shallow_json(text);
   if (!ours && !start.starts_with(text) && (json.is_discarded() || !json.is_object() || !json.contains(kVersionKey)))
     throw wrong(file, "is not a golden of gaitlab");
   if (json.is_discarded()) {
@@ -211,7 +202,7 @@ void take_bands(const Json& columns, Golden& golden) {
 void finish_rename(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder / kNextTraceFile, error) || !fs::exists(folder / kJsonFile, error)) return;
-  const Json json = parsed(read_file(folder / kJsonFile, kMostJson));
+  const Json json = shallow_json(read_file(folder / kJsonFile, kMostJson));
   if (!json.is_object() || !json.contains("trace") || json["trace"] != hash(read_file(folder / kNextTraceFile, kMostTrace)))
     return;
   fs::rename(folder / kNextTraceFile, folder / kTraceFile, error);

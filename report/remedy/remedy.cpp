@@ -13,6 +13,7 @@
 #include "core/scenario/resolved.h"
 #include "report/analysis/collisions.h"
 #include "report/verdict/load_checks.h"
+#include "report/verdict/number_texts.h"
 
 namespace gaitlab::report {
 
@@ -34,12 +35,7 @@ constexpr double kRunsPerAnswer = 8;   // for the estimate of the work only
 /// Settings multiplied together, each by a factor.
 using Change = std::vector<std::pair<const RemedyKey*, double>>;
 
-std::string spaced(std::string id) {
-  std::ranges::replace(id, '_', ' ');
-  return id;
-}
-
-std::string name(const Check& check) { return spaced(check.id) + (check.worst.empty() ? "" : " of " + check.worst); }
+std::string name(const Check& check) { return texts::spaced(check.id) + (check.worst.empty() ? "" : " of " + check.worst); }
 
 /// Deciding check of a verdict and its part; for a feasible run the check with the least margin.
 std::string weakest(const Verdict& verdict) {

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/files/shallow_json.h"
 #include "report/remedy/remedy_text.h"
 
 namespace gaitlab::report {
@@ -56,15 +57,6 @@ Json json_of(const RemedyMap& map, const RemedySettings& settings) {
 }
 
 // ---- remedy.json read, which may be damaged or forged
-
-/// Parses JSON that is nested at most as deep as a remedy. Discarded for other texts.
-Json parsed(const std::string& text) {
-  constexpr int kDeepest = 8;
-  bool deep = false;
-  Json json = Json::parse(
-      text, [&](int depth, Json::parse_event_t, Json&) { return !(deep = deep || depth > kDeepest); }, false);
-  return deep ? Json(Json::value_t::discarded) : json;
-}
 
 /// The value as a number, or null. Throws Json::type_error for another type.
 Json number_or_null(const Json& json) { return json.is_null() ? Json() : Json(json.get<double>()); }
@@ -127,7 +119,7 @@ std::string to_json(const Remedy& remedy) {
 }
 
 std::string shown_remedy(const std::string& text, const std::string& scenario_hash, Word word) try {
-  const Json json = parsed(text);
+  const Json json = shallow_json(text);
   if (!json.is_object() || json.at("format") != kFormat || json.at("scenario") != scenario_hash ||
       json.at("verdict") != name_of(word))
     return "";

@@ -27,7 +27,7 @@ class RemedySettings {
   /// Throws InputError if the text is not a scenario.
   explicit RemedySettings(const std::string& resolved);
 
-  /// Reason why the key cannot be changed: a path is missing, has no number other than 0, or is set by an entry of `at`. Empty
+  /// Reason why the key cannot be changed: a path is missing, has only numbers 0, or is set by an entry of `at`. Empty
   /// if it can be changed.
   [[nodiscard]] std::string missing(const RemedyKey& key) const;
   /// The number of the first path; NaN if there are several numbers or paths.

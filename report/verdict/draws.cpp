@@ -70,11 +70,6 @@ bool accurate(const Scenario& scenario, const Recording& record) {
          predictability(scenario, record) == Predictability::predictable;
 }
 
-std::string spaced(std::string id) {
-  std::ranges::replace(id, '_', ' ');
-  return id;
-}
-
 }  // namespace
 
 Drawn draws(const Scenario& scenario, const Rolled& run, std::span<const Scenario> others, const BatchSettings& settings,
@@ -161,7 +156,7 @@ std::string draws_text(std::span<const Draw> draws, bool robots) {
   constexpr std::size_t kFew = 3;
   for (const auto& [check, failure] : ordered) {
     const std::size_t shown = std::min(failure.parts.size(), kFew);
-    text += fmt::format("; {} fails in {}", spaced(check), failure.count);
+    text += fmt::format("; {} fails in {}", texts::spaced(check), failure.count);
     if (shown > 0) {
       text += fmt::format(" ({}{})",
                           fmt::join(failure.parts.begin(), failure.parts.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
@@ -180,7 +175,8 @@ std::string draws_table(std::span<const Draw> draws, std::size_t most) {
     ++shown;
     std::string failing;
     for (const FailedCheck& failed : draw.failing) {
-      failing += (failing.empty() ? "" : ", ") + spaced(failed.check) + (failed.part.empty() ? "" : " of " + failed.part);
+      failing +=
+          (failing.empty() ? "" : ", ") + texts::spaced(failed.check) + (failed.part.empty() ? "" : " of " + failed.part);
     }
     std::string row = fmt::format("  {:>10}  {:<10}  {:>11.3f}  {:>10.3f}  {:>9.4f}  {:>8}  {}", draw.seed, name_of(draw.word),
                                   draw.torque_peak, draw.torque_rms, draw.distance, texts::percent(draw.margin), failing);

@@ -35,6 +35,11 @@ std::string rough_percent(double share) {
   return share >= 1 ? fmt::format("{:.0f} %", 100 * share) : fmt::format("{:.{}g} %", 100 * share, share < 0.1 ? 2 : 3);
 }
 
+std::string spaced(std::string id) {
+  std::ranges::replace(id, '_', ' ');
+  return id;
+}
+
 std::string length(double metres) {
   const double size = std::abs(metres);
   if (size < 0.9995) return fmt::format("{:.3g} mm", 1000 * metres);

@@ -14,6 +14,9 @@ std::string percent(double share);
 /// Percentage of an estimate, with two digits, or three from 10 % on. Above 1000 % it is `1000 % and more`.
 std::string rough_percent(double share);
 
+/// Id of a check in a sentence: `gear_peak` becomes `gear peak`.
+std::string spaced(std::string id);
+
 /// Length with three digits, in mm below 1 m (`5.2 mm`), in m below 1 km, then in km.
 std::string length(double metres);
 

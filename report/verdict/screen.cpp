@@ -81,8 +81,7 @@ Tone tone_of(Word word) { return word == Word::feasible ? Tone::good : word == W
 std::string tightest_text(const Verdict& verdict) {
   const Check* const check = verdict.tightest();
   if (check == nullptr) return "";
-  std::string name = check->id;
-  std::ranges::replace(name, '_', ' ');
+  std::string name = texts::spaced(check->id);
   if (!check->worst.empty()) name += " of " + check->worst;
   return fmt::format("{}, margin {}", name, texts::percent(check->margin));
 }
