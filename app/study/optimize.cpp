@@ -93,13 +93,13 @@ void say_verification(const fs::path& folder, std::size_t points) {
 
 /// Prints the result of a search, and simulates the best verified point again for its run folder. Returns the exit code.
 int finish_search(const Plan& plan, Journal& journal, const studies::Results& results,
-                  const std::vector<studies::Verification>& tried, const fs::path& folder, bool converged, bool quiet) {
+                  const std::vector<studies::Verification>& tried, const fs::path& folder, SearchEnd end, bool quiet) {
   const std::vector<std::uint64_t> stood = studies::verified(tried);
   std::vector<std::string> files = write_study_files(journal, results, folder);
   if (!quiet) {
     constexpr std::size_t kShown = 5;
     fmt::print("{}", study_summary(journal, results, folder, kShown));
-    if (converged) fmt::print("all searches have converged before the budget was used\n");
+    if (end == SearchEnd::converged) fmt::print("all searches have converged before the budget was used\n");
   }
   if (!stood.empty()) {
     if (!quiet) fmt::print("\nrun {}, the best verified point, with its trace and page:\n", stood.front());
@@ -109,7 +109,10 @@ int finish_search(const Plan& plan, Journal& journal, const studies::Results& re
   if (!quiet) fmt::print("files in {}: {}, {}\n", folder.string(), studies::kJournalFile, fmt::join(files, ", "));
   if (!stood.empty() || stopped()) return 0;
   const std::string show = "`gaitlab study show " + shell_word(folder.string()) + "`";
-  if (tried.empty()) {
+  if (end == SearchEnd::refused) {
+    say(fmt::format("{}: the search has ended, because the scenario refused all {} points of the first block: {}\n",
+                    folder.string(), results.points.size(), results.failures.by_outcome.at("refused").message));
+  } else if (tried.empty()) {
     say(fmt::format("{}: no point is kept; {} says which limits most runs break\n", folder.string(), show));
   } else {
     say(fmt::format(
@@ -172,7 +175,7 @@ int optimize_study(const OptimizeArguments& a) {
   if (!tried) return interrupted();
   journal.write(*tried);
   if (!add_faults(plan, journal, results, *tried, executor, a.quiet)) return interrupted();
-  const int code = finish_search(plan, journal, results, *tried, folder, end == SearchEnd::converged, a.quiet);
+  const int code = finish_search(plan, journal, results, *tried, folder, end, a.quiet);
   return stopped() ? interrupted() : code;
 }
 

@@ -73,6 +73,7 @@ BoundStudy::BoundStudy(Study study, const QuantityOffer& offer, Catalog& catalog
     find_nominal(scenarios_[s], found[s]);
   }
   add_of_each(scenarios_, found, problems);
+  find_starts(problems);
   find_columns(offer, problems);
   choose_shown(problems);
   if (shown_.empty()) problems.raise();  // the default objective is the first shown quantity
@@ -110,6 +111,44 @@ void BoundStudy::find_nominal(StudyScenario& scenario, Problems& problems) const
     const Reading<double> value = node == nullptr ? Reading<double>{0, "is not a key of the scenario"} : read_number(*node, "");
     if (!value.ok()) problems.add(v.place, v.key + " " + value.wrong + "; `times` needs a number in the scenario");
     scenario.nominal_values[v.key] = value.value;
+  }
+}
+
+namespace {
+
+/// The scenario's own value of a parameter in the form of --set; "" if it is not known or not among the parameter's values. Any
+/// listed value counts as the scenario's own, because each has a search that begins there.
+std::string own_value(const Node& root, const Parameter& p) {
+  if (!p.values.empty()) return p.values.front();
+  const Node* node = p.sets.empty() ? find_key(root, p.key) : nullptr;
+  if (node == nullptr) return "";
+  const Reading<double> number = read_number(*node, "");
+  return number.ok() && number.value >= p.low && number.value <= p.high ? number_text(number.value) : "";
+}
+
+}  // namespace
+
+void BoundStudy::find_starts(Problems& problems) {
+  if (!is_search(study_.method)) return;
+  const Node root = parse_yaml(scenarios_.front().resolved, scenarios_.front().nominal.file);
+  std::vector<std::string> own;
+  for (const Parameter& p : study_.parameters) own.push_back(own_value(root, p));
+  if (std::ranges::find(own, "") == own.end()) starts_.push_back(own);
+  for (const StartPoint& start : study_.starts) {
+    std::vector<std::string> values = own;
+    for (const auto& [key, value] : start.values) {
+      const auto p = std::ranges::find(study_.parameters, key, &Parameter::key);
+      values[static_cast<std::size_t>(p - study_.parameters.begin())] = value;
+    }
+    const auto unknown = std::ranges::find(values, "");
+    if (unknown != values.end()) {
+      const Parameter& p = study_.parameters[static_cast<std::size_t>(unknown - values.begin())];
+      problems.add(start.place,
+                   fmt::format("this point has no {}, and the scenario's own value is not within its range; expected "
+                               "{}: VALUE",
+                               p.key, p.key));
+    }
+    starts_.push_back(std::move(values));
   }
 }
 

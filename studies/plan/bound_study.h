@@ -34,6 +34,9 @@ class BoundStudy {
   /// Columns of the quantities to show: those that match the study's patterns, in the order of the patterns. If the study has
   /// no patterns, the speed is shown.
   [[nodiscard]] const std::vector<std::size_t>& shown() const { return shown_; }
+  /// First points of a search, by the values of all parameters in the form of --set: the first scenario's own values, if all
+  /// are known and within the ranges, then the study's `start`.
+  [[nodiscard]] const std::vector<std::vector<std::string>>& starts() const { return starts_; }
   /// The scenario with this number and with additional settings. Throws InputError if the scenario refuses their values. Only
   /// one thread at a time may call this.
   [[nodiscard]] Scenario with(const std::vector<std::string>& sets, std::size_t scenario) const {
@@ -43,6 +46,7 @@ class BoundStudy {
  private:
   void check_own_names(std::size_t scenario, Problems& problems) const;
   void find_nominal(StudyScenario& scenario, Problems& problems) const;
+  void find_starts(Problems& problems);
   void find_columns(const QuantityOffer& offer, Problems& problems);
   void choose_shown(Problems& problems);
   void check_stops(Problems& problems) const;
@@ -57,6 +61,7 @@ class BoundStudy {
   std::unique_ptr<Scorer> scorer_;
   std::unique_ptr<StopRules> stops_;
   std::vector<std::size_t> shown_;
+  std::vector<std::vector<std::string>> starts_;
 };
 
 }  // namespace gaitlab::studies

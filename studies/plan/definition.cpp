@@ -34,7 +34,7 @@ std::string search_text(const Study& study) {
   std::string text =
       fmt::format("search: population {}, instances {}, restarts {}",
                   s.population > 0 ? std::to_string(s.population) : "by the number of parameters", s.instances, s.restarts);
-  if (study.method == Method::cma || study.method == Method::xnes) text += ", sigma " + number_text(s.sigma);
+  if (enum_row(study.method).sigma) text += ", sigma " + number_text(s.sigma);
   return text + "\n";
 }
 
@@ -44,6 +44,7 @@ std::string definition(const BoundStudy& bound) {
   const Study& study = bound.study();
   std::string text = fmt::format("seed: {}\nmethod: {}\n", study.seed, study.asked ? "asked" : name_of(study.method));
   if (!study.asked && is_search(study.method)) text += search_text(study);
+  for (const std::vector<std::string>& start : bound.starts()) text += fmt::format("start: {}\n", fmt::join(start, ", "));
   for (const Parameter& p : study.parameters) {
     text += fmt::format("parameter {}: {}\n", p.key,
                         p.values.empty() ? number_range(p) : fmt::format("{}", fmt::join(p.values, ", ")));

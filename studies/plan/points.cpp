@@ -71,6 +71,11 @@ double between(const Parameter& p, double share) {
   return std::min(std::max(number_of(fmt::format("{:.12g}", value)), p.low), p.high);
 }
 
+double share_at(const Parameter& p, double value) {
+  if (p.log) return math::log(value / p.low) / math::log(p.high / p.low);
+  return (value - p.low) / (p.high - p.low);
+}
+
 std::uint64_t Points::points() const {
   const std::uint64_t n = study_.parameters.size();
   if (study_.method == Method::morris) return static_cast<std::uint64_t>(study_.trajectories) * (n + 1);

@@ -44,5 +44,7 @@ std::vector<double> sobol_point(std::size_t dimensions, std::uint64_t number);
 /// Value of a parameter at a share of its range: 0 is low, 1 is high. It is rounded to 12 digits, so that a grid of tenths is
 /// exact.
 double between(const Parameter& parameter, double share);
+/// Share of a parameter's range at a value within it.
+double share_at(const Parameter& parameter, double value);
 
 }  // namespace gaitlab::studies

@@ -51,14 +51,16 @@ pagmo::algorithm made(const EvolutionSettings& s) {
       return pagmo::algorithm(pagmo::pso_gen(1, 0.7298, 2.05, 2.05, 0.5, 5, 2, 4, true, s.seed));
     case Method::nsga2:
       return pagmo::algorithm(pagmo::nsga2(1, 0.95, 10, 1 / static_cast<double>(s.low.size()), 50, s.seed));
-    default:
+    case Method::cma:
       return pagmo::algorithm(pagmo::cmaes(1, kOwn, kOwn, kOwn, kOwn, s.sigma, 0, 0, true, false, s.seed));
+    default:
+      throw std::logic_error("method without an algorithm of pagmo");
   }
 }
 
-class PagmoEvolution : public Evolution {
+class RecordedEvolution final : public PagmoEvolution {
  public:
-  explicit PagmoEvolution(const EvolutionSettings& s) : algorithm_(made(s)) {
+  explicit RecordedEvolution(const EvolutionSettings& s) : algorithm_(made(s)) {
     const std::size_t objectives = s.values.front().size();
     population_ = pagmo::population(pagmo::problem(Recorded{answers_, s.low, s.high, objectives}), 0, s.seed);
     for (std::size_t k = 0; k < s.points.size(); ++k) population_.push_back(s.points[k], s.values[k]);
@@ -93,7 +95,9 @@ class PagmoEvolution : public Evolution {
 
 }  // namespace
 
-std::unique_ptr<Evolution> evolution(const EvolutionSettings& settings) { return std::make_unique<PagmoEvolution>(settings); }
+std::unique_ptr<PagmoEvolution> pagmo_evolution(const EvolutionSettings& settings) {
+  return std::make_unique<RecordedEvolution>(settings);
+}
 
 const char* evolution_library() { return "pagmo " PAGMO_VERSION; }
 

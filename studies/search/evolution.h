@@ -1,15 +1,13 @@
-// A population that evolves by an algorithm of pagmo, while the caller evaluates each generation.
+// A population that evolves, while the caller evaluates each generation.
 #pragma once
 #include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "studies/search/rating.h"
 #include "studies/study/study.h"
 
 namespace gaitlab::studies {
-
-/// Coordinates of a point, or values of the objectives.
-using Vector = std::vector<double>;
 
 struct EvolutionSettings {
   Method algorithm = Method::cma;  ///< one of the search methods
@@ -18,11 +16,12 @@ struct EvolutionSettings {
   double sigma = 0.25;  ///< first step of cma and xnes, as a share of the box
   /// The first population with its objective values. A smaller value is better, and no value is NaN.
   std::vector<Vector> points, values;
+  /// All points of the search so far, for methods with models; the number of those before the present restart.
+  const std::vector<Rated>* rated = nullptr;
+  std::size_t since = 0;
 };
 
-/// An evolving population, for alternate calls of ask() and tell(). Points and end agree bit for bit with pagmo's serial
-/// evolution. A copy first evolves with a problem that records the requested points. When the values of these points are known,
-/// the generation evolves again.
+/// An evolving population, for alternate calls of ask() and tell().
 class Evolution {
  public:
   virtual ~Evolution() = default;
@@ -31,12 +30,19 @@ class Evolution {
   /// Sets the values of the points from ask(). Throws RunError if a point of the generation depends on the value of another
   /// point.
   virtual void tell(const std::vector<Vector>& values) = 0;
-  /// Points of the present population.
+};
+
+/// Evolution by an algorithm of pagmo, bit for bit as pagmo's serial one. A copy of the population first evolves with a problem
+/// that records the requested points. When the values of these points are known, the generation evolves again.
+class PagmoEvolution : public Evolution {
+ public:
+  /// Points of the present population, and their values.
   [[nodiscard]] virtual std::vector<Vector> points() const = 0;
   [[nodiscard]] virtual std::vector<Vector> values() const = 0;
 };
 
-std::unique_ptr<Evolution> evolution(const EvolutionSettings& settings);
+/// `settings.algorithm` is one of cma, xnes, sade, pso, nsga2.
+std::unique_ptr<PagmoEvolution> pagmo_evolution(const EvolutionSettings& settings);
 
 /// Name and version of the library, such as `pagmo 2.18.0`. Other versions may choose other points.
 const char* evolution_library();

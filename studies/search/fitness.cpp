@@ -34,6 +34,14 @@ std::vector<double> fitness(const PointResult& point, const std::vector<JournalO
   return values;
 }
 
+Rating rating(const PointResult& point, const std::vector<JournalObjective>& objectives, double duration) {
+  Rating rating{.fitness = fitness(point, objectives, duration)};
+  if (point.failed > 0) return rating;
+  rating.objective = objectives.front().maximize ? -point.score.objective() : point.score.objective();
+  rating.violation = point.score.violation;
+  return rating;
+}
+
 double fitness_gain(double former, double value) {
   if (!(value < former)) return 0;
   if (kind(former) != kind(value)) return 1;

@@ -1,8 +1,7 @@
-// Fitness of a point for a search: finite numbers in the order of the points.
+// Fitness of a point: finite numbers in the order of the points.
 #pragma once
-#include <vector>
-
 #include "studies/journal/results.h"
+#include "studies/search/rating.h"
 
 namespace gaitlab::studies {
 
@@ -10,6 +9,9 @@ namespace gaitlab::studies {
 /// compressed to below 9e5. A point that is not kept has 1e6 + its violation, at most 1e5. A failed point has 2e6 + 1 -
 /// simulated time / duration, with both times in s.
 std::vector<double> fitness(const PointResult& point, const std::vector<JournalObjective>& objectives, double duration);
+
+/// Rating of a point, with the fitness above.
+Rating rating(const PointResult& point, const std::vector<JournalObjective>& objectives, double duration);
 
 /// Relative improvement of a value over a former best value. It is 1 if the point is of a better kind (failed, not kept, kept).
 double fitness_gain(double former, double value);

@@ -7,15 +7,17 @@
 #include <map>
 
 #include "core/settings/wording.h"
+#include "studies/search/box.h"
 #include "studies/search/fitness.h"
 #include "studies/search/search.h"
+#include "studies/study/number.h"
 #include "studies/study/population.h"
 
 namespace gaitlab::studies {
 
 namespace {
 
-SearchSettings search_settings(const Study& study, std::uint64_t number) {
+SearchSettings search_settings(const Study& study, std::uint64_t number, std::vector<Vector> starts) {
   return {.algorithm = study.method,
           .dimensions = dimensions(study),
           .objectives = study.objectives.size(),
@@ -23,7 +25,8 @@ SearchSettings search_settings(const Study& study, std::uint64_t number) {
           .restarts = static_cast<std::size_t>(study.search.restarts),
           .sigma = study.search.sigma,
           .seed = static_cast<std::uint64_t>(study.seed),
-          .number = number};
+          .number = number,
+          .starts = std::move(starts)};
 }
 
 /// Values of all parameters in the form of --set, from a combination of the listed values and a point in the box of the
@@ -43,10 +46,43 @@ std::vector<std::string> values_at(const Study& study, std::size_t combination, 
   return values;
 }
 
+/// Coordinates of the study's first points for a combination of the listed values, with the values of each. `start` points with
+/// other listed values belong to other combinations; the scenario's own point, the first, belongs to all.
+std::map<Vector, std::vector<std::string>> starts_of(const BoundStudy& bound, std::size_t combination) {
+  const Study& study = bound.study();
+  const std::vector<std::string> listed = values_at(study, combination, Vector(dimensions(study), 0.0));
+  const std::size_t own = bound.starts().size() - study.starts.size();
+  std::map<Vector, std::vector<std::string>> starts;
+  for (std::size_t k = 0; k < bound.starts().size(); ++k) {
+    std::vector<std::string> values = bound.starts()[k];
+    Vector point;
+    bool of_this = true;
+    for (std::size_t p = 0; p < values.size(); ++p) {
+      const Parameter& parameter = study.parameters[p];
+      if (parameter.values.empty()) {
+        point.push_back(share_at(parameter, number_of(values[p])));
+        continue;
+      }
+      of_this = of_this && (k < own || values[p] == listed[p]);
+      values[p] = listed[p];
+    }
+    if (of_this) starts.try_emplace(within_box(std::move(point)), std::move(values));
+  }
+  return starts;
+}
+
+std::vector<Vector> points_of(const std::map<Vector, std::vector<std::string>>& starts) {
+  std::vector<Vector> points;
+  for (const auto& [point, values] : starts) points.push_back(point);
+  return points;
+}
+
 /// One search, with the points of its present generation.
 struct Course {
-  Search search;
   std::size_t combination;
+  std::map<Vector, std::vector<std::string>> starts;
+  Search search;
+  bool refused = false;  ///< true if the scenario refused all points of the first block
   std::vector<std::uint64_t> points = {};
   std::uint64_t first = 0, added = 0;  ///< number of the first new point, and number of new points
 };
@@ -56,8 +92,11 @@ class Optimizer {
   Optimizer(Plan& plan, Journal& journal, RunnerSettings settings)
       : plan_(plan), journal_(journal), runner_(plan, journal, keeping(std::move(settings))), before_(present()) {
     const auto instances = static_cast<std::size_t>(plan.study().search.instances);
-    for (std::size_t s = 0; s < instances * combinations(plan.study()); ++s)
-      courses_.push_back({Search(search_settings(plan.study(), s)), s / instances});
+    for (std::size_t s = 0; s < instances * combinations(plan.study()); ++s) {
+      std::map<Vector, std::vector<std::string>> starts = starts_of(plan.bound(), s / instances);
+      Search search(search_settings(plan.study(), s, points_of(starts)));
+      courses_.push_back({s / instances, std::move(starts), std::move(search)});
+    }
   }
 
   SearchEnd run(const std::function<void(const SearchPlace&)>& told, std::atomic<bool>& stop) {
@@ -66,7 +105,7 @@ class Optimizer {
       const std::uint64_t first = added_;
       whole = ask();
       if (added_ == first && whole && std::ranges::all_of(courses_, [](const Course& c) { return c.points.empty(); }))
-        return SearchEnd::converged;
+        return std::ranges::all_of(courses_, &Course::refused) ? SearchEnd::refused : SearchEnd::converged;
       check(first);
       told(place(added_ - first));
       if (!runner_.run(added_ * runs, stop)) return SearchEnd::stopped;
@@ -94,8 +133,11 @@ class Optimizer {
       course.points.clear();
       course.first = added_;
       course.added = 0;
+      if (course.refused) continue;
       for (const Vector& point : course.search.ask()) {
-        std::vector<std::string> values = values_at(plan_.study(), course.combination, point);
+        const auto start = course.starts.find(point);
+        std::vector<std::string> values =
+            start != course.starts.end() ? start->second : values_at(plan_.study(), course.combination, point);
         const auto [at, is_new] = memo_.try_emplace(std::move(values), added_);
         if (is_new && added_ == plan_.points().points()) return false;
         course.points.push_back(at->second);
@@ -134,12 +176,21 @@ class Optimizer {
     return point_result(journal_.head(), std::span(answers_).subspan(point * runs, runs));
   }
 
+  /// True if the scenario refused all runs of these points.
+  [[nodiscard]] bool all_refused(const std::vector<std::uint64_t>& points) const {
+    const std::uint64_t runs = plan_.points().runs_of_point();
+    const auto refused = [](const Brief& run) { return run.outcome == "refused"; };
+    return std::ranges::all_of(points, [&](std::uint64_t point) {
+      return std::ranges::all_of(std::span(answers_).subspan(point * runs, runs), refused);
+    });
+  }
+
   void tell() {
     std::vector<Generation> generations;
     for (std::size_t s = 0; s < courses_.size(); ++s) {
       Course& course = courses_[s];
       if (course.points.empty()) continue;
-      std::vector<Vector> values;
+      std::vector<Rating> ratings;
       Generation g{.search = s,
                    .generation = course.search.generation(),
                    .restart = course.search.restart(),
@@ -150,7 +201,7 @@ class Optimizer {
       std::vector<double> kept;
       for (const std::uint64_t point : course.points) {
         const PointResult one = result(point);
-        values.push_back(fitness(one, journal_.head().objectives, plan_.longest()));
+        ratings.push_back(rating(one, journal_.head().objectives, plan_.longest()));
         if (one.kept()) kept.push_back(one.score.objective());
       }
       g.kept = kept.size();
@@ -160,7 +211,8 @@ class Optimizer {
         g.median = combined(std::move(kept), "median", 0.5);
       }
       generations.push_back(g);
-      course.search.tell(values);
+      course.refused = g.generation == 0 && all_refused(course.points);
+      course.search.tell(ratings);
     }
     journal_.write(generations);
   }

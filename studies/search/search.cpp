@@ -9,7 +9,10 @@
 #include "core/math/random.h"
 #include "studies/plan/draws.h"
 #include "studies/plan/points.h"
+#include "studies/search/box.h"
+#include "studies/search/cma_gp.h"
 #include "studies/search/fitness.h"
+#include "studies/search/scbo.h"
 #include "studies/study/population.h"
 
 namespace gaitlab::studies {
@@ -17,13 +20,6 @@ namespace gaitlab::studies {
 namespace {
 
 constexpr double kConverged = 1e-4;
-
-/// Mirrors a coordinate into [0, 1], with 1e-9 resolution.
-double within(double coordinate) {
-  constexpr double kDigits = 1e9;
-  const double folded = std::abs(std::fmod(coordinate, 2.0));
-  return std::round(kDigits * (folded > 1 ? 2 - folded : folded)) / kDigits;
-}
 
 /// Indices in the order of the number of points that dominate each. Points with equal numbers keep their order.
 std::vector<std::size_t> best_first(const std::vector<Vector>& values) {
@@ -36,6 +32,12 @@ std::vector<std::size_t> best_first(const std::vector<Vector>& values) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t k) { return behind[k]; });
   return order;
+}
+
+std::unique_ptr<Evolution> evolution(const EvolutionSettings& settings) {
+  if (settings.algorithm == Method::scbo) return scbo(settings);
+  if (settings.algorithm == Method::cma_gp) return cma_gp(settings);
+  return pagmo_evolution(settings);
 }
 
 }  // namespace
@@ -56,14 +58,15 @@ Search::Search(const SearchSettings& settings)
   begin();
 }
 
-std::size_t Search::block() const { return first_block(population(), settings_.dimensions); }
+std::size_t Search::block() const { return std::max(first_block(population(), settings_.dimensions), settings_.starts.size()); }
 
 void Search::begin() {
   evolution_.reset();
   front_.clear();
   idle_ = 0;
-  raw_.clear();
-  for (std::size_t k = 0; k < block(); ++k) {
+  since_ = rated_->size();
+  raw_ = restart_ == 0 ? settings_.starts : std::vector<Vector>();
+  while (raw_.size() < block()) {
     Vector point = sobol_point(settings_.dimensions, taken_++);
     for (std::size_t c = 0; c < point.size(); ++c) point[c] = std::fmod(point[c] + shift_[c], 1.0);
     raw_.push_back(std::move(point));
@@ -77,7 +80,9 @@ void Search::start(const std::vector<Vector>& values) {
                       .seed = static_cast<unsigned>(math::hash64({kSearchDraw, settings_.seed, settings_.number, restart_, 1})),
                       .sigma = settings_.sigma,
                       .points = {},
-                      .values = {}};
+                      .values = {},
+                      .rated = rated_.get(),
+                      .since = since_};
   const std::vector<std::size_t> order = best_first(values);
   for (std::size_t k = 0; k < population(); ++k) {
     s.points.push_back(raw_[order[k]]);
@@ -99,14 +104,16 @@ const std::vector<Vector>& Search::ask() {
     ++restart_;
     begin();
   }
-  for (const Vector& point : raw_) {
-    Vector& inside = asked_.emplace_back(point);
-    for (double& c : inside) c = within(c);
-  }
+  for (const Vector& point : raw_) asked_.push_back(within_box(point));
   return asked_;
 }
 
-void Search::tell(const std::vector<Vector>& values) {
+void Search::tell(const std::vector<Rating>& ratings) {
+  std::vector<Vector> values;
+  for (std::size_t k = 0; k < asked_.size(); ++k) {
+    rated_->push_back({asked_[k], ratings[k]});
+    values.push_back(ratings[k].fitness);
+  }
   asked_.clear();
   ++generation_;
   if (!evolution_) {

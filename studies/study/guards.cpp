@@ -180,10 +180,10 @@ bool Guards::made_up_for(std::span<const double> quantities, const std::string& 
 double Guards::violation(std::span<const double> quantities, const std::string& verdict) const {
   double sum = 0;
   for (const MarginGuard& guard : all_) {
-    if (!guard.of_verdict || verdict != "feasible") sum += guard.broken(quantities);
+    if (!guard.of_verdict || verdict != "feasible") sum += limited_violation(guard.broken(quantities));
   }
   const bool kept = !verdict_ || verdict == "feasible" || made_up_for(quantities, verdict);
-  return sum == 0 && !kept ? 1 : sum;
+  return sum == 0 && !kept ? limited_violation(1) : sum;
 }
 
 std::vector<std::string> Guards::broken(std::span<const double> quantities, const std::string& verdict,

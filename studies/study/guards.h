@@ -27,6 +27,10 @@ std::vector<std::string> old_guards();
 /// 0.1.
 std::string margin_column(const Guard& guard);
 
+/// Share v / (1 + v) of a relative violation v: a violation far beyond its limit counts at most 1, so that it does not hide the
+/// others.
+constexpr double limited_violation(double v) { return v < 1e12 ? v / (1 + v) : 1; }
+
 /// A guard on a quantity, which must be at least `least`. An unknown quantity satisfies the guard, such as a motor's margin in
 /// a robot without motors.
 struct MarginGuard {
@@ -46,8 +50,8 @@ class Guards {
   Guards(const Study& study, const std::vector<std::string>& columns, std::span<const CheckOffer> checks, bool of_energy,
          Problems& problems);
 
-  /// Sum over the guards of the amount by which each margin is too small. It is 1 if the verdict is not `feasible` although no
-  /// margin is too small, and 0 if all guards are satisfied.
+  /// Sum over the guards of limited_violation() of the amount by which each margin is too small. It is 0.5 if the verdict is
+  /// not `feasible` although no margin is too small, and 0 if all guards are satisfied.
   [[nodiscard]] double violation(std::span<const double> quantities, const std::string& verdict) const;
   /// Texts of the guards that a run violates. `why` is the sentence after its verdict.
   [[nodiscard]] std::vector<std::string> broken(std::span<const double> quantities, const std::string& verdict,

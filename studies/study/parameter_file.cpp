@@ -74,7 +74,47 @@ void read_followers_of(const Node& node, Parameter& parameter, Problems& problem
   }
 }
 
+/// Reads the value of a parameter at a start point, in the form of --set.
+std::string start_value(const Node& node, const Parameter& p, Problems& problems) {
+  const Reading<double> number = read_number(node, "");
+  if (p.words || !p.values.empty()) {
+    std::string text = number.ok() ? number_text(number.value) : node.text;
+    if (node.kind != Node::Kind::scalar || std::ranges::find(p.values, text) == p.values.end())
+      problems.add(node.place, fmt::format("{} is {}; expected one of its values: {}", p.key, found(node), joined(p.values)));
+    return text;
+  }
+  if (!number.ok()) {
+    problems.add(node.place, p.key + " " + number.wrong);
+  } else if (number.value < p.low || number.value > p.high) {
+    problems.add(node.place, fmt::format("{} is {}; expected {} to {}, the range of the parameter", p.key,
+                                         number_text(number.value), number_text(p.low), number_text(p.high)));
+  }
+  return number_text(number.value);
+}
+
 }  // namespace
+
+void read_starts(const Node& node, Study& study, Problems& problems) {
+  constexpr const char* kExpected = "; expected a list of points: [{cpg.frequency: 0.5}]";
+  if (node.kind != Node::Kind::list) problems.add(node.place, "start is " + found(node) + kExpected);
+  std::vector<std::string> known;
+  for (const Parameter& p : study.parameters) known.push_back(p.key);
+  for (const Node& item : node.items) {
+    if (node.kind != Node::Kind::list) return;
+    if (item.kind != Node::Kind::map) problems.add(item.place, "a point of start is " + found(item) + kExpected);
+    StartPoint start{{}, item.place};
+    for (std::size_t k = 0; k < item.keys.size(); ++k) {
+      const auto& [key, place] = item.keys[k];
+      const auto p = std::ranges::find(study.parameters, key, &Parameter::key);
+      if (p == study.parameters.end()) {
+        problems.add(place, "unknown parameter " + in_quotes(key) + offer(key, known, "parameters"));
+      } else {
+        start.values.emplace_back(key, start_value(item.items[k], *p, problems));
+      }
+    }
+    study.starts.push_back(std::move(start));
+  }
+}
 
 void read_parameters(const Node& node, Study& study, Problems& problems) {
   if (node.kind != Node::Kind::map || node.keys.empty()) {

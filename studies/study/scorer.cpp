@@ -136,7 +136,7 @@ Score Scorer::score(std::span<const double> quantities, const std::string& verdi
     score.objectives[k] = objectives_[k].value(quantities);
     if (!std::isfinite(score.objectives[k])) score.violation += 1;
   }
-  for (const Formula& constraint : constraints_) score.violation += studies::broken(constraint, quantities);
+  for (const Formula& constraint : constraints_) score.violation += limited_violation(studies::broken(constraint, quantities));
   score.violation += guards_.violation(quantities, verdict);
   return score;
 }

@@ -51,7 +51,8 @@ struct Limit {
 
 struct Score {
   std::array<double, kMostObjectives> objectives{};  ///< values by objective of the study; NaN if not known
-  double violation = 0;  ///< sum of the relative violations of constraints and guards, plus 1 for each unknown objective
+  /// Sum of limited_violation() over constraints and guards, plus 1 for each unknown objective.
+  double violation = 0;
   [[nodiscard]] double objective() const { return objectives[0]; }
   [[nodiscard]] bool kept() const { return violation == 0; }
 };

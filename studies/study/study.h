@@ -9,6 +9,7 @@
 #include "core/names.h"
 #include "core/plugin/fields.h"
 #include "studies/study/formula.h"
+#include "studies/study/method.h"
 
 namespace gaitlab {
 
@@ -82,8 +83,6 @@ struct StopText {
   double after = 0;  ///< s
 };
 
-enum class Method { grid, random, sobol, morris, sobol_indices, cma, xnes, sade, pso, nsga2 };
-
 }  // namespace studies
 
 template <>
@@ -93,37 +92,20 @@ struct EnumNames<studies::Combine> {
       {mean, "mean"}, {worst, "worst"}, {median, "median"}, {quantile, "quantile"}, {share, "share"}};
 };
 
-template <>
-struct EnumNames<studies::Method> {
-  struct Row {
-    studies::Method value;
-    const char* text;
-    bool searches;
-  };
-  using enum studies::Method;
-  static constexpr Row kTable[] = {{grid, "grid", false},
-                                   {random, "random", false},
-                                   {sobol, "sobol", false},
-                                   {morris, "morris", false},
-                                   {sobol_indices, "sobol_indices", false},
-                                   {cma, "cma", true},
-                                   {xnes, "xnes", true},
-                                   {sade, "sade", true},
-                                   {pso, "pso", true},
-                                   {nsga2, "nsga2", true}};
-};
-
 namespace studies {
-
-/// True if the method chooses points by previous results (`gaitlab optimize`).
-constexpr bool is_search(Method method) { return enum_row(method).searches; }
 
 /// Settings of a search method.
 struct SearchKeys {
   std::int64_t population = 0;  ///< 0 selects a size by the number of parameters
   std::int64_t instances = 1;   ///< number of searches side by side
   std::int64_t restarts = 3;    ///< largest number of restarts per search
-  double sigma = 0.25;          ///< first step of cma and xnes, as a share of each parameter's range
+  double sigma = 0.25;          ///< first step of methods with a step, as a share of each parameter's range
+};
+
+/// A point in the first block of a search, by values of parameters.
+struct StartPoint {
+  std::vector<std::pair<std::string, std::string>> values;  ///< parameter, and value in the form of --set
+  SourceLocation place = {};
 };
 
 /// Faults of repeated runs of the winner: none, or each joint with a motor dead in turn.
@@ -163,6 +145,7 @@ struct Study {
   std::vector<std::string> quantities;  ///< patterns for the names of the quantities to show
   Method method = Method::grid;
   SearchKeys search;
+  std::vector<StartPoint> starts;
   Verify verify;
   std::int64_t runs = 0;  ///< budget of runs for methods that draw or search points: points times replicates
   std::int64_t trajectories = 20, samples = 1024;  ///< trajectories of morris, samples of sobol_indices

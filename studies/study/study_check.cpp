@@ -15,16 +15,17 @@ void check_search(const Study& study, const SourceLocation& place, Problems& pro
   const std::int64_t population = study.search.population;
   if (std::ranges::none_of(study.parameters, [](const Parameter& p) { return p.values.empty(); }))
     problems.add(place, method + " has nothing to search: no parameter has low and high");
-  if (study.method == Method::nsga2 && study.objectives.size() < 2)
-    problems.add(place, "method nsga2 is for two or three objectives; expected cma, xnes, sade or pso");
-  if (study.method != Method::nsga2 && study.objectives.size() > 1)
-    problems.add(place, method + " is for one objective; expected nsga2");
-  const std::int64_t least = study.method == Method::nsga2 ? 8 : study.method == Method::sade ? 7 : 5;
-  if (study.method == Method::nsga2 && (population % 4 != 0 || (population > 0 && population < least))) {
-    problems.add(place, fmt::format("a population of {} does not suit method nsga2; expected a multiple of 4 from {}",
-                                    population, least));
-  } else if (population > 0 && population < least) {
-    problems.add(place, fmt::format("a population of {} is too small for {}; expected at least {}", population, method, least));
+  const auto& row = enum_row(study.method);
+  if (row.several != (study.objectives.size() > 1)) {
+    problems.add(place, fmt::format("{} is for {}; expected {}", method,
+                                    row.several ? "two or three objectives" : "one objective", searches_text(!row.several)));
+  }
+  if (row.multiple > 1 && (population % row.multiple != 0 || (population > 0 && population < row.population))) {
+    problems.add(place, fmt::format("a population of {} does not suit {}; expected a multiple of {} from {}", population,
+                                    method, row.multiple, row.population));
+  } else if (population > 0 && population < row.population) {
+    problems.add(
+        place, fmt::format("a population of {} is too small for {}; expected at least {}", population, method, row.population));
   }
   if (problems.empty() && study.runs > 0 && static_cast<std::uint64_t>(study.runs) < least_runs(study)) {
     problems.add(place, fmt::format("a budget of {} runs is less than the {} of the searches' first generation", study.runs,
@@ -95,8 +96,14 @@ void check_study(const Study& study, const SourceLocation& place, Problems& prob
     }
   }
   if (study.asked) return;
+  if (!study.starts.empty() && !is_search(study.method)) {
+    problems.add(study.starts.front().place,
+                 fmt::format("start is for searches, and method {} is none; expected a search, such "
+                             "as scbo, or no start",
+                             name_of(study.method)));
+  }
   if (study.method == Method::grid && study.runs > 0)
-    problems.add(place, "method grid runs every combination; remove `budget: {{runs: ...}}`");
+    problems.add(place, "method grid runs every combination; remove `budget: {runs: ...}`");
   if (study.of_sensitivity() && study.runs > 0) {
     problems.add(place, fmt::format("method {} takes no budget of runs; expected method: {{{}: N}}", name_of(study.method),
                                     study.method == Method::morris ? "trajectories" : "samples"));

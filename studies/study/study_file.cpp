@@ -14,6 +14,7 @@
 #include "core/settings/wording.h"
 #include "studies/study/guards.h"
 #include "studies/study/parameter_file.h"
+#include "studies/study/population.h"
 #include "studies/study/study_keys.h"
 
 namespace gaitlab::studies {
@@ -156,6 +157,9 @@ Explainer study_keys() {
   explainer.row("stop", "", "[]", "texts EXPRESSION or EXPRESSION after SECONDS",
                 "Rules that end a run early, evaluated once every simulated second on quantities of the run so far: fell, or "
                 "those of a joint.");
+  explainer.row("start", "", "[]", "[{PARAMETER: VALUE, ...}, ...]",
+                "Points of the first block of a search, after the scenario's own values, which it always contains. A parameter "
+                "that is left out has the scenario's value.");
   MethodKeys method{study};
   explainer.group("method", method, "Choice of the points.");
   BudgetKeys budget{study.runs};
@@ -199,7 +203,10 @@ void take_places(const Node& root, Study& study) {
 /// Selects the method if the study names none, or if another program chooses the points.
 void choose_method(Study& study, bool named, Purpose purpose) {
   const bool grid = std::ranges::all_of(study.parameters, &Parameter::in_grid);
-  const Method search = study.objectives.size() > 1 ? Method::nsga2 : Method::cma;
+  constexpr std::size_t kMostParameters = 10;
+  constexpr std::int64_t kMostRuns = 2000;
+  const bool few = dimensions(study) <= kMostParameters && study.runs <= kMostRuns;
+  const Method search = study.objectives.size() > 1 ? Method::nsga2 : few ? Method::scbo : Method::cma_gp;
   if (!named && !(grid && purpose == Purpose::sweep)) study.method = purpose == Purpose::optimize ? search : Method::random;
   if (study.asked) study.method = Method::random;  // no method is used
 }
@@ -239,6 +246,7 @@ Study read_study(const std::string& file, Purpose purpose) {
   if (const Node* node = reader.take("constraints")) read_constraints(*node, study, problems);
   if (const Node* node = reader.take("guards")) read_guards(*node, study, problems);
   if (const Node* node = reader.take("stop")) read_stops(*node, study, problems);
+  if (const Node* node = reader.take("start")) read_starts(*node, study, problems);
   if (!reader.has("scenarios")) reader.require({"scenario"});
   reader.require({"parameters"});
   reader.finish();

@@ -27,14 +27,16 @@ struct PlainKeys {
   }
 };
 
+/// Manual of `method.type`.
+inline const std::string kMethodsText =
+    methods_text() +
+    ". Default of `gaitlab optimize`: scbo for one objective, up to 10 parameters and a budget up to 2000; cma_gp above; nsga2 "
+    "for several objectives.";
+
 struct MethodKeys {
   Study& study;
   void fields(Fields& f) {
-    f.choice(
-        "type", study.method, enum_names<Method>(),
-        "grid: every combination of values; random, sobol: points drawn, at random or evenly by a Sobol sequence; morris, "
-        "sobol_indices: which parameters matter, by elementary effects or shares of the variance. The others search (gaitlab "
-        "optimize): cma, xnes, sade, pso for one objective, nsga2 for two or three.");
+    f.choice("type", study.method, enum_names<Method>(), kMethodsText.c_str());
     f.integer("trajectories", study.trajectories,
               {"", 2, 1e6, "Trajectories of morris; each has one point more than there are parameters."});
     f.integer(
@@ -42,12 +44,13 @@ struct MethodKeys {
         {"", 2, 1e7, "Samples of sobol_indices, preferably a power of 2; each has two points more than there are parameters."});
     f.integer("population", study.search.population,
               {"", 0, 10000,
-               "Points of a generation, at least 5 (sade 7; nsga2: a multiple of 4 from 8). 0: 4 + 3 ln n for n parameters, "
-               "rounded up to a multiple of 8, at least 16."});
+               "Points of a generation, at least 5 (scbo 1, sade 7; nsga2: a multiple of 4 from 8). 0: 4 + 3 ln n for n "
+               "parameters, rounded up to a multiple of 8, at least 16."});
     f.integer("instances", study.search.instances, {"", 1, 1000, "Searches side by side, which share the budget."});
     f.integer("restarts", study.search.restarts,
               {"", 0, 10, "Restarts of a search that has converged, each with twice the population."});
-    f.number("sigma", study.search.sigma, {"", 1e-3, 1, "Initial step of cma and xnes, as a share of the parameter ranges."});
+    f.number("sigma", study.search.sigma,
+             {"", 1e-3, 1, "Initial step of cma_gp, cma and xnes, as a share of the parameter ranges."});
   }
 };
 

@@ -36,7 +36,7 @@ class EvolutionOf : public testing::TestWithParam<Method> {
 };
 
 TEST_P(EvolutionOf, AQuestionChangesNothing) {
-  const auto evolved = evolution(settings_of(GetParam()));
+  const auto evolved = pagmo_evolution(settings_of(GetParam()));
   const std::vector<Vector> points = evolved->points();
   EXPECT_EQ(points, settings_of(GetParam()).points);
   const std::vector<Vector> first = evolved->ask();
@@ -49,7 +49,7 @@ TEST_P(EvolutionOf, AQuestionChangesNothing) {
 
 /// Better than all before: each point that was asked for is in the population with its own value.
 TEST_P(EvolutionOf, AnAnswerGivesEachPointItsValue) {
-  const auto evolved = evolution(settings_of(GetParam()));
+  const auto evolved = pagmo_evolution(settings_of(GetParam()));
   const std::vector<Vector> asked = evolved->ask();
   const std::vector<Vector> told = falling(asked.size(), objectives_);
   evolved->tell(told);
@@ -69,8 +69,8 @@ TEST_P(EvolutionOf, AnAnswerGivesEachPointItsValue) {
 }
 
 TEST_P(EvolutionOf, ADifferentAnswerLeadsElsewhere) {
-  const auto rising = evolution(settings_of(GetParam()));
-  const auto other = evolution(settings_of(GetParam()));
+  const auto rising = pagmo_evolution(settings_of(GetParam()));
+  const auto other = pagmo_evolution(settings_of(GetParam()));
   const std::vector<Vector> asked = rising->ask();
   ASSERT_EQ(other->ask(), asked) << "the seed is the same";
   std::vector<Vector> values = falling(asked.size(), objectives_);
@@ -78,12 +78,12 @@ TEST_P(EvolutionOf, ADifferentAnswerLeadsElsewhere) {
   for (std::size_t k = 0; k < values.size(); k += 2) values[k].assign(objectives_, 100);  // every second one is bad
   other->tell(values);
   EXPECT_NE(rising->ask(), other->ask());
-  EXPECT_NE(evolution(settings_of(GetParam(), 4))->ask(), asked) << "of another seed";
+  EXPECT_NE(pagmo_evolution(settings_of(GetParam(), 4))->ask(), asked) << "of another seed";
 }
 
 /// The second pass meets only points that the first asked for: else the generation would hold values that no run has.
 TEST_P(EvolutionOf, AnAnswerWithoutAQuestionIsRefused) {
-  const auto evolved = evolution(settings_of(GetParam()));
+  const auto evolved = pagmo_evolution(settings_of(GetParam()));
   EXPECT_EQ(test::message_of<RunError>([&] { evolved->tell({}); }),
             "a point of this generation depends on the result of another");
 }

@@ -69,13 +69,13 @@ void expect_pagmo(Method method, pagmo::algorithm algorithm, Function function, 
   pagmo::population serial = first;
   for (int g = 0; g < kGenerations; ++g) serial = algorithm.evolve(serial);
 
-  const auto ours = evolution({.algorithm = method,
-                               .low = Vector(10, -5.0),
-                               .high = Vector(10, 5.0),
-                               .seed = kSeed,
-                               .sigma = 0.25,
-                               .points = first.get_x(),
-                               .values = first.get_f()});
+  const auto ours = pagmo_evolution({.algorithm = method,
+                                     .low = Vector(10, -5.0),
+                                     .high = Vector(10, 5.0),
+                                     .seed = kSeed,
+                                     .sigma = 0.25,
+                                     .points = first.get_x(),
+                                     .values = first.get_f()});
   for (int g = 0; g < kGenerations; ++g) {
     std::vector<Vector> values;
     for (const Vector& point : ours->ask()) values.push_back(function(point));
@@ -95,17 +95,20 @@ TEST(Evolution, IsPagmosOwnBitForBit) {
   expect_pagmo(Method::nsga2, pagmo::algorithm(pagmo::nsga2(1, 0.95, 10, 0.1, 50, 7)), two_hills, 2);
 }
 
+/// Rating of a kept point.
+Rating rated(const Vector& fitness) { return {fitness, fitness[0], 0}; }
+
 /// Points that the search requests until it ends, at most `most`.
 std::vector<Vector> asked(Search& search, Function function, std::size_t most) {
   std::vector<Vector> all;
   while (all.size() < most) {
     const std::vector<Vector> points = search.ask();
     if (points.empty()) break;
-    std::vector<Vector> values;
-    values.reserve(points.size());
-    for (const Vector& point : points) values.push_back(function(point));
+    std::vector<Rating> ratings;
+    ratings.reserve(points.size());
+    for (const Vector& point : points) ratings.push_back(rated(function(point)));
     all.insert(all.end(), points.begin(), points.end());
-    search.tell(values);
+    search.tell(ratings);
   }
   return all;
 }
@@ -146,10 +149,10 @@ TEST(Search, StartsAgainWithTwiceThePopulationAndEnds) {
     if (points.empty()) break;
     restarts = std::max(restarts, search.restart());
     largest = std::max(largest, points.size());
-    std::vector<Vector> values;
-    values.reserve(points.size());
-    for (const Vector& point : points) values.push_back({std::abs(point[0] - 0.3)});
-    search.tell(values);
+    std::vector<Rating> ratings;
+    ratings.reserve(points.size());
+    for (const Vector& point : points) ratings.push_back(rated({std::abs(point[0] - 0.3)}));
+    search.tell(ratings);
   }
   EXPECT_EQ(restarts, 2U);
   EXPECT_EQ(largest, 20U);

@@ -60,12 +60,12 @@ TEST(Guards, OfEveryCheckAreKeptFromTheirMarginOnAndBrokenBelow) {
     Guarded kept({{check.id, Asks::kept}});
     EXPECT_EQ(kept.violation("feasible"), 0) << "the run does not have it";
     EXPECT_EQ(kept.set(own, 0).violation("feasible"), 0);
-    EXPECT_EQ(kept.set(own, -0.25).violation("feasible"), 0.25);
+    EXPECT_EQ(kept.set(own, -0.25).violation("feasible"), 0.2);
     EXPECT_EQ(kept.broken("feasible"),
               std::vector{fmt::format("check {} has a margin of -0.25; the study requires 0", check.id)});
     Guarded margin({{check.id, Asks::margin, 0.5}});
     EXPECT_EQ(margin.set(own, 0.5).violation("feasible"), 0);
-    EXPECT_EQ(margin.set(own, 0.25).violation("feasible"), 0.25);
+    EXPECT_EQ(margin.set(own, 0.25).violation("feasible"), 0.2);
     EXPECT_EQ(margin.broken("feasible"),
               std::vector{fmt::format("check {} has a margin of 0.25; the study requires 0.5", check.id)});
     Guarded dropped({{check.id, Asks::nothing}});
@@ -73,7 +73,7 @@ TEST(Guards, OfEveryCheckAreKeptFromTheirMarginOnAndBrokenBelow) {
     if (!check.limited) continue;
     Guarded limit({{check.id, Asks::limit, 0.1}});
     EXPECT_EQ(limit.set(own, -9).set(own + "[0.1]", 0).violation(check.can_fail ? "infeasible" : "feasible"), 0);
-    EXPECT_EQ(limit.set(own, 9).set(own + "[0.1]", -0.25).violation("feasible"), 0.25);
+    EXPECT_EQ(limit.set(own, 9).set(own + "[0.1]", -0.25).violation("feasible"), 0.2);
   }
 }
 
@@ -83,7 +83,7 @@ TEST(Guards, OfTheVerdictAreTheChecksThatCanFail) {
     SCOPED_TRACE(check.id);
     Guarded verdict({});
     verdict.set("margin." + check.id, -0.25);
-    EXPECT_EQ(verdict.violation("infeasible"), check.can_fail ? 0.25 : 1);
+    EXPECT_EQ(verdict.violation("infeasible"), check.can_fail ? 0.2 : 0.5);
     EXPECT_EQ(verdict.broken("infeasible", "a sentence"), std::vector<std::string>{"infeasible: a sentence"});
     Guarded none({}, false);
     EXPECT_EQ(none.set("margin." + check.id, -0.25).violation("infeasible"), 0);
@@ -96,11 +96,11 @@ TEST(Guards, AskForTheWordFeasible) {
   Guarded verdict({});
   EXPECT_EQ(verdict.violation("feasible"), 0);
   for (const char* word : {"not judged", "infeasible"}) {
-    EXPECT_EQ(verdict.violation(word), 1) << "no margin is negative";
+    EXPECT_EQ(verdict.violation(word), 0.5) << "no margin is negative";
     EXPECT_EQ(verdict.broken(word, "why"), std::vector{std::string(word) + ": why"});
   }
   verdict.set("margin.stops", -0.5).set("margin.voltage", -0.25).set("margin.slip", -3);
-  EXPECT_EQ(verdict.violation("infeasible"), 0.75) << "slip only warns";
+  EXPECT_EQ(verdict.violation("infeasible"), 0.5 / 1.5 + 0.2) << "slip only warns";
   EXPECT_EQ(verdict.texts().front(), "feasible >= 1");
 }
 
@@ -110,9 +110,9 @@ TEST(Guards, MayAskLessThanTheVerdict) {
   guards.set("margin.stops", -0.5).set("margin.stops[0.1]", 0.2);
   EXPECT_EQ(guards.violation("infeasible"), 0);
   EXPECT_TRUE(guards.broken("infeasible", "why").empty());
-  EXPECT_EQ(guards.violation("not judged"), 1) << "evidence is missing";
+  EXPECT_EQ(guards.violation("not judged"), 0.5) << "evidence is missing";
   guards.set("margin.voltage", -0.25);
-  EXPECT_EQ(guards.violation("infeasible"), 0.25);
+  EXPECT_EQ(guards.violation("infeasible"), 0.2);
   EXPECT_EQ(guards.texts().front(), "verdict but for stops");
 }
 
@@ -120,7 +120,7 @@ TEST(Guards, OfCreatedEnergyStandWhereElectricalEnergyIsTheObjective) {
   Guarded without({});
   EXPECT_EQ(without.set("margin.created", -0.25).violation("feasible"), 0);
   Guarded with({}, true, true);
-  EXPECT_EQ(with.set("margin.created", -0.25).violation("feasible"), 0.25);
+  EXPECT_EQ(with.set("margin.created", -0.25).violation("feasible"), 0.2);
   Guarded dropped({{"created", Asks::nothing}}, true, true);
   EXPECT_EQ(dropped.set("margin.created", -0.25).violation("feasible"), 0);
 }

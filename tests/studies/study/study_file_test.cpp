@@ -149,21 +149,21 @@ TEST_F(StudyFile, ItsExpressionsAreChecked) {
 TEST_F(StudyFile, ASearchIsChecked) {
   EXPECT_EQ(search("budget: {runs: 16}\n"), kNoError);
   EXPECT_EQ(search("budget: {runs: 64}\nobjective: [{maximize: speed}, {minimize: torque.peak}]\n"), kNoError);
-  EXPECT_EQ(search(""), "s.yaml:1:1: error: missing budget: {runs: N}, which method cma needs");
+  EXPECT_EQ(search(""), "s.yaml:1:1: error: missing budget: {runs: N}, which method scbo needs");
   EXPECT_EQ(search("budget: {runs: 15}\n"),
             "s.yaml:1:1: error: a budget of 15 runs is less than the 16 of the searches' first generation");
   EXPECT_EQ(search("budget: {runs: 63}\nmethod: {type: cma, instances: 2}\nreplicates: {count: 2}\n"),
             "s.yaml:1:1: error: a budget of 63 runs is less than the 64 of the searches' first generation");
   EXPECT_EQ(search("budget: {runs: 64}\nmethod: {type: cmaes}\n"),
-            "s.yaml:5:16: error: type 'cmaes' is unknown; known names: grid, random, sobol, morris, sobol_indices, cma, xnes, "
-            "sade, pso, nsga2");
+            "s.yaml:5:16: error: type 'cmaes' is unknown; known names: grid, random, sobol, morris, sobol_indices, scbo, "
+            "cma_gp, cma, xnes, sade, pso, nsga2");
   EXPECT_EQ(search("budget: {runs: 64}\nmethod: {type: cma, population: 4}\n"),
             "s.yaml:1:1: error: a population of 4 is too small for method cma; expected at least 5");
   EXPECT_EQ(search("budget: {runs: 64}\nmethod: {type: cma, popul: 8}\n"),
             "s.yaml:5:21: error: unknown key 'popul'; did you mean 'population'?");
   EXPECT_EQ(search("budget: {runs: 64}\nmethod: {type: cma, sigma: 2}\n").substr(0, 28), "s.yaml:5:28: error: sigma is");
   EXPECT_EQ(search("budget: {runs: 64}\nmethod: {type: nsga2}\n"),
-            "s.yaml:1:1: error: method nsga2 is for two or three objectives; expected cma, xnes, sade or pso");
+            "s.yaml:1:1: error: method nsga2 is for two or three objectives; expected scbo, cma_gp, cma, xnes, sade or pso");
   EXPECT_EQ(search("budget: {runs: 64}\nmethod: {type: pso}\nobjective: [{maximize: speed}, {minimize: torque.peak}]\n"),
             "s.yaml:1:1: error: method pso is for one objective; expected nsga2");
   EXPECT_EQ(search("budget: {runs: 64}\nmethod: {type: nsga2, population: 18}\nobjective: [{maximize: speed}, {minimize: "
@@ -179,6 +179,21 @@ TEST_F(StudyFile, ASearchIsChecked) {
   EXPECT_EQ(search("budget: {runs: 64}\nverify: {best: 0}\n").substr(0, 27), "s.yaml:5:16: error: best is");
   EXPECT_EQ(parameters("cpg.type: {values: [hopf, sine]}", "method: {type: cma}\nbudget: {runs: 64}\n"),
             "s.yaml:1:1: error: method cma has nothing to search: no parameter has low and high");
+}
+
+TEST_F(StudyFile, StartPointsAreChecked) {
+  const std::string head = "budget: {runs: 64}\n";
+  EXPECT_EQ(search(head + "start: []\n"), kNoError);
+  EXPECT_EQ(search(head + "start: 3\n"), "s.yaml:5:8: error: start is 3; expected a list of points: [{cpg.frequency: 0.5}]");
+  EXPECT_EQ(search(head + "start: [3]\n"),
+            "s.yaml:5:9: error: a point of start is 3; expected a list of points: [{cpg.frequency: 0.5}]");
+  EXPECT_EQ(search(head + "start: [{cpg.frequncy: 1}]\n"),
+            "s.yaml:5:10: error: unknown parameter 'cpg.frequncy'; did you mean 'cpg.frequency'?");
+  EXPECT_EQ(search(head + "start: [{cpg.frequency: 99}]\n").substr(0, 57),
+            "s.yaml:5:25: error: cpg.frequency is 99; expected 0.5 to ");
+  EXPECT_EQ(
+      search(head + "method: {type: random}\nstart: [{cpg.frequency: 1}]\n"),
+      "s.yaml:6:9: error: start is for searches, and method random is none; expected a search, such as scbo, or no start");
 }
 
 TEST_F(StudyFile, TheSeedBelongsToTheReplicates) {

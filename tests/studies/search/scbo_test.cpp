@@ -1,0 +1,141 @@
+// Searches with models: the best of a box under a constraint, in fewer points than other methods; failures; the same points
+// again.
+#include "studies/search/scbo.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "studies/search/point_models.h"
+#include "studies/search/search.h"
+
+namespace gaitlab::studies {
+namespace {
+
+using Rate = Rating (*)(const Vector&);
+
+/// Rating of a value, smaller is better, that is kept if `beyond` is at most 0.
+Rating constrained(double value, double beyond) {
+  const double violation = beyond > 0 ? beyond / (1 + beyond) : 0;
+  return {{violation > 0 ? 1e6 + violation : value}, value, violation};
+}
+
+/// The corner (1, 1) is best, and outside the circle about the origin that is allowed: the best is -1 at (0.5, 0.5).
+Rating inside_a_circle(const Vector& x) { return constrained(-(x[0] + x[1]), 10 * (x[0] * x[0] + x[1] * x[1] - 0.5)); }
+
+/// Four coordinates, an allowed valley, along which the value falls to -1 at its end.
+Rating in_a_valley(const Vector& x) {
+  const double across = std::abs(x[1] - x[0] * x[0]) + std::abs(x[2] - 0.4) + std::abs(x[3] - 0.6);
+  return constrained(-x[0] + 0.3 * across, 5 * (across - 0.2));
+}
+
+/// Best kept value of `runs` points of a search.
+double best_of(Method method, Rate rate, std::size_t dimensions, std::size_t runs, std::uint64_t seed) {
+  Search search({.algorithm = method, .dimensions = dimensions, .seed = seed});
+  double best = 9;
+  for (std::size_t done = 0; done < runs;) {
+    std::vector<Rating> ratings;
+    for (const Vector& point : search.ask()) {
+      ratings.push_back(rate(point));
+      if (++done <= runs && ratings.back().kept()) best = std::min(best, ratings.back().objective);
+    }
+    if (ratings.empty()) break;
+    search.tell(ratings);
+  }
+  return best;
+}
+
+double median_of(Method method, Rate rate, std::size_t dimensions, std::size_t runs) {
+  std::vector<double> best;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) best.push_back(best_of(method, rate, dimensions, runs, seed));
+  std::ranges::sort(best);
+  return best[2];
+}
+
+TEST(Scbo, FindsTheBestOfABoxUnderAConstraint) {
+  EXPECT_LT(median_of(Method::scbo, inside_a_circle, 2, 80), -0.99);
+  EXPECT_LT(median_of(Method::scbo, in_a_valley, 4, 240), -0.9);
+}
+
+TEST(Scbo, IsBetterThanCmaWhereRunsAreFew) {
+  EXPECT_LT(median_of(Method::scbo, in_a_valley, 4, 160), median_of(Method::cma, in_a_valley, 4, 160));
+}
+
+TEST(CmaGp, IsBetterThanCmaWhereRunsAreFew) {
+  EXPECT_LT(median_of(Method::cma_gp, in_a_valley, 4, 240), median_of(Method::cma, in_a_valley, 4, 240));
+}
+
+/// Without a model (all points fail) the sieve is off, and CMA-ES alone must find the best of an ellipsoid with axes of 1 : 30.
+TEST(CmaGp, IsCmaEsWithoutItsModels) {
+  const Rate failed_ellipsoid = [](const Vector& x) {
+    double sum = 0;
+    for (std::size_t k = 0; k < x.size(); ++k) sum += std::pow(1000, static_cast<double>(k) / 4) * std::pow(x[k] - 0.3, 2);
+    return Rating{{2e6 + sum}};
+  };
+  Search search({.algorithm = Method::cma_gp, .dimensions = 5, .restarts = 0});
+  double best = 9e9;
+  for (std::size_t done = 0; done < 3000;) {
+    std::vector<Rating> ratings;
+    for (const Vector& point : search.ask()) ratings.push_back(failed_ellipsoid(point));
+    if (ratings.empty()) break;
+    for (const Rating& one : ratings) best = std::min(best, one.fitness[0] - 2e6);
+    done += ratings.size();
+    search.tell(ratings);
+  }
+  EXPECT_LT(best, 1e-6);  // pagmo's cmaes reaches 1e-6 after about 1500 points
+}
+
+TEST(Scbo, SearchesWhereAllPointsFailAndWhereSomeDo) {
+  const Rate fails = [](const Vector& x) { return Rating{{2e6 + x[0]}}; };
+  EXPECT_EQ(best_of(Method::scbo, fails, 2, 100, 1), 9);
+  const Rate fails_partly = [](const Vector& x) { return x[1] > 0.5 ? Rating{{2e6 + x[1]}} : inside_a_circle(x); };
+  EXPECT_LT(best_of(Method::scbo, fails_partly, 2, 100, 1), -0.95);
+}
+
+TEST(Scbo, RequestsTheSamePointsAgain) {
+  for (const Method method : {Method::scbo, Method::cma_gp}) {
+    Search one({.algorithm = method, .dimensions = 3, .seed = 4});
+    Search two({.algorithm = method, .dimensions = 3, .seed = 4});
+    for (int k = 0; k < 6; ++k) {
+      const std::vector<Vector> points = one.ask();
+      ASSERT_EQ(points, two.ask()) << name_of(method) << ", generation " << k;
+      std::vector<Rating> ratings;
+      for (const Vector& point : points) ratings.push_back(inside_a_circle(point));
+      one.tell(ratings);
+      two.tell(ratings);
+    }
+  }
+}
+
+TEST(Search, BeginsWithTheGivenPoints) {
+  Search search({.algorithm = Method::scbo, .dimensions = 2, .starts = {{0.25, 0.75}, {0.5, 0.125}}});
+  const std::vector<Vector> block = search.ask();
+  EXPECT_EQ(block.size(), 16U);
+  EXPECT_EQ(block[0], (Vector{0.25, 0.75}));
+  EXPECT_EQ(block[1], (Vector{0.5, 0.125}));
+}
+
+TEST(PointModels, OrdersByObjectiveWhereTheViolationIsAcceptable) {
+  const Eigen::Vector4d objective(3, 1, 2, 0);
+  const Eigen::Vector4d violation(std::log(0.01), std::log(0.5), std::log(0.012), std::log(0.3));
+  EXPECT_EQ(PointModels::order(objective, violation), (std::vector<std::size_t>{2, 0, 3, 1}));
+}
+
+/// A robot that is thrown (a value of -1000 that breaks all limits) leaves the model of the others as it is.
+TEST(PointModels, BearAnObjectiveFarFromTheOthers) {
+  std::vector<Rated> points;
+  for (int k = 0; k < 40; ++k) {
+    const Vector x{(k % 8) / 7.0, (k / 8) / 4.0};
+    points.push_back({x, constrained(-x[0], x[1] - 0.8)});
+  }
+  points[39].rating.objective = -1000;
+  const PointModels models(points, {0.5, 0.5});
+  const std::vector<Vector> at{{0.2, 0.3}, {0.8, 0.3}};
+  const Eigen::VectorXd value = models.objective().mean(matrix_of(at));
+  EXPECT_NEAR(value[0], -0.2, 0.1);
+  EXPECT_NEAR(value[1], -0.8, 0.1);
+}
+
+}  // namespace
+}  // namespace gaitlab::studies
