@@ -43,8 +43,7 @@ void DcMotorActuator::Settings::fields(Fields& f) {
 DcMotorActuator::DcMotorActuator(const RobotInfo& robot, const std::vector<const Settings*>& lanes) {
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     for (const Settings* s : lanes) {
-      add({s->R[j], s->Kt[j], s->Ks[j], s->gear[j], s->efficiency[j], s->u_max[j], s->i_max[j],
-           s->reversal_speed()},
+      add({s->R[j], s->Kt[j], s->Ks[j], s->gear[j], s->efficiency[j], s->u_max[j], s->i_max[j], s->reversal_speed()},
           s->gear[j] * s->gear[j] * s->rotor_inertia[j], s->of(j));
     }
   }

@@ -7,6 +7,7 @@
 #include "core/model/pattern.h"
 #include "core/settings/value.h"
 #include "core/settings/wording.h"
+#include "studies/plan/worlds.h"
 #include "studies/study/number.h"
 
 namespace gaitlab::studies {
@@ -64,6 +65,7 @@ void check_same(const std::vector<Quantity>& first, const std::vector<Quantity>&
 
 BoundStudy::BoundStudy(Study study, const QuantityOffer& offer, Catalog& catalog)
     : study_(std::move(study)), scenarios_(read_scenarios(study_, catalog)), scenario_text_(scenarios_text(scenarios_)) {
+  find_worlds();
   Problems problems;
   followers_ = std::make_unique<Followers>(study_.parameters, problems);
   problems.raise();
@@ -79,6 +81,16 @@ BoundStudy::BoundStudy(Study study, const QuantityOffer& offer, Catalog& catalog
   if (Text& first = study_.objectives.front().expression; first.text.empty()) first.text = columns_[shown_.front()].name;
   make_scorers(offer, catalog, problems);
   problems.raise();
+}
+
+void BoundStudy::find_worlds() {
+  if (!study_.robust) return;
+  std::vector<std::vector<World>> of_each;
+  for (const StudyScenario& one : scenarios_) of_each.push_back(worlds(one.nominal));
+  for (std::size_t w = 0; w < kWorlds; ++w) {
+    if (std::ranges::any_of(of_each, [w](const std::vector<World>& of) { return of[w].applies; })) robust_worlds_.push_back(w);
+  }
+  study_.replicates.count = 1 + static_cast<std::int64_t>(robust_worlds_.size());
 }
 
 /// Refuses a free parameter with the name of a key of the scenario, because the two would be confused.

@@ -6,6 +6,7 @@
 
 #include "core/files/hash.h"
 #include "core/settings/wording.h"
+#include "studies/plan/worlds.h"
 #include "studies/study/number.h"
 
 namespace gaitlab::studies {
@@ -48,6 +49,12 @@ std::string definition(const BoundStudy& bound) {
     text += fmt::format("parameter {}: {}\n", p.key,
                         p.values.empty() ? number_range(p) : fmt::format("{}", fmt::join(p.values, ", ")));
     text += followers_text(p);
+  }
+  if (study.robust) {
+    const std::vector<World> all = worlds(bound.scenarios().front().nominal);
+    text += "robust:";
+    for (const std::size_t w : bound.robust_worlds()) text += fmt::format("{} {}", text.ends_with(':') ? "" : ",", all[w].name);
+    text += "\n";
   }
   if (study.replicates.count > 0) {
     text += fmt::format("replicates: {}, {}", study.replicates.count, name_of(study.replicates.combine));

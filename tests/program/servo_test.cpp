@@ -86,14 +86,16 @@ TEST(Servo, IsTheStraightLineOfItsDataSheet) {
 /// A run with a servo has the same bits as a run with a dc_motor that has the computed constants.
 TEST(Servo, IsADcMotorBitForBit) {
   std::vector<std::string> bits;
-  for (const char* common : {", rotor_inertia: 1e-4", ", rotor_inertia: 1e-4, efficiency_model: directional, turn_speed: 0.5"}) {
+  for (const char* common :
+       {", rotor_inertia: 1e-4", ", rotor_inertia: 1e-4, efficiency_model: directional, turn_speed: 0.5"}) {
     const std::string own = kAx12 + common;
     const DcMotor m = motor(own);
     std::string text = worm(kAx12);
     const std::size_t at = text.find("actuator: {");
-    text.replace(at, text.find('}', at) - at,
-                 fmt::format("actuator: {{type: dc_motor, R: {}, Kt: {}, Ks: {}, gear: 1, efficiency: {}, u_max: {}, i_max: {}{}",
-                             m.R, m.Kt, m.Ks, m.efficiency, m.u_max, m.i_max, common));
+    text.replace(
+        at, text.find('}', at) - at,
+        fmt::format("actuator: {{type: dc_motor, R: {}, Kt: {}, Ks: {}, gear: 1, efficiency: {}, u_max: {}, i_max: {}{}", m.R,
+                    m.Kt, m.Ks, m.efficiency, m.u_max, m.i_max, common));
     for (const char* engine : {"articulated", "bullet"}) {
       if (catalog().engine(engine) == nullptr) continue;
       const std::vector<std::string> sets{std::string("physics.engine=") + engine, "duration=0.3"};
