@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
+#include <vector>
 
 #include "app/study/study_text.h"
 #include "core/settings/wording.h"
@@ -73,9 +75,18 @@ std::string guard_text(const studies::JournalHead& head, const WorldCount& count
 }  // namespace
 
 std::string falls_text(const WorldCount& count) {
+  std::vector<std::pair<std::string, std::string>> causes;  // with the worlds that they are of, each cause once
+  for (const Verification& v : count.falls) {
+    const auto at = std::ranges::find(causes, v.reason, [](const auto& one) { return one.first; });
+    const std::string name = clipped(studies::world_name(v));
+    if (at == causes.end()) {
+      causes.emplace_back(v.reason, name);
+    } else {
+      at->second += ", " + name;
+    }
+  }
   std::vector<std::string> falls;
-  for (const Verification& v : count.falls)
-    falls.push_back(fmt::format("{}: {}", clipped(studies::world_name(v)), one_line(v.reason)));
+  for (const auto& [cause, names] : causes) falls.push_back(fmt::format("{}: {}", names, one_line(cause)));
   if (count.fell_drawn > 0)
     falls.push_back(fmt::format("{}in {} of {}", falls.empty() ? "" : "and ", count.fell_drawn, counted(count.drawn, "draw")));
   const bool named = !count.falls.empty();
@@ -87,8 +98,13 @@ std::string nearest_text(studies::Journal& journal) {
   const auto share = std::ranges::find_if(all, studies::is_share);
   if (share == all.end()) return "";
   const WorldCount count = studies::counted_worlds(all, share->run);
-  return fmt::format("run {} is nearest: it {}; {}; {}`robust: true` searches gaits with reserve", share->run,
-                     one_line(share->reason), falls_text(count), guard_text(journal.head(), count));
+  const bool most = count.stood < count.of / 2;
+  const bool paper = journal.head().scenario.find("efficiency_model: paper") != std::string::npos;
+  return fmt::format("run {} is nearest: it {}; {}; {}`robust: true` searches gaits with reserve{}", share->run,
+                     one_line(share->reason), falls_text(count), guard_text(journal.head(), count),
+                     most && paper ? "; gears are directional in every world: `set: [actuator.efficiency_model=directional]` "
+                                     "searches with them"
+                                   : "");
 }
 
 std::string verification_text(studies::Journal& journal) {

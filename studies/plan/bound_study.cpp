@@ -36,15 +36,17 @@ std::vector<std::string> other_engine_of(const Verify& verify, const Scenario& s
                  "verify.engine " + in_quotes(name) + " is not known" + gaitlab::offer(name, catalog.engines(), "engines"));
     return {};
   }
-  std::vector<std::string> sets{"physics.engine=" + name};
-  if (engine->adaptive() != nullptr) {
-    sets.push_back(fmt::format("physics.integrator={}", engine->integrators.front().name));
-    sets.emplace_back("physics.step=auto");
-  } else {
-    sets.push_back(fmt::format("physics.integrator={}", engine->fixed().name));
-    sets.push_back("physics.step=" + number_text(engine->given_step(scenario.contact.model().has_step_of_its_own)));
-  }
-  return sets;
+  const bool adapts = engine->adaptive() != nullptr;
+  const std::string integrator = adapts ? engine->integrators.front().name : engine->fixed().name;
+  const std::string step = adapts ? "auto" : number_text(engine->given_step(scenario.contact.model().has_step_of_its_own));
+  if (adapts || !scenario.places->contains("physics.accuracy"))
+    return {"physics.engine=" + name, "physics.integrator=" + integrator, "physics.step=" + step};
+  // An engine with given steps refuses an accuracy, and only a whole section can replace one.
+  const Physics& own = scenario.physics;
+  std::string whole =
+      fmt::format("physics={{engine: {}, integrator: {}, step: {}, gravity: [{}, {}, {}]", name, integrator, step,
+                  number_text(own.gravity.x()), number_text(own.gravity.y()), number_text(own.gravity.z()));
+  return {whole + (own.estimate == Estimate::off ? ", estimate: off}" : "}")};
 }
 
 /// Checks that the joint quantities that match the study's patterns are the same in every scenario.

@@ -29,6 +29,9 @@ std::string law_text(const Variation& v) {
   return text;
 }
 
+constexpr std::string_view kRobust = "robust: ";
+constexpr std::string_view kBetween = ", ";
+
 /// Settings of a search, without its method.
 std::string search_text(const Study& study) {
   const SearchKeys& s = study.search;
@@ -52,9 +55,9 @@ std::string definition(const BoundStudy& bound) {
   }
   if (study.robust) {
     const std::vector<World> all = worlds(bound.scenarios().front().nominal);
-    text += "robust:";
-    for (const std::size_t w : bound.robust_worlds()) text += fmt::format("{} {}", text.ends_with(':') ? "" : ",", all[w].name);
-    text += "\n";
+    std::vector<std::string> names;
+    for (const std::size_t w : bound.robust_worlds()) names.push_back(all[w].name);
+    text += fmt::format("{}{}\n", kRobust, fmt::join(names, kBetween));
   }
   if (study.replicates.count > 0) {
     text += fmt::format("replicates: {}, {}", study.replicates.count, name_of(study.replicates.combine));
@@ -74,6 +77,19 @@ std::string definition(const BoundStudy& bound) {
     if (column.name.ends_with("]")) text += "quantity: " + column.name + "\n";
   }
   return text + "quantities: " + hash128(columns) + "\n";
+}
+
+std::vector<std::string> robust_worlds(const std::string& definition) {
+  std::vector<std::string> names;
+  const std::size_t line = definition.find(fmt::format("\n{}", kRobust));
+  if (line == std::string::npos) return names;
+  const std::size_t end = std::min(definition.find('\n', line + 1), definition.size());
+  for (std::size_t at = line + 1 + kRobust.size(); at < end;) {
+    const std::size_t next = std::min(definition.find(kBetween, at), end);
+    names.push_back(definition.substr(at, next - at));
+    at = next + kBetween.size();
+  }
+  return names;
 }
 
 JournalHead journal_head(const Plan& plan) {
