@@ -19,7 +19,7 @@ namespace {
 
 enum class Whose { ground, motors, robot };
 
-/// A number that nobody knows exactly: a factor of `as_built`, and its usual error as a share.
+/// A number that is not known exactly: a factor of `as_built`, and its usual error as a share.
 struct Uncertain {
   const char *name, *key;
   Whose of;

@@ -1,4 +1,4 @@
-// Worlds: a scenario with numbers that nobody knows exactly changed within their usual errors.
+// Worlds: variants of a scenario, with uncertain numbers changed within their usual errors.
 #pragma once
 #include <string>
 #include <vector>

@@ -10,8 +10,8 @@ namespace gaitlab::studies {
 /// evidence; the objectives may change.
 ///
 /// The result has the entries of `tried` and behind those of each point an entry for each world, `world supply -10 % (6.66 V)`,
-/// whose reason is why the point falls there, and an entry `worlds`. Only the latter rejects the point, if it stands in less
-/// than the share `verify.share`. Points are ordered by ranked_by_share(). Returns nothing if `stop` was set.
+/// whose reason is why the point falls there, and an entry `worlds`. Only the latter rejects the point, if its share is below
+/// `verify.share`. Points are ordered by ranked_by_share(). Returns nothing if `stop` was set.
 std::optional<std::vector<Verification>> in_worlds(const Plan& plan, Journal& journal, const Results& results,
                                                    const std::vector<Verification>& tried, const Executor& executor,
                                                    const TrialsTold& told, std::atomic<bool>& stop);

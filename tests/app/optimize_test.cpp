@@ -1,5 +1,6 @@
 // Tests of `gaitlab optimize`: verification of the best points, exit codes, words as parameters, other commands for a search.
 #include "studies/journal/journal.h"
+#include "studies/search/verify.h"
 #include "studies/search/world_trials.h"
 #include "tests/program/fixture.h"
 

@@ -31,7 +31,7 @@ std::vector<Verification> tried_in_worlds(SearchedStudy& made, const std::functi
 
 bool has_set(const Job& job, const std::string& set) { return std::ranges::find(job.sets, set) != job.sets.end(); }
 
-/// Rows that stand everywhere, but for those with one of these settings.
+/// Rows that are feasible, except those with one of these settings.
 std::function<Row(const Job&)> falling(const SearchedStudy& made, const std::vector<std::string>& sets, double speed = 1) {
   return [=, &made](const Job& job) {
     Row row = made.study.done(job.row, "speed", speed);
