@@ -15,7 +15,8 @@ std::string verification_text(studies::Journal& journal);
 /// there are none.
 std::string falls_text(const studies::WorldCount& count);
 
-/// Sentence on the nearest point, with its worlds and remedies, for a search without a verified point. Empty if no point was run in worlds.
+/// Sentence on the nearest point, with its worlds and remedies, for a search without a verified point. Empty if no point was
+/// run in worlds.
 std::string nearest_text(studies::Journal& journal);
 
 }  // namespace gaitlab::app

@@ -209,7 +209,7 @@ TEST(Robust, WorldsFollowThePoint) {
 TEST(Robust, TheLowerQuartileOfTheMarginsDecides) {
   const SmallStudy study(
       "parameters: {cpg.frequency: {low: 0.5, high: 1.5, count: 2}}\nrobust: true\n"
-      "guards: none\nconstraints: [margin >= 0]\n");
+      "guards: none\nobjective: {maximize: margin}\nconstraints: [margin >= 0]\n");
   studies::JournalHead head = studies::journal_head(*study.plan);
   const auto result = [&](const std::vector<double>& margins) {
     std::vector<studies::Brief> runs;
