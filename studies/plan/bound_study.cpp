@@ -36,17 +36,18 @@ std::vector<std::string> other_engine_of(const Verify& verify, const Scenario& s
                  "verify.engine " + in_quotes(name) + " is not known" + gaitlab::offer(name, catalog.engines(), "engines"));
     return {};
   }
+  const bool own_step = scenario.contact.model().has_step_of_its_own;
   const bool adapts = engine->adaptive() != nullptr;
+  const bool chooses = engine->choose_step != nullptr && !own_step;  // by its stability, up to its longest step
   const std::string integrator = adapts ? engine->integrators.front().name : engine->fixed().name;
-  const std::string step = adapts ? "auto" : number_text(engine->given_step(scenario.contact.model().has_step_of_its_own));
+  const std::string step = adapts || chooses ? "auto" : number_text(engine->given_step(own_step));
   if (adapts || !scenario.places->contains("physics.accuracy"))
     return {"physics.engine=" + name, "physics.integrator=" + integrator, "physics.step=" + step};
   // An engine with given steps refuses an accuracy, and only a whole section can replace one.
-  const Physics& own = scenario.physics;
-  std::string whole =
-      fmt::format("physics={{engine: {}, integrator: {}, step: {}, gravity: [{}, {}, {}]", name, integrator, step,
-                  number_text(own.gravity.x()), number_text(own.gravity.y()), number_text(own.gravity.z()));
-  return {whole + (own.estimate == Estimate::off ? ", estimate: off}" : "}")};
+  const Vec3& g = scenario.physics.gravity;
+  std::string whole = fmt::format("physics={{engine: {}, integrator: {}, step: {}, gravity: [{}, {}, {}]", name, integrator,
+                                  step, number_text(g.x()), number_text(g.y()), number_text(g.z()));
+  return {whole + (scenario.physics.estimate == Estimate::off ? ", estimate: off}" : "}")};
 }
 
 /// Checks that the joint quantities that match the study's patterns are the same in every scenario.
