@@ -41,9 +41,12 @@ It is dc_motor with gear 1 and the constants that the data sheet implies:
     eta = T0 / (I0 k)             at most 1
     R = V / I0
 
+efficiency_model and turn_speed are those of dc_motor: with directional the line holds while the servo drives, and a servo that
+is driven, or held at rest, bears more.
+
 Take it where a maker states torque and speed, as for every hobby servo, and not the constants of motor and gear: data sheets
-give 1 kgf cm = 0.0980665 N m, and x s per 60 degrees = 1.0472 / x rad/s. Take dc_motor where these constants are known, or
-for its efficiency_model. The stall current moves currents, powers and copper losses, not torques. The controller models the electronics of a servo (its position loop, a dead band).
+give 1 kgf cm = 0.0980665 N m, and x s per 60 degrees = 1.0472 / x rad/s. Take dc_motor where these constants are known.
+The stall current moves currents, powers and copper losses, not torques, unless the efficiency is directional. The controller models the electronics of a servo (its position loop, a dead band).
 Source: the straight line is that of dc_motor (Chariot, Filippi, Verlinden 2012, eq. 1 and 2); numbers: the servo's data sheet.
 efficiency: 0.7 (chosen) where neither it nor stall_current is stated. Takes commands in V.
 
@@ -59,6 +62,7 @@ void ServoActuator::Settings::fields(Fields& f) {
   f.rating("stall_current", stall_current, {"A", 0, 1e6, "Current of the stalled servo at that voltage."});
   f.rating("efficiency", efficiency,
            {"", 0, 1, "Efficiency of motor and gear, instead of stall_current; 0.7 if neither is stated."});
+  EfficiencyKeys::fields(f);
   const auto that_holds = [&](double DcMotor::*limit) {
     return of_each({&voltage, &stall_torque, &no_load_speed, &stall_current, &efficiency, &u_max, &i_max},
                    [&](std::size_t j) { return motor(j).*limit; });
@@ -120,7 +124,7 @@ DcMotor ServoActuator::Settings::motor(std::size_t joint) const {
   const double u = u_max[joint] > 0 ? u_max[joint] : V;
   // At rest with voltage u, the current is u / R bit for bit, so that a joint at stall is not beyond its limit.
   const double i = i_max[joint] > 0 ? i_max[joint] : u / R;
-  return {R, k, k, 1.0, std::min(1.0, T0 / (I0 * k)), u, i};
+  return {R, k, k, 1.0, std::min(1.0, T0 / (I0 * k)), u, i, reversal_speed()};
 }
 
 ServoActuator::ServoActuator(const RobotInfo& robot, const std::vector<const Settings*>& lanes) {

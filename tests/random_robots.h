@@ -105,8 +105,7 @@ class RandomRobots {
     each(m.u_max, [&] { return uniform(2, 12); });
     each(m.i_max, [&] { return below(3) == 0 ? uniform(0.02, 0.2) : uniform(0.5, 3); });
     each(m.rotor_inertia, [&] { return below(2) == 0 ? 0 : scaled(1e-10, 1e-8); });
-    m.efficiency_model = below(2) == 0 ? actuators::DcMotorActuator::EfficiencyModel::paper
-                                       : actuators::DcMotorActuator::EfficiencyModel::directional;
+    m.efficiency_model = below(2) == 0 ? actuators::EfficiencyModel::paper : actuators::EfficiencyModel::directional;
     m.turn_speed = scaled(0.3, 3);
     return m;
   }

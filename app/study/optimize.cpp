@@ -1,4 +1,5 @@
-// `gaitlab optimize`, which searches the best point of a study and verifies it with half the step and with another engine.
+// `gaitlab optimize`, which searches the best point of a study and verifies it with half the step, in another engine, and in
+// worlds.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,10 +9,13 @@
 #include "app/study/study_quantities.h"
 #include "app/study/study_run.h"
 #include "app/study/study_text.h"
+#include "app/study/verification_text.h"
 #include "core/errors.h"
 #include "core/settings/wording.h"
+#include "studies/search/candidates.h"
 #include "studies/search/optimizer.h"
 #include "studies/search/verify.h"
+#include "studies/search/world_trials.h"
 #include "studies/study/study_file.h"
 
 namespace gaitlab::app {
@@ -86,9 +90,27 @@ void write_best(const Plan& plan, std::uint64_t run_number, const fs::path& fold
   (void)run(plan.scenario(run_number), arguments);
 }
 
-void say_verification(const fs::path& folder, std::size_t points) {
-  say(fmt::format("{}: the search has ended; its best {} simulated again for verification\n", folder.string(),
-                  points == 1 ? "point is" : fmt::format("{} points are", points)));
+/// Runs the best points again, and those that stand also in worlds, and writes the results. Nothing if interrupted.
+std::optional<std::vector<studies::Verification>> verify_best(const Plan& plan, Journal& journal,
+                                                              const studies::Results& results,
+                                                              const studies::Executor& executor, bool quiet) {
+  const std::vector<std::size_t> best = candidates(plan, results);
+  const std::string what = "verification of the best " + (best.size() == 1 ? "point" : fmt::format("{} points", best.size()));
+  auto tried = verify(plan, journal, results, best, executor, AgainProgress(quiet, what), stopped());
+  if (!tried) return {};
+  if (plan.study().verify.worlds)
+    tried = in_worlds(plan, journal, results, *tried, executor, AgainProgress(quiet, "those that stand, in worlds"), stopped());
+  if (tried) journal.write(*tried);
+  return tried;
+}
+
+/// States on stderr why no point is verified.
+void say_none(Journal& journal, bool tried, const std::string& folder) {
+  const std::string show = "`gaitlab study show " + shell_word(folder) + "`";
+  if (!tried) return say(fmt::format("{}: no point is kept; {} says which limits most runs break\n", folder, show));
+  const std::string nearest = nearest_text(journal);
+  say(fmt::format("{}: none of the best points was verified; {}\n", folder,
+                  nearest.empty() ? show + " says why. `verify: {best: N}` tries more, --seed N searches elsewhere" : nearest));
 }
 
 /// Prints the result of a search, and simulates the best verified point again for its run folder. Returns the exit code.
@@ -108,17 +130,11 @@ int finish_search(const Plan& plan, Journal& journal, const studies::Results& re
   }
   if (!quiet) fmt::print("files in {}: {}, {}\n", folder.string(), studies::kJournalFile, fmt::join(files, ", "));
   if (!stood.empty() || stopped()) return 0;
-  const std::string show = "`gaitlab study show " + shell_word(folder.string()) + "`";
   if (end == SearchEnd::refused) {
     say(fmt::format("{}: the search has ended, because the scenario refused all {} points of the first block: {}\n",
                     folder.string(), results.points.size(), results.failures.by_outcome.at("refused").message));
-  } else if (tried.empty()) {
-    say(fmt::format("{}: no point is kept; {} says which limits most runs break\n", folder.string(), show));
   } else {
-    say(fmt::format(
-        "{}: none of the best points was verified; {} says why. `verify: {{best: N}}` tries more, --seed N searches "
-        "elsewhere\n",
-        folder.string(), show));
+    say_none(journal, !tried.empty(), folder.string());
   }
   return 3;
 }
@@ -129,7 +145,8 @@ bool add_faults(const Plan& plan, Journal& journal, const studies::Results& resu
   const std::vector<std::uint64_t> stood = studies::verified(tried);
   if (plan.study().verify.faults == studies::VerifyFaults::none || stood.empty()) return true;
   const auto winner = std::ranges::find(results.points, stood.front(), &studies::PointResult::first_run);
-  const auto dead = with_dead_joints(plan, journal, *winner, executor, AgainProgress(quiet), stopped());
+  const auto dead =
+      with_dead_joints(plan, journal, *winner, executor, AgainProgress(quiet, "winner with a dead joint"), stopped());
   if (!dead) return false;
   std::vector<studies::Verification> all = tried;
   all.insert(all.end(), dead->begin(), dead->end());
@@ -169,11 +186,8 @@ int optimize_study(const OptimizeArguments& a) {
   };
   if (end == SearchEnd::stopped) return interrupted();
   const studies::Results results = studies::results(journal);
-  const std::vector<std::size_t> best = candidates(plan, results);
-  if (!a.quiet && !best.empty()) say_verification(folder, best.size());
-  const auto tried = verify(plan, journal, results, best, executor, AgainProgress(a.quiet), stopped());
+  const auto tried = verify_best(plan, journal, results, executor, a.quiet);
   if (!tried) return interrupted();
-  journal.write(*tried);
   if (!add_faults(plan, journal, results, *tried, executor, a.quiet)) return interrupted();
   const int code = finish_search(plan, journal, results, *tried, folder, end, a.quiet);
   return stopped() ? interrupted() : code;

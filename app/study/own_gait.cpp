@@ -9,11 +9,13 @@
 #include "app/app.h"
 #include "app/stop_on_signal.h"
 #include "app/study/study_quantities.h"
+#include "app/study/study_text.h"
 #include "core/errors.h"
 #include "core/settings/wording.h"
 #include "core/simulation/batch.h"
 #include "report/verdict/number_texts.h"
 #include "report/verdict/trust.h"
+#include "studies/search/step_limit.h"
 
 namespace gaitlab::app {
 
@@ -50,7 +52,10 @@ bool try_all(const studies::Plan& plan, std::size_t scenario, std::vector<Way>& 
     } catch (const InputError&) {  // the engine refuses this step
     }
   }
+  AgainProgress progress(false, "scenario's own gait");
+  std::size_t done = 0;
   return run_all(tried, {}, measure.reads, stopped(), [&](std::size_t k, RolloutEnd&& end) {
+    progress(++done, tried.size());
     if (!end.refused.empty() || !end.recording.outcome.done()) return;
     const studies::Measured measured = measure(end.rollout.scenario, end.recording);
     const double value = plan.scorer().score(measured.quantities, measured.verdict).objective();
@@ -59,7 +64,7 @@ bool try_all(const studies::Plan& plan, std::size_t scenario, std::vector<Way>& 
   });
 }
 
-/// Relative error of a value against the limit of vanishing steps (Richardson extrapolation).
+/// Relative error of a value against the limit of vanishing steps.
 struct Cost {
   double limit;
   [[nodiscard]] double of(double value) const { return std::abs(value - limit) / std::abs(limit); }
@@ -75,9 +80,7 @@ std::string text(const studies::Plan& plan, const Scenario& own, const std::vect
     return much ? "the torque error of the scenario's own gait is about " + report::texts::rough_percent(given.error.share)
                 : "";
   }
-  const double ratio = std::pow(2, std::max(1, own.physics.integrator->order));
-  const double half = *all[1].objective;
-  const Cost cost{half + (half - *given.objective) / (ratio - 1)};
+  const Cost cost{studies::step_limit(*given.objective, *all[1].objective, std::max(1, own.physics.integrator->order))};
   if (!(std::abs(cost.limit) > 0)) return "";
   const std::string& objective = plan.scorer().objectives().front();
   std::string said =

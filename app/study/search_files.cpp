@@ -9,7 +9,7 @@
 #include "core/settings/wording.h"
 #include "report/figures/study/study_convergence.h"
 #include "report/figures/study/study_front.h"
-#include "studies/search/verify.h"
+#include "studies/search/world_trials.h"
 
 namespace gaitlab::app {
 

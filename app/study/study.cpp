@@ -10,6 +10,8 @@
 #include "app/study/study_text.h"
 #include "core/settings/wording.h"
 #include "studies/journal/study_folder.h"
+#include "studies/plan/definition.h"
+#include "studies/plan/worlds.h"
 #include "studies/study/followers.h"
 #include "studies/study/number.h"
 #include "studies/study/scenarios.h"
@@ -244,8 +246,29 @@ std::vector<std::string> settings_of_row(const Journal& journal, const std::vect
   std::vector<std::string> sets;
   for (const auto& [key, value] : followers.settings(values)) sets.push_back(fmt::format("{}={}", key, value));
   sets.insert(sets.end(), drawn.begin(), drawn.end());
-  sets.push_back("seed=" + row[3]);
   return sets;
+}
+
+/// The scenario of a row, with its seed or, in a robust study, in its world.
+Scenario scenario_in_row(const Journal& journal, const std::vector<std::string>& row, const StudyArguments& a,
+                         Catalog& catalog) {
+  const std::vector<std::string> names = journal.columns().all();
+  const studies::JournalHead& head = journal.head();
+  std::vector<std::string> sets = settings_of_row(journal, names, row);
+  const auto read = [&] {
+    return read_stored({"", (fs::path(a.folder) / studies::kJournalFile).string(), scenario_of_row(head, names, row)}, catalog,
+                       OtherPlugins::refused, sets);
+  };
+  const std::vector<std::string> worlds = studies::robust_worlds(head.definition);
+  const std::uint64_t replicate = studies::run_number_of(row[2]);
+  if (worlds.empty()) {
+    sets.push_back("seed=" + row[3]);
+  } else if (replicate > 0 && replicate <= worlds.size()) {
+    for (const studies::World& world : studies::worlds(read())) {
+      if (world.name == worlds[replicate - 1]) sets.insert(sets.end(), world.sets.begin(), world.sets.end());
+    }
+  }
+  return read();
 }
 
 int rerun_study(const StudyArguments& a) {
@@ -258,10 +281,7 @@ int rerun_study(const StudyArguments& a) {
   }
   const std::vector<std::string> names = journal.columns().all();
   Catalog catalog = careful_catalog(a.plugins);
-  const std::vector<std::string> sets = settings_of_row(journal, names, row);
-  const Scenario scenario =
-      read_stored({"", (fs::path(a.folder) / studies::kJournalFile).string(), scenario_of_row(head, names, row)}, catalog,
-                  OtherPlugins::refused, sets);
+  const Scenario scenario = scenario_in_row(journal, row, a, catalog);
   RunArguments run_arguments;
   run_arguments.out = a.out.value_or((fs::path(a.folder) / fmt::format("run-{}", a.run)).string());
   const int code = run(scenario, run_arguments);

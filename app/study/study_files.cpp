@@ -15,7 +15,7 @@
 #include "report/figures/study/box_figure.h"
 #include "report/figures/study/many_figure.h"
 #include "report/figures/study/study_figure.h"
-#include "studies/search/verify.h"
+#include "studies/search/world_trials.h"
 #include "studies/study/number.h"
 #include "studies/study/scenarios.h"
 

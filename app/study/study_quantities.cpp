@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/settings/wording.h"
+#include "report/verdict/number_texts.h"
 #include "report/verdict/quantities.h"
 #include "report/verdict/verdict.h"
 #include "studies/study/number.h"
@@ -159,6 +160,14 @@ std::vector<std::string> names_of_joints(const Robot& robot) {
   return names;
 }
 
+/// The deciding check and its part, as in `voltage of m5/passive`; the word of a verdict without one.
+std::string cause(const report::Verdict& verdict) {
+  const auto decisive = std::ranges::find(verdict.checks, verdict.decided_by, &report::Check::id);
+  if (decisive == verdict.checks.end()) return name_of(verdict.word);
+  const std::string check = report::texts::spaced(decisive->id);
+  return decisive->worst.empty() ? check : fmt::format("{} of {}", check, decisive->worst);
+}
+
 }  // namespace
 
 studies::Measure quantity_measure(const std::vector<studies::Quantity>& columns, const Scenario& scenario) {
@@ -185,6 +194,7 @@ studies::Measure quantity_measure(const std::vector<studies::Quantity>& columns,
     }
     measured.verdict = name_of(verdict.word);
     measured.why = verdict.why();
+    measured.cause = cause(verdict);
     return measured;
   };
   Records reads = report::kVerdictReads;

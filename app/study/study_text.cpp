@@ -302,6 +302,12 @@ void write_table(Journal& journal, const std::filesystem::path& file, Existing e
   out.commit();
 }
 
+namespace {
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds kOften{100};  // between updates, on a terminal
+constexpr std::chrono::seconds kSeldom{30};       // between updates, elsewhere
+}  // namespace
+
 StudyProgress::StudyProgress(bool quiet, std::string unit)
     : shown_(!quiet), terminal_(isatty(fileno(stderr)) != 0), unit_(std::move(unit)) {}
 
@@ -309,11 +315,21 @@ StudyProgress::~StudyProgress() {
   if (shown_ && terminal_) fmt::print(stderr, "\r{:110}\r", "");
 }
 
-AgainProgress::AgainProgress(bool quiet) : shown_(!quiet && isatty(fileno(stderr)) != 0) {}
+AgainProgress::AgainProgress(bool quiet, std::string what)
+    : shown_(!quiet), terminal_(isatty(fileno(stderr)) != 0), what_(std::move(what)) {}
 
-void AgainProgress::operator()(std::size_t done, std::size_t of) const {
+void AgainProgress::operator()(std::size_t done, std::size_t of) {
   if (!shown_) return;
-  fmt::print(stderr, "\r{}", done < of ? fmt::format("{} of {} runs again", done, of) : fmt::format("{:40}\r", ""));
+  const std::string text = fmt::format("{}: {} of {}", what_, done, counted(of, "run"));
+  const Clock::time_point now = Clock::now();
+  if (done == 0) {
+    say(fmt::format("{}: {}\n", what_, counted(of, "run")));
+  } else if (terminal_) {
+    fmt::print(stderr, "\r{0:{1}}{2}", done < of ? text : "", text.size(), done < of ? "" : "\r");
+  } else if (done < of && now - last_ >= kSeldom) {
+    say(text + "\n");
+    last_ = now;
+  }
   (void)std::fflush(stderr);
 }
 
@@ -336,12 +352,10 @@ void StudyProgress::operator()(const studies::Standing& s) {
   if (!shown_) return;
   const Time now = std::chrono::steady_clock::now();
   const double runs_per_s = rate(now, s.ended);
-  const std::chrono::duration<double> last = now - last_;
-  constexpr double kOften = 0.1;  // s between updates, on a terminal
-  constexpr double kSeldom = 30;  // s between updates, elsewhere
+  const auto last = now - last_;
   const bool first = last_ == Time{};
   if (first && !terminal_) last_ = now;  // the first line is printed after 30 s
-  if ((first && !terminal_) || (!first && last.count() < (terminal_ ? kOften : kSeldom))) return;
+  if ((first && !terminal_) || (!first && last < (terminal_ ? kOften : kSeldom))) return;
   last_ = now;
   std::string text = fmt::format("{}/{} runs", s.ended, s.wanted) + place_;
   if (s.best) text += fmt::format("  best {:.4g}{} (run {})", s.best->objective(), unit_, s.best_run);

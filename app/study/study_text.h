@@ -64,14 +64,18 @@ class StudyProgress {
   Time last_{};
 };
 
-/// Progress of repeated runs, shown as one line on a terminal.
+/// Progress of repeated runs: on a terminal one line that changes, otherwise a line every 30 s.
 class AgainProgress {
  public:
-  explicit AgainProgress(bool quiet);
-  void operator()(std::size_t done, std::size_t of) const;
+  /// `what` states the purpose of the runs, as in `verification`.
+  AgainProgress(bool quiet, std::string what);
+  /// With `done` 0 a line states the purpose and the number of the runs.
+  void operator()(std::size_t done, std::size_t of);
 
  private:
-  bool shown_;
+  bool shown_, terminal_;
+  std::string what_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
 /// Text as a cell of a CSV table, in quotes if it contains commas, quotes or line ends.

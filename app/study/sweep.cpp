@@ -36,7 +36,7 @@ bool estimate_others(const Plan& plan, Journal& journal, const studies::Executor
         fmt::format("the torque error {}: the other {} again with an estimate", why,
                     runs.size() == 1 ? "run is made" : fmt::format("{} runs are made", runs.size())));
   }
-  return estimate_again(plan, journal, runs, executor, AgainProgress(a.quiet), stopped());
+  return estimate_again(plan, journal, runs, executor, AgainProgress(a.quiet, "estimates"), stopped());
 }
 
 /// Runs those points of the shard that are not in the journal. Prints the number of runs that were taken from other studies.

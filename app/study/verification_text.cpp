@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 #include <vector>
 
 #include "app/study/study_text.h"
@@ -15,41 +16,105 @@ namespace gaitlab::app {
 
 namespace {
 
+using studies::Verification;
+using studies::WorldCount;
+
+std::string objective_cell(const Verification& v) {
+  return v.objectives.empty() || std::isnan(v.objectives.front()) ? "-" : fmt::format("{:.4g}", v.objectives.front());
+}
+
 /// Table of the winner with each joint dead in turn; "" if the study has not asked for it.
-std::string faults_text(const std::vector<studies::Verification>& faults, const std::string& objective) {
+std::string faults_text(const std::vector<Verification>& faults, const std::string& objective) {
   if (faults.empty()) return "";
   std::vector<std::vector<std::string>> rows{{"joint", objective, "verdict"}};
-  for (const studies::Verification& v : faults) {
-    std::string cells =
-        v.objectives.empty() || std::isnan(v.objectives.front()) ? "-" : fmt::format("{:.4g}", v.objectives.front());
-    rows.push_back({clipped(v.what), std::move(cells), v.verdict.empty() ? "-" : v.verdict});
-  }
+  for (const Verification& v : faults)
+    rows.push_back({clipped(v.what), objective_cell(v), v.verdict.empty() ? "-" : v.verdict});
   return fmt::format("run {} with a joint dead from t = 0:\n{}", faults.front().run, aligned(rows, 2));
+}
+
+std::string stands_text(const WorldCount& count) {
+  return fmt::format("stands in {} of {}", count.stood, counted(count.of, "world"));
+}
+
+/// Text on a point: its runs with their objectives, and the reasons that reject it.
+std::string point_text(const std::vector<Verification>& all, std::uint64_t run, const std::string& unit) {
+  std::string ways;
+  std::string reasons;
+  std::string below;
+  bool rejected = false;
+  const WorldCount count = studies::counted_worlds(all, run);
+  std::string share = count.of > 0 ? ", " + stands_text(count) : "";
+  for (const Verification& v : all) {
+    if (v.run != run || studies::is_world(v)) continue;
+    rejected = rejected || !v.reason.empty();
+    if (studies::is_share(v)) {
+      if (!v.reason.empty()) share = ", " + one_line(v.reason);
+      continue;
+    }
+    ways += fmt::format("{}{} {}", ways.empty() ? "" : ", ", clipped(v.what), objective_cell(v));
+    if (!v.reason.empty()) reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", clipped(v.what), one_line(v.reason));
+    if (studies::is_limit(v))
+      below += fmt::format("  the gait stands; the study's step was too long: {}{}\n", objective_cell(v), unit);
+  }
+  if (!reasons.empty()) below += "  " + reasons + "\n";
+  if (const std::string falls = falls_text(count); !falls.empty()) below += "  " + falls + "\n";
+  return fmt::format("run {} {}{} ({})\n{}", run, rejected ? "not verified" : "verified", share, ways, below);
+}
+
+/// Guard of the check that is the first cause of a fall, as in `guards: {voltage: {margin: 0.1}}`; "" if no cause is a check.
+std::string guard_text(const studies::JournalHead& head, const WorldCount& count) {
+  for (const Verification& fall : count.falls) {
+    std::string check = fall.reason.substr(0, fall.reason.find(" of "));
+    std::ranges::replace(check, ' ', '_');
+    const bool known = std::ranges::find(head.quantities, "margin." + check, &studies::Quantity::name) != head.quantities.end();
+    if (known) return fmt::format("a margin as guard, `guards: {{{}: {{margin: 0.1}}}}`, or ", check);
+  }
+  return "";
 }
 
 }  // namespace
 
+std::string falls_text(const WorldCount& count) {
+  std::vector<std::pair<std::string, std::string>> causes;  // with the worlds that they are of, each cause once
+  for (const Verification& v : count.falls) {
+    const auto at = std::ranges::find(causes, v.reason, [](const auto& one) { return one.first; });
+    const std::string name = clipped(studies::world_name(v));
+    if (at == causes.end()) {
+      causes.emplace_back(v.reason, name);
+    } else {
+      at->second += ", " + name;
+    }
+  }
+  std::vector<std::string> falls;
+  for (const auto& [cause, names] : causes) falls.push_back(fmt::format("{}: {}", names, one_line(cause)));
+  if (count.fell_drawn > 0)
+    falls.push_back(fmt::format("{}in {} of {}", falls.empty() ? "" : "and ", count.fell_drawn, counted(count.drawn, "draw")));
+  const bool named = !count.falls.empty();
+  return falls.empty() ? "" : fmt::format("falls {}{}", named ? "by " : "", fmt::join(falls, "; "));
+}
+
+std::string nearest_text(studies::Journal& journal) {
+  const std::vector<Verification> all = journal.verifications();
+  const auto share = std::ranges::find_if(all, studies::is_share);
+  if (share == all.end()) return "";
+  const WorldCount count = studies::counted_worlds(all, share->run);
+  const bool most = count.stood < count.of / 2;
+  const bool paper = journal.head().scenario.find("efficiency_model: paper") != std::string::npos;
+  return fmt::format("run {} is nearest: it {}; {}; {}`robust: true` searches gaits with reserve{}", share->run,
+                     one_line(share->reason), falls_text(count), guard_text(journal.head(), count),
+                     most && paper ? "; gears are directional in every world: `set: [actuator.efficiency_model=directional]` "
+                                     "searches with them"
+                                   : "");
+}
+
 std::string verification_text(studies::Journal& journal) {
-  std::vector<studies::Verification> all = journal.verifications();
-  std::vector<studies::Verification> faults;
+  std::vector<Verification> all = journal.verifications();
+  std::vector<Verification> faults;
   std::ranges::copy_if(all, std::back_inserter(faults), studies::is_fault);
   std::erase_if(all, studies::is_fault);
   std::string text;
-  std::uint64_t run = 0;
-  for (std::size_t k = 0; k < all.size();) {
-    run = all[k].run;
-    std::string ways;
-    std::string reasons;
-    for (; k < all.size() && all[k].run == run; ++k) {
-      const studies::Verification& v = all[k];
-      const double objective = v.objectives.front();
-      ways += fmt::format("{}{} {}", ways.empty() ? "" : ", ", clipped(v.what),
-                          std::isnan(objective) ? "-" : fmt::format("{:.4g}", objective));
-      if (!v.reason.empty())
-        reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", clipped(v.what), one_line(v.reason));
-    }
-    text += fmt::format("run {} {} ({}){}\n", run, reasons.empty() ? "verified" : "not verified", ways,
-                        reasons.empty() ? "" : "\n  " + reasons);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (k == 0 || all[k].run != all[k - 1].run) text += point_text(all, all[k].run, objective_unit(journal.head()));
   }
   const std::string objective = objective_text(journal.head());
   return text.empty() ? "" : "verification of the best points (" + objective + "):\n" + text + faults_text(faults, objective);

@@ -29,6 +29,7 @@ struct Row {
   std::vector<double> quantities;   ///< quantities by column; empty if not known
   std::string verdict;
   std::optional<Score> score = {};
+  std::string cause = {};  ///< the reason in few words, as in `voltage of m5/passive`; the journal does not hold it
 };
 
 /// A parameter, or a key that is drawn for every replicate, as stored in the journal.

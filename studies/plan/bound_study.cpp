@@ -7,6 +7,7 @@
 #include "core/model/pattern.h"
 #include "core/settings/value.h"
 #include "core/settings/wording.h"
+#include "studies/plan/worlds.h"
 #include "studies/study/number.h"
 
 namespace gaitlab::studies {
@@ -35,15 +36,18 @@ std::vector<std::string> other_engine_of(const Verify& verify, const Scenario& s
                  "verify.engine " + in_quotes(name) + " is not known" + gaitlab::offer(name, catalog.engines(), "engines"));
     return {};
   }
-  std::vector<std::string> sets{"physics.engine=" + name};
-  if (engine->adaptive() != nullptr) {
-    sets.push_back(fmt::format("physics.integrator={}", engine->integrators.front().name));
-    sets.emplace_back("physics.step=auto");
-  } else {
-    sets.push_back(fmt::format("physics.integrator={}", engine->fixed().name));
-    sets.push_back("physics.step=" + number_text(engine->given_step(scenario.contact.model().has_step_of_its_own)));
-  }
-  return sets;
+  const bool own_step = scenario.contact.model().has_step_of_its_own;
+  const bool adapts = engine->adaptive() != nullptr;
+  const bool chooses = engine->choose_step != nullptr && !own_step;  // by its stability, up to its longest step
+  const std::string integrator = adapts ? engine->integrators.front().name : engine->fixed().name;
+  const std::string step = adapts || chooses ? "auto" : number_text(engine->given_step(own_step));
+  if (adapts || !scenario.places->contains("physics.accuracy"))
+    return {"physics.engine=" + name, "physics.integrator=" + integrator, "physics.step=" + step};
+  // An engine with given steps refuses an accuracy, and only a whole section can replace one.
+  const Vec3& g = scenario.physics.gravity;
+  std::string whole = fmt::format("physics={{engine: {}, integrator: {}, step: {}, gravity: [{}, {}, {}]", name, integrator,
+                                  step, number_text(g.x()), number_text(g.y()), number_text(g.z()));
+  return {whole + (scenario.physics.estimate == Estimate::off ? ", estimate: off}" : "}")};
 }
 
 /// Checks that the joint quantities that match the study's patterns are the same in every scenario.
@@ -64,6 +68,7 @@ void check_same(const std::vector<Quantity>& first, const std::vector<Quantity>&
 
 BoundStudy::BoundStudy(Study study, const QuantityOffer& offer, Catalog& catalog)
     : study_(std::move(study)), scenarios_(read_scenarios(study_, catalog)), scenario_text_(scenarios_text(scenarios_)) {
+  find_worlds();
   Problems problems;
   followers_ = std::make_unique<Followers>(study_.parameters, problems);
   problems.raise();
@@ -80,6 +85,16 @@ BoundStudy::BoundStudy(Study study, const QuantityOffer& offer, Catalog& catalog
   if (Text& first = study_.objectives.front().expression; first.text.empty()) first.text = columns_[shown_.front()].name;
   make_scorers(offer, catalog, problems);
   problems.raise();
+}
+
+void BoundStudy::find_worlds() {
+  if (!study_.robust) return;
+  std::vector<std::vector<World>> of_each;
+  for (const StudyScenario& one : scenarios_) of_each.push_back(worlds(one.nominal));
+  for (std::size_t w = 0; w < kWorlds; ++w) {
+    if (std::ranges::any_of(of_each, [w](const std::vector<World>& of) { return of[w].applies; })) robust_worlds_.push_back(w);
+  }
+  study_.replicates.count = 1 + static_cast<std::int64_t>(robust_worlds_.size());
 }
 
 /// Refuses a free parameter with the name of a key of the scenario, because the two would be confused.

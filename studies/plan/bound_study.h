@@ -27,6 +27,9 @@ class BoundStudy {
   /// Duration of the longest scenario, s.
   [[nodiscard]] double longest() const;
   [[nodiscard]] bool has_other_engine() const;
+  /// Positions in worlds() of the worlds that apply to any of the scenarios. In a robust study replicate 0 is nominal, and
+  /// replicate r runs in the world at position r - 1 of this list.
+  [[nodiscard]] const std::vector<std::size_t>& robust_worlds() const { return robust_worlds_; }
   [[nodiscard]] const Followers& followers() const { return *followers_; }
   [[nodiscard]] const Scorer& scorer() const { return *scorer_; }
   [[nodiscard]] const StopRules& stops() const { return *stops_; }
@@ -45,6 +48,7 @@ class BoundStudy {
 
  private:
   void check_own_names(std::size_t scenario, Problems& problems) const;
+  void find_worlds();
   void find_nominal(StudyScenario& scenario, Problems& problems) const;
   void find_starts(Problems& problems);
   void find_columns(const QuantityOffer& offer, Problems& problems);
@@ -55,6 +59,7 @@ class BoundStudy {
 
   Study study_;
   std::vector<StudyScenario> scenarios_;
+  std::vector<std::size_t> robust_worlds_;  ///< empty unless the study is robust
   std::string scenario_text_;
   std::unique_ptr<Followers> followers_;
   std::vector<Quantity> columns_;

@@ -6,6 +6,7 @@
 
 #include "core/files/hash.h"
 #include "core/settings/wording.h"
+#include "studies/plan/worlds.h"
 #include "studies/study/number.h"
 
 namespace gaitlab::studies {
@@ -27,6 +28,9 @@ std::string law_text(const Variation& v) {
   if (v.high) text += ", high " + number_text(*v.high);
   return text;
 }
+
+constexpr std::string_view kRobust = "robust: ";
+constexpr std::string_view kBetween = ", ";
 
 /// Settings of a search, without its method.
 std::string search_text(const Study& study) {
@@ -50,6 +54,12 @@ std::string definition(const BoundStudy& bound) {
                         p.values.empty() ? number_range(p) : fmt::format("{}", fmt::join(p.values, ", ")));
     text += followers_text(p);
   }
+  if (study.robust) {
+    const std::vector<World> all = worlds(bound.scenarios().front().nominal);
+    std::vector<std::string> names;
+    for (const std::size_t w : bound.robust_worlds()) names.push_back(all[w].name);
+    text += fmt::format("{}{}\n", kRobust, fmt::join(names, kBetween));
+  }
   if (study.replicates.count > 0) {
     text += fmt::format("replicates: {}, {}", study.replicates.count, name_of(study.replicates.combine));
     if (study.replicates.has_argument()) text += " " + number_text(study.replicates.quantile);
@@ -68,6 +78,19 @@ std::string definition(const BoundStudy& bound) {
     if (column.name.ends_with("]")) text += "quantity: " + column.name + "\n";
   }
   return text + "quantities: " + hash128(columns) + "\n";
+}
+
+std::vector<std::string> robust_worlds(const std::string& definition) {
+  std::vector<std::string> names;
+  const std::size_t line = definition.find(fmt::format("\n{}", kRobust));
+  if (line == std::string::npos) return names;
+  const std::size_t end = std::min(definition.find('\n', line + 1), definition.size());
+  for (std::size_t at = line + 1 + kRobust.size(); at < end;) {
+    const std::size_t next = std::min(definition.find(kBetween, at), end);
+    names.push_back(definition.substr(at, next - at));
+    at = next + kBetween.size();
+  }
+  return names;
 }
 
 JournalHead journal_head(const Plan& plan) {

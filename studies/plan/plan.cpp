@@ -10,6 +10,7 @@
 #include "studies/journal/results.h"
 #include "studies/plan/draws.h"
 #include "studies/plan/plan_checks.h"
+#include "studies/plan/worlds.h"
 #include "studies/study/number.h"
 
 namespace gaitlab::studies {
@@ -32,12 +33,33 @@ std::vector<std::string> Plan::sets(std::uint64_t run) const { return sets(point
 std::vector<std::string> Plan::sets(const std::vector<std::string>& values, std::uint64_t run) const {
   std::vector<std::string> sets;
   for (const auto& [key, value] : bound_.followers().settings(values)) sets.push_back(fmt::format("{}={}", key, value));
-  if (study().replicates.count == 0) return sets;
+  if (study().robust) {
+    const std::vector<std::string> world = of_world(sets, run);
+    sets.insert(sets.end(), world.begin(), world.end());
+  }
+  if (study().robust || study().replicates.count == 0) return sets;
   const std::uint64_t replicate = points_.replicate(run);
   const std::vector<std::string> drawn = points_.drawn(replicate, nominal(values, points_.scenario(run)));
   for (std::size_t k = 0; k < drawn.size(); ++k) sets.push_back(study().replicates.vary[k].key + "=" + drawn[k]);
   sets.push_back(fmt::format("seed={}", points_.seed(replicate)));
   return sets;
+}
+
+std::vector<std::string> Plan::of_world(const std::vector<std::string>& sets, std::uint64_t run) const {
+  const std::uint64_t replicate = points_.replicate(run);
+  if (replicate == 0) return {};
+  try {
+    return worlds(with(sets, points_.scenario(run))).at(bound_.robust_worlds().at(replicate - 1)).sets;
+  } catch (const InputError&) {
+    return {};  // the run itself reports the reason
+  }
+}
+
+std::int64_t Plan::seed(std::uint64_t run) const {
+  const Scenario& nominal = scenarios()[points_.scenario(run)].nominal;
+  const std::uint64_t replicate = points_.replicate(run);
+  if (study().robust && replicate > 0) return worlds(nominal).at(bound_.robust_worlds().at(replicate - 1)).seed;
+  return study().robust || study().replicates.count == 0 ? nominal.seed : points_.seed(replicate);
 }
 
 bool Plan::raise_budget(std::uint64_t runs) {
@@ -65,11 +87,11 @@ Row Plan::row(std::uint64_t run) const {
   const std::size_t scenario = points_.scenario(run);
   row.scenario = scenarios()[scenario].name;
   row.replicate = points_.replicate(run);
-  if (study().replicates.count > 0) {
+  if (!study().replicates.vary.empty()) {
     const std::vector<std::string> drawn = points_.drawn(row.replicate, nominal(row.values, scenario));
     row.values.insert(row.values.end(), drawn.begin(), drawn.end());
   }
-  row.seed = study().replicates.count == 0 ? scenarios()[scenario].nominal.seed : points_.seed(row.replicate);
+  row.seed = seed(run);
   return row;
 }
 
@@ -105,6 +127,7 @@ void Plan::finish(Row& row, const Scenario& scenario, const Recording& recording
   row.quantities = std::move(measured.quantities);
   row.verdict = std::move(measured.verdict);
   row.message = std::move(measured.why);
+  row.cause = std::move(measured.cause);
   row.score = scorer().score(row.quantities, row.verdict);
 }
 

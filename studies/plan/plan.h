@@ -61,6 +61,11 @@ class Plan {
   void finish(Row& row, const Scenario& scenario, const Recording& recording, const Measure& measure) const;
 
  private:
+  /// Settings of a world in a robust study, for a run with these settings. Empty for the nominal run, and if the scenario
+  /// refuses the settings of the run.
+  [[nodiscard]] std::vector<std::string> of_world(const std::vector<std::string>& sets, std::uint64_t run) const;
+  /// Seed of a run.
+  [[nodiscard]] std::int64_t seed(std::uint64_t run) const;
   /// Numeric values of a scenario's keys at a point with these parameter values.
   [[nodiscard]] std::map<std::string, double> nominal(const std::vector<std::string>& values, std::size_t scenario) const;
   [[nodiscard]] bool drawn_for_estimate(const std::string& point) const;

@@ -10,13 +10,14 @@ namespace gaitlab::studies {
 
 bool do_again(const Again& again, const Executor& executor, std::atomic<bool>& stop) {
   if (again.count == 0) return true;
+  if (again.told) again.told(0, again.count);
   std::mutex mutex;
   std::size_t next = 0;
   std::size_t done = 0;
   const Work work{.next = [&]() -> std::optional<Job> {
                     if (next == again.count) return {};
                     Job job = again.job(next++);
-                    job.estimate = true;
+                    job.estimate = again.estimate;
                     return job;
                   },
                   .begin = [](std::span<const std::uint64_t>) {},

@@ -1,4 +1,4 @@
-// Second runs of a study's runs, with an estimate of the torque error.
+// Second runs of a study's runs, as a rule with an estimate of the torque error.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -9,14 +9,15 @@
 
 namespace gaitlab::studies {
 
-/// Second runs with the numbers 0 to count - 1. When a group of runs that were simulated together has ended, `take` is
-/// called with their rows, and then `told` with the number of all runs that have ended so far, and `count`. Calls do not
-/// overlap.
+/// Second runs with the numbers 0 to count - 1. `told` is called before the first run with 0 and `count`. When a group of runs
+/// that were simulated together has ended, `take` is called with their rows, and then `told` with the number of all runs that
+/// have ended so far, and `count`. Calls do not overlap.
 struct Again {
   std::size_t count = 0;
   std::function<Job(std::size_t number)> job;
   std::function<void(std::vector<Row>&& rows)> take;
   std::function<void(std::size_t done, std::size_t of)> told = {};
+  bool estimate = true;  ///< false: only runs of points that are drawn for an estimate have one
 };
 bool do_again(const Again& again, const Executor& executor, std::atomic<bool>& stop);
 

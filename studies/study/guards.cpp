@@ -127,9 +127,9 @@ std::string margin_column(const Guard& guard) {
   return "margin." + guard.check + (guard.asks == Guard::Asks::limit ? "[" + number_text(guard.number) + "]" : "");
 }
 
-double MarginGuard::broken(std::span<const double> quantities) const {
+double MarginGuard::broken(std::span<const double> quantities, bool reserve) const {
   const double margin = quantities[column];
-  return std::isnan(margin) ? 0 : std::max(0.0, least - margin);
+  return std::isnan(margin) ? 0 : std::max(0.0, (reserve ? least : std::min(0.0, least)) - margin);
 }
 
 Guards::Guards(const Study& study, const std::vector<std::string>& columns, std::span<const CheckOffer> checks, bool of_energy,
@@ -177,24 +177,24 @@ bool Guards::made_up_for(std::span<const double> quantities, const std::string& 
   return verdict == "infeasible" && std::ranges::any_of(replaced_, fails) && std::ranges::none_of(all_, fails_of_verdict);
 }
 
-double Guards::violation(std::span<const double> quantities, const std::string& verdict) const {
+double Guards::violation(std::span<const double> quantities, const std::string& verdict, bool reserve) const {
   double sum = 0;
   for (const MarginGuard& guard : all_) {
-    if (!guard.of_verdict || verdict != "feasible") sum += limited_violation(guard.broken(quantities));
+    if (!guard.of_verdict || verdict != "feasible") sum += limited_violation(guard.broken(quantities, reserve));
   }
   const bool kept = !verdict_ || verdict == "feasible" || made_up_for(quantities, verdict);
   return sum == 0 && !kept ? limited_violation(1) : sum;
 }
 
-std::vector<std::string> Guards::broken(std::span<const double> quantities, const std::string& verdict,
-                                        const std::string& why) const {
+std::vector<std::string> Guards::broken(std::span<const double> quantities, const std::string& verdict, const std::string& why,
+                                        bool reserve) const {
   std::vector<std::string> texts;
   if (verdict_ && verdict != "feasible" && !made_up_for(quantities, verdict))
     texts.push_back(verdict + (why.empty() ? "" : ": " + why));
   for (const MarginGuard& guard : all_) {
-    if (!guard.of_verdict && guard.broken(quantities) > 0) {
+    if (!guard.of_verdict && guard.broken(quantities, reserve) > 0) {
       texts.push_back(fmt::format("check {} has a margin of {:.4g}; the study requires {}", guard.check,
-                                  quantities[guard.column], number_text(guard.least)));
+                                  quantities[guard.column], number_text(reserve ? guard.least : std::min(0.0, guard.least))));
     }
   }
   return texts;

@@ -38,7 +38,7 @@ struct MarginGuard {
   std::size_t column = 0;
   double least = 0;
   bool of_verdict = false;  ///< true for a check that decides the verdict; false for a check that the study names
-  [[nodiscard]] double broken(std::span<const double> quantities) const;
+  [[nodiscard]] double broken(std::span<const double> quantities, bool reserve = true) const;
 };
 
 /// The guards of one study, with the columns of its journal.
@@ -51,11 +51,12 @@ class Guards {
          Problems& problems);
 
   /// Sum over the guards of limited_violation() of the amount by which each margin is too small. It is 0.5 if the verdict is
-  /// not `feasible` although no margin is too small, and 0 if all guards are satisfied.
-  [[nodiscard]] double violation(std::span<const double> quantities, const std::string& verdict) const;
+  /// not `feasible` although no margin is too small, and 0 if all guards are satisfied. Without `reserve`, a margin that the
+  /// study requires above 0 counts as 0: the reserve may be used up.
+  [[nodiscard]] double violation(std::span<const double> quantities, const std::string& verdict, bool reserve = true) const;
   /// Texts of the guards that a run violates. `why` is the sentence after its verdict.
   [[nodiscard]] std::vector<std::string> broken(std::span<const double> quantities, const std::string& verdict,
-                                                const std::string& why) const;
+                                                const std::string& why, bool reserve = true) const;
   /// Relations over columns, as in `margin.stops >= 0`. For a verdict with checks that the study replaces, the text is a
   /// sentence.
   [[nodiscard]] std::vector<std::string> texts() const;

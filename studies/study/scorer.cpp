@@ -116,8 +116,8 @@ std::vector<Limit> Scorer::limits() const {
   return all;
 }
 
-std::vector<std::string> Scorer::broken(std::span<const double> quantities, const std::string& verdict,
-                                        const std::string& why) const {
+std::vector<std::string> Scorer::broken(std::span<const double> quantities, const std::string& verdict, const std::string& why,
+                                        bool reserve) const {
   std::vector<std::string> all;
   for (std::size_t k = 0; k < objectives_.size(); ++k) {
     if (!std::isfinite(objectives_[k].value(quantities))) all.push_back(objective_texts_[k] + " is not known");
@@ -126,18 +126,18 @@ std::vector<std::string> Scorer::broken(std::span<const double> quantities, cons
     if (studies::broken(constraints_[k], quantities) > 0)
       all.push_back(fmt::format("{} ({:.4g})", constraint_texts_[k], constraints_[k].operand(0, quantities)));
   }
-  for (std::string& text : guards_.broken(quantities, verdict, why)) all.push_back(std::move(text));
+  for (std::string& text : guards_.broken(quantities, verdict, why, reserve)) all.push_back(std::move(text));
   return all;
 }
 
-Score Scorer::score(std::span<const double> quantities, const std::string& verdict) const {
+Score Scorer::score(std::span<const double> quantities, const std::string& verdict, bool reserve) const {
   Score score;
   for (std::size_t k = 0; k < objectives_.size(); ++k) {
     score.objectives[k] = objectives_[k].value(quantities);
     if (!std::isfinite(score.objectives[k])) score.violation += 1;
   }
   for (const Formula& constraint : constraints_) score.violation += limited_violation(studies::broken(constraint, quantities));
-  score.violation += guards_.violation(quantities, verdict);
+  score.violation += guards_.violation(quantities, verdict, reserve);
   return score;
 }
 

@@ -30,10 +30,11 @@ struct QuantityOffer {
       value_so_far = {};
 };
 
-/// Result of one run: its quantities by column (NaN if not known), the word of its verdict, and the reason for that word.
+/// Result of one run: its quantities by column (NaN if not known), the word of its verdict, the reason for that word as a
+/// sentence, and the same in few words, as in `voltage of m5/passive`.
 struct Measured {
   std::vector<double> quantities;
-  std::string verdict, why;
+  std::string verdict, why, cause = {};
 };
 /// Function that computes the quantities of a run, with the parts of the recording that the function reads. Several threads may
 /// call it at once.
@@ -65,10 +66,11 @@ class Scorer {
   Scorer(const Study& study, const std::vector<Quantity>& columns, const QuantityOffer& offer,
          const std::vector<std::string>& joints, Problems& problems);
 
-  [[nodiscard]] Score score(std::span<const double> quantities, const std::string& verdict) const;
+  /// Score of a run. Without `reserve`, margins that the study requires above 0 count as 0.
+  [[nodiscard]] Score score(std::span<const double> quantities, const std::string& verdict, bool reserve = true) const;
   /// Constraints and guards that a run violates, as in `torque.rms <= 0.6 (0.7)`. `why` is the sentence after the verdict.
   [[nodiscard]] std::vector<std::string> broken(std::span<const double> quantities, const std::string& verdict,
-                                                const std::string& why) const;
+                                                const std::string& why, bool reserve = true) const;
   /// All limits of the study: constraints, then guards.
   [[nodiscard]] std::vector<Limit> limits() const;
   [[nodiscard]] const std::vector<std::string>& objectives() const { return objective_texts_; }

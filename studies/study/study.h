@@ -117,6 +117,8 @@ struct Verify {
   bool halve_step = true;
   std::string engine = "none";
   double change = 0.02;  ///< largest relative change of an objective for which a point is verified
+  bool worlds = true;    ///< true to run points in the worlds (studies/plan/worlds.h)
+  double share = 0.75;   ///< least share of the worlds in which a verified point stands
   VerifyFaults faults = VerifyFaults::none;
   SourceLocation place = {};
 };
@@ -135,6 +137,7 @@ struct Study {
   std::int64_t seed = 1;
   std::vector<Parameter> parameters;
   Replicates replicates;
+  bool robust = false;                   ///< true if the replicates of a point are its nominal run and its runs in the worlds
   std::vector<Objective> objectives{1};  ///< one, or several for a Pareto front
   std::vector<Text> constraints;
   bool guarded = true;         ///< true if the checks of the verdict are guards; false for no guards

@@ -211,6 +211,13 @@ void choose_method(Study& study, bool named, Purpose purpose) {
   if (study.asked) study.method = Method::random;  // no method is used
 }
 
+/// Replicates of a robust study: the nominal run, and at most all worlds. The plan leaves out worlds that do not apply.
+Replicates in_worlds() {
+  constexpr std::int64_t kMost = 17;
+  constexpr double kShare = 0.75;  // of the runs must break no limit: the lower quartile of their least margins is a constraint
+  return {.count = kMost, .vary = {}, .combine = Combine::share, .quantile = kShare};
+}
+
 }  // namespace
 
 Study read_study(const std::string& file, Purpose purpose) {
@@ -241,7 +248,15 @@ Study read_study(const std::string& file, Purpose purpose) {
   VerifyKeys verify{study.verify};
   reader.group("verify", verify, "");
   if (const Node* node = reader.take("parameters")) read_parameters(*node, study, problems);
-  if (const Node* node = reader.take("replicates")) read_replicates(*node, study.replicates, problems);
+  if (const Node* node = reader.take("replicates")) {
+    read_replicates(*node, study.replicates, problems);
+    if (study.robust) {
+      problems.add(node->place,
+                   "robust: true makes the worlds of a point its replicates, and replicates are given, too; "
+                   "expected one of them");
+    }
+  }
+  if (study.robust) study.replicates = in_worlds();
   if (const Node* node = reader.take("objective")) read_objectives(*node, study.objectives, problems);
   if (const Node* node = reader.take("constraints")) read_constraints(*node, study, problems);
   if (const Node* node = reader.take("guards")) read_guards(*node, study, problems);

@@ -17,6 +17,9 @@ struct PlainKeys {
     f.text("scenario", scenario, "Scenario file, relative to this file; or `scenarios`.");
     f.texts("set", study.sets, "Settings of all runs, as for --set: physics.step=0.001.");
     f.integer("seed", study.seed, {"", 0, 9e15, "Seed of the random numbers: points and replicates."});
+    f.flag("robust", study.robust,
+           "Run every point as it is and in the worlds of `verify`, as replicates; at least three quarters of these runs must "
+           "break no limit.");
     f.integer("estimate_every", study.estimate_every,
               {"", 0, 1e9,
                "N: the torque error is estimated for one point in N, drawn by the seed, in additional lanes; 1: all points, 0: "
@@ -65,6 +68,10 @@ struct VerifyKeys {
            "Simulate these points again in this engine, with its default step; none: no other engine.");
     f.number("change", verify.change,
              {"", 1e-6, 10, "Largest relative change of an objective for which a point counts as verified."});
+    f.flag("worlds", verify.worlds,
+           "Simulate these points again in up to 16 worlds: friction, R, Kt, mass and supply changed one by one to an end of "
+           "their usual errors, then all drawn within tolerances; gears always `directional`.");
+    f.number("share", verify.share, {"", 0, 1, "Least share of the worlds in which a verified point breaks no limit."});
     static constexpr std::array kFaults{"none", "each"};
     f.choice("faults", verify.faults, kFaults,
              "each: simulate the winner again with each joint dead in turn, from t = 0; the results are printed, not ranked.");

@@ -1,6 +1,7 @@
 // Tests of `gaitlab optimize`: verification of the best points, exit codes, words as parameters, other commands for a search.
 #include "studies/journal/journal.h"
 #include "studies/search/verify.h"
+#include "studies/search/world_trials.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -33,10 +34,12 @@ TEST_F(Optimize, ABestThatStandsHasItsFolder) {
   ASSERT_EQ(call("optimize s.yaml --out o --quiet").code, 0);
   studies::Journal journal = this->journal("o");
   const std::vector<studies::Verification> tried = journal.verifications();
-  ASSERT_EQ(tried.size(), 3U);
+  ASSERT_EQ(tried.size(), 20U);
   EXPECT_EQ(tried[0].what, "as run");
   EXPECT_EQ(tried[1].what, "half step");
   EXPECT_EQ(tried[2].what, "bullet");
+  EXPECT_EQ(tried[3].what, "world friction -25 % (0.6)");
+  EXPECT_TRUE(studies::is_share(tried[19]));
   for (const studies::Verification& v : tried) EXPECT_EQ(v.reason, "");
   EXPECT_TRUE(std::filesystem::exists(folder_ / "o/best/report.html"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "o/convergence.svg"));
@@ -59,7 +62,7 @@ TEST_F(Optimize, ABestThatStandsHasItsFolder) {
 TEST_F(Optimize, TriesTheWinnerWithEachJointDead) {
   study(
       "parameters: {cpg.amplitude: {low: 0.05, high: 0.2}}\nobjective: {minimize: torque.peak}\nverify: {best: 1, change: 0.5, "
-      "faults: each}\nbudget: {runs: 16}\n");
+      "worlds: false, faults: each}\nbudget: {runs: 16}\n");
   const Result result = call("optimize s.yaml --out o");
   ASSERT_EQ(result.code, 0) << result.err;
   studies::Journal journal = this->journal("o");
@@ -140,6 +143,61 @@ TEST_F(Optimize, WhatChangesWithTheStepIsNotVerified) {
   EXPECT_NE(result.err.find("o: none of the best points was verified"), std::string::npos) << result.err;
   EXPECT_NE(result.out.find("half step: torque.peak is "), std::string::npos) << result.out;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "o/best"));
+}
+
+/// Two modules of 0.8 kg that must not be heavier: they fall where mass is added, and in some of the draws.
+TEST_F(Optimize, AShareOfTheWorldsDecides) {
+  const std::string heavy =
+      "parameters: {cpg.amplitude: {low: 0.05, high: 0.2}}\nobjective: {minimize: torque.peak}\nbudget: {runs: 16}\n"
+      "constraints: [mass <= 0.8001]\nverify: {best: 1, change: 9, share: ";
+  study(heavy + "1}\n");
+  const Result fell = call("optimize s.yaml --out fell -j 2");
+  EXPECT_EQ(fell.code, 3);
+  const std::vector<studies::Verification> tried = journal("fell").verifications();
+  ASSERT_FALSE(tried.empty());
+  const studies::WorldCount count = studies::counted_worlds(tried, tried.front().run);
+  ASSERT_EQ(count.falls.size(), 1U);
+  EXPECT_EQ(count.falls.front().what, "world mass +3 % (0.824 kg)");
+  EXPECT_EQ(count.stood, 15 - count.fell_drawn);
+  const std::string nearest = fmt::format(
+      "fell: none of the best points was verified; run {} is nearest: it stands in {} of 16 worlds; 16 are needed; falls by "
+      "mass +3 % (0.824 kg): mass <= 0.8001 (0.824); and in {} of 7 draws; `robust: true` searches gaits with reserve\n",
+      tried.front().run, count.stood, count.fell_drawn);
+  EXPECT_TRUE(fell.err.ends_with(nearest)) << fell.err << nearest;
+  EXPECT_NE(fell.err.find("verification of the best point: 1 run\nthose that stand, in worlds: 16 runs\n"), std::string::npos)
+      << fell.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "fell/best"));
+  study(heavy + "0.5}\n");
+  const Result stood = call("optimize s.yaml --out stood -j 1");
+  EXPECT_EQ(stood.code, 0) << stood.err;
+  const std::string line = fmt::format("run {} verified, stands in {} of 16 worlds (", tried.front().run, count.stood);
+  EXPECT_NE(stood.out.find(line), std::string::npos) << stood.out;
+  EXPECT_NE(call("study show stood").out.find(line), std::string::npos);
+  const std::vector<studies::Verification> other = journal("stood").verifications();
+  ASSERT_EQ(other.size(), tried.size());
+  for (std::size_t k = 0; k + 1 < tried.size(); ++k) {
+    EXPECT_EQ(other[k].what, tried[k].what);
+    EXPECT_EQ(other[k].objectives, tried[k].objectives) << "with another number of threads";
+  }
+}
+
+/// The worlds of a robust study are its replicates, in sweeps and searches, for any number of threads, in shards and again.
+TEST_F(Optimize, ARobustStudyRunsEveryPointInItsWorlds) {
+  study(
+      "parameters: {cpg.amplitude: {low: 0.05, high: 0.2, count: 2}}\nrobust: true\nset: [duration=0.6]\nestimate_every: 1\n");
+  ASSERT_EQ(call("sweep s.yaml --out one --quiet -j 1 --lanes 1").code, 0);
+  ASSERT_EQ(call("sweep s.yaml --out two --quiet -j 2").code, 0);
+  const std::string table = read(folder_ / "one/table.csv");
+  EXPECT_TRUE(table == read(folder_ / "two/table.csv"));
+  EXPECT_EQ(journal("one").rows(), 34U);
+  for (const char* shard : {"0/2", "1/2"})
+    ASSERT_EQ(call(std::string("sweep s.yaml --out parts --quiet --shard ") + shard).code, 0);
+  ASSERT_EQ(call("study merge parts").code, 0);
+  EXPECT_TRUE(table == read(folder_ / "parts/table.csv"));
+  for (const char* run : {"0", "8", "33"}) {
+    const Result again = call(std::string("study rerun one ") + run);
+    EXPECT_NE(again.out.find("the quantities are equal to those in the journal"), std::string::npos) << run << again.err;
+  }
 }
 
 TEST_F(Optimize, WhatNobodyCouldJudgeIsNotVerified) {

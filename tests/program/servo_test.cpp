@@ -85,22 +85,40 @@ TEST(Servo, IsTheStraightLineOfItsDataSheet) {
 
 /// A run with a servo has the same bits as a run with a dc_motor that has the computed constants.
 TEST(Servo, IsADcMotorBitForBit) {
-  const Scenario servo = scenario(worm(kAx12 + ", rotor_inertia: 1e-4"));
-  const DcMotor m = make_actuator(servo.actuator, info(*servo.robot))->dc_motors()[0];
-  std::string text = worm(kAx12);
-  const std::size_t at = text.find("actuator: {");
-  text.replace(at, text.find('}', at) - at,
-               fmt::format("actuator: {{type: dc_motor, R: {}, Kt: {}, Ks: {}, gear: 1, efficiency: {}, u_max: {}, i_max: {}, "
-                           "rotor_inertia: 1e-4",
-                           m.R, m.Kt, m.Ks, m.efficiency, m.u_max, m.i_max));
-  for (const char* engine : {"articulated", "bullet"}) {
-    if (catalog().engine(engine) == nullptr) continue;
-    const std::vector<std::string> sets{std::string("physics.engine=") + engine, "duration=0.3"};
-    const Trace mine = run(scenario(worm(kAx12 + ", rotor_inertia: 1e-4"), sets)).trace;
-    const Trace other = run(scenario(text, sets)).trace;
-    EXPECT_GT(std::abs(mine.at(mine.rows() - 1, mine.find("joint.0.torque"))), 0) << engine;
-    EXPECT_EQ(hash(mine), hash(other)) << engine;
+  std::vector<std::string> bits;
+  for (const char* common :
+       {", rotor_inertia: 1e-4", ", rotor_inertia: 1e-4, efficiency_model: directional, turn_speed: 0.5"}) {
+    const std::string own = kAx12 + common;
+    const DcMotor m = motor(own);
+    std::string text = worm(kAx12);
+    const std::size_t at = text.find("actuator: {");
+    text.replace(
+        at, text.find('}', at) - at,
+        fmt::format("actuator: {{type: dc_motor, R: {}, Kt: {}, Ks: {}, gear: 1, efficiency: {}, u_max: {}, i_max: {}{}", m.R,
+                    m.Kt, m.Ks, m.efficiency, m.u_max, m.i_max, common));
+    for (const char* engine : {"articulated", "bullet"}) {
+      if (catalog().engine(engine) == nullptr) continue;
+      const std::vector<std::string> sets{std::string("physics.engine=") + engine, "duration=0.3"};
+      const Trace mine = run(scenario(worm(own), sets)).trace;
+      const Trace other = run(scenario(text, sets)).trace;
+      EXPECT_GT(std::abs(mine.at(mine.rows() - 1, mine.find("joint.0.torque"))), 0) << engine;
+      EXPECT_EQ(hash(mine), hash(other)) << engine << common;
+      bits.push_back(hash(mine));
+    }
   }
+  EXPECT_NE(bits.front(), bits.back()) << "the efficiency model has an effect";
+}
+
+/// A directional gear loses what it does not pass on: driven, the torque is larger by 1 / eta^2 than as printed.
+TEST(Servo, MayHaveADirectionalGear) {
+  const DcMotor paper = motor(kSg92r);
+  const DcMotor m = motor(kSg92r + ", efficiency_model: directional, turn_speed: 0.3");
+  EXPECT_EQ(paper.reversal_speed, 0);
+  EXPECT_EQ(m.reversal_speed, 0.3);
+  constexpr double kRounding = 1e-14;  // some operations on torques of 0.1 N m
+  EXPECT_NEAR(m(4.8, 1).torque, paper(4.8, 1).torque, kRounding) << "the line of the data sheet while it drives";
+  EXPECT_NEAR(m(4.8, -0.5).torque * 0.7 * 0.7, paper(4.8, -0.5).torque, kRounding);
+  EXPECT_NEAR(m(4.8, 0).torque * 0.7, paper(4.8, 0).torque, kRounding);
 }
 
 TEST(Servo, RefusesWhatNoMotorCanDo) {

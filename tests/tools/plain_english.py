@@ -34,7 +34,7 @@ RULES = {  # name: (pattern, advice)
                'name the role (user, caller, plugin)'),
     'thing-talks': (r'\b(tells?(?! apart)|told(?! apart)|asks? (for|of)|is asked|are asked|was asked|is told|are told|says? (so|nothing|of|what|one)|'
                     r'knows? (of|no|nothing|only))\b', '`reports`, `prints`, `requires`, `contains`'),
-    'stand': (r'\b(stands?|stood|standing) (in|at|under|behind|beside|alone)\b',
+    'stand': (r'\b(stands?|stood|standing) (in|at|under|behind|beside|alone)\b(?! [^.;]*\bworlds?\b)',
               '`is listed in`, `represents`, `follows`'),
     'where-if': (r'(?<![a-z] )\bwhere (it|they|there|that|those|this|nothing|none|no|one|a|an|the|[a-z]+s? (is|are|has|have|does|do|was))\b',
                  '`if` or `when`, unless it is a place'),

@@ -18,7 +18,6 @@ class Motor:
             get = lambda key: run.per_joint(section[key])
             self.R, self.Kt, self.Ks, self.n, self.eta = (get(key) for key in ("R", "Kt", "Ks", "gear", "efficiency"))
             self.u_max, self.i_max, self.rotor = get("u_max"), get("i_max"), get("rotor_inertia")
-            self.directional, self.turn_speed = section["efficiency_model"] == "directional", float(section["turn_speed"])
         if self.type == "servo":  # docs/equations.md, 3
             get = lambda key, absent=0.0: run.per_joint(section.get(key, absent))
             V, T0, k, I0, eta = get("voltage"), get("stall_torque"), get("voltage") / get("no_load_speed"), get("stall_current"), get("efficiency")
@@ -27,8 +26,9 @@ class Motor:
             u, i, self.rotor = get("u_max"), get("i_max"), get("rotor_inertia")
             self.u_max = np.where(u > 0, u, V)
             self.i_max = np.where(i > 0, i, self.u_max / self.R)
-            self.directional, self.turn_speed = False, None
         motor = self.type in ("dc_motor", "servo")
+        if motor:
+            self.directional, self.turn_speed = section["efficiency_model"] == "directional", float(section["turn_speed"])
         self.reflected = self.n**2 * self.rotor if motor else np.zeros(run.n)  # adds to the joint's inertia
         self.command_limit = self.u_max if motor else self.limit if self.type == "torque" else np.full(run.n, np.inf)
 

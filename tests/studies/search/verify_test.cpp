@@ -3,67 +3,38 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/studies/small_study.h"
+#include "studies/search/candidates.h"
+#include "studies/search/step_limit.h"
+#include "studies/search/world_trials.h"
+#include "tests/studies/search/searched_study.h"
 
 namespace gaitlab::test {
 namespace {
 
 using studies::Job;
-using studies::Journal;
-using studies::PointResult;
 using studies::Results;
 using studies::Row;
 using studies::Verification;
 
 using Values = std::vector<std::string>;
 
-/// A search over the frequency, 0.5 to 1.5 Hz, with points that have speeds.
-class SearchedStudy {
- public:
-  explicit SearchedStudy(const std::vector<std::pair<std::string, double>>& points, const std::string& lines = "",
-                         const std::string& parameters = "cpg.frequency: {low: 0.5, high: 1.5}")
-      : study("parameters: {" + parameters + "}\nbudget: {runs: 64}\nguards: none\n" + lines, studies::Purpose::optimize) {
-    for (const auto& [value, speed] : points) {
-      study.plan->add(study.plan->study().parameters.size() == 1 ? Values{value} : Values{value, "hopf"});
-      for (std::uint64_t r = 0; r < study.plan->points().runs_of_point(); ++r)
-        rows.push_back(study.done(study.plan->row(rows.size()), "speed", speed));
-    }
-  }
-  void write() {
-    if (journal.rows() == 0) journal.write(rows, {});
-  }
-  /// Frequencies of the candidates.
-  std::vector<std::string> candidates() {
-    write();
-    const Results found = results(journal);
-    std::vector<std::string> values;
-    for (const std::size_t k : studies::candidates(*study.plan, found))
-      values.push_back(study.plan->row(found.points[k].first_run).values[0]);
-    return values;
-  }
-  /// Verifications of all points, with rows by `answer`.
-  std::vector<Verification> verify(const std::function<Row(const Job&)>& answer) {
-    write();
-    const Results found = results(journal);
-    std::vector<std::size_t> all(found.points.size());
-    for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
-    std::atomic<bool> stop = false;
-    return studies::verify(
-               *study.plan, journal, found, all, answering(answer), [](std::size_t, std::size_t) {}, stop)
-        .value();
-  }
-  SmallStudy study;
-  Journal journal = study.journal();
-  std::vector<Row> rows;
-};
-
 TEST(Candidates, AreTheBestThatAreApart) {
   SearchedStudy made({{"0.6", 1}, {"0.7", 5}, {"0.709", 4.9}, {"0.692", 4.8}, {"0.72", 4.5}, {"1.4", 3}, {"1.3", 2}});
-  EXPECT_EQ(made.candidates(), (Values{"0.7", "0.72", "1.4"})) << "three, 1 % of the box from one another";
+  EXPECT_EQ(made.candidates(), (Values{"0.7", "0.72", "1.4"})) << "two niches, and the best 1 % from them";
   SearchedStudy few({{"0.6", 1}, {"0.7", 5}}, "verify: {best: 1}\n");
   EXPECT_EQ(few.candidates(), Values{"0.7"});
   SearchedStudy least({{"0.6", 1}, {"0.7", 5}}, "objective: {minimize: speed}\n");
   EXPECT_EQ(least.candidates(), (Values{"0.6", "0.7"}));
+}
+
+/// Niches, 10 % of the box from one another, go before better points beside them; the order remains that of the points.
+TEST(Candidates, AreNichesFirst) {
+  const std::vector<std::pair<std::string, double>> hills{{"0.7", 9},  {"0.72", 8}, {"0.75", 7}, {"1.2", 6},
+                                                          {"1.25", 5}, {"0.9", 4},  {"1.4", 3}};
+  SearchedStudy three(hills);
+  EXPECT_EQ(three.candidates(), (Values{"0.7", "1.2", "0.9"}));
+  SearchedStudy five(hills, "verify: {best: 5}\n");
+  EXPECT_EQ(five.candidates(), (Values{"0.7", "0.72", "1.2", "0.9", "1.4"})) << "four niches, and the best of the others";
 }
 
 TEST(Candidates, AreKept) {
@@ -164,6 +135,62 @@ TEST(Verify, RefusesALargerChange) {
   EXPECT_EQ(reasons(wider, 1.09), Values{""});
 }
 
+/// Rows of a law whose error is proportional to the step: speed = limit * (1 - loss * step / 0.001). The other engine is at
+/// `other` times the limit.
+std::function<Row(const Job&)> of_first_order(const SearchedStudy& made, double limit, double loss, double other) {
+  return [=, &made](const Job& job) {
+    const auto has = [&](const std::string& set) { return std::ranges::find(job.sets, set) != job.sets.end(); };
+    const double speed =
+        has("physics.engine=bullet") ? other * limit : limit * (1 - loss * (has("physics.step=0.0005") ? 0.5 : 1));
+    return made.study.done(job.row, "speed", speed);
+  };
+}
+
+constexpr const char* kFixedStep = "set: [physics.integrator=implicit, physics.step=0.001]\nverify: {engine: bullet}\n";
+
+TEST(StepLimit, IsExactForAnErrorOfItsOrder) {
+  const auto value = [](double step, int order) { return 3 + 2 * std::pow(step, order); };
+  for (const int order : {1, 2, 4}) {
+    constexpr double kRounding = 1e-14;  // a few operations on numbers of 3 to 5
+    EXPECT_NEAR(studies::step_limit(value(1, order), value(0.5, order), order), 3, kRounding) << order;
+  }
+}
+
+/// dtto in steps of 1 ms: 2.4 % too slow, the half step 1.2 %, the other engine at the limit.
+TEST(Verify, TakesTheLimitOfVanishingSteps) {
+  SearchedStudy made({{"0.6", 1 - 0.024}}, kFixedStep);
+  const std::vector<Verification> tried = made.verify(of_first_order(made, 1, 0.024, 1.001));
+  ASSERT_EQ(tried.size(), 4U);
+  for (const Verification& v : tried) EXPECT_EQ(v.reason, "") << v.what;
+  EXPECT_TRUE(studies::is_limit(tried[3])) << tried[3].what;
+  constexpr double kRounding = 1e-15;
+  EXPECT_NEAR(tried[3].objectives.at(0), 1, kRounding) << "exact, as the error is of first order";
+}
+
+TEST(Verify, TakesALargeStepIfTheLimitAgrees) {
+  SearchedStudy made({{"0.6", 1 - 0.1}}, kFixedStep);
+  EXPECT_EQ(made.verify(of_first_order(made, 1, 0.1, 1.019)).size(), 4U);
+  const std::vector<Verification> apart = made.verify(of_first_order(made, 1, 0.1, 1.021));
+  ASSERT_EQ(apart.size(), 3U) << "the other engine is 2.1 % from the limit";
+  EXPECT_EQ(apart[1].reason, "speed is 0.95 instead of 0.9, beyond the 2 % of verify.change");
+  EXPECT_EQ(apart[2].reason, "speed is 1.021 instead of 0.9, beyond the 2 % of verify.change");
+}
+
+TEST(Verify, NeedsNoLimitWithoutAChange) {
+  SearchedStudy made({{"0.6", 1 - 0.01}}, kFixedStep);
+  EXPECT_EQ(made.verify(of_first_order(made, 1, 0.01, 1)).size(), 3U);
+}
+
+/// A limit that is broken with finer steps, and steps that the integrator chooses, have no limit.
+TEST(Verify, TheLimitNeedsGivenStepsAndLimitsKept) {
+  SearchedStudy broken({{"0.6", 1 - 0.05}}, std::string(kFixedStep) + "constraints: [speed <= 0.97]\n");
+  const std::vector<Verification> tried = broken.verify(of_first_order(broken, 1, 0.05, 1));
+  ASSERT_EQ(tried.size(), 3U);
+  EXPECT_NE(tried[1].reason, "");
+  SearchedStudy adaptive({{"0.6", 1}}, "verify: {engine: bullet}\n");
+  EXPECT_EQ(adaptive.verify(times(adaptive, 1.03)).size(), 3U);
+}
+
 TEST(Verify, RefusesARunThatFails) {
   SearchedStudy made({{"0.6", 1}});
   EXPECT_EQ(reasons(made, 1,
@@ -239,6 +266,10 @@ TEST(Verified, PassedInEveryWay) {
             (std::vector<std::uint64_t>{8, 1}))
       << "in their order";
   EXPECT_TRUE(studies::verified({}).empty());
+  EXPECT_EQ(studies::verified({tried(8, "as run", ""), tried(8, "world R +5 %", "why"), tried(8, "worlds", "")}),
+            std::vector<std::uint64_t>{8})
+      << "a single world rejects nothing";
+  EXPECT_TRUE(studies::verified({tried(8, "as run", ""), tried(8, "worlds", "why")}).empty());
 }
 
 }  // namespace

@@ -1,0 +1,18 @@
+// The model of a gear's efficiency, as settings that all motors with a gear have.
+#pragma once
+#include "core/plugin/actuator.h"
+
+namespace gaitlab::actuators {
+
+enum class EfficiencyModel { paper, directional };
+
+/// Part of a motor's Settings: the efficiency of core/laws/dc_motor.h as printed in eq. 2, or directional.
+struct EfficiencyKeys {
+  EfficiencyModel efficiency_model = EfficiencyModel::paper;
+  double turn_speed = 0.6;  ///< rad/s, at the joint
+  void fields(Fields& f);
+  /// `reversal_speed` of core/laws/dc_motor.h, rad/s; 0 for eq. 2 as printed.
+  [[nodiscard]] double reversal_speed() const { return efficiency_model == EfficiencyModel::directional ? turn_speed : 0.0; }
+};
+
+}  // namespace gaitlab::actuators
