@@ -109,7 +109,7 @@ std::vector<double> morris_measures(const std::vector<double>& effects, std::siz
 }
 
 /// Total indices, then first-order indices, from the drawn rows.
-std::vector<double> jansen(std::span<const double> values, std::size_t n, const Blocks& drawn) {
+std::vector<double> saltelli(std::span<const double> values, std::size_t n, const Blocks& drawn) {
   std::vector<double> measures(2 * n, kNone);
   if (drawn.size() < 2) return measures;
   const auto rows = static_cast<double>(drawn.size());
@@ -125,17 +125,17 @@ std::vector<double> jansen(std::span<const double> values, std::size_t n, const 
   constexpr double kRounding = 1e-24;
   if (!(variance > kRounding * mean * mean) || !(variance > 0)) return measures;
   for (std::size_t p = 0; p < n; ++p) {
-    double with_a = 0;
-    double with_b = 0;
+    double total = 0;
+    double first = 0;
     for (const std::size_t row : drawn) {
-      const double mixed = values[row * (n + 2) + 2 + p];
-      const double from_a = values[row * (n + 2)] - mixed;
-      const double from_b = values[row * (n + 2) + 1] - mixed;
-      with_a += from_a * from_a;
-      with_b += from_b * from_b;
+      const double a = values[row * (n + 2)];
+      const double b = values[row * (n + 2) + 1];
+      const double changed = values[row * (n + 2) + 2 + p] - a;
+      total += changed * changed;
+      first += (b - mean) * changed;  // without the mean, its square would be part of the noise
     }
-    measures[p] = with_a / (2 * rows) / variance;
-    measures[n + p] = 1 - with_b / (2 * rows) / variance;
+    measures[p] = total / (2 * rows) / variance;
+    measures[n + p] = first / rows / variance;
   }
   return measures;
 }
@@ -192,7 +192,7 @@ Sensitivity sobol_indices(std::size_t parameters, std::span<const double> values
   Sensitivity found;
   found.measures = {{"total", {}}, {"first", {}}};
   found.blocks = values.size() / (parameters + 2);
-  const Estimator estimator = [&](const Blocks& drawn) { return jansen(values, parameters, drawn); };
+  const Estimator estimator = [&](const Blocks& drawn) { return saltelli(values, parameters, drawn); };
   estimate(found, whole_blocks(values, parameters + 2), estimator, parameters);
   return found;
 }

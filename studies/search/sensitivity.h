@@ -37,10 +37,10 @@ struct Sensitivity {
 /// trajectory with a value that is not finite is omitted. `sigma` requires two trajectories.
 Sensitivity morris(std::uint64_t seed, std::size_t parameters, std::span<const double> values);
 
-/// Shares of the output's variance by Jansen's estimators (Jansen 1999; Saltelli et al. 2010, table 2). `total` is a
-/// parameter's share including its interactions, `first` its share alone. `values` are in the order of saltelli_shares. A row
-/// with a value that is not finite is omitted. The shares are not known if fewer than two rows remain or if the output does not
-/// vary.
+/// Shares of the output's variance V (Saltelli et al. 2010, table 2). `total` is a parameter's share including its
+/// interactions, mean (f(A) - f(AB_i))^2 / 2V (Jansen 1999); `first` is its share alone, mean f(B) (f(AB_i) - f(A)) / V, with
+/// the mean of f taken off first. `values` are in the order of saltelli_shares. A row with a value that is not finite is
+/// omitted. The shares are not known if fewer than two rows remain or if the output does not vary.
 Sensitivity sobol_indices(std::size_t parameters, std::span<const double> values);
 
 /// Sensitivities from a journal with the method `morris` or `sobol_indices`. Their outputs are the objectives, with replicates
