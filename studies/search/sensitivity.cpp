@@ -140,15 +140,6 @@ std::vector<double> saltelli(std::span<const double> values, std::size_t n, cons
   return measures;
 }
 
-/// Method of a study, from its definition.
-std::string method_of(const JournalHead& head) {
-  constexpr std::string_view kKey = "\nmethod: ";
-  const std::size_t at = head.definition.find(kKey);
-  if (at == std::string::npos) return "";
-  const std::size_t from = at + kKey.size();
-  return head.definition.substr(from, head.definition.find('\n', from) - from);
-}
-
 /// An output of the study, with its values by point number.
 struct Output {
   std::string name, unit;
@@ -177,6 +168,19 @@ std::vector<double> means(Journal& journal, const std::string& column, std::size
 }
 
 }  // namespace
+
+std::string method_of(const JournalHead& head) {
+  constexpr std::string_view kKey = "\nmethod: ";
+  const std::size_t at = head.definition.find(kKey);
+  if (at == std::string::npos) return "";
+  const std::size_t from = at + kKey.size();
+  return head.definition.substr(from, head.definition.find('\n', from) - from);
+}
+
+bool of_sensitivity(const JournalHead& head) {
+  const std::optional<Method> method = named<Method>(method_of(head));
+  return method == Method::morris || method == Method::sobol_indices;
+}
 
 Sensitivity morris(std::uint64_t seed, std::size_t parameters, std::span<const double> values) {
   Sensitivity found;

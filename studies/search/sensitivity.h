@@ -43,6 +43,11 @@ Sensitivity morris(std::uint64_t seed, std::size_t parameters, std::span<const d
 /// omitted. The shares are not known if fewer than two rows remain or if the output does not vary.
 Sensitivity sobol_indices(std::size_t parameters, std::span<const double> values);
 
+/// Method of a study, from its definition; `asked` if another program chose the points.
+std::string method_of(const JournalHead& head);
+/// True for the methods `morris` and `sobol_indices`.
+bool of_sensitivity(const JournalHead& head);
+
 /// Sensitivities from a journal with the method `morris` or `sobol_indices`. Their outputs are the objectives, with replicates
 /// combined as the study defines, and the other quantities shown, as means over the replicates. Empty for any other method.
 std::vector<Sensitivity> sensitivities(Journal& journal, const Results& results);

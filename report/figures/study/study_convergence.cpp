@@ -38,7 +38,7 @@ Curves curves_of(const std::vector<ConvergencePoint>& search) {
   return curves;
 }
 
-/// The best value so far as a staircase, which ends at the last run.
+/// Staircase of the best value so far. It ends at the last run.
 Curves staircase(const ConvergenceFigure& figure) {
   Curves stairs;
   const auto add = [&](double runs, double value) {

@@ -114,7 +114,7 @@ TEST(Sensitivity, SmallFirstOrdersHaveLittleNoise) {
   }
 }
 
-/// The middle of the box would give a sample of equal points, which is no information.
+/// The middle of the box would give a sample of equal points.
 TEST(Sensitivity, NoSampleRepeatsOnePoint) {
   for (std::uint64_t row = 0; row < 64; ++row) {
     std::size_t equal = 0;
