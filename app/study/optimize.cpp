@@ -26,6 +26,7 @@ using studies::Study;
 
 struct OptimizeArguments : StudyRunArguments {
   std::string file, method;
+  std::vector<std::string> sets;
   std::int64_t runs = 0, seed = -1;
   bool quiet = false, dry_run = false;
 };
@@ -40,6 +41,7 @@ Study searched_study(const OptimizeArguments& a) {
   if (!a.method.empty()) study.method = named<studies::Method>(a.method).value();
   if (a.runs > 0) study.runs = a.runs;
   if (a.seed >= 0) study.seed = a.seed;
+  add_sets(study, a.sets);
   Problems problems;
   check_study(study, SourceLocation{a.runs > 0 ? "--runs" : a.method.empty() ? a.file : "--method"}, problems);
   problems.raise();
@@ -61,6 +63,7 @@ std::string search_goes_on(const OptimizeArguments& a, const fs::path& folder) {
   if (!a.method.empty()) line += " --method " + a.method;
   if (a.runs > 0) line += fmt::format(" --runs {}", a.runs);
   if (a.seed >= 0) line += fmt::format(" --seed {}", a.seed);
+  line += set_words(a.sets);
   for (const std::string& answers : a.answers) line += " --answers " + shell_word(answers);
   return line + " --out " + shell_word(folder.string());
 }
@@ -189,6 +192,7 @@ void add_optimize(Commands& commands) {
         command
             .add_option("--method", a.method, "method, instead of the file's; random draws points for comparison with a search")
             ->check(CLI::IsMember(known_methods()));
+        add_study_sets(command, a.sets);
         command.add_flag("--dry-run", a.dry_run, "print the runs and the time that they take, and write nothing");
         add_study_run(command, a, "runs/optimize-NAME");
         command.add_flag("--quiet", a.quiet, "print no progress and no summary");

@@ -53,7 +53,7 @@ TEST_F(Evaluate, AnswersWithTheFiguresOfTheJournal) {
   EXPECT_EQ(
       result.out.substr(0, result.out.find('\n')),
       R"({"id":7,"run":null,"outcome":"refused","message":"cpg.phase_lag is 0.30000000000000004; allowed are 0.5 to 1.5",)"
-      R"("figures":{},"objective":[null],"violation":null,"kept":false,"feasible":false})");
+      R"("figures":{},"margins":{},"objective":[null],"violation":null,"kept":false,"feasible":false})");
   EXPECT_EQ(all[1].at("id"), "a\u00e9");
   EXPECT_EQ(all[1].at("outcome"), "done");
   EXPECT_EQ(all[1].at("run"), 0);
@@ -93,6 +93,44 @@ TEST_F(Evaluate, OfSeveralReplicatesEachFigureIsAList) {
   EXPECT_EQ(all[0].at("objective").size(), 2U);
   EXPECT_EQ(all[0].at("objective").at(0), speeds[1]);
   EXPECT_EQ(all[0].at("kept"), true);
+}
+
+/// `margins` has the guards alone: a check of the verdict with its own margin, one of which the study requires a reserve, one
+/// with another limit, and none that the study drops.
+TEST_F(Evaluate, AnswersWithTheMarginsOfTheGuards) {
+  const std::string head = "gaitlab_study: 1\nscenario: two.yaml\nparameters: {cpg.phase_lag: {low: 0.5, high: 1.5}}\n";
+  const std::string asked = R"({"id": 1, "parameters": {"cpg.phase_lag": 1}})";
+  folder_.write("study.yaml", head + "guards: {voltage: {margin: 0.25}, heat: false, stops: 0.5, slip: true}\n");
+  const nlohmann::json one = answers(ask(asked)).at(0);
+  const nlohmann::json& figures = one.at("figures");
+  const nlohmann::json& margins = one.at("margins");
+  EXPECT_EQ(margins.at("current"), figures.at("margin.current"));
+  EXPECT_EQ(margins.at("voltage").get<double>(), figures.at("margin.voltage").get<double>() - 0.25);
+  EXPECT_EQ(margins.at("stops"), figures.at("margin.stops[0.5]"));
+  EXPECT_TRUE(margins.at("slip").is_null()) << "the run has no such check";
+  EXPECT_FALSE(margins.contains("heat"));
+  EXPECT_FALSE(margins.contains("periodic")) << "it can only warn";
+  std::filesystem::remove_all(folder_ / "e");
+  folder_.write("study.yaml", head + "replicates: {count: 2}\n");
+  const nlohmann::json several = answers(ask(asked)).at(0);
+  EXPECT_EQ(several.at("margins").at("voltage"), several.at("figures").at("margin.voltage"));
+  EXPECT_EQ(several.at("margins").at("voltage").size(), 2U);
+  std::filesystem::remove_all(folder_ / "e");
+  folder_.write("study.yaml", head + "guards: none\n");
+  EXPECT_TRUE(answers(ask(asked)).at(0).at("margins").empty());
+}
+
+/// --set has the effect of a line of `set` in the file, after the others.
+TEST_F(Evaluate, SetsKeysOfTheScenario) {
+  const auto of_file = answers(ask(question("1", "0.7"), "--set duration=0.2")).at(0);
+  EXPECT_EQ(of_file.at("figures").at("duration"), 0.2);
+  const Result other = ask(question("1", "0.7"));
+  EXPECT_EQ(other.code, 2);
+  EXPECT_TRUE(contains(other.err, "continue it as it was begun: gaitlab evaluate study.yaml --set duration=0.2 --out e"))
+      << other.err;
+  EXPECT_EQ(ask(question("1", "0.7"), "--set cpg.phase_lag=1").err,
+            "--set cpg.phase_lag=1: error: cpg.phase_lag is a parameter of the study, which sets it in every run; expected "
+            "another key, or a study without this parameter\n");
 }
 
 TEST_F(Evaluate, RefusesLinesThatAreNoQuestionsAndLosesNothing) {
