@@ -30,6 +30,7 @@ using studies::Question;
 
 struct EvaluateArguments : StudyRunArguments {
   std::string file;
+  std::vector<std::string> sets;
   bool as_completed = false, quiet = false;
 };
 
@@ -62,7 +63,8 @@ class WatchReader {
 /// The requests of a batch that are not answered yet, and the runs that answer them.
 class Replies {
  public:
-  Replies(Journal& journal, bool as_completed) : journal_(journal), as_completed_(as_completed) {}
+  Replies(Journal& journal, std::span<const studies::MarginGuard> guards, bool as_completed)
+      : journal_(journal), guards_(guards), as_completed_(as_completed) {}
 
   /// Adds a run whose row is in the journal.
   void take(const Brief& run) {
@@ -92,7 +94,7 @@ class Replies {
     const std::span<const Brief> of = runs == nullptr ? std::span<const Brief>() : std::span<const Brief>(*runs);
     std::vector<std::vector<std::string>> figures;
     for (const Brief& run : of) figures.push_back(journal_.quantities(run.run));
-    const std::string line = answer(question, journal_.head(), of, figures) + "\n";
+    const std::string line = answer(question, journal_.head(), guards_, of, figures) + "\n";
     if (std::fwrite(line.data(), 1, line.size(), stdout) != line.size() || std::fflush(stdout) != 0) {
       const int error = errno;
       throw RunError(
@@ -102,6 +104,7 @@ class Replies {
   }
 
   Journal& journal_;
+  std::span<const studies::MarginGuard> guards_;
   bool as_completed_;
   std::map<std::uint64_t, std::vector<Brief>> runs_;  ///< completed runs of each point
   std::deque<std::pair<Question, std::uint64_t>> open_;
@@ -141,6 +144,7 @@ int evaluate_study(const EvaluateArguments& a) {
   std::signal(SIGPIPE, SIG_IGN);  // the failed write reports the closed output instead
   Catalog catalog = standard_catalog();
   studies::Study study = studies::read_study(a.file, studies::Purpose::evaluate);
+  add_sets(study, a.sets);
   study.runs = studies::kMostAsked;
   studies::Plan plan(std::move(study), quantity_offer(), catalog);
   const studies::Executor executor = study_executor(plan, a);
@@ -152,14 +156,14 @@ int evaluate_study(const EvaluateArguments& a) {
   // Installed before the folder is created, so that a signal cannot interrupt the creation.
   const StopOnSignal stop(StopOnSignal::Second::ends_the_process);
   const fs::path folder = studies::study_folder(a.out, "evaluate-" + plan.study().name, holds_study(head));
-  head.command = "gaitlab evaluate " + shell_word(a.file);
+  head.command = "gaitlab evaluate " + shell_word(a.file) + set_words(a.sets);
   for (const std::string& other : a.answers) head.command += " --answers " + shell_word(other);
   head.command += " --out " + shell_word(folder.string());
   const studies::Lock lock(folder / "lock");
   Journal journal(folder / studies::kJournalFile, head, a.accept_build ? Journal::Build::any : Journal::Build::same);
 
   const WatchReader reader;
-  Replies replies(journal, a.as_completed);
+  Replies replies(journal, plan.scorer().margins(), a.as_completed);
   Lines lines;
   answer(lines, plan, journal, remembering(executor, answers), replies, a.jobs);
   const std::uint64_t rows = journal.rows();
@@ -185,6 +189,7 @@ void add_evaluate(Commands& commands) {
       commands, "evaluate", "Run the points that another program requests, in lines of JSON.", evaluate_study,
       [](CLI::App& command, EvaluateArguments& a) {
         command.add_option("STUDY", a.file, "file of a study (YAML); its method and budget are not used")->required();
+        add_study_sets(command, a.sets);
         add_study_run(command, a, "runs/evaluate-NAME");
         command.add_flag("--as-completed", a.as_completed,
                          "answer each question when its runs have ended, not in the order of the questions");

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/commands.h"
+#include "app/study/optimize_seeds.h"
 #include "app/study/own_gait.h"
 #include "app/study/study_quantities.h"
 #include "app/study/study_run.h"
@@ -30,8 +31,10 @@ using studies::Study;
 
 struct OptimizeArguments : StudyRunArguments {
   std::string file, method;
-  std::int64_t runs = 0, seed = -1;
+  std::vector<std::string> sets;
+  std::int64_t runs = 0, seed = -1, seeds = 0;
   bool quiet = false, dry_run = false;
+  bool noted = false;  ///< true if the notes on the study have been printed, for another seed
 };
 
 Study searched_study(const OptimizeArguments& a) {
@@ -44,6 +47,7 @@ Study searched_study(const OptimizeArguments& a) {
   if (!a.method.empty()) study.method = named<studies::Method>(a.method).value();
   if (a.runs > 0) study.runs = a.runs;
   if (a.seed >= 0) study.seed = a.seed;
+  add_sets(study, a.sets);
   Problems problems;
   check_study(study, SourceLocation{a.runs > 0 ? "--runs" : a.method.empty() ? a.file : "--method"}, problems);
   problems.raise();
@@ -65,6 +69,8 @@ std::string search_goes_on(const OptimizeArguments& a, const fs::path& folder) {
   if (!a.method.empty()) line += " --method " + a.method;
   if (a.runs > 0) line += fmt::format(" --runs {}", a.runs);
   if (a.seed >= 0) line += fmt::format(" --seed {}", a.seed);
+  if (a.seeds > 0) line += fmt::format(" --seeds {}", a.seeds);
+  line += set_words(a.sets);
   for (const std::string& answers : a.answers) line += " --answers " + shell_word(answers);
   return line + " --out " + shell_word(folder.string());
 }
@@ -154,7 +160,7 @@ bool add_faults(const Plan& plan, Journal& journal, const studies::Results& resu
   return true;
 }
 
-int optimize_study(const OptimizeArguments& a) {
+int optimize_once(const OptimizeArguments& a) {
   refuse_copies("gaitlab optimize");
   Catalog catalog = standard_catalog();
   Plan plan(searched_study(a), quantity_offer(), catalog);
@@ -165,7 +171,7 @@ int optimize_study(const OptimizeArguments& a) {
   }
   // The executor is made before the folder is locked, because only one process may lock the folder.
   const studies::Executor executor = study_executor(plan, a);
-  print_notes(plan, a.quiet);  // only one process of a team reaches this line
+  print_notes(plan, a.quiet || a.noted);  // only one process of a team reaches this line
   studies::JournalHead head = study_head(plan);
   std::vector<studies::Answers> answers = other_answers(plan, a, head.build);
   const StopOnSignal stop(StopOnSignal::Second::ends_the_process);  // installed before the folder is created
@@ -176,7 +182,7 @@ int optimize_study(const OptimizeArguments& a) {
   const bool begins = !std::filesystem::exists(folder / studies::kJournalFile, none);
   Journal journal(folder / studies::kJournalFile, head, taken_build(a));
   keep_runs(plan, journal, folder, a.quiet);
-  if (begins) print_own_gait(plan, a.quiet);
+  if (begins) print_own_gait(plan, a.quiet || a.noted);
 
   const SearchEnd end = run_study(plan, journal, remembering(executor, answers), a);
   const auto interrupted = [&] {
@@ -193,6 +199,37 @@ int optimize_study(const OptimizeArguments& a) {
   return stopped() ? interrupted() : code;
 }
 
+/// Searches with several seeds, each in a folder of its own.
+int optimize_seeds(const OptimizeArguments& a) {
+  if (team())
+    throw InputError(SourceLocation{"--seeds"}, "is not for gaitlab-mpi; expected one search per seed, with --seed N");
+  Catalog catalog = standard_catalog();
+  const Plan plan(searched_study(a), quantity_offer(), catalog);
+  const std::int64_t first = plan.study().seed;
+  if (a.dry_run) {
+    fmt::print("{} searches, with seeds {} to {}; each:\n", a.seeds, first, first + a.seeds - 1);
+    print_notes(plan, a.quiet);
+    print_plan(plan, a);
+    return 0;
+  }
+  const studies::JournalHead head = study_head(plan);
+  SeedSearches searches{
+      first, a.seeds, seeds_folder(a.out, "optimize-" + plan.study().name + "-seeds", first, holds_study(head)),
+      "",    a.quiet, {}};
+  searches.command = search_goes_on(a, searches.folder);
+  searches.search = [&](std::int64_t seed, const fs::path& folder) {
+    OptimizeArguments one = a;
+    one.seed = seed;
+    one.seeds = 0;
+    one.noted = seed > first;
+    one.out = folder.string();
+    return optimize_once(one);
+  };
+  return search_seeds(searches);
+}
+
+int optimize_study(const OptimizeArguments& a) { return a.seeds > 0 ? optimize_seeds(a) : optimize_once(a); }
+
 }  // namespace
 
 void add_optimize(Commands& commands) {
@@ -204,8 +241,14 @@ void add_optimize(Commands& commands) {
         command.add_option("--seed", a.seed, "seed, instead of the file's")
             ->check(CLI::Range(std::int64_t{0}, std::int64_t{999999999999999}));
         command
+            .add_option(
+                "--seeds", a.seeds,
+                "N searches, with seeds from --seed on, in folders seed-N; the median and the spread of their best values")
+            ->check(CLI::Range(2, 99));
+        command
             .add_option("--method", a.method, "method, instead of the file's; random draws points for comparison with a search")
             ->check(CLI::IsMember(known_methods()));
+        add_study_sets(command, a.sets);
         command.add_flag("--dry-run", a.dry_run, "print the runs and the time that they take, and write nothing");
         add_study_run(command, a, "runs/optimize-NAME");
         command.add_flag("--quiet", a.quiet, "print no progress and no summary");

@@ -39,6 +39,7 @@ void add_cut(report::ConvergenceFigure& figure, const studies::Results& results,
   report::ConvergencePoint cut = figure.searches.front().back();
   ++cut.generation;
   cut.points = points;
+  cut.runs = figure.runs;
   cut.kept = static_cast<double>(kept.size()) / points;
   cut.best = cut.median = cut.spread = std::nan("");
   if (!kept.empty()) {
@@ -48,22 +49,38 @@ void add_cut(report::ConvergenceFigure& figure, const studies::Results& results,
   figure.searches.front().push_back(cut);
 }
 
+/// Improvements of the best kept point, in the order of the runs.
+std::vector<report::Improvement> improvements_of(const JournalHead& head, const studies::Results& results) {
+  std::vector<report::Improvement> best;
+  for (const studies::PointResult& point : results.points) {
+    const double value = point.score.objective();
+    if (!point.kept() || !std::isfinite(value)) continue;
+    const bool better =
+        best.empty() || (head.objectives.front().maximize ? value > best.back().value : value < best.back().value);
+    if (better) best.push_back({static_cast<double>(point.first_run + point.runs), value});
+  }
+  return best;
+}
+
 report::ConvergenceFigure convergence_of(const JournalHead& head, const studies::Results& results,
                                          const std::vector<studies::Generation>& generations) {
   report::ConvergenceFigure figure;
   figure.title = clipped(head.name) + ": the search";
-  std::uint64_t runs = 0;
+  std::uint64_t runs = 0;  // runs of complete generations
   for (const studies::Generation& g : generations) runs += g.runs;
   figure.note = study_note(head, results.runs);
   figure.value = objective_axis(head, 0);
   figure.maximize = head.objectives.front().maximize;
+  figure.best = improvements_of(head, results);
+  figure.runs = static_cast<double>(results.points.empty() ? 0 : results.points.back().first_run + results.points.back().runs);
   std::uint64_t search = 0;
   for (const studies::Generation& g : generations) {
     if (figure.searches.empty() || g.search != search) figure.searches.emplace_back();
     search = g.search;
     const auto points = static_cast<double>(g.points);
     figure.searches.back().push_back({static_cast<double>(g.generation), static_cast<double>(g.restart), points, g.best,
-                                      g.median, points > 0 ? static_cast<double>(g.kept) / points : 0, g.spread});
+                                      g.median, points > 0 ? static_cast<double>(g.kept) / points : 0, g.spread,
+                                      static_cast<double>(g.first_run + g.runs)});
   }
   add_cut(figure, results, runs);
   return figure;
@@ -111,6 +128,7 @@ std::vector<std::string> write_search_files(Journal& journal, const studies::Res
   if (const std::vector<studies::Generation> generations = journal.generations(); !generations.empty()) {
     const report::ConvergenceFigure figure = convergence_of(journal.head(), results, generations);
     write("convergence", report::convergence_svg(figure), report::convergence_csv(figure));
+    write_file(folder / "convergence-best.csv", report::improvements_csv(figure));
   }
   if (journal.head().objectives.size() > 1) {
     const report::FrontFigure figure = front_of(journal, results);

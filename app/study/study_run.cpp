@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "app/study/study_quantities.h"
+#include "app/study/study_text.h"
 #include "core/build_id.h"
 #include "core/errors.h"
 #include "core/settings/wording.h"
@@ -25,6 +26,38 @@ void add_study_run(CLI::App& command, StudyRunArguments& a, const char* folder) 
   command.add_option("--lanes", a.lanes, "runs side by side in a thread (default: what engine and processor allow)")
       ->check(CLI::Range(1, 64));
   command.add_flag("--accept-build", a.accept_build, "continue a study that another build of the program began");
+}
+
+void add_study_sets(CLI::App& command, std::vector<std::string>& sets) {
+  command
+      .add_option("--set", sets,
+                  "override a key of the scenario in all runs, as key.path=value, after those of the study; may be repeated")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+void add_sets(studies::Study& study, const std::vector<std::string>& sets) {
+  Problems problems;
+  for (const std::string& set : sets) {
+    const std::string key = set.substr(0, set.find('='));
+    for (const studies::Parameter& p : study.parameters) {
+      const bool follows = std::ranges::find(p.sets, key, &studies::Follower::key) != p.sets.end();
+      if (p.key != key && !follows) continue;
+      problems.add(SourceLocation{"--set " + clipped(set)},
+                   fmt::format("{} {} of the study, which sets it in every run; expected another key, or a study without "
+                               "this parameter",
+                               clipped(key), follows ? "is computed from the parameter " + clipped(p.key) : "is a parameter"));
+    }
+  }
+  problems.raise();
+  study.sets.insert(study.sets.end(), sets.begin(), sets.end());
+}
+
+std::string set_words(const std::vector<std::string>& sets) {
+  std::string words;
+  for (const std::string& set : sets) words += " --set " + shell_word(set);
+  return words;
 }
 
 Team& team() {

@@ -21,6 +21,14 @@ struct StudyRunArguments {
 };
 void add_study_run(CLI::App& command, StudyRunArguments& arguments, const char* folder);
 
+/// Adds the repeatable option --set of a command whose input is a study file.
+void add_study_sets(CLI::App& command, std::vector<std::string>& sets);
+/// Adds settings of the command line to those that a study applies to all runs. Throws InputError if one sets a parameter, or a
+/// key that is computed from a parameter, because the study sets it anew for every run.
+void add_sets(studies::Study& study, const std::vector<std::string>& sets);
+/// The options --set of a command line, with a space before each.
+std::string set_words(const std::vector<std::string>& sets);
+
 /// Function that returns an executor for a team of processes.
 using Team =
     std::function<studies::Executor(const studies::Plan& plan, const BatchSettings& settings, studies::Measure measure)>;

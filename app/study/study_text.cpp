@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/study/importance_text.h"
 #include "app/study/study_sensitivity.h"
 #include "app/study/verification_text.h"
 #include "core/files/atomic_file.h"
@@ -267,6 +268,7 @@ std::string study_summary(Journal& journal, const studies::Results& results, con
   }
   text += rejected_text(journal, results);
   text += sensitivity_text(journal, results);
+  text += importance_text(journal, results);
   constexpr std::size_t kLimits = 4;
   const std::vector<studies::BrokenLimit> limits = studies::broken_limits(journal);
   for (std::size_t k = 0; k < std::min(kLimits, limits.size()); ++k) {

@@ -40,7 +40,7 @@ std::vector<double> morris_shares(std::uint64_t seed, std::size_t parameters, st
 std::vector<double> saltelli_shares(std::size_t parameters, std::uint64_t point) {
   const std::uint64_t row = point / (parameters + 2);
   const std::uint64_t block = point % (parameters + 2);
-  const std::vector<double> both = sobol_point(2 * parameters, row);
+  const std::vector<double> both = sobol_point(2 * parameters, row + 1);
   std::vector<double> shares(parameters);
   for (std::size_t k = 0; k < parameters; ++k) shares[k] = both[block == 1 || block == k + 2 ? parameters + k : k];
   return shares;

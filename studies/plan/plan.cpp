@@ -17,6 +17,7 @@ namespace gaitlab::studies {
 
 Plan::Plan(Study study, const QuantityOffer& offer, Catalog& catalog)
     : bound_(std::move(study), offer, catalog), scenario_digest_(hash128(bound_.scenario_text())), points_(bound_.study()) {
+  check_values(*this);
   check_corners(*this);
   all_estimated_ = draws_too_few();
 }

@@ -12,8 +12,8 @@ namespace gaitlab::studies {
 
 class Plan {
  public:
-  /// Reads and checks the study with its scenarios, and tries the settings of the first and the last run. Throws InputError
-  /// with every problem found, before any run starts.
+  /// Reads and checks the study with its scenarios, and tries the settings of the first and the last run, and each listed
+  /// value. Throws InputError with every problem found, before any run starts.
   Plan(Study study, const QuantityOffer& offer, Catalog& catalog);
 
   [[nodiscard]] const BoundStudy& bound() const { return bound_; }

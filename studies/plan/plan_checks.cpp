@@ -20,6 +20,67 @@ std::vector<std::string> corner(const Study& study, bool high) {
   return values;
 }
 
+/// True if a key is wrong, not its value. check_corners() reports these at the place of the key.
+bool is_of_key(const Problem& problem) { return problem.text.starts_with("unknown key"); }
+
+/// Trial of the listed values of the parameters in one scenario.
+class ValueTrial {
+ public:
+  ValueTrial(const Plan& plan, std::size_t scenario) : plan_(plan), scenario_(scenario) {}
+
+  /// Reason why no run can have this value; nothing if some run can.
+  std::optional<Problem> refused(std::size_t parameter, std::size_t value) {
+    const Parameter& p = parameters()[parameter];
+    why_.reset();
+    if (p.sets.empty() && runs({p.key + "=" + p.values[value]})) return {};
+    for (const bool high : {false, true}) {
+      if (some_combination_runs(parameter, value, high)) return {};
+    }
+    return why_;
+  }
+
+ private:
+  [[nodiscard]] const std::vector<Parameter>& parameters() const { return plan_.study().parameters; }
+
+  bool runs(const std::vector<std::string>& sets) {
+    try {
+      (void)plan_.with(sets, scenario_);
+      return true;
+    } catch (const InputError& error) {
+      const Problem& found = error.problems().front();
+      if (!why_ || (is_of_key(*why_) && !is_of_key(found))) why_ = found;
+      return false;
+    }
+  }
+
+  bool some_combination_runs(std::size_t parameter, std::size_t value, bool high) {
+    std::vector<std::string> values = corner(plan_.study(), high);
+    values[parameter] = parameters()[parameter].values[value];
+    std::vector<std::size_t> others;
+    std::size_t combinations = 1;
+    for (std::size_t k = 0; k < parameters().size(); ++k) {
+      if (k == parameter || parameters()[k].values.empty()) continue;
+      others.push_back(k);
+      constexpr std::size_t kMost = 1000;
+      combinations *= parameters()[k].values.size();
+      if (combinations > kMost) return true;
+    }
+    for (std::size_t c = 0; c < combinations; ++c) {
+      std::size_t rest = c;
+      for (const std::size_t k : others) {
+        values[k] = parameters()[k].values[rest % parameters()[k].values.size()];
+        rest /= parameters()[k].values.size();
+      }
+      if (runs(plan_.sets(values, scenario_ * plan_.points().replicates()))) return true;
+    }
+    return false;
+  }
+
+  const Plan& plan_;
+  std::size_t scenario_;
+  std::optional<Problem> why_;  ///< the first problem, but one of the value before one of a key that other values need
+};
+
 void check_corner(const Plan& plan, std::size_t scenario, Problems& problems) {
   const std::uint64_t first_run = scenario * plan.points().replicates();
   const std::uint64_t last_run =
@@ -44,6 +105,26 @@ void check_corners(const Plan& plan) {
   Problems problems;
   std::vector<Problems> refused(plan.scenarios().size());
   for (std::size_t s = 0; s < refused.size(); ++s) check_corner(plan, s, refused[s]);
+  add_of_each(plan.scenarios(), refused, problems);
+  problems.raise();
+}
+
+void check_values(const Plan& plan) {
+  Problems problems;
+  const std::vector<Parameter>& parameters = plan.study().parameters;
+  std::vector<Problems> refused(plan.scenarios().size());
+  for (std::size_t s = 0; s < refused.size(); ++s) {
+    ValueTrial trial(plan, s);
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+      for (std::size_t v = 0; v < parameters[k].values.size(); ++v) {
+        const std::optional<Problem> why = trial.refused(k, v);
+        if (why && !is_of_key(*why)) {
+          const std::vector<SourceLocation>& places = parameters[k].value_places;
+          refused[s].add(v < places.size() ? places[v] : parameters[k].place, why->text);
+        }
+      }
+    }
+  }
   add_of_each(plan.scenarios(), refused, problems);
   problems.raise();
 }

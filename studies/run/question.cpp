@@ -57,6 +57,16 @@ std::string json_text(const std::string& text) { return Json(text).dump(-1, ' ',
 
 std::string json_number(double value) { return std::isfinite(value) ? number_text(value) : "null"; }
 
+/// Value of a column less `least`; with several runs of a point a list of their values.
+std::string of_runs(std::span<const std::vector<std::string>> quantities, std::size_t column, double least, bool several) {
+  std::string values;
+  for (const std::vector<std::string>& row : quantities) {
+    if (!values.empty()) values += ',';
+    values += row[column].empty() ? "null" : json_number(number_of(row[column]) - least);
+  }
+  return several ? "[" + values + "]" : values;
+}
+
 }  // namespace
 
 Question read_question(const std::string& line, const SourceLocation& place, const std::vector<Parameter>& parameters) {
@@ -96,8 +106,8 @@ Question read_question(const std::string& line, const SourceLocation& place, con
   return question;
 }
 
-std::string answer(const Question& question, const JournalHead& head, std::span<const Brief> runs,
-                   std::span<const std::vector<std::string>> quantities) {
+std::string answer(const Question& question, const JournalHead& head, std::span<const MarginGuard> guards,
+                   std::span<const Brief> runs, std::span<const std::vector<std::string>> quantities) {
   std::string text = fmt::format(R"({{"id":{})", question.id);
   const auto failed = std::ranges::find_if(runs, [](const Brief& run) { return run.outcome != "done"; });
   const PointResult point = runs.empty() ? PointResult{} : point_result(head, runs);
@@ -109,14 +119,12 @@ std::string answer(const Question& question, const JournalHead& head, std::span<
     if (!done) text += R"(,"message":)" + json_text(failed->message);
   }
   text += R"(,"figures":{)";
-  for (std::size_t k = 0; done && k < head.quantities.size(); ++k) {
-    std::string values;
-    for (const std::vector<std::string>& row : quantities) {
-      if (!values.empty()) values += ',';
-      values += row[k].empty() ? "null" : json_number(number_of(row[k]));
-    }
-    if (head.replicates > 1) values = "[" + values + "]";
-    text += (k == 0 ? "" : ",") + json_text(head.quantities[k].name) + ":" + values;
+  for (std::size_t k = 0; done && k < head.quantities.size(); ++k)
+    text += (k == 0 ? "" : ",") + json_text(head.quantities[k].name) + ":" + of_runs(quantities, k, 0, head.replicates > 1);
+  text += R"(},"margins":{)";
+  for (std::size_t k = 0; done && k < guards.size(); ++k) {
+    text += (k == 0 ? "" : ",") + json_text(guards[k].check) + ":" +
+            of_runs(quantities, guards[k].column, guards[k].least, head.replicates > 1);
   }
   text += R"(},"objective":[)";
   for (std::size_t k = 0; k < head.objectives.size(); ++k)

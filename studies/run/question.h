@@ -20,10 +20,11 @@ struct Question {
 /// of the wrong type. A value outside the study's range gives a refused point.
 Question read_question(const std::string& line, const SourceLocation& place, const std::vector<Parameter>& parameters);
 
-/// Answer for a point. `runs` are in the order of replicates, and `quantities` contains their values by column. An empty `runs`
-/// means that the point is refused. With several replicates, each quantity is a list. A number is the shortest text that gives
-/// the same double, and an unknown number is null.
-std::string answer(const Question& question, const JournalHead& head, std::span<const Brief> runs,
-                   std::span<const std::vector<std::string>> quantities);
+/// Answer for a point. `margins` contains, by the id of its check, each guard's margin less the least margin that the study
+/// requires: 0 or more satisfies the guard. `runs` are in the order of replicates, and `quantities` contains their values by
+/// column. An empty `runs` means that the point is refused. With several replicates, each quantity is a list. A number is the
+/// shortest text that gives the same double, and an unknown number is null.
+std::string answer(const Question& question, const JournalHead& head, std::span<const MarginGuard> guards,
+                   std::span<const Brief> runs, std::span<const std::vector<std::string>> quantities);
 
 }  // namespace gaitlab::studies

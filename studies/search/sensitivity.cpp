@@ -109,7 +109,7 @@ std::vector<double> morris_measures(const std::vector<double>& effects, std::siz
 }
 
 /// Total indices, then first-order indices, from the drawn rows.
-std::vector<double> jansen(std::span<const double> values, std::size_t n, const Blocks& drawn) {
+std::vector<double> saltelli(std::span<const double> values, std::size_t n, const Blocks& drawn) {
   std::vector<double> measures(2 * n, kNone);
   if (drawn.size() < 2) return measures;
   const auto rows = static_cast<double>(drawn.size());
@@ -125,28 +125,19 @@ std::vector<double> jansen(std::span<const double> values, std::size_t n, const 
   constexpr double kRounding = 1e-24;
   if (!(variance > kRounding * mean * mean) || !(variance > 0)) return measures;
   for (std::size_t p = 0; p < n; ++p) {
-    double with_a = 0;
-    double with_b = 0;
+    double total = 0;
+    double first = 0;
     for (const std::size_t row : drawn) {
-      const double mixed = values[row * (n + 2) + 2 + p];
-      const double from_a = values[row * (n + 2)] - mixed;
-      const double from_b = values[row * (n + 2) + 1] - mixed;
-      with_a += from_a * from_a;
-      with_b += from_b * from_b;
+      const double a = values[row * (n + 2)];
+      const double b = values[row * (n + 2) + 1];
+      const double changed = values[row * (n + 2) + 2 + p] - a;
+      total += changed * changed;
+      first += (b - mean) * changed;  // without the mean, its square would be part of the noise
     }
-    measures[p] = with_a / (2 * rows) / variance;
-    measures[n + p] = 1 - with_b / (2 * rows) / variance;
+    measures[p] = total / (2 * rows) / variance;
+    measures[n + p] = first / rows / variance;
   }
   return measures;
-}
-
-/// Method of a study, from its definition.
-std::string method_of(const JournalHead& head) {
-  constexpr std::string_view kKey = "\nmethod: ";
-  const std::size_t at = head.definition.find(kKey);
-  if (at == std::string::npos) return "";
-  const std::size_t from = at + kKey.size();
-  return head.definition.substr(from, head.definition.find('\n', from) - from);
 }
 
 /// An output of the study, with its values by point number.
@@ -178,6 +169,19 @@ std::vector<double> means(Journal& journal, const std::string& column, std::size
 
 }  // namespace
 
+std::string method_of(const JournalHead& head) {
+  constexpr std::string_view kKey = "\nmethod: ";
+  const std::size_t at = head.definition.find(kKey);
+  if (at == std::string::npos) return "";
+  const std::size_t from = at + kKey.size();
+  return head.definition.substr(from, head.definition.find('\n', from) - from);
+}
+
+bool of_sensitivity(const JournalHead& head) {
+  const std::optional<Method> method = named<Method>(method_of(head));
+  return method == Method::morris || method == Method::sobol_indices;
+}
+
 Sensitivity morris(std::uint64_t seed, std::size_t parameters, std::span<const double> values) {
   Sensitivity found;
   found.measures = {{"mu_star", {}}, {"mu", {}}, {"sigma", {}}};
@@ -192,7 +196,7 @@ Sensitivity sobol_indices(std::size_t parameters, std::span<const double> values
   Sensitivity found;
   found.measures = {{"total", {}}, {"first", {}}};
   found.blocks = values.size() / (parameters + 2);
-  const Estimator estimator = [&](const Blocks& drawn) { return jansen(values, parameters, drawn); };
+  const Estimator estimator = [&](const Blocks& drawn) { return saltelli(values, parameters, drawn); };
   estimate(found, whole_blocks(values, parameters + 2), estimator, parameters);
   return found;
 }

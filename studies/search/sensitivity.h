@@ -37,11 +37,16 @@ struct Sensitivity {
 /// trajectory with a value that is not finite is omitted. `sigma` requires two trajectories.
 Sensitivity morris(std::uint64_t seed, std::size_t parameters, std::span<const double> values);
 
-/// Shares of the output's variance by Jansen's estimators (Jansen 1999; Saltelli et al. 2010, table 2). `total` is a
-/// parameter's share including its interactions, `first` its share alone. `values` are in the order of saltelli_shares. A row
-/// with a value that is not finite is omitted. The shares are not known if fewer than two rows remain or if the output does not
-/// vary.
+/// Shares of the output's variance V (Saltelli et al. 2010, table 2). `total` is a parameter's share including its
+/// interactions, mean (f(A) - f(AB_i))^2 / 2V (Jansen 1999); `first` is its share alone, mean f(B) (f(AB_i) - f(A)) / V, with
+/// the mean of f taken off first. `values` are in the order of saltelli_shares. A row with a value that is not finite is
+/// omitted. The shares are not known if fewer than two rows remain or if the output does not vary.
 Sensitivity sobol_indices(std::size_t parameters, std::span<const double> values);
+
+/// Method of a study, from its definition; `asked` if another program chose the points.
+std::string method_of(const JournalHead& head);
+/// True for the methods `morris` and `sobol_indices`.
+bool of_sensitivity(const JournalHead& head);
 
 /// Sensitivities from a journal with the method `morris` or `sobol_indices`. Their outputs are the objectives, with replicates
 /// combined as the study defines, and the other quantities shown, as means over the replicates. Empty for any other method.

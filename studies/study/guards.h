@@ -60,6 +60,8 @@ class Guards {
   /// Relations over columns, as in `margin.stops >= 0`. For a verdict with checks that the study replaces, the text is a
   /// sentence.
   [[nodiscard]] std::vector<std::string> texts() const;
+  /// All guards on margins.
+  [[nodiscard]] const std::vector<MarginGuard>& margins() const { return all_; }
 
  private:
   /// True if the verdict is infeasible only because of checks that the study replaces.

@@ -131,6 +131,7 @@ void read_parameters(const Node& node, Study& study, Problems& problems) {
     const Node* values = reader.take("values");
     if (values != nullptr) {
       read_values(*values, parameter.key + ".values", parameter.values, parameter.words, problems);
+      for (const Node& item : values->items) parameter.value_places.push_back(item.place);
       if (reader.has("low") || reader.has("high"))
         problems.add(values->place, parameter.key + " has values, and low or high; expected one or the other");
     }
@@ -297,6 +298,7 @@ Parameter read_parameter(const std::string& option, const std::string& text, boo
     Node list{Node::Kind::list, parameter.place};
     for (const std::string& one : split(parts[0], ',')) list.items.push_back(scalar(one, parameter.place));
     read_values(list, parameter.key, parameter.values, parameter.words, problems);
+    parameter.value_places.assign(list.items.size(), parameter.place);
     return parameter;
   }
   parameter.log = parts[0] == "log";

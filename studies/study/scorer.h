@@ -74,6 +74,8 @@ class Scorer {
   /// All limits of the study: constraints, then guards.
   [[nodiscard]] std::vector<Limit> limits() const;
   [[nodiscard]] const std::vector<std::string>& objectives() const { return objective_texts_; }
+  /// Guards on margins, in the order of the checks of the verdict.
+  [[nodiscard]] const std::vector<MarginGuard>& margins() const { return guards_.margins(); }
 
  private:
   Naming find(const std::string& name, const std::string& joint) const;

@@ -32,6 +32,7 @@ struct Parameter {
   std::int64_t count = 0;  ///< number of grid values from low to high; 0 if values are drawn
   SourceLocation place = {};
   std::vector<Follower> sets = {};  ///< keys computed from a free parameter; empty if `key` is a key of the scenario
+  std::vector<SourceLocation> value_places = {};  ///< places of the listed values
 
   [[nodiscard]] bool in_grid() const { return !values.empty() || count > 0; }
 };

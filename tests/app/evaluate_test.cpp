@@ -13,15 +13,16 @@ class Evaluate : public StudyFixture {
     folder_.write("study.yaml",
                   "gaitlab_study: 1\nscenario: two.yaml\nset: [physics.integrator=implicit]\nparameters:\n"
                   "  cpg.phase_lag: {low: 0.5, high: 1.5}\n  cpg.type: {values: [phase_oscillator, hopf]}\n"
-                  "  physics.step: {values: [0.001, 0.0007]}\n");
+                  "  physics.step: {values: [0.001, 0.0015]}\n  trace.period: {values: [0.015, 0.02]}\n");
   }
   Result ask(const std::string& lines, const std::string& options = "") {
     folder_.write("questions", lines);
     return call("evaluate study.yaml --out e --quiet " + options + " <questions");
   }
-  static std::string question(const std::string& id, const std::string& lag, const std::string& step = "0.001") {
+  static std::string question(const std::string& id, const std::string& lag, const std::string& step = "0.001",
+                              const std::string& period = "0.015") {
     return R"({"id": )" + id + R"(, "parameters": {"cpg.phase_lag": )" + lag + R"(, "cpg.type": "hopf", "physics.step": )" +
-           step + "}}\n";
+           step + R"(, "trace.period": )" + period + "}}\n";
   }
   static std::vector<nlohmann::json> answers(const Result& result) {
     std::vector<nlohmann::json> all;
@@ -45,7 +46,7 @@ TEST_F(Evaluate, TakesAnswersOfOtherStudies) {
 
 TEST_F(Evaluate, AnswersWithTheFiguresOfTheJournal) {
   const Result result = ask(question("7", "0.30000000000000004e0") + question("\"a\\u00e9\"", "0.7") + "\r\n" +
-                            question("8", "1.2", "0.0007") + question("9", "0.7"));
+                            question("8", "1.2", "0.0015", "0.02") + question("9", "0.7"));
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(result.err, "");
   const auto all = answers(result);
@@ -53,7 +54,7 @@ TEST_F(Evaluate, AnswersWithTheFiguresOfTheJournal) {
   EXPECT_EQ(
       result.out.substr(0, result.out.find('\n')),
       R"({"id":7,"run":null,"outcome":"refused","message":"cpg.phase_lag is 0.30000000000000004; allowed are 0.5 to 1.5",)"
-      R"("figures":{},"objective":[null],"violation":null,"kept":false,"feasible":false})");
+      R"("figures":{},"margins":{},"objective":[null],"violation":null,"kept":false,"feasible":false})");
   EXPECT_EQ(all[1].at("id"), "a\u00e9");
   EXPECT_EQ(all[1].at("outcome"), "done");
   EXPECT_EQ(all[1].at("run"), 0);
@@ -95,6 +96,44 @@ TEST_F(Evaluate, OfSeveralReplicatesEachFigureIsAList) {
   EXPECT_EQ(all[0].at("kept"), true);
 }
 
+/// `margins` has the guards alone: a check of the verdict with its own margin, one of which the study requires a reserve, one
+/// with another limit, and none that the study drops.
+TEST_F(Evaluate, AnswersWithTheMarginsOfTheGuards) {
+  const std::string head = "gaitlab_study: 1\nscenario: two.yaml\nparameters: {cpg.phase_lag: {low: 0.5, high: 1.5}}\n";
+  const std::string asked = R"({"id": 1, "parameters": {"cpg.phase_lag": 1}})";
+  folder_.write("study.yaml", head + "guards: {voltage: {margin: 0.25}, heat: false, stops: 0.5, slip: true}\n");
+  const nlohmann::json one = answers(ask(asked)).at(0);
+  const nlohmann::json& figures = one.at("figures");
+  const nlohmann::json& margins = one.at("margins");
+  EXPECT_EQ(margins.at("current"), figures.at("margin.current"));
+  EXPECT_EQ(margins.at("voltage").get<double>(), figures.at("margin.voltage").get<double>() - 0.25);
+  EXPECT_EQ(margins.at("stops"), figures.at("margin.stops[0.5]"));
+  EXPECT_TRUE(margins.at("slip").is_null()) << "the run has no such check";
+  EXPECT_FALSE(margins.contains("heat"));
+  EXPECT_FALSE(margins.contains("periodic")) << "it can only warn";
+  std::filesystem::remove_all(folder_ / "e");
+  folder_.write("study.yaml", head + "replicates: {count: 2}\n");
+  const nlohmann::json several = answers(ask(asked)).at(0);
+  EXPECT_EQ(several.at("margins").at("voltage"), several.at("figures").at("margin.voltage"));
+  EXPECT_EQ(several.at("margins").at("voltage").size(), 2U);
+  std::filesystem::remove_all(folder_ / "e");
+  folder_.write("study.yaml", head + "guards: none\n");
+  EXPECT_TRUE(answers(ask(asked)).at(0).at("margins").empty());
+}
+
+/// --set has the effect of a line of `set` in the file, after the others.
+TEST_F(Evaluate, SetsKeysOfTheScenario) {
+  const auto of_file = answers(ask(question("1", "0.7"), "--set duration=0.6")).at(0);
+  EXPECT_EQ(of_file.at("figures").at("duration"), 0.6);
+  const Result other = ask(question("1", "0.7"));
+  EXPECT_EQ(other.code, 2);
+  EXPECT_TRUE(contains(other.err, "continue it as it was begun: gaitlab evaluate study.yaml --set duration=0.6 --out e"))
+      << other.err;
+  EXPECT_EQ(ask(question("1", "0.7"), "--set cpg.phase_lag=1").err,
+            "--set cpg.phase_lag=1: error: cpg.phase_lag is a parameter of the study, which sets it in every run; expected "
+            "another key, or a study without this parameter\n");
+}
+
 TEST_F(Evaluate, RefusesLinesThatAreNoQuestionsAndLosesNothing) {
   const std::string expected = R"(; expected {"id": 7, "parameters": {"KEY": VALUE}})";
   const auto refuses = [&](const std::string& line, const std::string& message) {
@@ -112,7 +151,7 @@ TEST_F(Evaluate, RefusesLinesThatAreNoQuestionsAndLosesNothing) {
   refuses(R"({"id": 1.5, "parameters": [], "x": 1})",
           "stdin:4:1: error: unknown key 'x'" + expected + "\nstdin:4:1: error: its id is not a whole number or a text" +
               expected + "\nstdin:4:1: error: its parameters are not an object" + expected);
-  refuses(R"({"id": 1, "parameters": {"cpg.phase_lga": 1, "cpg.type": 3, "physics.step": null}})",
+  refuses(R"({"id": 1, "parameters": {"cpg.phase_lga": 1, "cpg.type": 3, "physics.step": null, "trace.period": 0.015}})",
           "stdin:4:1: error: has no value for the parameter 'cpg.phase_lag'\n"
           "stdin:4:1: error: cpg.type is 3; expected a word, in double quotes\n"
           "stdin:4:1: error: physics.step is null; expected a number\n"

@@ -146,16 +146,29 @@ TEST_F(Sweep, TheSameCommandGoesOnInItsFolder) {
   EXPECT_EQ(read(folder_ / "runs/sweep-two/table.csv"), first);
 }
 
+/// A value that no run can have is an error before the first run.
+TEST_F(Sweep, RefusesAValueThatCannotRun) {
+  refused("sweep two.yaml --grid cpg.type=hopf,phase_osillator --out s",
+          "--grid cpg.type=hopf,phase_osillator: error: type 'phase_osillator' is unknown; did you mean 'phase_oscillator'?");
+  refused("sweep two.yaml --set physics.integrator=implicit --grid physics.step=0.001,0.0007 --out s",
+          "--grid physics.step=0.001,0.0007: error: trace period 0.015 s is not a whole multiple of the step 0.0007 s "
+          "(21.4285714286 steps); steps that fit: 0.000625, 0.00075; periods that fit: 0.0147, 0.0154");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "s"));
+}
+
 TEST_F(Sweep, WhatFailsIsAResult) {
-  // Failed runs are a control period that is not a multiple of the step, and a motor that diverges.
-  ASSERT_EQ(call("sweep two.yaml --set physics.integrator=implicit --grid physics.step=0.001,0.0007 --out s --quiet").code, 0);
+  // Failed runs are a trace period that is not a multiple of the step, and a motor that diverges.
+  ASSERT_EQ(call("sweep two.yaml --set physics.integrator=implicit --grid physics.step=0.001,0.0015 --grid "
+                 "trace.period=0.015,0.02 --out s --quiet")
+                .code,
+            0);
   auto rows = table("s");
-  ASSERT_EQ(rows.size(), 2U);
-  EXPECT_EQ(rows[0].at("outcome"), "done");
-  EXPECT_EQ(rows[1].at("outcome"), "refused");
-  EXPECT_TRUE(contains(rows[1].at("message"), "not a whole multiple of the step")) << rows[1].at("message");
-  EXPECT_EQ(rows[1].at("speed"), "");
-  EXPECT_EQ(rows[1].at("kept"), "0");
+  ASSERT_EQ(rows.size(), 4U);
+  for (const std::size_t k : {0U, 1U, 2U}) EXPECT_EQ(rows[k].at("outcome"), "done");
+  EXPECT_EQ(rows[3].at("outcome"), "refused");
+  EXPECT_TRUE(contains(rows[3].at("message"), "not a whole multiple of the step")) << rows[3].at("message");
+  EXPECT_EQ(rows[3].at("speed"), "");
+  EXPECT_EQ(rows[3].at("kept"), "0");
   const Result diverged =
       call("sweep two.yaml --grid controller.Kp=1e8 --set actuator.type=torque --set 'controller.unit=N m' --out d");
   EXPECT_EQ(diverged.code, 1) << diverged.out;

@@ -160,7 +160,7 @@ inline void question_kinds(const std::string& line) {
   if (question.values.size() != parameters.size()) std::abort();
   studies::JournalHead head;
   head.objectives.resize(1);
-  (void)studies::answer(question, head, {}, {});
+  (void)studies::answer(question, head, {}, {}, {});
 }
 
 /// Bytes of the journal of a small completed study: four points with two replicates each. One run has failed.

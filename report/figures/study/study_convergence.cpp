@@ -24,17 +24,13 @@ constexpr Style kShare{.stroke = colour::kGreen, .width = 1.4};
 constexpr Style kRestart{.stroke = colour::kGrey, .width = 1, .dash = "2 3"};
 
 struct Curves {
-  std::vector<double> generation, so_far, best, median, share;
+  std::vector<double> runs, best, median, share;
 };
 
-Curves curves_of(const std::vector<ConvergencePoint>& search, bool maximize) {
+Curves curves_of(const std::vector<ConvergencePoint>& search) {
   Curves curves;
-  double so_far = std::nan("");
   for (const ConvergencePoint& p : search) {
-    const bool better = maximize ? p.best > so_far : p.best < so_far;
-    if (std::isnan(so_far) || better) so_far = p.best;
-    curves.generation.push_back(p.generation);
-    curves.so_far.push_back(so_far);
+    curves.runs.push_back(p.runs);
     curves.best.push_back(p.best);
     curves.median.push_back(p.median);
     curves.share.push_back(p.kept);
@@ -42,11 +38,35 @@ Curves curves_of(const std::vector<ConvergencePoint>& search, bool maximize) {
   return curves;
 }
 
-/// Calls `draw` with the generation of each restart.
+/// Staircase of the best value so far. It ends at the last run.
+Curves staircase(const ConvergenceFigure& figure) {
+  Curves stairs;
+  const auto add = [&](double runs, double value) {
+    stairs.runs.push_back(runs);
+    stairs.best.push_back(value);
+  };
+  for (const Improvement& one : figure.best) {
+    if (!stairs.best.empty()) add(one.runs, stairs.best.back());
+    add(one.runs, one.value);
+  }
+  if (!stairs.best.empty()) add(figure.runs, stairs.best.back());
+  return stairs;
+}
+
+/// The best value after a number of runs. NaN before the first kept point.
+double best_so_far(const ConvergenceFigure& figure, double runs) {
+  double best = std::nan("");
+  for (const Improvement& one : figure.best) {
+    if (one.runs <= runs) best = one.value;
+  }
+  return best;
+}
+
+/// Calls `draw` with the number of runs before each restart.
 template <class Draw>
 void each_restart(const std::vector<ConvergencePoint>& search, const Draw& draw) {
   for (std::size_t k = 1; k < search.size(); ++k) {
-    if (search[k].restart != search[k - 1].restart) draw(search[k].generation);
+    if (search[k].restart != search[k - 1].restart) draw(search[k - 1].runs);
   }
 }
 
@@ -67,45 +87,52 @@ std::string convergence_svg(const ConvergenceFigure& figure) {
   Svg svg(kSheetWidth, kConvergenceHeight, figure.title);
   draw_sheet_title(svg, figure.title);
   std::vector<Curves> all;
-  Bounds generations;
+  const Curves stairs = staircase(figure);
+  Bounds runs;
   Bounds values;
+  runs.add(std::vector<double>{0, std::max(1.0, figure.runs)});
+  values.add(stairs.best);
   for (const std::vector<ConvergencePoint>& search : figure.searches) {
-    const Curves& curves = all.emplace_back(curves_of(search, figure.maximize));
-    generations.add(curves.generation);
+    const Curves& curves = all.emplace_back(curves_of(search));
     values.add(curves.best);
     values.add(curves.median);
   }
-  if (!generations.empty()) generations.add(1);
-  const Ticks across = ticks_around(generations, 8);
+  const Ticks across = ticks_around(runs, 8);
   const Plot upper(svg, kObjectiveArea, {.ticks = across, .texts = false},
                    {.ticks = ticks_around(values, 7), .title = figure.value.title()});
-  const Plot lower(svg, kShareArea, {.ticks = across, .title = "generation"},
-                   {.ticks = ticks_around(0, 1, 2), .title = "kept"});
+  const Plot lower(svg, kShareArea, {.ticks = across, .title = "runs"}, {.ticks = ticks_around(0, 1, 2), .title = "kept"});
   upper.draw_axes();
   lower.draw_axes();
   for (std::size_t s = 0; s < all.size(); ++s) {
-    upper.curve(all[s].generation, all[s].median, kMedian);
-    upper.curve(all[s].generation, all[s].best, kOfGeneration);
-    upper.curve(all[s].generation, all[s].so_far, kSoFar);
-    lower.curve(all[s].generation, all[s].share, kShare);
-    each_restart(figure.searches[s], [&](double generation) {
-      upper.moment(generation, kRestart);
-      lower.moment(generation, kRestart);
+    upper.curve(all[s].runs, all[s].median, kMedian);
+    upper.curve(all[s].runs, all[s].best, kOfGeneration);
+    lower.curve(all[s].runs, all[s].share, kShare);
+    each_restart(figure.searches[s], [&](double at) {
+      upper.moment(at, kRestart);
+      lower.moment(at, kRestart);
     });
   }
+  upper.curve(stairs.runs, stairs.best, kSoFar);
   draw_convergence_legend(svg, figure);
   draw_sheet_note(svg, figure.note, kConvergenceHeight - 14);
   return svg.finish();
 }
 
 std::string convergence_csv(const ConvergenceFigure& figure) {
-  std::string text = "search,generation,restart,points,best,median,kept,spread\n";
+  std::string text = "search,generation,restart,points,best,median,kept,spread,runs,best_so_far\n";
   for (std::size_t s = 0; s < figure.searches.size(); ++s) {
     for (const ConvergencePoint& p : figure.searches[s]) {
-      text += fmt::format("{},{},{},{},{},{},{},{}\n", s, csv_cell(p.generation), csv_cell(p.restart), csv_cell(p.points),
-                          csv_cell(p.best), csv_cell(p.median), csv_cell(p.kept), csv_cell(p.spread));
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", s, csv_cell(p.generation), csv_cell(p.restart), csv_cell(p.points),
+                          csv_cell(p.best), csv_cell(p.median), csv_cell(p.kept), csv_cell(p.spread), csv_cell(p.runs),
+                          csv_cell(best_so_far(figure, p.runs)));
     }
   }
+  return text;
+}
+
+std::string improvements_csv(const ConvergenceFigure& figure) {
+  std::string text = "runs,best_so_far\n";
+  for (const Improvement& one : figure.best) text += csv_cell(one.runs) + "," + csv_cell(one.value) + "\n";
   return text;
 }
 

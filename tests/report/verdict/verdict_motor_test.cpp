@@ -36,7 +36,7 @@ TEST(Verdict, JudgesSpeedsByTheOneWithoutTorque) {
   EXPECT_EQ(with(1.01 * no_load).worst, "m3/passive");
   EXPECT_TRUE(contains(with(1.01 * no_load).text, "the load does"));
   const Scenario rated = shipped("caterpillar.yaml", {"duration=4", "physics.engine=articulated", "actuator.speed_max=1.2"});
-  EXPECT_EQ(motors(rated, 0).joint(0).speed_max, 1.2);
+  EXPECT_EQ(report::motors(rated, 0).joint(0).speed_max, 1.2);
 }
 
 /// A continuous rating of the manufacturer is compared with the RMS over the window, a peak rating with the largest value.
