@@ -11,14 +11,17 @@ namespace gaitlab::studies {
 
 namespace {
 
-constexpr std::uint64_t kCandidates = 600;
-constexpr double kMoved = 0.4;  // probability that a coordinate of a candidate differs from the centre's
+constexpr std::uint64_t kCandidates = 400;
+constexpr double kMoved = 0.4;   // probability that a coordinate of a candidate differs from the centre's
+constexpr double kOfBest = 0.7;  // share of the candidates that are made of the best points
+constexpr std::size_t kBest = 16;
+constexpr double kMostSteps = 1.5, kSpread = 0.02;
 constexpr double kFirstSide = 0.8, kLargest = 1.2, kSmallest = 0.02, kAgain = 0.6;
 constexpr double kGrow = 1.6, kShrink = 1.7;
-constexpr int kSuccesses = 2, kFailures = 3;
+constexpr int kSuccesses = 2, kFailures = 2;
 constexpr double kGain = 0.003;
 
-enum class ScboDraw : std::uint64_t { which = 201, where, objective, violation };
+enum class ScboDraw : std::uint64_t { which = 201, where, objective, violation, kind, best, steps };
 
 class Scbo final : public Evolution {
  public:
@@ -74,21 +77,52 @@ class Scbo final : public Evolution {
     return math::hash64({static_cast<std::uint64_t>(draw), seed_, generation_});
   }
 
-  /// Points in the trust region that differ from its centre in at least one coordinate.
+  [[nodiscard]] double uniform(ScboDraw draw, std::uint64_t candidate, std::uint64_t number = 0) const {
+    return math::uniform({static_cast<std::uint64_t>(draw), seed_, generation_, candidate, number});
+  }
+
   [[nodiscard]] std::vector<Vector> candidates(std::uint64_t count) const {
-    const Vector& centre = best().point;
-    const std::uint64_t d = centre.size();
-    std::vector<Vector> all(count, centre);
-    for (std::uint64_t k = 0; k < count; ++k) {
-      const auto sure = static_cast<std::uint64_t>(math::uniform({stream(ScboDraw::which), k, d}) * static_cast<double>(d));
-      for (std::uint64_t c = 0; c < d; ++c) {
-        if (c != sure && math::uniform({stream(ScboDraw::which), k, c}) >= kMoved) continue;
-        const double low = std::max(0.0, centre[c] - side_ / 2);
-        const double high = std::min(1.0, centre[c] + side_ / 2);
-        all[k][c] = low + math::uniform({stream(ScboDraw::where), k, c}) * (high - low);
-      }
-    }
+    const std::vector<const Rated*> elite = best_points();
+    std::vector<Vector> all;
+    for (std::uint64_t k = 0; k < count; ++k)
+      all.push_back(uniform(ScboDraw::kind, k) < kOfBest ? of_best(elite, k) : in_region(elite.front()->point, k));
     return all;
+  }
+
+  /// The best points since the restart, best first.
+  [[nodiscard]] std::vector<const Rated*> best_points() const {
+    std::vector<const Rated*> all;
+    for (std::size_t k = since_; k < rated_.size(); ++k) all.push_back(&rated_[k]);
+    std::ranges::stable_sort(all, {}, [](const Rated* one) { return one->rating.fitness[0]; });
+    all.resize(std::min(all.size(), kBest));
+    return all;
+  }
+
+  /// One of the best points, moved by a multiple of the difference of two others, and a little at random.
+  [[nodiscard]] Vector of_best(const std::vector<const Rated*>& elite, std::uint64_t k) const {
+    const auto pick = [&](std::uint64_t which) -> const Vector& {
+      return elite[static_cast<std::size_t>(uniform(ScboDraw::best, k, which) * static_cast<double>(elite.size()))]->point;
+    };
+    const double steps = kMostSteps * uniform(ScboDraw::steps, k);
+    Vector point = pick(0);
+    for (std::size_t c = 0; c < point.size(); ++c) {
+      const double by = steps * (pick(1)[c] - pick(2)[c]) + kSpread * (2 * uniform(ScboDraw::where, k, c) - 1);
+      point[c] = std::clamp(point[c] + by, 0.0, 1.0);
+    }
+    return point;
+  }
+
+  /// A point in the trust region that differs from its centre in at least one coordinate.
+  [[nodiscard]] Vector in_region(Vector point, std::uint64_t k) const {
+    const std::size_t d = point.size();
+    const auto sure = static_cast<std::size_t>(uniform(ScboDraw::which, k, d) * static_cast<double>(d));
+    for (std::size_t c = 0; c < d; ++c) {
+      if (c != sure && uniform(ScboDraw::which, k, c) >= kMoved) continue;
+      const double low = std::max(0.0, point[c] - side_ / 2);
+      const double high = std::min(1.0, point[c] + side_ / 2);
+      point[c] = low + uniform(ScboDraw::where, k, c) * (high - low);
+    }
+    return point;
   }
 
   const std::vector<Rated>& rated_;
