@@ -278,7 +278,7 @@ int main(int argc, char** argv) {
     others.dismiss();
   } else {
     if (std::freopen("/dev/null", "w", stdout) == nullptr) return 1;
-    app::team() = [](const Plan& plan, const BatchSettings& settings, Measure measure) -> Executor {
+    app::team() = [](const Plan& plan, const BatchSettings& settings, const Measure& measure) -> Executor {
       serve(plan, settings, measure);
     };
     try {
