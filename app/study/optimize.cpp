@@ -45,6 +45,7 @@ Study searched_study(const OptimizeArguments& a) {
   }
   Study study = studies::read_study(a.file, studies::Purpose::optimize);
   if (!a.method.empty()) study.method = named<studies::Method>(a.method).value();
+  if (!studies::is_search(study.method) && !a.method.empty()) study.starts.clear();  // for comparison with a search
   if (a.runs > 0) study.runs = a.runs;
   if (a.seed >= 0) study.seed = a.seed;
   add_sets(study, a.sets);
@@ -105,7 +106,8 @@ std::optional<std::vector<studies::Verification>> verify_best(const Plan& plan, 
   auto tried = verify(plan, journal, results, best, executor, AgainProgress(quiet, what), stopped());
   if (!tried) return {};
   if (plan.study().verify.worlds)
-    tried = in_worlds(plan, journal, results, *tried, executor, AgainProgress(quiet, "those that stand, in worlds"), stopped());
+    tried =
+        in_worlds(plan, journal, results, *tried, executor, AgainProgress(quiet, "points that stand, in worlds"), stopped());
   if (tried) journal.write(*tried);
   return tried;
 }

@@ -86,6 +86,8 @@ void print_notes(const studies::Plan& plan, bool quiet) {
   if (quiet) return;
   for (const Problem& note : plan.study().notes) say(to_string(note.place), "note", note.text);
   for (const Problem& note : studies::short_runs(plan)) say(to_string(note.place), "note", note.text);
+  if (const std::optional<Problem>& cause = plan.bound().not_own())
+    say(to_string(cause->place), "note", "the search does not begin with the scenario's own gait: " + cause->text);
   for (const Problem& note : studies::refused_ends(plan)) say(to_string(note.place), "note", note.text);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -36,6 +37,18 @@ std::string stands_text(const WorldCount& count) {
   return fmt::format("stands in {} of {}", count.stood, counted(count.of, "world"));
 }
 
+/// Least and largest objective in the worlds of a point: `, in worlds 0.0139 to 0.0146`. Empty without worlds.
+std::string in_worlds_text(const std::vector<Verification>& all, std::uint64_t run) {
+  double least = std::numeric_limits<double>::infinity();
+  double most = -least;
+  for (const Verification& v : all) {
+    if (v.run != run || !studies::is_world(v) || v.objectives.empty() || std::isnan(v.objectives.front())) continue;
+    least = std::min(least, v.objectives.front());
+    most = std::max(most, v.objectives.front());
+  }
+  return least <= most ? fmt::format(", in worlds {:.4g} to {:.4g}", least, most) : "";
+}
+
 /// Text on a point: its runs with their objectives, and the reasons that reject it.
 std::string point_text(const std::vector<Verification>& all, std::uint64_t run, const std::string& unit) {
   std::string ways;
@@ -58,13 +71,16 @@ std::string point_text(const std::vector<Verification>& all, std::uint64_t run, 
   }
   if (!reasons.empty()) below += "  " + reasons + "\n";
   if (const std::string falls = falls_text(count); !falls.empty()) below += "  " + falls + "\n";
+  ways += in_worlds_text(all, run);
   return fmt::format("run {} {}{} ({})\n{}", run, rejected ? "not verified" : "verified", share, ways, below);
 }
 
 /// Guard of the check that is the first cause of a fall, as in `guards: {voltage: {margin: 0.1}}`; "" if no cause is a check.
 std::string guard_text(const studies::JournalHead& head, const WorldCount& count) {
   for (const Verification& fall : count.falls) {
-    std::string check = fall.reason.substr(0, fall.reason.find(" of "));
+    const std::size_t scenario = fall.reason.find(": ");  // as in `in rubble: voltage of m1/active`
+    const std::string cause = scenario == std::string::npos ? fall.reason : fall.reason.substr(scenario + 2);
+    std::string check = cause.substr(0, cause.find(" of "));
     std::ranges::replace(check, ' ', '_');
     const bool known = std::ranges::find(head.quantities, "margin." + check, &studies::Quantity::name) != head.quantities.end();
     if (known) return fmt::format("a margin as guard, `guards: {{{}: {{margin: 0.1}}}}`, or ", check);

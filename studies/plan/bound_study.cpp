@@ -7,6 +7,7 @@
 #include "core/model/pattern.h"
 #include "core/settings/value.h"
 #include "core/settings/wording.h"
+#include "studies/plan/own_values.h"
 #include "studies/plan/worlds.h"
 #include "studies/study/number.h"
 
@@ -129,41 +130,30 @@ void BoundStudy::find_nominal(StudyScenario& scenario, Problems& problems) const
   }
 }
 
-namespace {
-
-/// The scenario's own value of a parameter in the form of --set; "" if it is not known or not among the parameter's values. Any
-/// listed value counts as the scenario's own, because each has a search that begins there.
-std::string own_value(const Node& root, const Parameter& p) {
-  if (!p.values.empty()) return p.values.front();
-  const Node* node = p.sets.empty() ? find_key(root, p.key) : nullptr;
-  if (node == nullptr) return "";
-  const Reading<double> number = read_number(*node, "");
-  return number.ok() && number.value >= p.low && number.value <= p.high ? number_text(number.value) : "";
-}
-
-}  // namespace
-
+/// First points of a search. In the own point, a listed parameter has its first value if the scenario's is not among its
+/// values, because each value has a search that begins at the others.
 void BoundStudy::find_starts(Problems& problems) {
   if (!is_search(study_.method)) return;
-  const Node root = parse_yaml(scenarios_.front().resolved, scenarios_.front().nominal.file);
-  std::vector<std::string> own;
-  for (const Parameter& p : study_.parameters) own.push_back(own_value(root, p));
-  if (std::ranges::find(own, "") == own.end()) starts_.push_back(own);
+  const std::vector<OwnValue> own = own_values(study_, scenarios_.front());
+  std::vector<std::string> values;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    const Parameter& p = study_.parameters[k];
+    values.push_back(own[k].text.empty() && !p.values.empty() ? p.values.front() : own[k].text);
+    if (values.back().empty() && !not_own_) not_own_ = Problem{p.place, p.key + " " + own[k].missing};
+  }
+  if (!not_own_) starts_.push_back(values);
   for (const StartPoint& start : study_.starts) {
-    std::vector<std::string> values = own;
+    std::vector<std::string> at = values;
     for (const auto& [key, value] : start.values) {
       const auto p = std::ranges::find(study_.parameters, key, &Parameter::key);
-      values[static_cast<std::size_t>(p - study_.parameters.begin())] = value;
+      at[static_cast<std::size_t>(p - study_.parameters.begin())] = value;
     }
-    const auto unknown = std::ranges::find(values, "");
-    if (unknown != values.end()) {
-      const Parameter& p = study_.parameters[static_cast<std::size_t>(unknown - values.begin())];
-      problems.add(start.place,
-                   fmt::format("this point has no {}, and the scenario's own value is not within its range; expected "
-                               "{}: VALUE",
-                               p.key, p.key));
+    if (const auto unknown = std::ranges::find(at, ""); unknown != at.end()) {
+      const std::string& key = study_.parameters[static_cast<std::size_t>(unknown - at.begin())].key;
+      problems.add(start.place, fmt::format("this point has no {}, which {}; expected {}: VALUE", key,
+                                            own[static_cast<std::size_t>(unknown - at.begin())].missing, key));
     }
-    starts_.push_back(std::move(values));
+    starts_.push_back(std::move(at));
   }
 }
 

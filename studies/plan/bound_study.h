@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,8 @@ class BoundStudy {
   /// First points of a search, by the values of all parameters in the form of --set: the first scenario's own values, if all
   /// are known and within the ranges, then the study's `start`.
   [[nodiscard]] const std::vector<std::vector<std::string>>& starts() const { return starts_; }
+  /// Reason why `starts` lacks the scenario's own values, at the parameter that is the cause.
+  [[nodiscard]] const std::optional<Problem>& not_own() const { return not_own_; }
   /// The scenario with this number and with additional settings. Throws InputError if the scenario refuses their values. Only
   /// one thread at a time may call this.
   [[nodiscard]] Scenario with(const std::vector<std::string>& sets, std::size_t scenario) const {
@@ -67,6 +70,7 @@ class BoundStudy {
   std::unique_ptr<StopRules> stops_;
   std::vector<std::size_t> shown_;
   std::vector<std::vector<std::string>> starts_;
+  std::optional<Problem> not_own_;
 };
 
 }  // namespace gaitlab::studies

@@ -1,6 +1,7 @@
 #include "studies/search/candidates.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "studies/study/number.h"

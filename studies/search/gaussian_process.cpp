@@ -28,6 +28,15 @@ double matern(double squared) {
   return (1 + r + r * r / 3) * math::exp(-r);
 }
 
+/// Sets the sizes of the caches by which Eigen divides products into blocks. With the sizes of the processor, the sums of a
+/// product, and with them the points of a search, would have other rounding errors on another machine.
+void fix_blocks() {
+  constexpr std::ptrdiff_t kFirst = 32 << 10;
+  constexpr std::ptrdiff_t kSecond = 256 << 10;
+  constexpr std::ptrdiff_t kThird = 2 << 20;
+  Eigen::setCpuCacheSizes(kFirst, kSecond, kThird);
+}
+
 /// Lower factor of a covariance that may be singular within rounding.
 Eigen::MatrixXd lower_factor(Eigen::MatrixXd covariance) {
   for (double jitter = 1e-8; jitter < 1; jitter *= 100) {
@@ -42,6 +51,7 @@ Eigen::MatrixXd lower_factor(Eigen::MatrixXd covariance) {
 
 GaussianProcess::GaussianProcess(Eigen::MatrixXd points, const Eigen::VectorXd& values)
     : points_(std::move(points)), mean_(values.mean()) {
+  fix_blocks();
   values_ = values.array() - mean_;
   scale_ = std::sqrt(values_.squaredNorm() / static_cast<double>(values_.size()));
   if (!(scale_ > 0)) scale_ = 1;

@@ -46,13 +46,19 @@ std::vector<std::string> values_at(const Study& study, std::size_t combination, 
   return values;
 }
 
-/// Coordinates of the study's first points for a combination of the listed values, with the values of each. `start` points with
-/// other listed values belong to other combinations; the scenario's own point, the first, belongs to all.
-std::map<Vector, std::vector<std::string>> starts_of(const BoundStudy& bound, std::size_t combination) {
+/// A first point of a search: its coordinates, and the values of all parameters, digit for digit.
+struct Start {
+  Vector point;
+  std::vector<std::string> values;
+};
+
+/// The study's first points for a combination of the listed values. `start` points with other listed values belong to other
+/// combinations; the scenario's own point belongs to all.
+std::vector<Start> starts_of(const BoundStudy& bound, std::size_t combination) {
   const Study& study = bound.study();
   const std::vector<std::string> listed = values_at(study, combination, Vector(dimensions(study), 0.0));
   const std::size_t own = bound.starts().size() - study.starts.size();
-  std::map<Vector, std::vector<std::string>> starts;
+  std::vector<Start> starts;
   for (std::size_t k = 0; k < bound.starts().size(); ++k) {
     std::vector<std::string> values = bound.starts()[k];
     Vector point;
@@ -66,21 +72,21 @@ std::map<Vector, std::vector<std::string>> starts_of(const BoundStudy& bound, st
       of_this = of_this && (k < own || values[p] == listed[p]);
       values[p] = listed[p];
     }
-    if (of_this) starts.try_emplace(within_box(std::move(point)), std::move(values));
+    if (of_this) starts.push_back({within_box(std::move(point)), std::move(values)});
   }
   return starts;
 }
 
-std::vector<Vector> points_of(const std::map<Vector, std::vector<std::string>>& starts) {
+std::vector<Vector> points_of(const std::vector<Start>& starts) {
   std::vector<Vector> points;
-  for (const auto& [point, values] : starts) points.push_back(point);
+  for (const Start& start : starts) points.push_back(start.point);
   return points;
 }
 
 /// One search, with the points of its present generation.
 struct Course {
   std::size_t combination;
-  std::map<Vector, std::vector<std::string>> starts;
+  std::vector<Start> starts;
   Search search;
   bool refused = false;  ///< true if the scenario refused all points of the first block
   std::vector<std::uint64_t> points = {};
@@ -93,7 +99,7 @@ class Optimizer {
       : plan_(plan), journal_(journal), runner_(plan, journal, keeping(std::move(settings))), before_(present()) {
     const auto instances = static_cast<std::size_t>(plan.study().search.instances);
     for (std::size_t s = 0; s < instances * combinations(plan.study()); ++s) {
-      std::map<Vector, std::vector<std::string>> starts = starts_of(plan.bound(), s / instances);
+      std::vector<Start> starts = starts_of(plan.bound(), s / instances);
       Search search(search_settings(plan.study(), s, points_of(starts)));
       courses_.push_back({s / instances, std::move(starts), std::move(search)});
     }
@@ -135,9 +141,9 @@ class Optimizer {
       course.added = 0;
       if (course.refused) continue;
       for (const Vector& point : course.search.ask()) {
-        const auto start = course.starts.find(point);
+        const auto start = std::ranges::find(course.starts, point, &Start::point);
         std::vector<std::string> values =
-            start != course.starts.end() ? start->second : values_at(plan_.study(), course.combination, point);
+            start != course.starts.end() ? start->values : values_at(plan_.study(), course.combination, point);
         const auto [at, is_new] = memo_.try_emplace(std::move(values), added_);
         if (is_new && added_ == plan_.points().points()) return false;
         course.points.push_back(at->second);
@@ -157,8 +163,9 @@ class Optimizer {
     if (journal_.row(run)[1] != plan_.row(run).point) {
       throw InputError(
           SourceLocation{"study.db"},
-          fmt::format("run {} is at another point than this program requires, with {}; choose another folder (--out)", run,
-                      evolution_library()));
+          fmt::format(
+              "run {} is at another point than this program requires, by method {} of {}; choose another folder (--out)", run,
+              name_of(plan_.study().method), enum_row(plan_.study().method).of_pagmo ? evolution_library() : "this build"));
     }
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/math/random.h"
+#include "studies/search/box.h"
 #include "studies/search/fitness.h"
 #include "studies/search/point_models.h"
 
@@ -32,7 +33,7 @@ class Scbo final : public Evolution {
     if (!have_models(rated_)) return candidates(population_);
     const Vector& centre = best().point;
     const PointModels models(rated_, centre);
-    const std::vector<Vector> among = candidates(kCandidates);
+    const std::vector<Vector> among = candidates(std::max<std::uint64_t>(kCandidates, 2 * population_));
     const Eigen::MatrixXd at = matrix_of(among);
     const Eigen::MatrixXd objective = models.objective().samples(at, population_, stream(ScboDraw::objective));
     const Eigen::MatrixXd violation = models.violation().samples(at, population_, stream(ScboDraw::violation));
@@ -107,9 +108,9 @@ class Scbo final : public Evolution {
     Vector point = pick(0);
     for (std::size_t c = 0; c < point.size(); ++c) {
       const double by = steps * (pick(1)[c] - pick(2)[c]) + kSpread * (2 * uniform(ScboDraw::where, k, c) - 1);
-      point[c] = std::clamp(point[c] + by, 0.0, 1.0);
+      point[c] += by;
     }
-    return point;
+    return within_box(std::move(point));  // mirrored, because clamped points would be equal
   }
 
   /// A point in the trust region that differs from its centre in at least one coordinate.

@@ -160,7 +160,7 @@ bool Search::improved(const std::vector<Vector>& values) {
 }
 
 bool Search::converged(const std::vector<Vector>& values) {
-  if (spread() < kConverged) return true;
+  if (raw_.size() > 1 && spread() < kConverged) return true;
   idle_ = improved(values) ? 0 : idle_ + 1;
   return idle_ >= 10 + 30 * settings_.dimensions / population();
 }

@@ -192,6 +192,7 @@ std::vector<std::string> Guards::broken(std::span<const double> quantities, cons
   if (verdict_ && verdict != "feasible" && !made_up_for(quantities, verdict))
     texts.push_back(verdict + (why.empty() ? "" : ": " + why));
   for (const MarginGuard& guard : all_) {
+    if (!reserve && guard.least > 0 && verdict_ && verdict != "feasible") continue;  // the verdict states the same
     if (!guard.of_verdict && guard.broken(quantities, reserve) > 0) {
       texts.push_back(fmt::format("check {} has a margin of {:.4g}; the study requires {}", guard.check,
                                   quantities[guard.column], number_text(reserve ? guard.least : std::min(0.0, guard.least))));

@@ -18,8 +18,10 @@ struct MethodRow {
   const char* about;            ///< text after the name in the manual
   bool searches = false;        ///< true if the method chooses points by previous results (`gaitlab optimize`)
   std::int64_t population = 0;  ///< least population of a search
+  std::int64_t most = 10000;    ///< largest population
   std::int64_t multiple = 1;    ///< of which the population is a multiple
   bool several = false;         ///< true for several objectives, false for one
+  bool of_pagmo = true;         ///< true if the method is one of the library pagmo
   bool sigma = false;           ///< true if the method has a first step
 };
 
@@ -34,13 +36,14 @@ struct EnumNames<studies::Method> {
       {sobol, "sobol", "points drawn evenly by a Sobol sequence"},
       {morris, "morris", "importance of the parameters by elementary effects"},
       {sobol_indices, "sobol_indices", "importance of the parameters by shares of the variance"},
-      {scbo, "scbo", "search by Gaussian processes in a trust region", true, 1},
-      {cma_gp, "cma_gp", "CMA-ES whose points Gaussian processes choose among six times as many", true, 5, 1, false, true},
-      {cma, "cma", "CMA-ES", true, 5, 1, false, true},
-      {xnes, "xnes", "exponential natural evolution strategy", true, 5, 1, false, true},
+      {scbo, "scbo", "search by Gaussian processes in a trust region", true, 1, 1000, 1, false, false},
+      {cma_gp, "cma_gp", "CMA-ES whose points Gaussian processes choose among six times as many", true, 5, 1000, 1, false,
+       false, true},
+      {cma, "cma", "CMA-ES", true, 5, 10000, 1, false, true, true},
+      {xnes, "xnes", "exponential natural evolution strategy", true, 5, 10000, 1, false, true, true},
       {sade, "sade", "self-adaptive differential evolution", true, 7},
       {pso, "pso", "particle swarm", true, 5},
-      {nsga2, "nsga2", "Pareto front of two or three objectives", true, 8, 4, true}};
+      {nsga2, "nsga2", "Pareto front of two or three objectives", true, 8, 10000, 4, true}};
 };
 
 namespace studies {

@@ -29,7 +29,7 @@ std::size_t first_block(std::size_t population, std::size_t dimensions) { return
 std::uint64_t least_runs(const Study& study) {
   const std::size_t n = dimensions(study);
   const auto given = static_cast<std::size_t>(study.search.population);
-  const std::size_t block = first_block(given > 0 ? given : usual_population(n), n);
+  const std::size_t block = std::max(first_block(given > 0 ? given : usual_population(n), n), 1 + study.starts.size());
   return static_cast<std::uint64_t>(study.search.instances) * combinations(study) * block * study.runs_of_point();
 }
 

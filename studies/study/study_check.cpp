@@ -26,6 +26,9 @@ void check_search(const Study& study, const SourceLocation& place, Problems& pro
   } else if (population > 0 && population < row.population) {
     problems.add(
         place, fmt::format("a population of {} is too small for {}; expected at least {}", population, method, row.population));
+  } else if (population > row.most) {
+    problems.add(place,
+                 fmt::format("a population of {} is too large for {}; expected at most {}", population, method, row.most));
   }
   if (problems.empty() && study.runs > 0 && static_cast<std::uint64_t>(study.runs) < least_runs(study)) {
     problems.add(place, fmt::format("a budget of {} runs is less than the {} of the searches' first generation", study.runs,

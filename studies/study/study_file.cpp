@@ -204,8 +204,9 @@ void take_places(const Node& root, Study& study) {
 void choose_method(Study& study, bool named, Purpose purpose) {
   const bool grid = std::ranges::all_of(study.parameters, &Parameter::in_grid);
   constexpr std::size_t kMostParameters = 10;
-  constexpr std::int64_t kMostRuns = 2000;
-  const bool few = dimensions(study) <= kMostParameters && study.runs <= kMostRuns;
+  constexpr std::uint64_t kMostPoints = 2000;
+  const std::uint64_t points = static_cast<std::uint64_t>(study.runs) / study.runs_of_point();
+  const bool few = dimensions(study) <= kMostParameters && points <= kMostPoints;
   const Method search = study.objectives.size() > 1 ? Method::nsga2 : few ? Method::scbo : Method::cma_gp;
   if (!named && !(grid && purpose == Purpose::sweep)) study.method = purpose == Purpose::optimize ? search : Method::random;
   if (study.asked) study.method = Method::random;  // no method is used

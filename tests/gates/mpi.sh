@@ -31,7 +31,7 @@ for n in 1 3; do
 done
 
 # A search, in which the points of a generation depend on the results of earlier generations.
-sed '/cpg.type/d; s/^method:.*/method: {type: cma, population: 8}/; s/^budget:.*/budget: {runs: 64}/' "$work/study.yaml" >"$work/search.yaml"
+sed '/cpg.type/d; s/^method:.*/method: {type: scbo, population: 8}/; s/^budget:.*/budget: {runs: 64}/' "$work/study.yaml" >"$work/search.yaml"
 echo 'guards: none' >>"$work/search.yaml"
 "$program" optimize "$work/search.yaml" --quiet --out "$work/search" -j 2 >"$work/log" 2>&1 && code=0 || code=$?
 found=0

@@ -87,7 +87,7 @@ searched() {
   expect "$code" "$program" optimize "$study" --quiet --out "$work/now" "$@"
   if diff <(all_rows "$folder") <(all_rows "$work/now") >"$work/difference"; then ok "$name"; else bad "$name: $(head -n 4 "$work/difference")"; fi
 }
-for kind in cma nsga2; do
+for kind in scbo cma_gp cma nsga2; do
   sed -n '1,/^parameters/p' "$work/study.yaml" | sed "s/two-random/two-$kind/" >"$work/$kind.yaml"
   cat >>"$work/$kind.yaml" <<TEXT
   cpg.frequency: {low: 0.5, high: 3, scale: log}
@@ -98,11 +98,13 @@ budget: {runs: 80}
 TEXT
 done
 # Without guards, the best points exceed the rated speed, which a longer run cannot undo. They are found but not verified.
-printf 'set: [actuator.speed_max=0.01]\nobjective: {maximize: speed}\nmethod: {type: cma, population: 8, instances: 2}\n' >>"$work/cma.yaml"
+for kind in scbo cma_gp cma; do
+  printf 'set: [actuator.speed_max=0.01]\nobjective: {maximize: speed}\nmethod: {type: %s, population: 8, instances: 2}\n' "$kind" >>"$work/$kind.yaml"
+done
 # The duration is three periods of the slowest gait, because points that cannot be judged are not verified.
 sed -i 's/low: 0.5, high: 3/low: 1.5, high: 3/' "$work/nsga2.yaml"
 printf 'set: [duration=2]\nobjective: [{minimize: torque.peak}, {maximize: distance}]\nmethod: {type: nsga2, population: 16}\n' >>"$work/nsga2.yaml"
-for kind in cma nsga2; do
+for kind in scbo cma_gp cma nsga2; do
   ends=0 # expected exit code
   [[ $kind == nsga2 ]] || ends=3
   cpu_time "$ends" "$program" optimize "$work/$kind.yaml" --quiet --out "$work/$kind" -j 2

@@ -96,6 +96,15 @@ TEST(GaussianProcess, IsAFunctionOfItsArguments) {
   EXPECT_NE(one.samples(at, 3, 14), one.samples(at, 3, 15));
 }
 
+/// Eigen divides products by the sizes of the caches: without fixed sizes, a machine with smaller caches has other bits.
+TEST(GaussianProcess, HasTheSameBitsWithOtherCaches) {
+  const Eigen::MatrixXd x = cube_points(200, 4, 20);
+  const Eigen::MatrixXd at = cube_points(400, 4, 21);
+  const Eigen::MatrixXd here = GaussianProcess(x, wave(x)).samples(at, 2, 22);
+  Eigen::setCpuCacheSizes(4 << 10, 16 << 10, 64 << 10);
+  EXPECT_EQ(GaussianProcess(x, wave(x)).samples(at, 2, 22), here);
+}
+
 TEST(GaussianProcess, BearsEqualPointsAndEqualValues) {
   Eigen::MatrixXd x = cube_points(8, 2, 16);
   x.row(3) = x.row(2);

@@ -162,7 +162,7 @@ TEST(Searches, RunNoPointTwice) {
   EXPECT_EQ(runs, points.size()) << "of all generations";
 }
 
-/// The journal of another version of pagmo: its points are others.
+/// The journal of another build: its points are others.
 TEST(Searches, RefuseAJournalOfOtherPoints) {
   FunctionSearch search(kBox + "budget: {runs: 100}\n");
   Journal journal = search.study.journal();
@@ -172,22 +172,32 @@ TEST(Searches, RefuseAJournalOfOtherPoints) {
   const std::vector<Row> rows{search.study.done(other, "speed", 1)};
   journal.write(rows, {});
   const std::string text = message_of([&] { search.run(journal); });
-  EXPECT_TRUE(text.starts_with("study.db: error: run 0 is at another point than this program requires, with pagmo")) << text;
+  EXPECT_TRUE(
+      text.starts_with("study.db: error: run 0 is at another point than this program requires, by method scbo of this build"))
+      << text;
   EXPECT_TRUE(search.run_now.empty());
 }
 
-/// The scenario's own values (1 Hz, 0.4 rad), digit for digit, then the study's start points.
+/// The scenario's own values, digit for digit, then the study's start points, in their order.
 TEST(Searches, BeginWithTheScenariosOwnValuesAndTheStudysPoints) {
   FunctionSearch search(kBox + "budget: {runs: 16}\nstart: [{cpg.frequency: 0.7}, {cpg.amplitude: 0.9, cpg.frequency: 1.1}]\n");
   Journal journal = search.study.journal();
   ASSERT_EQ(search.run(journal), SearchEnd::budget);
-  std::set<std::vector<std::string>> points;
-  for (const Row& row : search.run_now) points.insert(row.values);
   const std::vector<std::string>& own = search.study.plan->bound().starts().front();
-  EXPECT_TRUE(points.contains(own)) << own[0] << " " << own[1];
-  EXPECT_TRUE(points.contains({"0.7", own[1]}));
-  EXPECT_TRUE(points.contains({"1.1", "0.9"}));
+  EXPECT_EQ(search.run_now[0].values, own);
+  EXPECT_EQ(search.run_now[1].values, (std::vector<std::string>{"0.7", own[1]}));
+  EXPECT_EQ(search.run_now[2].values, (std::vector<std::string>{"1.1", "0.9"}));
   EXPECT_EQ(journal.rows(), 16U);
+}
+
+/// A point alone has no spread, which is no sign of convergence.
+TEST(Searches, MayHaveGenerationsOfOnePoint) {
+  FunctionSearch search(kBox + "budget: {runs: 40}\nmethod: {type: scbo, population: 1}\n");
+  Journal journal = search.study.journal();
+  ASSERT_EQ(search.run(journal), SearchEnd::budget);
+  const std::vector<Generation> all = journal.generations();
+  ASSERT_EQ(all.size(), 26U) << "a block of 15, then 25 of one point";
+  EXPECT_EQ(all.back().restart, 0U);
 }
 
 /// A search for each word: the scenario's own numbers are in each, a start point with a word only in its own.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -105,6 +106,21 @@ TEST(Scbo, RequestsTheSamePointsAgain) {
       one.tell(ratings);
       two.tell(ratings);
     }
+  }
+}
+
+/// The best is at a face of the box: points that were clamped there would be one point.
+TEST(Scbo, RequestsNoPointTwiceAtAFaceOfTheBox) {
+  Search search({.algorithm = Method::scbo, .dimensions = 1});
+  std::vector<Vector> all;
+  while (all.size() < 100) {
+    std::vector<Rating> ratings;
+    for (const Vector& point : search.ask()) {
+      EXPECT_EQ(std::ranges::find(all, point), all.end()) << point[0];
+      all.push_back(point);
+      ratings.push_back(constrained(point[0], 0));
+    }
+    search.tell(ratings);
   }
 }
 

@@ -184,6 +184,10 @@ TEST_F(StudyFile, ASearchIsChecked) {
 TEST_F(StudyFile, StartPointsAreChecked) {
   const std::string head = "budget: {runs: 64}\n";
   EXPECT_EQ(search(head + "start: []\n"), kNoError);
+  EXPECT_EQ(search("budget: {runs: 17}\nstart: [{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}]\n"),
+            "s.yaml:1:1: error: a budget of 17 runs is less than the 18 of the searches' first generation");
+  EXPECT_EQ(search(head + "method: {type: scbo, population: 1001}\n"),
+            "s.yaml:1:1: error: a population of 1001 is too large for method scbo; expected at most 1000");
   EXPECT_EQ(search(head + "start: 3\n"), "s.yaml:5:8: error: start is 3; expected a list of points: [{cpg.frequency: 0.5}]");
   EXPECT_EQ(search(head + "start: [3]\n"),
             "s.yaml:5:9: error: a point of start is 3; expected a list of points: [{cpg.frequency: 0.5}]");

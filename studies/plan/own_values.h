@@ -1,0 +1,20 @@
+// The scenario's own values of a study's parameters.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "studies/study/scenarios.h"
+
+namespace gaitlab::studies {
+
+struct OwnValue {
+  std::string text;     ///< value in the form of --set; empty if it is not known
+  std::string missing;  ///< reason why it is not known or cannot be used: `is not a number of the scenario`
+};
+
+/// The own value of each parameter, from the resolved scenario. A key of one joint or of one entry of a list has the value of
+/// that entry. A default of joints (`cpg.amplitude.default`) is that of the scenario's file. Free parameters have no own value.
+/// A value beyond the parameter's range, or not among its listed values, is reported as missing.
+std::vector<OwnValue> own_values(const Study& study, const StudyScenario& scenario);
+
+}  // namespace gaitlab::studies
