@@ -97,19 +97,37 @@ void write_best(const Plan& plan, std::uint64_t run_number, const fs::path& fold
   (void)run(plan.scenario(run_number), arguments);
 }
 
-/// Runs the best points again, and those that stand also in worlds, and writes the results. Nothing if interrupted.
+/// Runs points again, and those that stand also in worlds. Nothing if interrupted.
+std::optional<std::vector<studies::Verification>> verify_points(const Plan& plan, Journal& journal,
+                                                                const studies::Results& results,
+                                                                const std::vector<std::size_t>& points, const std::string& what,
+                                                                const studies::Executor& executor, bool quiet) {
+  auto tried = verify(plan, journal, results, points, executor, AgainProgress(quiet, "verification of " + what), stopped());
+  if (!tried || !plan.study().verify.worlds) return tried;
+  return in_worlds(plan, journal, results, *tried, executor, AgainProgress(quiet, "points that stand, in worlds"), stopped());
+}
+
+/// Verifies the best points, in rounds until one stands or four rounds have ended, and writes the results. Nothing if
+/// interrupted.
 std::optional<std::vector<studies::Verification>> verify_best(const Plan& plan, Journal& journal,
                                                               const studies::Results& results,
                                                               const studies::Executor& executor, bool quiet) {
-  const std::vector<std::size_t> best = candidates(plan, results);
-  const std::string what = "verification of the best " + (best.size() == 1 ? "point" : fmt::format("{} points", best.size()));
-  auto tried = verify(plan, journal, results, best, executor, AgainProgress(quiet, what), stopped());
-  if (!tried) return {};
-  if (plan.study().verify.worlds)
-    tried =
-        in_worlds(plan, journal, results, *tried, executor, AgainProgress(quiet, "points that stand, in worlds"), stopped());
-  if (tried) journal.write(*tried);
-  return tried;
+  constexpr int kRounds = 4;
+  std::vector<studies::Verification> all;
+  std::vector<std::size_t> tried;
+  for (int round = 0; round < kRounds && studies::verified(all).empty(); ++round) {
+    const std::vector<std::size_t> points = candidates(plan, results, tried);
+    if (points.empty()) break;
+    const std::string number = points.size() == 1 ? "point" : fmt::format("{} points", points.size());
+    const auto found =
+        verify_points(plan, journal, results, points, (round == 0 ? "the best " : "the next best ") + number, executor, quiet);
+    if (!found) return {};
+    tried.insert(tried.end(), points.begin(), points.end());
+    all.insert(all.end(), found->begin(), found->end());
+  }
+  all = ranked_by_share(all, plan.study().objectives.front().maximize);
+  journal.write(all);
+  return all;
 }
 
 /// States on stderr why no point is verified.

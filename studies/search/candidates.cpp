@@ -35,12 +35,12 @@ std::vector<std::size_t> of_front(const Results& results, const std::vector<Jour
 
 }  // namespace
 
-std::vector<std::size_t> candidates(const Plan& plan, const Results& results) {
+std::vector<std::size_t> candidates(const Plan& plan, const Results& results, const std::vector<std::size_t>& tried) {
   constexpr std::array kApart{0.1, 0.01};  // shares of the box: niches, then other points
   const auto most = static_cast<std::size_t>(plan.study().verify.best);
   std::vector<JournalObjective> objectives;
   for (const Objective& o : plan.study().objectives) objectives.push_back({o.expression.text, o.maximize});
-  if (objectives.size() > 1) return of_front(results, objectives, most);
+  if (objectives.size() > 1) return tried.empty() ? of_front(results, objectives, most) : std::vector<std::size_t>();
   const auto values = [&](std::size_t k) { return plan.points().values(plan.points().point(results.points[k].first_run)); };
   const std::vector<std::size_t> order = ranked(results.points, objectives.front().maximize);
   std::vector<std::size_t> chosen;
@@ -48,7 +48,7 @@ std::vector<std::size_t> candidates(const Plan& plan, const Results& results) {
     for (const std::size_t k : order) {
       if (chosen.size() == most || !results.points[k].kept()) break;
       const auto near = [&](std::size_t other) { return apart(plan.study(), values(k), values(other)) <= distance; };
-      if (std::ranges::none_of(chosen, near)) chosen.push_back(k);
+      if (std::ranges::none_of(chosen, near) && std::ranges::none_of(tried, near)) chosen.push_back(k);
     }
   }
   std::vector<std::size_t> best_first;

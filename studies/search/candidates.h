@@ -7,9 +7,9 @@
 
 namespace gaitlab::studies {
 
-/// Points to verify: kept points, the best first. They are niches, 10 % of the box apart in some coordinate; if there are fewer
-/// than `verify.best`, the best of the others that are 1 % apart. With several objectives these are points that divide the
-/// front evenly, including its ends.
-std::vector<std::size_t> candidates(const Plan& plan, const Results& results);
+/// Points to verify in a round, the best first: `verify.best` kept points that are not among `tried`. They are niches, 10 % of
+/// the box apart from each other and from `tried` in some coordinate; if there are fewer, the best of the others that are 1 %
+/// apart. With several objectives these are points that divide the front evenly, including its ends, and there is one round.
+std::vector<std::size_t> candidates(const Plan& plan, const Results& results, const std::vector<std::size_t>& tried = {});
 
 }  // namespace gaitlab::studies

@@ -27,12 +27,12 @@ class SearchedStudy {
   void write() {
     if (journal.rows() == 0) journal.write(rows, {});
   }
-  /// Frequencies of the candidates.
-  std::vector<std::string> candidates() {
+  /// Frequencies of the candidates behind `tried`.
+  std::vector<std::string> candidates(const std::vector<std::size_t>& tried = {}) {
     write();
     const studies::Results found = results(journal);
     std::vector<std::string> values;
-    for (const std::size_t k : studies::candidates(*study.plan, found))
+    for (const std::size_t k : studies::candidates(*study.plan, found, tried))
       values.push_back(study.plan->row(found.points[k].first_run).values[0]);
     return values;
   }

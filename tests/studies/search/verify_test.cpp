@@ -33,6 +33,8 @@ TEST(Candidates, AreNichesFirst) {
                                                           {"1.25", 5}, {"0.9", 4},  {"1.4", 3}};
   SearchedStudy three(hills);
   EXPECT_EQ(three.candidates(), (Values{"0.7", "1.2", "0.9"}));
+  EXPECT_EQ(three.candidates({0, 3, 5}), (Values{"0.72", "0.75", "1.4"})) << "the next round: a niche, then others";
+  EXPECT_EQ(three.candidates({0, 1, 2, 3, 4, 5, 6}), Values{});
   SearchedStudy five(hills, "verify: {best: 5}\n");
   EXPECT_EQ(five.candidates(), (Values{"0.7", "0.72", "1.2", "0.9", "1.4"})) << "four niches, and the best of the others";
 }
