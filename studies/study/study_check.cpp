@@ -101,9 +101,7 @@ void check_study(const Study& study, const SourceLocation& place, Problems& prob
   if (study.asked) return;
   if (!study.starts.empty() && !is_search(study.method)) {
     problems.add(study.starts.front().place,
-                 fmt::format("start is for searches, and method {} is none; expected a search, such "
-                             "as scbo, or no start",
-                             name_of(study.method)));
+                 fmt::format("start is for searches such as scbo; method {} does not search", name_of(study.method)));
   }
   if (study.method == Method::grid && study.runs > 0)
     problems.add(place, "method grid runs every combination; remove `budget: {runs: ...}`");

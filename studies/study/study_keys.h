@@ -60,7 +60,9 @@ struct MethodKeys {
 struct VerifyKeys {
   Verify& verify;
   void fields(Fields& f) {
-    f.integer("best", verify.best, {"", 1, 100, "Number of best points to verify. If none stands, the next best follow, up to four times this number."});
+    f.integer(
+        "best", verify.best,
+        {"", 1, 100, "Number of best points to verify. If none stands, the next best follow, up to four times this number."});
     f.flag(
         "halve_step", verify.halve_step,
         "Simulate these points again with half the step (with half of physics.accuracy if the integrator chooses its steps).");

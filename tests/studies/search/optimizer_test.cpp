@@ -190,7 +190,7 @@ TEST(Searches, BeginWithTheScenariosOwnValuesAndTheStudysPoints) {
   EXPECT_EQ(journal.rows(), 16U);
 }
 
-/// A point alone has no spread, which is no sign of convergence.
+/// The spread of a single point is 0, although nothing has converged.
 TEST(Searches, MayHaveGenerationsOfOnePoint) {
   FunctionSearch search(kBox + "budget: {runs: 40}\nmethod: {type: scbo, population: 1}\n");
   Journal journal = search.study.journal();

@@ -195,9 +195,8 @@ TEST_F(StudyFile, StartPointsAreChecked) {
             "s.yaml:5:10: error: unknown parameter 'cpg.frequncy'; did you mean 'cpg.frequency'?");
   EXPECT_EQ(search(head + "start: [{cpg.frequency: 99}]\n").substr(0, 57),
             "s.yaml:5:25: error: cpg.frequency is 99; expected 0.5 to ");
-  EXPECT_EQ(
-      search(head + "method: {type: random}\nstart: [{cpg.frequency: 1}]\n"),
-      "s.yaml:6:9: error: start is for searches, and method random is none; expected a search, such as scbo, or no start");
+  EXPECT_EQ(search(head + "method: {type: random}\nstart: [{cpg.frequency: 1}]\n"),
+            "s.yaml:6:9: error: start is for searches such as scbo; method random does not search");
 }
 
 TEST_F(StudyFile, TheSeedBelongsToTheReplicates) {
