@@ -242,7 +242,8 @@ Study read_study(const std::string& file, Purpose purpose) {
     if (reader.has("scenario")) problems.add(node->place, "the study has scenario and scenarios; expected one or the other");
   }
   MethodKeys method{study};
-  const bool chosen = reader.has("method");
+  const Node* chosen = root.find("method");
+  const bool named = chosen != nullptr && chosen->find("type") != nullptr;
   reader.group("method", method, "");
   BudgetKeys budget{study.runs};
   reader.group("budget", budget, "");
@@ -266,7 +267,7 @@ Study read_study(const std::string& file, Purpose purpose) {
   if (!reader.has("scenarios")) reader.require({"scenario"});
   reader.require({"parameters"});
   reader.finish();
-  choose_method(study, chosen, purpose);
+  choose_method(study, named, purpose);
   if (problems.empty()) check_study(study, root.place, problems);
   problems.raise();
   return study;

@@ -148,6 +148,7 @@ TEST_F(StudyFile, ItsExpressionsAreChecked) {
 
 TEST_F(StudyFile, ASearchIsChecked) {
   EXPECT_EQ(search("budget: {runs: 16}\n"), kNoError);
+  EXPECT_EQ(search("budget: {runs: 16}\nmethod: {population: 8}\n"), kNoError) << "of the usual search";
   EXPECT_EQ(search("budget: {runs: 64}\nobjective: [{maximize: speed}, {minimize: torque.peak}]\n"), kNoError);
   EXPECT_EQ(search(""), "s.yaml:1:1: error: missing budget: {runs: N}, which method scbo needs");
   EXPECT_EQ(search("budget: {runs: 15}\n"),
@@ -236,7 +237,7 @@ TEST_F(StudyFile, ThoseThatComeWithTheProgramAreTaken) {
   }
   EXPECT_GE(searches, 4U);
   const studies::Study robust = studies::read_study(kScenarios + "studies/hexapod-robust.yaml", studies::Purpose::optimize);
-  EXPECT_EQ(robust.method, studies::Method::cma);
+  EXPECT_EQ(robust.method, studies::Method::scbo);
   EXPECT_EQ(robust.replicates.count, 8);
   EXPECT_EQ(robust.replicates.combine, studies::Combine::worst);
 }
