@@ -223,9 +223,10 @@ void BoundStudy::check_stops(Problems& problems) const {
 /// Refuses an engine of `verify` that the study already uses, and its faults if the scenario has a section `at`.
 void BoundStudy::check_engines(const Catalog& catalog, std::vector<Problems>& found) const {
   const std::string& engine = study_.verify.engine;
-  if (study_.verify.faults == VerifyFaults::each && scenarios_.size() > 1)
+  if (study_.verify.faults == VerifyFaults::each && scenarios_.size() > 1) {
     found[0].add(study_.verify.place,
                  "verify.faults is each, and the study has several scenarios; expected one, or faults: none");
+  }
   for (std::size_t s = 0; s < scenarios_.size(); ++s) {
     if (study_.verify.faults == VerifyFaults::each && !scenarios_[s].nominal.changes.empty()) {
       found[s].add(study_.verify.place,

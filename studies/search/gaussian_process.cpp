@@ -39,7 +39,8 @@ void fix_blocks() {
 
 /// Lower factor of a covariance that may be singular within rounding.
 Eigen::MatrixXd lower_factor(Eigen::MatrixXd covariance) {
-  for (double jitter = 1e-8; jitter < 1; jitter *= 100) {
+  constexpr std::array kJitters{1e-8, 1e-6, 1e-4, 1e-2};
+  for (const double jitter : kJitters) {
     covariance.diagonal().array() += jitter;
     const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
     if (factor.info() == Eigen::Success) return factor.matrixL();
