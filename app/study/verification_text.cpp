@@ -12,6 +12,7 @@
 #include "app/study/study_text.h"
 #include "core/settings/wording.h"
 #include "studies/search/verify.h"
+#include "studies/study/number.h"
 
 namespace gaitlab::app {
 
@@ -37,6 +38,22 @@ std::string stands_text(const WorldCount& count) {
   return fmt::format("stands in {} of {}", count.stood, counted(count.of, "world"));
 }
 
+/// Parameters of a point: `  cpg.frequency 0.275, cpg.amplitude 0.91`.
+std::string values_text(studies::Journal& journal, std::uint64_t run) {
+  const std::vector<std::string> row = journal.row(run);
+  const std::vector<std::string> names = journal.columns().all();
+  std::string text;
+  for (std::size_t k = 0; k < journal.head().parameters.size() && !row.empty(); ++k) {
+    const studies::JournalParameter& p = journal.head().parameters[k];
+    if (p.drawn) continue;
+    const std::string& value =
+        row[static_cast<std::size_t>(std::ranges::find(names, journal.columns().parameters[k]) - names.begin())];
+    text += fmt::format("{}{} {}", text.empty() ? "  " : ", ", clipped(p.key),
+                        p.words ? clipped(value) : fmt::format("{:.4g}", studies::number_of(value)));
+  }
+  return text.empty() ? "" : text + "\n";
+}
+
 /// Least and largest objective in the worlds of a point: `, in worlds 0.0139 to 0.0146`. Empty without worlds.
 std::string in_worlds_text(const std::vector<Verification>& all, std::uint64_t run) {
   double least = std::numeric_limits<double>::infinity();
@@ -50,10 +67,11 @@ std::string in_worlds_text(const std::vector<Verification>& all, std::uint64_t r
 }
 
 /// Text on a point: its runs with their objectives, and the reasons that reject it.
-std::string point_text(const std::vector<Verification>& all, std::uint64_t run, const std::string& unit) {
+std::string point_text(studies::Journal& journal, const std::vector<Verification>& all, std::uint64_t run) {
+  const std::string unit = objective_unit(journal.head());
   std::string ways;
   std::string reasons;
-  std::string below;
+  std::string below = values_text(journal, run);
   bool rejected = false;
   const WorldCount count = studies::counted_worlds(all, run);
   std::string share = count.of > 0 ? ", " + stands_text(count) : "";
@@ -130,7 +148,7 @@ std::string verification_text(studies::Journal& journal) {
   std::erase_if(all, studies::is_fault);
   std::string text;
   for (std::size_t k = 0; k < all.size(); ++k) {
-    if (k == 0 || all[k].run != all[k - 1].run) text += point_text(all, all[k].run, objective_unit(journal.head()));
+    if (k == 0 || all[k].run != all[k - 1].run) text += point_text(journal, all, all[k].run);
   }
   const std::string objective = objective_text(journal.head());
   return text.empty() ? "" : "verification of the best points (" + objective + "):\n" + text + faults_text(faults, objective);

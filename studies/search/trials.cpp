@@ -57,10 +57,12 @@ bool speaks_against(const std::string& verdict, double evidence) {
   return verdict == "infeasible" || (verdict == "not judged" && evidence < 0);
 }
 
-double evidence(const Plan& plan, const Row& row) {
-  const auto at = std::ranges::find(plan.columns(), kEvidence, &Quantity::name);
-  return row.quantities.at(static_cast<std::size_t>(at - plan.columns().begin()));
+double quantity(const Plan& plan, const Row& row, const std::string& name) {
+  const auto at = std::ranges::find(plan.columns(), name, &Quantity::name);
+  return at == plan.columns().end() ? std::nan("") : row.quantities.at(static_cast<std::size_t>(at - plan.columns().begin()));
 }
+
+double evidence(const Plan& plan, const Row& row) { return quantity(plan, row, kEvidence); }
 
 std::string in_scenario(const Row& row) { return row.scenario.empty() ? "" : "in " + row.scenario + ": "; }
 

@@ -37,6 +37,8 @@ Verification without_reason(const Plan& plan, const Journal& journal, const Tria
 /// evidence.
 bool speaks_against(const std::string& verdict, double evidence);
 inline constexpr const char* kEvidence = "margin.evidence";  ///< negative if evidence is missing
+/// A quantity of a run by name; NaN if the journal lacks it.
+double quantity(const Plan& plan, const Row& row, const std::string& name);
 double evidence(const Plan& plan, const Row& row);
 
 /// Text such as `in rubble: ` for a row, or "" if the study has only one scenario.

@@ -87,6 +87,8 @@ std::string broken_limits(const Plan& plan, const Trial& trial, const PointResul
     if (breaks) why.add(in_scenario(row) + fmt::format("{}", fmt::join(broken, ", ")));
     const bool said = breaks && std::ranges::find(broken, of_verdict) != broken.end();
     if (!doubted.empty() && !said) why.add(in_scenario(row) + doubted);
+    if (quantity(plan, row, "margin.step") < 0)
+      why.add("the step of this run was too long at times (check step), so that a run with a shorter one may stand");
     return why.text;
   }
   return "";

@@ -209,6 +209,7 @@ TEST(VerificationText, NamesTheWorldsInWhichAPointFalls) {
   made.journal.write(all);
   const std::string ways =
       "as run 0.0646, half step 0.0654, bullet 0.06615, limit 0.0662, in worlds 0.055 to 0.06)\n"
+      "  cpg.frequency 0.6\n"
       "  the gait stands; the study's step was too long: 0.0662 m/s\n"
       "  falls by supply -10 % (6.66 V): voltage of m5/passive; and in 1 of 1 draw\n";
   EXPECT_EQ(app::verification_text(made.journal),
