@@ -7,7 +7,7 @@
 namespace gaitlab::app {
 
 /// A table with the influence of each parameter and the range of the kept points, and sentences on ranges that are too wide or
-/// too narrow. Empty for sensitivity studies, which have a table of their own, and for studies with few points.
+/// too narrow. Empty for sensitivity studies, which print their indices, and for studies with few points.
 std::string importance_text(studies::Journal& journal, const studies::Results& results);
 
 }  // namespace gaitlab::app

@@ -219,7 +219,7 @@ int optimize_once(const OptimizeArguments& a) {
   return stopped() ? interrupted() : code;
 }
 
-/// Searches with several seeds, each in a folder of its own.
+/// Searches with several seeds, each in a separate folder.
 int optimize_seeds(const OptimizeArguments& a) {
   if (team())
     throw InputError(SourceLocation{"--seeds"}, "is not for gaitlab-mpi; expected one search per seed, with --seed N");

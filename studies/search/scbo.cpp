@@ -16,7 +16,8 @@ constexpr std::uint64_t kCandidates = 400;
 constexpr double kMoved = 0.4;   // probability that a coordinate of a candidate differs from the centre's
 constexpr double kOfBest = 0.7;  // share of the candidates that are made of the best points
 constexpr std::size_t kBest = 16;
-constexpr double kMostSteps = 1.5, kSpread = 0.02;
+constexpr double kMostSteps = 1.5;  // largest multiple of the difference of two points
+constexpr double kSpread = 0.02;    // largest random change of a coordinate
 constexpr double kFirstSide = 0.8, kLargest = 1.2, kSmallest = 0.02, kAgain = 0.6;
 constexpr double kGrow = 1.6, kShrink = 1.7;
 constexpr int kSuccesses = 2, kFailures = 2;
@@ -82,6 +83,7 @@ class Scbo final : public Evolution {
     return math::uniform({static_cast<std::uint64_t>(draw), seed_, generation_, candidate, number});
   }
 
+  /// Points of both kinds, in random order.
   [[nodiscard]] std::vector<Vector> candidates(std::uint64_t count) const {
     const std::vector<const Rated*> elite = best_points();
     std::vector<Vector> all;

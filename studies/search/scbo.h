@@ -10,7 +10,7 @@ namespace gaitlab::studies {
 /// others are one of the best 16 points each, moved by up to 1.5 times the difference of two others (as in differential
 /// evolution; Storn and Price 1997), so that they follow a ridge that is oblique to the axes. L starts at 0.8, grows by 1.6
 /// after two generations in a row with a gain above 0.3 %, and shrinks by 1.7 after two without; below 0.02 it starts again at
-/// 0.6. The search has no end of its own. `settings.rated` must outlive the result.
+/// 0.6. The search never ends by itself. `settings.rated` must outlive the result.
 std::unique_ptr<Evolution> scbo(const EvolutionSettings& settings);
 
 }  // namespace gaitlab::studies

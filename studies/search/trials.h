@@ -33,7 +33,7 @@ PointResult result_of(const Journal& journal, const Trial& trial);
 /// Row of the table `verification` for a trial, without a reason.
 Verification without_reason(const Plan& plan, const Journal& journal, const Trial& trial);
 
-/// True if the verdict on a run speaks against its point, whatever the guards: it is `infeasible`, or `not judged` for lack of
+/// True if the verdict on a run rejects its point, whatever the guards: it is `infeasible`, or `not judged` for lack of
 /// evidence.
 bool speaks_against(const std::string& verdict, double evidence);
 inline constexpr const char* kEvidence = "margin.evidence";  ///< negative if evidence is missing

@@ -72,7 +72,7 @@ TEST(GaussianProcess, FindsAFunctionAndItsLengths) {
   const Eigen::MatrixXd x = cube_points(60, 3, 5);
   const GaussianProcess process(x, wave(x));  // the third coordinate has no effect
   const Eigen::MatrixXd at = cube_points(200, 3, 7);
-  EXPECT_LT((process.mean(at) - wave(at)).cwiseAbs().maxCoeff(), 0.1) << "a twentieth of its range";
+  EXPECT_LT((process.mean(at) - wave(at)).cwiseAbs().maxCoeff(), 0.1) << "a fifteenth of its range";
   EXPECT_GT(process.hyper().length[2], 2 * process.hyper().length[0]);
   EXPECT_LT(process.hyper().noise, 0.01);
 }

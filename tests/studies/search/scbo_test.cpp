@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "studies/search/point_models.h"
 #include "studies/search/search.h"
@@ -54,20 +53,25 @@ double median_of(Method method, Rate rate, std::size_t dimensions, std::size_t r
   return best[2];
 }
 
+/// Medians of five seeds, measured: -0.9966 (least -0.970), and -0.9970 (least -0.9969).
 TEST(Scbo, FindsTheBestOfABoxUnderAConstraint) {
   EXPECT_LT(median_of(Method::scbo, inside_a_circle, 2, 80), -0.99);
   EXPECT_LT(median_of(Method::scbo, in_a_valley, 4, 240), -0.9);
 }
 
+/// Measured medians: -0.991 and -0.42; every seed of scbo is better than the best of cma.
 TEST(Scbo, IsBetterThanCmaWhereRunsAreFew) {
   EXPECT_LT(median_of(Method::scbo, in_a_valley, 4, 160), median_of(Method::cma, in_a_valley, 4, 160));
 }
 
+/// Measured medians: -0.77 and -0.62. The seeds overlap, so that this holds for these five.
 TEST(CmaGp, IsBetterThanCmaWhereRunsAreFew) {
   EXPECT_LT(median_of(Method::cma_gp, in_a_valley, 4, 240), median_of(Method::cma, in_a_valley, 4, 240));
 }
 
 /// Without a model (all points fail) the sieve is off, and CMA-ES alone must find the best of an ellipsoid with axes of 1 : 30.
+/// Of 30 seeds, 27 do so, after 1120 points in the median; with pagmo's cmaes 29, after 1140. The others end because 19
+/// generations did not improve the best point. This is seed 1.
 TEST(CmaGp, IsCmaEsWithoutItsModels) {
   const Rate failed_ellipsoid = [](const Vector& x) {
     double sum = 0;
@@ -84,7 +88,7 @@ TEST(CmaGp, IsCmaEsWithoutItsModels) {
     done += ratings.size();
     search.tell(ratings);
   }
-  EXPECT_LT(best, 1e-6);  // pagmo's cmaes reaches 1e-6 after about 1500 points
+  EXPECT_LT(best, 1e-6);  // after 1083 points; pagmo's cmaes with this seed after 1148
 }
 
 TEST(Scbo, SearchesWhereAllPointsFailAndWhereSomeDo) {

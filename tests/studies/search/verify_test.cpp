@@ -212,6 +212,25 @@ TEST(Verify, RefusesABrokenConstraint) {
 }
 
 /// Also in a study without guards.
+/// The reason of a run in which the check `step` fails names the step, too, because a shorter one may remove the cause.
+TEST(Verify, NamesAStepThatWasTooLong) {
+  SearchedStudy made({{"0.6", 1}});
+  const std::size_t column = made.study.column("margin.step");
+  for (const double margin : {0.5, -0.5}) {
+    const Values found = reasons(made, 1, [&](Row& row) {
+      row.verdict = "infeasible";
+      row.message = "because";
+      row.quantities[column] = margin;
+    });
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_TRUE(found[0].starts_with("the verdict is infeasible: because")) << found[0];
+    EXPECT_EQ(found[0].ends_with(
+                  "; the step of this run was too long at times (check step), so that a run with a shorter one may stand"),
+              margin < 0)
+        << found[0];
+  }
+}
+
 TEST(Verify, RefusesAVerdictThatSpeaksAgainstIt) {
   SearchedStudy made({{"0.6", 1}});
   const std::size_t column = made.study.column("margin.evidence");

@@ -1,4 +1,4 @@
-// Verification in worlds: what a point must do in them, its share, the order of points, and the constraint of robust studies.
+// Verification in worlds: conditions and share of a point, the order of points, and the constraint of robust studies.
 #include "studies/search/world_trials.h"
 
 #include <gtest/gtest.h>
