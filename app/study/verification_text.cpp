@@ -84,6 +84,8 @@ std::string point_text(studies::Journal& journal, const std::vector<Verification
     }
     ways += fmt::format("{}{} {}", ways.empty() ? "" : ", ", clipped(v.what), objective_cell(v));
     if (!v.reason.empty()) reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", clipped(v.what), one_line(v.reason));
+    if (studies::is_quarter(v))
+      below += "  the other engine's own step was too long at times (check step): a quarter of it counts\n";
     if (studies::is_limit(v))
       below += fmt::format("  the gait stands; the study's step was too long: {}{}\n", objective_cell(v), unit);
   }

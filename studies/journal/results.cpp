@@ -32,6 +32,19 @@ class Gather {
   std::vector<Brief> runs_;
 };
 
+/// Largest violation of the nominal runs of a point in a robust study: the first replicate in each scenario. Infinite if one of
+/// them failed.
+double nominal_violation(const JournalHead& head, std::span<const Brief> runs) {
+  const std::uint64_t in_scenario = head.replicates / std::max<std::size_t>(1, head.scenarios.size());
+  double largest = 0;
+  for (const Brief& run : runs) {
+    if (run.run % head.replicates % in_scenario != 0) continue;
+    const bool failed = run.outcome != "done" || !run.score;
+    largest = std::max(largest, failed ? std::numeric_limits<double>::infinity() : run.score->violation);
+  }
+  return largest;
+}
+
 }  // namespace
 
 PointResult point_result(const JournalHead& head, std::span<const Brief> runs) {
@@ -51,15 +64,17 @@ PointResult point_result(const JournalHead& head, std::span<const Brief> runs) {
     violation.push_back(run.score->violation);
   }
   // `share` keeps a point if this share of its replicates breaks no limit. A failed replicate breaks every limit.
-  const bool shared = head.combine == name_of(Combine::share);
+  const bool robust = head.combine == name_of(Combine::robust);
+  const bool shared = robust || head.combine == name_of(Combine::share);
+  const double nominal = robust ? nominal_violation(head, runs) : 0;
   if (shared && !violation.empty()) {
     violation.resize(violation.size() + point.failed, std::numeric_limits<double>::infinity());
-    if (std::isfinite(combined(violation, "quantile", head.quantile))) point.failed = 0;
+    if (std::isfinite(combined(violation, "quantile", head.quantile)) && std::isfinite(nominal)) point.failed = 0;
   }
   if (point.failed > 0) return point;
-  point.score.violation = combined(violation, shared ? "quantile" : head.combine, head.quantile);
+  point.score.violation = std::max(combined(violation, shared ? "quantile" : head.combine, head.quantile), nominal);
   for (std::size_t k = 0; k < head.objectives.size(); ++k) {
-    const double worse = combined(bad[k], head.combine, head.quantile);
+    const double worse = combined(bad[k], robust ? name_of(Combine::share) : head.combine, head.quantile);
     point.score.objectives[k] = head.objectives[k].maximize ? -worse : worse;
   }
   return point;

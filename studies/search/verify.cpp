@@ -17,11 +17,22 @@ namespace {
 constexpr const char* kAsRun = "as run";
 constexpr const char* kHalf = "half step";
 constexpr const char* kLimit = "limit";
+constexpr const char* kQuarter = " at a quarter of its step";  // behind the name of the other engine
 
 std::vector<std::string> halved(const Plan& plan, std::uint64_t run) {
   const Physics physics = plan.scenario(run).physics;
   if (physics.adaptive_step) return {"physics.accuracy=" + number_text(physics.accuracy / 2)};
   return {"physics.step=" + number_text(physics.step / 2)};
+}
+
+/// Settings of the other engine with a quarter of its step.
+std::vector<std::string> quartered(const Plan& plan, std::uint64_t run) {
+  std::vector<std::string> sets = plan.sets(run);
+  std::ranges::copy(plan.other_engine(run), std::back_inserter(sets));
+  const double step = plan.with(sets, plan.points().scenario(run)).physics.step;
+  std::vector<std::string> other = plan.other_engine(run);
+  if (!other.empty()) other.push_back("physics.step=" + number_text(step / 4));
+  return other;
 }
 
 /// The ways in which the study runs a point again.
@@ -73,6 +84,10 @@ std::string failure(const Plan& plan, const Trial& trial, const PointResult& is)
   return "";
 }
 
+bool had_long_steps(const Plan& plan, const Row& row) {
+  return row.outcome == "diverged" || quantity(plan, row, "margin.step") < 0;
+}
+
 /// Limits that the runs break, and doubts of their verdicts; "" if there are none. Only the first failing replicate is
 /// described.
 std::string broken_limits(const Plan& plan, const Trial& trial, const PointResult& is) {
@@ -87,7 +102,7 @@ std::string broken_limits(const Plan& plan, const Trial& trial, const PointResul
     if (breaks) why.add(in_scenario(row) + fmt::format("{}", fmt::join(broken, ", ")));
     const bool said = breaks && std::ranges::find(broken, of_verdict) != broken.end();
     if (!doubted.empty() && !said) why.add(in_scenario(row) + doubted);
-    if (quantity(plan, row, "margin.step") < 0)
+    if (had_long_steps(plan, row))
       why.add("the step of this run was too long at times (check step), so that a run with a shorter one may stand");
     return why.text;
   }
@@ -139,6 +154,41 @@ std::optional<Score> explained(const Plan& plan, const PointResult& point, const
   return changes(plan, limit, other).empty() ? std::optional(limit) : std::nullopt;
 }
 
+/// Reasons of a trial not to verify its point, by kind; empty texts where there are none.
+struct Objections {
+  std::string failed;
+  std::string changed;
+  std::string broken;
+  [[nodiscard]] bool any() const { return !failed.empty() || !changed.empty() || !broken.empty(); }
+  [[nodiscard]] std::string text() const { return failed + changed + (changed.empty() || broken.empty() ? "" : "; ") + broken; }
+};
+
+Objections objections(const Plan& plan, const Journal& journal, const Trial& trial) {
+  const PointResult is = result_of(journal, trial);
+  Objections found{.failed = failure(plan, trial, is), .changed = "", .broken = ""};
+  if (!found.failed.empty()) return found;
+  found.changed = changes(plan, trial.point.score, is.score);
+  found.broken = broken_limits(plan, trial, is);
+  return found;
+}
+
+/// Adds a trial with a quarter of the step behind each trial in the other engine that does not verify its point and had steps
+/// that were too long. The quarter then counts instead. Returns false if interrupted.
+bool add_quarters(const Plan& plan, const Journal& journal, std::vector<Trial>& trials, const Executor& executor,
+                  const TrialsTold& told, std::atomic<bool>& stop) {
+  const std::string engine = clipped(plan.study().verify.engine);
+  std::vector<Trial> quarters;
+  for (const Trial& trial : trials) {
+    const bool too_long = std::ranges::any_of(trial.rows, [&](const Row& row) { return had_long_steps(plan, row); });
+    if (trial.what != engine || !too_long || !objections(plan, journal, trial).any()) continue;
+    quarters.push_back({trial.point, engine + kQuarter, [&plan](std::uint64_t run) { return quartered(plan, run); }});
+  }
+  if (quarters.empty()) return true;
+  if (!run_trials(plan, quarters, true, executor, told, stop)) return false;
+  std::ranges::move(quarters, std::back_inserter(trials));
+  return true;
+}
+
 /// Entries of a point with its trials.
 std::vector<Verification> judged(const Plan& plan, Journal& journal, const std::vector<Trial>& tried,
                                  const PointResult& point) {
@@ -146,18 +196,16 @@ std::vector<Verification> judged(const Plan& plan, Journal& journal, const std::
   std::vector<Score> scores;
   bool sound = true;
   bool changed = false;
-  for (const Trial& trial : tried) {
-    const PointResult is = result_of(journal, trial);
-    const std::string failed = failure(plan, trial, is);
-    const std::string broken = failed.empty() ? broken_limits(plan, trial, is) : "";
-    const std::string other = failed.empty() ? changes(plan, point.score, is.score) : "";
-    all.push_back(without_reason(plan, journal, trial));
-    all.back().reason = failed + other + (other.empty() || broken.empty() ? "" : "; ") + broken;
-    sound = sound && failed.empty() && broken.empty();
-    changed = changed || !other.empty();
-    scores.push_back(is.score);
+  for (std::size_t k = 0; k < tried.size(); ++k) {
+    all.push_back(without_reason(plan, journal, tried[k]));
+    if (k + 1 < tried.size() && tried[k + 1].what == tried[k].what + kQuarter) continue;
+    const Objections found = objections(plan, journal, tried[k]);
+    all.back().reason = found.text();
+    sound = sound && found.failed.empty() && found.broken.empty();
+    changed = changed || !found.changed.empty();
+    scores.push_back(result_of(journal, tried[k]).score);
   }
-  if (!sound || !changed || tried.size() < 2) return all;
+  if (!sound || !changed || scores.size() < 2) return all;
   const std::optional<Score> limit = explained(plan, point, scores.front(), scores.back());
   if (!limit) return all;
   for (std::size_t k = 1; k < all.size(); ++k) all[k].reason.clear();
@@ -180,6 +228,7 @@ std::optional<std::vector<Verification>> verify(const Plan& plan, Journal& journ
     for (Trial& trial : ways(plan, results.points[point])) trials.push_back(std::move(trial));
   }
   if (!run_trials(plan, trials, true, executor, told, stop)) return {};
+  if (!add_quarters(plan, journal, trials, executor, told, stop)) return {};
   std::vector<Verification> all;
   for (const std::size_t k : points) {
     const PointResult& point = results.points[k];
@@ -191,6 +240,8 @@ std::optional<std::vector<Verification>> verify(const Plan& plan, Journal& journ
 }
 
 bool is_limit(const Verification& verification) { return verification.what == kLimit; }
+
+bool is_quarter(const Verification& verification) { return verification.what.ends_with(kQuarter); }
 
 std::optional<std::vector<Verification>> with_dead_joints(const Plan& plan, Journal& journal, const PointResult& point,
                                                           const Executor& executor, const TrialsTold& told,

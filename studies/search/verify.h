@@ -13,6 +13,9 @@ namespace gaitlab::studies {
 /// (step_limit.h) differs from the value in the other engine by at most `change`. The point then has an entry `limit` with that
 /// value.
 ///
+/// A run in the other engine that does not verify its point, and in which steps were too long (check `step`, or it diverged), is
+/// repeated with a quarter of the step. The repetition counts instead; its entry is `bullet at a quarter of its step`.
+///
 /// The result is ordered by point, then by kind of run; the first entry of a point describes its original runs (`as run`).
 /// Returns nothing if `stop` was set.
 std::optional<std::vector<Verification>> verify(const Plan& plan, Journal& journal, const Results& results,
@@ -20,6 +23,8 @@ std::optional<std::vector<Verification>> verify(const Plan& plan, Journal& journ
                                                 const TrialsTold& told, std::atomic<bool>& stop);
 /// True for an entry `limit`.
 bool is_limit(const Verification& verification);
+/// True for the entry of a run that was repeated with a quarter of its step.
+bool is_quarter(const Verification& verification);
 
 /// Runs a point again with each joint that has a motor dead in turn, from t = 0, so that the whole run is that of the broken
 /// robot. The result has an entry for each joint, `m3/active dead`, which neither verifies nor rejects the point. Returns

@@ -211,7 +211,7 @@ void read_combine(const Node& node, Replicates& replicates, Problems& problems) 
   const std::vector<std::string> known{"mean", "worst", "median", "quantile(Q)", "share(Q)"};
   const std::string word = node.text.substr(0, node.text.find('('));
   for (const auto& [combine, name] : EnumNames<Combine>::kTable) {
-    if (node.kind != Node::Kind::scalar || word != name) continue;
+    if (node.kind != Node::Kind::scalar || word != name || combine == Combine::robust) continue;
     replicates.combine = combine;
     if (!replicates.has_argument() && node.text == word) return;
     if (!replicates.has_argument() || !node.text.ends_with(")")) break;

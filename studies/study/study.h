@@ -50,14 +50,15 @@ struct Variation {
   SourceLocation place = {};
 };
 
-enum class Combine { mean, worst, median, quantile, share };
+/// `robust` is `share`, where the nominal run of each scenario must also break no limit; only `robust: true` selects it.
+enum class Combine { mean, worst, median, quantile, share, robust };
 
 struct Replicates {
   std::int64_t count = 0;  ///< 0 means one run with the seed of the scenario
   std::vector<Variation> vary;
   Combine combine = Combine::worst;
-  double quantile = 0.5;  ///< argument of `quantile` and `share`
-  [[nodiscard]] bool has_argument() const { return combine == Combine::quantile || combine == Combine::share; }
+  double quantile = 0.5;  ///< argument of `quantile`, `share` and `robust`
+  [[nodiscard]] bool has_argument() const { return combine >= Combine::quantile; }
   [[nodiscard]] std::uint64_t number() const { return count == 0 ? 1 : static_cast<std::uint64_t>(count); }
 };
 
@@ -89,8 +90,8 @@ struct StopText {
 template <>
 struct EnumNames<studies::Combine> {
   using enum studies::Combine;
-  static constexpr EnumName<studies::Combine> kTable[] = {
-      {mean, "mean"}, {worst, "worst"}, {median, "median"}, {quantile, "quantile"}, {share, "share"}};
+  static constexpr EnumName<studies::Combine> kTable[] = {{mean, "mean"},         {worst, "worst"}, {median, "median"},
+                                                          {quantile, "quantile"}, {share, "share"}, {robust, "robust"}};
 };
 
 namespace studies {

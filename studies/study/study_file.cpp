@@ -216,7 +216,7 @@ void choose_method(Study& study, bool named, Purpose purpose) {
 Replicates in_worlds() {
   constexpr std::int64_t kMost = 17;
   constexpr double kShare = 0.75;  // of the runs must break no limit: the lower quartile of their least margins is a constraint
-  return {.count = kMost, .vary = {}, .combine = Combine::share, .quantile = kShare};
+  return {.count = kMost, .vary = {}, .combine = Combine::robust, .quantile = kShare};
 }
 
 }  // namespace

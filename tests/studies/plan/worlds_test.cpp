@@ -220,7 +220,7 @@ TEST(Robust, TheLowerQuartileOfTheMarginsDecides) {
     return studies::point_result(head, runs);
   };
   std::vector<double> margins;
-  for (int k = 0; k < 17; ++k) margins.push_back(0.01 * ((k * 5) % 17) - 0.06);  // -0.06 to 0.10 in some order
+  for (int k = 0; k < 17; ++k) margins.push_back(0.01 * ((k * 5 + 16) % 17) - 0.06);  // 0.10, then down to -0.06 in some order
   std::vector<double> sorted = margins;
   std::ranges::sort(sorted);
   const double quartile = sorted[4];  // the least of the best 13 of 17
@@ -228,8 +228,31 @@ TEST(Robust, TheLowerQuartileOfTheMarginsDecides) {
   EXPECT_NEAR(result(margins).score.violation, -quartile / (1 - quartile), kRounding);
   for (double& margin : margins) margin += -quartile;
   EXPECT_TRUE(result(margins).kept()) << "four runs are beyond";
+  std::vector<double> nominal = margins;
+  std::swap(*nominal.begin(), *std::ranges::min_element(nominal));
+  const double least = nominal.front();
+  EXPECT_NEAR(result(nominal).score.violation, -least / (1 - least), kRounding) << "the nominal run must stand itself";
   for (double& margin : margins) margin -= 1e-6;
   EXPECT_FALSE(result(margins).kept());
+}
+
+/// A world that fails counts as a fall; a nominal run that fails is a failed point, in each scenario.
+TEST(Robust, NominalRunsMayNotFail) {
+  studies::JournalHead head;
+  head.combine = "robust";
+  head.quantile = 0.75;
+  head.scenarios = {"flat", "rubble"};
+  head.replicates = 10;
+  head.objectives = {{"speed", true}};
+  for (std::uint64_t failing = 0; failing < 10; ++failing) {
+    std::vector<studies::Brief> runs;
+    for (std::uint64_t r = 0; r < 10; ++r) {
+      studies::Brief run{20 + r, r == failing ? "diverged" : "done", "", 1, studies::Score{}, "feasible"};
+      if (r == failing) run.score.reset();
+      runs.push_back(run);
+    }
+    EXPECT_EQ(studies::point_result(head, runs).failed, failing % 5 == 0 ? 1U : 0U) << failing;
+  }
 }
 
 TEST(Robust, HasNoReplicatesBesides) {

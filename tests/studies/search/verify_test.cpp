@@ -231,6 +231,59 @@ TEST(Verify, NamesAStepThatWasTooLong) {
   }
 }
 
+/// Rows that are infeasible with steps that are too long in bullet: at its own step, and at a quarter of it if `at_quarter`.
+std::function<Row(const Job&)> with_long_steps(const SearchedStudy& made, bool at_quarter, Values& steps) {
+  return [&made, &steps, at_quarter](const Job& job) {
+    const bool bullet = std::ranges::find(job.sets, "physics.engine=bullet") != job.sets.end();
+    const bool quarter = bullet && job.sets.back() != "physics.step=auto";
+    Row row = made.study.done(job.row, "speed", 1);
+    if (bullet) steps.push_back(job.sets.back());
+    if (!bullet || (quarter && !at_quarter)) return row;
+    row.verdict = "infeasible";
+    row.message = "because";
+    row.quantities[made.study.column("margin.step")] = quarter ? 0.5 : -0.5;
+    return row;
+  };
+}
+
+/// The own step of bullet is 2.5e-5 s for dtto. A spike of one long step says nothing about the gait.
+TEST(Verify, RepeatsTheOtherEngineWithAQuarterOfAStepThatWasTooLong) {
+  SearchedStudy made({{"0.6", 1}}, "verify: {engine: bullet}\n");
+  Values steps;
+  const std::vector<Verification> tried = made.verify(with_long_steps(made, false, steps));
+  EXPECT_EQ(steps, (Values{"physics.step=auto", "physics.step=6.25e-06"}));
+  ASSERT_EQ(tried.size(), 4U);
+  EXPECT_EQ(tried[2].what, "bullet");
+  EXPECT_EQ(tried[2].reason, "") << "its repetition counts";
+  EXPECT_EQ(tried[3].what, "bullet at a quarter of its step");
+  EXPECT_EQ(tried[3].reason, "");
+  EXPECT_TRUE(studies::is_quarter(tried[3]));
+  EXPECT_EQ(studies::verified(tried), std::vector<std::uint64_t>{0});
+}
+
+TEST(Verify, RefusesWhatAQuarterOfTheStepConfirms) {
+  SearchedStudy made({{"0.6", 1}}, "verify: {engine: bullet}\n");
+  Values steps;
+  const std::vector<Verification> tried = made.verify(with_long_steps(made, true, steps));
+  ASSERT_EQ(tried.size(), 4U);
+  EXPECT_EQ(tried[3].reason, "the verdict is infeasible: because");
+  EXPECT_TRUE(studies::verified(tried).empty());
+}
+
+/// A run of other steps that stands is not repeated, nor is one that falls with steps that are short enough.
+TEST(Verify, RepeatsNothingElse) {
+  for (const auto& [verdict, margin] : {std::pair<const char*, double>{"feasible", -0.5}, {"infeasible", 0.5}}) {
+    SearchedStudy made({{"0.6", 1}}, "verify: {engine: bullet}\n");
+    const std::vector<Verification> tried = made.verify([&, word = verdict, step = margin](const Job& job) {
+      Row row = made.study.done(job.row, "speed", 1);
+      row.verdict = word;
+      row.quantities[made.study.column("margin.step")] = step;
+      return row;
+    });
+    EXPECT_EQ(tried.size(), 3U) << verdict;
+  }
+}
+
 TEST(Verify, RefusesAVerdictThatSpeaksAgainstIt) {
   SearchedStudy made({{"0.6", 1}});
   const std::size_t column = made.study.column("margin.evidence");
