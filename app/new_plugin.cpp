@@ -11,6 +11,7 @@
 #include "app/commands.h"
 #include "app/skeletons.h"
 #include "core/files/atomic_file.h"
+#include "core/settings/data_folder.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab::app {
@@ -110,7 +111,7 @@ class NewFolder {
 /// Installation prefix of the running program, or empty if it is not installed.
 std::string prefix() {
   std::error_code none;
-  const fs::path prefix = fs::read_symlink("/proc/self/exe", none).parent_path().parent_path();
+  const fs::path prefix = installation_prefix();
   return fs::is_directory(prefix / "include" / "gaitlab", none) ? prefix.string() : "PREFIX";
 }
 

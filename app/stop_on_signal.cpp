@@ -1,7 +1,5 @@
 #include "app/stop_on_signal.h"
 
-#include <signal.h>
-
 namespace gaitlab::app {
 
 std::atomic<bool>& stopped() {
@@ -14,11 +12,15 @@ StopOnSignal::StopOnSignal(Second second) {
   struct sigaction action = {};
   action.sa_handler = [](int) { stopped() = true; };
   if (second == Second::ends_the_process) action.sa_flags = static_cast<int>(SA_RESETHAND);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    struct sigaction before = {};
-    sigaction(signal, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // a shell makes background jobs ignore SIGINT
+  for (std::size_t k = 0; k < kSignals.size(); ++k) {
+    sigaction(kSignals[k], nullptr, &before_[k]);
+    if (before_[k].sa_handler != SIG_IGN)
+      sigaction(kSignals[k], &action, nullptr);  // a shell makes background jobs ignore SIGINT
   }
+}
+
+StopOnSignal::~StopOnSignal() {
+  for (std::size_t k = 0; k < kSignals.size(); ++k) sigaction(kSignals[k], &before_[k], nullptr);
 }
 
 }  // namespace gaitlab::app

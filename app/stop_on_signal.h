@@ -1,5 +1,8 @@
 // Stopping a run by a signal of a user, a scheduler or a closed terminal.
 #pragma once
+#include <signal.h>
+
+#include <array>
 #include <atomic>
 
 namespace gaitlab::app {
@@ -8,9 +11,18 @@ namespace gaitlab::app {
 /// already ignores remains ignored.
 std::atomic<bool>& stopped();
 
-struct StopOnSignal {
+/// Handlers of these signals until the end of the object, which restores those of before.
+class StopOnSignal {
+ public:
   enum class Second { is_ignored, ends_the_process };
   explicit StopOnSignal(Second second);
+  ~StopOnSignal();
+  StopOnSignal(const StopOnSignal&) = delete;
+  StopOnSignal& operator=(const StopOnSignal&) = delete;
+
+ private:
+  static constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
+  std::array<struct sigaction, kSignals.size()> before_ = {};
 };
 
 }  // namespace gaitlab::app

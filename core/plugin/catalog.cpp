@@ -6,6 +6,8 @@
 #include <cfenv>
 #include <cstdlib>
 #include <exception>
+#include <map>
+#include <mutex>
 #include <stdexcept>
 
 #include "core/errors.h"
@@ -52,6 +54,14 @@ class NamedTermination {
   static inline const char* path_ = "";
   std::terminate_handler before_ = std::set_terminate(end);
 };
+
+/// Hash with which this process loaded the file first; `hash` if it has not loaded it yet.
+std::string loaded_first(const std::string& path, const std::string& hash) {
+  static std::mutex mutex;
+  static std::map<std::string, std::string> hashes;
+  const std::lock_guard lock(mutex);
+  return hashes.emplace(path, hash).first->second;
+}
 
 /// True for a text of characters that scenarios, --set and lists with commas can contain.
 bool is_plugin_name(const std::string& text) {
@@ -139,7 +149,9 @@ std::vector<std::string> Catalog::engines() const {
   return names;
 }
 
-void load_plugin(const std::string& path, Catalog& catalog) {
+void load_plugin(const std::string& path, const std::string& hash, Catalog& catalog) {
+  if (loaded_first(path, hash) != hash)
+    throw std::runtime_error("it was built again since this process loaded it; start the program again to run the new code");
   if (catalog.loaded(path)) return;
   const FloatingPointEnvironment restored;
   dlerror();

@@ -117,8 +117,9 @@ class Catalog final : public Registry {
 
 /// Loads a plugin library into the catalog, from its canonical path, with RTLD_NOW | RTLD_LOCAL. The ABI text is compared
 /// first, the floating-point control register is restored, and the library is never closed. A second call for the same file has
-/// no effect. Throws std::runtime_error if the file cannot be opened (with the reason), lacks gaitlab_abi (it is not a plugin),
-/// has another ABI (with both), registers a name twice, or throws an exception.
-void load_plugin(const std::string& canonical_path, Catalog& catalog);
+/// no effect. `hash` is that of the file's content. Throws std::runtime_error if the file cannot be opened (with the reason),
+/// lacks gaitlab_abi (it is not a plugin), has another ABI (with both), registers a name twice, or throws an exception; and if
+/// this process has loaded a file with this path and another hash before, because the old code would run.
+void load_plugin(const std::string& canonical_path, const std::string& hash, Catalog& catalog);
 
 }  // namespace gaitlab

@@ -1,8 +1,8 @@
 // Description of the robot for plugins. Standard library only.
 #pragma once
 #include <array>
+#include <charconv>
 #include <cstdint>
-#include <cstdio>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -28,11 +28,13 @@ struct JointInfo {
 inline void check_angle(const JointInfo& joint, const char* what, double angle) {
   constexpr double kLargest = 3.2;  // rad; slightly more than half a turn
   if (joint.turns_freely() || (angle >= -kLargest && angle <= kLargest)) return;
-  char text[200];
-  (void)std::snprintf(text, sizeof text,
-                      " is %.6g rad; allowed are -3.2 to 3.2 rad where the hinge has a range; %.6g degrees are %.4g rad", angle,
-                      angle, angle * 3.14159265358979323846 / 180);
-  throw std::invalid_argument(std::string(what) + " of joint " + joint.name + text);
+  const auto digits = [](double value, int count) {  // a decimal point in every locale, unlike printf
+    std::array<char, 32> text = {};
+    return std::string(text.data(), std::to_chars(text.begin(), text.end(), value, std::chars_format::general, count).ptr);
+  };
+  throw std::invalid_argument(std::string(what) + " of joint " + joint.name + " is " + digits(angle, 6) +
+                              " rad; allowed are -3.2 to 3.2 rad where the hinge has a range; " + digits(angle, 6) +
+                              " degrees are " + digits(angle * 3.14159265358979323846 / 180, 4) + " rad");
 }
 
 struct ModuleInfo {

@@ -20,8 +20,8 @@ Result checked(Result result, const char* what) {
   return result;
 }
 
-/// Lock of the HDF5 library for one thread at a time, because Debian builds HDF5 without locks. Turns off the messages of HDF5
-/// on stderr.
+/// Lock of the HDF5 library for one thread at a time, because Debian builds HDF5 without locks. Until the end of the lock,
+/// HDF5 prints no messages on stderr and loads no filters. Both settings belong to the process, in which others may use HDF5.
 class Library {
  public:
   Library() : lock_(mutex()) {
@@ -29,12 +29,15 @@ class Library {
     static const herr_t kNeverAtExit = H5dont_atexit();
     static_cast<void>(kNeverAtExit);
     // A file names filters by number. For an unknown number HDF5 would load any library from a folder of the environment.
-    static const herr_t kNoPlugins = H5PLset_loading_state(0);
-    static_cast<void>(kNoPlugins);
+    H5PLget_loading_state(&loading_);
+    H5PLset_loading_state(0);
     H5Eget_auto2(H5E_DEFAULT, &report_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }
-  ~Library() { H5Eset_auto2(H5E_DEFAULT, report_, data_); }
+  ~Library() {
+    H5Eset_auto2(H5E_DEFAULT, report_, data_);
+    H5PLset_loading_state(loading_);
+  }
   Library(const Library&) = delete;
   Library& operator=(const Library&) = delete;
 
@@ -46,6 +49,7 @@ class Library {
   std::lock_guard<std::mutex> lock_;
   H5E_auto2_t report_ = nullptr;
   void* data_ = nullptr;
+  unsigned loading_ = 0;
 };
 
 /// Owner of one HDF5 identifier. close() reports failures, which the destructor cannot do.

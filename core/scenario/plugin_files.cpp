@@ -72,7 +72,7 @@ void load(const PluginEntry& entry, const SourceLocation& place, const std::stri
     return;
   }
   try {
-    load_plugin(canonical.string(), catalog);
+    load_plugin(canonical.string(), hash, catalog);
     files.push_back({canonical.string(), hash});
   } catch (const std::exception& e) {
     problems.add(place, fmt::format("plugin '{}' cannot be loaded: {}", clipped(entry.path), e.what()));

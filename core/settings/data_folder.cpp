@@ -1,15 +1,58 @@
 #include "core/settings/data_folder.h"
 
+#include <dlfcn.h>
+#include <sys/auxv.h>
+
+#include <cstdlib>
 #include <filesystem>
+#include <vector>
 
 namespace gaitlab {
 
-std::string data_folder() {
-  namespace fs = std::filesystem;
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kBelow = "share/gaitlab/scenarios";  // below the installation prefix
+
+/// Paths under which the file that contains this code may be found: the library or program by the loader, the program by the
+/// kernel (also without /proc), and the program by /proc.
+std::vector<fs::path> own_files() {
+  std::vector<fs::path> files;
+  Dl_info loaded = {};
+  if (dladdr(reinterpret_cast<const void*>(&data_folder), &loaded) != 0 && loaded.dli_fname != nullptr)
+    files.emplace_back(loaded.dli_fname);
+  if (const auto* started = reinterpret_cast<const char*>(getauxval(AT_EXECFN)); started != nullptr)
+    files.emplace_back(started);
   std::error_code none;
-  const fs::path program = fs::read_symlink("/proc/self/exe", none);
-  const fs::path installed = program.parent_path().parent_path() / "share" / "gaitlab" / "scenarios";
-  return fs::is_directory(installed, none) ? installed.string() : GAITLAB_DATA_DIR;
+  files.push_back(fs::read_symlink("/proc/self/exe", none));
+  return files;
+}
+
+fs::path find_prefix() {
+  for (const fs::path& file : own_files()) {
+    std::error_code none;
+    const fs::path own = file.has_parent_path() ? fs::canonical(file, none) : fs::path();
+    for (fs::path folder = own.parent_path(); folder.has_relative_path(); folder = folder.parent_path()) {
+      if (fs::is_directory(folder / kBelow, none)) return folder;
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string installation_prefix() {
+  static const std::string prefix = find_prefix().string();  // once, because a relative path ends with a change of the folder
+  return prefix;
+}
+
+std::string data_folder() {
+  std::error_code none;
+  if (const std::string prefix = installation_prefix(); !prefix.empty())
+    return fs::canonical(fs::path(prefix) / kBelow, none).string();
+  const char* given = std::getenv("GAITLAB_DATA");
+  return given == nullptr ? kBelow : given;
 }
 
 }  // namespace gaitlab

@@ -1,6 +1,8 @@
 // Tests of plugins from libraries, which the setting `plugins:` of the scenario loads.
 #include <xmmintrin.h>
 
+#include "core/scenario/plugin_files.h"
+#include "tests/messages.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -77,10 +79,29 @@ TEST_F(Plugins, AStaticObjectThatThrowsIsAnError) {
   EXPECT_TRUE(said == ended || said == passed) << said;
 }
 
+/// The loader would return the old code for the path of a file that was built again.
+TEST_F(Plugins, AFileThatWasBuiltAgainIsRefused) {
+  const std::string copy = folder / "copy.so";
+  std::filesystem::copy(kPlugins + "wave.so", copy);
+  Catalog first = app::standard_catalog();
+  load_plugin_file(copy, first);
+  Catalog second = app::standard_catalog();
+  load_plugin_file(copy, second);
+  std::filesystem::remove(copy);
+  std::filesystem::copy(kPlugins + "throws.so", copy);
+  Catalog third = app::standard_catalog();
+  const std::string said = message_of([&] { load_plugin_file(copy, third); });
+  EXPECT_NE(
+      said.find(
+          "cannot be loaded: it was built again since this process loaded it; start the program again to run the new code"),
+      std::string::npos)
+      << said;
+}
+
 TEST_F(Plugins, LoadingLeavesTheRoundingOfTheProcessorAsItWas) {
   const unsigned before = _mm_getcsr();
   Catalog all = app::standard_catalog();
-  load_plugin(kPlugins + "flushes.so", all);
+  load_plugin(kPlugins + "flushes.so", file_hash(kPlugins + "flushes.so"), all);
   EXPECT_EQ(_mm_getcsr() & 0xFFC0U, before & 0xFFC0U);  // without the flags of previous operations
 }
 

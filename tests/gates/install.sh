@@ -52,6 +52,16 @@ check_installation() {
   # The gate checks the folder, because the program would otherwise use the scenarios next to the sources.
   [[ -d $prefix/share/gaitlab/scenarios/modules ]] || fail "the shipped scenarios are not installed"
   expect 0 "$program" check "$prefix/share/gaitlab/scenarios/caterpillar.yaml"
+  # Neither a path of the build machine nor the source tree: module types and robots come from beside the program, also by a link.
+  ! grep -qaF -- "$root" "$program" || fail "the program contains the path of the source tree"
+  ln -s -- "$program" "$work/linked"
+  expect 0 "$work/linked" check "$prefix/share/gaitlab/scenarios/library/dtto-caterpillar.yaml"
+  mv -- "$prefix/share/gaitlab/scenarios" "$work/elsewhere"
+  printf 'gaitlab: 1\nrobot: {modules: mtran}\nduration: 0.1\n' >"$work/alone.yaml"
+  expect 2 "$program" check "$work/alone.yaml"
+  GAITLAB_DATA=$work/elsewhere expect 0 "$program" check "$work/alone.yaml"
+  mv -- "$work/elsewhere" "$prefix/share/gaitlab/scenarios"
+  ok "the installed program finds its data without the source tree"
 }
 
 use_plugin() {

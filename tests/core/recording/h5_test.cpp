@@ -19,6 +19,10 @@
 extern "C" const char* __lsan_default_suppressions();  // NOLINT(bugprone-reserved-identifier): LeakSanitizer's name
 extern "C" const char* __lsan_default_suppressions() { return "leak:libhdf5"; }  // NOLINT(bugprone-reserved-identifier)
 
+// Of HDF5, whose header is private to core.
+extern "C" int H5PLget_loading_state(unsigned* state);
+extern "C" int H5PLset_loading_state(unsigned state);
+
 namespace gaitlab {
 namespace {
 
@@ -199,6 +203,22 @@ TEST_F(H5, ScenariosOfAnySize) {
   const std::string long_text(300000, 'x');  // longer than 64 kB, the limit of an attribute of the older format
   write_h5(sample(1), {long_text, 1, "build", "done"}, file_);
   EXPECT_EQ(read_h5(file_).origin.scenario, long_text);
+}
+
+/// Another user of HDF5 in the process, such as h5py, still loads its filters.
+TEST_F(H5, LeavesTheLoadingOfFiltersAsItWas) {
+  unsigned before = 0;
+  for (const unsigned state : {0xffffU, 0x1U}) {
+    H5PLset_loading_state(state);
+    H5PLget_loading_state(&before);
+    write_h5(sample(1), kOrigin, file_);
+    static_cast<void>(read_h5(file_));
+    put("not HDF5");
+    EXPECT_ANY_THROW(static_cast<void>(read_h5(file_)));
+    unsigned after = 0;
+    H5PLget_loading_state(&after);
+    EXPECT_EQ(after, before);
+  }
 }
 
 // A recording of format 1 is read: a robot of two modules for 0.2 s, written by an older version of the program.
