@@ -107,8 +107,8 @@ std::vector<GoldenRun> simulate(const std::vector<Scenario>& scenarios, const st
   std::vector<GoldenRun> runs;
   std::vector<golden::Attempt> outcomes;
   {
-    const Progress progress(false);
-    outcomes = golden_runs(scenarios, jobs, std::cref(progress), judged);
+    Progress progress(false);
+    outcomes = golden_runs(scenarios, jobs, std::ref(progress), judged);
   }
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     try {
@@ -154,8 +154,8 @@ void check_widest(const Calibration& made, const Scenario& scenario, int jobs) {
   const std::vector<Band>& bands = made.bands.columns;
   const std::size_t widest = widest_of(bands);
   if (bands[widest].width() <= kWidestColumn) return;
-  const Progress progress(false);
-  const std::string remedy = narrower_columns(bands, scenario, made.halved, jobs, std::cref(progress));
+  Progress progress(false);
+  const std::string remedy = narrower_columns(bands, scenario, made.halved, jobs, std::ref(progress));
   throw InputError(SourceLocation{scenario.file},
                    fmt::format("the band of {} would be {} of its range, more than {}: {}; {}. Nothing was written",
                                label(made.halved, made.halved.trace.columns[widest].name), percent(bands[widest].width()),

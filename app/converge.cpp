@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
+#include <numeric>
 
 #include "app/commands.h"
+#include "app/progress.h"
 #include "core/parallel.h"
 #include "core/recording/convergence.h"
 #include "core/scenario/sensor_section.h"
@@ -47,7 +50,23 @@ struct Runs {
   bool quantised = false;                   // a sensor has a resolution
 };
 
-Runs all_runs(const Scenario& scenario, int halvings, int jobs) {
+/// Progress of runs side by side, of which each takes twice as long as the one before.
+class DoublingProgress {
+ public:
+  DoublingProgress(bool quiet, std::size_t runs) : progress_(quiet), done_(runs) {}
+  void operator()(std::size_t run, double share) {
+    const std::lock_guard lock(mutex_);
+    done_[run] = share * static_cast<double>(1 << run);
+    progress_(std::accumulate(done_.begin(), done_.end(), 0.0) / static_cast<double>((1 << done_.size()) - 1));
+  }
+
+ private:
+  Progress progress_;
+  std::vector<double> done_;
+  std::mutex mutex_;
+};
+
+Runs all_runs(const Scenario& scenario, int halvings, int jobs, bool quiet) {
   const auto count = static_cast<std::size_t>(halvings) + 1;
   Runs runs;
   runs.traces.resize(count);
@@ -61,12 +80,13 @@ Runs all_runs(const Scenario& scenario, int halvings, int jobs) {
   const double first = adapts ? scenario.physics.accuracy : scenario.physics.step;
   for (std::size_t i = 0; i < count; ++i) runs.steps.push_back(first / static_cast<double>(1 << i));
   std::vector<double> rate(count);
+  DoublingProgress progress(quiet, count);
   parallel(count, jobs, [&](std::size_t i) {
     Scenario halved = scenario;
     halved.physics.refine(static_cast<double>(1 << i));
     Simulation simulation({&halved, 1});
     rate[i] = simulation.standing().rate;
-    simulation.run();
+    simulation.run([&](double share) { progress(i, share); });
     Recording r = simulation.take_recording(0);
     rate[i] = std::max(rate[i], r.worst.rate);
     runs.travel[i] = {r.travel().x(), r.travel().y()};
@@ -137,7 +157,7 @@ int converge(const ConvergeArguments& arguments) {
     wanted = {scenario.actuator.entry != nullptr ? "joint.*.torque" : "joint.*.angle"};
     if (!scenario.robot->joints.empty()) scenario.trace.columns = wanted;
   }
-  const Runs runs = all_runs(scenario, arguments.halvings, arguments.jobs);
+  const Runs runs = all_runs(scenario, arguments.halvings, arguments.jobs, arguments.quiet);
 
   fmt::print("{}: error against {} {}{} (RMS over the rows / largest magnitude of the column)\n", scenario.name, runs.what,
              runs.steps.back(), runs.unit);

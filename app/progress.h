@@ -1,33 +1,48 @@
-// A progress bar with the remaining time on a terminal; it prints nothing to a file or a pipe.
+// Progress on stderr: on a terminal one line that changes, as wide as the terminal; elsewhere a line after 10 s, then every 30
+// s.
 #pragma once
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <chrono>
-#include <cstdio>
+#include <cstddef>
 #include <string>
 
 namespace gaitlab::app {
 
-class Progress {
+/// Columns of the terminal behind a file descriptor, from 40 to 200; `otherwise` if it is none or does not know its size.
+std::size_t terminal_columns(int descriptor, std::size_t otherwise = 80);
+
+/// Line of less than `columns` columns: a bar with the share that is done, of at most 40 columns, and the text. If the text
+/// leaves less than 8 columns for the bar, the line has no bar. A longer text is cut.
+std::string progress_line(double share, const std::string& text, std::size_t columns);
+
+/// Writer of progress lines. The destructor clears the line on a terminal.
+class ProgressLine {
  public:
-  explicit Progress(bool quiet) : shown_(!quiet && isatty(fileno(stderr)) != 0) {}
-  ~Progress() {
-    if (shown_) fmt::print(stderr, "\r{:70}\r", "");
-  }
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-  void operator()(double share) const {
-    if (!shown_) return;
-    const auto filled = static_cast<std::size_t>(40 * share);
-    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - start_;
-    const std::string left = share > 0.01 ? fmt::format("{:.0f} s left", since.count() * (1 - share) / share) : "";
-    fmt::print(stderr, "\r[{:<40}] {:3.0f} % {:<16}", std::string(filled, '#'), 100 * share, left);
-    (void)std::fflush(stderr);
-  }
+  explicit ProgressLine(bool quiet);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  [[nodiscard]] bool terminal() const { return terminal_; }
+  /// True if it is time for the next line, which the caller then shows.
+  bool due();
+  void show(double share, const std::string& text);
+  void clear();
 
  private:
-  bool shown_;
+  using Clock = std::chrono::steady_clock;
+  bool shown_, terminal_;
+  std::size_t written_ = 0;  ///< columns of the line on the terminal
+  Clock::time_point next_;
+};
+
+/// Progress of a command by the share that is done, with the remaining time.
+class Progress {
+ public:
+  explicit Progress(bool quiet) : line_(quiet) {}
+  void operator()(double share);
+
+ private:
+  ProgressLine line_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

@@ -96,7 +96,7 @@ Remedied take_remedy(const Scenario& scenario, report::Verdict& verdict, const R
   const StoredScenario same{"", scenario.file + " (its remedy)", resolved(scenario)};
   std::optional<report::Remedy> made;
   {
-    const Progress progress(arguments.quiet);
+    Progress progress(arguments.quiet);
     const report::RemedyTask task{
         scenario,
         verdict,
@@ -104,7 +104,7 @@ Remedied take_remedy(const Scenario& scenario, report::Verdict& verdict, const R
         arguments.map,
         arguments.by,
         {arguments.jobs, 0},
-        std::cref(progress)};
+        std::ref(progress)};
     made = report::remedy(task, stopped());
   }
   if (!made) {

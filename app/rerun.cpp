@@ -97,11 +97,11 @@ struct Again {
 Again run_again(const Scenario& scenario, const Past& past, bool early) {
   Again again;
   Simulation simulation({&scenario, 1});
-  const Progress progress(false);
+  Progress progress(false);
   try {
     const double until = last_time(past.trace) + 0.5 * scenario.physics.step;
     while (early && !simulation.done() && simulation.time() < until) simulation.step();
-    if (!early) simulation.run(std::cref(progress));
+    if (!early) simulation.run(std::ref(progress));
   } catch (const SimulationError& error) {
     again.failure = error.what();
   }

@@ -156,8 +156,8 @@ bool take_draws(const Scenario& scenario, std::span<const Scenario> draws, const
 /// Runs the simulation. Returns its outcome if the simulation did not reach the end of the run.
 std::optional<Outcome> simulate(const Scenario& scenario, Simulation& simulation, bool quiet) try {
   if (!quiet) note_time(scenario, simulation);
-  const Progress progress(quiet);
-  if (simulation.run(std::cref(progress), &stopped())) return {};
+  Progress progress(quiet);
+  if (simulation.run(std::ref(progress), &stopped())) return {};
   return Outcome{Ended::interrupted, fmt::format("interrupted at t = {:.6g} s", simulation.time())};
 } catch (const SimulationError& error) {
   return error.outcome();
@@ -178,8 +178,9 @@ void note_rows(const Scenario& scenario, const Simulation& simulation) {
 void print_files(const RunArguments& arguments, const std::filesystem::path& folder) {
   if (!arguments.no_page) print_page(folder / kPageFile);
   if (!arguments.no_page && !arguments.shown.verbose) return;
-  fmt::print("  {:<9} {}: {}, summary.json, verdict.json,\n  {:<9} scenario.resolved.yaml, figure.svg\n", "files",
-             one_line(folder.string()), arguments.format == "csv" ? "trace.csv, recording.h5" : "trace.h5", "");
+  print_lines({{"files", fmt::format("{}: {}, summary.json, verdict.json,", one_line(folder.string()),
+                                     arguments.format == "csv" ? "trace.csv, recording.h5" : "trace.h5")},
+               {"", "scenario.resolved.yaml, figure.svg"}});
 }
 
 }  // namespace

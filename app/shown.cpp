@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
+#include <sstream>
 #include <utility>
 
 #include "app/commands.h"
+#include "app/progress.h"
 #include "app/stored_scenario.h"
 #include "core/errors.h"
 #include "core/scenario/resolved.h"
@@ -49,7 +52,14 @@ void print_lines(const std::vector<report::ScreenLine>& lines) {
     const int colour = tone == report::Tone::good ? 32 : tone == report::Tone::bad ? 31 : 33;
     return fmt::format("\033[{}m{}\033[0m", colour, text);
   };
-  for (const report::ScreenLine& line : lines) fmt::print("  {:<9} {}\n", line.title, painted(printed(line.text), line.tone));
+  constexpr std::size_t kIndent = 12;  // two blanks, the title and a blank
+  const std::size_t columns = terminal_columns(STDOUT_FILENO, std::numeric_limits<std::size_t>::max());
+  for (const report::ScreenLine& line : lines) {
+    std::string title = line.title;
+    std::istringstream parts(wrapped(printed(line.text), 0, columns - kIndent));
+    for (std::string part; std::getline(parts, part); title.clear())
+      fmt::print("  {:<9} {}\n", title, painted(part, line.tone));
+  }
 }
 
 void print_summary(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
@@ -57,7 +67,8 @@ void print_summary(const Scenario& scenario, const Recording& recording, const r
   const report::RunData run{scenario, recording, summary};
   for (const std::string& line : report::texts::simulated(run)) fmt::print("{}\n", printed(line));
   constexpr std::size_t kFew = 4;  // largest number of lines for checks of one status
-  print_lines(report::first_screen(run, verdict, shown.verbose ? verdict.checks.size() : kFew));
+  print_lines(report::first_screen(run, verdict, shown.verbose ? verdict.checks.size() : kFew,
+                                   terminal_columns(STDOUT_FILENO, report::kColumns)));
   if (shown.verbose) fmt::print("{}", printed_table(report::to_text(summary, scenario, recording)));
   if (shown.joints) fmt::print("{}", printed_table(report::joint_table(summary, scenario)));
 }

@@ -120,7 +120,8 @@ std::vector<Swapped> read_all(const SwapArguments& arguments, Catalog& catalog) 
 }
 
 /// Runs all scenarios. Returns false if the program was stopped. Throws InputError for the first scenario that is refused.
-bool run_all(const std::vector<Swapped*>& all, int jobs) {
+bool run_all(const std::vector<Swapped*>& all, int jobs, bool quiet) {
+  AgainProgress progress(quiet, "swap");
   std::size_t next = 0;
   std::vector<std::vector<Problem>> refused(all.size());
   const BatchStream stream{.next = [&]() -> std::optional<Rollout> {
@@ -130,6 +131,7 @@ bool run_all(const std::vector<Swapped*>& all, int jobs) {
                            },
                            .end =
                                [&](std::vector<RolloutEnd>&& pack) {
+                                 progress.add(pack.size(), all.size());
                                  for (RolloutEnd& end : pack) {
                                    Swapped& one = *all[end.rollout.number];
                                    refused[end.rollout.number] = std::move(end.refused);
@@ -141,9 +143,8 @@ bool run_all(const std::vector<Swapped*>& all, int jobs) {
                                  }
                                }};
   const bool whole = run_pulled(stream, {.threads = jobs}, Loads::left_out, stopped(), all.size());
-  for (std::vector<Problem>& problems : refused) {
+  for (std::vector<Problem>& problems : refused)
     if (!problems.empty()) throw InputError(std::move(problems));
-  }
   return whole;
 }
 
@@ -236,7 +237,7 @@ std::string again(const SwapArguments& arguments) {
 
 /// Runs all scenarios as run_all does. If the program was stopped, prints a message and returns false.
 bool run_or_tell(const std::vector<Swapped*>& all, const SwapArguments& arguments) {
-  if (run_all(all, arguments.jobs)) return true;
+  if (run_all(all, arguments.jobs, arguments.quiet)) return true;
   say(fmt::format("{}: interrupted: nothing is written; run it again with\n{}\n", arguments.files.front(), again(arguments)));
   return false;
 }

@@ -268,8 +268,8 @@ int test_goldens(const TestArguments& arguments) {
   Catalog catalog = standard_catalog();
   std::vector<GoldenCase> cases = golden_cases(arguments, catalog);
   {
-    const Progress progress(false);
-    run_cases(cases, arguments, std::cref(progress));
+    Progress progress(false);
+    run_cases(cases, arguments, std::ref(progress));
   }
   bool written = true;
   const auto write = [&](const std::function<void()>& file) {  // continues after a file that cannot be written, because the

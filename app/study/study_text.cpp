@@ -1,12 +1,12 @@
 #include "app/study/study_text.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <mutex>
 
 #include "app/study/importance_text.h"
 #include "app/study/study_sensitivity.h"
@@ -304,35 +304,34 @@ void write_table(Journal& journal, const std::filesystem::path& file, Existing e
   out.commit();
 }
 
-namespace {
-using Clock = std::chrono::steady_clock;
-constexpr std::chrono::milliseconds kOften{100};  // between updates, on a terminal
-constexpr std::chrono::seconds kSeldom{30};       // between updates, elsewhere
-}  // namespace
+struct AgainProgress::Line {
+  explicit Line(bool quiet) : progress(quiet), shown(!quiet) {}
+  ProgressLine progress;
+  bool shown;
+  std::size_t added = 0;
+  std::mutex mutex;
+};
 
-StudyProgress::StudyProgress(bool quiet, std::string unit)
-    : shown_(!quiet), terminal_(isatty(fileno(stderr)) != 0), unit_(std::move(unit)) {}
+AgainProgress::AgainProgress(bool quiet, std::string what) : line_(std::make_shared<Line>(quiet)), what_(std::move(what)) {}
 
-StudyProgress::~StudyProgress() {
-  if (shown_ && terminal_) fmt::print(stderr, "\r{:110}\r", "");
+void AgainProgress::add(std::size_t runs, std::size_t of) {
+  const std::lock_guard lock(line_->mutex);
+  line_->added += runs;
+  show(line_->added, of);
 }
 
-AgainProgress::AgainProgress(bool quiet, std::string what)
-    : shown_(!quiet), terminal_(isatty(fileno(stderr)) != 0), what_(std::move(what)) {}
-
 void AgainProgress::operator()(std::size_t done, std::size_t of) {
-  if (!shown_) return;
-  const std::string text = fmt::format("{}: {} of {}", what_, done, counted(of, "run"));
-  const Clock::time_point now = Clock::now();
-  if (done == 0) {
-    say(fmt::format("{}: {}\n", what_, counted(of, "run")));
-  } else if (terminal_) {
-    fmt::print(stderr, "\r{0:{1}}{2}", done < of ? text : "", text.size(), done < of ? "" : "\r");
-  } else if (done < of && now - last_ >= kSeldom) {
-    say(text + "\n");
-    last_ = now;
+  const std::lock_guard lock(line_->mutex);
+  show(done, of);
+}
+
+void AgainProgress::show(std::size_t done, std::size_t of) {
+  if (done == 0 && line_->shown) say(fmt::format("{}: {}\n", what_, counted(of, "run")));
+  if (done == of) return line_->progress.clear();
+  if (done > 0 && line_->progress.due()) {
+    line_->progress.show(static_cast<double>(done) / static_cast<double>(of),
+                         fmt::format("{}: {} of {}", what_, done, counted(of, "run")));
   }
-  (void)std::fflush(stderr);
 }
 
 void StudyProgress::operator()(const studies::SearchPlace& place) {
@@ -351,27 +350,15 @@ double StudyProgress::rate(Time now, std::uint64_t ended) {
 }
 
 void StudyProgress::operator()(const studies::Standing& s) {
-  if (!shown_) return;
-  const Time now = std::chrono::steady_clock::now();
-  const double runs_per_s = rate(now, s.ended);
-  const auto last = now - last_;
-  const bool first = last_ == Time{};
-  if (first && !terminal_) last_ = now;  // the first line is printed after 30 s
-  if ((first && !terminal_) || (!first && last < (terminal_ ? kOften : kSeldom))) return;
-  last_ = now;
-  std::string text = fmt::format("{}/{} runs", s.ended, s.wanted) + place_;
+  const double runs_per_s = rate(std::chrono::steady_clock::now(), s.ended);
+  if (!line_.due()) return;
+  std::string text = fmt::format("{}/{} runs", s.ended, s.wanted);
+  if (runs_per_s > 0) text += fmt::format("  {:.0f} s left", static_cast<double>(s.wanted - s.ended) / runs_per_s);
+  text += place_;
   if (s.best) text += fmt::format("  best {:.4g}{} (run {})", s.best->objective(), unit_, s.best_run);
   text += fmt::format("  {} kept  {} feasible  {} failed", s.kept, s.feasible, s.failed);
-  if (runs_per_s > 0)
-    text += fmt::format("  {:.3g} runs/s  {:.0f} s left", runs_per_s, static_cast<double>(s.wanted - s.ended) / runs_per_s);
-  if (terminal_) {
-    const auto filled =
-        s.wanted == 0 ? 20 : static_cast<std::size_t>(20 * static_cast<double>(s.ended) / static_cast<double>(s.wanted));
-    fmt::print(stderr, "\r[{:<20}] {:<86}", std::string(filled, '#'), text);
-    (void)std::fflush(stderr);
-  } else {
-    fmt::print(stderr, "{}\n", text);
-  }
+  if (runs_per_s > 0) text += fmt::format("  {:.3g} runs/s", runs_per_s);
+  line_.show(s.wanted == 0 ? 1 : static_cast<double>(s.ended) / static_cast<double>(s.wanted), text);
 }
 
 }  // namespace gaitlab::app

@@ -14,12 +14,13 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr std::size_t kColumns = 100, kTitle = 10;
+constexpr std::size_t kTitle = 10;
 
 class Screen {
  public:
+  explicit Screen(std::size_t columns) : columns_(columns) {}
   void add(const std::string& title, const std::string& text, Tone tone = Tone::plain) {
-    const std::string broken = wrapped(text, 0, kColumns - kTitle - 2);
+    const std::string broken = wrapped(text, 0, columns_ - kTitle - 2);
     std::string head = title;
     for (std::size_t at = 0; at < broken.size();) {
       const std::size_t end = std::min(broken.find('\n', at), broken.size());
@@ -29,6 +30,9 @@ class Screen {
     }
   }
   std::vector<ScreenLine> lines;
+
+ private:
+  std::size_t columns_;
 };
 
 std::string names(const std::vector<const Check*>& checks, std::size_t from = 0) {
@@ -86,8 +90,8 @@ std::string tightest_text(const Verdict& verdict) {
   return fmt::format("{}, margin {}", name, texts::percent(check->margin));
 }
 
-std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict, std::size_t most) {
-  Screen screen;
+std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict, std::size_t most, std::size_t columns) {
+  Screen screen(columns);
   std::string head = name_of(verdict.word);
   if (verdict.word == Word::feasible) {
     head += std::string(" with these motors") + (verdict.chosen_motors ? " (chosen figures)" : "") +

@@ -21,16 +21,19 @@ struct gaitlab::EnumNames<gaitlab::report::Tone> {
 
 namespace gaitlab::report {
 
+inline constexpr std::size_t kColumns = 100;  ///< width of a summary that is not on a terminal
+
 struct ScreenLine {
   std::string title;  ///< "" if the line continues the previous line
   std::string text;
   Tone tone = Tone::plain;
 };
 
-/// Lines of at most 100 columns, in this order: the word with its reason; the tightest check; a line for each check that fails,
-/// is too close or warns; the ids of the checks that were not judged; the gait; the sources of the limits. If more than `most`
-/// checks of one status exist, the further ones are listed by id.
-std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict, std::size_t most);
+/// Lines of at most `columns` columns, at least 40, except for longer words, in this order: the word with its reason; the
+/// tightest check; a line for each check that fails, is too close or warns; the ids of the checks that were not judged; the
+/// gait; the sources of the limits. If more than `most` checks of one status exist, the further ones are listed by id.
+std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict, std::size_t most,
+                                     std::size_t columns = kColumns);
 
 /// Text `dock bending of m5, margin 6 %` on the tightest check; empty if no margin is known.
 std::string tightest_text(const Verdict& verdict);
