@@ -24,11 +24,12 @@ std::string_view plugin_name(const PluginSelection& choice) { return choice.entr
 
 /// Makes the simulation, which checks the trace columns, the step and the memory. An error message about a long run also states
 /// its estimated duration.
-std::unique_ptr<Simulation> made(const Scenario& s, const RunTime& time) try {
+std::unique_ptr<Simulation> made(const Scenario& s) try {
   return std::make_unique<Simulation>(std::span<const Scenario>(&s, 1));
 } catch (const InputError& error) {
   std::vector<Problem> problems = error.problems();
-  if (time.seconds > kLongRun) problems.front().notes.emplace_back(SourceLocation{s.file}, "the run " + to_string(time));
+  const double seconds = estimated_seconds(s);
+  if (seconds > kLongRun) problems.front().notes.emplace_back(SourceLocation{s.file}, "the run " + time_text(seconds));
   throw InputError(std::move(problems));
 }
 
@@ -75,6 +76,14 @@ void print_joints(const Robot& robot) {
   }
 }
 
+/// Prints the estimated time of a run and, if another engine is faster, that of a run with it.
+void print_time(const CheckArguments& arguments, Catalog& catalog, const Scenario& s, const RowsNeeded& rows) {
+  const double seconds = estimated_seconds(s, rows);
+  if (seconds > 0) fmt::print("  {}\n", time_text(seconds));
+  const std::string advice = faster_engine(s, seconds, rows, arguments, catalog);
+  if (!advice.empty()) fmt::print("  {}\n", advice);
+}
+
 int check(const CheckArguments& arguments) {
   if (arguments.page) check_page(*arguments.page);
   Catalog catalog = careful_catalog(arguments.plugins);
@@ -85,8 +94,7 @@ int check(const CheckArguments& arguments) {
     say(arguments.file, "note",
         fmt::format("simulates one step with {} boxes, which takes seconds if many of them are close together", boxes));
   }
-  const RunTime time = measure(s);
-  const auto simulation = made(s, time);
+  const auto simulation = made(s);
   const Robot& robot = *s.robot;
   const auto contacts = contact_elements(robot, s.contact.on);
   fmt::print("{}: valid\n", s.name);
@@ -108,8 +116,8 @@ int check(const CheckArguments& arguments) {
   const RowsNeeded needed = simulation->rows_needed(0);
   fmt::print("  records {:.0f} rows of {:.0f} columns ({:.3g} MB) in {:g} s\n", needed.rows, needed.columns,
              needed.bytes() / 1e6, s.duration);
-  if (!time.failure.empty()) fmt::print("  fails early: {}\n", time.failure);
-  if (time.seconds > 0) fmt::print("  {}\n", to_string(time));
+  print_time(arguments, catalog, s, needed);
+  if (const std::string failure = early_failure(*simulation, s); !failure.empty()) fmt::print("  fails early: {}\n", failure);
   for (const PluginFile& plugin : s.plugins) fmt::print("  plugin {} ({})\n", plugin.path, plugin.hash);
   print_joints(robot);
   print_creep(s);

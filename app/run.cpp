@@ -83,10 +83,14 @@ void write_report(RunFiles& files, const Scenario& scenario, const Recording& re
   files.write_text("summary.json", [&] { return report::to_json(summary, scenario, recording); });
 }
 
-/// Prints the estimated duration, measured during the first steps of the run.
-void note_time(const Scenario& scenario, Simulation& simulation) {
-  const RunTime time = measure(simulation, scenario.duration);
-  if (time.seconds > kLongRun) say(scenario.file, "note", to_string(time));
+/// Prints the estimated time of a long run, and the faster engine. A run without a file is a repeated run of a study, which has
+/// printed them.
+void note_time(const Scenario& scenario, const RunArguments& arguments, const RowsNeeded& rows) {
+  if (arguments.quiet || arguments.file.empty()) return;
+  Catalog catalog = standard_catalog();
+  const double seconds = estimated_seconds(scenario, rows);
+  const std::string advice = faster_engine(scenario, seconds, rows, arguments, catalog);
+  if (seconds > kLongRun || !advice.empty()) say(scenario.file, "note", time_text(seconds, advice));
 }
 
 /// Simulates the rollouts for Recording::spread if the motion is unpredictable. If memory is short or a plugin throws, the run
@@ -154,8 +158,7 @@ bool take_draws(const Scenario& scenario, std::span<const Scenario> draws, const
 }
 
 /// Runs the simulation. Returns its outcome if the simulation did not reach the end of the run.
-std::optional<Outcome> simulate(const Scenario& scenario, Simulation& simulation, bool quiet) try {
-  if (!quiet) note_time(scenario, simulation);
+std::optional<Outcome> simulate(Simulation& simulation, bool quiet) try {
   Progress progress(quiet);
   if (simulation.run(std::ref(progress), &stopped())) return {};
   return Outcome{Ended::interrupted, fmt::format("interrupted at t = {:.6g} s", simulation.time())};
@@ -198,10 +201,11 @@ int run(const Scenario& scenario, const RunArguments& arguments, std::span<const
   Simulation simulation({&scenario, 1}, Loads::recorded);
   RunFolder folder(arguments.out, scenario.name);
   if (!arguments.quiet) note_rows(scenario, simulation);
+  note_time(scenario, arguments, simulation.rows_needed(0));
 
   const StopOnSignal stop(StopOnSignal::Second::is_ignored);
   const auto start = std::chrono::steady_clock::now();
-  std::optional<Outcome> early = simulate(scenario, simulation, arguments.quiet);
+  std::optional<Outcome> early = simulate(simulation, arguments.quiet);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
 
   Recording recording = simulation.take_recording(0);

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/commands.h"
+#include "app/run_time.h"
 #include "app/stop_on_signal.h"
 #include "app/study/study_text.h"
 #include "core/errors.h"
@@ -51,19 +52,16 @@ std::string own_cpg(const SwapArguments& arguments, Catalog& catalog) {
 std::vector<std::string> split(const std::string& list) {
   std::vector<std::string> names(1);
   for (const char c : list) {
-    if (c == ',') {
-      names.emplace_back();
-    } else {
-      names.back() += c;
-    }
+    if (c == ',') names.emplace_back();
+    if (c != ',') names.back() += c;
   }
   return names;
 }
 
-/// Adds those problems of reading the scenario under a CPG that have not been added for another CPG.
+/// Adds those problems of an error that have not been added before. Its places at `--set cpg.type=CPG` become --cpg, which the
+/// user typed.
 void add_new(const InputError& error, const std::string& cpg, std::vector<Problem>& problems) {
   for (Problem problem : error.problems()) {
-    // The place names the option that the user typed.
     if (problem.place.file == "--set cpg.type=" + cpg) problem.place = SourceLocation{"--cpg"};
     const auto alike = [&](const Problem& p) {
       return p.text == problem.text && to_string(p.place) == to_string(problem.place);
@@ -75,9 +73,8 @@ void add_new(const InputError& error, const std::string& cpg, std::vector<Proble
 /// Sets a CPG other than the scenario's own. Settings `cpg.model...` belong to the own CPG; they are dropped with a note.
 void exchange(ScenarioArguments& with, Swapped& swapped) {
   const auto of_model = [](const std::string& set) { return set.starts_with("cpg.model"); };
-  for (const std::string& set : with.sets) {
+  for (const std::string& set : with.sets)
     if (of_model(set)) swapped.notes.push_back({{with.file}, fmt::format("{}: dropped --set {}", swapped.cpg, set)});
-  }
   std::erase_if(with.sets, of_model);
   with.sets.push_back("cpg.type=" + swapped.cpg);
 }
@@ -246,6 +243,27 @@ bool any_broke_off(const std::vector<Swapped>& all) {
   return std::ranges::any_of(all, [](const Swapped& s) { return !s.summary.outcome.done(); });
 }
 
+/// Prints the estimated time of all runs if it is long, and the faster engine.
+void note_time(const SwapArguments& arguments, Catalog& catalog) {
+  if (arguments.quiet) return;
+  const auto time_of = [&](std::span<const Scenario> runs) {
+    double sum = 0;
+    for (const Scenario& run : runs) sum += estimated_seconds(run);
+    return sum / std::min(static_cast<double>(arguments.jobs), static_cast<double>(runs.size()));
+  };
+  app::note_time(arguments.files.front(), time_of, [&](const std::vector<std::string>& sets) {
+    std::vector<Scenario> scenarios;
+    SwapArguments one = arguments;
+    one.quiet = true;
+    one.sets.insert(one.sets.end(), sets.begin(), sets.end());
+    for (const std::string& file : arguments.files) {
+      one.file = file;
+      for (Swapped& run : read_all(one, catalog)) scenarios.push_back(std::move(*run.scenario));
+    }
+    return scenarios;
+  });
+}
+
 /// Writes the files of one scenario: figure, numbers and, with `pages`, the pages.
 void write_swap(const std::vector<Swapped>& all, const report::CurvesInput& shown, const std::filesystem::path& folder,
                 bool pages) {
@@ -263,6 +281,7 @@ int swap_one(const SwapArguments& arguments, Catalog& catalog) {
   RunFolder folder(arguments.out, "swap-" + first.name);
   std::vector<Swapped*> runs;
   for (Swapped& one : all) runs.push_back(&one);
+  note_time(arguments, catalog);
   if (!run_or_tell(runs, arguments)) return 1;
   const report::CurvesInput shown = figure(all);
   fmt::print("{}: {:g} s under each\n{}", first.name, first.duration, report::swap_table(named_runs(all)));
@@ -300,12 +319,7 @@ std::vector<std::vector<Swapped>> read_matrix(const SwapArguments& arguments, Ca
       }
       names.emplace_back(name, file);
     } catch (const InputError& error) {
-      for (const Problem& problem : error.problems()) {
-        const auto alike = [&](const Problem& p) {
-          return p.text == problem.text && to_string(p.place) == to_string(problem.place);
-        };
-        if (std::ranges::none_of(problems, alike)) problems.push_back(problem);
-      }
+      add_new(error, "", problems);
     }
   }
   if (!problems.empty()) throw InputError(std::move(problems));
@@ -332,6 +346,7 @@ int swap_matrix(const SwapArguments& arguments, Catalog& catalog) {
   for (std::vector<Swapped>& of : all) {
     for (Swapped& one : of) each.push_back(&one);
   }
+  note_time(arguments, catalog);
   if (!run_or_tell(each, arguments)) return 1;
   const std::vector<report::MatrixRun> runs = matrix_runs(all);
   fmt::print("{} in {}\n{}", golden::plural(all.front().size(), "CPG"), golden::plural(all.size(), "scenario"),

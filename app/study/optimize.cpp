@@ -186,6 +186,7 @@ int optimize_once(const OptimizeArguments& a) {
   Plan plan(searched_study(a), quantity_offer(), catalog);
   if (a.dry_run) {
     print_notes(plan, a.quiet);
+    note_engine(plan, a, a.quiet);
     print_plan(plan, a);
     return 0;
   }
@@ -202,7 +203,10 @@ int optimize_once(const OptimizeArguments& a) {
   const bool begins = !std::filesystem::exists(folder / studies::kJournalFile, none);
   Journal journal(folder / studies::kJournalFile, head, taken_build(a));
   keep_runs(plan, journal, folder, a.quiet);
-  if (begins) print_own_gait(plan, a.quiet || a.noted);
+  if (begins) {
+    note_engine(plan, a, a.quiet || a.noted);
+    print_own_gait(plan, a.quiet || a.noted);
+  }
 
   const SearchEnd end = run_study(plan, journal, remembering(executor, answers), a);
   const auto interrupted = [&] {

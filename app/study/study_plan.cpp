@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "app/run_time.h"
 #include "app/study/study_quantities.h"
 #include "app/study/study_run.h"
 #include "core/errors.h"
@@ -80,6 +81,26 @@ void print_plan(const studies::Plan& plan, const StudyRunArguments& a) {
   if (searched) return;            // shards are not suggested for a search: each generation waits for the previous one
   constexpr double kShard = 1800;  // s
   fmt::print("shards of 30 min on one thread: {}\n", static_cast<std::uint64_t>(std::max(1.0, std::ceil(all / kShard))));
+}
+
+void note_engine(const studies::Plan& plan, const StudyRunArguments& a, bool quiet) {
+  if (quiet) return;
+  const studies::Points& points = plan.points();
+  const double each = static_cast<double>(points.points() * points.replicates()) / study_threads(a.jobs);
+  const auto time_of = [&](std::span<const Scenario> scenarios) {
+    double sum = 0;
+    for (const Scenario& s : scenarios) sum += each * estimated_seconds_in_study(s);
+    return sum;
+  };
+  const auto with = [&](const std::vector<std::string>& sets) {
+    std::vector<Scenario> scenarios;
+    for (std::size_t k = 0; k < plan.scenarios().size(); ++k) scenarios.push_back(plan.with(sets, k));
+    return scenarios;
+  };
+  const std::vector<Scenario> own = with({});
+  const double seconds = time_of(own);
+  const std::string advice = faster_engine(own, seconds, time_of, with);
+  if (!advice.empty()) say(own.front().file, "note", time_text(seconds, advice));
 }
 
 void print_notes(const studies::Plan& plan, bool quiet) {

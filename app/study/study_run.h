@@ -54,6 +54,9 @@ void print_plan(const studies::Plan& plan, const StudyRunArguments& arguments);
 /// of parameters that the scenario refuses.
 void print_notes(const studies::Plan& plan, bool quiet);
 
+/// Prints the estimated time of all runs of a study if engine articulated is faster. `arguments` give the number of threads.
+void note_engine(const studies::Plan& plan, const StudyRunArguments& arguments, bool quiet);
+
 /// Builds of the program whose journal rows are accepted.
 studies::Journal::Build taken_build(const StudyRunArguments& arguments);
 

@@ -78,6 +78,7 @@ int sweep_study(const SweepArguments& a) {
   Plan plan(std::move(study), quantity_offer(), catalog);
   if (a.dry_run) {
     print_notes(plan, a.quiet);
+    note_engine(plan, a, a.quiet);
     print_plan(plan, a);
     return 0;
   }
@@ -94,11 +95,14 @@ int sweep_study(const SweepArguments& a) {
   if (!shard.whole()) fs::create_directory(folder / "shards", none);
   fs::path lock_file = file;
   const studies::Lock lock(shard.whole() ? folder / "lock" : lock_file.replace_extension("lock"));
-  // The trial run is made only at the first start, so that a plugin that crashes in it does not prevent a continuation.
+  // The trial runs are made only at the first start, so that a plugin that crashes in them does not prevent a continuation.
   const bool begins = !fs::exists(file, none);
   Journal journal(file, head, taken_build(a));
   keep_runs(plan, journal, folder, a.quiet);
-  if (begins && shard.index == 0) print_own_gait(plan, a.quiet);
+  if (begins && shard.index == 0) {
+    note_engine(plan, a, a.quiet);
+    print_own_gait(plan, a.quiet);
+  }
 
   const studies::Standing standing = run_points(plan, journal, executor, answers, shard, a);
   const bool whole = standing.whole() && (!shard.whole() || estimate_others(plan, journal, executor, a));

@@ -332,4 +332,10 @@ Out Simulation::state() {
 
 const Outcome& Simulation::outcome(std::size_t lane) const { return lanes_[lane]->outcome; }
 
+double Simulation::solves(std::size_t lane) const {
+  StepTally tally;
+  plant_->tally(lane, tally);
+  return tally.solves;
+}
+
 }  // namespace gaitlab

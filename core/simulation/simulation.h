@@ -70,6 +70,8 @@ class Simulation {
   /// Moves out the recording of lane `lane`. To be called once, at the end.
   Recording take_recording(std::size_t lane);
   [[nodiscard]] const Stability& standing() const { return standing_; }
+  /// Solutions of the equations of motion so far; 0 if the engine does not count them.
+  [[nodiscard]] double solves(std::size_t lane) const;
 
  private:
   struct Lane;

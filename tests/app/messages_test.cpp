@@ -231,17 +231,17 @@ TEST_F(Messages, WhatTheMachineCannotHold) {
 /// The program estimates the computing time before the run, from seconds to years.
 TEST_F(Messages, HowLongARunTakes) {
   const Result soon = call("check ok.yaml");
-  EXPECT_TRUE(contains(soon.out, "\n  takes less than 1 s on this machine (")) << soon.out;
+  EXPECT_TRUE(contains(soon.out, "\n  takes less than 0.1 s\n")) << soon.out;
   const std::string endless = "check ok.yaml --set physics.step=1e-9 --set duration=1e6";
   const Result never = call(endless + " --set trace.period=30");
   EXPECT_EQ(never.code, 0) << never.err;
   EXPECT_TRUE(contains(never.out, "\n  takes about ")) << never.out;
-  EXPECT_TRUE(contains(never.out, " years on this machine (")) << never.out;
+  EXPECT_TRUE(contains(never.out, " years")) << never.out;
   const Result refused = call(endless + " --set trace.period=3e-5");
   EXPECT_EQ(refused.code, 2);
   EXPECT_TRUE(contains(refused.err, " (TMPDIR), which has ")) << refused.err;
   EXPECT_TRUE(contains(refused.err, "\nok.yaml: note: the run takes about ")) << refused.err;
-  EXPECT_TRUE(contains(refused.err, " years on this machine (")) << refused.err;
+  EXPECT_TRUE(contains(refused.err, " years")) << refused.err;
 }
 
 TEST_F(Messages, ALongRunSaysSoBeforeItStarts) {

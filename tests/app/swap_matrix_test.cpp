@@ -117,7 +117,8 @@ TEST_F(SwapMatrix, ASignalLeavesNoEmptyFolder) {
     EXPECT_EQ(one.code, 1) << signal;
     EXPECT_EQ(one.out, "");
     EXPECT_EQ(one.err,
-              "two.yaml: interrupted: nothing is written; run it again with\ngaitlab swap two.yaml --cpg sine,hopf --set "
+              "two.yaml: note: takes about 12 min\ntwo.yaml: interrupted: nothing is written; run it again with\ngaitlab swap "
+              "two.yaml --cpg sine,hopf --set "
               "duration=100000 --seed 3 -j 2\n")
         << signal;
     EXPECT_FALSE(fs::exists(folder_ / "runs")) << signal;
