@@ -9,6 +9,7 @@ struct Commands;
 void add_run(Commands& commands);
 void add_report(Commands& commands);
 void add_check(Commands& commands);
+void add_demo(Commands& commands);
 void add_remedy(Commands& commands);
 void add_manuals(Commands& commands);
 void add_converge(Commands& commands);

@@ -95,6 +95,7 @@ COMMANDS = {
     "check --page": "check two.yaml --page page.html",
     "run": "run two.yaml --quiet",
     "run --out": "run two.yaml --quiet --out new",
+    "demo": "demo --out new",
     "run csv": "run two.yaml --quiet --format csv --out new",
     "converge": "converge two.yaml --halvings 1",
     "swap": "swap two.yaml --cpg sine,hopf --quiet",

@@ -1,0 +1,50 @@
+// `gaitlab demo`, a first run without a file: the shipped hexapod on the fast engine.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "app/commands.h"
+#include "app/study/study_text.h"
+#include "core/settings/data_folder.h"
+
+namespace gaitlab::app {
+
+namespace {
+
+constexpr const char* kScenario = "hexapod.yaml";
+constexpr const char* kEngine = "physics.engine=articulated";
+
+struct DemoArguments {
+  std::optional<std::string> out;
+};
+
+int demo(const DemoArguments& demo) {
+  RunArguments arguments;
+  arguments.file = (std::filesystem::path(data_folder()) / kScenario).string();
+  arguments.sets = {kEngine};
+  arguments.out = demo.out;
+  const std::string again = fmt::format("gaitlab run {} --set {}", shell_word(arguments.file), kEngine);
+  fmt::print("{}\n", again);
+  const int code = run(arguments);
+  if (code == 0) {
+    fmt::print(
+        "\nOpen the page in a browser: the robot walks, with the torque of every joint. Faster, or with weak motors:\n"
+        "  {0} --set cpg.frequency=1\n  {0} --set actuator.i_max=0.35\n",
+        again);
+  }
+  return code;
+}
+
+}  // namespace
+
+void add_demo(Commands& commands) {
+  add_command<DemoArguments>(commands, "demo", "Simulate a walking hexapod and print the path of its page.", demo,
+                             [](CLI::App& command, DemoArguments& arguments) {
+                               command.add_option("--out", arguments.out,
+                                                  "run folder (default runs/hexapod, then hexapod-2 ...); new or empty");
+                             });
+}
+
+}  // namespace gaitlab::app

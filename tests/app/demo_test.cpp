@@ -1,0 +1,24 @@
+// Tests of `gaitlab demo`.
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+TEST(Demo, WritesThePageOfAFeasibleGait) {
+  const Folder folder;
+  const Result first = gaitlab("demo", folder / "");
+  EXPECT_EQ(first.code, 0) << first.err;
+  EXPECT_TRUE(contains(first.out, "\n  verdict   feasible")) << first.out;
+  EXPECT_TRUE(contains(first.out, "\n  page      runs/hexapod/report.html\n")) << first.out;
+  EXPECT_TRUE(std::filesystem::exists(folder / "runs/hexapod/report.html"));
+  // The second demo keeps the first, and each command that it prints can be run.
+  const Result second = gaitlab("demo --out here", folder / "");
+  EXPECT_TRUE(contains(second.out, "\n  page      here/report.html\n")) << second.out;
+  const std::string command = "\n  gaitlab run";
+  const std::size_t at = second.out.find(command) + command.size();
+  const Result offered = gaitlab("check" + second.out.substr(at, second.out.find('\n', at) - at), folder / "");
+  EXPECT_EQ(offered.code, 0) << offered.err;
+}
+
+}  // namespace
+}  // namespace gaitlab::test
