@@ -91,9 +91,10 @@ inline constexpr const char* kRemedyFile = "remedy.json";  ///< name of the reme
 /// Prints the summary of a run; the verdict is its first line.
 void print_summary(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
                    const report::Verdict& verdict, const SummaryOptions& shown);
-/// Verdict on a run. With `shown.demand` the demand twin is simulated too, and its results are added.
+/// Verdict on a run. With `shown.demand` the demand twin is simulated too, with its progress unless `quiet`, and its results
+/// are added.
 report::Verdict judged(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
-                       const report::Overlaps& overlaps, const SummaryOptions& shown);
+                       const report::Overlaps& overlaps, const SummaryOptions& shown, bool quiet = false);
 /// Exit code of a run. If `shown.fail_infeasible`, it is 1 for a failed run, and 3 unless this run and every draw are feasible;
 /// otherwise it is 0, also for a run that was not judged.
 int exit_code(const report::Verdict& verdict, const SummaryOptions& shown);

@@ -11,6 +11,7 @@
 #include "app/run_time.h"
 #include "app/stop_on_signal.h"
 #include "app/stored_scenario.h"
+#include "app/study/study_text.h"
 #include "core/build_id.h"
 #include "core/files/atomic_file.h"
 #include "core/recording/recording_file.h"
@@ -104,7 +105,8 @@ void take_spread(const Scenario& scenario, Recording& recording, const report::S
             "; three more rollouts are simulated to show the spread of the results");
   }
   const report::Verdict own = report::verdict(scenario, recording, summary, report::overlaps(scenario, recording));
-  recording.spread = report::spread(scenario, recording, summary, own, stopped());
+  AgainProgress progress(quiet, "spread");
+  recording.spread = report::spread(scenario, recording, summary, own, stopped(), [&] { progress.add(1, report::kSpread); });
 } catch (const std::bad_alloc&) {  // NOLINT(bugprone-empty-catch)
 } catch (const PluginError&) {     // NOLINT(bugprone-empty-catch)
 }
@@ -143,7 +145,9 @@ bool take_draws(const Scenario& scenario, std::span<const Scenario> draws, const
     return false;
   }
   const report::Verdict own = report::verdict(scenario, recording, summary, report::overlaps(scenario, recording));
-  report::Drawn drawn = report::draws(scenario, {recording, summary, own}, draws, {arguments.jobs, 0}, stopped());
+  AgainProgress progress(arguments.quiet, "draws");
+  report::Drawn drawn = report::draws(scenario, {recording, summary, own}, draws, {arguments.jobs, 0}, stopped(),
+                                      [&] { progress.add(1, draws.size()); });
   recording.draws = std::move(drawn.table);
   for (const std::string& refused : drawn.refused) say("--draws", "warning", refused);
   if (recording.draws.rows() == 1 + draws.size()) return true;
@@ -233,7 +237,7 @@ int run(const Scenario& scenario, const RunArguments& arguments, std::span<const
   const report::Summary summary = made ? std::move(*made) : summarised();
   if (files.lost_any()) files.write_text("summary.json", [&] { return report::to_json(summary, scenario, recording); });
   const report::Overlaps overlaps = report::overlaps(seen, recording);
-  report::Verdict verdict = judged(seen, recording, summary, overlaps, arguments.shown);
+  report::Verdict verdict = judged(seen, recording, summary, overlaps, arguments.shown, arguments.quiet);
   write_report(files, seen, recording, summary, verdict, !arguments.no_page);
   if (files.wrote_any()) folder.keep();
   if (!arguments.quiet) print_summary(scenario, recording, summary, verdict, arguments.shown);

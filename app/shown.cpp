@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <limits>
 #include <sstream>
 #include <utility>
@@ -74,7 +75,7 @@ void print_summary(const Scenario& scenario, const Recording& recording, const r
 }
 
 report::Verdict judged(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
-                       const report::Overlaps& overlaps, const SummaryOptions& shown) {
+                       const report::Overlaps& overlaps, const SummaryOptions& shown, bool quiet) {
   report::Verdict verdict = report::verdict(scenario, recording, summary, overlaps);
   if (!shown.demand || Judged::limited(summary.judged.joints) == 0) return verdict;
   Catalog catalog = standard_catalog();  // the plugins of the run are already loaded
@@ -84,7 +85,8 @@ report::Verdict judged(const Scenario& scenario, const Recording& recording, con
     verdict.demand_doubt = "the actuator declares no limits above 0 that could be raised";
     return verdict;
   }
-  report::add_demand(verdict, scenario, summary, report::demand(twin, recording, summary));
+  Progress progress(quiet);
+  report::add_demand(verdict, scenario, summary, report::demand(twin, recording, summary, std::ref(progress)));
   return verdict;
 }
 

@@ -83,12 +83,13 @@ bool raise_limits(Scenario& scenario) {
   return raise.found && !raise.zero;
 }
 
-Demand demand(const Scenario& twin, const Recording& record, const Summary& summary) {
+Demand demand(const Scenario& twin, const Recording& record, const Summary& summary,
+              const std::function<void(double)>& progress) {
   Demand made;
   Recording free;
   try {
     Simulation simulation({&twin, 1}, {Loads::left_out, false});
-    simulation.run();
+    simulation.run(progress);
     free = simulation.take_recording(0);
   } catch (const RunError& error) {
     made.doubt = fmt::format("without motor limits the run breaks off: {}", error.what());

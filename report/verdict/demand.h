@@ -1,5 +1,6 @@
 // The demand twin: a second run of the scenario with 20 times the motor limits, which shows the shortfall of the real motors.
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,10 @@ bool raise_limits(Scenario& scenario);
 bool thrown_up(const Scenario& scenario, const Recording& free, const Recording& own);
 
 /// Runs the twin, a scenario that raise_limits has changed. The demand is unknown if the twin diverges. It is doubtful if the
-/// twin's robot jumps (thrown_up), or if the twin reaches one of its motor limits. Deterministic.
-Demand demand(const Scenario& twin, const Recording& record, const Summary& summary);
+/// twin's robot jumps (thrown_up), or if the twin reaches one of its motor limits. Deterministic. `progress` is called as by
+/// Simulation::run.
+Demand demand(const Scenario& twin, const Recording& record, const Summary& summary,
+              const std::function<void(double)>& progress = {});
 
 /// Fills in Check::missing of the checks that fail or warn because of a motor limit, and Verdict::demands.
 void add_demand(Verdict& verdict, const Scenario& scenario, const Summary& summary, const Demand& demand);

@@ -73,7 +73,7 @@ bool accurate(const Scenario& scenario, const Recording& record) {
 }  // namespace
 
 Drawn draws(const Scenario& scenario, const Rolled& run, std::span<const Scenario> others, const BatchSettings& settings,
-            std::atomic<bool>& stop) {
+            std::atomic<bool>& stop, const std::function<void()>& ended) {
   const std::vector<std::string> parts = part_names(*scenario.robot);
   std::vector<Scenario> drawn(others.begin(), others.end());
   const bool shared = accurate(scenario, run.record);
@@ -94,6 +94,7 @@ Drawn draws(const Scenario& scenario, const Rolled& run, std::span<const Scenari
     const Summary summary = summarise(drawn[k], end.recording, 0);
     const Verdict judged = verdict(drawn[k], end.recording, summary, overlaps(drawn[k], end.recording));
     rows[k + 1] = draw_row(k + 1, {end.recording, summary, judged}, parts);
+    if (ended) ended();
   };
   run_all(drawn, settings, kVerdictReads, stop, judge);
   Drawn made;

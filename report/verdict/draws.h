@@ -1,6 +1,7 @@
 // Verdicts on several draws of a scenario: the same gait on robots with other tolerances and other noise of the sensors.
 #pragma once
 #include <atomic>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,9 +20,10 @@ struct Drawn {
 
 /// Simulates and judges `others`, which differ from the run in their seeds. If the torque error of the run is below a fifth of
 /// its limit and its motion is predictable, the others run in lanes without an estimate of their errors; otherwise each
-/// estimates its own. Once `stop` is set, the table has the draws that have ended. Throws PluginError.
+/// estimates its own. Once `stop` is set, the table has the draws that have ended. `ended` is called after each draw, from
+/// several threads at once. Throws PluginError.
 Drawn draws(const Scenario& scenario, const Rolled& run, std::span<const Scenario> others, const BatchSettings& settings,
-            std::atomic<bool>& stop);
+            std::atomic<bool>& stop, const std::function<void()>& ended = {});
 
 /// The draws of a recording, in the order of its table. Empty if it has none.
 std::vector<Draw> draws_of(const Recording& record, const Scenario& scenario);

@@ -14,7 +14,7 @@
 namespace gaitlab::report {
 
 Trace spread(const Scenario& scenario, const Recording& record, const Summary& summary, const Verdict& verdict,
-             std::atomic<bool>& stop) {
+             std::atomic<bool>& stop, const std::function<void()>& ended) {
   const Predictability found = predictability(scenario, record);
   if (!record.outcome.done() || (found != Predictability::chaotic && found != Predictability::ill)) return {};
   const double by = found == Predictability::chaotic ? 1e-9 : 1e-6;
@@ -25,7 +25,7 @@ Trace spread(const Scenario& scenario, const Recording& record, const Summary& s
     made.values.insert(made.values.end(), row.begin(), row.end());
   };
   add({record, summary, verdict});
-  std::vector<Scenario> others(3, scenario);
+  std::vector<Scenario> others(kSpread, scenario);
   others[0].physics.gravity *= 1 + by;
   others[1].physics.gravity *= 1 - by;
   others[2].physics.refine(2);
@@ -38,6 +38,7 @@ Trace spread(const Scenario& scenario, const Recording& record, const Summary& s
   const auto keep = [&](std::size_t k, RolloutEnd&& end) {
     began = began && end.refused.empty();
     records.at(k) = std::move(end.recording);
+    if (ended) ended();
   };
   if (!run_all(others, {}, {Loads::recorded, false}, stop, keep) || !began) return {};
   for (std::size_t k = 0; k < others.size(); ++k) {
