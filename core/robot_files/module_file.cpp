@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "core/model/docking.h"
+#include "core/model/shape_contacts.h"
+#include "core/robot_files/body_section.h"
+#include "core/robot_files/frame_fields.h"
 #include "core/robot_files/module_check.h"
 #include "core/settings/reader.h"
 #include "core/settings/wording.h"
@@ -15,43 +17,7 @@
 namespace gaitlab {
 namespace {
 
-constexpr double kAny = std::numeric_limits<double>::infinity();
-constexpr std::int64_t kNewest = 2;  ///< newest format version
-
-void length(Fields& f, const char* key, Vec3& value, const char* about) {
-  f.vector(key, span_of(value), {"m", -kAny, kAny, about});
-}
-
-void direction(Fields& f, const char* key, Vec3& value, const char* about) {
-  f.vector(key, span_of(value), {"", -kAny, kAny, about});
-}
-
-/// Keys `origin` and `rpy` of a frame.
-struct FrameFields {
-  Vec3 origin = Vec3::Zero(), turn = Vec3::Zero();
-
-  void fields(Fields& f) {
-    length(f, "origin", origin, "Origin in the body's frame.");
-    f.vector("rpy", span_of(turn), {"rad", -kAny, kAny, "Roll, pitch, yaw."});
-  }
-  [[nodiscard]] Pose pose() const { return {rpy(turn), origin}; }
-};
-
-struct BodyFields {
-  double mass = 0;
-  Vec3 com = Vec3::Zero();
-  std::array<double, 6> inertia = {};
-
-  void fields(Fields& f) {
-    f.number("mass", mass, {"kg", 0, kAny, "Mass; 0 only for a body between two hinges."});
-    length(f, "com", com, "Centre of mass, body frame.");
-    f.vector("inertia", inertia, {"kg m^2", -kAny, kAny, "xx, yy, zz, xy, xz, yz about the COM, body axes."});
-  }
-  [[nodiscard]] Mat3 matrix() const {
-    const auto& [xx, yy, zz, xy, xz, yz] = inertia;
-    return (Mat3() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
-  }
-};
+constexpr std::int64_t kNewest = 3;  ///< newest format version
 
 /// Reader of a module type's parts one after the other. Bodies are referred to by name.
 class ModuleReader {
@@ -62,6 +28,7 @@ class ModuleReader {
     Reader reader = open(document_, "the module type");
     places_.format = reader.version("gaitlab_module", kNewest);
     if (versioned) reader.require({"gaitlab_module"});
+    if (versioned && !reader.has("gaitlab_module")) places_.format = kNewest;  // one problem, and not one for every newer key
     reader.require({"name", "bodies"});
     reader.text("name", type_.name, "Name of the type.");
     if (const Node* name = reader.take("name")) check_name(type_.name, *name);
@@ -78,6 +45,13 @@ class ModuleReader {
 
   [[nodiscard]] const ModulePlaces& places() const { return places_; }
 
+  /// Adds the contact elements that follow from other parts of the type, which has been checked.
+  void complete(ModuleType& type) const {
+    if (all_of_shapes_) type.all = shape_contacts(type);
+    if (feet_of_shapes_) type.feet = shape_contacts(type);
+    if (feet_are_all_) type.feet = type.all;
+  }
+
  private:
   /// Opens a map of a module type. The map may have a `source`.
   Reader open(const Node& node, const std::string& name) {
@@ -91,14 +65,15 @@ class ModuleReader {
   bool newer(Reader& reader, const Node& map, std::initializer_list<const char*> keys) {
     for (const char* key : keys) {
       const Node* value = reader.take(key);
-      if (value != nullptr && places_.format < 2) need_format_2(in_quotes(key) + " is a key", value->place);
+      if (value != nullptr && places_.format < 2) need_format(2, in_quotes(key) + " is a key", value->place);
     }
     return places_.format >= 2 && map.kind == Node::Kind::map;
   }
 
-  void need_format_2(const std::string& what, const SourceLocation& place) {
+  void need_format(std::int64_t format, const std::string& what, const SourceLocation& place) {
     if (places_.format == 0) return;  // the version is invalid and has been reported
-    problems_.add(place, what + " of module format 2, but this file has format 1; write gaitlab_module: 2");
+    problems_.add(place, fmt::format("{} of module format {}, but this file has format {}; write gaitlab_module: {}", what,
+                                     format, places_.format, format));
   }
 
   void read_connectors(const Node* connectors) {
@@ -113,10 +88,10 @@ class ModuleReader {
       check_name(name, Node{Node::Kind::scalar, place});
       Reader reader(connectors->items[i], in_quotes(name), problems_, nullptr);
       Connector limits;
-      reader.number("tension", limits.tension, {"N", kPositive, kAny, "Largest pull along the normal."});
-      reader.number("shear", limits.shear, {"N", kPositive, kAny, "Largest force in the plane of the face."});
-      reader.number("bending", limits.bending, {"N m", kPositive, kAny, "Largest moment about axes in that plane."});
-      reader.number("torsion", limits.torsion, {"N m", kPositive, kAny, "Largest moment about the normal."});
+      reader.number("tension", limits.tension, {"N", kPositive, kAnyNumber, "Largest pull along the normal."});
+      reader.number("shear", limits.shear, {"N", kPositive, kAnyNumber, "Largest force in the plane of the face."});
+      reader.number("bending", limits.bending, {"N m", kPositive, kAnyNumber, "Largest moment about axes in that plane."});
+      reader.number("torsion", limits.torsion, {"N m", kPositive, kAnyNumber, "Largest moment about the normal."});
       reader.text("source", limits.source, "Origin of the values.");
       reader.finish();
       type_.connectors[name] = limits;
@@ -153,44 +128,8 @@ class ModuleReader {
       names_.push_back(name);
       places_.bodies.push_back(place);
       type_.bodies.push_back({name});
-      read_body(bodies->items[i], type_.bodies.back());
+      read_body(bodies->items[i], place, places_.format, type_.bodies.back(), problems_);
     }
-  }
-
-  void read_body(const Node& node, BodyType& body) {
-    BodyFields values;
-    Reader reader = open(node, in_quotes(body.name));
-    values.fields(reader);
-    body.mass = values.mass;
-    body.com = values.com;
-    body.inertia = values.matrix();
-    each(reader.take("shape"), "shape", [&](const Node& item) { read_shape(item, body); });
-    reader.finish();
-  }
-
-  void read_shape(const Node& node, BodyType& body) {
-    Reader reader = open(node, "shape");
-    FrameFields frame;
-    frame.fields(reader);
-    Shape shape;
-    const Spec size{"m", kPositive, kAny, "Size."};
-    const std::size_t kinds = static_cast<std::size_t>(reader.has("box")) + static_cast<std::size_t>(reader.has("cylinder")) +
-                              static_cast<std::size_t>(reader.has("half_cylinder")) +
-                              static_cast<std::size_t>(reader.has("sphere"));
-    if (reader.has("cylinder")) shape.kind = Shape::Kind::cylinder;
-    if (reader.has("half_cylinder")) shape.kind = Shape::Kind::half_cylinder;
-    if (reader.has("sphere")) shape.kind = Shape::Kind::sphere;
-    reader.vector("box", span_of(shape.size), size);
-    reader.vector("cylinder", span_of(shape.size).first(2), size);
-    reader.vector("half_cylinder", span_of(shape.size).first(2), size);
-    reader.number("sphere", shape.size.x(), size);
-    if (kinds != 1 && node.kind == Node::Kind::map) {
-      problems_.add(node.place,
-                    fmt::format("the shape has {} of box, cylinder, half_cylinder and sphere; expected one", kinds));
-    }
-    shape.in_body = frame.pose();
-    body.shapes.push_back(shape);
-    reader.finish();
   }
 
   /// Index of the body that `key` names. Adds a problem for an unknown body.
@@ -234,7 +173,7 @@ class ModuleReader {
   void read_range(Reader& reader, HingeType& hinge) {
     const Node* node = reader.take("range");
     if (node != nullptr && node->kind == Node::Kind::scalar && node->text == "free") {
-      if (places_.format < 2) need_format_2("range: free is", node->place);
+      if (places_.format < 2) need_format(2, "range: free is", node->place);
       hinge.lo = -kNoStop;
       hinge.hi = kNoStop;
       return;
@@ -244,7 +183,7 @@ class ModuleReader {
       return;
     }
     std::array<double, 2> range{};
-    reader.vector("range", range, {"rad", -kAny, kAny, "Smallest and largest angle."});
+    reader.vector("range", range, {"rad", -kAnyNumber, kAnyNumber, "Smallest and largest angle."});
     hinge.lo = range[0];
     hinge.hi = range[1];
   }
@@ -294,7 +233,7 @@ class ModuleReader {
     face.body = body_of(reader, "body");
     const Node* gender = reader.take("gender");
     if (places_.format < 2 && gender != nullptr && gender->text == "none") {
-      need_format_2("gender: none is", gender->place);
+      need_format(2, "gender: none is", gender->place);
     } else {
       reader.choice("gender", face.gender, enum_names<Gender>().first(places_.format < 2 ? 2 : 3),
                     "An active face docks on a passive one, none on none.");
@@ -330,9 +269,29 @@ class ModuleReader {
 
   void read_contacts(const Node& node) {
     Reader reader = open(node, "contacts");
-    each(reader.take("feet"), "feet", [this](const Node& item) { type_.feet.push_back(read_contact(item)); });
-    each(reader.take("all"), "all", [this](const Node& item) { type_.all.push_back(read_contact(item)); });
+    read_elements(reader.take("feet"), "feet", type_.feet, feet_of_shapes_);
+    read_elements(reader.take("all"), "all", type_.all, all_of_shapes_);
+    feet_are_all_ = places_.format >= kFormatOfShapes && !reader.has("feet");
     reader.finish();
+  }
+
+  /// Reads a list of contact elements, or the word `shapes`.
+  void read_elements(const Node* node, const char* key, std::vector<ContactType>& elements, bool& of_shapes) {
+    of_shapes = node != nullptr && node->kind == Node::Kind::scalar && node->text == "shapes";
+    if (!of_shapes) {
+      if (node != nullptr && node->kind != Node::Kind::list) {
+        problems_.add(node->place, fmt::format("{} is {}; expected a list of maps, or shapes", key, found(*node)));
+        return;
+      }
+      each(node, key, [&](const Node& item) { elements.push_back(read_contact(item)); });
+      return;
+    }
+    const auto shaped = [](const BodyType& body) { return !body.shapes.empty(); };
+    if (places_.format < kFormatOfShapes) {
+      need_format(kFormatOfShapes, fmt::format("{}: shapes is", key), node->place);
+    } else if (std::none_of(type_.bodies.begin(), type_.bodies.end(), shaped)) {
+      problems_.add(node->place, fmt::format("{} is shapes, but no body has a shape; expected a list of maps", key));
+    }
   }
 
   ContactType read_contact(const Node& node) {
@@ -343,7 +302,7 @@ class ModuleReader {
     const bool sphere = reader.has("sphere");
     length(reader, "point", contact.centre, "A point, body frame.");
     length(reader, "sphere", contact.centre, "Centre of a sphere, body frame.");
-    reader.number("radius", contact.radius, {"m", kPositive, kAny, "Radius of the sphere."});
+    reader.number("radius", contact.radius, {"m", kPositive, kAnyNumber, "Radius of the sphere."});
     if (sphere) reader.require({"radius"});
     if (node.kind == Node::Kind::map && (point == sphere || (point && reader.has("radius")))) {
       problems_.add(node.place, "expected {body, point: [x, y, z]} or {body, sphere: [x, y, z], radius: r}");
@@ -357,6 +316,7 @@ class ModuleReader {
   ModuleType type_;
   ModulePlaces places_;
   std::vector<std::string> names_;
+  bool feet_of_shapes_ = false, all_of_shapes_ = false, feet_are_all_ = false;
 };
 
 }  // namespace
@@ -367,6 +327,7 @@ ModuleType read_module(const Node& document, bool versioned, Problems& problems)
   ModuleType type = reader.read(versioned);
   // Parts are checked against each other only if all of them were read without problems.
   if (problems.size() == before) check_module(type, reader.places(), problems);
+  if (problems.size() == before) reader.complete(type);
   return type;
 }
 

@@ -35,7 +35,7 @@ constexpr const char* kParts = R"json({
     "body": {"type": "string"}, "point": {"$ref": "#/definitions/vector"}, "sphere": {"$ref": "#/definitions/vector"},
     "radius": {"type": "number"}, "source": {"$ref": "#/definitions/source"}}},
   "module_type": {"type": "object", "additionalProperties": false, "required": ["name", "bodies"], "properties": {
-    "gaitlab_module": {"enum": [1, 2], "description": "Format version."},
+    "gaitlab_module": {"enum": [1, 2, 3], "description": "Format version."},
     "name": {"type": ["string", "number", "boolean"], "description": "Name of the type."},
     "lattice": {"type": "boolean", "description": "Bodies with faces fill cells of a cubic lattice."},
     "source": {"$ref": "#/definitions/source"},
@@ -44,7 +44,7 @@ constexpr const char* kParts = R"json({
         "mass": {"type": "number", "minimum": 0, "description": "Mass; 0 only for a body between two hinges. [kg]"},
         "com": {"$ref": "#/definitions/vector"},
         "inertia": {"type": "array", "items": {"type": "number"}, "minItems": 6, "maxItems": 6,
-                    "description": "xx, yy, zz, xy, xz, yz about the COM, body axes. [kg m^2]"},
+                    "description": "xx, yy, zz, xy, xz, yz about the COM, body axes; in format 3 by default those of shape. [kg m^2]"},
         "shape": {"type": "array", "items": {"$ref": "#/definitions/shape"}},
         "source": {"$ref": "#/definitions/source"}}}},
     "hinges": {"type": "array", "items": {
@@ -76,8 +76,10 @@ constexpr const char* kParts = R"json({
         "origin": {"$ref": "#/definitions/vector"}, "normal": {"$ref": "#/definitions/vector"},
         "reference": {"$ref": "#/definitions/vector"}, "source": {"$ref": "#/definitions/source"}}}},
     "contacts": {"type": "object", "additionalProperties": false, "properties": {
-      "feet": {"type": "array", "items": {"$ref": "#/definitions/contact"}},
-      "all": {"type": "array", "items": {"$ref": "#/definitions/contact"}},
+      "feet": {"description": "Elements for contact.on: feet.", "anyOf": [{"const": "shapes"},
+        {"type": "array", "items": {"$ref": "#/definitions/contact"}}]},
+      "all": {"description": "Elements for contact.on: all.", "anyOf": [{"const": "shapes"},
+        {"type": "array", "items": {"$ref": "#/definitions/contact"}}]},
       "source": {"$ref": "#/definitions/source"}}},
     "connectors": {"type": "object", "description": "Largest loads of the connectors, by name.", "additionalProperties": {
       "type": "object", "additionalProperties": false, "properties": {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/core/scenario/fakes.h"
 #include "tests/messages.h"
 
@@ -49,8 +51,8 @@ TEST_F(ModuleFileTest, ShippedTypesAreValid) {
 
 TEST_F(ModuleFileTest, KeysAndVersion) {
   EXPECT_EQ(error("gaitlab_module: 1\n", ""), "DIR/m.yaml:1:1: error: missing key 'gaitlab_module'");
-  EXPECT_EQ(error("gaitlab_module: 1", "gaitlab_module: 3"),
-            "DIR/m.yaml:1:17: error: gaitlab_module is 3; this program reads format versions 1 to 2");
+  EXPECT_EQ(error("gaitlab_module: 1", "gaitlab_module: 4"),
+            "DIR/m.yaml:1:17: error: gaitlab_module is 4; this program reads format versions 1 to 3");
   EXPECT_EQ(error("name: duo", "name: my duo"),
             "DIR/m.yaml:2:7: error: name 'my duo' is not allowed; expected letters, digits, _ and -");
   EXPECT_EQ(error("mass: 0.5", "mas: 0.5"), "DIR/m.yaml:6:5: error: unknown key 'mas'; did you mean 'mass'?");
@@ -167,6 +169,105 @@ TEST_F(ModuleFileTest, MassAndInertia) {
   EXPECT_EQ(
       error("[1, 2, 2, 0, 0, 0]", "[0, 0, 0, 0, 0, 0]"),
       "DIR/m.yaml:5:3: error: the inertia of body 'b' is not positive definite; its principal moments are 0, 0, 0 kg m^2");
+}
+
+/// A module of format 3, whose bodies have only mass and shape.
+class ShapeModuleTest : public ModuleFileTest {
+ protected:
+  static constexpr const char* kShaped =
+      "gaitlab_module: 3\nname: shaped\nbodies:\n"
+      "  block:\n    mass: 0.16\n    shape:\n      - {box: [0.0325, 0.065, 0.065], origin: [-0.01625, 0, 0]}\n"
+      "      - {half_cylinder: [0.0325, 0.065]}\ncontacts: {all: shapes}\n";
+  ModuleType read_shaped(const std::string& from, const std::string& to) {
+    std::string text = kShaped;
+    text.replace(text.find(from), from.size(), to);
+    return read_module_file(folder_.write("m.yaml", text)).type;
+  }
+  std::string wrong(const std::string& from, const std::string& to) {
+    return folder_.shown(test::message_of([&] { read_shaped(from, to); }));
+  }
+};
+
+/// The numbers of the active block of scenarios/modules/mtran.yaml, 32.5 mm further along x.
+TEST_F(ShapeModuleTest, InertiaAndCentreFollowFromShapes) {
+  const BodyType block = read_shaped("shaped", "shaped").bodies[0];
+  EXPECT_NEAR(block.com.x(), 0.0325 - 0.0355338704148542687, 1e-15);
+  EXPECT_NEAR(block.inertia(0, 0), 0.00010647139641195444, 1e-17);
+  EXPECT_NEAR(block.inertia(1, 1), 9.880342700618174e-05, 1e-17);
+  const BodyType placed = read_shaped("mass: 0.16", "mass: 0.16\n    com: [0.01, 0, 0]").bodies[0];
+  EXPECT_EQ(placed.com, Vec3(0.01, 0, 0));
+  EXPECT_EQ(placed.inertia, block.inertia) << "about the centre of mass, wherever it is stated";
+  const BodyType stated = read_shaped("mass: 0.16", "mass: 0.16\n    inertia: [1, 2, 2, 0, 0, 0]").bodies[0];
+  EXPECT_EQ(stated.com, Vec3::Zero()) << "as in the other formats";
+  EXPECT_EQ(stated.inertia(1, 1), 2);
+}
+
+TEST_F(ShapeModuleTest, ContactsFollowFromShapes) {
+  const ModuleType type = read_shaped("shaped", "shaped");
+  EXPECT_EQ(type.all.size(), 14U);
+  EXPECT_EQ(type.feet.size(), 14U) << "the same as all";
+  EXPECT_EQ(read_shaped("all: shapes", "all: [], feet: shapes").feet.size(), 14U);
+  EXPECT_EQ(read_shaped("all: shapes", "all: shapes, feet: []").feet.size(), 0U);
+  EXPECT_EQ(read_shaped("all: shapes", "all: [{body: block, point: [0, 0, 0]}]").feet.size(), 1U);
+  EXPECT_EQ(read_shaped("{all: shapes}", "{}").feet.size(), 0U);
+}
+
+/// The module Y1 in format 3, from its masses and shapes, has the inertias and contact points of the shipped file.
+TEST_F(ShapeModuleTest, Y1HasItsNumbers) {
+  const ModuleFile shipped = read_module_file(GAITLAB_SOURCE_DIR "/scenarios/modules/y1.yaml");
+  Node document = shipped.document;
+  const auto drop = [](Node& map, const std::string& key) {
+    for (std::size_t i = map.keys.size(); i-- > 0;) {
+      if (map.keys[i].first != key) continue;
+      map.keys.erase(map.keys.begin() + static_cast<std::ptrdiff_t>(i));
+      map.items.erase(map.items.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+  };
+  drop(document, "contacts");
+  drop(document, "gaitlab_module");
+  for (std::size_t i = 0; i < document.keys.size(); ++i) {
+    if (document.keys[i].first != "bodies") continue;
+    for (Node& body : document.items[i].items) {
+      drop(body, "inertia");
+      drop(body, "com");
+    }
+  }
+  const std::string text = print_yaml(document) + "gaitlab_module: 3\ncontacts: {all: shapes}\n";
+  const ModuleType type = read_module_file(folder_.write("y1.yaml", text)).type;
+  for (std::size_t b = 0; b < 2; ++b) {
+    const BodyType& stated = shipped.type.bodies[b];
+    EXPECT_LT((type.bodies[b].inertia - stated.inertia).norm(), 1e-11 * stated.inertia.norm()) << "12 digits in the file";
+    EXPECT_LT((type.bodies[b].com - stated.com).norm(), 1e-15);
+  }
+  ASSERT_EQ(type.all.size(), shipped.type.all.size());
+  for (const ContactType& one : shipped.type.all) {
+    EXPECT_TRUE(std::any_of(type.all.begin(), type.all.end(), [&](const ContactType& found) {
+      return found.body == one.body && (found.centre - one.centre).norm() < 1e-15;
+    })) << one.centre;
+  }
+}
+
+TEST_F(ShapeModuleTest, FormatOfShapes) {
+  EXPECT_EQ(wrong("gaitlab_module: 3", "gaitlab_module: 2"),
+            "DIR/m.yaml:4:3: error: body 'block' has no inertia; expected inertia: [xx, yy, zz, xy, xz, yz], or "
+            "gaitlab_module: 3, in which it follows from shape\n"
+            "DIR/m.yaml:9:17: error: all: shapes is of module format 3, but this file has format 2; write gaitlab_module: 3");
+  EXPECT_EQ(wrong("gaitlab_module: 3\n", ""), "DIR/m.yaml:1:1: error: missing key 'gaitlab_module'");
+  EXPECT_EQ(wrong("gaitlab_module: 3", "gaitlab_module: 9"),
+            "DIR/m.yaml:1:17: error: gaitlab_module is 9; this program reads format versions 1 to 3");
+  EXPECT_EQ(wrong("all: shapes", "all: boxes"), "DIR/m.yaml:9:17: error: all is 'boxes'; expected a list of maps, or shapes");
+  const std::string shape = std::string(kShaped).substr(std::string(kShaped).find("    shape"), 116);
+  EXPECT_EQ(wrong(shape, ""),
+            "DIR/m.yaml:4:3: error: body 'block' has neither inertia nor shape; expected inertia, or shape, "
+            "from which it follows\n"
+            "DIR/m.yaml:6:17: error: all is shapes, but no body has a shape; expected a list of maps");
+  EXPECT_EQ(wrong("0.0325, 0.065]}\ncon", "1e200, 0.065]}\ncon"),
+            "DIR/m.yaml:4:3: error: the shapes of body 'block' are too small or too large for an inertia; expected sizes in m");
+  std::string many;
+  for (int i = 0; i < 101; ++i) many += "      - {sphere: 1}\n";
+  EXPECT_EQ(wrong("      - {half_cylinder: [0.0325, 0.065]}\n", many),
+            "DIR/m.yaml:4:3: error: body 'block' has 102 shapes and no inertia; inertia follows from at most 100 shapes");
+  EXPECT_TRUE(read_shaped("mass: 0.16", "mass: 0.16").bodies[0].inertia.allFinite());
 }
 
 TEST_F(ModuleFileTest, Faces) {

@@ -131,7 +131,8 @@ TEST_F(ScenarioTest, ErrorsOfABrokenModuleFileAreShownOnce) {
       error("robot: {modules: bad.yaml, docks: [[1, 1, 4, 0, 0]]}\nduration: 1\nsede: 1\n"),
       "DIR/s.yaml:3:1: error: unknown key 'sede'; did you mean 'seed'?\n"
       "DIR/bad.yaml:3:23: error: duplicate key 'mass'\nDIR/bad.yaml:3:14: note: it is given here first\n"
-      "DIR/bad.yaml:3:10: error: the inertia of body 'a' is not positive definite; its principal moments are 0, 0, 0 kg m^2");
+      "DIR/bad.yaml:3:10: error: body 'a' has no inertia; expected inertia: [xx, yy, zz, xy, xz, yz], or gaitlab_module: 3, in "
+      "which it follows from shape");
 }
 
 TEST_F(ScenarioTest, BuildFilesAndAssemblyErrorsKeepTheirPlace) {

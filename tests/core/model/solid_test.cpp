@@ -1,0 +1,209 @@
+// Volumes, centres and moments of shapes and their unions against closed forms and against numerical integration.
+#include "core/model/solid.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+namespace gaitlab {
+namespace {
+
+constexpr double kSolidPi = std::numbers::pi;
+constexpr double kByRounding = 1e-12;  // some ten operations
+constexpr double kByBars = 1e-3;       // promised by united()
+
+Shape box_at(const Vec3& size, const Vec3& at, const Vec3& turned = Vec3::Zero()) {
+  return {Shape::Kind::box, {rpy(turned), at}, size};
+}
+Shape ball_at(double r, const Vec3& at) { return {Shape::Kind::sphere, {Mat3::Identity(), at}, {r, 0, 0}}; }
+Shape rod_at(double r, double length, const Vec3& at, const Vec3& turned = Vec3::Zero()) {
+  return {Shape::Kind::cylinder, {rpy(turned), at}, {r, length, 0}};
+}
+Shape half_rod_at(double r, double length, const Vec3& at, const Vec3& turned = Vec3::Zero()) {
+  return {Shape::Kind::half_cylinder, {rpy(turned), at}, {r, length, 0}};
+}
+
+/// Volume and moments about the origin, added and subtracted as the test's closed forms need it.
+struct Raw {
+  double volume = 0;
+  Vec3 first = Vec3::Zero();
+  Mat3 second = Mat3::Zero();
+  Raw& add(double sign, double v, const Vec3& c, const Vec3& mean_squares) {
+    volume += sign * v;
+    first += sign * v * c;
+    second += sign * v * (Mat3(mean_squares.asDiagonal()) + c * c.transpose());
+    return *this;
+  }
+  Raw& add_box(double sign, const Vec3& size, const Vec3& c) { return add(sign, size.prod(), c, size.cwiseAbs2() / 12); }
+};
+
+void expect_solid(const Solid& found, const Raw& raw, double tolerance) {
+  const Vec3 centre = raw.first / raw.volume;
+  const Mat3 second = raw.second - raw.volume * centre * centre.transpose();
+  const double size = std::sqrt(second.trace() / raw.volume);
+  EXPECT_NEAR(found.volume / raw.volume, 1, tolerance);
+  EXPECT_LT((found.centre - centre).norm(), tolerance * size);
+  EXPECT_LT((found.second - second).norm(), tolerance * second.trace());
+}
+
+TEST(Solid, OneShape) {
+  expect_solid(united({{box_at({1, 2, 3}, {4, 5, 6})}}), Raw().add_box(1, {1, 2, 3}, {4, 5, 6}), kByRounding);
+  expect_solid(united({{ball_at(2, {1, 0, 0})}}), Raw().add(1, 32 * kSolidPi / 3, {1, 0, 0}, Vec3::Constant(4.0 / 5)),
+               kByRounding);
+  expect_solid(united({{rod_at(2, 3, {0, 0, 0})}}), Raw().add(1, 12 * kSolidPi, {0, 0, 0}, {1, 9.0 / 12, 1}), kByRounding);
+  const double x = 4 * 2 / (3 * kSolidPi);
+  expect_solid(united({{half_rod_at(2, 3, {0, 0, 0})}}), Raw().add(1, 6 * kSolidPi, {x, 0, 0}, {1 - x * x, 0.75, 1}),
+               kByRounding);
+}
+
+/// Inertia of a cube about its centre is m a^2 / 6 in every axis, however it is turned; that of a rod by the table of a
+/// textbook.
+TEST(Solid, InertiaOfAMass) {
+  const Mat3 cube = united({{box_at({2, 2, 2}, {1, 2, 3}, {0.3, 0.4, 0.5})}}).inertia(3);
+  EXPECT_LT((cube - 2 * Mat3::Identity()).norm(), kByRounding);
+  const Mat3 rod = united({{rod_at(0.5, 2, {1, 2, 3}, {kSolidPi / 2, 0, 0})}}).inertia(6);  // along z
+  EXPECT_LT((rod - Mat3(Vec3(2.375, 2.375, 0.75).asDiagonal())).norm(), 1e-11);
+}
+
+/// The body of the M-TRAN module: a box and a half cylinder that touch, with the numbers of scenarios/modules/mtran.yaml.
+TEST(Solid, TouchingShapesAreExact) {
+  const Solid block = united({{box_at({0.0325, 0.065, 0.065}, {-0.04875, 0, 0}), half_rod_at(0.0325, 0.065, {-0.0325, 0, 0})}});
+  EXPECT_NEAR(block.centre.x(), -0.0355338704148542687, 1e-15);
+  const Mat3 inertia = block.inertia(0.16);
+  EXPECT_NEAR(inertia(0, 0), 0.00010647139641195444, 1e-17);
+  EXPECT_NEAR(inertia(1, 1), 9.880342700618174e-05, 1e-17);
+  EXPECT_NEAR(inertia(2, 2), 0.00010499869726089396, 1e-17);
+}
+
+TEST(Solid, ShapesApartAreExact) {
+  // The planes between them are not parallel to any axis of the shapes.
+  Raw both = Raw().add(1, 4 * kSolidPi / 3, {2, 2, 2}, Vec3::Constant(0.2)).add_box(1, {2, 2, 2}, {0, 0, 0});
+  expect_solid(united({{ball_at(1, {2, 2, 2}), box_at({2, 2, 2}, {0, 0, 0})}}), both, kByRounding);
+}
+
+TEST(Solid, OverlappingBoxesAreExact) {
+  Raw raw;
+  raw.add_box(1, {4, 2, 2}, {0, 0, 0}).add_box(1, {2, 2, 4}, {2, 1, 1}).add_box(-1, {1, 1, 2}, {1.5, 0.5, 0});
+  // The second box goes from 1 to 3, 0 to 2, -1 to 3; the first to 2, 1, 1.
+  expect_solid(united({{box_at({4, 2, 2}, {0, 0, 0}), box_at({2, 2, 4}, {2, 1, 1})}}), raw, kByRounding);
+  const Pose turned{rpy({0.3, -0.7, 1.1}), {5, 6, 7}};
+  Solid there = united({{Shape{Shape::Kind::box, turned, {4, 2, 2}},
+                         Shape{Shape::Kind::box, turned * Pose{Mat3::Identity(), {2, 1, 1}}, {2, 2, 4}}}});
+  there.second = turned.R.transpose() * there.second * turned.R;
+  there.centre = turned.inverse() * there.centre;
+  expect_solid(there, raw, 1e-11);
+}
+
+TEST(Solid, InnerShapesCountOnce) {
+  const Shape crate = box_at({2, 2, 2}, {0, 0, 0});
+  const Raw raw = Raw().add_box(1, {2, 2, 2}, {0, 0, 0});
+  for (const Shape& inner : {ball_at(1, {0, 0, 0}), rod_at(0.5, 1, {0.2, 0, 0}, {0.5, 0, 0.5}), crate,
+                             box_at({1, 1, 1}, {0, 0, 0}, {0.3, 0.4, 0.5})}) {
+    expect_solid(united({{crate, inner}}), raw, kByRounding);
+    expect_solid(united({{inner, crate, inner}}), raw, kByRounding);
+  }
+  expect_solid(united({{ball_at(2, {0, 0, 0}), box_at({1, 1, 1}, {0.5, 0, 0})}}),
+               Raw().add(1, 32 * kSolidPi / 3, {0, 0, 0}, Vec3::Constant(0.8)), kByRounding);
+}
+
+/// A sphere whose centre is on a face of a box adds half a sphere, whose centre is 3 r / 8 from the face.
+TEST(Solid, SphereOnABox) {
+  Raw raw = Raw().add_box(1, {4, 4, 4}, {0, 0, 0});
+  raw.add(1, 2 * kSolidPi / 3, {2.375, 0, 0}, {0.2 - 0.375 * 0.375, 0.2, 0.2});
+  expect_solid(united({{box_at({4, 4, 4}, {0, 0, 0}), ball_at(1, {2, 0, 0})}}), raw, kByBars);
+}
+
+/// Two equal cylinders that cross have a Steinmetz solid in common: V = 16 r^3 / 3, int x^2 = 64 r^5 / 45 along both axes, and
+/// 16 r^5 / 15 across.
+TEST(Solid, CrossingCylinders) {
+  Raw raw;
+  raw.add(1, 6 * kSolidPi, {0, 0, 0}, {0.25, 3, 0.25}).add(1, 6 * kSolidPi, {0, 0, 0}, {3, 0.25, 0.25});
+  raw.add(-1, 16.0 / 3, {0, 0, 0}, {64.0 / 45 / (16.0 / 3), 64.0 / 45 / (16.0 / 3), 0.2});
+  const Shape one = rod_at(1, 6, {0, 0, 0});
+  const Shape other = rod_at(1, 6, {0, 0, 0}, {0, 0, kSolidPi / 2});
+  expect_solid(united({{one, other}}), raw, kByBars);
+}
+
+TEST(Solid, CylindersInOneLine) {
+  const Raw raw = Raw().add(1, 6 * kSolidPi, {0, 1, 0}, {0.25, 3, 0.25});
+  expect_solid(united({{rod_at(1, 4, {0, 0, 0}), rod_at(1, 4, {0, 2, 0})}}), raw, kByBars);
+  expect_solid(united({{rod_at(1, 6, {0, 1, 0}), rod_at(1, 6, {0, 1, 0})}}), raw, kByBars);
+}
+
+/// True if a point lies in a shape, from the definition of the shape.
+bool in_shape(const Shape& shape, const Vec3& point) {
+  const Vec3 p = shape.in_body.R.transpose() * (point - shape.in_body.p);
+  const Vec3& size = shape.size;
+  if (shape.kind == Shape::Kind::box) return (p.cwiseAbs() - size / 2).maxCoeff() <= 0;
+  if (shape.kind == Shape::Kind::sphere) return p.norm() <= size.x();
+  return std::abs(p.y()) <= size.y() / 2 && std::hypot(p.x(), p.z()) <= size.x() &&
+         (shape.kind == Shape::Kind::cylinder || p.x() >= 0);
+}
+
+Shape random_shape(std::mt19937& random) {
+  std::uniform_real_distribution<double> size(0.5, 2);
+  std::uniform_real_distribution<double> any(-1, 1);
+  const auto vector = [&](std::uniform_real_distribution<double>& of) {
+    const double x = of(random), y = of(random), z = of(random);
+    return Vec3(x, y, z);
+  };
+  const auto kind = static_cast<Shape::Kind>(random() % 4);
+  return {kind, {rpy(3 * vector(any)), vector(any)}, vector(size)};
+}
+
+/// 100^3 cells: a cell on the surface is wrong by half of it at most, and these errors are of both signs.
+TEST(Solid, UnionsOfRandomShapes) {
+  constexpr int kCells = 100;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    std::mt19937 random(seed);
+    std::vector<Shape> shapes;
+    for (unsigned n = 0; n < 2 + seed % 3; ++n) shapes.push_back(random_shape(random));
+    const auto [low, high] = bounds(shapes);
+    const Vec3 cell = (high - low) / kCells;
+    Raw raw;
+    for (int i = 0; i < kCells * kCells * kCells; ++i) {
+      const Vec3 n(i % kCells + 0.5, i / kCells % kCells + 0.5, i / kCells / kCells + 0.5);
+      const Vec3 p = low + cell.cwiseProduct(n);
+      bool in = false;
+      for (const Shape& shape : shapes) in = in || in_shape(shape, p);
+      if (in) raw.add(1, cell.prod(), p, cell.cwiseAbs2() / 12);
+    }
+    SCOPED_TRACE(seed);
+    expect_solid(united(shapes), raw, 4e-3);
+  }
+}
+
+/// The signed distance from a convex set is the largest d p - h(d) over unit vectors d, where h(d) = d farthest(d).
+TEST(Solid, DistancesFromShapes) {
+  constexpr int kDirections = 20000;  // on a spiral of Fibonacci: 0.025 rad apart
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    std::mt19937 random(seed);
+    const Shape shape = random_shape(random);
+    const Vec3 p = random_shape(random).in_body.p * 2.0;
+    double most = -1e9;
+    for (int k = 0; k < kDirections; ++k) {
+      const double z = 1 - (2 * k + 1.0) / kDirections;
+      const double angle = kSolidPi * (3 - std::sqrt(5.0)) * k;
+      const Vec3 d(std::sqrt(1 - z * z) * std::cos(angle), std::sqrt(1 - z * z) * std::sin(angle), z);
+      most = std::max(most, d.dot(p - farthest(shape, d)));
+    }
+    EXPECT_NEAR(distance(shape, p), most, 0.02) << seed;
+    EXPECT_GE(distance(shape, p), most - kByRounding) << seed;
+    EXPECT_EQ(in_shape(shape, p), distance(shape, p) <= 0) << seed;
+  }
+}
+
+TEST(Solid, PointsOutsideAHull) {
+  const std::vector<Shape> dumbbell{ball_at(1, {-3, 0, 0}), ball_at(1, {3, 0, 0})};
+  EXPECT_EQ(outside_hull(dumbbell, {0, 0, 0}), 0);
+  EXPECT_EQ(outside_hull(dumbbell, {0, 0.9, 0}), 0) << "between the spheres, in no shape";
+  EXPECT_NEAR(outside_hull(dumbbell, {0, 0, 1.5}), 0.5, 0.005);
+  EXPECT_NEAR(outside_hull(dumbbell, {10, 0, 0}), 6, 0.06);
+  EXPECT_NEAR(outside_hull({{half_rod_at(1, 1, {0, 0, 0})}}, {-0.2, 0, 0}), 0.2, 0.002);
+}
+
+}  // namespace
+}  // namespace gaitlab
