@@ -17,7 +17,7 @@ constexpr double kMostShare = 10, kLeastShare = 1e-6;
 constexpr double kVisible = 1e-3;      // share of the energy drawn below which energies are not printed
 constexpr double kMuchCreated = 0.05;  // share of the energy drawn above which created energy is printed beside a cost
 constexpr std::size_t kWidth = 64;     // columns beside the titles, in a terminal of 80 columns
-constexpr double kLeastTravel = 1e-3;  // m; on a shorter path the cost of transport is noise
+constexpr double kNoTravel = 1e-3;     // m; on a shorter path the cost of transport is noise
 
 }  // namespace
 
@@ -125,7 +125,7 @@ Lines transport(const RunData& run) {
   const Summary& s = run.summary;
   if (!has_motors(run)) return {};
   if (!(run.scenario.robot->mass * run.scenario.physics.gravity.norm() > 0)) return {"cost of transport undefined: no weight"};
-  if (s.distance < kLeastTravel) return {"cost of transport undefined: travelled less than 1 mm"};
+  if (s.distance < kNoTravel) return {"cost of transport undefined: travelled less than 1 mm"};
   Lines lines{
       fmt::format("cost {:.3g} electrical, {:.3g} mechanical (J per N of weight and m)", s.cost_electrical, s.cost_mechanical)};
   if (const std::string much = much_created(run); !much.empty()) lines.push_back(much);

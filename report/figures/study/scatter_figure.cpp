@@ -16,9 +16,9 @@ namespace gaitlab::report {
 namespace {
 
 constexpr std::size_t kMostPanels = 24;
-constexpr double kPanelHigh = 130, kRowHigh = 196;                         // px
-constexpr double kPanelLeft = 84, kPanelsWide = 672, kBetweenPanels = 38;  // px
-constexpr double kDot = 2.6;                                               // px
+constexpr double kPanelHigh = 130, kRowHigh = 196;                           // px
+constexpr double kPanelLeft = 84, kPanelsWide = 672, kBetweenScatters = 38;  // px
+constexpr double kDot = 2.6;                                                 // px
 constexpr std::string_view kUnfitDot = "#B0B0B0";
 constexpr Style kBeyondDot{.stroke = kUnfitDot, .fill = colour::kWhite, .width = 1};
 
@@ -62,7 +62,7 @@ class Scatter {
     const double top = kSheetTop + kRowHigh * static_cast<double>(row);
     const bool first = k % in_row_ == 0;
     const Ticks across = parameter_ticks(f_, k, 4, kEdge);
-    const Plot plot(svg_, {left, left + column - kBetweenPanels, top, top + kPanelHigh},
+    const Plot plot(svg_, {left, left + column - kBetweenScatters, top, top + kPanelHigh},
                     {.ticks = across, .title = shortened(f_.axes[k].axis.title())},
                     {.ticks = values_, .title = first ? shortened(f_.value.title()) : "", .texts = first});
     plot.draw_axes();
