@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/commands.h"
+#include "app/module_table.h"
 #include "app/run_time.h"
 #include "core/files/atomic_file.h"
 #include "core/plugin/robot_info.h"
@@ -98,9 +99,9 @@ int check(const CheckArguments& arguments) {
   const Robot& robot = *s.robot;
   const auto contacts = contact_elements(robot, s.contact.on);
   fmt::print("{}: valid\n", s.name);
-  fmt::print("  {}, {} {} (moving as {}), {} degrees of freedom, {:.3f} kg\n", counted(robot.modules.size(), "module"),
+  fmt::print("  {}, {} {} (moving as {}), {} degrees of freedom, {:.3f} kg, {}\n", counted(robot.modules.size(), "module"),
              robot.bodies.size(), robot.bodies.size() == 1 ? "body" : "bodies", robot.links.size(), robot.dof(s.base),
-             robot.mass);
+             robot.mass, size_text(robot));
   const double rate = simulation->standing().rate;
   fmt::print("  engine {} ({}), {}{}\n", s.physics.engine->name, s.physics.integrator->name, report::step_text(s.physics),
              rate > 0 ? fmt::format(": step times damping rate h lambda = {:.2f} for the standing robot (allowed up to 1)",

@@ -5,15 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <vector>
 
 #include "core/model/docking.h"
-#include "core/model/kinematics.h"
+#include "core/model/outline.h"
 #include "core/robot_files/type_presets.h"
 #include "core/settings/wording.h"
-#include "report/analysis/convex.h"
 #include "report/analysis/envelope.h"
 
 namespace gaitlab::app {
@@ -38,30 +36,6 @@ std::string aligned(const std::vector<Cells>& rows) {
     text += line + "\n";
   }
   return text;
-}
-
-/// Edges of the box around all shapes at zero angles, in the axes of the module frame, m. 0 without shapes.
-Vec3 size_of(const Robot& robot) {
-  const Kinematics zero = at_zero(robot);
-  const double none = std::numeric_limits<double>::infinity();
-  Vec3 low = Vec3::Constant(none), high = Vec3::Constant(-none);
-  for (const Body& body : robot.bodies) {
-    for (const Shape& shape : robot.types[0].bodies[body.type].shapes) {
-      const Convex piece = moved(convex(shape), Pose{zero.R[body.link], zero.p[body.link]} * body.in_link);
-      for (const Vec3& v : piece.vertices) {
-        low = low.cwiseMin(v - Vec3::Constant(piece.radius));
-        high = high.cwiseMax(v + Vec3::Constant(piece.radius));
-      }
-    }
-  }
-  return high.x() < low.x() ? Vec3(Vec3::Zero()) : Vec3(high - low);
-}
-
-/// Size as text: `65 x 65 x 130 mm`.
-std::string size_text(const Robot& robot) {
-  Vec3 size = 1000 * size_of(robot);
-  std::sort(size.begin(), size.end());
-  return size.z() > 0 ? fmt::format("{:.4g} x {:.4g} x {:.4g} mm", size.x(), size.y(), size.z()) : "no shape";
 }
 
 double mass_of(const ModuleType& type) {
@@ -122,11 +96,12 @@ std::string hinges(const Robot& robot, const Motors& known) {
 }
 
 std::string bodies(const ModuleType& type) {
-  std::vector<Cells> rows{{"body", "mass", "centre of mass (body axes)"}};
+  std::vector<Cells> rows{{"body", "mass", "centre of mass (body axes)", "inertia xx, yy, zz (kg m^2)"}};
   for (const BodyType& body : type.bodies) {
     const Vec3 com = 1000 * body.com;
-    rows.push_back(
-        {body.name, fmt::format("{:.4g} kg", body.mass), fmt::format("{:.4g} {:.4g} {:.4g} mm", com.x(), com.y(), com.z())});
+    rows.push_back({body.name, fmt::format("{:.4g} kg", body.mass),
+                    fmt::format("{:.4g} {:.4g} {:.4g} mm", com.x(), com.y(), com.z()),
+                    fmt::format("{:.4g} {:.4g} {:.4g}", body.inertia(0, 0), body.inertia(1, 1), body.inertia(2, 2))});
   }
   return aligned(rows);
 }
@@ -173,6 +148,12 @@ void add_sources(const Node& node, const std::string& where, std::string& text) 
 }
 
 }  // namespace
+
+std::string size_text(const Robot& robot) {
+  Vec3 size = 1000 * outline_edges(robot);
+  std::sort(size.begin(), size.end());
+  return size.z() > 0 ? fmt::format("{:.4g} x {:.4g} x {:.4g} mm", size.x(), size.y(), size.z()) : "no shape";
+}
 
 std::string module_row(const Scenario& one) {
   const Robot& robot = *one.robot;

@@ -20,6 +20,7 @@ TEST(ModuleTable, SaysWhatThePaperSaysOfMtran) {
   const std::string text = table("mtran");
   EXPECT_TRUE(contains(text, "mtran: 65 x 65 x 130 mm, 0.4 kg in 3 bodies, 2 hinges and 6 faces")) << text;
   EXPECT_TRUE(contains(text, "active   +y    -90 to 90 deg")) << text;
+  EXPECT_TRUE(contains(text, "active   0.16 kg  -35.53 0 0 mm               0.0001065 9.88e-05 0.000105")) << text;
   EXPECT_TRUE(contains(text, "type: Murata and Kurokawa")) << text;
   EXPECT_TRUE(contains(text, "actuator: chosen")) << text;
 }
