@@ -325,6 +325,17 @@ Overlaps overlaps(const Scenario& scenario, const Recording& r) {
   return {shaped.size(), search.collision(), search.sunk()};
 }
 
+std::optional<Collision> collision_in(const Scenario& scenario, const RobotState& state) {
+  const std::vector<Piece> pieces = pieces_of(*scenario.robot);
+  Search search(scenario, pieces);
+  Kinematics k(*scenario.robot);
+  k.place(*scenario.robot, state);
+  Row there(pieces);
+  there.set(k);
+  search.collide(there, 0);
+  return search.collision();
+}
+
 double depth_in_ground(const Scenario& scenario, const RobotState& state) {
   if (!scenario.ground.exists()) return 0;
   Kinematics k(*scenario.robot);

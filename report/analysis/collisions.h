@@ -39,6 +39,9 @@ struct Overlaps {
 /// Not known under contact.law bullet, whose solver keeps bodies apart.
 Overlaps overlaps(const Scenario& scenario, const Recording& record);
 
+/// Overlaps of bodies of a robot in this state that are deeper than Limits::touch, at time 0; nothing if there are none.
+std::optional<Collision> collision_in(const Scenario& scenario, const RobotState& state);
+
 /// Depth of the robot's deepest point in the ground in this state, m. 0 if no part is in the ground or there is no ground.
 double depth_in_ground(const Scenario& scenario, const RobotState& state);
 

@@ -7,14 +7,11 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "core/math/periods.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/scenario/change_section.h"
-#include "core/scenario/sensor_section.h"
-#include "core/simulation/cpg_integrator.h"
 #include "core/simulation/simulation.h"
+#include "report/analysis/cpg_alone.h"
 #include "report/analysis/motion.h"
-#include "report/analysis/settings_numbers.h"
 
 namespace gaitlab::report {
 
@@ -26,46 +23,10 @@ constexpr std::int64_t kMostTicks = 20000;  // simulated ticks of the CPG alone,
 constexpr std::int64_t kMostRows = 4000;    // largest number of rows in the search for a period
 constexpr double kSameSetPoint = 1e-5;      // rad; recorded set points are single precision
 
-/// Least frequency above 0 of a driven joint in the CPG's settings, Hz; 0 if there is none.
+/// Least frequency of a driven joint in the CPG's settings, Hz; 0 if there is none.
 double least_frequency(const Scenario& s) {
-  double least = 0;
-  const SettingsNumbers settings(s.changes.empty() ? s.cpg : s.changes.back().cpg);
-  for (const SettingsNumbers::Found& one : settings.all()) {
-    if (one.unit != "Hz") continue;
-    for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
-      const double frequency = one.value[j];
-      if (s.robot->joints[j].driven() && frequency > 0 && (least == 0 || frequency < least)) least = frequency;
-    }
-  }
-  return least;
-}
-
-/// Set points of the driven joints at every control tick without feedback, row-major.
-std::vector<double> set_points_alone(const Scenario& s, std::int64_t ticks) {
-  const RobotInfo robot = plugin_info(s);
-  const std::unique_ptr<Cpg> cpg = make_cpg(s.cpg, robot);
-  const std::size_t joints = s.robot->joints.size();
-  std::vector<double> angle;
-  for (std::size_t j = 0; j < joints; ++j) angle.push_back(s.initial.angles[j]);
-  const std::vector<double> none(joints, 0.0);
-  const std::vector<double> channels(robot.channels.size(), 0.0);
-  const std::vector<double> lifted(s.robot->modules.size(), 0.0);
-  const auto measured = [&](double t) { return Measured{t, s.control_period, angle, none, none, lifted, channels}; };
-  std::vector<double> state(cpg->states());
-  std::vector<double> setpoint(joints);
-  CpgIntegrator integrator(state.size());
-  cpg->start(state);
-  std::vector<double> all;
-  for (std::int64_t k = 0; k < ticks; ++k) {
-    const double t = static_cast<double>(k) * s.control_period;
-    cpg->event(measured(t), state);
-    cpg->output(t, state, setpoint);
-    for (std::size_t j = 0; j < joints; ++j) {
-      if (s.robot->joints[j].driven()) all.push_back(setpoint[j]);
-    }
-    integrator.advance(*cpg, state, t, math::steps_in(s.control_period, s.cpg_step), s.cpg_step, measured);
-  }
-  return all;
+  const std::vector<double> all = frequencies(s, s.changes.empty() ? s.cpg : s.changes.back().cpg);
+  return all.empty() ? 0 : *std::min_element(all.begin(), all.end());
 }
 
 /// True if feedback changed no recorded set point: all are equal to those of the CPG `alone`. The set point in a row was in

@@ -10,17 +10,16 @@
 #include "core/scenario/built_robot.h"
 #include "core/scenario/sensor_section.h"
 #include "report/analysis/settings_numbers.h"
+#include "report/verdict/plausibility.h"
 
 namespace gaitlab::report {
 
 namespace {
 
-constexpr double kApart = 1.3;          // largest Kt / Ks or Ks / Kt; measured constants of one motor agree to 10 %
 constexpr double kOvershoots = 1;       // gain of the sampled position loop; at 1 the error is zero at the next tick
 constexpr double kCannotSettle = 2;     // gain of the sampled position loop; measured: 1.3 to 1.9 settle, 2.3 does not
 constexpr double kRounding = 1 + 1e-9;  // tolerance for products that should be equal
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kDegrees = 360;  // a hinge range above this number means "no limit", not an angle in degrees
 
 /// Rounds down to two digits: 156.4 becomes 150.
 double two_digits(double value) {
@@ -41,7 +40,7 @@ void check_constants(const Scenario& s, const DcMotor* motors, std::vector<Warni
     }
     if (!(m.Ks > 0)) continue;
     const double apart = std::max(m.Kt / m.Ks, m.Ks / m.Kt);
-    if (apart > kApart) {
+    if (apart > kConstantsApart) {
       out.push_back(
           {s.nearest_place("actuator.Kt"),
            fmt::format("Kt {:.4g} N m/A and Ks {:.4g} V s/rad of joint {} are one constant in SI units, but differ by a "
@@ -96,46 +95,14 @@ void check_gain(const Scenario& s, const DcMotor* motors, std::vector<Warning>& 
                  severe});
 }
 
-void check_motors(const Scenario& s, std::vector<Warning>& out) {
+/// `with_gain` is false if the period or a speed is implausible, which then is the reason of a large gain.
+void check_motors(const Scenario& s, bool with_gain, std::vector<Warning>& out) {
   if (s.actuator.entry == nullptr || s.robot->joints.empty()) return;
   const std::unique_ptr<Actuator> actuator = make_motors(s);
   const DcMotor* const motors = actuator->dc_motors();
   if (motors == nullptr) return;
   check_constants(s, motors, out);
-  if (s.controller.entry != nullptr) check_gain(s, motors, out);
-}
-
-void check_degrees(const Scenario& s, std::vector<Warning>& out) {
-  const auto doubt = [&](const std::string& key, const std::string& what, double value) {
-    out.push_back({s.nearest_place(key),
-                   fmt::format("{} is {:.4g} rad, {:.3g} turns: angles are in rad; {:.4g} degrees are {:.4g} rad", what, value,
-                               std::abs(value) / kTurn, value, value * kTurn / 360),
-                   false});
-  };
-  const auto beyond = [](double value) { return std::abs(value) > 2 * kTurn; };
-  for (const PluginSelection* plugin : {&s.cpg, &s.controller, &s.actuator}) {
-    if (plugin->entry == nullptr) continue;
-    const SettingsNumbers numbers(*plugin);
-    for (const SettingsNumbers::Found& one : numbers.all()) {
-      for (std::size_t j = 0; one.unit == "rad" && j < s.robot->joints.size(); ++j) {
-        if (!beyond(one.value[j]) || s.robot->joints[j].turns_freely()) continue;
-        const std::string key = std::string(word(plugin->entry->kind)) + "." + one.key;
-        doubt(key, key, one.value[j]);
-        break;
-      }
-    }
-  }
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    if (!beyond(s.orientation[i])) continue;
-    doubt("robot.orientation", "robot.orientation", s.orientation[i]);
-    break;
-  }
-  for (const Joint& joint : s.robot->joints) {
-    const double widest = std::max(std::abs(joint.lo), std::abs(joint.hi));
-    if (!beyond(widest) || widest > kDegrees) continue;
-    doubt("robot", "the range of hinge " + joint.name, widest);
-    break;
-  }
+  if (s.controller.entry != nullptr && with_gain) check_gain(s, motors, out);
 }
 
 }  // namespace
@@ -143,8 +110,10 @@ void check_degrees(const Scenario& s, std::vector<Warning>& out) {
 std::vector<Warning> setup_warnings(const Scenario& s) {
   std::vector<Warning> out;
   try {
-    check_motors(s, out);
-    check_degrees(s, out);
+    const Implausible odd = implausible(s);
+    out = odd.warnings;
+    const auto reported = [&](const char* row) { return std::ranges::find(odd.rows, row) != odd.rows.end(); };
+    check_motors(s, !reported("control period") && !reported("no-load speed"), out);
   } catch (const PluginError&) {
     out.clear();  // the run reports the error with its place
   }

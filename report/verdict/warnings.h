@@ -7,10 +7,15 @@
 
 namespace gaitlab::report {
 
+/// Largest Kt / Ks or Ks / Kt without a warning. The two are one constant in SI units, and measured ones of one motor agree to
+/// 10 %.
+inline constexpr double kConstantsApart = 1.3;
+
 struct Warning {
   SourceLocation place;
   std::string text;
-  bool severe = true;  ///< false: a note
+  bool severe = true;    ///< false: a note
+  bool of_gait = false;  ///< the warning is on the scenario's own gait, which a study varies
 };
 
 /// Warnings about a scenario, each with its cause and remedy:
@@ -21,8 +26,8 @@ struct Warning {
 /// error is therefore multiplied by 1 - g per tick, with g = Kp Ts / (Ks n); for a servo, Ks n = V / w0. g > 2 diverges until
 /// the motor's limits stop it (warning); g > 1 overshoots (note). Only for DC motors and controllers with a gain `Kp` in V
 /// whose `Kd` does not change that bound.
-/// - An angle of more than two turns, which is probably in degrees. A range of a hinge beyond 360 is accepted as an unlimited
-/// hinge.
+/// - A number outside its usual range (plausibility.h), with the unit in which it may have been given. Without a position loop
+/// that cannot settle if the control period or the speed of a motor is such a number.
 /// - A robot that starts beside its heightfield.
 std::vector<Warning> setup_warnings(const Scenario& scenario);
 

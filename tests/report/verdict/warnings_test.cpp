@@ -72,8 +72,8 @@ TEST(SetupWarnings, DoNotJudgeALoopWithADerivativeGain) {
 }
 
 TEST(SetupWarnings, TellDegrees) {
-  expect_one(of("caterpillar.yaml", {"cpg.phase_lag=70"}), false, "70 degrees are 1.222 rad");
-  expect_one(of("caterpillar.yaml", {"robot.orientation=[0, 0, 90]"}), false, "90 degrees are 1.571 rad");
+  expect_one(of("caterpillar.yaml", {"cpg.phase_lag=70"}), true, "is it in degrees (1.222 rad)?");
+  expect_one(of("caterpillar.yaml", {"robot.orientation=[0, 0, 90]"}), true, "is it in degrees (1.571 rad)?");
   EXPECT_TRUE(of("caterpillar.yaml", {"cpg.phase_lag=-6.3", "robot.orientation=[0, 0, 6.3]"}).empty());
 }
 

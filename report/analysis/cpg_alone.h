@@ -1,0 +1,34 @@
+// The pattern generator of a scenario without its robot: set points and frequencies.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/scenario/scenario.h"
+
+namespace gaitlab::report {
+
+/// Frequencies above 0 of the driven joints among the settings of a CPG, Hz.
+std::vector<double> frequencies(const Scenario& scenario, const PluginSelection& cpg);
+
+/// Measured values that a CPG without a robot receives at every tick, the same for every joint and module.
+struct Feedback {
+  double angle = 0;  ///< rad, added to the initial angle
+  double speed = 0, torque = 0, touching = 0;
+};
+
+/// Set points of the driven joints at every control tick, rad, row-major. Throws PluginError.
+std::vector<double> set_points_alone(const Scenario& scenario, std::int64_t ticks, const Feedback& feedback = {});
+
+/// Extremes of the set points of a joint.
+struct SetPointRange {
+  std::size_t joint = 0;
+  double least = 0, most = 0;  ///< rad
+  double speed = 0;            ///< rad/s, largest difference of two successive set points, per control period
+};
+
+/// Extremes for every driven joint before the first change of the run, or in its first 2000 control periods, which take 0.1 s
+/// of a large robot. Empty without a CPG, or if feedback changes a set point in the first 400 periods. Throws PluginError.
+std::vector<SetPointRange> set_point_ranges(const Scenario& scenario);
+
+}  // namespace gaitlab::report

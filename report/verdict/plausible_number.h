@@ -1,0 +1,72 @@
+// Plausible numbers: what is measured of a scenario and its module types, in which range it usually lies, and the units in
+// which a number outside may have been given.
+#pragma once
+#include <functional>
+#include <initializer_list>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/model/solid.h"
+#include "core/scenario/scenario.h"
+#include "report/analysis/cpg_alone.h"
+
+namespace gaitlab::report {
+
+/// A scenario, with what several rows need and takes time.
+struct Subject {
+  explicit Subject(const Scenario& s);
+  const Scenario& scenario;
+  std::vector<std::vector<Solid>> solids;  ///< unions of shapes, by type and body; volume 0 for bodies that are not judged
+  std::vector<SetPointRange> set_points;
+};
+
+/// A mistake that may explain a number, such as a unit.
+struct Slip {
+  const char* question;               ///< `is the mass in g`
+  double (*corrected)(double given);  ///< the given number without the mistake
+  std::size_t input = 0;              ///< index in Finding::inputs of the number that was given
+};
+
+/// A number that was given, with its unit. Without a unit it is not shown.
+struct GivenNumber {
+  double value = 0;
+  const char* unit = nullptr;
+};
+
+/// One measured number.
+struct Finding {
+  SourceLocation place;  ///< of the value that is likely wrong
+  /// Body `emerge/head`, joint `m0/hinge` or section `cpg` with the number, for PlausibleNumber::unless.
+  std::vector<std::string> parts;
+  std::string text;  ///< what was found, with the number
+  double value = 0;  ///< the number that is compared with the range
+  /// The measured number without a mistake. Empty if `corrected` applies to the number itself.
+  std::function<double(const Slip&)> again = {};
+  std::vector<GivenNumber> inputs = {};
+  std::string remedy = {};  ///< text in the place of the questions
+};
+
+/// A row of the list of plausible numbers.
+struct PlausibleNumber {
+  const char* name;      ///< for `unless`
+  double least, most;    ///< the usual range
+  const char* expected;  ///< the range and its reason in words
+  std::vector<Slip> slips;
+  /// Names of rows above, or their questions. A part for which one of them was reported or asked is not judged.
+  std::vector<std::string_view> unless;
+  std::vector<Finding> (*measure)(const Subject&);
+  bool of_gait = false;  ///< a number of the scenario's own gait, which a study varies
+};
+
+inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+/// Rows on the bodies and faces of module types.
+std::vector<PlausibleNumber> plausible_bodies();
+/// Rows on motors and their modules.
+std::vector<PlausibleNumber> plausible_motors();
+/// Rows on the sections of the scenario.
+std::vector<PlausibleNumber> plausible_scenario();
+
+}  // namespace gaitlab::report

@@ -1,0 +1,256 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/model/outline.h"
+#include "core/settings/wording.h"
+#include "core/simulation/start.h"
+#include "report/analysis/collisions.h"
+#include "report/analysis/cpg_alone.h"
+#include "report/analysis/envelope.h"
+#include "report/analysis/settings_numbers.h"
+#include "report/verdict/plausible_number.h"
+
+namespace gaitlab::report {
+
+namespace {
+
+constexpr double kWholeTurn = 2 * std::numbers::pi;
+constexpr double kDegrees = 360;  // a hinge range above this number means "no limit", not an angle in degrees
+constexpr double kOnTheLimit = 1 + 1e-9;
+
+double of_degrees(double value) { return value * std::numbers::pi / 180; }
+double of_ms(double value) { return value * 1e-3; }
+double of_mm(double value) { return value * 1e-3; }
+double of_cm(double value) { return value * 1e-2; }
+double of_percent(double value) { return value * 1e-2; }
+
+Finding angle(const Scenario& s, const std::string& part, const std::string& key, double value) {
+  return {s.nearest_place(key),
+          {part},
+          fmt::format("{} is {} rad, {:.3g} turns", key, number_text(value), std::abs(value) / kWholeTurn),
+          value,
+          {},
+          {{value, "rad"}}};
+}
+
+/// Place of the range of a joint's hinge in the text of its module type.
+SourceLocation range_place(const Scenario& s, const Joint& joint) {
+  const std::size_t type = s.robot->modules[joint.module].type;
+  const Node* const hinges = type < s.module_documents->size() ? (*s.module_documents)[type].find("hinges") : nullptr;
+  for (std::size_t i = 0; hinges != nullptr && i < hinges->items.size(); ++i) {
+    const Node* const name = hinges->items[i].find("name");
+    const Node* const range = hinges->items[i].find("range");
+    if (name != nullptr && range != nullptr && joint.name.ends_with("/" + name->text)) return range->place;
+  }
+  return s.nearest_place("robot");
+}
+
+std::vector<Finding> angles(const Subject& subject) {
+  const Scenario& s = subject.scenario;
+  std::vector<Finding> found;
+  const auto larger = [](const Finding& a, const Finding& b) { return std::abs(a.value) < std::abs(b.value); };
+  for (const PluginSelection* plugin : {&s.cpg, &s.controller, &s.actuator}) {
+    if (plugin->entry == nullptr) continue;
+    const std::string section = word(plugin->entry->kind);
+    const SettingsNumbers numbers(*plugin);
+    for (const SettingsNumbers::Found& one : numbers.all()) {
+      std::vector<Finding> of_joints;
+      for (std::size_t j = 0; one.unit == "rad" && j < s.robot->joints.size(); ++j) {
+        if (!s.robot->joints[j].turns_freely()) of_joints.push_back(angle(s, section, section + "." + one.key, one.value[j]));
+      }
+      if (!of_joints.empty()) found.push_back(*std::max_element(of_joints.begin(), of_joints.end(), larger));
+    }
+  }
+  for (Eigen::Index i = 0; i < 3; ++i) found.push_back(angle(s, "robot.orientation", "robot.orientation", s.orientation[i]));
+  for (const Joint& joint : s.robot->joints) {
+    const double widest = std::max(std::abs(joint.lo), std::abs(joint.hi));
+    if (widest > kDegrees) continue;
+    found.push_back(angle(s, joint.name, "the range of hinge " + joint.name, widest));
+    found.back().place = range_place(s, joint);
+  }
+  return found;
+}
+
+std::vector<Finding> control_periods(const Subject& subject) {
+  const Scenario& s = subject.scenario;
+  if (s.controller.entry == nullptr) return {};
+  return {{s.nearest_place("controller.period"),
+           {"controller.period"},
+           fmt::format("controller.period is {} s", number_text(s.control_period)),
+           s.control_period,
+           {},
+           {{s.control_period, "s"}}}};
+}
+
+/// True if the robot can fall onto a ground that its contact elements touch.
+bool stands(const Scenario& s) { return s.base != Base::fixed && s.ground.exists() && s.contact.on != ContactSet::none; }
+
+std::vector<Finding> contacts(const Subject& subject) {
+  const Scenario& s = subject.scenario;
+  if (!stands(s)) return {};
+  const std::size_t known = contact_elements(*s.robot, s.contact.on).size();
+  std::vector<std::string> files;
+  for (const Node& document : *s.module_documents) files.push_back(document.place.file);
+  const bool only_feet = s.contact.on == ContactSet::feet && !contact_elements(*s.robot, ContactSet::all).empty();
+  return {
+      {s.nearest_place("contact.on"),
+       {"contact"},
+       fmt::format("contact.on is {}, but no {} has a contact element, so that the robot falls through the ground",
+                   name_of(s.contact.on), s.contact.on == ContactSet::feet ? "free body of a module without children" : "body"),
+       static_cast<double>(known),
+       {},
+       {},
+       only_feet ? "take contact: {on: all}"
+                 : fmt::format("take contacts: {{all: shapes}} (module format 3) in {}", joined(files))}};
+}
+
+std::vector<Finding> frictions(const Subject& subject) {
+  const Scenario& s = subject.scenario;
+  if (!s.ground.exists()) return {};
+  return {{s.nearest_place("ground.friction"),
+           {"ground.friction"},
+           fmt::format("ground.friction is {}", number_text(s.ground.friction)),
+           s.ground.friction,
+           {},
+           {{s.ground.friction, ""}}}};
+}
+
+std::vector<Finding> start_heights(const Subject& subject) {
+  const Scenario& s = subject.scenario;
+  const double edge = outline_edges(*s.robot).maxCoeff();
+  if (!stands(s) || !(edge > 0)) return {};
+  const RobotState start = start_state(s);
+  Kinematics k(*s.robot);
+  k.place(*s.robot, start);
+  const double lowest = lowest_point(*s.robot, k, contact_elements(*s.robot, s.contact.on)) - s.ground.highest();
+  const double z = start.position.z();
+  return {{s.nearest_place("robot.position"),
+           {"robot.position"},
+           fmt::format("the lowest point of the robot starts {:.4g} m above the ground; the robot's largest edge is {:.3g} m",
+                       lowest, edge),
+           lowest / edge,
+           [lowest, z, edge](const Slip& slip) { return std::abs(lowest - z + slip.corrected(z)) / edge; },
+           {{z, "m"}}}};
+}
+
+std::vector<Finding> trace_periods(const Subject& subject) {
+  const Scenario& s = subject.scenario;
+  const std::vector<double> all = frequencies(s, s.cpg);
+  if (all.empty()) return {};
+  const double frequency = *std::max_element(all.begin(), all.end());
+  return {{s.nearest_place("trace.period"),
+           {"trace.period"},
+           fmt::format("trace.period is {} s, and the set points repeat every {:.4g} s", number_text(s.trace.period),
+                       1 / frequency),
+           s.trace.period * frequency,
+           {},
+           {{s.trace.period, "s"}}}};
+}
+
+/// Place of the dock of one of the bodies' modules, or else of the robot.
+SourceLocation dock_place(const Scenario& s, std::size_t first, std::size_t second) {
+  for (const std::size_t body : {second, first}) {
+    const Module& module = s.robot->modules[s.robot->bodies[body].module];
+    if (module.parent >= 0) return module.dock.place;
+  }
+  return s.nearest_place("robot");
+}
+
+std::vector<Finding> overlaps_at_start(const Subject& subject) {
+  const Scenario& s = subject.scenario;
+  const std::optional<Collision> met = collision_in(s, start_state(s));
+  if (!met) return {};
+  const auto of_type = [&](std::size_t body) {
+    const ModuleType& type = s.robot->types[s.robot->modules[s.robot->bodies[body].module].type];
+    return type.name + "/" + type.bodies[s.robot->bodies[body].type].name;
+  };
+  const std::string more = met->pairs > 1 ? fmt::format("; {} pairs of bodies overlap", met->pairs) : "";
+  return {{dock_place(s, met->deepest_first, met->deepest_second),
+           {of_type(met->deepest_first), of_type(met->deepest_second)},
+           fmt::format("{} and {} are {:.3g} mm in one another at the start{}", s.robot->bodies[met->deepest_first].name,
+                       s.robot->bodies[met->deepest_second].name, 1000 * met->depth, more),
+           met->depth,
+           {},
+           {},
+           "look at the docks and at initial.angles"}};
+}
+
+SourceLocation gait_place(const Scenario& s) { return s.nearest_place("cpg.amplitude"); }
+
+std::vector<Finding> set_points_beyond(const Subject& subject) {
+  const Scenario& s = subject.scenario;
+  std::vector<Finding> found;
+  for (const SetPointRange& one : subject.set_points) {
+    const Joint& joint = s.robot->joints[one.joint];
+    if (joint.turns_freely()) continue;
+    const double beyond = std::max(joint.lo - one.least, one.most - joint.hi);
+    const auto again = [one, joint](const Slip& slip) {
+      return std::max(joint.lo - slip.corrected(one.least), slip.corrected(one.most) - joint.hi);
+    };
+    found.push_back({gait_place(s),
+                     {"cpg", s.robot->joints[one.joint].name},
+                     fmt::format("the set points of {} go from {:.4g} to {:.4g} rad, and its range from {:.4g} to {:.4g} rad",
+                                 joint.name, one.least, one.most, joint.lo, joint.hi),
+                     std::max(0.0, beyond),
+                     again});
+  }
+  return found;
+}
+
+std::vector<Finding> set_point_speeds(const Subject& subject) {
+  const Scenario& s = subject.scenario;
+  std::vector<Finding> found;
+  if (s.actuator.entry == nullptr) return found;
+  const Motors known = motors(s, 0);
+  for (const SetPointRange& one : subject.set_points) {
+    if (known.of_joint.empty() || !known.joint(one.joint).no_load) continue;
+    const double most = *known.joint(one.joint).no_load;
+    found.push_back({gait_place(s),
+                     {"cpg", s.robot->joints[one.joint].name},
+                     fmt::format("the set points of {} move at up to {:.3g} rad/s, and its motor at {:.3g} rad/s without load",
+                                 s.robot->joints[one.joint].name, one.speed, most),
+                     one.speed / most});
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<PlausibleNumber> plausible_scenario() {
+  return {
+      {"angle", -2 * kWholeTurn, 2 * kWholeTurn, "expected at most two turns", {{"is it in degrees", of_degrees}}, {}, angles},
+      {"control period", 0, 0.5, "expected at most 0.5 s", {{"is it in ms", of_ms}}, {}, control_periods},
+      {"contact", 1, kNoLimit, "expected at least one", {}, {}, contacts},
+      {"friction", 0, 3, "expected at most 3 (rubber on concrete: about 1)", {{"is it in percent", of_percent}}, {}, frictions},
+      {"height",
+       -1,
+       1,
+       "expected at most that height",
+       {{"is position in mm", of_mm}, {"is position in cm", of_cm}},
+       {},
+       start_heights},
+      {"trace period", 0, 0.1 * kOnTheLimit, "expected at most a tenth of that", {{"is it in ms", of_ms}}, {}, trace_periods},
+      {"overlap", 0, 0, "expected bodies apart", {}, {"density"}, overlaps_at_start},
+      {"set points",
+       0,
+       0.01,
+       "expected set points in the range",
+       {{"are they in degrees", of_degrees}},
+       {"angle"},
+       set_points_beyond,
+       true},
+      {"set point speed",
+       0,
+       1,
+       "expected less than that",
+       {},
+       {"angle", "set points", "no-load speed"},
+       set_point_speeds,
+       true},
+  };
+}
+
+}  // namespace gaitlab::report
