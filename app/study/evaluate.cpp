@@ -148,6 +148,7 @@ int evaluate_study(const EvaluateArguments& a) {
   study.runs = studies::kMostAsked;
   studies::Plan plan(std::move(study), quantity_offer(), catalog);
   const studies::Executor executor = study_executor(plan, a);
+  warn_of_scenarios(plan);
   if (!a.quiet)
     for (const Problem& note : plan.study().notes) say(to_string(note.place), "note", note.text);
   studies::JournalHead head = study_head(plan);

@@ -10,6 +10,7 @@
 #include "app/study/study_run.h"
 #include "core/errors.h"
 #include "core/settings/wording.h"
+#include "report/verdict/warnings.h"
 #include "studies/plan/plan_checks.h"
 
 namespace gaitlab::app {
@@ -103,7 +104,20 @@ void note_engine(const studies::Plan& plan, const StudyRunArguments& a, bool qui
   if (!advice.empty()) say(own.front().file, "note", time_text(seconds, advice));
 }
 
+void warn_of_scenarios(const studies::Plan& plan) {
+  std::vector<std::string> said;  // scenarios of a study often share a module type
+  for (const studies::StudyScenario& one : plan.scenarios()) {
+    for (const report::Warning& doubt : report::setup_warnings(one.nominal)) {
+      const std::string place = to_string(doubt.place);
+      if (!doubt.severe || doubt.of_gait || std::ranges::find(said, place + doubt.text) != said.end()) continue;
+      said.push_back(place + doubt.text);
+      say(place, "warning", doubt.text);
+    }
+  }
+}
+
 void print_notes(const studies::Plan& plan, bool quiet) {
+  warn_of_scenarios(plan);
   if (quiet) return;
   for (const Problem& note : plan.study().notes) say(to_string(note.place), "note", note.text);
   for (const Problem& note : studies::short_runs(plan)) say(to_string(note.place), "note", note.text);
