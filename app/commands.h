@@ -30,6 +30,9 @@ void add_command(Commands& commands, const char* name, const char* about, int (*
   command->callback([&commands, run, arguments] { commands.chosen = [run, arguments] { return run(*arguments); }; });
 }
 
+/// Adds the commands `new module` and `new scenario`.
+void add_new_files(Commands& commands, CLI::App& command);
+
 /// Adds `--joint`, which chooses the joints of the figure.
 void add_joint(CLI::App& command, std::vector<std::string>& joints);
 void draw_joints(Scenario& scenario, const std::vector<std::string>& joints);

@@ -60,13 +60,6 @@ std::string class_name(const std::string& name, const std::string& kind) {
   return out;
 }
 
-std::string filled(std::string text, const std::string& mark, const std::string& value) {
-  for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + value.size())) {
-    text.replace(at, mark.size(), value);
-  }
-  return text;
-}
-
 /// A folder that gets its name only when it is complete, and is removed on failure.
 class NewFolder {
  public:
@@ -148,6 +141,7 @@ void add_new(Commands& commands) {
         plugin.add_option("--out", arguments.out, "folder to make (default: NAME); must not exist");
       },
       command);
+  add_new_files(commands, *command);
 }
 
 }  // namespace gaitlab::app

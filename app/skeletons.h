@@ -1,7 +1,8 @@
-// Templates of the files that `gaitlab new plugin` writes. @NAME@ is replaced by the plugin's name and @CLASS@ by its class.
-// tests/gates/install.sh builds and tests the files.
+// Templates of the files that `gaitlab new` writes, with places to fill such as @NAME@. tests/gates/install.sh builds and tests
+// those of plugins.
 #pragma once
 #include <array>
+#include <string>
 
 #include "core/plugin/registry.h"
 
@@ -17,5 +18,11 @@ struct Skeleton {
 extern const std::array<Skeleton, 3> kSkeletons;
 extern const char* const kSkeletonBuild;  ///< content of CMakeLists.txt
 extern const char* const kSkeletonTest;   ///< content of test.cmake; @TEST@ is replaced by Skeleton::test
+
+extern const char* const kSkeletonModule;    ///< content of a module file
+extern const char* const kSkeletonScenario;  ///< content of a scenario of equal modules
+
+/// The text with every occurrence of `mark` replaced by `value`.
+std::string filled(std::string text, const std::string& mark, const std::string& value);
 
 }  // namespace gaitlab::app

@@ -254,11 +254,11 @@ class ScenarioReader {
       problems_.add(place_of(root_, "actuator", "type"),
                     "an actuator is given, but every hinge of the robot has drive: none; remove this section");
     }
-    checks.initial_angles();
+    if (as_ != ReadAs::module_type) checks.initial_angles();
     checks.figure_joints();
     if (joints != nullptr) scenario_.figure.joints = joints_meant(scenario_.figure.joints, *joints);
     checks.base_velocity();
-    if (as_ == ReadAs::scenario) checks.limits();
+    if (as_ != ReadAs::record) checks.limits();
     finish_periods(root_, scenario_, catalog_, problems_);
   }
 
@@ -360,7 +360,7 @@ Scenario read_module(const std::string& path, Catalog& catalog) {
       "gaitlab: 1\nname: module\nduration: 1\nground: {type: none}\ncontact: {on: none}\n"
       "robot:\n  modules: " +
       print_yaml(file);
-  return ScenarioReader("module", catalog).read(alone, {});
+  return ScenarioReader("module", catalog, ReadAs::module_type).read(alone, {});
 }
 
 ScenarioTemplate::ScenarioTemplate(std::string path, std::vector<std::string> sets, Catalog& catalog)

@@ -11,8 +11,8 @@ namespace gaitlab {
 class ScenarioReader;
 
 /// Purpose of reading. A `record` is the scenario of an earlier run, whose limits may contradict each other, as older versions
-/// allowed.
-enum class ReadAs { scenario, record };
+/// allowed. A `module_type` is a module alone, for a table of its parts: its angles are 0, even if a hinge does not reach 0.
+enum class ReadAs { scenario, record, module_type };
 
 /// Reads and checks a scenario file. `sets` are texts `key.path=value`, applied in order. Loads the scenario's plugins into the
 /// catalog. Throws InputError with every problem found, each at FILE:LINE:COL.

@@ -54,7 +54,7 @@ TEST_F(Messages, WhatIsMissing) {
   refused("explain cpg",
           "gaitlab explain: error: NAME is missing: a name that `gaitlab list` prints, or the file NAME.yaml of a module; "
           "expected gaitlab explain [KIND] [NAME]");
-  refused("new", "gaitlab new: error: a command is missing; expected gaitlab new and one of: plugin");
+  refused("new", "gaitlab new: error: a command is missing; expected gaitlab new and one of: plugin, module, scenario");
   refused("new plugn", "gaitlab new: error: unknown command 'plugn'; did you mean 'plugin'?");
   const Result bare = call("");
   EXPECT_EQ(bare.code, 2);

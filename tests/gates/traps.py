@@ -126,6 +126,8 @@ COMMANDS = {
     "approve": "approve two.yaml --reason trap",
     "test": "test golden/two.yaml --junit junit.xml",
     "new plugin": "new plugin cpg mine",
+    "new module": "new module mine",
+    "new scenario": "new scenario mine --module modules/mtran.yaml",
 }
 # Commands that intentionally replace files: in the folder of a study or a run, or the figure of a recipe.
 RENEWED = {"study report", "sweep --out", "shard", "study merge", "report of two", "figure"}

@@ -1,0 +1,143 @@
+// `gaitlab new module` and `new scenario` write files that are valid and run as they stand.
+#include "app/chain.h"
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+class NewFiles : public ::testing::Test {
+ protected:
+  Result call(const std::string& words) { return gaitlab("new " + words, folder / ""); }
+  /// Message of a command that is refused and writes nothing.
+  std::string refused(const std::string& words) {
+    const Result result = call(words);
+    EXPECT_EQ(result.code, 2) << words;
+    EXPECT_EQ(result.out, "") << words;
+    return result.err;
+  }
+  /// Word of the verdict on a scenario.
+  std::string verdict(const std::string& scenario) {
+    const Result result = gaitlab("run " + scenario + " --quiet --no-report --out run", folder / "");
+    EXPECT_EQ(result.code, 0) << scenario << result.err;
+    const std::string json = read(folder / "run/verdict.json");
+    std::filesystem::remove_all(folder / "run");
+    const std::string key = "\"verdict\": \"";
+    const std::size_t at = json.find(key) + key.size();
+    return json.substr(at, json.find('"', at) - at);
+  }
+  Folder folder;
+};
+
+TEST_F(NewFiles, AModuleAndItsScenarioAreFeasibleAsTheyStand) {
+  const Result made = call("module demo");
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_EQ(made.out,
+            "demo.yaml: a module of two bodies and a hinge; replace its numbers by yours; next:\n"
+            "  gaitlab explain module demo.yaml\n"
+            "  gaitlab new scenario demo-walk --module demo.yaml\n"
+            "  gaitlab run demo-walk.yaml\n");
+  EXPECT_EQ(gaitlab("explain module demo.yaml", folder / "").code, 0);
+  const Result walk = call("scenario demo-walk --module demo.yaml");
+  EXPECT_EQ(walk.code, 0) << walk.err;
+  EXPECT_EQ(walk.out,
+            "demo-walk.yaml: 4 modules demo in a row; next:\n"
+            "  gaitlab check demo-walk.yaml --page demo-walk.html\n"
+            "  gaitlab run demo-walk.yaml\n");
+  EXPECT_EQ(read(folder / "demo-walk.yaml").find('@'), std::string::npos);
+  EXPECT_EQ(verdict("demo-walk.yaml"), "feasible");
+}
+
+TEST_F(NewFiles, EveryModuleWithAMotorGetsAVerdict) {
+  for (const auto& [name, file] : app::shipped_files("module")) {
+    const Result made = call("scenario s --module " + name);
+    if (name == "revolve_brick" || name == "revolve_core") {
+      EXPECT_EQ(made.err, file + ": error: module '" + name +
+                              "' has no hinge with a motor, and a gait needs one; dock it to modules that have one, in the "
+                              "scenario of such a module\n");
+      continue;
+    }
+    ASSERT_EQ(made.code, 0) << name << made.err;
+    const std::string word = verdict("s.yaml");
+    EXPECT_TRUE(word == "feasible" || word == "infeasible") << name << ": " << word;
+    std::filesystem::remove(folder / "s.yaml");
+  }
+}
+
+TEST_F(NewFiles, AFileIsNeverReplaced) {
+  folder.write("demo.yaml", "mine");
+  EXPECT_EQ(refused("module demo"), "demo.yaml: error: exists; nothing was written\n");
+  EXPECT_EQ(refused("scenario demo"), "demo.yaml: error: exists; nothing was written\n");
+  EXPECT_EQ(read(folder / "demo.yaml"), "mine");
+  EXPECT_EQ(call("module demo --out other.yaml").code, 0);
+  EXPECT_NE(read(folder / "other.yaml").find("name: demo\n"), std::string::npos);
+}
+
+TEST_F(NewFiles, NamesAreChecked) {
+  const std::string rule = " is not allowed; expected letters, digits, _ and -, a letter first\n";
+  EXPECT_EQ(refused("module 3legs"), "gaitlab new module: error: name '3legs'" + rule);
+  EXPECT_EQ(refused("module ../up"), "gaitlab new module: error: name '../up'" + rule);
+  EXPECT_EQ(refused("scenario a.b"), "gaitlab new scenario: error: name 'a.b'" + rule);
+  EXPECT_EQ(refused("module y1"), "gaitlab new module: error: module 'y1' comes with the program; choose another name\n");
+  EXPECT_EQ(refused("scenario walk --module y2"),
+            "--module: error: no module 'y2'; did you mean 'y1'?; expected a name that `gaitlab list module` prints, or a "
+            "file\n");
+  // A word that YAML reads as another type is quoted.
+  EXPECT_EQ(call("module null").code, 0);
+  EXPECT_EQ(call("scenario true --module null.yaml").code, 0);
+  EXPECT_EQ(gaitlab("check true.yaml", folder / "").code, 0);
+}
+
+TEST_F(NewFiles, TheModuleIsNamedFromTheFolderOfTheScenario) {
+  std::filesystem::create_directory(folder / "my modules");
+  std::filesystem::create_directory(folder / "walks");
+  EXPECT_EQ(call("module demo --out 'my modules/demo.yaml'").code, 0);
+  const Result made = call("scenario far --module 'my modules/demo.yaml' --out walks/far.yaml");
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_TRUE(contains(read(folder / "walks/far.yaml"), "modules: \"../my modules/demo.yaml\"\n"))
+      << read(folder / "walks/far.yaml");
+  EXPECT_EQ(gaitlab("check walks/far.yaml", folder / "").code, 0);
+}
+
+/// A leg whose knee bends one way only, without faces and contact elements: the gait stays within the range, on a fixed base.
+TEST_F(NewFiles, AGaitFitsTheRangesOfTheHinges) {
+  folder.write("leg.yaml",
+               "gaitlab_module: 2\nname: leg\nbodies:\n"
+               "  hip: {mass: 1, inertia: [0.01, 0.01, 0.01, 0, 0, 0]}\n"
+               "  thigh: {mass: 0.1, com: [0, 0, -0.05], inertia: [1e-4, 1e-4, 1e-4, 0, 0, 0]}\n"
+               "  shin: {mass: 0.1, com: [0, 0, -0.05], inertia: [1e-4, 1e-4, 1e-4, 0, 0, 0]}\n"
+               "hinges:\n"
+               "  - {name: hip, parent: hip, child: thigh, axis: [0, 1, 0], range: [-1, 1]}\n"
+               "  - {name: knee, parent: thigh, child: shin, origin: [0, 0, -0.1], axis: [0, 1, 0], range: [0.2, 0.8]}\n");
+  const Result made = call("scenario step --module leg.yaml");
+  EXPECT_EQ(made.code, 0) << made.err;
+  const std::string text = read(folder / "step.yaml");
+  EXPECT_TRUE(contains(text, "initial: {angles: {default: 0, \"*/knee\": 0.5}}")) << text;
+  EXPECT_TRUE(contains(text, "amplitude: {default: 0.4, \"*/knee\": 0.24}")) << text;
+  EXPECT_TRUE(contains(text, "offset: {default: 0, \"*/knee\": 0.5}")) << text;
+  EXPECT_TRUE(contains(text, "  base: fixed")) << text;
+  EXPECT_EQ(verdict("step.yaml"), "feasible");
+}
+
+TEST_F(NewFiles, AModuleWithFaultsIsRefusedWithThem) {
+  folder.write("bad.yaml", "gaitlab_module: 2\nname: bad\nbodies: {b: {mass: -1}}\n");
+  EXPECT_EQ(refused("scenario walk --module bad.yaml"), "bad.yaml:3:20: error: mass is -1 kg; allowed are at least 0 kg\n");
+  EXPECT_FALSE(std::filesystem::exists(folder / "walk.yaml"));
+}
+
+/// The docks of the shipped build files of rows.
+TEST(Chain, IsThatOfTheBuildFiles) {
+  const auto docks = [](const std::string& module) {
+    return app::chain(read_module(kScenarios + "modules/" + module + ".yaml", catalog()), 3);
+  };
+  const std::vector<Dock> mtran = docks("mtran");
+  ASSERT_EQ(mtran.size(), 2U);
+  EXPECT_EQ(mtran[1].child_module, 2);
+  EXPECT_EQ(mtran[1].parent_module, 1);
+  EXPECT_EQ(mtran[1].child_face, 1) << "end to end: 1 on 4 (docs/modules.md)";
+  EXPECT_EQ(mtran[1].parent_face, 4);
+  EXPECT_EQ(docks("atron").size(), 1U) << "its faces point 45 degrees up and down";
+  EXPECT_TRUE(docks("rod").empty());
+}
+
+}  // namespace
+}  // namespace gaitlab::test
