@@ -7,6 +7,7 @@
 #include "app/commands.h"
 #include "app/module_table.h"
 #include "app/study/study_quantities.h"
+#include "core/robot_files/module_manual.h"
 #include "core/scenario/manual.h"
 #include "core/scenario/read_scenario.h"
 #include "core/scenario/schema.h"
@@ -120,6 +121,10 @@ int explain(const ManualArguments& arguments) {
     fmt::print("{}", report::explain_verdict());
     return 0;
   }
+  if (kind == "module" && name.empty()) {
+    fmt::print("{}", explain_module_file());
+    return 0;
+  }
   if (const report::CheckKind* check = check_kind(kind); check != nullptr && name.empty()) {
     fmt::print("{}", report::explain_check(*check));
     return 0;
@@ -154,14 +159,18 @@ int explain(const ManualArguments& arguments) {
 }
 
 struct SchemaArguments : ManualArguments {
-  bool study = false;
+  bool study = false, module = false;
 };
 
 int schema(const SchemaArguments& arguments) {
   if (arguments.study && !arguments.plugins.empty())
     throw InputError(SourceLocation{"--plugin"}, "cannot be combined with --study: plugins add no keys to the file of a study");
-  fmt::print("{}", arguments.study ? studies::study_schema(quantity_offer().checks)
-                                   : scenario_schema(standard_catalog(arguments.plugins)));
+  if (arguments.study) {
+    fmt::print("{}", studies::study_schema(quantity_offer().checks));
+    return 0;
+  }
+  const Catalog catalog = standard_catalog(arguments.plugins);
+  fmt::print("{}", arguments.module ? module_schema(catalog) : scenario_schema(catalog));
   return 0;
 }
 
@@ -169,6 +178,7 @@ int reference(const ManualArguments& arguments) {
   const Catalog catalog = standard_catalog();
   fmt::print("{}", arguments.kind == "scenario"  ? scenario_page(catalog)
                    : arguments.kind == "figure"  ? report::recipe_page()
+                   : arguments.kind == "module"  ? module_page()
                    : arguments.kind == "study"   ? studies::study_page()
                    : arguments.kind == "verdict" ? report::verdict_page()
                                                  : plugins_page(catalog));
@@ -188,25 +198,27 @@ void add_manuals(Commands& commands) {
   add_command<ManualArguments>(
       commands, "explain", "Print the manual of KIND NAME; without them, the manual of the scenario file.", explain,
       [](CLI::App& command, ManualArguments& arguments) {
-        command.add_option(
-            "KIND", arguments.kind,
-            "cpg, controller, actuator, sensor, engine, module, robot, figure, check; without NAME also study, verdict, "
-            "or a check's id");
+        command.add_option("KIND", arguments.kind,
+                           "cpg, controller, actuator, sensor, engine, module, robot, figure, check; without NAME also module, "
+                           "study, verdict, "
+                           "or a check's id");
         command.add_option("NAME", arguments.name, "name that `gaitlab list` prints, or the file NAME.yaml of a module");
         add_plugins(command, arguments);
       });
-  add_command<SchemaArguments>(commands, "schema", "Print the JSON Schema of the scenario file, for editors.", schema,
-                               [](CLI::App& command, SchemaArguments& arguments) {
-                                 command.add_flag("--study", arguments.study, "print the manual of the study file instead");
-                                 add_plugins(command, arguments);
-                               });
-  add_command<ManualArguments>(commands, "reference", "Print a page of docs/reference.", reference,
-                               [](CLI::App& command, ManualArguments& arguments) {
-                                 command.group("");  // hides the command in the help
-                                 command.add_option("PAGE", arguments.kind, "scenario, plugins, figure, study or verdict")
-                                     ->required()
-                                     ->check(CLI::IsMember({"scenario", "plugins", "figure", "study", "verdict"}));
-                               });
+  add_command<SchemaArguments>(
+      commands, "schema", "Print the JSON Schema of the scenario file, for editors.", schema,
+      [](CLI::App& command, SchemaArguments& arguments) {
+        CLI::Option* study = command.add_flag("--study", arguments.study, "print the schema of the study file instead");
+        command.add_flag("--module", arguments.module, "print the schema of the module file instead")->excludes(study);
+        add_plugins(command, arguments);
+      });
+  add_command<ManualArguments>(
+      commands, "reference", "Print a page of docs/reference.", reference, [](CLI::App& command, ManualArguments& arguments) {
+        command.group("");  // hides the command in the help
+        command.add_option("PAGE", arguments.kind, "scenario, plugins, module, figure, study or verdict")
+            ->required()
+            ->check(CLI::IsMember({"scenario", "plugins", "module", "figure", "study", "verdict"}));
+      });
 }
 
 }  // namespace gaitlab::app

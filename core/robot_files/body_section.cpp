@@ -6,51 +6,36 @@
 #include <cmath>
 
 #include "core/model/solid.h"
-#include "core/robot_files/frame_fields.h"
-#include "core/settings/reader.h"
+#include "core/robot_files/key_reader.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab {
 namespace {
 
-struct BodyFields {
-  double mass = 0;
-  Vec3 com = Vec3::Zero();
-  std::array<double, 6> inertia = {};
+Mat3 inertia_matrix(const std::array<double, 6>& inertia) {
+  const auto& [xx, yy, zz, xy, xz, yz] = inertia;
+  return (Mat3() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
+}
 
-  void fields(Fields& f) {
-    f.number("mass", mass, {"kg", 0, kAnyNumber, "Mass; 0 only for a body between two hinges."});
-    length(f, "com", com, "Centre of mass, body frame.");
-    f.vector("inertia", inertia, {"kg m^2", -kAnyNumber, kAnyNumber, "xx, yy, zz, xy, xz, yz about the COM, body axes."});
-  }
-  [[nodiscard]] Mat3 matrix() const {
-    const auto& [xx, yy, zz, xy, xz, yz] = inertia;
-    return (Mat3() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
-  }
-};
-
-void read_shape(const Node& node, BodyType& body, Problems& problems) {
-  Reader reader(node, "shape", problems, nullptr);
-  std::string source;
-  reader.text("source", source, "Origin of the values.");
-  FrameFields frame;
-  frame.fields(reader);
+void read_shape(const Node& node, std::int64_t format, BodyType& body, Problems& problems) {
+  KeyReader reader(node, kShapeMap, "shape", format, problems);
   Shape shape;
-  const Spec size{"m", kPositive, kAnyNumber, "Size."};
-  const std::size_t kinds = static_cast<std::size_t>(reader.has("box")) + static_cast<std::size_t>(reader.has("cylinder")) +
-                            static_cast<std::size_t>(reader.has("half_cylinder")) +
-                            static_cast<std::size_t>(reader.has("sphere"));
-  if (reader.has("cylinder")) shape.kind = Shape::Kind::cylinder;
-  if (reader.has("half_cylinder")) shape.kind = Shape::Kind::half_cylinder;
-  if (reader.has("sphere")) shape.kind = Shape::Kind::sphere;
-  reader.vector("box", span_of(shape.size), size);
-  reader.vector("cylinder", span_of(shape.size).first(2), size);
-  reader.vector("half_cylinder", span_of(shape.size).first(2), size);
-  reader.number("sphere", shape.size.x(), size);
+  shape.in_body = reader.frame();
+  std::size_t kinds = 0;
+  for (std::size_t k = 0; k < kShapeMap.one_of.size(); ++k) {  // in the order of Shape::Kind
+    const char* kind = kShapeMap.one_of[k];
+    if (!reader.has(kind)) continue;
+    ++kinds;
+    shape.kind = static_cast<Shape::Kind>(k);
+    if (kShapeMap.at(kind).form == ModuleForm::number) {
+      reader.number(kind, shape.size.x());
+    } else {
+      reader.vector(kind, span_of(shape.size));
+    }
+  }
   if (kinds != 1 && node.kind == Node::Kind::map) {
     problems.add(node.place, fmt::format("the shape has {} of box, cylinder, half_cylinder and sphere; expected one", kinds));
   }
-  shape.in_body = frame.pose();
   body.shapes.push_back(shape);
   reader.finish();
 }
@@ -85,19 +70,17 @@ void inertia_of_shapes(BodyType& body, bool with_com, const SourceLocation& plac
 
 void read_body(const Node& node, const SourceLocation& place, std::int64_t format, BodyType& body, Problems& problems) {
   const std::size_t before = problems.size();
-  BodyFields values;
-  Reader reader(node, in_quotes(body.name), problems, nullptr);
-  std::string source;
-  reader.text("source", source, "Origin of the values.");
-  values.fields(reader);
-  body.mass = values.mass;
-  body.com = values.com;
-  body.inertia = values.matrix();
+  KeyReader reader(node, kBodyMap, in_quotes(body.name), format, problems);
+  std::array<double, 6> inertia = {};
+  reader.number("mass", body.mass);
+  reader.vector("com", span_of(body.com));
+  reader.vector("inertia", inertia);
+  body.inertia = inertia_matrix(inertia);
   if (const Node* shapes = reader.take("shape")) {
     if (shapes->kind != Node::Kind::list)
       problems.add(shapes->place, fmt::format("shape is {}; expected a list of maps", found(*shapes)));
     for (const Node& item : shapes->kind == Node::Kind::list ? shapes->items : std::vector<Node>())
-      read_shape(item, body, problems);
+      read_shape(item, format, body, problems);
   }
   reader.finish();
   if (problems.size() != before || format == 0 || !(body.mass > 0) || reader.has("inertia")) return;

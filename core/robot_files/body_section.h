@@ -7,9 +7,6 @@
 
 namespace gaitlab {
 
-/// First format in which inertia, centre of mass and contact elements follow from shapes.
-inline constexpr std::int64_t kFormatOfShapes = 3;
-
 /// Reads the keys of the body whose name `body` has. From format 3 on, a missing inertia is that of the body's shapes at
 /// uniform density, and a missing centre of mass then is their centre. `place` is that of the name. `format` 0 means that the
 /// format is not known, which has been reported.

@@ -9,15 +9,12 @@
 #include "core/model/docking.h"
 #include "core/model/shape_contacts.h"
 #include "core/robot_files/body_section.h"
-#include "core/robot_files/frame_fields.h"
+#include "core/robot_files/key_reader.h"
 #include "core/robot_files/module_check.h"
-#include "core/settings/reader.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab {
 namespace {
-
-constexpr std::int64_t kNewest = 3;  ///< newest format version
 
 /// Reader of a module type's parts one after the other. Bodies are referred to by name.
 class ModuleReader {
@@ -25,21 +22,17 @@ class ModuleReader {
   ModuleReader(const Node& document, Problems& problems) : document_(document), problems_(problems) {}
 
   ModuleType read(bool versioned) {
-    Reader reader = open(document_, "the module type");
-    places_.format = reader.version("gaitlab_module", kNewest);
-    if (versioned) reader.require({"gaitlab_module"});
-    if (versioned && !reader.has("gaitlab_module")) places_.format = kNewest;  // one problem, and not one for every newer key
-    reader.require({"name", "bodies"});
-    reader.text("name", type_.name, "Name of the type.");
+    read_format(versioned);
+    KeyReader reader = open(document_, kModuleMap, "the module type");
+    reader.text("name", type_.name);
     if (const Node* name = reader.take("name")) check_name(type_.name, *name);
-    reader.flag("lattice", type_.lattice, "Bodies with faces fill cells of a cubic lattice.");
+    reader.flag("lattice", type_.lattice);
     read_bodies(reader.take("bodies"));
     each(reader.take("hinges"), "hinges", [this](const Node& node) { read_hinge(node); });
     each(reader.take("faces"), "faces", [this](const Node& node) { read_face(node); });
     if (const Node* node = reader.take("contacts")) read_contacts(*node);
-    reader.take("actuator");  // the keys within `actuator` are read when the plugin of its type is known
-    if (newer(reader, document_, {"connectors", "controller"})) read_connectors(reader.take("connectors"));
-    reader.finish();
+    read_connectors(reader.take("connectors"));
+    reader.finish();  // the keys within `actuator` and `controller` are read when the plugins of their types are known
     return std::move(type_);
   }
 
@@ -53,27 +46,18 @@ class ModuleReader {
   }
 
  private:
-  /// Opens a map of a module type. The map may have a `source`.
-  Reader open(const Node& node, const std::string& name) {
-    Reader reader(node, name, problems_, nullptr);
-    std::string source;
-    reader.text("source", source, "Origin of the values.");
-    return reader;
+  KeyReader open(const Node& node, const ModuleMap& map, const std::string& name) {
+    return {node, map, name, places_.format, problems_};
   }
 
-  /// True if the keys of format 2 may be read. In a text of format 1, each of these keys is a problem.
-  bool newer(Reader& reader, const Node& map, std::initializer_list<const char*> keys) {
-    for (const char* key : keys) {
-      const Node* value = reader.take(key);
-      if (value != nullptr && places_.format < 2) need_format(2, in_quotes(key) + " is a key", value->place);
-    }
-    return places_.format >= 2 && map.kind == Node::Kind::map;
-  }
-
-  void need_format(std::int64_t format, const std::string& what, const SourceLocation& place) {
-    if (places_.format == 0) return;  // the version is invalid and has been reported
-    problems_.add(place, fmt::format("{} of module format {}, but this file has format {}; write gaitlab_module: {}", what,
-                                     format, places_.format, format));
+  /// Reads the format version. A file without it is read as the newest format, so that only the version is reported.
+  void read_format(bool versioned) {
+    if (document_.kind != Node::Kind::map) return;
+    Reader reader(document_, "", problems_, nullptr);
+    places_.format = reader.version("gaitlab_module", kNewestModule);
+    if (!versioned || reader.has("gaitlab_module")) return;
+    reader.require({"gaitlab_module"});
+    places_.format = kNewestModule;
   }
 
   void read_connectors(const Node* connectors) {
@@ -86,13 +70,13 @@ class ModuleReader {
     for (std::size_t i = 0; i < connectors->items.size(); ++i) {
       const auto& [name, place] = connectors->keys[i];
       check_name(name, Node{Node::Kind::scalar, place});
-      Reader reader(connectors->items[i], in_quotes(name), problems_, nullptr);
+      KeyReader reader = open(connectors->items[i], kConnectorMap, in_quotes(name));
       Connector limits;
-      reader.number("tension", limits.tension, {"N", kPositive, kAnyNumber, "Largest pull along the normal."});
-      reader.number("shear", limits.shear, {"N", kPositive, kAnyNumber, "Largest force in the plane of the face."});
-      reader.number("bending", limits.bending, {"N m", kPositive, kAnyNumber, "Largest moment about axes in that plane."});
-      reader.number("torsion", limits.torsion, {"N m", kPositive, kAnyNumber, "Largest moment about the normal."});
-      reader.text("source", limits.source, "Origin of the values.");
+      reader.number("tension", limits.tension);
+      reader.number("shear", limits.shear);
+      reader.number("bending", limits.bending);
+      reader.number("torsion", limits.torsion);
+      reader.text("source", limits.source);
       reader.finish();
       type_.connectors[name] = limits;
     }
@@ -133,10 +117,9 @@ class ModuleReader {
   }
 
   /// Index of the body that `key` names. Adds a problem for an unknown body.
-  std::size_t body_of(Reader& reader, const char* key) {
-    reader.require({key});
+  std::size_t body_of(KeyReader& reader, const char* key) {
     std::string name;
-    reader.text(key, name, "A body's name.");
+    reader.text(key, name);
     const Node* node = reader.take(key);
     const auto it = std::find(names_.begin(), names_.end(), name);
     if (node != nullptr && node->kind == Node::Kind::scalar && it == names_.end()) {
@@ -146,55 +129,47 @@ class ModuleReader {
   }
 
   void read_hinge(const Node& node) {
-    Reader reader = open(node, "hinge");
+    KeyReader reader = open(node, kHingeMap, "hinge");
     HingeType hinge;
-    FrameFields frame;
-    reader.require({"name", "axis", "range"});
-    reader.text("name", hinge.name, "Name of the hinge and of its joint.");
+    reader.text("name", hinge.name);
     if (const Node* name = reader.take("name")) {
       check_name(hinge.name, *name);
       if (hinge.name == "dock") problems_.add(name->place, "a hinge cannot be named dock: that is where the module is docked");
     }
     hinge.parent = body_of(reader, "parent");
     hinge.child = body_of(reader, "child");
-    frame.fields(reader);
-    direction(reader, "axis", hinge.axis, "Axis, hinge frame.");
+    hinge.in_parent = reader.frame();
+    reader.vector("axis", span_of(hinge.axis));
     read_range(reader, hinge);
-    hinge.in_parent = frame.pose();
-    if (newer(reader, node,
-              {"drive", "stiffness", "rest", "damping", "friction", "friction_speed", "actuator", "controller"})) {
-      read_drive(reader, hinge);
-    }
+    read_drive(reader, hinge);
     type_.hinges.push_back(hinge);
     places_.hinges.push_back(node);
     reader.finish();
   }
 
-  void read_range(Reader& reader, HingeType& hinge) {
-    const Node* node = reader.take("range");
-    if (node != nullptr && node->kind == Node::Kind::scalar && node->text == "free") {
-      if (places_.format < 2) need_format(2, "range: free is", node->place);
+  void read_range(KeyReader& reader, HingeType& hinge) {
+    if (reader.word("range", "free")) {
       hinge.lo = -kNoStop;
       hinge.hi = kNoStop;
       return;
     }
+    const Node* node = reader.take("range");
     if (node != nullptr && node->kind != Node::Kind::list && places_.format >= 2) {
       problems_.add(node->place, fmt::format("range is {}; expected a list of 2 numbers in rad, or free", found(*node)));
       return;
     }
     std::array<double, 2> range{};
-    reader.vector("range", range, {"rad", -kAnyNumber, kAnyNumber, "Smallest and largest angle."});
+    reader.vector("range", range);
     hinge.lo = range[0];
     hinge.hi = range[1];
   }
 
   /// Reads the motor of a hinge, or spring and damper of a hinge without a motor. The keys of `actuator` and `controller` are
   /// read later, when the plugins of their types are known.
-  void read_drive(Reader& reader, HingeType& hinge) {
+  void read_drive(KeyReader& reader, HingeType& hinge) {
     enum class Drive { motor, none };
-    constexpr std::array<const char*, 2> kDrives{"motor", "none"};
     Drive drive = Drive::motor;
-    reader.choice("drive", drive, kDrives, "motor, or none for a passive hinge.");
+    reader.choice("drive", drive);
     for (const char* key : {"actuator", "controller"}) {
       const Node* own = reader.take(key);
       if (own == nullptr) continue;
@@ -205,54 +180,46 @@ class ModuleReader {
       }
     }
     Passive passive;
-    reader.number("stiffness", passive.stiffness, {"N m/rad", 0, 1e6, "Stiffness of a spring."});
-    reader.number("rest", passive.rest, {"rad", -1000, 1000, "Angle at which the spring has no torque."});
-    reader.number("damping", passive.damping, {"N m s/rad", 0, 1e6, "Coefficient of a viscous damper."});
-    reader.number("friction", passive.friction, {"N m", 0, 1e6, "Dry friction."});
-    reader.number("friction_speed", passive.friction_speed, {"rad/s", 1e-6, 1e3, "Speed below which dry friction is viscous."});
+    reader.number("stiffness", passive.stiffness);
+    reader.number("rest", passive.rest);
+    reader.number("damping", passive.damping);
+    reader.number("friction", passive.friction);
+    reader.number("friction_speed", passive.friction_speed);
     if (drive == Drive::none) {
       hinge.passive = passive;
       return;
     }
-    for (const char* key : {"stiffness", "rest", "damping", "friction", "friction_speed"}) {
-      if (const Node* own = reader.take(key)) {
-        problems_.add(
-            own->place,
-            fmt::format("{0} is only for a hinge without a motor, and this hinge has one; add drive: none, or remove {0}",
-                        key));
-      }
+    for (const ModuleKey& key : kHingeMap.keys) {
+      const Node* own = key.passive ? reader.take(key.key) : nullptr;
+      if (own == nullptr) continue;
+      problems_.add(own->place, fmt::format("{0} is only for a hinge without a motor, and this hinge has one; add drive: none, "
+                                            "or remove {0}",
+                                            key.key));
     }
   }
 
   void read_face(const Node& node) {
-    Reader reader = open(node, "face");
+    KeyReader reader = open(node, kFaceMap, "face");
     FaceType face;
     std::int64_t id = 0;
-    reader.require({"id", "gender", "origin", "normal", "reference"});
-    reader.integer("id", id, {"", 0, 1000, "Number of the face in build files."});
+    reader.integer("id", id);
     face.body = body_of(reader, "body");
-    const Node* gender = reader.take("gender");
-    if (places_.format < 2 && gender != nullptr && gender->text == "none") {
-      need_format(2, "gender: none is", gender->place);
-    } else {
-      reader.choice("gender", face.gender, enum_names<Gender>().first(places_.format < 2 ? 2 : 3),
-                    "An active face docks on a passive one, none on none.");
-    }
-    if (newer(reader, node, {"connector", "turns"})) read_docking(reader, face);
-    length(reader, "origin", face.origin, "Middle of the face, body frame.");
-    direction(reader, "normal", face.normal, "Outward normal, body frame.");
-    direction(reader, "reference", face.reference, "In-plane reference direction, body frame.");
+    reader.choice("gender", face.gender);
+    read_docking(reader, face);
+    reader.vector("origin", span_of(face.origin));
+    reader.vector("normal", span_of(face.normal));
+    reader.vector("reference", span_of(face.reference));
     face.id = static_cast<int>(id);
     type_.faces.push_back(face);
     places_.faces.push_back(node);
     reader.finish();
   }
 
-  void read_docking(Reader& reader, FaceType& face) {
-    reader.text("connector", face.connector, "Name of the connector; only faces with the same connector dock.");
+  void read_docking(KeyReader& reader, FaceType& face) {
+    reader.text("connector", face.connector);
     if (const Node* name = reader.take("connector")) check_name(face.connector, *name);
     std::vector<double> turns{0, 1, 2, 3};
-    reader.numbers("turns", turns, {"", 0, 3, "Orientations in which the face docks."});
+    reader.numbers("turns", turns);
     const Node* list = reader.take("turns");
     if (list == nullptr || list->kind != Node::Kind::list) return;
     face.turns = {};
@@ -268,42 +235,42 @@ class ModuleReader {
   }
 
   void read_contacts(const Node& node) {
-    Reader reader = open(node, "contacts");
-    read_elements(reader.take("feet"), "feet", type_.feet, feet_of_shapes_);
-    read_elements(reader.take("all"), "all", type_.all, all_of_shapes_);
+    KeyReader reader = open(node, kContactsMap, "contacts");
+    feet_of_shapes_ = read_elements(reader, "feet", type_.feet);
+    all_of_shapes_ = read_elements(reader, "all", type_.all);
     feet_are_all_ = places_.format >= kFormatOfShapes && !reader.has("feet");
     reader.finish();
   }
 
-  /// Reads a list of contact elements, or the word `shapes`.
-  void read_elements(const Node* node, const char* key, std::vector<ContactType>& elements, bool& of_shapes) {
-    of_shapes = node != nullptr && node->kind == Node::Kind::scalar && node->text == "shapes";
-    if (!of_shapes) {
-      if (node != nullptr && node->kind != Node::Kind::list) {
+  /// Reads a list of contact elements. Returns true for the word `shapes` instead.
+  bool read_elements(KeyReader& reader, const char* key, std::vector<ContactType>& elements) {
+    const Node* node = reader.take(key);
+    if (node == nullptr) return false;
+    if (!reader.word(key, "shapes")) {
+      if (node->kind != Node::Kind::list) {
         problems_.add(node->place, fmt::format("{} is {}; expected a list of maps, or shapes", key, found(*node)));
-        return;
+        return false;
       }
-      each(node, key, [&](const Node& item) { elements.push_back(read_contact(item)); });
-      return;
+      for (const Node& item : node->items) elements.push_back(read_contact(item));
+      return false;
     }
     const auto shaped = [](const BodyType& body) { return !body.shapes.empty(); };
-    if (places_.format < kFormatOfShapes) {
-      need_format(kFormatOfShapes, fmt::format("{}: shapes is", key), node->place);
-    } else if (std::none_of(type_.bodies.begin(), type_.bodies.end(), shaped)) {
+    if (places_.format >= kFormatOfShapes && std::none_of(type_.bodies.begin(), type_.bodies.end(), shaped)) {
       problems_.add(node->place, fmt::format("{} is shapes, but no body has a shape; expected a list of maps", key));
     }
+    return true;
   }
 
   ContactType read_contact(const Node& node) {
-    Reader reader = open(node, "contact");
+    KeyReader reader = open(node, kContactMap, "contact");
     ContactType contact;
     contact.body = body_of(reader, "body");
     const bool point = reader.has("point");
     const bool sphere = reader.has("sphere");
-    length(reader, "point", contact.centre, "A point, body frame.");
-    length(reader, "sphere", contact.centre, "Centre of a sphere, body frame.");
-    reader.number("radius", contact.radius, {"m", kPositive, kAnyNumber, "Radius of the sphere."});
-    if (sphere) reader.require({"radius"});
+    reader.vector("point", span_of(contact.centre));
+    reader.vector("sphere", span_of(contact.centre));
+    reader.number("radius", contact.radius);
+    if (sphere) reader.require("radius");
     if (node.kind == Node::Kind::map && (point == sphere || (point && reader.has("radius")))) {
       problems_.add(node.place, "expected {body, point: [x, y, z]} or {body, sphere: [x, y, z], radius: r}");
     }

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "core/robot_files/module_manual.h"
 #include "core/scenario/change_section.h"
 #include "core/scenario/sections.h"
 #include "core/settings/overlay.h"
@@ -10,10 +11,8 @@
 namespace gaitlab {
 namespace {
 
-// Schema of the parts that are not read through Fields: the parts of the robot and the head of the file.
+// Schema of the parts that are not read through Fields: docks and the head of the file.
 constexpr const char* kParts = R"json({
-  "vector": {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3},
-  "source": {"type": ["string", "number", "boolean"], "description": "Origin of the values."},
   "dock": {"anyOf": [
     {"type": "array", "items": {"type": "integer", "minimum": 0}, "minItems": 5, "maxItems": 5,
      "description": "child_face, child_module, parent_face, parent_module, orientation"},
@@ -24,72 +23,6 @@ constexpr const char* kParts = R"json({
       "parent_face": {"type": "integer", "minimum": 0, "description": "Face of the parent."},
       "parent_module": {"type": "integer", "minimum": 0, "description": "Module to which the child is docked."},
       "orientation": {"type": "integer", "minimum": 0, "description": "Quarter turns about the child's face normal, 0 to 3."}}}]},
-  "shape": {"type": "object", "additionalProperties": false, "properties": {
-    "box": {"$ref": "#/definitions/vector"},
-    "cylinder": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2},
-    "half_cylinder": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2},
-    "sphere": {"type": "number"},
-    "origin": {"$ref": "#/definitions/vector"}, "rpy": {"$ref": "#/definitions/vector"},
-    "source": {"$ref": "#/definitions/source"}}},
-  "contact": {"type": "object", "additionalProperties": false, "required": ["body"], "properties": {
-    "body": {"type": "string"}, "point": {"$ref": "#/definitions/vector"}, "sphere": {"$ref": "#/definitions/vector"},
-    "radius": {"type": "number"}, "source": {"$ref": "#/definitions/source"}}},
-  "module_type": {"type": "object", "additionalProperties": false, "required": ["name", "bodies"], "properties": {
-    "gaitlab_module": {"enum": [1, 2, 3], "description": "Format version."},
-    "name": {"type": ["string", "number", "boolean"], "description": "Name of the type."},
-    "lattice": {"type": "boolean", "description": "Bodies with faces fill cells of a cubic lattice."},
-    "source": {"$ref": "#/definitions/source"},
-    "bodies": {"type": "object", "minProperties": 1, "additionalProperties": {
-      "type": "object", "additionalProperties": false, "properties": {
-        "mass": {"type": "number", "minimum": 0, "description": "Mass; 0 only for a body between two hinges. [kg]"},
-        "com": {"$ref": "#/definitions/vector"},
-        "inertia": {"type": "array", "items": {"type": "number"}, "minItems": 6, "maxItems": 6,
-                    "description": "xx, yy, zz, xy, xz, yz about the COM, body axes; in format 3 by default those of shape. [kg m^2]"},
-        "shape": {"type": "array", "items": {"$ref": "#/definitions/shape"}},
-        "source": {"$ref": "#/definitions/source"}}}},
-    "hinges": {"type": "array", "items": {
-      "type": "object", "additionalProperties": false, "required": ["name", "parent", "child", "axis", "range"], "properties": {
-        "name": {"type": ["string", "number", "boolean"]}, "parent": {"type": "string"}, "child": {"type": "string"},
-        "origin": {"$ref": "#/definitions/vector"}, "rpy": {"$ref": "#/definitions/vector"},
-        "axis": {"$ref": "#/definitions/vector"},
-        "range": {"description": "Smallest and largest angle, or free. [rad]", "anyOf": [{"const": "free"},
-          {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2}]},
-        "drive": {"enum": ["motor", "none"], "default": "motor", "description": "motor, or none for a passive hinge."},
-        "stiffness": {"type": "number", "minimum": 0, "description": "Stiffness of a spring; drive: none. [N m/rad]"},
-        "rest": {"type": "number", "description": "Angle at which the spring has no torque. [rad]"},
-        "damping": {"type": "number", "minimum": 0, "description": "Coefficient of a viscous damper; drive: none. [N m s/rad]"},
-        "friction": {"type": "number", "minimum": 0, "description": "Dry friction; drive: none. [N m]"},
-        "friction_speed": {"type": "number", "exclusiveMinimum": 0,
-                           "description": "Speed below which dry friction is viscous. [rad/s]"},
-        "actuator": {"type": "object", "description": "Keys of the motor that differ from the module type's actuator."},
-        "controller": {"type": "object",
-                       "description": "Keys of the controller that differ from the module type's controller."},
-        "source": {"$ref": "#/definitions/source"}}}},
-    "faces": {"type": "array", "items": {
-      "type": "object", "additionalProperties": false,
-      "required": ["id", "body", "gender", "origin", "normal", "reference"], "properties": {
-        "id": {"type": "integer", "minimum": 0, "maximum": 1000, "description": "Number of the face in build files."},
-        "body": {"type": "string"}, "gender": {"enum": ["active", "passive", "none"]},
-        "connector": {"type": "string", "description": "Name of the connector; only faces with the same connector dock."},
-        "turns": {"type": "array", "items": {"type": "integer", "minimum": 0, "maximum": 3}, "minItems": 1,
-                  "description": "Orientations in which the face docks."},
-        "origin": {"$ref": "#/definitions/vector"}, "normal": {"$ref": "#/definitions/vector"},
-        "reference": {"$ref": "#/definitions/vector"}, "source": {"$ref": "#/definitions/source"}}}},
-    "contacts": {"type": "object", "additionalProperties": false, "properties": {
-      "feet": {"description": "Elements for contact.on: feet.", "anyOf": [{"const": "shapes"},
-        {"type": "array", "items": {"$ref": "#/definitions/contact"}}]},
-      "all": {"description": "Elements for contact.on: all.", "anyOf": [{"const": "shapes"},
-        {"type": "array", "items": {"$ref": "#/definitions/contact"}}]},
-      "source": {"$ref": "#/definitions/source"}}},
-    "connectors": {"type": "object", "description": "Largest loads of the connectors, by name.", "additionalProperties": {
-      "type": "object", "additionalProperties": false, "properties": {
-        "tension": {"type": "number", "exclusiveMinimum": 0, "description": "Largest pull along the normal. [N]"},
-        "shear": {"type": "number", "exclusiveMinimum": 0, "description": "Largest force in the plane of the face. [N]"},
-        "bending": {"type": "number", "exclusiveMinimum": 0, "description": "Largest moment about axes in that plane. [N m]"},
-        "torsion": {"type": "number", "exclusiveMinimum": 0, "description": "Largest moment about the normal. [N m]"},
-        "source": {"$ref": "#/definitions/source"}}}},
-    "actuator": {"type": "object", "description": "The default motor."},
-    "controller": {"type": "object", "description": "The default controller."}}},
   "module_choice": {"anyOf": [{"type": "string"}, {"$ref": "#/definitions/module_type"}]}
 })json";
 
@@ -241,15 +174,45 @@ Json robot_section() {
   return robot;
 }
 
+/// Properties of the sections after the robot, without the keys of plugins.
+Json section_heads(SectionFields& sections) {
+  for (PluginFields* plugin : {&sections.actuator, &sections.controller, &sections.cpg}) plugin->own_keys = false;
+  SchemaFields fields;
+  sections.fields(fields);
+  return std::move(fields.properties());
+}
+
+Json titled(const char* title, const char* command) {
+  return {{"$schema", "http://json-schema.org/draft-07/schema#"},
+          {"title", title},
+          {"description", std::string("Written by `") + command + "`."}};
+}
+
 }  // namespace
+
+std::string module_schema(const Catalog& catalog) {
+  Scenario scenario;
+  SectionFields sections(scenario, &catalog, nullptr, describe(Kind::actuator).default_type);
+  const Json heads = section_heads(sections);
+  Json type = module_type_schema();
+  std::string source;
+  for (PluginFields* plugin : {&sections.actuator, &sections.controller}) {
+    plugin->host = [&](Fields& f) { f.text("source", source, "Origin of the values."); };
+    const PluginKind& kind = describe(plugin->kind);
+    Json& section = type["properties"][kind.section];
+    Json head{{"description", section["description"]}, {"properties", heads[kind.section]["properties"]}};
+    section = plugin_section(*plugin, head, catalog, kind.default_type);
+  }
+  Json schema = titled("gaitlab module", "gaitlab schema --module");
+  schema.update(std::move(type));
+  schema["required"].insert(schema["required"].begin(), "gaitlab_module");
+  return schema.dump(1) + "\n";
+}
 
 std::string scenario_schema(const Catalog& catalog) {
   Scenario scenario;
   SectionFields sections(scenario, &catalog, nullptr, describe(Kind::actuator).default_type);
-  for (PluginFields* plugin : {&sections.actuator, &sections.controller, &sections.cpg}) plugin->own_keys = false;
-  SchemaFields fields;
-  sections.fields(fields);
-  const Json& heads = fields.properties();
+  const Json heads = section_heads(sections);
 
   Json properties = Json::parse(kHead);
   properties["robot"] = robot_section();
@@ -264,12 +227,11 @@ std::string scenario_schema(const Catalog& catalog) {
   properties["sensors"] = sensors_section();
   properties["at"] = changes_section();
 
-  Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
-              {"title", "gaitlab scenario"},
-              {"description", "Written by `gaitlab schema`."}};
+  Json schema = titled("gaitlab scenario", "gaitlab schema");
   schema.update(object_schema(std::move(properties)));
   schema["required"] = Json::array({"robot", "duration"});
   schema["definitions"] = Json::parse(kParts);
+  schema["definitions"]["module_type"] = module_type_schema();
   schema["definitions"]["sensor"] = sensor_section(catalog);
   return schema.dump(1) + "\n";
 }

@@ -1,4 +1,4 @@
-// JSON Schema (draft 7, for editors) of the scenario file, derived from the same declared fields as its reader.
+// JSON Schemas (draft 7, for editors) of scenario and module files, derived from the same declared fields as their readers.
 #pragma once
 #include <string>
 
@@ -9,5 +9,8 @@ namespace gaitlab {
 /// Schema as indented text. The reader refuses everything that the schema refuses, and has further checks (joint names, fit of
 /// the parts). Throws PluginError.
 std::string scenario_schema(const Catalog& catalog);
+
+/// Schema of a module file, with the keys of the actuators and controllers of the catalog. Throws PluginError.
+std::string module_schema(const Catalog& catalog);
 
 }  // namespace gaitlab

@@ -7,21 +7,6 @@
 namespace gaitlab {
 namespace {
 
-/// Schema of any scalar. A text need not be quoted, so that 8 and true are texts as well.
-Json scalar() { return {{"type", {"string", "number", "boolean"}}}; }
-
-Json bounded(const char* type, const Spec& spec) {
-  Json json{{"type", type}};
-  // Ranges use the smallest number above 0 to mean "more than 0".
-  if (spec.min == kPositive) {
-    json["exclusiveMinimum"] = 0;
-  } else if (std::isfinite(spec.min)) {
-    json["minimum"] = spec.min;
-  }
-  if (std::isfinite(spec.max)) json["maximum"] = spec.max;
-  return json;
-}
-
 /// Adds a description, which an editor shows first: the sentence and the unit.
 Json described(Json json, const char* about, const char* unit = "") {
   std::string text = about;
@@ -43,6 +28,20 @@ Json names_of(std::span<const char* const> names) {
 
 }  // namespace
 
+Json scalar_schema() { return {{"type", {"string", "number", "boolean"}}}; }
+
+Json number_schema(const char* type, const Spec& spec) {
+  Json json{{"type", type}};
+  // Ranges use the smallest number above 0 to mean "more than 0".
+  if (spec.min == kPositive) {
+    json["exclusiveMinimum"] = 0;
+  } else if (std::isfinite(spec.min)) {
+    json["minimum"] = spec.min;
+  }
+  if (std::isfinite(spec.max)) json["maximum"] = spec.max;
+  return json;
+}
+
 Json object_schema(Json properties) {
   return {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
 }
@@ -52,16 +51,16 @@ void SchemaFields::visit(const Field& field) {
 }
 
 void SchemaFields::on(const char* key, const char* about, const field::Number& field) {
-  properties_[key] = preset(described(bounded("number", field.spec), about, field.spec.unit), field.value);
+  properties_[key] = preset(described(number_schema("number", field.spec), about, field.spec.unit), field.value);
 }
 
 void SchemaFields::on(const char* key, const char* about, const field::NumberOr& field) {
-  const Json either{{"anyOf", {bounded("number", field.spec), {{"const", field.word}}}}};
+  const Json either{{"anyOf", {number_schema("number", field.spec), {{"const", field.word}}}}};
   properties_[key] = preset(described(either, about, field.spec.unit), field.value > 0 ? Json(field.value) : Json(field.word));
 }
 
 void SchemaFields::on(const char* key, const char* about, const field::Integer& field) {
-  properties_[key] = preset(described(bounded("integer", field.spec), about, field.spec.unit), field.value);
+  properties_[key] = preset(described(number_schema("integer", field.spec), about, field.spec.unit), field.value);
 }
 
 void SchemaFields::on(const char* key, const char* about, const field::Flag& field) {
@@ -69,11 +68,11 @@ void SchemaFields::on(const char* key, const char* about, const field::Flag& fie
 }
 
 void SchemaFields::on(const char* key, const char* about, const field::Text& field) {
-  properties_[key] = described(field.value.empty() ? scalar() : preset(scalar(), field.value), about);
+  properties_[key] = described(field.value.empty() ? scalar_schema() : preset(scalar_schema(), field.value), about);
 }
 
 void SchemaFields::on(const char* key, const char* about, const field::File&) {
-  properties_[key] = described(scalar(), (std::string(about) + " A file, or its text.").c_str());
+  properties_[key] = described(scalar_schema(), (std::string(about) + " A file, or its text.").c_str());
 }
 
 void SchemaFields::on(const char* key, const char* about, const field::OneOf& field) {
@@ -83,7 +82,7 @@ void SchemaFields::on(const char* key, const char* about, const field::OneOf& fi
 }
 
 void SchemaFields::on(const char* key, const char* about, const field::EachJoint& field) {
-  const Json one = bounded("number", field.spec);
+  const Json one = number_schema("number", field.spec);
   Json json = one;  // each rule below applies only to values of the type in the rule
   json["type"] = {"number", "array", "object"};
   json["items"] = one;
@@ -104,7 +103,7 @@ void SchemaFields::on(const char* key, const char* about, const field::Joint&) {
 
 void SchemaFields::on(const char* key, const char* about, const field::Vector& field) {
   Json json{{"type", "array"},
-            {"items", bounded("number", field.spec)},
+            {"items", number_schema("number", field.spec)},
             {"minItems", field.value.size()},
             {"maxItems", field.value.size()}};
   properties_[key] =
@@ -112,39 +111,39 @@ void SchemaFields::on(const char* key, const char* about, const field::Vector& f
 }
 
 void SchemaFields::on(const char* key, const char* about, const field::Numbers& field) {
-  properties_[key] =
-      preset(described({{"type", "array"}, {"items", bounded("number", field.spec)}}, about, field.spec.unit), field.value);
+  properties_[key] = preset(
+      described({{"type", "array"}, {"items", number_schema("number", field.spec)}}, about, field.spec.unit), field.value);
 }
 
 void SchemaFields::on(const char* key, const char* about, const field::Rows& field) {
-  const Json row{{"type", "array"}, {"items", bounded("number", field.spec)}};
+  const Json row{{"type", "array"}, {"items", number_schema("number", field.spec)}};
   properties_[key] = described({{"type", "array"}, {"items", row}}, about, field.spec.unit);
 }
 
 void SchemaFields::on(const char* key, const char* about, const field::Texts& field) {
-  properties_[key] = preset(described({{"type", "array"}, {"items", scalar()}}, about), field.value);
+  properties_[key] = preset(described({{"type", "array"}, {"items", scalar_schema()}}, about), field.value);
 }
 
 void SchemaFields::on(const char* key, const char* about, const field::Names& field) {
   if (field.one) {
-    properties_[key] = described(scalar(), about);
+    properties_[key] = described(scalar_schema(), about);
     return;
   }
-  const Json one = field.words.empty() ? scalar() : Json{{"enum", names_of(field.words)}};
+  const Json one = field.words.empty() ? scalar_schema() : Json{{"enum", names_of(field.words)}};
   Json either{{"anyOf", {one, {{"type", "array"}, {"items", one}}}}};
   properties_[key] =
       preset(described(std::move(either), about), field.value.size() == 1 ? Json(field.value.front()) : Json(field.value));
 }
 
 void SchemaFields::on(const char* key, const char* about, const field::Periods& field) {
-  const Json one = bounded("number", field.spec);
+  const Json one = number_schema("number", field.spec);
   const Json range{{"type", "array"}, {"items", one}, {"minItems", 2}, {"maxItems", 2}};
   Json json = field.most == nullptr ? one : Json{{"anyOf", {one, range}}};
   properties_[key] = preset(described(std::move(json), about, field.spec.unit), field.value);
 }
 
 void SchemaFields::on(const char* key, const char* about, const field::Map& field) {
-  Json one = scalar();
+  Json one = scalar_schema();
   if (field.kind == NamedValues::texts_or_numbers) {  // a number may be given per joint
     one["type"] = {"string", "number", "boolean", "array", "object"};
     one["items"] = {{"type", "number"}};

@@ -9,6 +9,10 @@ namespace gaitlab {
 
 using Json = nlohmann::ordered_json;
 
+/// Schema of any scalar. A text need not be quoted, so that 8 and true are texts as well.
+Json scalar_schema();
+/// Schema of a number of the JSON type `type`, number or integer, within the range of `spec`.
+Json number_schema(const char* type, const Spec& spec);
 /// Schema of a map with exactly these keys.
 Json object_schema(Json properties);
 

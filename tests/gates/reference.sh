@@ -23,9 +23,11 @@ page() {
 
 page docs/reference/scenario.md reference scenario
 page docs/reference/plugins.md reference plugins
+page docs/reference/module.md reference module
 page docs/reference/figure.md reference figure
 page docs/reference/study.md reference study
 page docs/reference/verdict.md reference verdict
 page scenarios/gaitlab.schema.json schema
+page scenarios/gaitlab-module.schema.json schema --module
 page scenarios/gaitlab-study.schema.json schema --study
 verdict

@@ -33,8 +33,9 @@ def load(text):
 schema = json.loads(subprocess.run([PROGRAM, "schema"], check=True, capture_output=True, text=True).stdout)
 jsonschema.Draft7Validator.check_schema(schema)
 validator = jsonschema.Draft7Validator(schema)
-# The schema of a module file is that of a module type within a scenario.
-module_validator = jsonschema.Draft7Validator({"$ref": "#/definitions/module_type", "definitions": schema["definitions"]})
+module_schema = json.loads(subprocess.run([PROGRAM, "schema", "--module"], check=True, capture_output=True, text=True).stdout)
+jsonschema.Draft7Validator.check_schema(module_schema)
+module_validator = jsonschema.Draft7Validator(module_schema)
 failures = []
 
 
@@ -80,6 +81,75 @@ for path in sorted(SCENARIOS.glob("modules/*.yaml")):
 for path in sorted(PUBLISHED.glob("*.yaml")):
     text = path.read_text()
     expect_valid(path.name, text, module_validator if "gaitlab_module:" in text else validator)
+
+# ---- modules
+
+
+def program_takes_module(text):
+    with tempfile.TemporaryDirectory() as folder:
+        (pathlib.Path(folder) / "m.yaml").write_text(text)
+        code = subprocess.run([PROGRAM, "explain", "module", "m.yaml"], cwd=folder, capture_output=True).returncode
+        if code not in (0, 2):
+            failures.append(f"gaitlab explain module ends with {code}: {text}")
+        return code == 0
+
+
+def expect_module_agreement(text, right):
+    by_schema, by_program = module_validator.is_valid(load(text)), program_takes_module(text)
+    if by_schema != right or by_program != right:
+        verdict = {True: "accepts", False: "refuses"}
+        failures.append(f"the schema of modules {verdict[by_schema]}, the program {verdict[by_program]}: {text!r}")
+
+
+with tempfile.TemporaryDirectory() as new_folder:
+    subprocess.run([PROGRAM, "new", "module", "demo"], cwd=new_folder, check=True, capture_output=True)
+    DEMO = (pathlib.Path(new_folder) / "demo.yaml").read_text()
+MODULE = "gaitlab_module: 3\nname: m\n"
+BODY = MODULE + "bodies: {b: {mass: 1, shape: [{sphere: 0.1}]}}\n"
+PAIR = ("bodies: {b: {mass: 1, shape: [{box: [1, 1, 1]}]}, c: {mass: 1, inertia: [1, 1, 1, 0, 0, 0]}}\n"
+        "hinges: [{name: h, parent: b, child: c, axis: [0, 1, 0], ")
+RIGHT_MODULES = [
+    DEMO,
+    BODY,
+    BODY + "contacts: {all: shapes}\nlattice: false\nsource: here\n",
+    BODY + "contacts: {feet: shapes, all: [{body: b, point: [0, 0, 1]}, {body: b, sphere: [0, 0, 1], radius: 0.1}]}\n",
+    BODY + "faces: [{id: 0, body: b, gender: none, connector: k, turns: [0, 2], origin: [0, 0, 0], normal: [1, 0, 0], "
+    "reference: [0, 1, 0]}]\nconnectors: {k: {tension: 1, source: x}}\n",
+    BODY + "connectors: {}\n",
+    MODULE + PAIR + "range: [-1, 1]}]\n",
+    MODULE + PAIR + "range: free, drive: none, damping: 1}]\n",
+    MODULE + PAIR + "range: [-1, 1], actuator: {R: 3}, controller: {Kp: 2}}]\nactuator: {type: dc_motor, R: 2}\n",
+    MODULE + PAIR + "range: [-1, 1]}]\nactuator: {type: servo, voltage: 5, stall_torque: 1, no_load_speed: 5, source: x}\n"
+    "controller: {type: pid, Kp: 3, source: x}\n",
+]
+WRONG_MODULES = [
+    "name: m\nbodies: {b: {mass: 1, shape: [{sphere: 0.1}]}}\n",
+    "gaitlab_module: 4\nname: m\nbodies: {b: {mass: 1, shape: [{sphere: 0.1}]}}\n",
+    MODULE,
+    MODULE + "bodies: {}\n",
+    BODY + "colour: red\n",
+    MODULE + "bodies: {b: {mass: -1, shape: [{sphere: 0.1}]}}\n",
+    MODULE + "bodies: {b: {mass: 1, shape: [{sphere: 0.1, box: [1, 1, 1]}]}}\n",
+    MODULE + "bodies: {b: {mass: 1, shape: [{origin: [0, 0, 0]}]}}\n",
+    MODULE + "bodies: {b: {mass: 1, shape: [{sphere: 0}]}}\n",
+    MODULE + "bodies: {b: {mass: 1, com: [0, 0], shape: [{sphere: 1}]}}\n",
+    BODY + "contacts: {all: boxes}\n",
+    BODY + "contacts: {all: [{body: b}]}\n",
+    BODY + "contacts: {all: [{body: b, point: [0, 0, 1], sphere: [0, 0, 1], radius: 1}]}\n",
+    BODY + "faces: [{id: 0, body: b, gender: male, origin: [0, 0, 0], normal: [1, 0, 0], reference: [0, 1, 0]}]\n",
+    BODY + "faces: [{id: 0, body: b, gender: none, turns: [4], origin: [0, 0, 0], normal: [1, 0, 0], reference: [0, 1, 0]}]\n",
+    BODY + "connectors: {k: {tension: 0}}\n",
+    MODULE + PAIR + "}]\n",
+    MODULE + PAIR + "range: loose}]\n",
+    MODULE + PAIR + "range: free, drive: loose}]\n",
+    MODULE + PAIR + "range: [-1, 1]}]\nactuator: {type: servomotor}\n",
+    MODULE + PAIR + "range: [-1, 1]}]\nactuator: {type: dc_motor, Rr: 2}\n",
+    MODULE + PAIR + "range: [-1, 1]}]\ncontroller: {type: pid, period: 0.01}\n",
+]
+for text in RIGHT_MODULES:
+    expect_module_agreement(text, True)
+for text in WRONG_MODULES:
+    expect_module_agreement(text, False)
 
 HEAD = "gaitlab: 1\nrobot: {modules: mtran}\n"
 SHORT = HEAD + "duration: 1\n"
@@ -275,6 +345,7 @@ for text in WRONG:
     expect_agreement(text, False)
 
 print(f"{len(shipped)} shipped scenarios and their resolved form, {len(RIGHT)} right and {len(WRONG)} wrong ones; "
+      f"{len(RIGHT_MODULES)} right and {len(WRONG_MODULES)} wrong modules; "
       f"{len(studies)} shipped studies, {len(RIGHT_STUDIES)} right and {len(WRONG_STUDIES)} wrong ones")
 for failure in failures:
     print("FAILED", failure)
