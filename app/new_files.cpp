@@ -14,6 +14,7 @@
 #include "core/scenario/read_scenario.h"
 #include "core/settings/wording.h"
 #include "core/settings/writer.h"
+#include "interchange/urdf_module.h"
 
 namespace gaitlab::app {
 
@@ -23,8 +24,9 @@ namespace fs = std::filesystem;
 
 struct NewFileArguments {
   std::string name;
-  std::optional<std::string> out;  ///< file to write; the default is NAME.yaml
-  std::string module = "y1";       ///< name of a shipped module type, or a file; only for scenarios
+  std::optional<std::string> out;   ///< file to write; the default is NAME.yaml
+  std::optional<std::string> from;  ///< URDF file; only for modules
+  std::string module = "y1";        ///< name of a shipped module type, or a file; only for scenarios
 };
 
 /// Checks the name of a module or scenario, which becomes the name of its file.
@@ -57,10 +59,16 @@ int new_module(const NewFileArguments& arguments) {
     throw InputError(SourceLocation{"gaitlab new module"},
                      fmt::format("module '{}' comes with the program; choose another name", name));
   }
-  const std::string file =
-      shell_word(write_new(arguments, filled(filled(kSkeletonModule, "@NAME@", name), "@TEXT@", yaml_text(name))));
-  fmt::print("{0}: a module of two bodies and a hinge; replace its numbers by yours; next:\n  gaitlab explain module {0}\n",
-             file);
+  std::string text = filled(filled(kSkeletonModule, "@NAME@", name), "@TEXT@", yaml_text(name));
+  std::string what = "a module of two bodies and a hinge; replace its numbers by yours";
+  if (arguments.from) {
+    interchange::UrdfModule made = interchange::module_of_urdf(*arguments.from, name);
+    for (const std::string& note : made.notes) say(*arguments.from, "note", "not carried over: " + note);
+    text = std::move(made.text);
+    what = "the robot of " + *arguments.from + " as a module";
+  }
+  const std::string file = shell_word(write_new(arguments, text));
+  fmt::print("{0}: {1}; next:\n  gaitlab explain module {0}\n", file, what);
   fmt::print("  gaitlab new scenario {0}-walk --module {1}\n  gaitlab run {0}-walk.yaml\n", name, file);
   return 0;
 }
@@ -202,6 +210,7 @@ void add_new_files(Commands& commands, CLI::App& command) {
       commands, "module", "Write a commented module file, to be filled from a data sheet.", new_module,
       [](CLI::App& module, NewFileArguments& arguments) {
         module.add_option("NAME", arguments.name, "name of the module")->required();
+        module.add_option("--from", arguments.from, "URDF file of the robot, instead of an example")->check(not_empty);
         add_out(module, arguments);
       },
       &command);

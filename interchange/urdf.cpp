@@ -14,7 +14,6 @@ namespace {
 using namespace interchange;
 
 constexpr double kPointRadius = 0.001;  // m, radius with which a point is written
-constexpr double kUnlimited = 1e6;      // N m and rad/s; written for no limit, because the format requires a number
 
 void add_origin(Xml& element, const Pose& pose) {
   Xml& e = add(element, "origin");

@@ -20,6 +20,7 @@
 #include "core/scenario/read_scenario.h"
 #include "core/scenario/resolved.h"
 #include "core/scenario/state_file.h"
+#include "interchange/urdf_module.h"
 #include "report/figures/paper/recipe.h"
 #include "studies/journal/results.h"
 #include "studies/journal/study_folder.h"
@@ -348,6 +349,8 @@ inline void state(const std::string& text) {
   (void)read_state_file(folder().write("state.json", text), *two.robot, two.base, start);
 }
 
+inline void urdf(const std::string& text) { (void)interchange::module_of_urdf(folder().write("robot.urdf", text), "robot"); }
+
 inline constexpr std::array kReaders{Reader{"scenario", scenario},
                                      Reader{"build", build},
                                      Reader{"module", module},
@@ -365,7 +368,8 @@ inline constexpr std::array kReaders{Reader{"scenario", scenario},
                                      Reader{"golden_trace", golden_trace},
                                      Reader{"trace", trace},
                                      Reader{"csv", csv},
-                                     Reader{"state", state}};
+                                     Reader{"state", state},
+                                     Reader{"urdf", urdf}};
 
 /// Calls a reader and ignores an InputError, the only exception that a reader may throw.
 inline void take(const Reader& reader, const std::string& bytes) {

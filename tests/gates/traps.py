@@ -127,6 +127,7 @@ COMMANDS = {
     "test": "test golden/two.yaml --junit junit.xml",
     "new plugin": "new plugin cpg mine",
     "new module": "new module mine",
+    "new module --from": "new module mine --from from.urdf",
     "new scenario": "new scenario mine --module modules/mtran.yaml",
 }
 # Commands that intentionally replace files: in the folder of a study or a run, or the figure of a recipe.
@@ -148,6 +149,7 @@ def prepare(folder):
     (folder / "recipe.yaml").write_text("gaitlab: 1\nruns: {two: run}\npanels:\n  - kind: curves\n    left: {columns: [joint.0.angle]}\n")
     (folder / "state.json").write_text("{}\n")
     expect(gaitlab("run two.yaml --quiet --out run"), folder)
+    expect(gaitlab("export two.yaml --to urdf from.urdf"), folder)
     expect(gaitlab("run two.yaml --quiet --format csv --out csv"), folder)
     expect(gaitlab("sweep study.yaml --quiet --out study"), folder)
     for shard in ("0/2", "1/2"):

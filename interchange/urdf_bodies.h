@@ -1,0 +1,25 @@
+// Bodies and hinges of a robot in URDF: the links, of which those that fixed joints connect are one body.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/model/module_type.h"
+#include "interchange/urdf_text.h"
+
+namespace gaitlab::interchange {
+
+struct UrdfHinge {
+  HingeType hinge;               ///< parent and child: indices of UrdfBodies::bodies
+  double effort = 0, speed = 0;  ///< of its motor: torque at rest, N m, and no-load speed, rad/s; 0 without a motor
+};
+
+struct UrdfBodies {
+  std::vector<BodyType> bodies;
+  std::vector<UrdfHinge> hinges;
+  std::vector<std::string> notes;  ///< parts that were left out
+};
+
+/// Adds a problem for everything that a module cannot hold; bodies and hinges must then not be used.
+UrdfBodies urdf_bodies(const UrdfText& urdf, Problems& problems);
+
+}  // namespace gaitlab::interchange

@@ -1,0 +1,140 @@
+#include "interchange/urdf_module.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "core/robot_files/module_file.h"
+#include "core/settings/wording.h"
+#include "core/settings/writer.h"
+#include "interchange/urdf_bodies.h"
+
+namespace gaitlab::interchange {
+
+namespace {
+
+constexpr double kVoltage = 12;    // V, chosen: URDF has no voltage; torque and speed hold at it
+constexpr double kPeriod = 0.015;  // s, control period of a scenario by default
+constexpr double kShare = 0.7;     // of the error that a command removes per period (docs/modules.md)
+
+std::string list_text(std::span<const double> numbers) {
+  std::string text;
+  for (const double number : numbers)
+    text += (text.empty() ? "" : ", ") + number_text(number + 0.0);  // adding 0 turns -0 into 0
+  return "[" + text + "]";
+}
+std::string list_text(const Vec3& v) { return list_text(std::span<const double>(v.data(), 3)); }
+
+/// One line of YAML for a text.
+std::string word_text(const std::string& text) {
+  std::string line = print_yaml(text_node(text));
+  while (line.ends_with('\n')) line.pop_back();
+  return line;
+}
+
+/// Pose without the rounding errors of products of quarter turns.
+Pose tidy(const Pose& pose) {
+  constexpr double kRounding = 1e-15;
+  Pose whole = pose;
+  for (double& entry : whole.R.reshaped()) {
+    const double nearest_whole = static_cast<double>(static_cast<int>(entry * 1.5));  // -1, 0 or 1
+    if (std::fabs(entry - nearest_whole) < kRounding) entry = nearest_whole;
+  }
+  return whole;
+}
+
+std::string frame_text(const Pose& pose) {
+  const std::string turned = pose.R.isIdentity(0) ? "" : ", rpy: " + list_text(to_rpy(pose.R));
+  return "origin: " + list_text(pose.p) + turned;
+}
+
+std::string shape_text(const Shape& shape) {
+  const std::span<const double> size(shape.size.data(), 3);
+  const std::string geometry = shape.kind == Shape::Kind::box      ? "box: " + list_text(size)
+                               : shape.kind == Shape::Kind::sphere ? "sphere: " + number_text(shape.size.x())
+                                                                   : "cylinder: " + list_text(size.first(2));
+  return fmt::format("      - {{{}, {}}}\n", geometry, frame_text(tidy(shape.in_body)));
+}
+
+std::string body_text(const BodyType& body) {
+  const Mat3& I = body.inertia;
+  const double moments[] = {I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2)};
+  std::string text = fmt::format("  {}:\n    mass: {}\n", word_text(body.name), number_text(body.mass));
+  if (body.mass > 0) text += fmt::format("    com: {}\n    inertia: {}\n", list_text(body.com), list_text(moments));
+  if (!body.shapes.empty()) text += "    shape:\n";
+  for (const Shape& shape : body.shapes) text += shape_text(shape);
+  return text;
+}
+
+/// Keys of the motor that may differ from hinge to hinge, and the gain that fits them.
+std::string motor_text(const UrdfHinge& hinge) {
+  return fmt::format("stall_torque: {}, no_load_speed: {}", number_text(hinge.effort), number_text(hinge.speed));
+}
+std::string gain_text(const UrdfHinge& hinge) { return fmt::format("Kp: {:.3g}", kShare * kVoltage / (hinge.speed * kPeriod)); }
+
+std::string hinge_text(const UrdfHinge& one, const UrdfBodies& parts, const UrdfHinge* common) {
+  const HingeType& hinge = one.hinge;
+  const Pose pose = tidy(hinge.in_parent);
+  const double range[] = {hinge.lo, hinge.hi};
+  std::string text =
+      fmt::format("  - name: {}\n    parent: {}\n    child: {}\n    origin: {}\n", word_text(hinge.name),
+                  word_text(parts.bodies[hinge.parent].name), word_text(parts.bodies[hinge.child].name), list_text(pose.p));
+  if (!pose.R.isIdentity(0)) text += "    rpy: " + list_text(to_rpy(pose.R)) + "\n";
+  text += fmt::format("    axis: {}\n    range: {}\n", list_text(hinge.axis), hinge.hi == kNoStop ? "free" : list_text(range));
+  if (hinge.passive) {
+    text += fmt::format("    drive: none\n    damping: {}\n    friction: {}\n", number_text(hinge.passive->damping),
+                        number_text(hinge.passive->friction));
+  } else if (motor_text(one) != motor_text(*common)) {
+    text += fmt::format("    actuator: {{{}}}\n    controller: {{{}}}\n", motor_text(one), gain_text(one));
+  }
+  return text;
+}
+
+std::string module_text(const UrdfBodies& parts, const std::string& name, const std::string& file) {
+  const auto driven = std::ranges::find_if(parts.hinges, [](const UrdfHinge& one) { return !one.hinge.passive; });
+  const UrdfHinge* common = driven == parts.hinges.end() ? nullptr : &*driven;
+  const std::string from = std::filesystem::path(file).filename().string();
+  std::string text = fmt::format(
+      "# Module {}, written by gaitlab new module --from. Units: m, kg, N m, rad, s. Every key: gaitlab explain module\n"
+      "# Add faces, where modules dock; replace the motor by that of a data sheet.\n",
+      name);
+  for (const std::string& note : parts.notes) text += "# Not carried over: " + note + "\n";
+  text += fmt::format("gaitlab_module: 3\nname: {}\nsource: {}\nbodies:\n", word_text(name), word_text(from));
+  for (const BodyType& body : parts.bodies) text += body_text(body);
+  if (!parts.hinges.empty()) text += "hinges:\n";
+  for (const UrdfHinge& one : parts.hinges) text += hinge_text(one, parts, common);
+  if (std::ranges::any_of(parts.bodies, [](const BodyType& body) { return !body.shapes.empty(); }))
+    text += "contacts: {all: shapes}\n";
+  if (common == nullptr) return text;
+  return text + fmt::format("actuator: {{type: servo, voltage: {}, {}, source: {}}}\ncontroller: {{type: pid, {}, Kd: 0}}\n",
+                            number_text(kVoltage), motor_text(*common),
+                            word_text("chosen: the voltage; the rest are effort and velocity in " + from), gain_text(*common));
+}
+
+/// Throws InputError with the problems in the order of the file.
+void raise_by_line(const Problems& problems) {
+  if (problems.empty()) return;
+  std::vector<Problem> list = problems.list();
+  std::ranges::stable_sort(list, {}, [](const Problem& one) { return std::pair(one.place.line, one.place.column); });
+  throw InputError(std::move(list));
+}
+
+}  // namespace
+
+UrdfModule module_of_urdf(const std::string& file, const std::string& name) {
+  const UrdfText urdf(file);
+  Problems problems;
+  const UrdfBodies parts = urdf_bodies(urdf, problems);
+  raise_by_line(problems);
+  UrdfModule made{module_text(parts, name, file), parts.notes};
+  // The reader of module files checks what URDF permits: impossible inertias, axes of length 0, sizes of 0.
+  Problems found;
+  static_cast<void>(read_module(parse_yaml(made.text, file), true, found));
+  for (const Problem& problem : found.list()) problems.add(SourceLocation{file}, problem.text);
+  problems.raise();
+  return made;
+}
+
+}  // namespace gaitlab::interchange

@@ -1,0 +1,20 @@
+// Module file from a robot in URDF.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace gaitlab::interchange {
+
+struct UrdfModule {
+  std::string text;                ///< of a module file
+  std::vector<std::string> notes;  ///< parts of the URDF that the module file lacks, and that the motion does not need
+};
+
+/// Module file, named `name`, of the robot in the URDF file `file`, read by urdfdom. Revolute and continuous joints are its
+/// hinges; links that fixed joints connect are one body, in the frame of the first; boxes, cylinders and spheres are its
+/// shapes. A joint's effort and velocity are torque at rest and no-load speed of its servo; effort 0 means a hinge without a
+/// motor. Numbers are written as the shortest texts that are read back as the same doubles. Throws InputError with everything
+/// that a module cannot hold, each with its line.
+UrdfModule module_of_urdf(const std::string& file, const std::string& name);
+
+}  // namespace gaitlab::interchange

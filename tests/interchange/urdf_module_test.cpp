@@ -1,0 +1,208 @@
+// Modules from URDF: round trips through our own export, links that fixed joints connect, and everything that is refused.
+#include "interchange/urdf_module.h"
+
+#include "core/robot_files/module_file.h"
+#include "interchange/urdf.h"
+#include "tests/messages.h"
+#include "tests/program/random_scenario.h"
+
+namespace gaitlab::test {
+namespace {
+
+using namespace interchange;
+
+ModuleType module_in(const UrdfModule& made) {
+  Problems problems;
+  const Node document = parse_yaml(made.text, "made.yaml");
+  ModuleType type = read_module(document, true, problems);
+  problems.raise();
+  return type;
+}
+
+constexpr const char* kInertial =
+    "<inertial><mass value='2'/><inertia ixx='0.01' iyy='0.02' izz='0.02' ixy='0' ixz='0' iyz='0'/></inertial>";
+constexpr const char* kLimit = "<limit lower='-1' upper='2' effort='5' velocity='3'/>";
+
+std::string urdf_link(const std::string& name, const std::string& content = kInertial) {
+  return "<link name='" + name + "'>" + content + "</link>\n";
+}
+std::string urdf_joint(const std::string& name, const std::string& type, const std::string& parent, const std::string& child,
+                       const std::string& content) {
+  return "<joint name='" + name + "' type='" + type + "'><parent link='" + parent + "'/><child link='" + child + "'/>" +
+         content + "</joint>\n";
+}
+
+class FromUrdf : public ::testing::Test {
+ protected:
+  ModuleType read_urdf(const std::string& content) {
+    made_ = module_of_urdf(folder_.write("r.urdf", "<robot name='r'>\n" + content + "</robot>\n"), "made");
+    return module_in(made_);
+  }
+  std::string refused(const std::string& content) {
+    std::string text = message_of([&] { read_urdf(content); });
+    const std::string place = folder_ / "r.urdf";
+    for (std::size_t at = text.find(place); at != std::string::npos; at = text.find(place)) text.replace(at, place.size(), "r");
+    return text;
+  }
+  UrdfModule made_;
+  Folder folder_;
+};
+
+const BodyType& body_of(const ModuleType& type, const std::string& name) {
+  const auto found = std::ranges::find(type.bodies, name, &BodyType::name);
+  if (found == type.bodies.end()) throw std::out_of_range("no body " + name);
+  return *found;
+}
+
+/// Masses, centres of mass, inertias, hinges and motors of every shipped module come back to the last digit.
+TEST_F(FromUrdf, ShippedModulesComeBack) {
+  for (const auto& [name, file] : app::shipped_files("module")) {
+    const Scenario one = scenario("robot: {modules: " + name + "}\ncontact: {on: none}\nduration: 1\n");
+    const ModuleType& type = one.robot->types[0];
+    const ModuleType back = module_in(module_of_urdf(folder_.write("m.urdf", to_urdf(one)), name));
+    ASSERT_EQ(back.bodies.size(), type.bodies.size()) << name;
+    for (const BodyType& body : type.bodies) {
+      const BodyType& other = body_of(back, body.name);
+      EXPECT_EQ(other.mass, body.mass) << name << " " << body.name;
+      EXPECT_EQ(other.com, body.com) << name << " " << body.name;
+      EXPECT_EQ(other.inertia, Mat3(body.inertia.selfadjointView<Eigen::Upper>())) << name << " " << body.name;
+      EXPECT_EQ(other.shapes.size(), body.shapes.size()) << name << " " << body.name;
+    }
+    ASSERT_EQ(back.hinges.size(), type.hinges.size()) << name;
+    for (const HingeType& hinge : type.hinges) {
+      const HingeType& other = *std::ranges::find(back.hinges, hinge.name, &HingeType::name);
+      EXPECT_EQ(back.bodies[other.parent].name, type.bodies[hinge.parent].name) << name << " " << hinge.name;
+      EXPECT_EQ(other.lo, hinge.lo) << name << " " << hinge.name;
+      EXPECT_EQ(other.hi, hinge.hi) << name << " " << hinge.name;
+      EXPECT_EQ(other.passive.has_value(), hinge.passive.has_value()) << name << " " << hinge.name;
+      // Rounding of a rotation as quaternion, matrix, and roll, pitch, yaw.
+      EXPECT_LT((other.in_parent.R - hinge.in_parent.R).norm(), 1e-14) << name << " " << hinge.name;
+      EXPECT_LT((other.in_parent.p - hinge.in_parent.p).norm(), 1e-15) << name << " " << hinge.name;
+      EXPECT_LT((other.axis - hinge.axis).norm(), 1e-15) << name << " " << hinge.name;
+    }
+  }
+}
+
+/// Robots of several modules: docks are fixed joints, so that a module has the links of the robot as its bodies.
+TEST_F(FromUrdf, DockedBodiesAreOne) {
+  RandomRobots random(43);
+  for (int i = 0; i < 20; ++i) {
+    Scenario s = random_scenario(random, Base::floating);
+    add_motors(random, s);
+    const Robot& robot = *s.robot;
+    const ModuleType back = module_in(module_of_urdf(folder_.write("m.urdf", to_urdf(s)), "back"));
+    ASSERT_EQ(back.bodies.size(), robot.links.size());
+    ASSERT_EQ(back.hinges.size(), robot.joints.size());
+    // The first moment and the inertia of a link do not depend on the order of the sums but by rounding.
+    std::vector<double> masses, moments, found_masses, found_moments;
+    for (const Link& link : robot.links) {
+      masses.push_back(link.mass);
+      moments.push_back(link.inertia.trace());
+    }
+    for (const BodyType& body : back.bodies) {
+      found_masses.push_back(body.mass);
+      found_moments.push_back(body.inertia.trace());
+    }
+    for (std::vector<double>* list : {&masses, &moments, &found_masses, &found_moments}) std::ranges::sort(*list);
+    for (std::size_t l = 0; l < masses.size(); ++l) {
+      EXPECT_NEAR(found_masses[l], masses[l], 1e-13 * robot.mass);
+      EXPECT_NEAR(found_moments[l], moments[l], 1e-12 * moments.back());
+    }
+  }
+}
+
+/// Two links of 2 kg, 0.2 m apart, one turned by a quarter about z: com in the middle; I = I1 + R I2 R^T + 2 m d^2 across.
+TEST_F(FromUrdf, FixedJointsFuse) {
+  const ModuleType type =
+      read_urdf(urdf_link("a/base") +
+                urdf_link("b/tip", std::string(kInertial) +
+                                       "<visual><origin xyz='0.1 0 0'/><geometry><box size='1 2 3'/></geometry></visual>") +
+                urdf_joint("weld", "fixed", "a/base", "b/tip", "<origin xyz='0.2 0 0' rpy='0 0 1.5707963267948966'/>"));
+  ASSERT_EQ(type.bodies.size(), 1U);
+  const BodyType& body = type.bodies[0];
+  EXPECT_EQ(body.name, "base");
+  EXPECT_EQ(body.mass, 4);
+  EXPECT_NEAR(body.com.x(), 0.1, 1e-16);
+  EXPECT_NEAR(body.inertia(0, 0), 0.01 + 0.02, 1e-16);
+  EXPECT_NEAR(body.inertia(1, 1), 0.02 + 0.01 + 2 * 2 * 0.01, 1e-16);
+  EXPECT_NEAR(body.inertia(2, 2), 0.02 + 0.02 + 2 * 2 * 0.01, 1e-16);
+  EXPECT_NEAR(body.shapes.at(0).in_body.p.y(), 0.1, 1e-16) << "along x of the turned link";
+  EXPECT_EQ(type.all.size(), 8U) << "contacts: {all: shapes}";
+}
+
+TEST_F(FromUrdf, MotorsAndPassiveHinges) {
+  const std::string robot =
+      urdf_link("a") + urdf_link("b") + urdf_link("c") + urdf_link("d") +
+      urdf_joint("dock", "revolute", "a", "b", std::string("<axis xyz='0 0 2'/>") + kLimit) +
+      urdf_joint("x y", "continuous", "b", "c", "<limit effort='1' velocity='4'/><dynamics damping='1'/>") +
+      urdf_joint("free", "continuous", "c", "d", "<limit effort='0' velocity='0'/><dynamics damping='0.1' friction='0.2'/>");
+  const ModuleType type = read_urdf(robot + "<transmission name='t'/><gazebo/><gazebo/>");
+  ASSERT_EQ(type.hinges.size(), 3U);
+  EXPECT_EQ(type.hinges[0].name, "dock_2") << "dock is the name of docks";
+  EXPECT_EQ(type.hinges[0].axis, Vec3::UnitZ());
+  EXPECT_EQ(type.hinges[0].hi, 2);
+  EXPECT_EQ(type.hinges[1].name, "x_y");
+  EXPECT_EQ(type.hinges[1].hi, kNoStop);
+  ASSERT_TRUE(type.hinges[2].passive);
+  EXPECT_EQ(type.hinges[2].passive->damping, 0.1);
+  EXPECT_EQ(type.hinges[2].passive->friction, 0.2);
+  EXPECT_TRUE(contains(made_.text, "    actuator: {stall_torque: 1, no_load_speed: 4}\n    controller: {Kp: 140}\n"))
+      << made_.text;
+  EXPECT_TRUE(contains(made_.text, "actuator: {type: servo, voltage: 12, stall_torque: 5, no_load_speed: 3, source: \"chosen:"))
+      << made_.text;
+  EXPECT_EQ(made_.notes, (std::vector<std::string>{"damping and friction of joint 'x y', which has a motor",
+                                                   "1 element of <transmission>", "2 elements of <gazebo>"}));
+}
+
+/// Everything that a module cannot hold, in one list in the order of the file.
+TEST_F(FromUrdf, RefusesInOneList) {
+  const std::string mesh = "<visual><geometry><mesh filename='a.stl'/></geometry></visual>";
+  const std::string others = " a module has revolute, continuous and fixed joints\n";
+  EXPECT_EQ(
+      refused(urdf_link("a", kInertial + mesh) + urdf_link("b", "") + urdf_link("c") + urdf_link("d") + urdf_link("e") +
+              urdf_joint("ab", "prismatic", "a", "b", kLimit) + urdf_joint("ac", "floating", "a", "c", "") +
+              urdf_joint("ad", "planar", "a", "d", "") +
+              urdf_joint("ae", "revolute", "a", "e", "<mimic joint='ad'/><limit effort='1000000' velocity='0'/>")),
+      "r:2:1: error: link 'a' has the mesh 'a.stl'; expected box, cylinder or sphere, at least as collision\n"
+      "r:3:1: error: link 'b' has no mass; expected inertial (only a link between two hinges may have none)\n"
+      "r:7:1: error: joint 'ab' is prismatic;" +
+          others + "r:8:1: error: joint 'ac' is floating;" + others + "r:9:1: error: joint 'ad' is planar;" + others +
+          "r:10:1: error: joint 'ae' mimics 'ad'; every hinge of a module moves alone\n"
+          "r:10:1: error: joint 'ae' has effort 1000000; expected the torque at rest, N m, of its motor, above 0 and below "
+          "1000000\n"
+          "r:10:1: error: joint 'ae' has velocity 0; expected the no-load speed, rad/s, of its motor, above 0 and below "
+          "1000000");
+  EXPECT_EQ(refused(urdf_link("a") + urdf_link("b")),
+            "r: error: urdfdom: Failed to find root link: Two root links found: [a] and [b]");
+  EXPECT_EQ(
+      refused(urdf_link("a") + urdf_link("b") + urdf_joint("j", "continuous", "a", "b", "")),
+      "r:4:1: error: joint 'j' has no limit; expected effort and velocity of its motor, or effort 0 for a joint without a "
+      "motor");
+  EXPECT_EQ(refused(urdf_link("a",
+                              "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='4' ixy='0' ixz='0' iyz='0'/>"
+                              "</inertial>")),
+            "r: error: the inertia of body 'a' is not possible: its principal moments are 1, 1, 4 kg m^2, but the largest must "
+            "not exceed the sum of the other two");
+}
+
+/// Elements nested so deep that the parser's stack would overflow.
+TEST_F(FromUrdf, RefusesADeepFile) {
+  std::string deep;
+  for (int i = 0; i < 100000; ++i) deep += "<a>";
+  EXPECT_EQ(refused(deep), "r: error: has 100001 elements; expected at most 10000");
+}
+
+/// A link whose picture is a mesh has its collision shapes; a cylinder is along z in URDF and along y in modules.
+TEST_F(FromUrdf, CollisionReplacesMeshes) {
+  const ModuleType type = read_urdf(urdf_link(
+      "a", std::string(kInertial) + "<visual><geometry><mesh filename='a.stl'/></geometry></visual>"
+                                    "<collision><geometry><cylinder radius='0.1' length='0.3'/></geometry></collision>"));
+  const Shape& shape = type.bodies.at(0).shapes.at(0);
+  EXPECT_EQ(shape.kind, Shape::Kind::cylinder);
+  EXPECT_EQ(shape.size, Vec3(0.1, 0.3, 0));
+  EXPECT_LT((shape.in_body.R * Vec3::UnitY() - Vec3::UnitZ()).norm(), 1e-15);
+  EXPECT_EQ(made_.notes, (std::vector<std::string>{"meshes of link 'a'; its collision shapes are used"}));
+}
+
+}  // namespace
+}  // namespace gaitlab::test
