@@ -142,17 +142,22 @@ std::string docks_text(const std::vector<Dock>& docks) {
   return text;
 }
 
-/// Surroundings of the robot: the ground, or a fixed base for a module that touches nothing.
+/// Surroundings of the robot as sections of a scenario, and its base.
 struct Surroundings {
-  const char *base, *ground;
+  std::string base, ground;
 };
-constexpr Surroundings kOnTheGround{"", R"(ground:
-  friction: 0.8            # coefficient between robot and ground
-contact:
-  on: all                  # every contact element of the module; feet: those of its feet
-)"};
-constexpr Surroundings kFixed{"  base: fixed              # the module has no contact elements, so that it would fall\n",
-                              "ground: {type: none}\ncontact: {on: none}\n"};
+
+/// The ground, or a fixed base for a module that touches nothing.
+Surroundings surroundings(const ModuleType& type) {
+  if (type.all.empty() && type.feet.empty()) {
+    return {"  base: fixed              # the module has no contact elements, so that it would fall\n",
+            "ground: {type: none}\ncontact: {on: none}\n"};
+  }
+  return {"", std::string("ground:\n  friction: 0.8            # coefficient between robot and ground\ncontact:\n") +
+                  (type.all.empty()
+                       ? "  on: feet                 # the module has elements for feet alone; all: every element\n"
+                       : "  on: all                  # every contact element of the module; feet: those of its feet\n")};
+}
 
 /// Description of the robot that `docks` make of modules of a type.
 std::string robot_text(const std::string& type, const std::vector<Dock>& docks) {
@@ -178,7 +183,7 @@ int new_scenario(const NewFileArguments& arguments) {
   check_driven(type, module.file);
   const std::vector<Dock> docks = chain(one, kModules);
   const GaitValues gait = gait_values(type);
-  const Surroundings& around = type.all.empty() ? kFixed : kOnTheGround;
+  const Surroundings around = surroundings(type);
   const std::pair<const char*, std::string> values[] = {
       {"@NAME@", name},
       {"@TEXT@", yaml_text(name)},

@@ -118,6 +118,17 @@ TEST_F(NewFiles, AGaitFitsTheRangesOfTheHinges) {
   EXPECT_EQ(verdict("step.yaml"), "feasible");
 }
 
+TEST_F(NewFiles, AModuleWithFeetAloneStandsOnThem) {
+  folder.write("foot.yaml",
+               "gaitlab_module: 3\nname: foot\nbodies:\n  sole: {mass: 1, shape: [{box: [0.2, 0.2, 0.02]}]}\n"
+               "  mast: {mass: 0.1, com: [0, 0, 0.05], shape: [{box: [0.01, 0.01, 0.1], origin: [0, 0, 0.05]}]}\n"
+               "hinges:\n  - {name: ankle, parent: sole, child: mast, origin: [0, 0, 0.02], axis: [0, 1, 0], range: [-1, 1]}\n"
+               "contacts: {feet: shapes, all: []}\nactuator: {type: servo, voltage: 5, stall_torque: 1, no_load_speed: 5}\n");
+  EXPECT_EQ(call("scenario stand --module foot.yaml").code, 0);
+  EXPECT_TRUE(contains(read(folder / "stand.yaml"), "  on: feet ")) << read(folder / "stand.yaml");
+  EXPECT_EQ(gaitlab("check stand.yaml", folder / "").code, 0);
+}
+
 TEST_F(NewFiles, AModuleWithFaultsIsRefusedWithThem) {
   folder.write("bad.yaml", "gaitlab_module: 2\nname: bad\nbodies: {b: {mass: -1}}\n");
   EXPECT_EQ(refused("scenario walk --module bad.yaml"), "bad.yaml:3:20: error: mass is -1 kg; allowed are at least 0 kg\n");
