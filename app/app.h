@@ -31,8 +31,11 @@ Catalog careful_catalog(const PluginArguments& allowed);
 /// The command line as typed, for messages.
 std::string& typed();
 
-/// Module types (`kind`: module) or robots (`kind`: robot) that are shipped with the program, as a map from name to file.
+/// Files that are shipped with the program, of `kind` module, robot, scenario or study, as a map from name to file.
 std::map<std::string, std::string> shipped_files(const std::string& kind);
+/// File that a command line names: a path or, if there is no such file, the name of a shipped scenario or study. Throws
+/// InputError for a name that is similar to one of them; other names are returned.
+std::string named_file(const std::string& word);
 
 /// Arguments of every command that reads a scenario.
 struct ScenarioArguments {

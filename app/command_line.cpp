@@ -120,6 +120,7 @@ void check_within(const CLI::App& command) {
   const Words known = shown_commands(command);
   const Words left = command.remaining();
   if (!left.empty()) refuse(command, "unknown command " + in_quotes(left.front()) + offer(left.front(), known, "commands"));
+  if (command.get_parent() == nullptr) refuse(command, "a command is missing");  // all commands have just been printed
   refuse(command, fmt::format("a command is missing; expected {} and one of: {}", full_name(command), fmt::join(known, ", ")));
 }
 
@@ -220,6 +221,7 @@ void check_taken_values(const CLI::App& command) {
 
 bool read_command_line(CLI::App& app, std::vector<std::string> words) {
   bool help = false;
+  if (words.empty()) say(app.help() + "\n");
   for (; !words.empty() && words.front() == "help"; help = true) words.erase(words.begin());
   if (help) words.emplace_back("--help");
   check_command(app, words);

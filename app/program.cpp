@@ -37,6 +37,30 @@ void keep_freed_memory() {
 #endif
 }
 
+/// Group of a command in the help.
+struct GroupedCommand {
+  const char *name, *group;
+};
+constexpr const char* kSimulate = "Run a gait";
+constexpr const char* kLookUp = "Look up";
+constexpr const char* kCompare = "Compare and draw";
+constexpr const char* kMany = "Many runs";
+constexpr const char* kKeep = "Keep results, extend";
+constexpr GroupedCommand kGrouped[] = {
+    {"run", kSimulate},   {"report", kSimulate}, {"check", kSimulate},   {"remedy", kSimulate},  {"rerun", kSimulate},
+    {"list", kLookUp},    {"explain", kLookUp},  {"schema", kLookUp},    {"compare", kCompare},  {"swap", kCompare},
+    {"figure", kCompare}, {"export", kCompare},  {"dynamics", kCompare}, {"converge", kCompare}, {"sweep", kMany},
+    {"optimize", kMany},  {"evaluate", kMany},   {"study", kMany},       {"approve", kKeep},     {"test", kKeep},
+    {"new", kKeep}};
+
+/// Puts the commands of the program into groups. Commands without a group are hidden.
+void group(CLI::App& app) {
+  for (CLI::App* command : app.get_subcommands({})) {
+    const auto* const one = std::ranges::find(kGrouped, command->get_name(), &GroupedCommand::name);
+    if (one != std::end(kGrouped)) command->group(one->group);
+  }
+}
+
 }  // namespace
 
 int guarded(const std::function<int()>& command, void (*tell)(std::string_view)) {
@@ -70,6 +94,7 @@ int program(std::span<void (*const)(Commands&)> known, int argc, char** argv) {
   Commands commands{app};
   for (int k = 1; k < argc; ++k) typed() += " " + shell_word(argv[k]);
   for (const auto add : known) add(commands);
+  group(app);
   const int code = read_command_line(app, {argv + std::min(argc, 1), argv + argc}) ? commands.chosen() : 0;
   const bool all_out = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
   if (!all_out && code == 0) throw RunError("standard output cannot be written");

@@ -49,7 +49,9 @@ void warn_of_start(const Scenario& scenario, bool quiet) {
 }
 
 void add_scenario(CLI::App& command, ScenarioArguments& arguments) {
-  command.add_option("SCENARIO", arguments.file, "scenario file (YAML)")->required();
+  command.add_option("SCENARIO", arguments.file, "scenario file (YAML), or a name of `gaitlab list scenarios`")
+      ->required()
+      ->transform(named_file);
   command.add_option("--set", arguments.sets, "override a key, as key.path=value; may be repeated")
       ->expected(1)
       ->allow_extra_args(false)

@@ -77,7 +77,11 @@ void print_summary(const Scenario& scenario, const Recording& recording, const r
 report::Verdict judged(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
                        const report::Overlaps& overlaps, const SummaryOptions& shown, bool quiet) {
   report::Verdict verdict = report::verdict(scenario, recording, summary, overlaps);
-  if (!shown.demand || Judged::limited(summary.judged.joints) == 0) return verdict;
+  if (!shown.demand) return verdict;
+  if (Judged::limited(summary.judged.joints) == 0) {
+    verdict.demand_doubt = "no motor reaches a limit, so that the gait demands what this run shows";
+    return verdict;
+  }
   Catalog catalog = standard_catalog();  // the plugins of the run are already loaded
   const StoredScenario same{"", scenario.file + " (its demand twin)", resolved(scenario)};
   Scenario twin = read_stored(same, catalog, OtherPlugins::taken);
@@ -119,11 +123,11 @@ void draw_joints(Scenario& scenario, const std::vector<std::string>& joints) {
   const std::vector<std::string> known = joint_names(*scenario.robot);
   std::vector<Problem> problems;
   for (const std::string& name : joints) {
-    if (const std::string wrong = no_joint(name, known); !wrong.empty())
+    if (const std::string wrong = no_joint(name, known, "joint", scenario.groups); !wrong.empty())
       problems.push_back({SourceLocation{"--joint " + name}, wrong});
   }
   if (!problems.empty()) throw InputError(std::move(problems));
-  scenario.figure.joints = joints_meant(joints, known);
+  scenario.figure.joints = joints_meant(joints, known, scenario.groups);
 }
 
 void warn_of_run(const Scenario& scenario, const Recording& recording, const report::Verdict& verdict) {

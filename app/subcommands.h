@@ -12,6 +12,7 @@ void add_check(Commands& commands);
 void add_demo(Commands& commands);
 void add_remedy(Commands& commands);
 void add_manuals(Commands& commands);
+void add_explain(Commands& commands);
 void add_converge(Commands& commands);
 void add_swap(Commands& commands);
 void add_sweep(Commands& commands);

@@ -55,6 +55,10 @@ std::vector<std::string> split(const std::string& list) {
     if (c == ',') names.emplace_back();
     if (c != ',') names.back() += c;
   }
+  for (std::string& name : names) {
+    const std::size_t first = std::min(name.find_first_not_of(' '), name.size());
+    name = name.substr(first, name.find_last_not_of(' ') + 1 - first);
+  }
   return names;
 }
 
@@ -382,8 +386,10 @@ void add_swap(Commands& commands) {
         command.remove_option(command.get_option("SCENARIO"));
         command
             .add_option("SCENARIO", arguments.files,
-                        "scenario files (YAML); for several files the table shows every CPG in every scenario")
-            ->required();
+                        "scenario files (YAML), or names of `gaitlab list scenarios`; for several the table shows every CPG in "
+                        "every scenario")
+            ->required()
+            ->transform(named_file);
         command
             .add_option("--cpg", arguments.cpgs,
                         "types of the CPGs, separated by commas; their common keys are kept, `model` gets its defaults")

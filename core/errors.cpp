@@ -131,6 +131,16 @@ InputError::InputError(std::vector<Problem> problems) : std::runtime_error(repor
 InputError::InputError(SourceLocation place, std::string text)
     : InputError(std::vector<Problem>{{std::move(place), std::move(text), {}}}) {}
 
+namespace {
+
+/// Number of equal characters at the beginning. Among equally similar names, that with most of them is meant: people misspell
+/// the end of a word more often.
+std::size_t alike(const std::string& a, const std::string& b) {
+  return static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin());
+}
+
+}  // namespace
+
 std::string nearest(const std::string& found, const std::vector<std::string>& known) {
   constexpr std::size_t kLongest = 200;  // a longer text is not similar to any name, and its distances would take seconds
   if (found.size() > kLongest) return {};
@@ -138,9 +148,10 @@ std::string nearest(const std::string& found, const std::vector<std::string>& kn
   std::size_t best_distance = std::max<std::size_t>(1, found.size() / 3) + 1;
   for (const std::string& name : known) {
     // Each additional or missing letter adds one to the distance.
-    if (std::max(name.size(), found.size()) - std::min(name.size(), found.size()) >= best_distance) continue;
-    const std::size_t d = distance(found, name, best_distance);
-    if (d < best_distance) {
+    if (std::max(name.size(), found.size()) - std::min(name.size(), found.size()) > best_distance) continue;
+    const std::size_t d = distance(found, name, best_distance + 1);
+    const bool closer = d == best_distance && !best.empty() && alike(found, name) > alike(found, best);
+    if (d < best_distance || closer) {
       best = name;
       best_distance = d;
     }
@@ -151,6 +162,12 @@ std::string nearest(const std::string& found, const std::vector<std::string>& kn
     if (!name.starts_with(found)) continue;
     if (!best.empty()) return {};
     best = name;
+  }
+  if (!best.empty()) return best;
+  // It may be too long: the longest name with which it begins is the result.
+  constexpr std::size_t kShortest = 4;
+  for (const std::string& name : known) {
+    if (name.size() >= kShortest && name.size() > best.size() && found.starts_with(name)) best = name;
   }
   return best;
 }

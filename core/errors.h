@@ -34,6 +34,8 @@ class Problems {
   Problem& add(SourceLocation place, std::string text) {
     return list_.emplace_back(Problem{std::move(place), std::move(text), {}});
   }
+  /// Replaces a problem by another one.
+  void replace(std::size_t number, Problem problem) { list_[number] = std::move(problem); }
   [[nodiscard]] bool empty() const { return list_.empty(); }
   [[nodiscard]] std::size_t size() const { return list_.size(); }
   [[nodiscard]] const std::vector<Problem>& list() const { return list_; }
@@ -72,8 +74,8 @@ class RunError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The known name most similar to `found`, by edit distance, or the only name that begins with `found`. Empty if neither
-/// exists.
+/// The known name most similar to `found`, by edit distance; else the only name that begins with `found`, or the longest one
+/// with which it begins. Empty if there is none.
 std::string nearest(const std::string& found, const std::vector<std::string>& known);
 
 }  // namespace gaitlab

@@ -15,7 +15,18 @@ A coupling {from: j, to: i, weight: w, phase_lag: L} pulls to phi_i = phi_j + L 
 Start: on the limit cycle (sums of lags along the couplings; where they contradict one another around a cycle, phi = 0 and a
 note), r = 0, x = X. Source: Chariot, Filippi, Verlinden 2012, eq. 7-10 and 16-19.
 
-    cpg: {type: phase_oscillator, frequency: 0.25, amplitude: 0.6, phase_lag: 1.2})";
+A wave along a chain of joints: {type: phase_oscillator, frequency: 0.25, amplitude: 0.6, phase_lag: 1.2}. Joints have values by
+name, by pattern or by a group of the scenario, and couplings may be listed:
+
+    cpg:
+      type: phase_oscillator
+      frequency: 0.5
+      amplitude: {hips: 0.4, "*/passive": 0.25, m1/passive: 0.3}
+      couplings:
+        - {from: m0/active, to: m1/active, weight: 5, phase_lag: 3.1416}
+        - {from: m0/active, to: m0/passive, weight: 5, phase_lag: -1.5708}
+        - {from: m1/active, to: m1/passive, weight: 5, phase_lag: -1.5708}
+    groups: {hips: "m[0-5]/active"})";
 
 void PhaseOscillatorModel::fields(Fields& f) {
   f.number("coupling", coupling, {"1/s", 0, 1000, "Weight w of the couplings made by a rule."});

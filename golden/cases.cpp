@@ -8,6 +8,7 @@
 
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
+#include "core/scenario/other_engine.h"
 #include "core/scenario/read_scenario.h"
 #include "report/verdict/numbers.h"
 #include "report/verdict/verdict.h"
@@ -114,11 +115,9 @@ Scenario with_engine(const std::string& file, const Scenario& scenario, const st
                                  near.empty() ? fmt::format("there are: {}", fmt::join(catalog.engines(), ", "))
                                               : "did you mean '" + near + "'?"));
   }
-  const bool extrapolated = engine->integrator("extrapolated") != nullptr;
-  return read_scenario(file,
-                       {"physics.engine=" + name, fmt::format("physics.step={}", step),
-                        "physics.integrator=" + (extrapolated ? "extrapolated" : engine->fixed().name)},
-                       catalog);
+  const Integrator* extrapolated = engine->integrator("extrapolated");
+  const Integrator& integrator = extrapolated != nullptr ? *extrapolated : engine->fixed();
+  return read_scenario(file, engine_settings(scenario, name, integrator, fmt::format("{}", step)), catalog);
 }
 
 void read_case(GoldenCase& c, const std::optional<std::string>& engine, Catalog& catalog) {

@@ -189,7 +189,9 @@ void add_evaluate(Commands& commands) {
   add_command<EvaluateArguments>(
       commands, "evaluate", "Run the points that another program requests, in lines of JSON.", evaluate_study,
       [](CLI::App& command, EvaluateArguments& a) {
-        command.add_option("STUDY", a.file, "file of a study (YAML); its method and budget are not used")->required();
+        command.add_option("STUDY", a.file, "file of a study (YAML); its method and budget are not used")
+            ->required()
+            ->transform(named_file);
         add_study_sets(command, a.sets);
         add_study_run(command, a, "runs/evaluate-NAME");
         command.add_flag("--as-completed", a.as_completed,

@@ -12,6 +12,7 @@
 #include "app/study/study_text.h"
 #include "app/study/verification_text.h"
 #include "core/errors.h"
+#include "core/files/file_kind.h"
 #include "core/settings/wording.h"
 #include "studies/search/candidates.h"
 #include "studies/search/optimizer.h"
@@ -39,6 +40,7 @@ struct OptimizeArguments : StudyRunArguments {
 
 Study searched_study(const OptimizeArguments& a) {
   if (!studies::is_study(a.file)) {
+    expect_kind(a.file, FileKind::study);
     throw InputError(SourceLocation{a.file},
                      "is not the file of a study; expected one with gaitlab_study: 1 (gaitlab explain "
                      "study)");
@@ -260,7 +262,10 @@ void add_optimize(Commands& commands) {
   add_command<OptimizeArguments>(
       commands, "optimize", "Search the best point of a study, and verify it.", optimize_study,
       [](CLI::App& command, OptimizeArguments& a) {
-        command.add_option("STUDY", a.file, "the file of a study (YAML)")->required()->check(not_empty);
+        command.add_option("STUDY", a.file, "the file of a study (YAML), or a name of `gaitlab list studies`")
+            ->required()
+            ->check(not_empty)
+            ->transform(named_file);
         command.add_option("--runs", a.runs, "budget, instead of the file's")->check(CLI::Range(1, 1000000000));
         command.add_option("--seed", a.seed, "seed, instead of the file's")
             ->check(CLI::Range(std::int64_t{0}, std::int64_t{999999999999999}));

@@ -76,7 +76,7 @@ void print_plan(const studies::Plan& plan, const StudyRunArguments& a) {
   const double all = each * static_cast<double>(points.runs());
   const double bytes = static_cast<double>(points.runs()) *
                        (120 + 9.0 * static_cast<double>(plan.columns().size() + plan.study().parameters.size()));
-  fmt::print("takes about {:.3g} s on {} ({:.3g} s per run on one thread)\n", all / study_threads(a.jobs),
+  fmt::print("takes {} on {} ({:.3g} s per run on one thread)\n", about(all / study_threads(a.jobs)),
              counted(static_cast<std::size_t>(study_threads(a.jobs)), "thread"), each);
   fmt::print("journal about {:.3g} MB\n", bytes / 1e6);
   if (searched) return;            // shards are not suggested for a search: each generation waits for the previous one

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "app/study/study_text.h"
+#include "core/files/file_kind.h"
 #include "core/settings/wording.h"
 #include "studies/study/parameter_file.h"
 #include "studies/study/study_file.h"
@@ -89,6 +90,7 @@ Study wanted_study(const SweepArguments& a) {
     if (a.runs > 0) study.runs = a.runs;
     if (problems.empty()) check_study(study, SourceLocation{"--runs"}, problems);
   } else {
+    expect_kind(a.file, FileKind::scenario);
     study = typed_study(a, problems);
   }
   problems.raise();

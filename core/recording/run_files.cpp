@@ -8,6 +8,7 @@
 
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
+#include "core/files/file_kind.h"
 #include "core/recording/csv.h"
 #include "core/recording/h5.h"
 
@@ -34,7 +35,7 @@ fs::path trace_file(const fs::path& run) {
   if (!fs::exists(status)) throw InputError(place, "there is no such run folder or trace file");
   if (!fs::is_directory(status)) {
     if (run.extension() == ".h5" || run.extension() == ".csv") return run;
-    throw InputError(place, "is neither a run folder nor a trace file (.h5, .csv)");
+    throw InputError(place, "is neither a run folder nor a trace file (.h5, .csv)" + but_it_is(run.string()));
   }
   for (const char* name : {"trace.h5", "trace.csv"}) {
     if (fs::exists(run / name, error)) return run / name;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/files/file_kind.h"
 #include "core/model/docking.h"
 #include "core/model/shape_contacts.h"
 #include "core/robot_files/body_section.h"
@@ -56,8 +57,8 @@ class ModuleReader {
     Reader reader(document_, "", problems_, nullptr);
     places_.format = reader.version("gaitlab_module", kNewestModule);
     if (!versioned || reader.has("gaitlab_module")) return;
-    reader.require({"gaitlab_module"});
-    places_.format = kNewestModule;
+    problems_.add(document_.place, fmt::format("missing key 'gaitlab_module'; write gaitlab_module: {}", kNewestModule));
+    places_.format = kNewestModule;  // so that its keys are not reported, too
   }
 
   void read_connectors(const Node* connectors) {
@@ -300,6 +301,7 @@ ModuleType read_module(const Node& document, bool versioned, Problems& problems)
 
 ModuleFile read_module_file(const std::string& path) {
   ModuleFile file;
+  expect_kind(path, FileKind::module);
   file.document = read_yaml(path);
   Problems problems;
   file.type = read_module(file.document, true, problems);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/files/file_kind.h"
 #include "core/robot_files/module_file.h"
 #include "core/settings/data_folder.h"
 #include "core/settings/text_file.h"
@@ -25,6 +26,14 @@ void add_names(const std::string& folder, std::vector<std::string>& names) {
   for (const auto& file : fs::directory_iterator(folder, failure)) {
     if (file.path().extension() == ".yaml") names.push_back(file.path().stem().string());
   }
+}
+
+/// Name of the shipped type for its name with .yaml; "" for other texts.
+std::string shipped_name(const std::string& text) {
+  const std::string name = fs::path(text).stem().string();
+  std::error_code none;
+  const bool shipped = text == name + ".yaml" && fs::exists(data_folder() + "/modules/" + text, none);
+  return shipped ? name : "";
 }
 
 std::string file_key(const std::string& path) {
@@ -62,7 +71,13 @@ std::optional<std::size_t> TypeLibrary::find(const Node& node) {
     problems_.add(node.place, fmt::format("the module type is {}; expected a name, a file or a map", found(node)));
     return {};
   }
-  return is_path(node.text) ? read_file(path_from(folder_, node.text), node.place) : find_name(node);
+  if (!is_path(node.text)) return find_name(node);
+  const std::string path = path_from(folder_, node.text);
+  if (const std::string name = shipped_name(node.text); !name.empty() && !fs::exists(path)) {
+    problems_.add(node.place, fmt::format("there is no file '{}'; did you mean {}, without .yaml?", path, in_quotes(name)));
+    return {};
+  }
+  return read_file(path, node.place);
 }
 
 std::optional<std::size_t> TypeLibrary::find_name(const Node& node) {
@@ -79,6 +94,8 @@ std::optional<std::size_t> TypeLibrary::find_name(const Node& node) {
     if (is_name(node.text, "_-") && fs::exists(path, failure)) return seen->second = read_file(path, node.place);
     add_names(folder, known);
   }
+  const std::string beside = path_from(folder_, node.text + ".yaml");
+  if (is_name(node.text, "_-") && kind_of_file(beside) == FileKind::module) return seen->second = read_file(beside, node.place);
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());
   Problem& problem = problems_.add(node.place, "no module type " + in_quotes(node.text) + offer(node.text, known, "types"));
@@ -91,6 +108,7 @@ std::optional<std::size_t> TypeLibrary::read_file(const std::string& path, const
   if (!fresh) return seen->second;
   Problems found;
   try {
+    expect_kind(path, FileKind::module);
     const std::optional<Node> document = parse_yaml(read_text(path, asked_at), path, found);
     if (document) seen->second = read(*document, true, found);
   } catch (const InputError& e) {

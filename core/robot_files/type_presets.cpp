@@ -144,6 +144,30 @@ std::vector<const Node*> preset_maps(const Node& document, Kind kind) {
   return maps;
 }
 
+namespace {
+
+const Node* type_node(const Node& of, Kind kind) {
+  const Node* map = map_of(of, kind);
+  return map == nullptr ? nullptr : map->find("type");
+}
+
+}  // namespace
+
+bool known_types(const std::vector<Node>& documents, const Node& scenario, const Catalog& catalog, Problems& problems) {
+  const std::size_t before = problems.size();
+  for (const Kind kind : {Kind::actuator, Kind::controller}) {
+    if (type_node(scenario, kind) != nullptr) continue;
+    std::vector<std::string> known = catalog.names(kind);
+    if (describe(kind).may_be_none) known.emplace_back("none");
+    for (const Node& document : documents) {
+      const Node* type = type_node(document, kind);
+      if (type == nullptr || std::ranges::find(known, type->text) != known.end()) continue;
+      problems.add(type->place, "type " + in_quotes(type->text) + " is unknown" + offer(type->text, known, "types"));
+    }
+  }
+  return problems.size() == before;
+}
+
 TypePresets::TypePresets(Kind kind, const Robot* robot, const std::vector<Node>& documents)
     : kind_(kind), type_(describe(kind).default_type) {
   std::vector<const Node*> maps;

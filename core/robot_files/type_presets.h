@@ -30,6 +30,10 @@ std::vector<DefaultFigure> default_figures(const Entry& entry);
 /// Text such as `chosen: R, Kt by default of dc_motor`, for values that are plugin defaults instead of values of a real motor.
 std::string by_default(const std::vector<std::string>& keys, const Entry& entry);
 
+/// False, with a problem at each place, if module types name actuators or controllers that do not exist and the scenario names
+/// no others; their keys are then not known.
+bool known_types(const std::vector<Node>& documents, const Node& scenario, const Catalog& catalog, Problems& problems);
+
 /// Presets for one kind of plugin, actuator or controller. Each joint uses the presets of its module type; presets of its hinge
 /// replace these key by key. Module types disagree if they name different types of plugin. If no module type has format 2, one
 /// motor serves all joints, and module types with different motors disagree as well.

@@ -68,6 +68,7 @@ class ChangeReader {
 
   void read(const Node& node, const std::string& name) {
     Reader reader(node, name, problems_, joints_);
+    reader.groups(scenario_.groups);
     if (node.kind != Node::Kind::map) return;
     const std::size_t before = problems_.size();
     Change change{0, {Node::Kind::map}, last_.cpg, last_.controller, {}};
@@ -176,6 +177,7 @@ class ChangeReader {
 
   void read_fault(const Node& node, const std::string& name, Change& change) {
     Reader reader(node, name, problems_, joints_);
+    reader.groups(scenario_.groups);
     if (node.kind != Node::Kind::map) return;
     const std::size_t before = problems_.size();
     JointFault fault;

@@ -6,6 +6,7 @@
 
 #include "core/plugin/plugin_instance.h"
 #include "core/scenario/change_section.h"
+#include "core/scenario/group_section.h"
 #include "core/scenario/robot_section.h"
 #include "core/scenario/sections.h"
 #include "core/settings/explainer.h"
@@ -32,6 +33,8 @@ void add_changes(Explainer& all) {
   for (const KeyRow& row : of_fault.rows()) all.row("at[].fault." + row.key, row.unit, "", row.range, row.about);
 }
 
+}  // namespace
+
 std::vector<KeyRow> scenario_keys(const Catalog& catalog) {
   Explainer explainer;
   explainer.row("gaitlab", "", "1", "1", "Format version.");
@@ -49,6 +52,7 @@ std::vector<KeyRow> scenario_keys(const Catalog& catalog) {
   Explainer base;
   BaseFields{scenario}.fields(base);
   for (const KeyRow& row : base.rows()) explainer.row("  " + row.key, row.unit, row.preset, row.range, row.about);
+  explainer.row(kGroupsSection, "", "{}", "NAME: list", kAboutGroups);
   SectionFields sections(scenario, &catalog, nullptr, describe(Kind::actuator).default_type);
   for (PluginFields* plugin : {&sections.actuator, &sections.controller, &sections.cpg}) plugin->own_keys = false;
   sections.fields(explainer);
@@ -69,6 +73,8 @@ std::vector<KeyRow> plugin_keys(const Entry& entry) {
   visit_settings(entry, default_settings(entry).get(), explainer);
   return explainer.rows();
 }
+
+namespace {
 
 /// Unit of the row whose path of keys begins `key`; the rest of `key` is an element of a list or a part of the robot.
 std::string unit_in(const std::vector<KeyRow>& rows, const std::string& key) {
@@ -112,9 +118,10 @@ std::string scenario_page(const Catalog& catalog) {
   return "# The scenario file\n\n" + std::string(kRenewed) +
          "Every key, as `gaitlab explain` prints it. The keys of a CPG, controller, actuator or sensor are on their own page,\n"
          "[plugins.md](plugins.md). A value per joint is a number, a list, or `{default: x, m3/passive: y}`; a name\n"
-         "may be a pattern with `*` and `?`, in quotes (`\"*/active\": y`). A name beats patterns, and patterns beat "
-         "`default`. For\n"
-         "editors: the JSON Schema `scenarios/gaitlab.schema.json`, by `gaitlab schema`.\n\n" +
+         "may be a pattern with `*`, `?` and ranges such as `[3-6]`, in quotes (`\"m[3-6]/active\": y`), or a group "
+         "(`groups`). A\n"
+         "name beats patterns and groups, and these beat `default`. For editors: the JSON Schema "
+         "`scenarios/gaitlab.schema.json`, by `gaitlab schema`.\n\n" +
          markdown_table(scenario_keys(catalog));
 }
 

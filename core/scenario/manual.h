@@ -1,11 +1,17 @@
 // Manual of the scenario file and of the plugins: `gaitlab explain` and docs/reference.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "core/plugin/catalog.h"
+#include "core/settings/explainer.h"
 #include "core/settings/node.h"
 
 namespace gaitlab {
+
+/// The keys of a scenario file, without those of plugins, and the keys of a plugin. Throws PluginError.
+std::vector<KeyRow> scenario_keys(const Catalog& catalog);
+std::vector<KeyRow> plugin_keys(const Entry& entry);
 
 /// Text with every key of a scenario file, with unit, default, range and sentence.
 std::string explain_scenario(const Catalog& catalog);

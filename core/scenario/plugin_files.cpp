@@ -71,6 +71,12 @@ void load(const PluginEntry& entry, const SourceLocation& place, const std::stri
                                     clipped(entry.path), hash, clipped(entry.hash)));
     return;
   }
+  if (!read_start(canonical, 4)
+           .starts_with("\x7F"
+                        "ELF")) {
+    problems.add(place, fmt::format("plugin '{}' is not a library (.so)", clipped(entry.path)));
+    return;
+  }
   try {
     load_plugin(canonical.string(), hash, catalog);
     files.push_back({canonical.string(), hash});

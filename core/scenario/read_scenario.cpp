@@ -5,14 +5,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
 
+#include "core/files/file_kind.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/robot_files/type_presets.h"
 #include "core/scenario/built_robot.h"
 #include "core/scenario/change_section.h"
 #include "core/scenario/ground_section.h"
+#include "core/scenario/group_section.h"
+#include "core/scenario/key_lookup.h"
 #include "core/scenario/old_names.h"
 #include "core/scenario/plugin_files.h"
 #include "core/scenario/replaced_motors.h"
@@ -47,15 +49,6 @@ class ScenarioReader {
     rename_old_names(root_, {}, problems_);
     const std::vector<Retyped> retyped = apply_sets(root_, sets, problems_);
     rename_old_names(root_, sets, problems_);
-    if (root_.find("gaitlab_module") != nullptr) {
-      problems_.add(root_.place,
-                    fmt::format("this is a module type, not a scenario; its content: gaitlab explain module {}", path_));
-      raise();
-    }
-    if (root_.find("gaitlab_study") != nullptr) {
-      problems_.add(root_.place, "this is a study, not a scenario; run it with gaitlab sweep or gaitlab optimize");
-      raise();
-    }
     Reader head(root_, "the scenario", problems_, nullptr);
     if (!head.version("gaitlab")) raise();  // in another version, the keys have other meanings
     if (const Node* plugins = root_.find("plugins")) {
@@ -130,6 +123,8 @@ class ScenarioReader {
       return;
     }
     Reader reader(*node, "robot", problems_, nullptr);
+    const Elsewhere elsewhere = key_search(catalog_, root_, scenario_);
+    reader.elsewhere(&elsewhere);
     if (node->kind != Node::Kind::map) return;
     RobotParts parts = read_robot(reader, node->place, folder_, problems_);
     BaseFields base{scenario_};
@@ -147,6 +142,7 @@ class ScenarioReader {
     if (!scenario_.robot) return;
     joints_ = std::make_shared<const std::vector<std::string>>(joint_names(*scenario_.robot));
     modules_ = std::make_shared<const std::vector<std::string>>(module_names(*scenario_.robot));
+    if (const Node* groups = root_.find(kGroupsSection)) scenario_.groups = read_groups(*groups, *joints_, problems_);
   }
 
   [[nodiscard]] bool reads(const std::string& section) const {
@@ -188,14 +184,18 @@ class ScenarioReader {
   void read_sections() {
     const JointNames joints = joints_.get();
     Reader reader(root_, "the scenario", problems_, joints, folder_);
+    const Elsewhere elsewhere = key_search(catalog_, root_, scenario_);
+    reader.elsewhere(&elsewhere);
     if (!touched_.empty()) reader.only(touched_);
     reader.modules(modules_.get());
-    for (const char* known : {"gaitlab", "name", "plugins", "robot", "controller", "cpg"}) reader.take(known);
+    reader.groups(scenario_.groups);
+    for (const char* known : {"gaitlab", "name", "plugins", "robot", kGroupsSection, "controller", "cpg"}) reader.take(known);
     reader.require({"duration"});
     const Node* sensors = reader.take("sensors");
     reader.take("at");  // read_changes() reads it when all else is known
     const TypePresets motors(Kind::actuator, scenario_.robot.get(), *scenario_.module_documents);
     const TypePresets gains(Kind::controller, scenario_.robot.get(), *scenario_.module_documents);
+    if (!known_types(*scenario_.module_documents, root_, catalog_, problems_)) raise();
     if (!motors.agreed() && !given(root_, "actuator")) {
       motors.refuse(given(root_, "robot").value_or(root_.place), problems_);
       raise();  // a key of such a section would be reported as missing
@@ -256,7 +256,7 @@ class ScenarioReader {
     }
     if (as_ != ReadAs::module_type) checks.initial_angles();
     checks.figure_joints();
-    if (joints != nullptr) scenario_.figure.joints = joints_meant(scenario_.figure.joints, *joints);
+    if (joints != nullptr) scenario_.figure.joints = joints_meant(scenario_.figure.joints, *joints, scenario_.groups);
     checks.base_velocity();
     if (as_ != ReadAs::record) checks.limits();
     finish_periods(root_, scenario_, catalog_, problems_);
@@ -349,6 +349,7 @@ class ScenarioReader {
 };
 
 Scenario read_scenario(const std::string& path, const std::vector<std::string>& sets, Catalog& catalog, ReadAs as) {
+  expect_kind(path, FileKind::scenario);
   return ScenarioReader(path, catalog, as).read(read_text(path), sets);
 }
 
@@ -368,6 +369,7 @@ ScenarioTemplate::ScenarioTemplate(std::string path, std::vector<std::string> se
       sets_(std::move(sets)),
       catalog_(catalog),
       reader_(std::make_unique<ScenarioReader>(path_, catalog)) {
+  expect_kind(path_, FileKind::scenario);
   reader_->read(read_text(path_), sets_);
 }
 
@@ -378,7 +380,7 @@ Scenario ScenarioTemplate::with(const std::vector<std::string>& own) const {
   const auto whole = [&](const std::string& set) {
     const std::string key = set.substr(0, set.find('='));
     const std::string section = key.substr(0, key.find('.'));
-    constexpr std::array kWhole{"gaitlab", "name", "plugins", "robot", kTolerancesSection, kAsBuiltSection};
+    constexpr std::array kWhole{"gaitlab", "name", "plugins", "robot", kGroupsSection, kTolerancesSection, kAsBuiltSection};
     if (std::ranges::find(kWhole, std::string_view(section)) != kWhole.end() || key.ends_with(".type")) return true;
     if (section == "seed" && reader_->draws_robots()) return true;
     if (key == section && find_kind(section) != nullptr) return true;  // a whole section of a plugin

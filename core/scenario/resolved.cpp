@@ -1,6 +1,7 @@
 #include "core/scenario/resolved.h"
 
 #include "core/scenario/change_section.h"
+#include "core/scenario/group_section.h"
 #include "core/scenario/robot_section.h"
 #include "core/scenario/sections.h"
 #include "core/scenario/sensor_section.h"
@@ -39,6 +40,7 @@ std::string resolved(const Scenario& scenario) {
   writer.add("name", text_node(scenario.name));
   writer.add("plugins", plugins_node(scenario.plugins));
   writer.add("robot", robot_node(copy, joints));
+  if (!scenario.groups.empty()) writer.add(kGroupsSection, groups_node(scenario.groups));  // older goldens do not contain it
   const Entry* actuator = scenario.actuator.entry;
   SectionFields sections(copy, nullptr, nullptr, actuator == nullptr ? "none" : std::string(actuator->name));
   sections.writing = true;

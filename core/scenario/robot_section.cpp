@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "core/files/file_kind.h"
 #include "core/robot_files/build_file.h"
 #include "core/robot_files/type_library.h"
 #include "core/scenario/plugin_files.h"
@@ -19,13 +20,14 @@
 namespace gaitlab {
 namespace {
 
-/// Path of a build file, or of a robot by its name as in `gaitlab list robot`. A named robot belongs to the program, or is in a
-/// folder robots/ beside the scenario.
+/// Path of a build file, or of a robot by its name as in `gaitlab list robot`. A named robot belongs to the program, or is
+/// beside the scenario or in a folder robots/ beside it.
 std::string build_path(const std::string& folder, const std::string& name) {
   std::string path = path_from(folder, name);
   std::error_code none;
   if (std::filesystem::exists(path, none) || name.find_first_of("/.") != std::string::npos) return path;
-  for (const std::string& robots : {path_from(folder, "robots"), path_from(folder, "../robots"), data_folder() + "/robots"}) {
+  for (const std::string& robots :
+       {path_from(folder, "."), path_from(folder, "robots"), path_from(folder, "../robots"), data_folder() + "/robots"}) {
     std::string named = robots + "/" + name + ".dat";
     if (std::filesystem::exists(named, none)) return named;
   }
@@ -54,6 +56,7 @@ std::vector<Dock> read_connections(Reader& reader, const std::string& folder, Pr
   std::vector<Dock> rows;
   Problems found;
   try {
+    expect_kind(path, FileKind::robot);
     const std::string text = read_text(path, build->place);
     check_text(text, path);
     rows = read_build(text, path, found);

@@ -14,6 +14,7 @@
 #include "core/names.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/scenario/as_built.h"
+#include "core/settings/joint_patterns.h"
 #include "core/settings/node.h"
 
 namespace gaitlab {
@@ -148,6 +149,7 @@ struct Scenario {
   std::string file, name;
   std::vector<PluginFile> plugins;
   std::shared_ptr<const Robot> robot;  ///< as built
+  JointGroups groups;                  ///< joints by the names of section `groups`
   Tolerances tolerances;
   AsBuilt as_built;       ///< differences of the robot from the drawings, stated and drawn
   std::size_t drawn = 0;  ///< how many numbers of as_built were drawn; not a setting

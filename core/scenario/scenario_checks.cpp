@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <map>
 
-#include "core/model/pattern.h"
 #include "core/scenario/built_robot.h"
 #include "core/scenario/section_places.h"
 #include "core/scenario/sections.h"
@@ -75,7 +74,9 @@ SourceLocation ScenarioChecks::angle_place(std::size_t joint) const {
   const std::string& name = scenario_.robot->joints[joint].name;
   if (const Node* own = angles->find(name)) return own->place;
   for (std::size_t i = 0; i < angles->keys.size(); ++i) {
-    if (is_pattern(angles->keys[i].first) && glob(angles->keys[i].first, name)) return angles->items[i].place;
+    const std::string& key = angles->keys[i].first;
+    if (means_several(key, scenario_.groups) && !joints_of(key, {name}, scenario_.groups).empty())
+      return angles->items[i].place;
   }
   if (const Node* common = angles->find("default")) return common->place;
   return angles->place;
@@ -89,6 +90,7 @@ void ScenarioChecks::initial_angles() {
   struct Outside {
     SourceLocation place;
     std::string text;
+    double angle = 0;
     int more = 0;
   };
   std::map<std::string, Outside> findings;  // one per place, because one number may apply to all joints
@@ -96,7 +98,7 @@ void ScenarioChecks::initial_angles() {
     const double angle = angles[j];
     if (angle >= joints[j].lo - 1e-9 && angle <= joints[j].hi + 1e-9) continue;
     const SourceLocation place = angle_place(j);
-    const auto [it, fresh] = findings.emplace(to_string(place), Outside{place, {}});
+    const auto [it, fresh] = findings.emplace(to_string(place), Outside{place, {}, angle});
     if (fresh) {
       it->second.text = fmt::format("the initial angle of joint '{}' is {} rad; allowed are {} to {} rad", joints[j].name,
                                     number_text(angle), number_text(joints[j].lo), number_text(joints[j].hi));
@@ -106,8 +108,9 @@ void ScenarioChecks::initial_angles() {
   }
   for (const auto& [key, outside] : findings) {
     const std::string others =
-        outside.more == 1 ? "; so has 1 more joint" : fmt::format("; so have {} more joints", outside.more);
-    problems_.add(outside.place, outside.text + (outside.more > 0 ? others : ""));
+        fmt::format("; {} {} outside of the range, too", counted(static_cast<std::size_t>(outside.more), "more joint"),
+                    outside.more == 1 ? "is" : "are");
+    problems_.add(outside.place, outside.text + (outside.more > 0 ? others : "") + in_degrees(outside.angle, "rad"));
   }
 }
 
@@ -118,7 +121,7 @@ void ScenarioChecks::figure_joints() {
   const Node* figure = root_.find("figure");
   const Node* list = figure == nullptr ? nullptr : figure->find("joints");
   for (std::size_t i = 0; i < named.size(); ++i) {
-    const std::string wrong = no_joint(named[i], joints);
+    const std::string wrong = no_joint(named[i], joints, "joint", scenario_.groups);
     const bool placed = list != nullptr && i < list->items.size();
     if (!wrong.empty()) problems_.add(placed ? list->items[i].place : place_of(root_, "figure", "joints"), wrong);
   }
@@ -131,7 +134,7 @@ void ScenarioChecks::parts_as_built() {
     if (map == nullptr || map->kind != Node::Kind::map) continue;
     const std::vector<std::string> parts = parts_with(kBuiltNumbers[i], *scenario_.robot);
     for (const auto& [name, place] : map->keys) {
-      if (name == "default" || is_pattern(name) || std::ranges::find(parts, name) != parts.end()) continue;
+      if (name == "default" || means_several(name, scenario_.groups) || std::ranges::find(parts, name) != parts.end()) continue;
       problems_.add(place, fmt::format("{} has no {}: {}", name, kBuiltNumbers[i].key,
                                        kBuiltNumbers[i].of == BuiltNumber::Of::modules ? "it is docked to no parent"
                                                                                        : "its hinge has no motor"));

@@ -4,6 +4,7 @@
 
 #include "core/robot_files/module_manual.h"
 #include "core/scenario/change_section.h"
+#include "core/scenario/group_section.h"
 #include "core/scenario/sections.h"
 #include "core/settings/overlay.h"
 #include "core/settings/schema_fields.h"
@@ -148,6 +149,16 @@ Json changes_section() {
   return {{"description", kAboutChanges}, {"default", Json::array()}, {"type", "array"}, {"items", each}};
 }
 
+Json groups_section() {
+  const Json joint{{"type", "string"}};
+  const Json joints{{"type", "array"}, {"minItems", 1}, {"items", joint}};
+  return {{"description", kAboutGroups},
+          {"type", "object"},
+          {"default", Json::object()},
+          {"propertyNames", {{"pattern", "^[A-Za-z][A-Za-z0-9_-]*$"}}},
+          {"additionalProperties", {{"anyOf", {joint, joints}}}}};
+}
+
 Json physics_section(const Json& head, const Catalog& catalog) {
   Alternatives all(head, "engine", "bullet");
   for (const std::string& name : catalog.engines()) {
@@ -226,6 +237,7 @@ std::string scenario_schema(const Catalog& catalog) {
   properties["duration"].erase("default");
   properties["sensors"] = sensors_section();
   properties["at"] = changes_section();
+  properties[kGroupsSection] = groups_section();
 
   Json schema = titled("gaitlab scenario", "gaitlab schema");
   schema.update(object_schema(std::move(properties)));

@@ -39,7 +39,9 @@ class KeyChecks final : public Fields {
     const std::vector<std::string> known = names_of(field.among);
     for (std::size_t i = 0; i < field.value.size(); ++i) {
       const std::string wrong = problem_of(field.value[i], field, known);
-      if (!wrong.empty()) problems_.add(given.kind == Node::Kind::list ? given.items[i].place : given.place, wrong);
+      // A group has several values.
+      const bool same = given.kind == Node::Kind::list && given.items.size() == field.value.size();
+      if (!wrong.empty()) problems_.add(same ? given.items[i].place : given.place, wrong);
     }
   }
 
@@ -59,9 +61,12 @@ class KeyChecks final : public Fields {
   /// The message for a name, or "" if it is correct.
   [[nodiscard]] std::string problem_of(const std::string& text, const field::Names& field,
                                        const std::vector<std::string>& known) const {
+    if (field.one && group_named(text, scenario_.groups) != nullptr)
+      return in_quotes(text) + " is a group; expected the name of one " + noun(field.among);
     if (field.one && is_pattern(text)) return in_quotes(text) + " is a pattern; expected the name of one " + noun(field.among);
     const std::vector<std::size_t> meant = joints_of(text, known);
-    if (meant.empty() && (field.among == Among::joints || field.among == Among::motors)) return no_joint(text, known);
+    if (meant.empty() && (field.among == Among::joints || field.among == Among::motors))
+      return no_joint(text, known, "joint", scenario_.groups);
     if (meant.empty()) {
       return fmt::format("no {}{} {}{}", noun(field.among), is_pattern(text) ? " matches" : "", in_quotes(text),
                          offer(text, known, field.among == Among::bodies ? "bodies" : "modules"));

@@ -40,6 +40,7 @@ class SensorReader {
     }
     SensorSelection sensor{name, {}};
     Reader reader(node, "sensors." + name, problems_, joints_);
+    reader.groups(scenario_.groups);
     if (node.kind != Node::Kind::map) return;
     if (!reader.has(kType)) {
       problems_.add(node.place, fmt::format("sensor {} has no key '{}'; known types: {}", in_quotes(name), kType,

@@ -1,5 +1,7 @@
 #include "core/settings/joint_patterns.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <unordered_set>
 
@@ -27,33 +29,73 @@ std::vector<std::string> usual_patterns(const std::vector<std::string>& joints) 
   return patterns;
 }
 
+/// `m0/hinge to m2/hinge` for m9/hinge: the joints with the name of a hinge that other modules have. Also `m0 to m2` for m9.
+/// Empty for another name.
+std::string range_beside(const std::string& text, const std::vector<std::string>& joints) {
+  const std::size_t end = std::min(text.find('/'), text.size());
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  if (end < 2 || text[0] != 'm' || !std::all_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(end), digit))
+    return "";
+  std::vector<std::string> beside;
+  for (const std::string& joint : joints) {
+    if (joint.substr(std::min(joint.find('/'), joint.size())) == text.substr(end)) beside.push_back(joint);
+  }
+  if (beside.size() < 2) return "";
+  return beside.size() <= 3 ? joined(beside) : beside.front() + " to " + beside.back();
+}
+
 }  // namespace
 
-std::vector<std::size_t> joints_of(const std::string& text, const std::vector<std::string>& joints) {
+const JointGroup* group_named(const std::string& name, const JointGroups& groups) {
+  const auto found = std::ranges::find(groups, name, &JointGroup::name);
+  return found == groups.end() ? nullptr : &*found;
+}
+
+bool means_several(const std::string& text, const JointGroups& groups) {
+  return is_pattern(text) || group_named(text, groups) != nullptr;
+}
+
+std::vector<std::size_t> joints_of(const std::string& text, const std::vector<std::string>& joints, const JointGroups& groups) {
+  const JointGroup* group = group_named(text, groups);
   std::vector<std::size_t> numbers;
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    if (glob(text, joints[j])) numbers.push_back(j);
+    const bool meant =
+        group == nullptr ? glob(text, joints[j]) : std::ranges::find(group->joints, joints[j]) != group->joints.end();
+    if (meant) numbers.push_back(j);
   }
   return numbers;
 }
 
-std::string no_joint(const std::string& text, const std::vector<std::string>& joints, const std::string& part) {
-  if (!joints_of(text, joints).empty()) return "";
-  if (!is_pattern(text)) return "no " + part + " " + in_quotes(text) + offer(text, joints, part + "s");
+std::string no_joint(const std::string& text, const std::vector<std::string>& joints, const std::string& part,
+                     const JointGroups& groups) {
+  if (!joints_of(text, joints, groups).empty()) return "";
+  if (!is_pattern(text)) {
+    const std::string range = range_beside(text, joints);
+    std::vector<std::string> known = joints;
+    for (const JointGroup& group : groups) known.push_back(group.name);
+    const char* kinds = groups.empty() ? "s" : "s and groups";
+    return "no " + part + " " + in_quotes(text) +
+           (range.empty() ? offer(text, known, part + kinds) : fmt::format("; {}s are {}", part, range));
+  }
   const std::vector<std::string> usual = usual_patterns(joints);
   return "no " + part + " matches " + in_quotes(text) +
          (nearest(clipped(text), usual).empty() ? offer(text, joints, part + "s") : offer(text, usual, "patterns"));
 }
 
-std::string not_one_joint(const std::string& text, const std::vector<std::string>& joints, const std::string& part) {
-  return is_pattern(text) ? in_quotes(text) + " is a pattern; expected the name of one " + part : no_joint(text, joints, part);
+std::string not_one_joint(const std::string& text, const std::vector<std::string>& joints, const std::string& part,
+                          const JointGroups& groups) {
+  if (group_named(text, groups) != nullptr) return in_quotes(text) + " is a group; expected the name of one " + part;
+  return is_pattern(text) ? in_quotes(text) + " is a pattern; expected the name of one " + part
+                          : no_joint(text, joints, part, groups);
 }
 
-std::vector<std::string> joints_meant(const std::vector<std::string>& list, const std::vector<std::string>& joints) {
+std::vector<std::string> joints_meant(const std::vector<std::string>& list, const std::vector<std::string>& joints,
+                                      const JointGroups& groups) {
   std::vector<std::string> meant;
   std::unordered_set<std::string> seen;
   for (const std::string& text : list) {
-    const std::vector<std::size_t> numbers = is_pattern(text) ? joints_of(text, joints) : std::vector<std::size_t>();
+    const std::vector<std::size_t> numbers =
+        means_several(text, groups) ? joints_of(text, joints, groups) : std::vector<std::size_t>();
     if (numbers.empty()) {
       seen.insert(text);
       meant.push_back(text);

@@ -6,19 +6,36 @@
 
 namespace gaitlab {
 
-/// Ascending numbers of the joints that match a name (`m3/active`) or a pattern (`*/active`, `m3/*`). If the result is empty,
-/// no_joint() gives the message.
-std::vector<std::size_t> joints_of(const std::string& text, const std::vector<std::string>& joints);
+/// A name for several joints, which stands wherever a pattern may stand. Its joints are in the order of the robot.
+struct JointGroup {
+  std::string name;
+  std::vector<std::string> joints;
+  bool operator==(const JointGroup&) const = default;
+};
+using JointGroups = std::vector<JointGroup>;
+
+/// The group with this name, or nullptr.
+const JointGroup* group_named(const std::string& name, const JointGroups& groups);
+/// True for a pattern or the name of a group.
+bool means_several(const std::string& text, const JointGroups& groups);
+
+/// Ascending numbers of the joints that match a name (`m3/active`), a pattern (`*/active`, `m3/*`, `m[3-6]/active`) or a group.
+/// If the result is empty, no_joint() gives the message.
+std::vector<std::size_t> joints_of(const std::string& text, const std::vector<std::string>& joints,
+                                   const JointGroups& groups = {});
 
 /// Message for a name or pattern that matches no joint, with the most similar name or pattern that matches one: `no joint
 /// 'm3/activ'; did you mean 'm3/active'?`. Empty if a joint matches. `part` is `joint`, or `module` for names of modules.
-std::string no_joint(const std::string& text, const std::vector<std::string>& joints, const std::string& part = "joint");
+std::string no_joint(const std::string& text, const std::vector<std::string>& joints, const std::string& part = "joint",
+                     const JointGroups& groups = {});
 
-/// The message of no_joint() where a single joint is required, so that patterns are not allowed.
-std::string not_one_joint(const std::string& text, const std::vector<std::string>& joints, const std::string& part = "joint");
+/// The message of no_joint() where a single joint is required, so that patterns and groups are not allowed.
+std::string not_one_joint(const std::string& text, const std::vector<std::string>& joints, const std::string& part = "joint",
+                          const JointGroups& groups = {});
 
-/// Names of the joints that match a list of names and patterns, in the order of the list. A pattern adds the joints that no
-/// earlier entry names. Texts that match no joint are kept.
-std::vector<std::string> joints_meant(const std::vector<std::string>& list, const std::vector<std::string>& joints);
+/// Names of the joints that match a list of names, patterns and groups, in the order of the list. A pattern or group adds the
+/// joints that no earlier entry names. Texts that match no joint are kept.
+std::vector<std::string> joints_meant(const std::vector<std::string>& list, const std::vector<std::string>& joints,
+                                      const JointGroups& groups = {});
 
 }  // namespace gaitlab

@@ -15,6 +15,7 @@
 #include "core/settings/number_syntax.h"
 #include "core/settings/text_file.h"
 #include "core/settings/wording.h"
+#include "core/settings/yaml_faults.h"
 
 namespace gaitlab {
 namespace {
@@ -171,6 +172,16 @@ class TreeBuilder final : public YAML::EventHandler {
   int documents_ = 0;
 };
 
+/// Replaces the last problem, of a list or map as a key, by the bracket that is not closed before it.
+void explain_last(const std::string& text, const std::string& file, Problems& problems) {
+  const Problem& last = problems.list().back();
+  Problem fault = yaml_fault(text, file, last.place.line);
+  const bool before = fault.place.line > 0 && fault.place.line <= last.place.line;
+  if (last.text.find("as a key") == std::string::npos || !before || fault.text.find("not closed") == std::string::npos) return;
+  fault.text.insert(0, "not valid YAML: ");
+  problems.replace(problems.size() - 1, std::move(fault));
+}
+
 std::optional<Node> build(const std::string& text, const std::string& file, Problems& problems) {
   TreeBuilder builder(text, file, problems);
   try {
@@ -181,6 +192,7 @@ std::optional<Node> build(const std::string& text, const std::string& file, Prob
     parser.HandleNextDocument(builder);
     return builder.take();
   } catch (const Stop&) {
+    explain_last(text, file, problems);
     return {};
   } catch (const YAML::Exception& e) {
     if (const std::optional<SourceLocation> tab = indenting_tab(text, file, e.mark.line); tab && !e.mark.is_null()) {
@@ -191,6 +203,10 @@ std::optional<Node> build(const std::string& text, const std::string& file, Prob
     const char at = placed && e.mark.pos >= 0 && static_cast<std::size_t>(e.mark.pos) < text.size()
                         ? text[static_cast<std::size_t>(e.mark.pos)]
                         : '\0';
+    if (Problem fault = yaml_fault(text, file, e.mark.line + 1); placed && !fault.text.empty()) {
+      problems.add(std::move(fault.place), "not valid YAML: " + fault.text);
+      return {};
+    }
     problems.add(placed ? SourceLocation{file, e.mark.line + 1, e.mark.column + 1} : SourceLocation{file},
                  "not valid YAML: " + e.msg + (at == '*' || at == '?' ? "; a pattern goes in quotes: \"*/active\"" : ""));
     return {};

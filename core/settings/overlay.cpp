@@ -102,8 +102,12 @@ Node& map_item(Node& map, const std::string& key, const SourceLocation& place) {
   return map.items.emplace_back(Node{Node::Kind::null, place});
 }
 
-/// True if a key belongs to a value per joint: `m3/active`, a pattern, or `default`.
-bool of_joints(const std::string& key) { return key == "default" || is_pattern(key) || key.find('/') != std::string::npos; }
+/// True if a key belongs to a value per joint: `m3/active`, a pattern, a group of the scenario, or `default`.
+bool of_joints(const std::string& key, const Node& root) {
+  const Node* groups = root.find("groups");
+  return key == "default" || is_pattern(key) || key.find('/') != std::string::npos ||
+         (groups != nullptr && groups->find(key) != nullptr);
+}
 
 /// Replaces a number by the equivalent map with the same value for every joint.
 void spread(Node& number) {
@@ -121,7 +125,7 @@ void apply(Node& root, Setting& setting, Problems& problems) {
       node->kind = Node::Kind::map;
       node->place = setting.place;
     }
-    if (of_joints(key) && node->kind == Node::Kind::scalar && read_number(*node, "").ok()) spread(*node);
+    if (of_joints(key, root) && node->kind == Node::Kind::scalar && read_number(*node, "").ok()) spread(*node);
     if (node->kind == Node::Kind::scalar) {
       problems.add(setting.place,
                    fmt::format("{} is {}, a single value; it has no key {}", where, found(*node), in_quotes(key)));

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <set>
 
 #include "core/settings/node_places.h"
@@ -23,12 +22,6 @@ std::string dotted(const std::string& key) {
     if (c != ']') text += c == '[' ? '.' : c;
   }
   return clipped(text);
-}
-
-/// Hint for an angle beyond its range, such as `; 180 degrees are 3.142 rad`. Empty if the value is not plausible as degrees.
-std::string in_degrees(double value, const std::string& unit) {
-  if (unit != "rad" || !(std::abs(value) <= 3600 && std::abs(value) > 2 * std::numbers::pi)) return "";
-  return fmt::format("; {:.6g} degrees are {:.4g} rad", value, value * std::numbers::pi / 180);
 }
 
 /// True if other keys of the map depend on this key, in the map of a plugin, ground or panel.
@@ -69,8 +62,13 @@ std::int64_t Reader::version(const char* key, std::int64_t newest) {
 void Reader::require(std::initializer_list<const char*> keys) {
   if (tolerant_) return;
   for (const char* key : keys) {
-    if (!has(key)) problems_.add(map_->place, "missing key " + in_quotes(key));
+    if (!has(key)) missing(key);
   }
+}
+
+void Reader::missing(const char* key) {
+  missing_.emplace_back(key, problems_.size());
+  problems_.add(map_->place, "missing key " + in_quotes(key));
 }
 
 void Reader::finish() {
@@ -84,12 +82,27 @@ void Reader::finish() {
     if (map_->items[i].kind == Node::Kind::null && colon != std::string::npos) {
       problems_.add(place, "unknown key " + in_quotes(key) + "; put a space after the colon");
     } else {
-      problems_.add(
-          place, "unknown key " + in_quotes(key) +
-                     (key.find('[') == std::string::npos ? offer(key, known_, "keys")
-                                                         : "; an item of a list is addressed by its number: " + dotted(key)));
+      unknown(key, place);
     }
   }
+}
+
+void Reader::unknown(const std::string& key, const SourceLocation& place) {
+  const bool of_a_list = key.find('[') != std::string::npos;
+  const std::string text = "unknown key " + in_quotes(key) +
+                           (of_a_list ? "; an item of a list is addressed by its number: " + dotted(key) : meant(key));
+  const auto misspelt = std::ranges::find(missing_, nearest(key, known_), [](const auto& one) { return one.first; });
+  if (misspelt == missing_.end() || of_a_list) {
+    problems_.add(place, text);
+  } else {
+    problems_.replace(misspelt->second, {place, text});
+    missing_.erase(misspelt);
+  }
+}
+
+std::string Reader::meant(const std::string& key) const {
+  const std::string near = elsewhere_ == nullptr || !*elsewhere_ ? "" : (*elsewhere_)(key, nearest(key, known_));
+  return near.empty() ? offer(key, known_, "keys") : near;
 }
 
 bool Reader::read_one(const Node& node, const std::string& what, const Spec& spec, double& value) {
@@ -317,6 +330,8 @@ void Reader::on(const char* key, const field::Group& field) {
   Reader reader =
       node != nullptr ? Reader(*node, key, problems_, joints_, folder_) : Reader(map_->place, problems_, joints_, folder_);
   reader.modules(modules_);
+  reader.elsewhere(elsewhere_);
+  reader.groups(*groups_);
   field.visit(field.self, reader);
   reader.finish();
 }

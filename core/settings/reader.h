@@ -1,16 +1,24 @@
 // Reader of Settings structs from a YAML map. It checks types, ranges and names and reports every problem with its place.
 #pragma once
+#include <functional>
 #include <initializer_list>
 #include <string>
 #include <vector>
 
 #include "core/plugin/fields.h"
+#include "core/settings/joint_patterns.h"
 #include "core/settings/node.h"
 
 namespace gaitlab {
 
 /// Names of the robot's joints. Null if the robot could not be built; values that depend on its joints are then not checked.
 using JointNames = const std::vector<std::string>*;
+
+inline const JointGroups kNoGroups;
+
+/// End of a message about an unknown key, which may belong elsewhere in the file: `; did you mean ground.friction?`. `near` is
+/// a similar key of the same map, or "". An empty text means that the known keys of the map are offered.
+using Elsewhere = std::function<std::string(const std::string& key, const std::string& near)>;
 
 /// Reader of one map. After the visits of all fields, finish() reports the keys that were not read. A field keeps its value if
 /// its key is absent or invalid.
@@ -34,6 +42,10 @@ class Reader final : public Fields {
   std::int64_t version(const char* key, std::int64_t newest);
   /// Names of the robot's modules, for values per module.
   void modules(JointNames names) { modules_ = names; }
+  /// Groups of joints, whose names may stand where patterns may. They must outlive the reader.
+  void groups(const JointGroups& groups) { groups_ = &groups; }
+  /// Search for unknown keys, also of nested maps. It must outlive the reader.
+  void elsewhere(const Elsewhere* search) { elsewhere_ = search; }
   /// Restricts reading to these keys. Fields with other keys keep their values.
   void only(std::vector<std::string> keys) { only_ = std::move(keys); }
   /// Reports each of these keys that is missing.
@@ -62,6 +74,10 @@ class Reader final : public Fields {
   void on(const char* key, const field::RuleOrList& field);
   void on(const char* key, const field::Group& field);
 
+  void unknown(const std::string& key, const SourceLocation& place);
+  [[nodiscard]] std::string meant(const std::string& key) const;
+  /// Reports that a required key is missing. If finish() finds it misspelt, that becomes the problem instead.
+  void missing(const char* key);
   void read_name(const Node& item, const char* key, const field::Names& field);
   const Node* take_list(const char* key, const char* expected);
   void read_elements(const char* key, const Node& node, const field::List& list);
@@ -73,10 +89,11 @@ class Reader final : public Fields {
   struct Parts {
     JointNames names;  ///< null if the robot could not be built
     const char* noun;
+    const JointGroups& groups;
   };
-  [[nodiscard]] Parts joints() const { return {joints_, "joint"}; }
+  [[nodiscard]] Parts joints() const { return {joints_, "joint", *groups_}; }
   [[nodiscard]] Parts parts(const field::EachJoint& field) const {
-    return field.of_modules ? Parts{modules_, "module"} : joints();
+    return field.of_modules ? Parts{modules_, "module", kNoGroups} : joints();
   }
   void read_each_joint(const Node& node, const char* key, const field::EachJoint& field);
   /// Reports the first joint without a value, for a field without a default.
@@ -94,7 +111,10 @@ class Reader final : public Fields {
   Problems& problems_;
   JointNames joints_, modules_ = nullptr;
   std::string folder_;
+  const Elsewhere* elsewhere_ = nullptr;
+  const JointGroups* groups_ = &kNoGroups;
   std::vector<std::string> known_, only_;
+  std::vector<std::pair<std::string, std::size_t>> missing_;  ///< required keys that are missing, each with its problem
   bool tolerant_ = false;  ///< true if the set of known keys is uncertain, so that unknown keys are not reported
 };
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "core/model/pattern.h"
 #include "core/settings/joint_patterns.h"
 #include "core/settings/reader.h"
 #include "core/settings/value.h"
@@ -23,7 +22,7 @@ void Reader::require_each(const char* key, const Node* node, const PerJoint& val
   while (joint < value.each.size() && value.each[joint] > 0) ++joint;
   if (value.each.empty() ? value.common > 0 : joint == value.each.size()) return;
   if (node == nullptr) {
-    problems_.add(map_->place, "missing key " + in_quotes(key));
+    missing(key);
   } else if (joints_ != nullptr && joint < joints_->size()) {
     problems_.add(node->place,
                   fmt::format("{} is missing for joint {}; add it, or default:", key, in_quotes((*joints_)[joint])));
@@ -92,8 +91,8 @@ bool Reader::read_joint_map(const Node& node, const std::string& key, const Spec
     if (name == "default") continue;
     double number = 0;
     const bool good = read_one(node.items[i], fmt::format("{} of {}", key, in_quotes(name)), spec, number);
-    if (is_pattern(name)) {
-      if (const std::string wrong = of.names == nullptr ? "" : no_joint(name, *of.names, of.noun); !wrong.empty())
+    if (means_several(name, of.groups)) {
+      if (const std::string wrong = of.names == nullptr ? "" : no_joint(name, *of.names, of.noun, of.groups); !wrong.empty())
         problems_.add(place, wrong);
       if (good) patterns.emplace_back(&node.keys[i], number);
       continue;
@@ -106,9 +105,10 @@ bool Reader::read_joint_map(const Node& node, const std::string& key, const Spec
     std::size_t clashes = 0;
     const std::string* part = nullptr;
     const Said* other = nullptr;
-    for (const std::size_t j : of.names == nullptr ? std::vector<std::size_t>() : joints_of(pattern->first, *of.names)) {
+    for (const std::size_t j :
+         of.names == nullptr ? std::vector<std::size_t>() : joints_of(pattern->first, *of.names, of.groups)) {
       if (said[j].key == nullptr) said[j] = {pattern, number};
-      if (!is_pattern(said[j].key->first) || said[j].number == number || clashes++ > 0) continue;
+      if (!means_several(said[j].key->first, of.groups) || said[j].number == number || clashes++ > 0) continue;
       part = &(*of.names)[j];
       other = &said[j];
     }
@@ -125,7 +125,7 @@ std::int64_t Reader::number_of(const std::string& name, const SourceLocation& pl
   if (of.names == nullptr) return -1;
   const auto it = std::find(of.names->begin(), of.names->end(), name);
   if (it != of.names->end()) return it - of.names->begin();
-  problems_.add(place, not_one_joint(name, *of.names, of.noun));
+  problems_.add(place, not_one_joint(name, *of.names, of.noun, of.groups));
   return -1;
 }
 
@@ -134,7 +134,7 @@ void Reader::on(const char* key, const field::Joint& field) {
   if (node == nullptr) {
     // The default joint of a plugin may not exist in this robot. A default of -1 means no joint.
     const bool beyond = joints_ != nullptr && field.value >= 0 && static_cast<std::size_t>(field.value) >= joints_->size();
-    if (beyond && !tolerant_) problems_.add(map_->place, "missing key " + in_quotes(key));
+    if (beyond && !tolerant_) missing(key);
     return;
   }
   if (node->kind != Node::Kind::scalar) {

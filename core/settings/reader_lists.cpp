@@ -83,6 +83,7 @@ void Reader::read_elements(const char* key, const Node& node, const field::List&
   for (std::size_t i = 0; i < node.items.size(); ++i) {
     Reader reader(node.items[i], element(key, i), problems_, joints_, folder_);
     reader.modules(modules_);
+    reader.groups(*groups_);
     list.visit(list.self, i, reader);
     reader.finish();
   }

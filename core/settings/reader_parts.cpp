@@ -12,7 +12,7 @@ namespace gaitlab {
 void Reader::on(const char* key, const field::Names& field) {
   const Node* node = take(key);
   if (node == nullptr) {
-    if (field.one && field.value.empty() && !tolerant_) problems_.add(map_->place, "missing key " + in_quotes(key));
+    if (field.one && field.value.empty() && !tolerant_) missing(key);
     return;
   }
   const bool list = node->kind == Node::Kind::list && !field.one;
@@ -38,7 +38,13 @@ void Reader::read_name(const Node& item, const char* key, const field::Names& fi
     problems_.add(item.place,
                   fmt::format("{} {} is unknown{}", key, in_quotes(reading.value), offer(reading.value, words, "names")));
   } else {
-    field.value.push_back(reading.value);
+    const bool of_joints = !field.one && (field.among == Among::joints || field.among == Among::motors);
+    const JointGroup* group = of_joints ? group_named(reading.value, *groups_) : nullptr;
+    if (group == nullptr) {
+      field.value.push_back(reading.value);
+    } else {
+      field.value.insert(field.value.end(), group->joints.begin(), group->joints.end());
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace gaitlab {
 namespace {
@@ -19,6 +20,11 @@ std::string with_unit(double value, const std::string& unit) {
 }
 
 std::string in_unit(const Spec& spec) { return *spec.unit == '\0' ? "" : std::string(" in ") + spec.unit; }
+
+std::string in_degrees(double value, const std::string& unit) {
+  if (unit != "rad" || !(std::abs(value) <= 3600 && std::abs(value) > 2 * std::numbers::pi)) return "";
+  return fmt::format("; {:.6g} degrees are {:.4g} rad", value, value * std::numbers::pi / 180);
+}
 
 std::string counted(std::size_t n, const std::string& what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
 

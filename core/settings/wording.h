@@ -18,6 +18,9 @@ std::string range_text(const Spec& spec);
 
 /// Unit of a number in a message, as in ` in Hz`. Empty without a unit.
 std::string in_unit(const Spec& spec);
+/// Hint for a number beyond its range, such as `; 180 degrees are 3.142 rad`. Empty if the unit is not rad, or if the value is
+/// not plausible as degrees.
+std::string in_degrees(double value, const std::string& unit);
 /// Number with a noun in singular or plural, as in `1 number` and `2 numbers`.
 std::string counted(std::size_t n, const std::string& what);
 

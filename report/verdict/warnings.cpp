@@ -87,10 +87,10 @@ void check_gain(const Scenario& s, const DcMotor* motors, std::vector<Warning>& 
   if (!(largest > kOvershoots * kRounding)) return;
   const bool severe = largest > kCannotSettle;
   out.push_back({s.nearest_place("controller.Kp"),
-                 fmt::format("Kp {:.4g} of joint {} is {} for commands every {:.4g} s: per command the joint corrects {:.3g} "
-                             "of its error, and above {} it {}; take Kp: {:.4g} or less, or a shorter controller.period",
+                 fmt::format("Kp {:.4g} of joint {} is {} for commands every {:.4g} s: the joint {} (gain {:.3g} per command, "
+                             "at most {}); take Kp: {:.4g} or less, or a shorter controller.period",
                              gain->value[worst], s.robot->joints[worst].name, severe ? "too large" : "large", s.control_period,
-                             largest, severe ? kCannotSettle : kOvershoots, severe ? "cannot settle" : "overshoots",
+                             severe ? "cannot settle" : "overshoots", largest, severe ? kCannotSettle : kOvershoots,
                              two_digits(gain->value[worst] / largest)),
                  severe});
 }

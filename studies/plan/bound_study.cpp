@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/model/pattern.h"
+#include "core/scenario/other_engine.h"
 #include "core/settings/value.h"
 #include "core/settings/wording.h"
 #include "studies/plan/own_values.h"
@@ -40,15 +41,9 @@ std::vector<std::string> other_engine_of(const Verify& verify, const Scenario& s
   const bool own_step = scenario.contact.model().has_step_of_its_own;
   const bool adapts = engine->adaptive() != nullptr;
   const bool chooses = engine->choose_step != nullptr && !own_step;  // by its stability, up to its longest step
-  const std::string integrator = adapts ? engine->integrators.front().name : engine->fixed().name;
+  const Integrator& integrator = adapts ? engine->integrators.front() : engine->fixed();
   const std::string step = adapts || chooses ? "auto" : number_text(engine->given_step(own_step));
-  if (adapts || !scenario.places->contains("physics.accuracy"))
-    return {"physics.engine=" + name, "physics.integrator=" + integrator, "physics.step=" + step};
-  // An engine with given steps refuses an accuracy, and only a whole section can replace one.
-  const Vec3& g = scenario.physics.gravity;
-  std::string whole = fmt::format("physics={{engine: {}, integrator: {}, step: {}, gravity: [{}, {}, {}]", name, integrator,
-                                  step, number_text(g.x()), number_text(g.y()), number_text(g.z()));
-  return {whole + (scenario.physics.estimate == Estimate::off ? ", estimate: off}" : "}")};
+  return engine_settings(scenario, name, integrator, step);
 }
 
 /// Checks that the joint quantities that match the study's patterns are the same in every scenario.

@@ -260,6 +260,17 @@ Node scalar(const std::string& text, const SourceLocation& place) {
   return node;
 }
 
+/// True for a text such as 0.1-1 or 0.1..1: two numbers that another sign than : joins.
+bool joins_numbers(const std::string& text) {
+  const auto number = [](const std::string& part) { return read_number(scalar(part, {}), "").ok(); };
+  if (number(text)) return false;
+  for (std::size_t i = text.find_first_of("-. ;", 1); i < text.size(); i = text.find_first_of("-. ;", i + 1)) {
+    const std::size_t next = std::min(text.find_first_not_of("-. ;", i), text.size());
+    if (number(text.substr(0, i)) && (number(text.substr(i + 1)) || number(text.substr(next)))) return true;
+  }
+  return false;
+}
+
 /// Reads LOW, HIGH and, for a grid, N.
 void read_range(const std::vector<std::string>& parts, bool drawn, Parameter& parameter, Problems& problems) {
   const Reading<double> low = read_number(scalar(parts[0], parameter.place), "");
@@ -294,6 +305,10 @@ Parameter read_parameter(const std::string& option, const std::string& text, boo
     return parameter;
   }
   std::vector<std::string> parts = split(text.substr(equals + 1), ':');
+  if (parts.size() == 1 && joins_numbers(parts[0])) {
+    problems.add(parameter.place, fmt::format("{} is {}; expected {}", parameter.key, in_quotes(parts[0]), expected));
+    return parameter;
+  }
   if (parts.size() == 1) {
     Node list{Node::Kind::list, parameter.place};
     for (const std::string& one : split(parts[0], ',')) list.items.push_back(scalar(one, parameter.place));

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "core/files/atomic_file.h"
+#include "core/files/file_kind.h"
 #include "core/settings/explainer.h"
 #include "core/settings/reader.h"
 #include "core/settings/value.h"
@@ -176,6 +177,8 @@ bool is_study(const std::string& file) {
   const std::string text = read_file(file, kMostScenario);
   const std::optional<Node> root = parse_yaml(text, file, problems);
   // Invalid YAML is later reported by the reader of a study or scenario, as the text suggests.
+  if (root && root->find("gaitlab_study") == nullptr && kind_of_text(text) == FileKind::study)
+    throw InputError(root->place, "has parameters, but no gaitlab_study: 1, the key that marks a file as a study; add it");
   return root ? root->find("gaitlab_study") != nullptr : text.find("gaitlab_study:") != std::string::npos;
 }
 
@@ -225,6 +228,7 @@ Study read_study(const std::string& file, Purpose purpose) {
   Study study;
   study.asked = purpose == Purpose::evaluate;
   study.file = file;
+  expect_kind(file, FileKind::study);
   Node root = read_yaml(file);
   Problems problems;
   rename_old_keys(root, study, problems);

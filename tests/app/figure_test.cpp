@@ -311,7 +311,8 @@ TEST_F(PaperFigure, EveryKindIsDrawn) {
   for (const char* file : {"f.pdf", "f-a.csv", "f-b.csv", "f-c.csv", "f-d.csv"}) EXPECT_TRUE(fs::exists(folder / file)) << file;
   EXPECT_TRUE(contains(all.out, "f.pdf: 181.9 x ")) << all.out;
   refused(kRuns + "panels: [{kind: footfalls}]\n",
-          "figure.yaml:2:17: error: footfalls need a robot that walks on four legs or more");
+          "figure.yaml:2:17: error: footfalls need four legs or more: chains of modules that are docked to "
+          "the left and right (+-y) of a spine and end in contacts: feet");
 }
 
 /// Runs of CSV files have units, which follow from the names of the columns.

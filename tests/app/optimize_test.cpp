@@ -263,8 +263,7 @@ TEST_F(Optimize, CommandsAreToldApart) {
   EXPECT_EQ(sweep.err, "s.yaml: error: its method cma searches; use gaitlab optimize s.yaml\n");
   const Result scenario = call("optimize two.yaml");
   EXPECT_EQ(scenario.code, 2);
-  EXPECT_EQ(scenario.err,
-            "two.yaml: error: is not the file of a study; expected one with gaitlab_study: 1 (gaitlab explain study)\n");
+  EXPECT_EQ(scenario.err, "two.yaml:1:1: error: this is a scenario, not a study; run it with gaitlab run two.yaml\n");
   for (const char* command : {"run", "check", "swap --cpg hopf"}) {
     const Result run = call(command + std::string(" s.yaml"));
     EXPECT_EQ(run.code, 2);

@@ -132,7 +132,7 @@ TEST(Servo, RefusesWhatNoMotorCanDo) {
                  "is the torque in kgf cm (15.3 kgf cm are 1.5 N m)");
   expect_refused("voltage: 12, stall_torque: 1.5, no_load_speed: 61, stall_current: 1.4", "(61 rev/min are 6.388 rad/s)?");
   expect_refused("voltage: 12, stall_torque: 1.5, no_load_speed: 6.388, stall_current: 1400",
-                 "at least 0.01: is the current in mA?");
+                 "at least 0.01: is the current in mA, or the voltage in mV?");
   expect_refused("voltage: 12, stall_torque: 1.5, no_load_speed: 6.388, stall_current: 1.4, i_continuous: 2",
                  "i_continuous 2 A is above stall_current, 1.4 A");
   expect_refused(kAx12 + ", efficiency: 0.7",
@@ -287,8 +287,8 @@ TEST(Servo, TooLargeAGainIsTold) {
   };
   ASSERT_EQ(told("100").size(), 1U);
   EXPECT_EQ(told("100")[0].text,
-            "Kp 100 of joint m0/active is too large for commands every 0.015 s: per command the joint corrects 2.73 of its "
-            "error, and above 2 it cannot settle; take Kp: 36 or less, or a shorter controller.period");
+            "Kp 100 of joint m0/active is too large for commands every 0.015 s: the joint cannot settle (gain 2.73 per "
+            "command, at most 2); take Kp: 36 or less, or a shorter controller.period");
   EXPECT_TRUE(told("26").empty());
 }
 

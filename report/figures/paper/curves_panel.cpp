@@ -6,6 +6,7 @@
 
 #include "core/model/pattern.h"
 #include "core/scenario/sections.h"
+#include "core/settings/joint_patterns.h"
 #include "core/settings/wording.h"
 #include "report/figures/paper/paper_panel.h"
 #include "report/figures/run/run_footfalls.h"
@@ -119,6 +120,18 @@ class CurvesOfPanel final : public PaperPanel {
   }
 
  private:
+  /// Patterns of columns for a pattern with a group in the place of a joint: joint.m3/hinge.torque ... for joint.hips.torque.
+  static std::vector<std::string> by_joint(const std::string& pattern, const JointGroups& groups) {
+    for (const JointGroup& group : groups) {
+      const std::string prefix = "joint." + group.name + ".";
+      if (!pattern.starts_with(prefix)) continue;
+      std::vector<std::string> each;
+      for (const std::string& joint : group.joints) each.push_back("joint." + joint + "." + pattern.substr(prefix.size()));
+      return each;
+    }
+    return {pattern};
+  }
+
   /// Adds the curves of an axis.
   void find(const PanelSource& source, const std::vector<const PaperRun*>& runs, const AxisRecipe& axis, Side side,
             const std::string& key) {
@@ -129,7 +142,8 @@ class CurvesOfPanel final : public PaperPanel {
         const std::string& pattern = axis.columns[k];
         bool any = false;
         for (const FoundColumn& column : all) {
-          if (!glob(pattern, column.name) && !glob(pattern, column.alias)) continue;
+          const auto meant = [&](const std::string& one) { return glob(one, column.name) || glob(one, column.alias); };
+          if (std::ranges::none_of(by_joint(pattern, run->scenario.groups), meant)) continue;
           any = true;
           const auto same = [&](const PaperCurve& c) { return c.run == run && c.side == side && c.column.name == column.name; };
           if (std::ranges::none_of(curves_, same)) curves_.push_back(curve_of(*run, column, side));

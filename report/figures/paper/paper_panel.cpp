@@ -7,6 +7,7 @@
 
 #include "core/model/pattern.h"
 #include "core/scenario/sections.h"
+#include "core/settings/joint_patterns.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab::report {
@@ -59,7 +60,8 @@ std::vector<std::size_t> PanelSource::joints() const {
     bool any = false;
     std::string passive;
     for (std::size_t j = 0; j < names.size(); ++j) {
-      if (!glob(pattern, names[j]) && !glob(pattern, std::to_string(j))) continue;
+      const bool meant = !joints_of(pattern, {names[j]}, run().scenario.groups).empty();
+      if (!meant && !glob(pattern, std::to_string(j))) continue;
       if (robot.joints[j].driven()) {
         chosen[j] = any = true;
       } else {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/files/file_kind.h"
 #include "core/settings/explainer.h"
 #include "core/settings/number_syntax.h"
 #include "core/settings/reader.h"
@@ -167,6 +168,7 @@ void check_panel(const Recipe& recipe, std::size_t number, const std::vector<std
 }  // namespace
 
 Recipe read_recipe(const std::string& file) {
+  expect_kind(file, FileKind::recipe);
   Recipe recipe;
   recipe.file = file;
   recipe.root = read_yaml(file);

@@ -23,7 +23,9 @@ class FootfallsOfPanel final : public PaperPanel {
     const std::vector<Leg> legs = legs_that_walk(run.scenario);
     const std::vector<double> time = row_times(run.recording);
     if (legs.empty() || time.empty()) {
-      source.problem({"kind"}, "footfalls need a robot that walks on four legs or more");
+      source.problem({"kind"},
+                     "footfalls need four legs or more: chains of modules that are docked to the left and right (+-y) of a "
+                     "spine and end in contacts: feet");
       return;
     }
     if (const std::string lacks = lacking_load(run.scenario, run.recording, legs); !lacks.empty()) {

@@ -50,7 +50,7 @@ TEST_F(ModuleFileTest, ShippedTypesAreValid) {
 }
 
 TEST_F(ModuleFileTest, KeysAndVersion) {
-  EXPECT_EQ(error("gaitlab_module: 1\n", ""), "DIR/m.yaml:1:1: error: missing key 'gaitlab_module'");
+  EXPECT_EQ(error("gaitlab_module: 1\n", ""), "DIR/m.yaml:1:1: error: missing key 'gaitlab_module'; write gaitlab_module: 3");
   EXPECT_EQ(error("gaitlab_module: 1", "gaitlab_module: 4"),
             "DIR/m.yaml:1:17: error: gaitlab_module is 4; this program reads format versions 1 to 3");
   EXPECT_EQ(error("name: duo", "name: my duo"),

@@ -131,7 +131,7 @@ TEST_F(ChangesTest, WrongSettings) {
                  "'cpg.frequency'?"},
            Wrong{"[{t: 0.2, set: {cpg.frequncy: 5}}]", "21: error: unknown key 'frequncy'; did you mean 'frequency'?"},
            Wrong{"[{t: 0.2, set: {cpg.frequency: 50}}]", "36: error: frequency is 50 Hz; allowed are 0 to 20 Hz"},
-           Wrong{"[{t: 0.2, set: {cpg.frequency.m7/h: 5}}]", "21: error: no joint 'm7/h'; did you mean 'm0/h'?"},
+           Wrong{"[{t: 0.2, set: {cpg.frequency.m7/h: 5}}]", "21: error: no joint 'm7/h'; joints are m0/h, m1/h"},
        }) {
     const std::string text = error(with(one.at));
     EXPECT_EQ(text.substr(0, text.find('\n')), std::string("DIR/s.yaml:6:") + one.column_and_text) << one.at;
@@ -147,7 +147,7 @@ TEST_F(ChangesTest, WrongFaults) {
            Wrong{"[{t: 0.2, fault: {joint: m0/h}}]", "22: error: missing key 'kind'"},
            Wrong{"[{t: 0.2, fault: {kind: dead}}]", "22: error: missing key 'joint'"},
            Wrong{"[{t: 0.2, fault: {joint: m0/h, kind: daed}}]", "42: error: kind 'daed' is unknown; did you mean 'dead'?"},
-           Wrong{"[{t: 0.2, fault: {joint: m7/h, kind: dead}}]", "30: error: no joint 'm7/h'; did you mean 'm0/h'?"},
+           Wrong{"[{t: 0.2, fault: {joint: m7/h, kind: dead}}]", "30: error: no joint 'm7/h'; joints are m0/h, m1/h"},
            Wrong{"[{t: 0.2, fault: {joint: 'm7/*', kind: dead}}]", "30: error: no joint matches 'm7/*'; did you mean 'm0/*'?"},
            Wrong{"[{t: 0.2, fault: {joint: [], kind: dead}}]", "30: error: joint names no joint; expected a name or a pattern"},
            Wrong{"[{t: 0.2, fault: {joint: m0/h, kind: weak}}]", "22: error: missing key 'share'"},

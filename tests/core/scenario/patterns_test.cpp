@@ -28,7 +28,7 @@ TEST_F(ScenarioTest, PatternsOnTheCommandLine) {
   EXPECT_EQ(resolved(read(text, {"actuator.R.m1/h=5"})), resolved(read(kTwo + "actuator: {R: [2, 5]}\n")));
   EXPECT_EQ(resolved(read(text, {"actuator.R.m1/*=5"})), resolved(read(kTwo + "actuator: {R: [2, 5]}\n")));
   EXPECT_EQ(resolved(read(text, {"actuator.R={default: 2, \"*1/h\": 5}"})), resolved(read(kTwo + "actuator: {R: [2, 5]}\n")));
-  EXPECT_EQ(error(text, {"actuator.R.m2/h=5"}), "--set actuator.R.m2/h=5: error: no joint 'm2/h'; did you mean 'm0/h'?");
+  EXPECT_EQ(error(text, {"actuator.R.m2/h=5"}), "--set actuator.R.m2/h=5: error: no joint 'm2/h'; joints are m0/h, m1/h");
   EXPECT_EQ(error(text, {"actuator.R.m2/*=5"}),
             "--set actuator.R.m2/*=5: error: no joint matches 'm2/*'; did you mean 'm0/*'?");
   // The message of a conflict between file and command line contains both places.

@@ -155,7 +155,7 @@ TEST_F(SensorsTest, TimesAreWholeControlPeriods) {
 
 TEST_F(SensorsTest, UnknownParts) {
   EXPECT_EQ(wrong("sensors: {e: {type: encoder, joints: m2/h}}"),
-            "DIR/s.yaml:5:38: error: no joint 'm2/h'; did you mean 'm0/h'?");
+            "DIR/s.yaml:5:38: error: no joint 'm2/h'; joints are m0/h, m1/h");
   EXPECT_EQ(wrong("sensors: {e: {type: encoder, joints: [m0/h, '*/x']}}"),
             "DIR/s.yaml:5:45: error: no joint matches '*/x'; did you mean '*/h'?");
   EXPECT_EQ(wrong("sensors: {f: {type: load, modules: [m9]}}"), "DIR/s.yaml:5:37: error: no module 'm9'; did you mean 'm0'?");

@@ -107,7 +107,7 @@ TEST(Node, OnlyTextIsRead) {
 }
 
 TEST(Node, SyntaxErrorsHaveAPlace) {
-  EXPECT_EQ(error("a: [1, 2\n"), "f:2:1: error: not valid YAML: end of sequence flow not found");
+  EXPECT_EQ(error("a: [1, 2\n"), "f:1:4: error: not valid YAML: the [ opened here is not closed; expected ]");
   EXPECT_EQ(error("a: b: c\n"), "f:1:5: error: not valid YAML: illegal map value");
 }
 

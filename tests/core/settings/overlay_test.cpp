@@ -68,7 +68,7 @@ TEST(Overlay, MalformedOptions) {
             "--set docks.1.orientation=1: error: docks is a list of 1; '1' is not an element (they are numbered from 0)");
   EXPECT_EQ(refused("docks.first=1"),
             "--set docks.first=1: error: docks is a list of 1; 'first' is not an element (they are numbered from 0)");
-  EXPECT_EQ(refused("duration=[1"), "--set duration=[1: error: not valid YAML: end of sequence flow not found");
+  EXPECT_EQ(refused("duration=[1"), "--set duration=[1: error: not valid YAML: the [ opened here is not closed; expected ]");
   EXPECT_EQ(refused("duration=1\nseed: 3"), "--set duration=1\\x0aseed: 3: error: the value has several lines; expected one");
   EXPECT_EQ(refused("duration=&a 1"),
             "--set duration=&a 1: error: found the anchor '&a'; anchors and aliases are not supported");

@@ -53,9 +53,11 @@ TEST(SetupWarnings, TellAMotorThatMakesEnergy) {
 /// 156.4 V/rad.
 TEST(SetupWarnings, TellALoopThatCannotSettle) {
   EXPECT_TRUE(of("caterpillar.yaml", {"controller.Kp=156"}).empty());
-  expect_one(of("caterpillar.yaml", {"controller.Kp=157"}), false, "overshoots; take Kp: 150 or less");
-  expect_one(of("caterpillar.yaml", {"controller.Kp=312"}), false, "corrects 1.99 of its error");
-  expect_one(of("caterpillar.yaml", {"controller.Kp=314"}), true, "cannot settle; take Kp: 150 or less");
+  expect_one(of("caterpillar.yaml", {"controller.Kp=157"}), false,
+             "the joint overshoots (gain 1 per command, at most 1); take Kp: 150 or less");
+  expect_one(of("caterpillar.yaml", {"controller.Kp=312"}), false, "overshoots (gain 1.99 per command, at most 1)");
+  expect_one(of("caterpillar.yaml", {"controller.Kp=314"}), true,
+             "cannot settle (gain 2.01 per command, at most 2); take Kp: 150 or less");
   EXPECT_TRUE(of("caterpillar.yaml", {"controller.Kp=314", "controller.period=0.005"}).empty());
   expect_one(of("caterpillar.yaml", {"controller.Kp={default: 100, m3/active: 400}"}), true, "of joint m3/active");
 }

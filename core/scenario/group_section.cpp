@@ -1,0 +1,77 @@
+#include "core/scenario/group_section.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+#include "core/settings/value.h"
+#include "core/settings/wording.h"
+#include "core/settings/writer.h"
+
+namespace gaitlab {
+
+namespace {
+
+/// The message for a name that a group may not have, or "".
+std::string refused_name(const std::string& name, const std::vector<std::string>& joints) {
+  if (std::ranges::find(joints, name) != joints.end())
+    return in_quotes(name) + " is the name of a joint; expected another name for the group";
+  const bool letter = !name.empty() && ((name[0] >= 'a' && name[0] <= 'z') || (name[0] >= 'A' && name[0] <= 'Z'));
+  if (is_name(name, "_-") && letter && name != "default") return "";
+  return in_quotes(name) + " is not a name of a group; expected a letter, then letters, digits, _ and -, and not default";
+}
+
+/// Joints of a group, in the order of the robot.
+std::vector<std::string> members(const std::string& name, const Node& node, const std::vector<std::string>& joints,
+                                 Problems& problems) {
+  const bool list = node.kind == Node::Kind::list;
+  if (!list && node.kind != Node::Kind::scalar) {
+    problems.add(node.place, fmt::format("group {} is {}; expected joints: [m3/hinge, \"m[4-6]/hinge\"]", name, found(node)));
+    return {};
+  }
+  if (list && node.items.empty()) problems.add(node.place, fmt::format("group {} has no joint", in_quotes(name)));
+  std::vector<bool> chosen(joints.size(), false);
+  for (const Node& item : list ? std::span<const Node>(node.items) : std::span<const Node>(&node, 1)) {
+    const Reading<std::string> text = read_scalar(item);
+    const std::string wrong = text.ok() ? no_joint(text.value, joints) : "a member of group " + name + " " + text.wrong;
+    if (!wrong.empty()) problems.add(item.place, wrong);
+    for (const std::size_t j : text.ok() ? joints_of(text.value, joints) : std::vector<std::size_t>()) chosen[j] = true;
+  }
+  std::vector<std::string> all;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (chosen[j]) all.push_back(joints[j]);
+  }
+  return all;
+}
+
+}  // namespace
+
+JointGroups read_groups(const Node& node, const std::vector<std::string>& joints, Problems& problems) {
+  JointGroups groups;
+  if (node.kind != Node::Kind::map) {
+    problems.add(node.place, fmt::format("groups is {}; expected a map NAME: [JOINT, ...]", found(node)));
+    return groups;
+  }
+  for (std::size_t i = 0; i < node.keys.size(); ++i) {
+    const auto& [name, place] = node.keys[i];
+    const std::string wrong = refused_name(name, joints);
+    if (!wrong.empty()) problems.add(place, wrong);
+    groups.push_back({name, members(clipped(name), node.items[i], joints, problems)});
+  }
+  return groups;
+}
+
+Node groups_node(const JointGroups& groups) {
+  Node all{Node::Kind::map};
+  for (const JointGroup& group : groups) {
+    Node list{Node::Kind::list};
+    list.flow = true;
+    for (const std::string& joint : group.joints) list.items.push_back(text_node(joint));
+    all.keys.emplace_back(group.name, SourceLocation{});
+    all.items.push_back(std::move(list));
+  }
+  return all;
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,122 @@
+#include "core/scenario/key_lookup.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "core/plugin/plugin_instance.h"
+#include "core/scenario/manual.h"
+#include "core/settings/wording.h"
+
+namespace gaitlab {
+
+namespace {
+
+/// Adds rows, in which the indentation of a key shows its depth, with the paths that begin with `before`.
+void add_rows(const std::vector<KeyRow>& rows, const std::string& before, const Entry* plugin, std::vector<ScenarioKey>& keys) {
+  std::vector<std::string> path;
+  for (const KeyRow& row : rows) {
+    const std::size_t indent = std::min(row.key.find_first_not_of(' '), row.key.size());
+    path.resize(indent / 2);
+    path.push_back(row.key.substr(indent, row.key.find(':') - indent));
+    keys.push_back({before + fmt::format("{}", fmt::join(path, ".")), row, plugin});
+  }
+}
+
+std::string name_of_key(const std::string& path) { return path.substr(path.rfind('.') + 1); }
+
+using TypeInForce = std::function<std::string(Kind)>;
+
+/// True for a key that the scenario may have as it is.
+bool applies(const ScenarioKey& key, const TypeInForce& type) {
+  if (key.plugin == nullptr) return key.path.find('[') == std::string::npos;
+  const std::string in_force = type(key.plugin->kind);
+  return in_force.empty() || in_force == key.plugin->name;
+}
+
+std::vector<std::string> paths_of(const std::vector<ScenarioKey>& keys, const std::string& name) {
+  std::vector<std::string> paths;
+  for (const ScenarioKey& key : keys) {
+    if (name_of_key(key.path) == name && std::ranges::find(paths, key.path) == paths.end()) paths.push_back(key.path);
+  }
+  return paths;
+}
+
+std::string did_you_mean(const std::vector<std::string>& paths) {
+  constexpr std::size_t kMost = 4;
+  if (paths.empty() || paths.size() > kMost) return "";
+  return fmt::format("; did you mean {}?", fmt::join(paths, " or "));
+}
+
+/// `; Kp is a key of controller pid` for a key of plugins of other types than the scenario's.
+std::string of_other_types(const std::vector<ScenarioKey>& keys, const std::string& name) {
+  std::vector<std::string> types;
+  for (const ScenarioKey& key : keys) {
+    if (key.plugin != nullptr && name_of_key(key.path) == name)
+      types.push_back(fmt::format("{} {}", word(key.plugin->kind), key.plugin->name));
+  }
+  return types.empty() ? "" : fmt::format("; {} is a key of {}", name, joined(types));
+}
+
+/// Type of plugin of a kind in a scenario, or "" where it has none yet.
+std::string type_in_force(Kind kind, const Node& root, const Scenario& scenario) {
+  const Node* section = root.find(word(kind));
+  const Node* type = section == nullptr ? nullptr : section->find("type");
+  if (type != nullptr) return type->text;
+  const PluginSelection& selection = kind == Kind::cpg          ? scenario.cpg
+                                     : kind == Kind::controller ? scenario.controller
+                                                                : scenario.actuator;
+  return selection.entry == nullptr ? "" : std::string(selection.entry->name);
+}
+
+}  // namespace
+
+std::vector<ScenarioKey> all_keys(const Catalog& catalog) {
+  std::vector<ScenarioKey> keys;
+  add_rows(scenario_keys(catalog), "", nullptr, keys);
+  for (const PluginKind& kind : kPluginKinds) {
+    if (kind.kind == Kind::sensor) continue;  // sensors have names, so that their keys have no path
+    for (const std::string& name : catalog.names(kind.kind)) {
+      const Entry* entry = catalog.find(kind.kind, name);
+      add_rows(plugin_keys(*entry), std::string(kind.section) + ".", entry, keys);
+    }
+  }
+  return keys;
+}
+
+namespace {
+
+std::string elsewhere(const Catalog& catalog, const TypeInForce& type, const std::string& key, const std::string& near) {
+  const std::vector<ScenarioKey> all = all_keys(catalog);
+  std::vector<ScenarioKey> usable;
+  std::ranges::copy_if(all, std::back_inserter(usable), [&](const ScenarioKey& one) { return applies(one, type); });
+  std::vector<std::string> exact = paths_of(usable, key);
+  const auto repeats = [](const std::string& path) {  // these sections repeat the names of other keys
+    return path.starts_with(kTolerancesSection) || path.starts_with(kAsBuiltSection);
+  };
+  std::vector<std::string> first = exact;
+  std::erase_if(first, repeats);
+  if (std::string found = did_you_mean(first); !found.empty()) return found;
+  if (!near.empty()) return "";
+  if (std::string found = of_other_types(all, key); !found.empty()) return found;
+  if (std::string found = did_you_mean(exact); !found.empty()) return found;
+  std::vector<std::string> names;
+  for (const ScenarioKey& one : usable) names.push_back(name_of_key(one.path));
+  return did_you_mean(paths_of(usable, nearest(key, names)));
+}
+
+}  // namespace
+
+Elsewhere key_search(const Catalog& catalog, const Node& root, const Scenario& scenario) {
+  return [&](const std::string& key, const std::string& near) {
+    try {
+      return elsewhere(
+          catalog, [&](Kind kind) { return type_in_force(kind, root, scenario); }, key, near);
+    } catch (const PluginError&) {  // the error of a plugin that the scenario does not use
+      return std::string();
+    }
+  };
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,13 @@
+// Reasons why a text is not valid YAML, in the words of the user's text, where the parser names a rule of YAML.
+#pragma once
+#include <string>
+
+#include "core/errors.h"
+
+namespace gaitlab {
+
+/// The problem of a text that the parser refused in line `line` (from 1), such as a { that is not closed, or a line whose
+/// indentation fits no earlier line. Without such a reason the text of the problem is empty.
+Problem yaml_fault(const std::string& text, const std::string& file, int line);
+
+}  // namespace gaitlab

@@ -1,0 +1,46 @@
+// Tests of the reasons why a text is not valid YAML.
+#include "core/settings/yaml_faults.h"
+
+#include <gtest/gtest.h>
+
+#include "core/settings/node.h"
+#include "tests/messages.h"
+
+namespace gaitlab {
+namespace {
+
+std::string yaml_error(const std::string& text) {
+  return test::message_of([&] { parse_yaml(text, "f"); });
+}
+
+TEST(YamlFaults, BracketsThatAreNotClosed) {
+  EXPECT_EQ(yaml_error("a: {b: 1\nc: 2\n"), "f:1:4: error: not valid YAML: the { opened here is not closed; expected }");
+  EXPECT_EQ(yaml_error("a:\n  - [1, [2, 3]\n  - [4]\n"),
+            "f:2:5: error: not valid YAML: the [ opened here is not closed; expected ]");
+  EXPECT_EQ(yaml_error("a: [1, {b: 2]\n"),
+            "f:1:13: error: not valid YAML: found ], but the { opened in 1:8 is not closed; expected }");
+  EXPECT_EQ(yaml_error("a: '{' # {\nb: \"it's [\"\nc: it's {x\nd: [1\n"),
+            "f:4:4: error: not valid YAML: the [ opened here is not closed; expected ]");
+}
+
+TEST(YamlFaults, IndentationThatFitsNoLine) {
+  EXPECT_EQ(yaml_error("a:\n  b: 1\n   c: 2\n"),
+            "f:3:4: error: not valid YAML: 'c' is indented by 3 blanks, 'b' of line 2 by 2");
+  EXPECT_EQ(yaml_error("a:\n    b: 1\n  c: 2\n"),
+            "f:3:3: error: not valid YAML: 'c' is indented by 2 blanks, 'b' of line 2 by 4");
+  EXPECT_EQ(yaml_error("a:\n  - b: 1\n  c: 2\n"),
+            "f:3:3: error: not valid YAML: found the key 'c' among items of a list (-), which begins in line 2 and is indented "
+            "as much");
+  EXPECT_EQ(yaml_error("a:\n  b: 1\n  - 2\n"),
+            "f:3:3: error: not valid YAML: found an item of a list (-) among keys; 'b' of line 2 is indented as much");
+}
+
+TEST(YamlFaults, OtherFaultsKeepTheWordsOfTheParser) {
+  EXPECT_EQ(yaml_error("a: b: c\n"), "f:1:5: error: not valid YAML: illegal map value");
+  EXPECT_EQ(yaml_fault("", "f", 1).text, "");
+  EXPECT_EQ(yaml_fault("a: 1\nb: 2\n", "f", 2).text, "");
+  EXPECT_EQ(yaml_fault("]}\n", "f", 1).text, "") << "closing brackets alone";
+}
+
+}  // namespace
+}  // namespace gaitlab
