@@ -51,7 +51,7 @@ std::string explain_keys(const std::string& word, const Catalog& catalog) {
 /// The names of a kind, and the keys of its section of the scenario, if it has one.
 std::string explain_kind(const ListedKind& kind, Catalog& catalog) {
   std::string text = fmt::format("{}: one of the following; gaitlab explain {} NAME\n", kind.name, kind.name);
-  for (const std::string& name : kind.names(catalog)) text += fmt::format("  {:<20} {}\n", name, kind.about(name, catalog));
+  text += name_rows(kind, catalog);
   const std::string keys = find_kind(kind.name) == nullptr ? "" : explain_keys(kind.name, catalog);
   return text + (keys.empty() ? "" : "\n" + keys);
 }

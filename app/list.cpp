@@ -31,7 +31,7 @@ int list(const ManualArguments& arguments) {
   for (const ListedKind& kind : listed_kinds()) {
     if (only != nullptr && &kind != only) continue;
     fmt::print("{}\n", kind.name);
-    for (const std::string& name : kind.names(catalog)) fmt::print("  {:<20} {}\n", name, kind.about(name, catalog));
+    fmt::print("{}", name_rows(kind, catalog));
   }
   return 0;
 }

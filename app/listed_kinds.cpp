@@ -59,7 +59,8 @@ std::string head_sentence(const std::string& text) {
     if (line.find("yaml-language-server") == std::string::npos) comment += line.substr(1);
   }
   comment.erase(0, comment.find_first_not_of(' '));
-  return comment.substr(0, std::min(comment.find(". "), comment.find(": gaitlab")));
+  comment = comment.substr(0, std::min(comment.find(". "), comment.find(": gaitlab")));
+  return comment.ends_with(".") ? comment.substr(0, comment.size() - 1) : comment;
 }
 
 /// Kind of the files of a folder that comes with the program, each shown as it is.
@@ -117,6 +118,15 @@ const ListedKind* listed_kind(const std::string& name) {
   const auto found =
       std::ranges::find_if(listed_kinds(), [&](const ListedKind& kind) { return kind.name == name || kind.plural == name; });
   return found == listed_kinds().end() ? nullptr : &*found;
+}
+
+std::string name_rows(const ListedKind& kind, Catalog& catalog) {
+  const std::vector<std::string> names = kind.names(catalog);
+  std::size_t width = 20;
+  for (const std::string& name : names) width = std::max(width, name.size());
+  std::string text;
+  for (const std::string& name : names) text += fmt::format("  {:<{}} {}\n", name, width, kind.about(name, catalog));
+  return text;
 }
 
 void refuse_unknown(const std::string& what, const std::string& found, const std::vector<std::string>& known,

@@ -21,6 +21,9 @@ const std::vector<ListedKind>& listed_kinds();
 /// Kind with this name, in singular or plural, or nullptr.
 const ListedKind* listed_kind(const std::string& name);
 
+/// Lines `  NAME  what it is` for the names of a kind.
+std::string name_rows(const ListedKind& kind, Catalog& catalog);
+
 /// Throws InputError for an unknown word: `unknown WHAT 'x'; did you mean 'y'?`, with all known words and a hint.
 [[noreturn]] void refuse_unknown(const std::string& what, const std::string& found, const std::vector<std::string>& known,
                                  const std::string& hint = "");

@@ -102,8 +102,8 @@ GoldenCase orphan(const fs::path& golden) {
   return c;
 }
 
-// Scenario with another engine. The step is that of the golden, for which the bands were measured. The integrator has order 2
-// if the engine has one, so that its error is far below the bands.
+// Scenario with another engine. The step is that of the golden, for which the bands were measured, unless that golden has an
+// accuracy instead. The integrator has order 2 if the engine has one, so that its error is far below the bands.
 Scenario with_engine(const std::string& file, const Scenario& scenario, const std::string& name, double step,
                      Catalog& catalog) {
   if (scenario.physics.engine->name == name) return scenario;
@@ -117,7 +117,9 @@ Scenario with_engine(const std::string& file, const Scenario& scenario, const st
   }
   const Integrator* extrapolated = engine->integrator("extrapolated");
   const Integrator& integrator = extrapolated != nullptr ? *extrapolated : engine->fixed();
-  return read_scenario(file, engine_settings(scenario, name, integrator, fmt::format("{}", step)), catalog);
+  // The step of a golden with an accuracy is the longest of its engine, and too long for an engine with given steps.
+  const bool chooses = scenario.physics.adaptive_step && engine->choose_step != nullptr;
+  return read_scenario(file, engine_settings(scenario, name, integrator, chooses ? "auto" : fmt::format("{}", step)), catalog);
 }
 
 void read_case(GoldenCase& c, const std::optional<std::string>& engine, Catalog& catalog) {

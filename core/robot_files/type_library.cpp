@@ -74,7 +74,8 @@ std::optional<std::size_t> TypeLibrary::find(const Node& node) {
   if (!is_path(node.text)) return find_name(node);
   const std::string path = path_from(folder_, node.text);
   if (const std::string name = shipped_name(node.text); !name.empty() && !fs::exists(path)) {
-    problems_.add(node.place, fmt::format("there is no file '{}'; did you mean {}, without .yaml?", path, in_quotes(name)));
+    if (seen_.emplace("no file " + path, Index{}).second)
+      problems_.add(node.place, fmt::format("there is no file '{}'; did you mean {}, without .yaml?", path, in_quotes(name)));
     return {};
   }
   return read_file(path, node.place);
