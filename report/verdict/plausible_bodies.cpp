@@ -13,8 +13,6 @@ namespace gaitlab::report {
 
 namespace {
 
-double milli(double value) { return value * 1e-3; }
-double centi(double value) { return value * 1e-2; }
 double kilo_cubed(double value) { return value * 1e9; }   // of a density, for lengths in mm
 double centi_cubed(double value) { return value * 1e6; }  // of a density, for lengths in cm
 double gram_square_mm(double value) { return value * 1e-9; }
@@ -172,14 +170,14 @@ std::vector<PlausibleNumber> plausible_bodies() {
        50,
        20000,
        "expected 50 to 20000 kg/m^3, from foam to tungsten",
-       {{"is the mass in g", milli}, {"are the lengths in mm", kilo_cubed, 1}, {"are the lengths in cm", centi_cubed, 1}},
+       {{"is the mass in g", of_milli}, {"are the lengths in mm", kilo_cubed, 1}, {"are the lengths in cm", centi_cubed, 1}},
        {},
        densities},
       {"com",
        0,
        0.01,
        "expected a point in their convex hull",
-       {{"has it the wrong sign", turned_round}, {"is it in mm", milli}, {"is it in cm", centi}},
+       {{"has it the wrong sign", turned_round}, {"is it in mm", of_milli}, {"is it in cm", of_centi}},
        {},
        centres},
       {"moments",
@@ -190,14 +188,14 @@ std::vector<PlausibleNumber> plausible_bodies() {
         {"is it in kg mm^2", square_mm},
         {"is it in g cm^2", gram_square_cm},
         {"is it in g mm^2", gram_square_mm},
-        {"is it in g m^2", milli}},
+        {"is it in g m^2", of_milli}},
        {"density"},
        moments},
       {"face",
        0,
        0.25,
        "expected at most a quarter of that",
-       {{"is origin in mm", milli}, {"is origin in cm", centi}},
+       {{"is origin in mm", of_milli}, {"is origin in cm", of_centi}},
        {"are the lengths in mm", "are the lengths in cm"},
        faces},
   };

@@ -21,10 +21,7 @@ namespace {
 constexpr double kGravity = 9.81;  // m/s^2, of the rule of thumb
 
 double of_kgf_cm(double value) { return value * 0.0980665; }
-double of_n_cm(double value) { return value * 1e-2; }
-double of_mn_m(double value) { return value * 1e-3; }
 double of_rev_per_min(double value) { return value * 2 * std::numbers::pi / 60; }
-double of_degrees_per_s(double value) { return value * std::numbers::pi / 180; }
 double of_s_per_60_degrees(double value) { return std::numbers::pi / 3 / value; }
 
 /// Torque at rest and no-load speed of a joint's motor: the data of a servo, or those that follow from the constants of a DC
@@ -125,7 +122,7 @@ std::vector<Finding> powers(const Subject& subject) {
     const std::string& name = s.robot->joints[motor.joint].name;
     const double mass = mass_of_module(s, motor.joint);
     if (!(mass > 0)) continue;
-    const auto power = [motor, mass](double torque, double speed) { return torque * speed / 4 / mass; };
+    const auto power = [mass](double torque, double speed) { return torque * speed / 4 / mass; };
     const double now = power(motor.torque, motor.speed);
     found.push_back({motor_place(s, motor.joint, motor.torque_key),
                      {name},
@@ -151,7 +148,7 @@ std::vector<PlausibleNumber> plausible_motors() {
        40,
        "expected 0.5 to 40 rad/s at the joint",
        {{"is it in rev/min", of_rev_per_min},
-        {"is it in degrees/s", of_degrees_per_s},
+        {"is it in degrees/s", of_degrees},
         {"is it in s per 60 degrees", of_s_per_60_degrees}},
        {},
        speeds_without_load},
@@ -159,7 +156,7 @@ std::vector<PlausibleNumber> plausible_motors() {
        0,
        60,
        "expected at most 60",
-       {{"is it in kgf cm", of_kgf_cm}, {"is it in N cm", of_n_cm}, {"is it in mN m", of_mn_m}},
+       {{"is it in kgf cm", of_kgf_cm}, {"is it in N cm", of_centi}, {"is it in mN m", of_milli}},
        {},
        stall_torques},
       {"power",
@@ -167,9 +164,9 @@ std::vector<PlausibleNumber> plausible_motors() {
        40,
        "expected at most 40 W/kg",
        {{"is the torque in kgf cm", of_kgf_cm},
-        {"is the torque in N cm", of_n_cm},
+        {"is the torque in N cm", of_centi},
         {"is the speed in rev/min", of_rev_per_min, 1},
-        {"is the torque in mN m", of_mn_m}},
+        {"is the torque in mN m", of_milli}},
        {"no-load speed", "stall torque"},
        powers},
   };

@@ -4,6 +4,7 @@
 #include <functional>
 #include <initializer_list>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -59,6 +60,11 @@ struct PlausibleNumber {
   std::vector<Finding> (*measure)(const Subject&);
   bool of_gait = false;  ///< a number of the scenario's own gait, which a study varies
 };
+
+/// Numbers that were given in thousandths, hundredths and degrees.
+inline double of_milli(double value) { return value * 1e-3; }
+inline double of_centi(double value) { return value * 1e-2; }
+inline double of_degrees(double value) { return value * std::numbers::pi / 180; }
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 

@@ -21,12 +21,6 @@ constexpr double kWholeTurn = 2 * std::numbers::pi;
 constexpr double kDegrees = 360;  // a hinge range above this number means "no limit", not an angle in degrees
 constexpr double kOnTheLimit = 1 + 1e-9;
 
-double of_degrees(double value) { return value * std::numbers::pi / 180; }
-double of_ms(double value) { return value * 1e-3; }
-double of_mm(double value) { return value * 1e-3; }
-double of_cm(double value) { return value * 1e-2; }
-double of_percent(double value) { return value * 1e-2; }
-
 Finding angle(const Scenario& s, const std::string& part, const std::string& key, double value) {
   return {s.nearest_place(key),
           {part},
@@ -222,17 +216,23 @@ std::vector<Finding> set_point_speeds(const Subject& subject) {
 std::vector<PlausibleNumber> plausible_scenario() {
   return {
       {"angle", -2 * kWholeTurn, 2 * kWholeTurn, "expected at most two turns", {{"is it in degrees", of_degrees}}, {}, angles},
-      {"control period", 0, 0.5, "expected at most 0.5 s", {{"is it in ms", of_ms}}, {}, control_periods},
+      {"control period", 0, 0.5, "expected at most 0.5 s", {{"is it in ms", of_milli}}, {}, control_periods},
       {"contact", 1, kNoLimit, "expected at least one", {}, {}, contacts},
-      {"friction", 0, 3, "expected at most 3 (rubber on concrete: about 1)", {{"is it in percent", of_percent}}, {}, frictions},
+      {"friction", 0, 3, "expected at most 3 (rubber on concrete: about 1)", {{"is it in percent", of_centi}}, {}, frictions},
       {"height",
        -1,
        1,
        "expected at most that height",
-       {{"is position in mm", of_mm}, {"is position in cm", of_cm}},
+       {{"is position in mm", of_milli}, {"is position in cm", of_centi}},
        {},
        start_heights},
-      {"trace period", 0, 0.1 * kOnTheLimit, "expected at most a tenth of that", {{"is it in ms", of_ms}}, {}, trace_periods},
+      {"trace period",
+       0,
+       0.1 * kOnTheLimit,
+       "expected at most a tenth of that",
+       {{"is it in ms", of_milli}},
+       {},
+       trace_periods},
       {"overlap", 0, 0, "expected bodies apart", {}, {"density"}, overlaps_at_start},
       {"set points",
        0,
