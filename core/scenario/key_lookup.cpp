@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 
 #include "core/plugin/plugin_instance.h"
 #include "core/scenario/manual.h"
@@ -28,8 +29,20 @@ std::string name_of_key(const std::string& path) { return path.substr(path.rfind
 
 using TypeInForce = std::function<std::string(Kind)>;
 
-/// True for a key that the scenario may have as it is.
-bool applies(const ScenarioKey& key, const TypeInForce& type) {
+/// True if the scenario has a value at a path of keys. Such a key is not the one that another key means.
+bool is_given(const Node& root, const std::string& path) {
+  const Node* node = &root;
+  for (std::size_t begin = 0; node != nullptr && begin <= path.size();) {
+    const std::size_t end = std::min(path.find('.', begin), path.size());
+    node = node->find(path.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return node != nullptr;
+}
+
+/// True for a key that the scenario may have as it is, and does not have.
+bool applies(const ScenarioKey& key, const TypeInForce& type, const Node& root) {
+  if (is_given(root, key.path)) return false;
   if (key.plugin == nullptr) return key.path.find('[') == std::string::npos;
   const std::string in_force = type(key.plugin->kind);
   return in_force.empty() || in_force == key.plugin->name;
@@ -52,9 +65,12 @@ std::string did_you_mean(const std::vector<std::string>& paths) {
 /// `; Kp is a key of controller pid` for a key of plugins of other types than the scenario's.
 std::string of_other_types(const std::vector<ScenarioKey>& keys, const std::string& name) {
   std::vector<std::string> types;
+  std::optional<Kind> last;  // a kind is named once
   for (const ScenarioKey& key : keys) {
-    if (key.plugin != nullptr && name_of_key(key.path) == name)
-      types.push_back(fmt::format("{} {}", word(key.plugin->kind), key.plugin->name));
+    if (key.plugin == nullptr || name_of_key(key.path) != name) continue;
+    const std::string kind = last == key.plugin->kind ? "" : std::string(word(key.plugin->kind)) + " ";
+    types.push_back(kind + std::string(key.plugin->name));
+    last = key.plugin->kind;
   }
   return types.empty() ? "" : fmt::format("; {} is a key of {}", name, joined(types));
 }
@@ -87,10 +103,11 @@ std::vector<ScenarioKey> all_keys(const Catalog& catalog) {
 
 namespace {
 
-std::string elsewhere(const Catalog& catalog, const TypeInForce& type, const std::string& key, const std::string& near) {
+std::string elsewhere(const Catalog& catalog, const TypeInForce& type, const Node& root, const std::string& key,
+                      const std::string& near) {
   const std::vector<ScenarioKey> all = all_keys(catalog);
   std::vector<ScenarioKey> usable;
-  std::ranges::copy_if(all, std::back_inserter(usable), [&](const ScenarioKey& one) { return applies(one, type); });
+  std::ranges::copy_if(all, std::back_inserter(usable), [&](const ScenarioKey& one) { return applies(one, type, root); });
   std::vector<std::string> exact = paths_of(usable, key);
   const auto repeats = [](const std::string& path) {  // these sections repeat the names of other keys
     return path.starts_with(kTolerancesSection) || path.starts_with(kAsBuiltSection);
@@ -112,7 +129,7 @@ Elsewhere key_search(const Catalog& catalog, const Node& root, const Scenario& s
   return [&](const std::string& key, const std::string& near) {
     try {
       return elsewhere(
-          catalog, [&](Kind kind) { return type_in_force(kind, root, scenario); }, key, near);
+          catalog, [&](Kind kind) { return type_in_force(kind, root, scenario); }, root, key, near);
     } catch (const PluginError&) {  // the error of a plugin that the scenario does not use
       return std::string();
     }

@@ -118,10 +118,7 @@ class ScenarioReader {
 
   void read_body() {
     const Node* node = root_.find("robot");
-    if (node == nullptr) {
-      problems_.add(root_.place, "missing key 'robot'");
-      return;
-    }
+    if (node == nullptr) return;  // read_sections() reports it
     Reader reader(*node, "robot", problems_, nullptr);
     const Elsewhere elsewhere = key_search(catalog_, root_, scenario_);
     reader.elsewhere(&elsewhere);
@@ -181,18 +178,21 @@ class ScenarioReader {
     }
   }
 
+  void prepare(Reader& reader) const {
+    if (!touched_.empty()) reader.only(touched_);
+    reader.modules(modules_.get());
+    reader.groups(scenario_.groups);
+  }
+
   void read_sections() {
     const JointNames joints = joints_.get();
     Reader reader(root_, "the scenario", problems_, joints, folder_);
     const Elsewhere elsewhere = key_search(catalog_, root_, scenario_);
     reader.elsewhere(&elsewhere);
-    if (!touched_.empty()) reader.only(touched_);
-    reader.modules(modules_.get());
-    reader.groups(scenario_.groups);
-    for (const char* known : {"gaitlab", "name", "plugins", "robot", kGroupsSection, "controller", "cpg"}) reader.take(known);
-    reader.require({"duration"});
-    const Node* sensors = reader.take("sensors");
-    reader.take("at");  // read_changes() reads it when all else is known
+    prepare(reader);
+    for (const char* known : {"gaitlab", "name", "plugins", "robot", kGroupsSection, "controller", "cpg", "sensors", "at"})
+      reader.take(known);
+    reader.require({"robot", "duration"});
     const TypePresets motors(Kind::actuator, scenario_.robot.get(), *scenario_.module_documents);
     const TypePresets gains(Kind::controller, scenario_.robot.get(), *scenario_.module_documents);
     if (!known_types(*scenario_.module_documents, root_, catalog_, problems_)) raise();
@@ -217,7 +217,7 @@ class ScenarioReader {
     if (!gains.agreed() && !given(root_, "controller") && !sections.actuator.none)
       gains.refuse(given(root_, "robot").value_or(root_.place), problems_);
     check_sections(sections, joints);
-    if (reads("sensors")) scenario_.sensors = read_sensors(sensors, scenario_, catalog_, joints, problems_);
+    if (reads("sensors")) scenario_.sensors = read_sensors(root_.find("sensors"), scenario_, catalog_, joints, problems_);
     if (!given(root_, "trace", "columns")) scenario_.trace.columns = default_columns(scenario_);
     const auto concerns = [&](const char* section) { return reads(section); };
     constexpr std::array kOfPlugins{"physics", "contact", "actuator", "controller", "cpg", "sensors"};

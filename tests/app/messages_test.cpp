@@ -1,4 +1,5 @@
 // Tests of the messages for mistakes of new users.
+#include "app/run_time.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -232,6 +233,9 @@ TEST_F(Messages, WhatTheMachineCannotHold) {
 
 /// The program estimates the computing time before the run, from seconds to years.
 TEST_F(Messages, HowLongARunTakes) {
+  EXPECT_EQ(app::about(0.3), "less than 1 s");
+  EXPECT_EQ(app::about(14.2), "about 14 s");
+  EXPECT_EQ(app::about(1.8e8), "about 5.7 years");
   const Result soon = call("check ok.yaml");
   EXPECT_TRUE(contains(soon.out, "\n  takes less than 0.1 s\n")) << soon.out;
   const std::string endless = "check ok.yaml --set physics.step=1e-9 --set duration=1e6";

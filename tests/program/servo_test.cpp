@@ -130,7 +130,8 @@ TEST(Servo, RefusesWhatNoMotorCanDo) {
   // Data of the XL430-W250-T (1.5 N m, 61 rev/min at 12 V and 1.4 A) in the units of shops are refused with a hint.
   expect_refused("voltage: 12, stall_torque: 15.3, no_load_speed: 6.388, stall_current: 1.4",
                  "is the torque in kgf cm (15.3 kgf cm are 1.5 N m)");
-  expect_refused("voltage: 12, stall_torque: 1.5, no_load_speed: 61, stall_current: 1.4", "(61 rev/min are 6.388 rad/s)?");
+  expect_refused("voltage: 12, stall_torque: 1.5, no_load_speed: 61, stall_current: 1.4",
+                 "(61 rev/min are 6.388 rad/s), or voltage the supply? The data hold at `voltage`, and the supply is u_max");
   expect_refused("voltage: 12, stall_torque: 1.5, no_load_speed: 6.388, stall_current: 1400",
                  "at least 0.01: is the current in mA, or the voltage in mV?");
   expect_refused("voltage: 12, stall_torque: 1.5, no_load_speed: 6.388, stall_current: 1.4, i_continuous: 2",

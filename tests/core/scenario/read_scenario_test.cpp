@@ -279,7 +279,8 @@ TEST_F(ScenarioTest, WithoutAnActuatorThereIsNoController) {
   EXPECT_EQ(error(kShort + "actuator: {type: none}\ncontroller: {type: pid}\n"),
             "DIR/s.yaml:4:1: error: a controller is given, but there is no actuator to command; remove this section\n"
             "DIR/s.yaml:3:18: note: the actuator is none");
-  EXPECT_EQ(error(kShort + "actuator: {type: none, R: 3}\n"), "DIR/s.yaml:3:24: error: unknown key 'R'; R is a key of actuator dc_motor");
+  EXPECT_EQ(error(kShort + "actuator: {type: none, R: 3}\n"),
+            "DIR/s.yaml:3:24: error: unknown key 'R'; R is a key of actuator dc_motor, torque");
 }
 
 TEST_F(ScenarioTest, TheModuleTypesMotor) {
