@@ -233,7 +233,7 @@ TEST_F(Messages, WhatTheMachineCannotHold) {
 
 /// The program estimates the computing time before the run, from seconds to years.
 TEST_F(Messages, HowLongARunTakes) {
-  EXPECT_EQ(app::about(0.3), "less than 1 s");
+  EXPECT_EQ(app::about(0.05), "less than 0.1 s");
   EXPECT_EQ(app::about(14.2), "about 14 s");
   EXPECT_EQ(app::about(1.8e8), "about 5.7 years");
   const Result soon = call("check ok.yaml");
