@@ -22,11 +22,11 @@ Whole whole_number(std::string_view text) {
 }
 
 /// The range at the beginning of a pattern; its length is 0 if there is none.
-struct Range {
+struct NumberRange {
   std::size_t length = 0;
   std::uint64_t from = 0, to = 0;
 };
-Range range_of(std::string_view pattern) {
+NumberRange number_range_of(std::string_view pattern) {
   if (pattern.empty() || pattern[0] != '[') return {};
   const Whole from = whole_number(pattern.substr(1));
   const std::size_t dash = 1 + from.length;
@@ -42,7 +42,7 @@ Range range_of(std::string_view pattern) {
 std::size_t matched(std::string_view pattern, std::string_view text, std::size_t& element) {
   element = 1;
   if (pattern.empty() || text.empty()) return 0;
-  if (const Range range = range_of(pattern); range.length > 0) {
+  if (const NumberRange range = number_range_of(pattern); range.length > 0) {
     element = range.length;
     const Whole number = whole_number(text);
     return number.value >= range.from && number.value <= range.to ? number.length : 0;
@@ -55,7 +55,7 @@ std::size_t matched(std::string_view pattern, std::string_view text, std::size_t
 bool is_pattern(const std::string& text) {
   if (text.find_first_of("*?") != std::string::npos) return true;
   for (std::size_t at = text.find('['); at != std::string::npos; at = text.find('[', at + 1)) {
-    if (range_of(std::string_view(text).substr(at)).length > 0) return true;
+    if (number_range_of(std::string_view(text).substr(at)).length > 0) return true;
   }
   return false;
 }
