@@ -29,7 +29,7 @@ std::string name_of_key(const std::string& path) { return path.substr(path.rfind
 
 using TypeInForce = std::function<std::string(Kind)>;
 
-/// True if the scenario has a value at a path of keys. Such a key is not the one that another key means.
+/// True if the scenario has a value at a path of keys.
 bool is_given(const Node& root, const std::string& path) {
   const Node* node = &root;
   for (std::size_t begin = 0; node != nullptr && begin <= path.size();) {
@@ -40,9 +40,17 @@ bool is_given(const Node& root, const std::string& path) {
   return node != nullptr;
 }
 
-/// True for a key that the scenario may have as it is, and does not have.
+/// True if a key is the only one of its name in the sections of the scenario: then it is the unknown key itself, which its
+/// section has under other settings.
+bool is_itself(const Node& root, const std::string& path) {
+  const std::string name = name_of_key(path);
+  const auto sections = std::ranges::count_if(root.items, [&](const Node& section) { return section.find(name) != nullptr; });
+  return sections == 1 && is_given(root, path);
+}
+
+/// True for a key that the scenario may have as it is.
 bool applies(const ScenarioKey& key, const TypeInForce& type, const Node& root) {
-  if (is_given(root, key.path)) return false;
+  if (is_itself(root, key.path)) return false;
   if (key.plugin == nullptr) return key.path.find('[') == std::string::npos;
   const std::string in_force = type(key.plugin->kind);
   return in_force.empty() || in_force == key.plugin->name;

@@ -252,7 +252,7 @@ TEST_F(ShapeModuleTest, FormatOfShapes) {
             "DIR/m.yaml:4:3: error: body 'block' has no inertia; expected inertia: [xx, yy, zz, xy, xz, yz], or "
             "gaitlab_module: 3, in which it follows from shape\n"
             "DIR/m.yaml:9:17: error: all: shapes is of module format 3, but this file has format 2; write gaitlab_module: 3");
-  EXPECT_EQ(wrong("gaitlab_module: 3\n", ""), "DIR/m.yaml:1:1: error: missing key 'gaitlab_module'");
+  EXPECT_EQ(wrong("gaitlab_module: 3\n", ""), "DIR/m.yaml:1:1: error: missing key 'gaitlab_module'; write gaitlab_module: 3");
   EXPECT_EQ(wrong("gaitlab_module: 3", "gaitlab_module: 9"),
             "DIR/m.yaml:1:17: error: gaitlab_module is 9; this program reads format versions 1 to 3");
   EXPECT_EQ(wrong("all: shapes", "all: boxes"), "DIR/m.yaml:9:17: error: all is 'boxes'; expected a list of maps, or shapes");
