@@ -125,7 +125,7 @@ std::vector<Finding> start_heights(const Subject& subject) {
            {"robot.position"},
            fmt::format("the lowest point of the robot starts {:.4g} m above the ground; the robot's largest edge is {:.3g} m",
                        lowest, edge),
-           lowest / edge,
+           std::max(lowest, 0.0) / edge,  // the highest point of boxes is an upper bound
            [lowest, z, edge](const Slip& slip) { return std::abs(lowest - z + slip.corrected(z)) / edge; },
            {{z, "m"}}}};
 }
