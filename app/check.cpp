@@ -29,7 +29,7 @@ std::unique_ptr<Simulation> made(const Scenario& s) try {
   return std::make_unique<Simulation>(std::span<const Scenario>(&s, 1));
 } catch (const InputError& error) {
   std::vector<Problem> problems = error.problems();
-  const bool too_long = error.problems().front().text.find("rows") != std::string::npos;
+  const bool too_long = error.problems().front().text.find(" rows") != std::string::npos;
   const double seconds = too_long ? estimated_seconds(s) : 0;
   if (seconds > kLongRun) problems.front().notes.emplace_back(SourceLocation{s.file}, "the run " + time_text(seconds));
   throw InputError(std::move(problems));

@@ -13,8 +13,8 @@ namespace gaitlab::studies {
 /// (step_limit.h) differs from the value in the other engine by at most `change`. The point then has an entry `limit` with that
 /// value.
 ///
-/// A run in the other engine that does not verify its point, and in which steps were too long (check `step`, or it diverged), is
-/// repeated with a quarter of the step. The repetition counts instead; its entry is `bullet at a quarter of its step`.
+/// A run in the other engine that does not verify its point, and in which steps were too long (check `step`, or it diverged),
+/// is repeated with a quarter of the step. The repetition counts instead; its entry is `bullet at a quarter of its step`.
 ///
 /// The result is ordered by point, then by kind of run; the first entry of a point describes its original runs (`as run`).
 /// Returns nothing if `stop` was set.
