@@ -22,8 +22,9 @@ std::vector<fs::path> own_files() {
   Dl_info loaded = {};
   if (dladdr(reinterpret_cast<const void*>(&data_folder), &loaded) != 0 && loaded.dli_fname != nullptr)
     files.emplace_back(loaded.dli_fname);
-  if (const auto* started = reinterpret_cast<const char*>(getauxval(AT_EXECFN)); started != nullptr)
-    files.emplace_back(started);
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): the kernel gives the address as a number
+  const auto* started = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
+  if (started != nullptr) files.emplace_back(started);
   std::error_code none;
   files.push_back(fs::read_symlink("/proc/self/exe", none));
   return files;
