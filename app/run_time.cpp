@@ -58,7 +58,7 @@ double step_us(const StepCost& cost, const Scenario& s) {
 
 std::int64_t steps_in_trial(const Scenario& s) {
   constexpr double kPeriods = 100;
-  constexpr std::size_t kManyBoxes = 100;  // the table of costs lacks boxes; one step may take seconds if they overlap
+  constexpr std::size_t kManyBoxes = 100;  // one step may take seconds if they overlap, which the table of costs lacks
   if (s.ground.boxes().size() > kManyBoxes) return 1;
   return std::max<std::int64_t>(2, std::llround(kPeriods * s.control_period / s.physics.step));
 }

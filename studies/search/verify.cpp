@@ -19,19 +19,21 @@ constexpr const char* kHalf = "half step";
 constexpr const char* kLimit = "limit";
 constexpr const char* kQuarter = " at a quarter of its step";  // behind the name of the other engine
 
-std::vector<std::string> halved(const Plan& plan, std::uint64_t run) {
-  const Physics physics = plan.scenario(run).physics;
-  if (physics.adaptive_step) return {"physics.accuracy=" + number_text(physics.accuracy / 2)};
-  return {"physics.step=" + number_text(physics.step / 2)};
+/// Setting that divides the step or, where the integrator chooses its steps, the accuracy.
+std::string divided(const Physics& physics, double by) {
+  if (physics.adaptive_step) return "physics.accuracy=" + number_text(physics.accuracy / by);
+  return "physics.step=" + number_text(physics.step / by);
 }
+
+std::vector<std::string> halved(const Plan& plan, std::uint64_t run) { return {divided(plan.scenario(run).physics, 2)}; }
 
 /// Settings of the other engine with a quarter of its step.
 std::vector<std::string> quartered(const Plan& plan, std::uint64_t run) {
   std::vector<std::string> sets = plan.sets(run);
-  std::ranges::copy(plan.other_engine(run), std::back_inserter(sets));
-  const double step = plan.with(sets, plan.points().scenario(run)).physics.step;
   std::vector<std::string> other = plan.other_engine(run);
-  if (!other.empty()) other.push_back("physics.step=" + number_text(step / 4));
+  if (other.empty()) return other;
+  std::ranges::copy(other, std::back_inserter(sets));
+  other.push_back(divided(plan.with(sets, plan.points().scenario(run)).physics, 4));
   return other;
 }
 
