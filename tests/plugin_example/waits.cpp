@@ -1,5 +1,6 @@
 // CPG plugin whose runs wait while the folder GAITLAB_HOLD exists. Each run writes a file with the number of its process into
-// this folder, so that a gate can kill a program during a run on machines of any speed.
+// this folder, so that a gate can kill a program during a run on machines of any speed. A run is where the first joint moves: its
+// measured angle is constant where set points are computed before the run.
 #include <unistd.h>
 
 #include <chrono>
@@ -34,12 +35,19 @@ struct Waits final : Cpg {
     }
   };
   Waits(const RobotInfo&, const Settings& settings) : s(settings) {}
-  std::size_t states() const override { return 1; }
-  void start(Out phase) const override { phase[0] = 0; }
-  void derivative(const Measured&, In, Out rate) const override { rate[0] = 2 * std::numbers::pi * s.frequency; }
-  void output(double t, In phase, Out setpoint) const override {
-    if (s.wait > 0.9 && t > 0.1) wait_while_held();
-    for (double& each : setpoint) each = s.amplitude * std::sin(phase[0]);
+  // Phase, and the first joint's angle at the last control tick.
+  std::size_t states() const override { return 2; }
+  void start(Out state) const override { state[0] = state[1] = 0; }
+  void derivative(const Measured&, In, Out rate) const override {
+    rate[0] = 2 * std::numbers::pi * s.frequency;
+    rate[1] = 0;
+  }
+  void event(const Measured& measured, Out state) const override {
+    if (s.wait > 0.9 && measured.t > 0.1 && measured.angle[0] != state[1]) wait_while_held();
+    state[1] = measured.angle[0];
+  }
+  void output(double, In state, Out setpoint) const override {
+    for (double& each : setpoint) each = s.amplitude * std::sin(state[0]);
   }
   Settings s;
 };
