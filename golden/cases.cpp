@@ -125,8 +125,13 @@ Scenario with_engine(const std::string& file, const Scenario& scenario, const st
 void read_case(GoldenCase& c, const std::optional<std::string>& engine, Catalog& catalog) {
   try {
     Scenario scenario = read_scenario(c.file, {}, catalog);
+    const bool chosen = scenario.physics.adapts();
     if (engine) scenario = with_engine(c.file, scenario, *engine, c.golden->origin.step, catalog);
     c.other_engine = scenario.physics.engine->name != c.golden->origin.engine;
+    if (chosen && !scenario.physics.adapts()) {  // the bands contain no error of a given step
+      c.halved = scenario;
+      c.halved->physics.refine(2);
+    }
     c.scenario = std::move(scenario);
   } catch (const InputError& error) {
     if (error.problems().front().place.file == "--engine") throw;  // the error is not in the scenario
@@ -134,10 +139,12 @@ void read_case(GoldenCase& c, const std::optional<std::string>& engine, Catalog&
   }
 }
 
-void judge(GoldenCase& c, Attempt& outcome) {
-  c.seconds = outcome.seconds;
+/// Compares the run of a case with its golden; `halved` is that of GoldenCase::halved, or null.
+void judge(GoldenCase& c, const Attempt& outcome, const Attempt* halved) {
+  c.seconds = outcome.seconds + (halved != nullptr ? halved->seconds : 0);
   try {
     if (outcome.error) std::rethrow_exception(outcome.error);
+    if (halved != nullptr && halved->error) std::rethrow_exception(halved->error);
   } catch (const InputError& error) {
     c.fail(Verdict::bad_input, error.what());
     return;
@@ -145,8 +152,8 @@ void judge(GoldenCase& c, Attempt& outcome) {
     c.fail(Verdict::run_failed, fmt::format("{}: error: {}", c.file, error.what()));
     return;
   }
-  c.run = std::move(outcome.run);
-  c.difference = compare(*c.golden, c.run, c.other_engine);
+  c.run = outcome.run;
+  c.difference = compare(*c.golden, c.run, c.other_engine, halved != nullptr ? &halved->run : nullptr);
   if (!c.difference.passed()) c.verdict = Verdict::regression;
   try {
     // If the columns are the same, the golden may belong to a scenario that was renamed and changed. This is a regression,
@@ -218,18 +225,19 @@ void run_cases(std::vector<GoldenCase>& cases, const TestArguments& arguments, c
   std::vector<Scenario> scenarios;
   for (const GoldenCase& c : cases) {
     if (c.scenario) scenarios.push_back(*c.scenario);
+    if (c.halved) scenarios.push_back(*c.halved);
   }
   const bool judged = arguments.fail_infeasible ||
                       std::ranges::any_of(cases, [](const GoldenCase& c) { return c.scenario && !c.golden->verdict.empty(); });
-  std::vector<Attempt> outcomes = golden_runs(scenarios, arguments.jobs, progress, judged);
+  const std::vector<Attempt> outcomes = golden_runs(scenarios, arguments.jobs, progress, judged);
   auto outcome = outcomes.begin();
   for (GoldenCase& c : cases) {
     if (!c.scenario) continue;
-    judge(c, *outcome);
+    const Attempt& run = *outcome++;
+    judge(c, run, c.halved ? &*outcome++ : nullptr);
     if (arguments.fail_infeasible && c.verdict == Verdict::passed && report::has_motors(*c.scenario) &&
         c.run.verdict != name_of(report::Word::feasible))
       c.fail(Verdict::infeasible, fmt::format("{}: {}: {}", c.file, c.run.verdict, c.run.why));
-    ++outcome;
   }
 }
 

@@ -35,6 +35,7 @@ struct GoldenCase {
   std::optional<Golden> golden = {};      ///< empty until it has been read
   std::optional<Scenario> scenario = {};  ///< empty until it has been read
   bool other_engine = false;              ///< true if the run uses another engine than the golden
+  std::optional<Scenario> halved = {};    ///< the scenario with half its step, if the golden's bands are not those of its step
   GoldenRun run = {};
   GoldenDifference difference = {};
   Verdict verdict = Verdict::passed;

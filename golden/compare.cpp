@@ -25,13 +25,14 @@ double spacing(const Trace& trace) { return trace.rows() > 1 ? trace.at(1, 0) - 
 
 class Comparison {
  public:
-  Comparison(const Golden& golden, const GoldenRun& run, bool other_engine)
+  Comparison(const Golden& golden, const GoldenRun& run, bool other_engine, const GoldenRun* halved)
       : golden_(golden),
         a_(golden.run.trace),
         b_(run.trace),
         run_(run),
         names_{run.joints, {}},
         other_engine_(other_engine),
+        halved_(halved),
         rows_(std::min(a_.rows(), b_.rows())) {}
 
   GoldenDifference made() {
@@ -99,7 +100,8 @@ class Comparison {
   void compare_column(std::size_t i, std::size_t j, double scale) {
     if (rows_ == 0) return;
     ColumnCheck check{a_.columns[i].name, label(a_.columns[i].name), a_.columns[i].unit};
-    check.band = golden_.bands[i].width();
+    check.band =
+        golden_.bands[i].width() + (halved_ ? kHalvingFactor * std::sqrt(mean_square(b_, halved_->trace, j)) / scale : 0);
     check.scale = scale;
     std::vector<double> golden;
     std::vector<double> now;
@@ -134,8 +136,11 @@ class Comparison {
       }
       if (!std::isfinite(now->value)) find(fmt::format("{} is not finite", readable_number(number.name)));
       const double change = std::abs(now->value - number.value) / scale[i];
-      found_.numbers.push_back({number.name, readable_number(number.name), number.unit, number.value, now->value, change,
-                                std::max(golden_.number_bands[i].width(), other_engine_ ? kOtherEngine : 0.0)});
+      const double band = std::max(golden_.number_bands[i].width(), other_engine_ ? kOtherEngine : 0.0);
+      const auto index = static_cast<std::size_t>(now - run_.numbers.begin());
+      const double own = halved_ ? kHalvingFactor * std::abs(halved_->numbers[index].value - now->value) / scale[i] : 0;
+      found_.numbers.push_back(
+          {number.name, readable_number(number.name), number.unit, number.value, now->value, change, band + own});
     }
   }
 
@@ -145,6 +150,7 @@ class Comparison {
   const GoldenRun& run_;
   PartNames names_;
   bool other_engine_;
+  const GoldenRun* halved_;  // or null
   std::size_t rows_;
   GoldenDifference found_;
 };
@@ -171,8 +177,8 @@ const ColumnCheck* GoldenDifference::worst_column() const { return worst(columns
 
 const NumberCheck* GoldenDifference::worst_number() const { return worst(numbers); }
 
-GoldenDifference compare(const Golden& golden, const GoldenRun& run, bool other_engine) {
-  return Comparison(golden, run, other_engine).made();
+GoldenDifference compare(const Golden& golden, const GoldenRun& run, bool other_engine, const GoldenRun* halved) {
+  return Comparison(golden, run, other_engine, halved).made();
 }
 
 }  // namespace gaitlab::golden

@@ -54,6 +54,9 @@ struct GoldenDifference {
 /// the same way for any engine. Numbers of another engine have bands of at least kOtherEngine, because they depend on every
 /// step. Peak torques of joints are then omitted, because they occur in the first step after a control tick, for which one
 /// method evaluates the motor at the start and another takes the mean (10 % difference).
-GoldenDifference compare(const Golden& golden, const GoldenRun& run, bool other_engine = false);
+/// If `halved`, the same run with half its step, is given, every band is wider by kHalvingFactor x the change from `run` to it:
+/// the bands of the golden are those of the golden's own step.
+GoldenDifference compare(const Golden& golden, const GoldenRun& run, bool other_engine = false,
+                         const GoldenRun* halved = nullptr);
 
 }  // namespace gaitlab::golden

@@ -14,7 +14,7 @@ TEST(ProgressLines, FitTheTerminal) {
   EXPECT_EQ(progress_line(0.25, "25 %", 21), "[###          ] 25 %");
   EXPECT_EQ(progress_line(1, "100 %", 200), "[" + std::string(40, '#') + "] 100 %");
   for (std::size_t columns = 40; columns <= 200; ++columns) {
-    for (const std::size_t text : {4, 20, 28, 29, 30, 60, 190, 250}) {
+    for (const std::size_t text : {4U, 20U, 28U, 29U, 30U, 60U, 190U, 250U}) {
       for (const double share : {0.0, 0.5, 1.0, 2.0})
         EXPECT_LT(progress_line(share, std::string(text, 'x'), columns).size(), columns) << columns << " " << text;
     }
