@@ -89,14 +89,21 @@ SearchEnd run_study(Plan& plan, Journal& journal, const studies::Executor& execu
   return runner.run(plan.points().runs(), stopped()) ? SearchEnd::budget : SearchEnd::stopped;
 }
 
-/// Writes the run folder of the best verified point and replaces an earlier one.
+/// Writes the run folder of the best verified point and replaces an earlier one. If interrupted, the earlier one stays.
 void write_best(const Plan& plan, std::uint64_t run_number, const fs::path& folder, bool quiet) {
+  const fs::path before = folder.string() + ".before";
   std::error_code none;
-  fs::remove_all(folder, none);
+  fs::remove_all(before, none);
+  fs::rename(folder, before, none);
   RunArguments arguments;
   arguments.out = folder.string();
   arguments.quiet = quiet;
   (void)run(plan.scenario(run_number), arguments);
+  if (stopped()) {
+    fs::remove_all(folder, none);
+    fs::rename(before, folder, none);
+  }
+  fs::remove_all(before, none);
 }
 
 /// Runs points again, and those that stand also in worlds. Nothing if interrupted.

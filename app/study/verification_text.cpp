@@ -95,6 +95,11 @@ std::string point_text(studies::Journal& journal, const std::vector<Verification
   return fmt::format("run {} {}{} ({})\n{}", run, rejected ? "not verified" : "verified", share, ways, below);
 }
 
+/// True if the gears of the study's scenario can create energy, which those of the worlds cannot.
+bool paper_gears(const studies::JournalHead& head) {
+  return head.scenario.find("efficiency_model: paper") != std::string::npos;
+}
+
 /// Guard of the check that is the first cause of a fall, as in `guards: {voltage: {margin: 0.1}}`; "" if no cause is a check.
 std::string guard_text(const studies::JournalHead& head, const WorldCount& count) {
   for (const Verification& fall : count.falls) {
@@ -135,12 +140,12 @@ std::string nearest_text(studies::Journal& journal) {
   if (share == all.end()) return "";
   const WorldCount count = studies::counted_worlds(all, share->run);
   const bool most = count.stood < count.of / 2;
-  const bool paper = journal.head().scenario.find("efficiency_model: paper") != std::string::npos;
   return fmt::format("run {} is nearest: it {}; {}; {}`robust: true` searches gaits with reserve{}", share->run,
                      one_line(share->reason), falls_text(count), guard_text(journal.head(), count),
-                     most && paper ? "; gears are directional in every world: `set: [actuator.efficiency_model=directional]` "
-                                     "searches with them"
-                                   : "");
+                     most && paper_gears(journal.head())
+                         ? "; gears are directional in every world: `set: [actuator.efficiency_model=directional]` "
+                           "searches with them"
+                         : "");
 }
 
 std::string verification_text(studies::Journal& journal) {
@@ -151,6 +156,11 @@ std::string verification_text(studies::Journal& journal) {
   std::string text;
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (k == 0 || all[k].run != all[k - 1].run) text += point_text(journal, all, all[k].run);
+  }
+  if (!text.empty() && std::ranges::any_of(all, studies::is_world) && paper_gears(journal.head())) {
+    text +=
+        "  gears are directional in the worlds, but paper's in the runs: a run with another friction or supply can end "
+        "otherwise than its world\n";
   }
   const std::string objective = objective_text(journal.head());
   return text.empty() ? "" : "verification of the best points (" + objective + "):\n" + text + faults_text(faults, objective);

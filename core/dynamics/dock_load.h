@@ -22,4 +22,11 @@ inline DockLoad dock_load(const Wrench& on_child, const Vec3& normal) {
   return {-on_child.force.dot(normal), across(on_child.force), across(on_child.moment), on_child.moment.dot(normal)};
 }
 
+/// The larger of each component of two loads: of tension with its sign, as a dock that is pressed does not part, of the others
+/// in magnitude.
+inline DockLoad largest(const DockLoad& a, const DockLoad& b) {
+  return {std::fmax(a.tension, b.tension), std::fmax(a.shear, b.shear), std::fmax(a.bending, b.bending),
+          std::abs(b.torsion) > std::abs(a.torsion) ? b.torsion : a.torsion};
+}
+
 }  // namespace gaitlab

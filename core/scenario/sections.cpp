@@ -211,7 +211,9 @@ void Limits::fields(Fields& f) {
        "Share of its height above the ground at the start below which the centre of mass has fallen. Default: our choice."});
   f.number(
       "tilt", tilt,
-      {"rad", kPositive, 4, "Tilt of the base from its start above which the verdict warns. Default: 60 degrees, our choice."});
+      {"rad", kPositive, 4,
+       "Tilt of the robot from its start above which the verdict warns (below the horizontal it fails, except for a base that "
+       "rolls). Default: 60 degrees, our choice."});
   f.number(
       "beyond_range", beyond_range,
       {"rad", 0, 100,

@@ -75,7 +75,8 @@ struct Simulation::Lane {
   const Robot& robot;
   std::size_t index;
   LaneClock clock;
-  bool closed = false;  ///< the recording of the lane is complete
+  bool closed = false;   ///< the recording of the lane is complete
+  bool divided = false;  ///< the integrator divided the last step of the lane
   Outcome outcome;
   std::vector<ContactElement> contacts;
   std::vector<std::size_t> passive = {};  ///< joints without a motor

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/dynamics/dock_load.h"
 #include "core/model/docking.h"
 #include "core/simulation/support.h"
 
@@ -150,6 +149,19 @@ double LoadMeter::margin() {
   return support_margin(support_, sample_.sums.com);
 }
 
+DockLoad LoadMeter::load(const DockFace& dock) const {
+  return dock_load(sample_.reactions.dock(dock.module), sample_.kinematics.R[dock.link] * dock.normal);
+}
+
+void LoadMeter::watch() {
+  const bool first = watched_.empty();
+  watched_.resize(docks_.size());
+  for (std::size_t d = 0; d < docks_.size(); ++d) {
+    const DockLoad now = load(docks_[d]);
+    watched_[d] = first ? now : largest(watched_[d], now);
+  }
+}
+
 void LoadMeter::measure(Out row) {
   const Kinematics& k = sample_.kinematics;
   for (std::size_t i = 0; i < feet_.size(); ++i) measure(feet_[i], row.subspan(foot_columns_ + i * foot_width(), foot_width()));
@@ -159,10 +171,11 @@ void LoadMeter::measure(Out row) {
   row[at++] = single(path_);
   row[at++] = single(slip_);
   if (stability_) row[at++] = single(margin());
-  for (const DockFace& dock : docks_) {
-    const DockLoad load = dock_load(sample_.reactions.dock(dock.module), k.R[dock.link] * dock.normal);
+  if (!docks_.empty()) watch();
+  for (const DockLoad& load : watched_) {
     for (const double value : {load.tension, load.shear, load.bending, load.torsion}) row[at++] = single(value);
   }
+  watched_.clear();
   first_ = false;
   com_before_ = sample_.sums.com;
   before_ = k;

@@ -1,7 +1,8 @@
-// Loads of docks and feet, slip distances of feet and stability margin, at control ticks.
+// Loads of docks and feet, slip distances of feet and stability margin, at control ticks, and loads of docks between them.
 #pragma once
 #include <vector>
 
+#include "core/dynamics/dock_load.h"
 #include "core/recording/recording.h"
 #include "core/scenario/scenario.h"
 #include "core/simulation/records.h"
@@ -21,8 +22,11 @@ class LoadMeter {
   /// True if the sample needs reactions, which the columns of docks require. With contact.law bullet there are no such columns,
   /// because not all contact forces are known.
   [[nodiscard]] bool want_reactions() const { return !docks_.empty(); }
-  /// Computes a row from the sample. Path lengths are sums since the first row.
+  /// Computes a row from the sample. Path lengths are sums since the first row. The loads of docks are the largest of the
+  /// sample and of the calls of watch() since the last row.
   void measure(Out row);
+  /// Keeps the loads of docks of the sample, at a time between control ticks, if they are the largest since the last row.
+  void watch();
   /// Removes the columns of feet that never carried a load.
   void drop_idle_feet(Trace& loads) const;
 
@@ -48,6 +52,7 @@ class LoadMeter {
   };
 
   void add_columns(const Scenario& scenario);
+  [[nodiscard]] DockLoad load(const DockFace& dock) const;
   /// Horizontal distance by which the contact point of an element moved since the previous tick, m. The material point that
   /// touched the ground at the previous tick is used, or the present one if none touched then.
   [[nodiscard]] double slide(std::size_t element) const;
@@ -62,6 +67,7 @@ class LoadMeter {
   bool stability_ = false;  ///< there is a column of the stability margin
   bool forces_ = false;     ///< there are columns of the feet's forces and points of action
   std::vector<DockFace> docks_;
+  std::vector<DockLoad> watched_;  ///< largest loads since the last row, by index of docks_; empty without any
   std::vector<Foot> feet_;
   std::vector<Column> columns_;
   std::size_t foot_columns_ = 0;  ///< index of the first column of the feet

@@ -44,7 +44,9 @@ class Recorder {
   /// True if the loads of this control tick have not been measured yet.
   [[nodiscard]] bool loads_due() const { return loads_due_; }
   void leave_out_loads() { loads_due_ = false; }
-  /// Meter whose sample the caller fills before add_loads(). Only if loads_due().
+  /// True if the loads of docks are measured, between control ticks, too.
+  [[nodiscard]] bool watches_docks() const { return loads_ != nullptr && loads_->want_reactions(); }
+  /// Meter whose sample the caller fills before add_loads() or LoadMeter::watch(). Only if loads_due() or watches_docks().
   [[nodiscard]] LoadMeter& loads() { return *loads_; }
   /// Measures the loads. They are a row of Recording::loads if the tick has a row.
   void add_loads();

@@ -141,10 +141,15 @@ void Simulation::record_loads(const std::function<bool(const Lane&)>& wanted) {
 }
 
 void Simulation::record_loads(Lane& lane) {
-  Recorder& recorder = *lane.recorder;
-  recorder.leave_out_loads();
+  lane.recorder->leave_out_loads();
   if (!fine(lane)) return;
-  LoadMeter& meter = recorder.loads();
+  fill_loads(lane);
+  lane.recorder->add_loads();
+}
+
+/// Fills the sample of the load meter at the present state under the commands in force.
+void Simulation::fill_loads(Lane& lane) {
+  LoadMeter& meter = lane.recorder->loads();
   Sample& s = meter.sample();
   s.t = time();
   layout_.read(plant_state_, lane.index, s.state);
@@ -159,7 +164,72 @@ void Simulation::record_loads(Lane& lane) {
   lane.read_changes(s);
   s.compute_hinges(lane.robot, lane.passive);
   if (meter.want_reactions()) s.compute_reactions(lane.contacts, *plant_, lane.index);
-  recorder.add_loads();
+}
+
+namespace {
+
+constexpr double kWatchEvery = 1e-3;    // s; least interval between loads of docks at the ends of steps
+constexpr double kUndivided = 0.2;      // share of a step; parts of a step that is not divided are at least a quarter of it
+constexpr int kWatchesPerDivision = 8;  // loads within a divided step
+
+}  // namespace
+
+/// Keeps the plant at the start of a step that may be divided, for watch_docks().
+void Simulation::keep_start() {
+  const auto watches = [](const auto& lane) { return lane->recorder != nullptr && lane->recorder->watches_docks(); };
+  start_.clear();
+  if (!scenarios_[0].physics.adaptive_step || std::ranges::none_of(lanes_, watches)) return;
+  start_.assign(plant_state_.begin(), plant_state_.end());
+  start_.insert(start_.end(), plant_history_.begin(), plant_history_.end());
+}
+
+/// Measures the loads of docks between control ticks: at the ends of steps at least kWatchEvery apart and, where the integrator
+/// divided the step of a lane, at eighths of this step. An impact divides steps, and can be over at the end of its step.
+/// Shorter steps from the start lead to the eighths; the state is then restored, so that the motion does not depend on the
+/// loads.
+void Simulation::watch_docks() {
+  const auto watches = [&](const Lane& lane) {
+    return lane.recorder != nullptr && !lane.closed && lane.recorder->watches_docks();
+  };
+  if (std::ranges::none_of(lanes_, [&](const auto& lane) { return watches(*lane); })) return;
+  const StepEffort applied = plant_->applied();
+  bool any_divided = false;
+  for (const auto& lane : lanes_) {
+    const auto is_short = [&](const StepEffort::Part& part) {
+      return !part.instant && part.share[lane->index] > 0 && part.share[lane->index] < kUndivided * h_;
+    };
+    lane->divided = !start_.empty() && watches(*lane) && std::ranges::any_of(applied.parts, is_short);
+    any_divided = any_divided || lane->divided;
+  }
+  const auto every = static_cast<std::int64_t>(std::ceil(kWatchEvery / h_ - 1e-9));
+  if (step_number() % every == every - 1)
+    watch_docks([&](const Lane& lane) { return watches(lane) && !lane.clock.commands(step_number() + 1); });
+  if (!any_divided) return;
+  const auto put = [&](const std::vector<double>& plant) {
+    std::copy_n(plant.begin(), plant_state_.size(), plant_state_.begin());
+    std::copy(plant.begin() + static_cast<std::ptrdiff_t>(plant_state_.size()), plant.end(), plant_history_.begin());
+  };
+  end_.assign(plant_state_.begin(), plant_state_.end());
+  end_.insert(end_.end(), plant_history_.begin(), plant_history_.end());
+  put(start_);
+  for (int k = 1; k < kWatchesPerDivision; ++k) {
+    plant_->advance(command_, h_ / kWatchesPerDivision);
+    watch_docks([](const Lane& lane) { return lane.divided; });
+  }
+  put(end_);
+}
+
+void Simulation::watch_docks(const std::function<bool(const Lane&)>& wanted) {
+  const auto due = [&](const auto& lane) { return wanted(*lane) && fine(*lane); };
+  if (std::ranges::none_of(lanes_, due)) return;
+  plant_->update_contacts();
+  if (actuator_ != nullptr)
+    actuator_->effort(command_, plant_state_.subspan(layout_.speeds(), command_.size()), torque_, slope_);
+  for (const auto& lane : lanes_) {
+    if (!due(lane)) continue;
+    fill_loads(*lane);
+    lane->recorder->loads().watch();
+  }
 }
 
 /// Completes the recording of a lane with the last rows and the totals.

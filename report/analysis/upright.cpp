@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/model/kinematics.h"
 #include "report/analysis/states.h"
 
 namespace gaitlab::report {
@@ -45,20 +46,46 @@ Vec3 turn_between(const Quat& before, const Quat& after) {
   return turn.angle() * turn.axis();
 }
 
+/// Axes of the links that point upwards at the start.
+class Axes {
+ public:
+  Axes(const Robot& robot, const RobotState& start) : robot_(robot), now_(robot) {
+    now_.place(robot, start);
+    for (const Mat3& R : now_.R) up_.push_back(R.transpose() * Vec3::UnitZ());
+  }
+  /// Cosine of the tilt of a state.
+  [[nodiscard]] double cosine(const RobotState& state) {
+    now_.place(robot_, state);
+    Vec3 mean = Vec3::Zero();
+    for (std::size_t i = 0; i < up_.size(); ++i) mean += robot_.links[i].mass * (now_.R[i] * up_[i]);
+    const double length = mean.norm();
+    return std::max(base(state), length > 0 ? mean.z() / length : -1.0);
+  }
+  /// Cosine of the angle between the axis of the base and the vertical.
+  [[nodiscard]] double base(const RobotState& state) const { return (state.orientation * up_[0]).z(); }
+
+ private:
+  const Robot& robot_;
+  Kinematics now_;
+  std::vector<Vec3> up_;
+};
+
 }  // namespace
 
 std::optional<Upright> upright(const Scenario& scenario, const Recording& r, const Judged& judged, double set_points) {
   const States states = States::at_ticks(r, *scenario.robot);
   if (scenario.base != Base::floating || states.size() == 0) return {};
   Quat before = states(0).orientation;
-  const Vec3 up = before.inverse() * Vec3::UnitZ();
+  Axes axes(*scenario.robot, states(0));
   std::vector<Stretch> periods = stretches(judged, set_points);
   Upright found;
   double least = 1;  // cosine of the tilt
   for (std::size_t row = 0; row < states.size(); ++row) {
     const double time = states.time(row);
-    const Quat now = states(row).orientation;
-    const double cosine = (now * up).z();
+    const RobotState state = states(row);
+    const Quat now = state.orientation;
+    const double cosine = axes.cosine(state);
+    const double of_base = axes.base(state);
     if (cosine < least) {
       least = cosine;
       found.tilt_time = time;
@@ -67,8 +94,8 @@ std::optional<Upright> upright(const Scenario& scenario, const Recording& r, con
     for (Stretch& period : periods) {
       if (!(time > period.from + kRounds && time < period.to + kRounds)) continue;
       period.turn += turn_between(before, now);
-      period.most = std::max(period.most, cosine);
-      period.least = std::min(period.least, cosine);
+      period.most = std::max(period.most, of_base);
+      period.least = std::min(period.least, of_base);
     }
     before = now;
   }

@@ -87,7 +87,7 @@ void upright(const CheckedRun& run, Check& made) {
   if (found->over && judged.periods == 0) {
     const double period = run.summary.set_point_period;
     found = report::upright(run.scenario, run.record, judged, period);
-    made.text = fmt::format("the base turns over at {:.2f} s, and the run is too short to show whether it rolls", *found->over);
+    made.text = fmt::format("the robot turns over at {:.2f} s, and the run is too short to show whether it rolls", *found->over);
     const bool early = run.record.simulated < kPeriodsNeeded * period;
     if (!found->rolls && early && run.record.simulated - *found->over < period) return;
   }
@@ -99,12 +99,12 @@ void upright(const CheckedRun& run, Check& made) {
   made.from = found->over.value_or(found->tilt_time);
   made.to = found->tilt_time;
   made.status = found->over ? CheckStatus::fail : made.value > run.limits().tilt ? CheckStatus::warn : CheckStatus::pass;
-  made.text = fmt::format("the base tilts by up to {:.3g} rad from its start", made.value);
+  made.text = fmt::format("the robot tilts by up to {:.3g} rad from its start", made.value);
   if (made.status == CheckStatus::warn) made.text += fmt::format(", more than {:.3g} rad (limits.tilt)", run.limits().tilt);
   if (!found->over) return;
   made.first = *found->over;
   made.text =
-      fmt::format("the base turns over at {:.2f} s: it tilts by up to {:.3g} rad from its start", made.from, made.value);
+      fmt::format("the robot turns over at {:.2f} s: it tilts by up to {:.3g} rad from its start", made.from, made.value);
   made.remedy = "take a gait with more support";
 }
 

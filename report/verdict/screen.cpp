@@ -66,12 +66,18 @@ void add_kind(Screen& screen, const std::vector<const Check*>& checks, std::size
   }
 }
 
+constexpr double kTurns = 0.1;  // rad; a smaller change of heading shortens the way by less than 0.2 %
+
 std::string gait(const RunData& run) {
   const Summary& s = run.summary;
   if (run.record.series("com.x").empty() || run.scenario.base != Base::floating) return "";
-  std::string text = fmt::format("{:.4f} m/s", s.speed);
-  if (const double speed = cycle_speed(run.record, s.judged); s.limit_cycle.found && std::isfinite(speed))
-    text += fmt::format(", {:.4f} m per period of {:.4g} s", speed * s.limit_cycle.period, s.limit_cycle.period);
+  std::string text = fmt::format("{:.4f} m/s over the run", s.speed);
+  if (const double speed = cycle_speed(run.record, s.judged); s.limit_cycle.found && std::isfinite(speed)) {
+    const double period = s.limit_cycle.period;
+    text += fmt::format(", {:.4f} m per period of {:.4g} s ({:.4f} m/s)", speed * period, period, speed);
+  }
+  // A gait that turns travels less far in a longer run.
+  if (std::abs(s.heading_change) > kTurns) text += fmt::format(", turns by {:+.2f} rad", s.heading_change);
   if (s.cost_electrical == 0 || !has_motors(run)) return text;
   text += fmt::format(", cost of transport {:.3g}", s.cost_electrical);
   if (const std::string much = texts::much_created(run); !much.empty()) text += ": " + much;

@@ -45,7 +45,8 @@ LINES = {
     "stability": r"h lambda at most {stability:.2f} at t = {stability_time:.2f} s: .*; above 1 in {above:pct} of the ticks",
 }
 READ = {title: Expression(text) for title, text in LINES.items()}
-GAIT = Expression(r"{speed:.4f} m/s(?:, {per_period:.4f} m per period of {period:.4g} s)?(?:, cost of transport {electrical_cost:.3g}"
+GAIT = Expression(r"{speed:.4f} m/s over the run(?:, {per_period:.4f} m per period of {period:.4g} s \({cycle_speed:.4f} m/s\))?"
+                  r"(?:, turns by {heading:+.2f} rad)?(?:, cost of transport {electrical_cost:.3g}"
                   r"(?:: the gears create {created_share:pct} of the energy drawn \(eq\. 2\))?)?")
 HEAD = Expression(r".*: {simulated:.6g} s simulated in \S+ s")
 
@@ -85,7 +86,8 @@ def numbers(judged):
     if w.periods:
         t = r.poses["t"]
         at = lambda time: np.array([np.interp(time, t, com[:, k]) for k in (0, 1)])
-        n["per_period"] = np.linalg.norm(at(w.end) - at(w.start)) / (w.end - w.start) * w.cycle.period
+        n["cycle_speed"] = np.linalg.norm(at(w.end) - at(w.start)) / (w.end - w.start)
+        n["per_period"] = n["cycle_speed"] * w.cycle.period
     if r.count:
         whole = r.weight * n["distance"]
         n["electrical_cost"] = r.joints["electrical"].sum() / whole if whole else 0.0
@@ -158,7 +160,8 @@ def loose(name, known):
     """Tolerance of a number that is computed from the estimated period."""
     doubt = known["doubt"]
     return {"repeats": 2 * np.pi * doubt, "cycle_from": 0.04, "from": doubt * known["period"] * max(1, known["periods"]),
-            "period": doubt * known["period"], "per_period": doubt * known.get("per_period", 0)}.get(name, 0)
+            "period": doubt * known["period"], "per_period": doubt * known.get("per_period", 0),
+            "cycle_speed": doubt * known.get("cycle_speed", 0)}.get(name, 0)
 
 
 def hear(expression, text, known, who):

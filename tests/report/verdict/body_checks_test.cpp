@@ -157,6 +157,28 @@ TEST(UprightCheck, FailsBelowTheHorizontal) {
   EXPECT_EQ(set.check("upright").status, CheckStatus::fail) << "the key moves the warning alone";
 }
 
+/// The end of a chain turns beyond the horizontal in a wave while the mean of the bodies does not: base 2 rad, the others 2 - q
+/// and 2 - 2 q. Bent the other way, the mean is beyond, too. Masses: the outer bodies of the module are equal, the middle is
+/// light.
+TEST(UprightCheck, IsNotOfTheEndOfAChainAlone) {
+  const Still still("{type: none}", {"actuator.type=none", "physics.gravity=[0, 0, 0]"});
+  const auto bent = [&](double hinge) {
+    Still made = still;
+    for (std::size_t row = kRow; row < made.record.poses.rows(); ++row) {
+      made.pose("base.qw", row) = std::cos(1.0);
+      made.pose("base.qy", row) = std::sin(1.0);
+      made.pose("base.qx", row) = made.pose("base.qz", row) = 0;
+      made.pose("joint.0.angle", row) = made.pose("joint.1.angle", row) = hinge;
+    }
+    return made.check("upright");
+  };
+  const Check wave = bent(-1);
+  EXPECT_EQ(wave.status, CheckStatus::pass) << wave.text;
+  EXPECT_NEAR(wave.value, 1, 0.02) << "the mean of 2, 1 and 0";
+  EXPECT_EQ(bent(1).status, CheckStatus::fail);
+  EXPECT_NEAR(bent(1).value, 2, 1e-7) << "the base tilts less than the mean";
+}
+
 /// The tilt refers to the start. A robot that lies on its side at the start is upright in this pose.
 TEST(UprightCheck, IsOfTheStart) {
   const Still side("{type: plane}", {"robot.orientation=[1.7, 0.3, 2]"});
