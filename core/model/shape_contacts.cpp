@@ -10,8 +10,9 @@ namespace gaitlab {
 
 namespace {
 
-constexpr double kOnePlace = 1e-9;  // as a share of the size of a body: elements at one place, or on a surface
-constexpr double kOnAxis = 1e-3;    // hand-written frames: sine of an angle, and a distance as a share of a radius
+// Frames are written by hand: pi as 3.1416 must not part two edges that are one.
+constexpr double kOnePlace = 1e-3;  // as a share of the size of a body: elements at one place, or on a surface
+constexpr double kOnAxis = 1e-3;    // sine of an angle, and a distance as a share of a radius
 
 /// Points of a circle with axis y in steps of 45 degrees, the first `n` from `first` on: 0 is +x, 2 is -z.
 void add_arc(double r, double y, int first, int n, std::vector<Vec3>& points) {

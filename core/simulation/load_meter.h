@@ -1,4 +1,5 @@
-// Loads of docks and feet, slip distances of feet and stability margin, at control ticks, and loads of docks between them.
+// Loads of docks, gears and feet, slip distances of feet and stability margin, at control ticks, and loads of docks and gears
+// between them.
 #pragma once
 #include <vector>
 
@@ -13,15 +14,16 @@ namespace gaitlab {
 /// Computes the rows of Recording::loads in the order of time. Definitions: docs/conventions.md, "Loads".
 class LoadMeter {
  public:
-  /// `wanted` must not be Loads::left_out.
-  LoadMeter(const Scenario& scenario, const std::vector<ContactElement>& elements, Loads wanted);
+  /// `wanted` must not be Loads::left_out. `gears` are the joints whose gears have a rated peak torque.
+  LoadMeter(const Scenario& scenario, const std::vector<ContactElement>& elements, Loads wanted,
+            std::vector<std::size_t> gears = {});
 
   [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
   /// Sample to measure. The caller fills its t, state, kinematics, sums and contacts, and the reactions if want_reactions().
   Sample& sample() { return sample_; }
-  /// True if the sample needs reactions, which the columns of docks require. With contact.law bullet there are no such columns,
-  /// because not all contact forces are known.
-  [[nodiscard]] bool want_reactions() const { return !docks_.empty(); }
+  /// True if the sample needs reactions, which the columns of docks and gears require. With contact.law bullet there are no such
+  /// columns, because not all contact forces are known.
+  [[nodiscard]] bool want_reactions() const { return !docks_.empty() || !gears_.empty(); }
   /// Computes a row from the sample. Path lengths are sums since the first row. The loads of docks are the largest of the
   /// sample and of the calls of watch() since the last row.
   void measure(Out row);

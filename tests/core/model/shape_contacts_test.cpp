@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 namespace gaitlab {
@@ -91,6 +92,20 @@ ModuleType cart(const Vec3& offset, double hi) {
   type.bodies[1].shapes = {{Shape::Kind::cylinder, {Mat3::Identity(), offset}, {0.5, 0.2, 0}}};
   type.hinges = {{"axle", 0, 1, {Mat3::Identity(), {0, 1, 0}}, Vec3::UnitY(), -hi, hi, {}}};
   return type;
+}
+
+/// A box with a half cylinder on its face has the four common edge ends once, for any number of digits of pi in the frame.
+TEST(ShapeContacts, OfOneEdgeInTwoShapesAreOnce) {
+  for (const double half_turn : {std::numbers::pi, 3.141592653, 3.1415927, 3.1415926, 3.14159, 3.1416, 3.142, 3.14}) {
+    const Mat3 turned = Eigen::AngleAxisd(half_turn, Vec3::UnitZ()).toRotationMatrix();
+    const auto found = shape_contacts(one_body({{Shape::Kind::box, {Mat3::Identity(), {0.021, 0, 0}}, {0.042, 0.084, 0.084}},
+                                                {Shape::Kind::half_cylinder, {turned, Vec3::Zero()}, {0.042, 0.084, 0}}}));
+    EXPECT_EQ(found.size(), 14U) << half_turn;
+    for (const double side : {-1.0, 1.0}) {
+      const auto on_side = [&](const ContactType& one) { return one.centre.y() * side > 0; };
+      EXPECT_EQ(std::count_if(found.begin(), found.end(), on_side), 7) << half_turn;
+    }
+  }
 }
 
 TEST(ShapeContacts, OfAWheelAreASphere) {
