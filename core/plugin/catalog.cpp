@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "core/errors.h"
+#include "core/plugin/load_trial.h"
 #include "core/plugin/plugin.h"
 
 namespace gaitlab {
@@ -33,26 +34,6 @@ class FloatingPointEnvironment {
 
  private:
   std::fenv_t environment_ = {};
-};
-
-/// During the lifetime of this object, an exception of a library's static object ends the program with a message, because such
-/// an exception cannot pass through dlopen.
-class NamedTermination {
- public:
-  explicit NamedTermination(const std::string& path) { path_ = path.c_str(); }
-  ~NamedTermination() { std::set_terminate(before_); }
-  NamedTermination(const NamedTermination&) = delete;
-  NamedTermination& operator=(const NamedTermination&) = delete;
-
- private:
-  [[noreturn]] static void end() {
-    for (const char* text : {path_, ": error: a static object of this plugin threw an exception when it was loaded\n"})
-      say(text);
-    std::_Exit(2);  // exit code for bad input; no output has been written yet
-  }
-
-  static inline const char* path_ = "";
-  std::terminate_handler before_ = std::set_terminate(end);
 };
 
 /// Hash with which this process loaded the file first; `hash` if it has not loaded it yet.
@@ -154,12 +135,10 @@ void load_plugin(const std::string& path, const std::string& hash, Catalog& cata
     throw std::runtime_error("it was built again since this process loaded it; start the program again to run the new code");
   if (catalog.loaded(path)) return;
   const FloatingPointEnvironment restored;
+  const bool first = dlopen(path.c_str(), RTLD_LAZY | RTLD_NOLOAD) == nullptr;
+  if (const std::string fault = first ? load_trial(path) : ""; !fault.empty()) throw std::runtime_error(fault);
   dlerror();
-  void* library = nullptr;
-  {
-    const NamedTermination named(path);
-    library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  }
+  void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) throw std::runtime_error("cannot load " + path + ": " + last_dl_error());
   const auto abi = reinterpret_cast<const char* (*)()>(dlsym(library, "gaitlab_abi"));
   const auto enter = reinterpret_cast<void (*)(Registry&)>(dlsym(library, "gaitlab_register"));

@@ -180,10 +180,10 @@ void halve_ticks(Trace& ticks) {
 void keep_worst(const ColumnList& columns, In before, Out now) {
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const std::string& name = columns[c].name;
-    const bool worse = name == "stability"          ? before[c] < now[c] || (std::isnan(now[c]) && !std::isnan(before[c]))
-                       : !name.starts_with("dock.") ? false
-                       : name.ends_with(".tension") ? before[c] > now[c]
-                                                    : std::abs(before[c]) > std::abs(now[c]);
+    const bool worse = name == "stability" ? before[c] < now[c] || (std::isnan(now[c]) && !std::isnan(before[c]))
+                       : !name.starts_with("dock.") && !name.starts_with("gear.") ? false
+                       : name.ends_with(".tension")                               ? before[c] > now[c]
+                                                                                  : std::abs(before[c]) > std::abs(now[c]);
     if (worse) now[c] = before[c];
   }
 }

@@ -36,13 +36,15 @@ double single(double value) { return static_cast<double>(static_cast<float>(valu
 
 }  // namespace
 
-LoadMeter::LoadMeter(const Scenario& scenario, const std::vector<ContactElement>& elements, Loads wanted)
+LoadMeter::LoadMeter(const Scenario& scenario, const std::vector<ContactElement>& elements, Loads wanted,
+                     std::vector<std::size_t> gears)
     : robot_(*scenario.robot),
       elements_(elements),
       sample_(robot_, elements.size(), 0),
       weight_(robot_.mass * scenario.physics.gravity.norm()),
       stability_(wanted == Loads::recorded && scenario.ground.is_plane()),
       forces_(wanted == Loads::recorded),
+      gears_(scenario.contact.model().element_forces ? std::move(gears) : std::vector<std::size_t>()),
       before_(robot_),
       touched_(elements.size()) {
   sample_.gravity = scenario.physics.gravity;
@@ -55,6 +57,8 @@ LoadMeter::LoadMeter(const Scenario& scenario, const std::vector<ContactElement>
     docks_.push_back({m, body.link, body.in_link.R * face.normal});
   }
   if (wanted == Loads::judged && !states_what_docks_hold(robot_)) docks_.clear();
+  dock_loads_.resize(docks_.size());
+  gear_loads_.resize(gears_.size());
   for (std::size_t e = 0; e < elements.size(); ++e) {
     const auto same = [&](const Foot& foot) { return foot.body == elements[e].body; };
     auto foot = std::ranges::find_if(feet_, same);
@@ -80,6 +84,10 @@ void LoadMeter::add_columns(const Scenario& scenario) {
     of_dock("shear", "N", "force in the plane of the faces");
     of_dock("bending", "N m", "moment about an axis in the plane of the faces");
     of_dock("torsion", "N m", "moment about the normal of the parent's face, of the parent on the child,");
+  }
+  for (const std::size_t joint : gears_) {
+    add(fmt::format("gear.{}.torque", joint), "N m",
+        "torque that the gear of " + robot_.joints[joint].name + " passes on: that of its motor less what turns its rotor");
   }
   foot_columns_ = columns_.size();
   for (const Foot& foot : feet_) {
@@ -154,12 +162,16 @@ DockLoad LoadMeter::load(const DockFace& dock) const {
 }
 
 void LoadMeter::watch() {
-  const bool first = watched_.empty();
-  watched_.resize(docks_.size());
   for (std::size_t d = 0; d < docks_.size(); ++d) {
     const DockLoad now = load(docks_[d]);
-    watched_[d] = first ? now : largest(watched_[d], now);
+    dock_loads_[d] = watched_ ? largest(dock_loads_[d], now) : now;
   }
+  for (std::size_t g = 0; g < gears_.size(); ++g) {
+    const std::size_t j = gears_[g];
+    const double now = sample_.reactions.torques()[j] - sample_.stop_torque[j] - sample_.passive_torque[j];
+    if (!watched_ || std::abs(now) > std::abs(gear_loads_[g])) gear_loads_[g] = now;
+  }
+  watched_ = true;
 }
 
 void LoadMeter::measure(Out row) {
@@ -171,11 +183,12 @@ void LoadMeter::measure(Out row) {
   row[at++] = single(path_);
   row[at++] = single(slip_);
   if (stability_) row[at++] = single(margin());
-  if (!docks_.empty()) watch();
-  for (const DockLoad& load : watched_) {
+  watch();
+  for (const DockLoad& load : dock_loads_) {
     for (const double value : {load.tension, load.shear, load.bending, load.torsion}) row[at++] = single(value);
   }
-  watched_.clear();
+  for (const double torque : gear_loads_) row[at++] = single(torque);
+  watched_ = false;
   first_ = false;
   com_before_ = sample_.sums.com;
   before_ = k;

@@ -21,13 +21,13 @@ class LoadMeter {
   [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
   /// Sample to measure. The caller fills its t, state, kinematics, sums and contacts, and the reactions if want_reactions().
   Sample& sample() { return sample_; }
-  /// True if the sample needs reactions, which the columns of docks and gears require. With contact.law bullet there are no such
-  /// columns, because not all contact forces are known.
+  /// True if the sample needs reactions, which the columns of docks and gears require. With contact.law bullet there are no
+  /// such columns, because not all contact forces are known.
   [[nodiscard]] bool want_reactions() const { return !docks_.empty() || !gears_.empty(); }
-  /// Computes a row from the sample. Path lengths are sums since the first row. The loads of docks are the largest of the
-  /// sample and of the calls of watch() since the last row.
+  /// Computes a row from the sample. Path lengths are sums since the first row. The loads of docks and gears are the largest of
+  /// the sample and of the calls of watch() since the last row.
   void measure(Out row);
-  /// Keeps the loads of docks of the sample, at a time between control ticks, if they are the largest since the last row.
+  /// Keeps the loads of docks and gears of the sample, at a time between control ticks, if they are the largest since the row.
   void watch();
   /// Removes the columns of feet that never carried a load.
   void drop_idle_feet(Trace& loads) const;
@@ -69,7 +69,10 @@ class LoadMeter {
   bool stability_ = false;  ///< there is a column of the stability margin
   bool forces_ = false;     ///< there are columns of the feet's forces and points of action
   std::vector<DockFace> docks_;
-  std::vector<DockLoad> watched_;  ///< largest loads since the last row, by index of docks_; empty without any
+  std::vector<std::size_t> gears_;    ///< joints
+  std::vector<DockLoad> dock_loads_;  ///< largest loads since the last row, by index of docks_
+  std::vector<double> gear_loads_;    ///< N m, the same of gears_
+  bool watched_ = false;              ///< there are loads since the last row
   std::vector<Foot> feet_;
   std::vector<Column> columns_;
   std::size_t foot_columns_ = 0;  ///< index of the first column of the feet

@@ -60,7 +60,8 @@ void check_space(const Scenario& s, const RowsNeeded& needed) {
 }  // namespace
 
 Recorder::Recorder(const Scenario& scenario, const std::vector<ContactElement>& contacts, const Cpg* cpg,
-                   std::string_view command_unit, const Sample& sample, const Records& wanted)
+                   std::string_view command_unit, const Sample& sample, const Records& wanted,
+                   std::vector<std::size_t> rated_gears)
     : scenario_(scenario), probes_(std::make_unique<Probes>(scenario, contacts, cpg, command_unit, sample)) {
   if (wanted.rows) {
     recording.trace.columns = probes_->columns();
@@ -75,7 +76,7 @@ Recorder::Recorder(const Scenario& scenario, const std::vector<ContactElement>& 
   ticks_per_load_ = ticks_per_row_;
   check_space(scenario, rows_needed());
   if (wanted.loads != Loads::left_out) {
-    loads_ = std::make_unique<LoadMeter>(scenario, contacts, wanted.loads);
+    loads_ = std::make_unique<LoadMeter>(scenario, contacts, wanted.loads, std::move(rated_gears));
     recording.loads.columns = loads_->columns();
   }
   reserve_rows(scenario);

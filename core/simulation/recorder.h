@@ -16,10 +16,11 @@ namespace gaitlab {
 /// Adds rows to the recording from samples, which the simulation fills. Allocates at construction, and for rows of loads.
 class Recorder {
  public:
-  /// `sample` is the sample of the lane in its initial state. `sample`, `scenario` and `contacts` must outlive this object.
-  /// Throws InputError if a column does not exist or the rows do not fit into memory.
+  /// `rated_gears` are the joints whose gears have a rated peak torque. `sample` is the sample of the lane in its initial
+  /// state. `sample`, `scenario` and `contacts` must outlive this object. Throws InputError if a column does not exist or the
+  /// rows do not fit into memory.
   Recorder(const Scenario& scenario, const std::vector<ContactElement>& contacts, const Cpg* cpg, std::string_view command_unit,
-           const Sample& sample, const Records& wanted);
+           const Sample& sample, const Records& wanted, std::vector<std::size_t> rated_gears = {});
 
   [[nodiscard]] RowsNeeded rows_needed() const;
 
@@ -44,7 +45,7 @@ class Recorder {
   /// True if the loads of this control tick have not been measured yet.
   [[nodiscard]] bool loads_due() const { return loads_due_; }
   void leave_out_loads() { loads_due_ = false; }
-  /// True if the loads of docks are measured, between control ticks, too.
+  /// True if the loads of docks or gears are measured, between control ticks, too.
   [[nodiscard]] bool watches_docks() const { return loads_ != nullptr && loads_->want_reactions(); }
   /// Meter whose sample the caller fills before add_loads() or LoadMeter::watch(). Only if loads_due() or watches_docks().
   [[nodiscard]] LoadMeter& loads() { return *loads_; }

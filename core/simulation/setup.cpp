@@ -89,6 +89,17 @@ PlantSettings Simulation::plant_settings() const {
   return settings;
 }
 
+/// Joints of a lane whose gears have a rated peak torque.
+std::vector<std::size_t> Simulation::rated_gears(const Lane& lane) const {
+  std::vector<std::size_t> joints;
+  if (actuator_ == nullptr || actuator_->ratings().empty()) return joints;
+  for (std::size_t j = 0; j < layout_.joints; ++j) {
+    const DriveRatings& ratings = actuator_->ratings()[j * lanes_.size() + lane.index];
+    if (lane.robot.joints[j].driven() && ratings.torque_peak > 0) joints.push_back(j);
+  }
+  return joints;
+}
+
 /// Number of changing values of this simulation, without the values of separate companions.
 std::size_t Simulation::state_size() const {
   std::size_t size = 1 + layout_.size() + plant_->history() + 2 * layout_.joints * lanes_.size();
@@ -149,7 +160,7 @@ void Simulation::set_start() {
     }
     if (!recorded(lane)) continue;
     const std::string_view unit = actuator_ == nullptr ? "" : actuator_->command_unit();
-    lane.recorder = std::make_unique<Recorder>(s, lane.contacts, lane.cpg, unit, sample, records_);
+    lane.recorder = std::make_unique<Recorder>(s, lane.contacts, lane.cpg, unit, sample, records_, rated_gears(lane));
   }
   // The row at t = 0 is recorded before the first tick; it has the readings of that tick, which then repeats them.
   if (std::ranges::any_of(lanes_, [](const auto& lane) { return !lane->sensors.empty(); })) sense();

@@ -98,6 +98,7 @@ class Simulation {
   [[nodiscard]] bool fine(const Lane& lane) const;
 
   [[nodiscard]] PlantSettings plant_settings() const;
+  [[nodiscard]] std::vector<std::size_t> rated_gears(const Lane& lane) const;
   [[nodiscard]] std::size_t state_size() const;
   void cut_state(Out numbers);
   void set_start();

@@ -87,7 +87,8 @@ void upright(const CheckedRun& run, Check& made) {
   if (found->over && judged.periods == 0) {
     const double period = run.summary.set_point_period;
     found = report::upright(run.scenario, run.record, judged, period);
-    made.text = fmt::format("the robot turns over at {:.2f} s, and the run is too short to show whether it rolls", *found->over);
+    made.text =
+        fmt::format("the robot turns over at {:.2f} s, and the run is too short to show whether it rolls", *found->over);
     const bool early = run.record.simulated < kPeriodsNeeded * period;
     if (!found->rolls && early && run.record.simulated - *found->over < period) return;
   }

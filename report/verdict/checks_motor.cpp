@@ -12,6 +12,7 @@
 #include "core/settings/wording.h"
 #include "report/analysis/row_statistics.h"
 #include "report/verdict/checks.h"
+#include "report/verdict/load_checks.h"
 #include "report/verdict/number_texts.h"
 
 namespace gaitlab::report {
@@ -348,17 +349,26 @@ void heat(const CheckedRun& run, Check& made) {
 }
 
 void gear_peak(const CheckedRun& run, Check& made) {
-  const std::vector<ErrorBar> bars =
-      rated(run, made, kTorquePeak, "no largest torque of the gears is stated (actuator.gear_torque_peak)",
-            run.limits().warn_share, 1, [&](std::size_t j) {
-              const JudgedJoint& joint = run.summary.judged.whole[j];
-              return Rated{joint.torque_peak, run.motors.joint(j).gear_peak.value_or(0), joint.torque_peak_time};
-            });
+  const auto rating = [&](std::size_t j) { return run.motors.joint(j).gear_peak.value_or(0); };
+  const std::vector<ErrorBar> bars = rated(
+      run, made, kTorquePeak, "no largest torque of the gears is stated (actuator.gear_torque_peak)", run.limits().warn_share,
+      1, [&](std::size_t j) {
+        const JudgedJoint& joint = run.summary.judged.whole[j];
+        const std::optional<GearPeak> passed = gear_load(run.record, j, rating(j));
+        return Rated{passed ? passed->torque : joint.torque_peak, rating(j), passed ? passed->time : joint.torque_peak_time};
+      });
   if (made.status == CheckStatus::not_judged) return;
-  find_first(
-      run, 0, kTorquePeak,
-      [&](std::size_t j, double now, double) { return now > run.motors.joint(j).gear_peak.value_or(kNever); }, made);
-  made.text = fmt::format("the gear of joint {} takes up to {:.3g} N m of {:.3g} N m", made.worst, made.value, made.limit);
+  for (std::size_t j = 0; j < run.summary.judged.joints.size(); ++j) {
+    const std::optional<GearPeak> passed = gear_load(run.record, j, rating(j));
+    if (!passed || !passed->beyond || *passed->beyond >= made.first || !run.judges(j, made.span)) continue;
+    made.first = *passed->beyond;
+    made.first_part = run.joint(j);
+  }
+  if (made.first_part.empty()) {
+    find_first(
+        run, 0, kTorquePeak, [&](std::size_t j, double now, double) { return rating(j) > 0 && now > rating(j); }, made);
+  }
+  made.text = fmt::format("the gear of joint {} passes on up to {:.3g} N m of {:.3g} N m", made.worst, made.value, made.limit);
   widen(run.scenario, bars, made);
 }
 

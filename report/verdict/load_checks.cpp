@@ -112,6 +112,22 @@ Connector weaker(const Robot& robot, std::size_t module, DockQuantity quantity) 
 
 }  // namespace
 
+std::optional<GearPeak> gear_load(const Recording& record, std::size_t joint, double limit) {
+  const std::size_t column = record.loads.find(fmt::format("gear.{}.torque", joint));
+  if (column == record.loads.columns.size() || record.loads.rows() == 0) return {};
+  const Series torque(record.loads, column);
+  const Series time(record.loads, 0);
+  GearPeak peak;
+  for (std::size_t row = 0; row < torque.size(); ++row) {
+    const double now = std::abs(torque[row]);
+    if (limit > 0 && now > limit && !peak.beyond) peak.beyond = time[row];
+    if (!(now > peak.torque)) continue;
+    peak.torque = now;
+    peak.time = time[row];
+  }
+  return peak;
+}
+
 std::vector<double> dock_limits(const Robot& robot, DockQuantity quantity) {
   std::vector<double> limits;
   for (std::size_t m = 0; m < robot.modules.size(); ++m) limits.push_back(stated(weaker(robot, m, quantity), quantity));

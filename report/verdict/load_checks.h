@@ -1,5 +1,6 @@
 // Checks of a verdict on the loads of docks and feet (Recording::loads).
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "report/verdict/verdict.h"
@@ -25,5 +26,15 @@ void judge_slip(const Scenario& scenario, const Recording& record, const Summary
 /// Least distance of the centre of mass from the edge of the support polygon, positive inside. It is a note without a limit and
 /// always passes, because a dynamic gait may leave the support polygon.
 void judge_stability(const Scenario& scenario, const Recording& record, const Summary& summary, Check& made);
+
+/// Largest torque that a gear passes on in a run.
+struct GearPeak {
+  double torque = 0, time = 0;        ///< N m, s
+  std::optional<double> beyond = {};  ///< s, time when the torque was first above the limit
+};
+
+/// Peak of a joint's gear, from the column `gear.J.torque` of the loads; nothing without that column. `limit` (N m) is no limit
+/// if it is 0.
+std::optional<GearPeak> gear_load(const Recording& record, std::size_t joint, double limit);
 
 }  // namespace gaitlab::report

@@ -231,8 +231,8 @@ Lines nearest_to_rest(const RunData& run) {
   if (rest.size() != joints.size() || Judged::limited(joints) > 0) return {};
   for (std::size_t j = 1; j < joints.size(); ++j) nearest = share(j) > kLarger * share(nearest) ? j : nearest;
   if (!(share(nearest) > 0)) return {};
-  return {fmt::format("at most {:.0f} % of what a motor holds at rest, apart from gear losses ({}, {:.3f} N m)", 100 * share(nearest),
-                      joint_name(run, nearest), rest[nearest])};
+  return {fmt::format("at most {:.0f} % of what a motor holds at rest, apart from gear losses ({}, {:.3f} N m)",
+                      100 * share(nearest), joint_name(run, nearest), rest[nearest])};
 }
 
 }  // namespace

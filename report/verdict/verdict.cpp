@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/settings/wording.h"
 #include "report/analysis/motion.h"
 #include "report/analysis/plugin_names.h"
 #include "report/analysis/row_statistics.h"
@@ -204,6 +205,9 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
   made.chosen_motors = std::ranges::any_of(motors, chosen);
   made.chosen_docks = std::ranges::any_of(docks, chosen);
   made.figures = figures_sentence(motors, docks);
+  // A stiffer ground leaves speeds as they are, but an impact bends docks by half as much again.
+  if (!docks.empty() && scenario.ground.exists() && scenario.contact.model().penalty_settings)
+    made.figures += fmt::format(", and at impacts contact.stiffness {}", number_text(scenario.contact.penalty.kn));
   for (const FaultSpan& fault : run.faults) {
     if (fault.from >= record.simulated) continue;
     const std::string until = std::isfinite(fault.to) ? fmt::format(" to {:.4g} s", fault.to) : "";

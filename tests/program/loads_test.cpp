@@ -5,6 +5,7 @@
 
 #include "core/model/pattern.h"
 #include "core/recording/recording_file.h"
+#include "report/verdict/load_checks.h"
 #include "tests/oracles/blocks.h"
 #include "tests/program/block.h"
 #include "tests/program/engines.h"
@@ -246,6 +247,27 @@ trace: {{period: 2e-4, columns: [reaction.m1/dock.*]}}
   for (std::size_t row = 0; row < record.loads.rows(); ++row) watched = std::max(watched, load(record, row, "dock.1.bending"));
   EXPECT_LT(at_ticks, 0.8 * dense) << "control ticks alone miss it";
   EXPECT_NEAR(watched, dense, 0.05 * dense);
+}
+
+/// A pendulum whose rotor has the inertia of the rod, m l^2 / 3, and whose motor has no torque. The gear passes on what turns
+/// the rotor: half of the weight's moment m g l/2 sin(q), most at the start, where q = 1.
+TEST_P(LoadsOf, AGearThatTurnsItsRotor) {
+  const Scenario s =
+      shipped("pendulum.yaml",
+              {"actuator={type: dc_motor, Kt: 0, gear: 100, rotor_inertia: 3.3333333333333335e-5, gear_torque_peak: 2}",
+               "physics.engine=" + GetParam(), "duration=1"});
+  const Recording record = run_with_loads(s);
+  const double half = 0.5 * 9.81 * 0.5 * std::sin(1.0);
+  EXPECT_NEAR(std::abs(load(record, 0, "gear.0.torque")), half, 1e-6);
+  const std::optional<report::GearPeak> peak = report::gear_load(record, 0, 2);
+  ASSERT_TRUE(peak);
+  EXPECT_NEAR(peak->torque, half, 1e-6);
+  EXPECT_EQ(peak->time, 0);
+  EXPECT_EQ(peak->beyond, 0.0);
+  const report::Verdict verdict = report::verdict(s, record, report::summarise(s, record, 0), report::overlaps(s, record));
+  const report::Check& check = *std::ranges::find(verdict.checks, "gear_peak", &report::Check::id);
+  EXPECT_EQ(check.status, report::CheckStatus::fail) << check.text;
+  EXPECT_NEAR(check.value, half, 1e-6);
 }
 
 TEST(Loads, OfFeetAreThoseOfTheirContactElements) {

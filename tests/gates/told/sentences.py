@@ -117,7 +117,7 @@ JUDGED = {
     "speed": r"joint {worst} turns at up to {value:.3g} rad/s of {limit:.3g} rad/s(?:, more than it is rated for|, faster than its "
              r"motor can drive it: the load does)?",
     "heat": r"the motor of joint {worst} takes {value:.3g} A RMS, {share:pct} of its continuous rating" + WITHIN,
-    "gear_peak": r"the gear of joint {worst} takes up to {value:.3g} N m of {limit:.3g} N m" + WITHIN,
+    "gear_peak": r"the gear of joint {worst} passes on up to {value:.3g} N m of {limit:.3g} N m" + WITHIN,
     "gear_continuous": r"the gear of joint {worst} takes {value:.3g} N m RMS of {limit:.3g} N m" + WITHIN,
     "tracking": r"joint {worst} is up to {value:th} rad from its set point",
     "stops": r"no joint leaves its range|{parts:d} joints? leaves? the range of the hinge; worst {worst}: (?:by {angle:.3g} rad, "
