@@ -105,6 +105,15 @@ def turned(record):
     return np.arccos(np.clip((r @ axis)[:, 2], -1, 1))
 
 
+def tilted(record):
+    """The smaller of the angles of turned() and of the mean axis of all bodies, weighted by mass, that pointed upwards at the start."""
+    motion, mean = record.motion(), 0
+    for body in record.robot.bodies:
+        r = motion[body.name][1]
+        mean = mean + body.mass * (r @ (r[0].T @ np.array([0, 0, 1.0])))
+    return np.minimum(turned(record), np.arccos(np.clip(mean[:, 2] / np.linalg.norm(mean, axis=1), -1, 1)))
+
+
 def steps_of_turn(record):
     """Rotation vectors of the base from tick to tick, in world axes."""
     r = record.rotation()
@@ -149,7 +158,7 @@ def rolls(record, window, period):
 def upright(record, window, period):
     if not record.floating:
         return Told()
-    tilt, t, limits = turned(record), record.poses["t"], record.limits
+    tilt, t, limits = tilted(record), record.poses["t"], record.limits
     k = int(np.argmax(tilt))
     over = np.flatnonzero(tilt > QUARTER)
     told = Told("pass", tilt[k], QUARTER, margin=margin(tilt[k], QUARTER), start=t[k], end=t[k], also={"tilt": limits["tilt"]})

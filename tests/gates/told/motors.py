@@ -100,12 +100,13 @@ def at_limit(record, window, kind):
 
 
 def first_in(told, record, row, beyond):
-    """Time (end of the row) and name of the joint that was first beyond its limit after a row of ticks."""
+    """Time (end of the row) and name of the joint that was first beyond its limit after a row of ticks; -1 if `beyond` has the row at
+    the start, too."""
     beyond = beyond & record.driven[None, :]
-    rows = np.flatnonzero(beyond[row:].any(axis=1))
+    rows = np.flatnonzero(beyond[max(row, 0):].any(axis=1))
     if len(rows):
         told.first = record.t[row + rows[0] + 1]
-        told.first_parts = [record.names[j] for j in np.flatnonzero(beyond[row + rows[0]])]
+        told.first_parts = [record.names[j] for j in np.flatnonzero(beyond[max(row, 0) + rows[0]])]
         told.first_part = told.first_parts[0]
 
 
@@ -202,8 +203,15 @@ def heat(record, window):
 def gear_peak(record, window):
     if not record.driven.any():
         return Told()
-    values, rows = peaks(record, "torque_peak", 0)
-    return of_rating(record, values, "gear_torque_peak", rows, "torque_peak")
+    names = [f"gear.{j}.torque" for j in range(record.count)]
+    if record.loads is None or not any(name in record.loads for name in names):
+        values, rows = peaks(record, "torque_peak", 0)
+        return of_rating(record, values, "gear_torque_peak", rows, "torque_peak")
+    table = np.stack([np.abs(record.loads[name]) if name in record.loads else np.zeros(len(record.loads)) for name in names], -1)
+    told = of_rating(record, table.max(axis=0), "gear_torque_peak", np.maximum(table.argmax(axis=0), 1))
+    if told.status != "not judged":
+        first_in(told, record, -1, table > record.ratings["gear_torque_peak"])
+    return told
 
 
 def gear_continuous(record, window):

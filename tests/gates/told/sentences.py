@@ -109,8 +109,8 @@ JUDGED = {
     "progress": r"the robot goes {value:.3g} m (?:per period|in the judged time)(?:, less than {limit:.3g} m)?"
                 r"|the robot slides down: gravity does {fallen:.3g} J of work, the motors {driven:.3g} J, and its speed grows "
                 r"{value:.3g} times from the first half of the judged time to the second",
-    "upright": r"the base turns over at {from:.2f} s: it tilts by up to {value:.3g} rad from its start"
-               r"|the base tilts by up to {value:.3g} rad from its start(?:, more than {tilt:.3g} rad \(limits\.tilt\))?",
+    "upright": r"the robot turns over at {from:.2f} s: it tilts by up to {value:.3g} rad from its start"
+               r"|the robot tilts by up to {value:.3g} rad from its start(?:, more than {tilt:.3g} rad \(limits\.tilt\))?",
     "voltage": f"(?:{LIMITED})" + NEAR,
     "current": f"(?:{LIMITED})" + NEAR,
     "envelope": r"the torque of joint {worst} is {value:pct} of its (?:motor|actuator)'s limit at that speed",
@@ -183,7 +183,7 @@ NOT_JUDGED = (
     r"judged only for a floating base(?: above a ground| on a ground| that gravity holds on a ground, if the ground's forces are "
     r"recorded)?"
     r"|the base rolls: it makes a whole turn in every period"
-    r"|the base turns over at {over:.2f} s, and the run is too short to show whether it rolls"
+    r"|the robot turns over at {over:.2f} s, and the run is too short to show whether it rolls"
     r"|nothing drives the joints(?:, or statistics of all steps were not recorded)?"
     r"|the actuator (?:is not made of DC motors, and has no voltage|states no limit|has torque at any speed, and states no "
     r"largest speed)"
