@@ -22,7 +22,7 @@ LINES = {
               r"(?: first of the run: {first} at t = {first_time:.2f} s \((?:voltage|current)\))?",
     "torque": r"{longest}: peak " + AT.replace("%s", "") + r" RMS {rms:.3f} N m(?: largest: {strongest}: " +
               AT.replace("%s", "strongest_") + r")?(?: before: {ever_strongest}: " + AT.replace("%s", "ever_") + r")?"
-              r"(?: at most {of_rest:.0f} % of a motor's torque at rest \({rest_joint}, {rest:.3f} N m\))?",
+              r"(?: at most {of_rest:.0f} % of what a motor holds at rest, apart from gear losses \({rest_joint}, {rest:.3f} N m\))?",
     "tracking": r"{far}: {error:th} rad at t = {error_time:.2f} s(?: before: {ever_far}: {ever_error:th} rad at t = "
                 r"{ever_error_time:.2f} s)?",
     "range": r"{beyond:d} of {joints:d} joints beyond their range, {farthest} farthest: {excess:.3g} rad, {excess_share:pct} of the time; "
