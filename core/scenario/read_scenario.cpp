@@ -121,7 +121,7 @@ class ScenarioReader {
     if (node == nullptr) return;  // read_sections() reports it
     Reader reader(*node, "robot", problems_, nullptr);
     const Elsewhere elsewhere = key_search(catalog_, root_, scenario_);
-    reader.elsewhere(&elsewhere);
+    reader.elsewhere(&elsewhere, "robot");
     if (node->kind != Node::Kind::map) return;
     RobotParts parts = read_robot(reader, node->place, folder_, problems_);
     BaseFields base{scenario_};
