@@ -108,7 +108,9 @@ TEST(Node, OnlyTextIsRead) {
 
 TEST(Node, SyntaxErrorsHaveAPlace) {
   EXPECT_EQ(error("a: [1, 2\n"), "f:1:4: error: not valid YAML: the [ opened here is not closed; expected ]");
-  EXPECT_EQ(error("a: b: c\n"), "f:1:5: error: not valid YAML: illegal map value");
+  EXPECT_EQ(error("a: b: c\n"),
+            "f:1:5: error: not valid YAML: found a second colon in 'b: c'; expected braces, {b: c}, a text in quotes, or a "
+            "line for each key");
 }
 
 TEST(Node, AMissingFileIsReportedWhereItWasAskedFor) {
