@@ -106,6 +106,7 @@ class ModuleReader {
       problems_.add(bodies->place, fmt::format("bodies is {}; expected a map with at least one NAME: {{mass: ...}}", what));
       return;
     }
+    const std::size_t before = problems_.size();
     for (std::size_t i = 0; i < bodies->items.size(); ++i) {
       const auto& [name, place] = bodies->keys[i];
       Node key{Node::Kind::scalar, place};
@@ -115,6 +116,7 @@ class ModuleReader {
       type_.bodies.push_back({name});
       read_body(bodies->items[i], place, places_.format, type_.bodies.back(), problems_);
     }
+    bodies_are_sound_ = problems_.size() == before;
   }
 
   /// Index of the body that `key` names. Adds a problem for an unknown body.
@@ -256,7 +258,8 @@ class ModuleReader {
       return false;
     }
     const auto shaped = [](const BodyType& body) { return !body.shapes.empty(); };
-    if (places_.format >= kFormatOfShapes && std::none_of(type_.bodies.begin(), type_.bodies.end(), shaped)) {
+    if (bodies_are_sound_ && places_.format >= kFormatOfShapes &&
+        std::none_of(type_.bodies.begin(), type_.bodies.end(), shaped)) {
       problems_.add(node->place, fmt::format("{} is shapes, but no body has a shape; expected a list of maps", key));
     }
     return true;
@@ -284,6 +287,7 @@ class ModuleReader {
   ModuleType type_;
   ModulePlaces places_;
   std::vector<std::string> names_;
+  bool bodies_are_sound_ = true;  ///< false if a body has a fault, such as a missing shape
   bool feet_of_shapes_ = false, all_of_shapes_ = false, feet_are_all_ = false;
 };
 
