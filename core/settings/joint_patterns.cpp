@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 #include <unordered_set>
 
 #include "core/errors.h"
@@ -69,6 +70,7 @@ std::vector<std::size_t> joints_of(const std::string& text, const std::vector<st
 std::string no_joint(const std::string& text, const std::vector<std::string>& joints, const std::string& part,
                      const JointGroups& groups) {
   if (!joints_of(text, joints, groups).empty()) return "";
+  if (group_named(text, groups) != nullptr) return "";  // the group has a fault, which is reported where it is given
   if (!is_pattern(text)) {
     const std::string range = range_beside(text, joints);
     std::vector<std::string> known = joints;
@@ -87,6 +89,17 @@ std::string not_one_joint(const std::string& text, const std::vector<std::string
   if (group_named(text, groups) != nullptr) return in_quotes(text) + " is a group; expected the name of one " + part;
   return is_pattern(text) ? in_quotes(text) + " is a pattern; expected the name of one " + part
                           : no_joint(text, joints, part, groups);
+}
+
+std::vector<std::string> column_patterns(const std::string& pattern, const std::vector<std::string>& joints,
+                                         const JointGroups& groups) {
+  const std::size_t begin = std::string_view(kJointColumn).size();
+  const std::size_t end = pattern.rfind('.');
+  std::vector<std::string> patterns{pattern};
+  if (!pattern.starts_with(kJointColumn) || end < begin) return patterns;
+  for (const std::size_t j : joints_of(pattern.substr(begin, end - begin), joints, groups))
+    patterns.push_back(kJointColumn + std::to_string(j) + pattern.substr(end));
+  return patterns;
 }
 
 std::vector<std::string> joints_meant(const std::vector<std::string>& list, const std::vector<std::string>& joints,

@@ -33,6 +33,13 @@ std::string no_joint(const std::string& text, const std::vector<std::string>& jo
 std::string not_one_joint(const std::string& text, const std::vector<std::string>& joints, const std::string& part = "joint",
                           const JointGroups& groups = {});
 
+inline constexpr const char* kJointColumn = "joint.";  ///< head of the columns of a joint, before its number
+
+/// Patterns of the columns that `joint.JOINT.PART` means, where JOINT is a name, pattern or group: the text itself, for numbers
+/// of joints, and `joint.NUMBER.PART` for each of these joints.
+std::vector<std::string> column_patterns(const std::string& pattern, const std::vector<std::string>& joints,
+                                         const JointGroups& groups);
+
 /// Names of the joints that match a list of names, patterns and groups, in the order of the list. A pattern or group adds the
 /// joints that no earlier entry names. Texts that match no joint are kept.
 std::vector<std::string> joints_meant(const std::vector<std::string>& list, const std::vector<std::string>& joints,
