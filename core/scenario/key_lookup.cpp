@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/plugin/plugin_instance.h"
+#include "core/robot_files/module_manual.h"
 #include "core/scenario/manual.h"
 #include "core/settings/wording.h"
 
@@ -114,6 +115,12 @@ std::vector<ScenarioKey> all_keys(const Catalog& catalog) {
       add_rows(plugin_keys(*entry), std::string(kind.section) + ".", entry, keys);
     }
   }
+  return keys;
+}
+
+std::vector<ScenarioKey> module_keys() {
+  std::vector<ScenarioKey> keys;
+  add_rows(module_rows(), "", nullptr, keys);
   return keys;
 }
 
