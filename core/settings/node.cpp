@@ -69,6 +69,8 @@ class TreeBuilder final : public YAML::EventHandler {
     // A quoted scalar has the tag "!" implicitly. An explicit tag starts with '!' in the text.
     const bool explicit_tag = tag != "?" && (tag != "!" || character(mark) == '!');
     check_tag(mark, explicit_tag, tag);
+    if (node.quoted && !explicit_tag && !is_closed(*text_, node.position))  // the parser accepts it
+      stop(node.place, fmt::format("not valid YAML: the {0} opened here is not closed; expected {0}", character(mark)));
     add(std::move(node));
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,

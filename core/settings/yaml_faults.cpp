@@ -188,6 +188,21 @@ Problem yaml_fault(const std::string& text, const std::string& file, int line) {
   return misplaced;
 }
 
+bool is_closed(const std::string& text, std::size_t position) {
+  const char quote = position < text.size() ? text[position] : '\0';
+  if (quote != '"' && quote != '\'') return true;
+  for (std::size_t i = position + 1; i < text.size(); ++i) {
+    if (quote == '"' && text[i] == '\\') {
+      ++i;
+    } else if (text[i] == quote) {
+      const bool doubled = quote == '\'' && i + 1 < text.size() && text[i + 1] == quote;
+      if (!doubled) return true;
+      ++i;
+    }
+  }
+  return false;
+}
+
 std::string yaml_fault_in_words(const std::string& parser, const std::string& line, std::size_t column) {
   if (parser == YAML::ErrorMsg::MAP_VALUE) {
     const std::size_t colon = line.find(": ");
@@ -196,7 +211,8 @@ std::string yaml_fault_in_words(const std::string& parser, const std::string& li
     return fmt::format("found a second colon in {}; expected braces, {{{}}}, a text in quotes, or a line for each key",
                        in_quotes(value), clipped(value));
   }
-  if (parser == YAML::ErrorMsg::UNKNOWN_TOKEN && column < line.size()) {
+  const bool alias = parser.starts_with(YAML::ErrorMsg::UNKNOWN_ANCHOR);
+  if ((alias || parser == YAML::ErrorMsg::UNKNOWN_TOKEN) && column < line.size()) {
     const bool pattern = line[column] == '?' || line[column] == '*';  // the caller adds a remedy
     return fmt::format("found {} outside of quotes{}", line[column], pattern ? "" : "; expected the text in quotes");
   }

@@ -40,8 +40,11 @@ TEST(YamlFaults, QuotesThatAreNotClosed) {
   EXPECT_EQ(yaml_error("a: {b: \"c}\n"), "f:1:8" + open);
   EXPECT_EQ(yaml_error("a: {b: \"c}\nd: \"e\"\n"), "f:1:8" + open) << "closed by the next quote";
   EXPECT_EQ(yaml_error("a: \"b\nc: \"d\"\n"), "f:1:4" + open);
-  EXPECT_EQ(yaml_error("a: \"b \\\" c\n"), "f:1:4" + open) << "a quote after a backslash is part of the text";
+  EXPECT_EQ(yaml_error("a: {b: \"c \\\" d}\n"), "f:1:8" + open) << "a quote after a backslash is part of the text";
+  EXPECT_EQ(yaml_error("a: \"b \\\" c\n"), "f:1:4" + open) << "at the end of the text";
   EXPECT_EQ(yaml_error("a: 'it''s\n"), "f:1:4: error: not valid YAML: the ' opened here is not closed; expected '");
+  EXPECT_EQ(yaml_error("a: \"\\\\\"\nb: ''\nc: ''''\n\"d\": 1\n"), "no error");
+  EXPECT_EQ(yaml_error("a: {b: 'it''s}\n"), "f:1:8: error: not valid YAML: the ' opened here is not closed; expected '");
 }
 
 TEST(YamlFaults, TextsAfterAValue) {
