@@ -26,7 +26,7 @@ std::string refused_name(const std::string& name, const std::vector<std::string>
   return in_quotes(name) + " is not a name of a group; expected a letter, then letters, digits, _ and -, and not default";
 }
 
-/// The message for a member that is no joint, or "". `groups` is the section.
+/// The message for a member that matches no joint, or "". `groups` is the section.
 std::string refused_member(const std::string& member, const std::vector<std::string>& joints, const Node& groups) {
   const bool group = groups.find(member) != nullptr && joints_of(member, joints).empty();
   return group ? in_quotes(member) + " is a group; expected a joint or a pattern" : no_joint(member, joints);

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string_view>
+#include <charconv>
 #include <unordered_set>
 
 #include "core/errors.h"
@@ -91,15 +91,23 @@ std::string not_one_joint(const std::string& text, const std::vector<std::string
                           : no_joint(text, joints, part, groups);
 }
 
-std::vector<std::string> column_patterns(const std::string& pattern, const std::vector<std::string>& joints,
-                                         const JointGroups& groups) {
-  const std::size_t begin = std::string_view(kJointColumn).size();
-  const std::size_t end = pattern.rfind('.');
-  std::vector<std::string> patterns{pattern};
-  if (!pattern.starts_with(kJointColumn) || end < begin) return patterns;
-  for (const std::size_t j : joints_of(pattern.substr(begin, end - begin), joints, groups))
-    patterns.push_back(kJointColumn + std::to_string(j) + pattern.substr(end));
-  return patterns;
+ColumnChoice::ColumnChoice(std::string text, const std::vector<std::string>& joints, const JointGroups& groups)
+    : text_(std::move(text)), chosen_(joints.size(), false) {
+  const std::size_t end = text_.rfind('.');
+  for (const std::string head : {"joint.", "reaction."}) {
+    if (!text_.starts_with(head) || end < head.size()) continue;
+    head_ = head;
+    part_ = text_.substr(end);
+    for (const std::size_t j : joints_of(text_.substr(head.size(), end - head.size()), joints, groups)) chosen_[j] = true;
+  }
+}
+
+bool ColumnChoice::has(const std::string& column) const {
+  if (glob(text_, column)) return true;
+  if (head_.empty() || !column.starts_with(head_)) return false;
+  std::size_t joint = 0;
+  const auto read = std::from_chars(column.data() + head_.size(), column.data() + column.size(), joint);
+  return read.ec == std::errc() && joint < chosen_.size() && chosen_[joint] && glob(part_, read.ptr);
 }
 
 std::vector<std::string> joints_meant(const std::vector<std::string>& list, const std::vector<std::string>& joints,

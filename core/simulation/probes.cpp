@@ -262,10 +262,9 @@ std::vector<bool> matched(const Scenario& scenario, const std::vector<Column>& c
   }
   for (const std::string& pattern : scenario.trace.columns) {
     bool found = false;
-    const std::vector<std::string> meant = column_patterns(pattern, joints, scenario.groups);
+    const ColumnChoice choice(pattern, joints, scenario.groups);
     for (std::size_t i = 0; i < columns.size(); ++i) {
-      const auto is_meant = [&](const std::string& one) { return glob(one, columns[i].name); };
-      if (std::ranges::none_of(meant, is_meant)) continue;
+      if (!choice.has(columns[i].name)) continue;
       wanted[i] = found = true;
     }
     // The default patterns include joint.*, and segment in a scenario with changes.
