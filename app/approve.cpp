@@ -13,6 +13,7 @@
 
 #include "app/commands.h"
 #include "app/progress.h"
+#include "app/study/study_text.h"
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
 #include "core/recording/column_names.h"
@@ -263,13 +264,22 @@ int approve(const ApproveArguments& arguments) {
   return 0;
 }
 
+/// The file to approve. A scenario that comes with the program is refused.
+std::string own_scenario(const std::string& word) {
+  const std::string file = named_file(word);
+  if (file == word) return word;
+  throw InputError(
+      SourceLocation{word},
+      fmt::format("comes with gaitlab, and its golden is written beside it; copy it first: cp {} .", shell_word(file)));
+}
+
 }  // namespace
 
 void add_approve(Commands& commands) {
   add_command<ApproveArguments>(
       commands, "approve", "Record the scenario's present torques as its reference (golden), with tolerance bands.", approve,
       [](CLI::App& command, ApproveArguments& arguments) {
-        command.add_option("SCENARIO", arguments.file, "scenario file (YAML)")->required();
+        command.add_option("SCENARIO", arguments.file, "scenario file (YAML)")->required()->transform(own_scenario);
         command.add_option("--reason", arguments.reason, "why these numbers are right; kept in the golden");
         command.add_flag("--calibrate", arguments.calibrate,
                          "compute new bands from further runs, even if this run is within the old bands");

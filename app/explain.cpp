@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "app/commands.h"
 #include "app/listed_kinds.h"
@@ -27,25 +28,86 @@ constexpr WholeManual kWhole[] = {{"scenario", explain_scenario},
                                   {"study", [](const Catalog&) { return studies::explain_study(); }},
                                   {"verdict", [](const Catalog&) { return report::explain_verdict(); }}};
 
+/// A path of keys without the marks of lists and names: `hinges.axis` for `hinges[].axis`.
+std::string plain_path(std::string path) {
+  for (const std::string mark : {"[]", ".NAME"}) {
+    for (std::size_t at = path.find(mark); at != std::string::npos; at = path.find(mark, at)) path.erase(at, mark.size());
+  }
+  return path;
+}
+
+/// True if `word` is one of the words that a key permits, as its row lists them: `bullet | articulated`.
+bool permits(const KeyRow& row, const std::string& word) {
+  const std::string range = " " + row.range + " ";
+  const std::size_t at = range.find(" " + word + " ");
+  return range.find(" | ") != std::string::npos && at != std::string::npos;
+}
+
+/// Adds the rows of the keys for which `fits` is true, with their paths, and with the plugin or file that has them.
+template <class Fits>
+void add_rows(const std::vector<ScenarioKey>& keys, const char* file, Fits fits, std::vector<KeyRow>& rows) {
+  for (const ScenarioKey& key : keys) {
+    if (!fits(key)) continue;
+    rows.push_back(key.row);
+    rows.back().key = key.path + file;
+    if (key.plugin != nullptr) rows.back().key += fmt::format(" ({} {})", word(key.plugin->kind), key.plugin->name);
+  }
+}
+
+/// Adds the rows of a section, or else of every key with this name.
+void add_named(const std::string& word, const std::vector<ScenarioKey>& keys, const char* file, std::vector<KeyRow>& rows) {
+  const bool section = word.find('.') == std::string::npos;
+  const std::size_t before = rows.size();
+  const auto within = [&](const ScenarioKey& key) {
+    const std::string path = plain_path(key.path);
+    // Plugins have manuals of their own.
+    return !(section && key.plugin != nullptr) && (path == word || path.starts_with(word + "."));
+  };
+  add_rows(keys, file, within, rows);
+  if (rows.size() > before) return;
+  add_rows(
+      keys, file, [&](const ScenarioKey& key) { return plain_path(key.path).ends_with("." + word); }, rows);
+}
+
+constexpr const char* kInModule = " (module file)";
+
 /// The keys of a section of the scenario, or every key with a name, with their paths.
 std::string explain_keys(const std::string& word, const Catalog& catalog) {
-  const bool section = word.find('.') == std::string::npos;
-  const auto within = [&](const ScenarioKey& key) {
-    if (section && key.plugin != nullptr) return false;  // they have a manual of their own
-    return key.path == word || key.path.starts_with(word + ".") || key.path.starts_with(word + "[");
-  };
-  const auto named = [&](const ScenarioKey& key) { return key.path.ends_with("." + word); };
-  const std::vector<ScenarioKey> keys = all_keys(catalog);
-  std::vector<ScenarioKey> found;
-  std::ranges::copy_if(keys, std::back_inserter(found), within);
-  if (found.empty()) std::ranges::copy_if(keys, std::back_inserter(found), named);
   std::vector<KeyRow> rows;
-  for (const ScenarioKey& key : found) {
-    rows.push_back(key.row);
-    rows.back().key = key.path;
-    if (key.plugin != nullptr) rows.back().key += fmt::format(" ({} {})", gaitlab::word(key.plugin->kind), key.plugin->name);
-  }
+  add_named(word, all_keys(catalog), "", rows);
   return rows.empty() ? "" : table(rows);
+}
+
+/// The keys of scenario and module files that a word names, and those whose value it may be.
+std::string explain_everywhere(const std::string& word, const Catalog& catalog) {
+  const std::vector<ScenarioKey> scenario = all_keys(catalog);
+  const std::vector<ScenarioKey> module = module_keys();
+  std::vector<KeyRow> rows;
+  add_named(word, scenario, "", rows);
+  add_named(word, module, kInModule, rows);
+  const auto permitted = [&](const ScenarioKey& key) { return permits(key.row, word); };
+  add_rows(scenario, "", permitted, rows);
+  add_rows(module, kInModule, permitted, rows);
+  std::string text = rows.empty() ? "" : table(rows);
+  for (const std::string& name : catalog.engines()) {
+    const std::vector<std::string> integrators = catalog.engine(name)->integrator_names();
+    if (std::ranges::find(integrators, word) != integrators.end())
+      text += fmt::format("{}: integrator of engine {} (gaitlab explain engine {})\n", word, name, name);
+  }
+  return text;
+}
+
+/// Meaning of the name of a joint or body, such as m0/hinge; "" for other words.
+std::string explain_part(const std::string& word) {
+  const std::size_t slash = word.find('/');
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  if (slash == std::string::npos || slash < 2 || word[0] != 'm' ||
+      !std::all_of(word.begin() + 1, word.begin() + static_cast<std::ptrdiff_t>(slash), digit))
+    return "";
+  return wrapped(
+      fmt::format("{0}: a joint or body of the robot, {1} of module {2}. Settings per joint take it as a key: "
+                  "cpg.amplitude: {{default: 0.4, {0}: 0.3}}. `gaitlab check SCENARIO` lists the joints.",
+                  word, word.substr(slash + 1), word.substr(1, slash - 1)));
 }
 
 /// The names of a kind, and the keys of its section of the scenario, if it has one.
@@ -80,28 +142,32 @@ std::string explain_name(const std::string& name, Catalog& catalog) {
     for (const std::string& name : kind.names(catalog)) all.push_back(name);
   }
   all.insert(all.begin(), kinds.begin(), kinds.end());
-  for (const ScenarioKey& key : all_keys(catalog)) all.push_back(key.path.substr(key.path.rfind('.') + 1));
+  for (const std::vector<ScenarioKey>& keys : {all_keys(catalog), module_keys()}) {
+    for (const ScenarioKey& key : keys) all.push_back(plain_path(key.path).substr(plain_path(key.path).rfind('.') + 1));
+  }
   const std::string near = nearest(word, all);
   throw InputError(
       SourceLocation{"gaitlab explain"},
       fmt::format("nothing is named {}; {}", in_quotes(word),
                   near.empty() ? fmt::format("expected a kind ({}), a name that `gaitlab list` prints, or a key of "
-                                             "the scenario",
+                                             "a scenario or module file",
                                              fmt::join(kinds, ", "))
                                : "did you mean " + in_quotes(near) + "?"));
 }
 
-/// Manual of a single word: a kind, a name of any kind, a section or key of the scenario, or a module's file.
+/// Manual of a single word: a kind, a name of any kind, a section or key of a scenario or module file, a word that a key
+/// permits, or a module's file.
 std::string explain_word(const std::string& word, Catalog& catalog) {
   const auto* const whole = std::ranges::find(kWhole, word, &WholeManual::name);
   if (whole != std::end(kWhole)) return whole->text(catalog);
   if (const ListedKind* kind = listed_kind(word)) return explain_kind(*kind, catalog);
   if (std::string text = explain_name(word, catalog); !text.empty()) return text;
-  if (std::string text = explain_keys(word, catalog); !text.empty()) return text;
+  if (std::string text = explain_everywhere(word, catalog); !text.empty()) return text;
   if (const std::optional<FileKind> kind = kind_of_file(word)) {
     if (*kind == FileKind::module) return module_manual(word, catalog);
     throw InputError(SourceLocation{word}, "has no manual" + but_it_is(word));
   }
+  if (std::string text = explain_part(word); !text.empty()) return text;
   refuse_word(word, catalog);
 }
 
@@ -110,15 +176,16 @@ std::string explain_named(const std::string& kind_name, const std::string& name,
   if (kind == nullptr) {
     std::vector<std::string> known;
     for (const ListedKind& one : listed_kinds()) known.push_back(one.name);
-    refuse_unknown("kind", kind_name, known);
+    refuse_unknown("explain", "kind", kind_name, known);
   }
   const std::vector<std::string> names = kind->names(catalog);
   if (std::ranges::find(names, name) != names.end()) return kind->manual(name, catalog);
   const bool module = kind->name == "module";
-  if (module && name.ends_with(".yaml")) return module_manual(name, catalog);
+  std::error_code none;
+  if (module && (name.ends_with(".yaml") || std::filesystem::exists(name, none))) return module_manual(name, catalog);
   const bool plugin = find_kind(kind->name) != nullptr && !plugins;
-  refuse_unknown(kind->name, name, names,
-                 module   ? "; name a type that you wrote by its file, NAME.yaml"
+  refuse_unknown("explain", kind->name, name, names,
+                 module   ? "; name a type that you wrote by its file"
                  : plugin ? "; a plugin that you wrote needs --plugin LIBRARY"
                           : "");
 }
@@ -139,8 +206,8 @@ void add_explain(Commands& commands) {
       commands, "explain", "Print the manual of KIND NAME, or of a single word; without them, that of the scenario file.",
       explain, [](CLI::App& command, ManualArguments& arguments) {
         command.add_option("KIND", arguments.kind,
-                           "a kind of `gaitlab list`; or alone: any name that it prints, a section or key of the scenario, "
-                           "scenario, study, verdict, or a module's file");
+                           "a kind of `gaitlab list`; or alone: any name that it prints, a section or key of a scenario or "
+                           "module file, a word that a key permits, scenario, study, verdict, or a module's file");
         command.add_option("NAME", arguments.name, "name that `gaitlab list` prints, or the file NAME.yaml of a module");
         add_plugins(command, arguments);
       });

@@ -120,9 +120,12 @@ void add_export(Commands& commands) {
       commands, "export", "Write the trace of a run, the robot of a scenario, or how it moved, in another format.", export_to,
       [](CLI::App& command, ExportArguments& arguments) {
         command
-            .add_option("SOURCE", arguments.source.file,
-                        "csv: run folder or trace file; gltf: the same, or a scenario file; mjcf, urdf: scenario file")
-            ->required();
+            .add_option(
+                "SOURCE", arguments.source.file,
+                "csv: run folder or trace file; gltf: the same, or a scenario file; mjcf, urdf: scenario file, or a name "
+                "of `gaitlab list scenarios`")
+            ->required()
+            ->transform(named_file);
         command
             .add_option(
                 "--to", arguments.format,

@@ -27,7 +27,7 @@ int list(const ManualArguments& arguments) {
   const ListedKind* only = listed_kind(arguments.kind);
   std::vector<std::string> known;
   for (const ListedKind& kind : listed_kinds()) known.push_back(kind.name);
-  if (!arguments.kind.empty() && only == nullptr) refuse_unknown("kind", arguments.kind, known);
+  if (!arguments.kind.empty() && only == nullptr) refuse_unknown("list", "kind", arguments.kind, known);
   for (const ListedKind& kind : listed_kinds()) {
     if (only != nullptr && &kind != only) continue;
     fmt::print("{}\n", kind.name);

@@ -129,10 +129,10 @@ std::string name_rows(const ListedKind& kind, Catalog& catalog) {
   return text;
 }
 
-void refuse_unknown(const std::string& what, const std::string& found, const std::vector<std::string>& known,
-                    const std::string& hint) {
+void refuse_unknown(const std::string& command, const std::string& what, const std::string& found,
+                    const std::vector<std::string>& known, const std::string& hint) {
   const std::string near = nearest(found, known);
-  throw InputError(SourceLocation{"gaitlab"},
+  throw InputError(SourceLocation{"gaitlab " + command},
                    fmt::format("unknown {} {}{}; known are {}{}", what, in_quotes(found),
                                near.empty() ? "" : "; did you mean '" + near + "'?", fmt::join(known, ", "), hint));
 }

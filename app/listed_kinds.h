@@ -25,8 +25,8 @@ const ListedKind* listed_kind(const std::string& name);
 std::string name_rows(const ListedKind& kind, Catalog& catalog);
 
 /// Throws InputError for an unknown word: `unknown WHAT 'x'; did you mean 'y'?`, with all known words and a hint.
-[[noreturn]] void refuse_unknown(const std::string& what, const std::string& found, const std::vector<std::string>& known,
-                                 const std::string& hint = "");
+[[noreturn]] void refuse_unknown(const std::string& command, const std::string& what, const std::string& found,
+                                 const std::vector<std::string>& known, const std::string& hint = "");
 
 /// Manual of the module type in a file.
 std::string module_manual(const std::string& file, Catalog& catalog);

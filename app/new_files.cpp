@@ -27,6 +27,7 @@ struct NewFileArguments {
   std::optional<std::string> out;   ///< file to write; the default is NAME.yaml
   std::optional<std::string> from;  ///< URDF file; only for modules
   std::string module = "y1";        ///< name of a shipped module type, or a file; only for scenarios
+  int count = 4;                    ///< number of modules in the row; only for scenarios
 };
 
 /// Checks the name of a module or scenario, which becomes the name of its file.
@@ -86,8 +87,11 @@ NamedModule named_module(const std::string& name) {
   if (fs::exists(name, none)) return {name, false};
   std::vector<std::string> names;
   for (const auto& [one, path] : shipped) names.push_back(one);
-  throw InputError(SourceLocation{"--module"}, "no module " + in_quotes(name) + offer(name, names, "modules") +
-                                                   "; expected a name that `gaitlab list module` prints, or a file");
+  const std::string near = nearest(name, names);
+  throw InputError(SourceLocation{"--module"},
+                   "no module " + in_quotes(name) +
+                       (near.empty() ? "; expected a name that `gaitlab list module` prints, or a file"
+                                     : "; did you mean " + in_quotes(near) + "?"));
 }
 
 /// Value of `robot.modules`: the name of a shipped module, or the path of a file from the folder of the scenario.
@@ -173,7 +177,6 @@ void check_driven(const ModuleType& type, const std::string& file) {
 }
 
 int new_scenario(const NewFileArguments& arguments) {
-  constexpr int kModules = 4;
   const std::string& name = arguments.name;
   check_file_name("scenario", name);
   const NamedModule module = named_module(arguments.module);
@@ -181,7 +184,7 @@ int new_scenario(const NewFileArguments& arguments) {
   const Scenario one = read_module(module.file, catalog);
   const ModuleType& type = one.robot->types[0];
   check_driven(type, module.file);
-  const std::vector<Dock> docks = chain(one, kModules);
+  const std::vector<Dock> docks = chain(one, arguments.count);
   const GaitValues gait = gait_values(type);
   const Surroundings around = surroundings(type);
   const std::pair<const char*, std::string> values[] = {
@@ -226,6 +229,8 @@ void add_new_files(Commands& commands, CLI::App& command) {
         scenario
             .add_option("--module", arguments.module, "name that `gaitlab list module` prints, or a module file (default: y1)")
             ->check(not_empty);
+        scenario.add_option("--count", arguments.count, "number of modules in the row (default: 4)")
+            ->check(CLI::Range(1, 1000));
         add_out(scenario, arguments);
       },
       &command);

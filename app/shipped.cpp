@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -48,8 +50,19 @@ std::string named_file(const std::string& word) {
     if (const auto file = files.find(word); file != files.end()) return file->second;
     for (const auto& [name, path] : files) known.push_back(name);
   }
-  const std::string name = word.ends_with(".yaml") ? word.substr(0, word.size() - 5) : word;
-  const std::string near = std::ranges::find(known, name) != known.end() ? name : nearest(name, known);
+  const std::string name = fs::path(word).stem().string();
+  const bool bare = name == word || word == name + ".yaml";
+  if (bare && shipped_files("module").contains(name)) {
+    throw InputError(
+        SourceLocation{word},
+        fmt::format("this is a module type, not a scenario; make one of it with gaitlab new scenario NAME --module {}", name));
+  }
+  if ((name == word || word == name + ".dat") && shipped_files("robot").contains(name)) {
+    throw InputError(SourceLocation{word},
+                     fmt::format("this is a build file, not a scenario; name it in a scenario, robot: {{build: {}}}", name));
+  }
+  const std::string near =
+      bare && std::ranges::find(known, name) != known.end() ? name : nearest(word.ends_with(".yaml") ? name : word, known);
   if (near.empty()) return word;
   throw InputError(SourceLocation{word}, "there is no such file; did you mean " + in_quotes(near) +
                                              ", which comes with gaitlab (gaitlab list scenarios)?");

@@ -304,8 +304,11 @@ void add_test(Commands& commands) {
   add_command<TestArguments>(
       commands, "test", "Run scenarios and compare them with their goldens; exit code 4: a torque drifted.", test_goldens,
       [](CLI::App& command, TestArguments& arguments) {
-        command.add_option("SCENARIO", arguments.scenarios, "scenario files, or folders of them (default: scenarios)")
-            ->check(not_empty);
+        command
+            .add_option("SCENARIO", arguments.scenarios,
+                        "scenario files, names of `gaitlab list scenarios`, or folders (default: scenarios)")
+            ->check(not_empty)
+            ->transform(named_file);
         command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
         command.add_option("--junit", arguments.junit, "also write the result as JUnit XML to this file")->check(not_empty);
         command.add_option("--engine", arguments.engine,

@@ -1,5 +1,6 @@
 #include "core/files/file_kind.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 #include <string_view>
@@ -66,6 +67,19 @@ std::optional<FileKind> kind_of(const Head& head) {
   return {};
 }
 
+/// Kind of a file that no command takes for a scenario, by its first characters.
+std::optional<FileKind> kind_of_start(std::string_view text) {
+  constexpr std::string_view kResults[] = {"\"verdict\":", "\"real_time_factor\":"};
+  if (text.starts_with("gaitlab-trace") || text.starts_with("\x89HDF"))
+    return FileKind::trace;  // with and without a user block
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  if (text.starts_with("<!doctype html") || text.starts_with("<html")) return FileKind::page;
+  if (text.starts_with("<") && text.find("<robot") != std::string_view::npos) return FileKind::urdf;
+  const auto has = [&](std::string_view key) { return text.find(key) != std::string_view::npos; };
+  if (text.starts_with("{") && std::ranges::any_of(kResults, has) && !has("\"robot\":")) return FileKind::results;
+  return {};
+}
+
 bool is_folder(const std::string& path) {
   std::error_code none;
   return std::filesystem::is_directory(path, none);
@@ -85,7 +99,10 @@ std::string remedy(const FileKindRow& kind, const std::string& path) {
 
 }  // namespace
 
-std::optional<FileKind> kind_of_text(const std::string& text) { return kind_of(head_of(text)); }
+std::optional<FileKind> kind_of_text(const std::string& text) {
+  const std::optional<FileKind> kind = kind_of_start(text);
+  return kind ? kind : kind_of(head_of(text));
+}
 
 std::optional<FileKind> kind_of_file(const std::string& path) {
   if (!is_folder(path)) return kind_of_text(text_of(path));
@@ -93,13 +110,15 @@ std::optional<FileKind> kind_of_file(const std::string& path) {
     std::error_code none;
     if (std::filesystem::exists(std::filesystem::path(path) / name, none)) return FileKind::run;
   }
+  std::error_code none;
+  if (std::filesystem::exists(std::filesystem::path(path) / "golden.json", none)) return FileKind::golden;
   return {};
 }
 
 std::optional<Problem> of_another_kind(const std::string& path, FileKind expected) {
   const std::optional<FileKind> kind = kind_of_file(path);
   if (!kind || *kind == expected) return {};
-  const int line = is_folder(path) ? 0 : head_of(text_of(path)).line;
+  const int line = is_folder(path) || kind == FileKind::trace ? 0 : head_of(text_of(path)).line;
   const std::string text = std::string("this is ") + enum_row(*kind).noun + ", not " + enum_row(expected).noun + "; " +
                            remedy(enum_row(*kind), path);
   return Problem{{path, line, line > 0 ? 1 : 0}, text};

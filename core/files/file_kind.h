@@ -8,7 +8,7 @@
 
 namespace gaitlab {
 
-enum class FileKind { scenario, module, study, recipe, robot, run };
+enum class FileKind { scenario, module, study, recipe, robot, run, golden, trace, page, results, urdf };
 
 struct FileKindRow {
   FileKind value;
@@ -28,10 +28,16 @@ struct EnumNames<FileKind> {
       {recipe, "recipe", "a recipe for figures", "gaitlab figure", "draw it with"},
       {robot, "robot", "a build file", "", "name it in a scenario, robot: {build: FILE}"},
       {run, "run", "a run folder", "gaitlab rerun", "repeat it with"},
+      {golden, "golden", "a golden", "", "gaitlab test SCENARIO compares a scenario with it"},
+      {trace, "trace", "a recorded trace", "gaitlab report", "its summary:"},
+      {page, "page", "a web page", "", "open it in a browser"},
+      {results, "results", "a file of results in JSON", "", "the scenario of a run is scenario.resolved.yaml in its folder"},
+      {urdf, "urdf", "a URDF file", "gaitlab new module NAME --from", "make a module of it with"},
   };
 };
 
-/// Kind of a text by its keys at the beginning of lines, or by rows of five whole numbers. Nothing if the text is of no kind.
+/// Kind of a text by its keys at the beginning of lines, by rows of five whole numbers, or by its first characters (HDF5, HTML,
+/// JSON, XML). Nothing if the text is of no kind.
 std::optional<FileKind> kind_of_text(const std::string& text);
 
 /// Kind of a file or folder. Nothing if it cannot be read, or is of no kind. Reads at most 1 MB, and throws nothing.

@@ -41,14 +41,8 @@ void read_shape(const Node& node, std::int64_t format, BodyType& body, Problems&
 }
 
 /// Reason why the inertia of a body with mass cannot follow from its shapes; empty if it can.
-std::string no_inertia(const BodyType& body, std::int64_t format) {
+std::string no_inertia(const BodyType& body) {
   const std::string name = in_quotes(body.name);
-  if (format < kFormatOfShapes) {
-    return fmt::format(
-        "body {} has no inertia; expected inertia: [xx, yy, zz, xy, xz, yz], or gaitlab_module: {}, in which it "
-        "follows from shape",
-        name, kFormatOfShapes);
-  }
   if (body.shapes.empty())
     return fmt::format("body {} has neither inertia nor shape; expected inertia, or shape, from which it follows", name);
   if (body.shapes.size() <= kMostShapes) return "";
@@ -68,7 +62,7 @@ void inertia_of_shapes(BodyType& body, bool with_com, const SourceLocation& plac
 
 }  // namespace
 
-void read_body(const Node& node, const SourceLocation& place, std::int64_t format, BodyType& body, Problems& problems) {
+bool read_body(const Node& node, const SourceLocation& place, std::int64_t format, BodyType& body, Problems& problems) {
   const std::size_t before = problems.size();
   KeyReader reader(node, kBodyMap, in_quotes(body.name), format, problems);
   std::array<double, 6> inertia = {};
@@ -83,12 +77,14 @@ void read_body(const Node& node, const SourceLocation& place, std::int64_t forma
       read_shape(item, format, body, problems);
   }
   reader.finish();
-  if (problems.size() != before || format == 0 || !(body.mass > 0) || reader.has("inertia")) return;
-  if (const std::string why = no_inertia(body, format); !why.empty()) {
+  if (problems.size() != before || format == 0 || !(body.mass > 0) || reader.has("inertia")) return true;
+  if (format < kFormatOfShapes) return false;
+  if (const std::string why = no_inertia(body); !why.empty()) {
     problems.add(place, why);
   } else {
     inertia_of_shapes(body, !reader.has("com"), place, problems);
   }
+  return true;
 }
 
 }  // namespace gaitlab

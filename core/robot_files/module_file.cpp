@@ -106,6 +106,8 @@ class ModuleReader {
       problems_.add(bodies->place, fmt::format("bodies is {}; expected a map with at least one NAME: {{mass: ...}}", what));
       return;
     }
+    const std::size_t before = problems_.size();
+    std::vector<std::size_t> old;  // bodies whose inertia would follow from shapes in a newer format
     for (std::size_t i = 0; i < bodies->items.size(); ++i) {
       const auto& [name, place] = bodies->keys[i];
       Node key{Node::Kind::scalar, place};
@@ -113,8 +115,22 @@ class ModuleReader {
       names_.push_back(name);
       places_.bodies.push_back(place);
       type_.bodies.push_back({name});
-      read_body(bodies->items[i], place, places_.format, type_.bodies.back(), problems_);
+      if (!read_body(bodies->items[i], place, places_.format, type_.bodies.back(), problems_)) old.push_back(i);
     }
+    bodies_are_old_ = !old.empty();
+    if (bodies_are_old_) refuse_without_inertia(old);
+    bodies_are_sound_ = problems_.size() == before;
+  }
+
+  /// Reports the bodies without inertia of an old format in one problem, because they have one remedy.
+  void refuse_without_inertia(const std::vector<std::size_t>& bodies) {
+    std::vector<std::string> names;
+    for (const std::size_t body : bodies) names.push_back(in_quotes(names_[body]));
+    problems_.add(places_.bodies[bodies.front()],
+                  fmt::format("{} no inertia; expected inertia: [xx, yy, zz, xy, xz, yz], or gaitlab_module: {}, in which it "
+                              "follows from shape",
+                              bodies.size() == 1 ? "body " + names.front() + " has" : "bodies " + joined(names) + " have",
+                              kFormatOfShapes));
   }
 
   /// Index of the body that `key` names. Adds a problem for an unknown body.
@@ -247,6 +263,7 @@ class ModuleReader {
   bool read_elements(KeyReader& reader, const char* key, std::vector<ContactType>& elements) {
     const Node* node = reader.take(key);
     if (node == nullptr) return false;
+    if (bodies_are_old_ && node->text == "shapes") return false;  // the newer format is asked for already
     if (!reader.word(key, "shapes")) {
       if (node->kind != Node::Kind::list) {
         problems_.add(node->place, fmt::format("{} is {}; expected a list of maps, or shapes", key, found(*node)));
@@ -256,7 +273,8 @@ class ModuleReader {
       return false;
     }
     const auto shaped = [](const BodyType& body) { return !body.shapes.empty(); };
-    if (places_.format >= kFormatOfShapes && std::none_of(type_.bodies.begin(), type_.bodies.end(), shaped)) {
+    if (bodies_are_sound_ && places_.format >= kFormatOfShapes &&
+        std::none_of(type_.bodies.begin(), type_.bodies.end(), shaped)) {
       problems_.add(node->place, fmt::format("{} is shapes, but no body has a shape; expected a list of maps", key));
     }
     return true;
@@ -284,6 +302,8 @@ class ModuleReader {
   ModuleType type_;
   ModulePlaces places_;
   std::vector<std::string> names_;
+  bool bodies_are_old_ = false;   ///< true if a body lacks an inertia that a newer format would derive
+  bool bodies_are_sound_ = true;  ///< false if a body has a fault, such as a missing shape
   bool feet_of_shapes_ = false, all_of_shapes_ = false, feet_are_all_ = false;
 };
 

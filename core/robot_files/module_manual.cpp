@@ -79,12 +79,6 @@ void add_rows(const ModuleMap& map, const std::string& indent, Explainer& rows) 
   }
 }
 
-std::vector<KeyRow> module_rows() {
-  Explainer rows;
-  add_rows(kModuleMap, "", rows);
-  return rows.rows();
-}
-
 Json map_schema(const ModuleMap& map);
 
 /// Schema of a value other than words.
@@ -142,6 +136,12 @@ Json map_schema(const ModuleMap& map) {
 }
 
 }  // namespace
+
+std::vector<KeyRow> module_rows() {
+  Explainer rows;
+  add_rows(kModuleMap, "", rows);
+  return rows.rows();
+}
 
 std::string explain_module_file() {
   return wrapped(

@@ -2,9 +2,14 @@
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
+
+#include "core/settings/explainer.h"
 
 namespace gaitlab {
 
+/// Keys of a module file; the indentation of a key shows its depth.
+std::vector<KeyRow> module_rows();
 /// Text of `gaitlab explain module`.
 std::string explain_module_file();
 /// Text of docs/reference/module.md.

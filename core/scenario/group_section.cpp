@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "core/settings/value.h"
 #include "core/settings/wording.h"
@@ -14,17 +15,27 @@ namespace gaitlab {
 namespace {
 
 /// The message for a name that a group may not have, or "".
-std::string refused_name(const std::string& name, const std::vector<std::string>& joints) {
-  if (std::ranges::find(joints, name) != joints.end())
-    return in_quotes(name) + " is the name of a joint; expected another name for the group";
+std::string refused_name(const std::string& name, const std::vector<std::string>& joints,
+                         const std::vector<std::string>& modules) {
+  for (const auto& [parts, noun] : {std::pair(&joints, "joint"), std::pair(&modules, "module")}) {
+    if (std::ranges::find(*parts, name) != parts->end())
+      return fmt::format("{} is the name of a {}; expected another name for the group", in_quotes(name), noun);
+  }
   const bool letter = !name.empty() && ((name[0] >= 'a' && name[0] <= 'z') || (name[0] >= 'A' && name[0] <= 'Z'));
   if (is_name(name, "_-") && letter && name != "default") return "";
   return in_quotes(name) + " is not a name of a group; expected a letter, then letters, digits, _ and -, and not default";
 }
 
-/// Joints of a group, in the order of the robot.
+/// The message for a member that matches no joint, or "". `groups` is the section.
+std::string refused_member(const std::string& member, const std::vector<std::string>& joints, const Node& groups) {
+  const bool group = groups.find(member) != nullptr && joints_of(member, joints).empty();
+  return group ? in_quotes(member) + " is a group; expected a joint or a pattern" : no_joint(member, joints);
+}
+
+/// Joints of a group, in the order of the robot; none if the group has a fault.
 std::vector<std::string> members(const std::string& name, const Node& node, const std::vector<std::string>& joints,
-                                 Problems& problems) {
+                                 const Node& groups, Problems& problems) {
+  const std::size_t before = problems.size();
   const bool list = node.kind == Node::Kind::list;
   if (!list && node.kind != Node::Kind::scalar) {
     problems.add(node.place, fmt::format("group {} is {}; expected joints: [m3/hinge, \"m[4-6]/hinge\"]", name, found(node)));
@@ -34,12 +45,13 @@ std::vector<std::string> members(const std::string& name, const Node& node, cons
   std::vector<bool> chosen(joints.size(), false);
   for (const Node& item : list ? std::span<const Node>(node.items) : std::span<const Node>(&node, 1)) {
     const Reading<std::string> text = read_scalar(item);
-    const std::string wrong = text.ok() ? no_joint(text.value, joints) : "a member of group " + name + " " + text.wrong;
+    const std::string wrong =
+        text.ok() ? refused_member(text.value, joints, groups) : "a member of group " + name + " " + text.wrong;
     if (!wrong.empty()) problems.add(item.place, wrong);
     for (const std::size_t j : text.ok() ? joints_of(text.value, joints) : std::vector<std::size_t>()) chosen[j] = true;
   }
   std::vector<std::string> all;
-  for (std::size_t j = 0; j < joints.size(); ++j) {
+  for (std::size_t j = 0; j < joints.size() && problems.size() == before; ++j) {
     if (chosen[j]) all.push_back(joints[j]);
   }
   return all;
@@ -47,7 +59,8 @@ std::vector<std::string> members(const std::string& name, const Node& node, cons
 
 }  // namespace
 
-JointGroups read_groups(const Node& node, const std::vector<std::string>& joints, Problems& problems) {
+JointGroups read_groups(const Node& node, const std::vector<std::string>& joints, const std::vector<std::string>& modules,
+                        Problems& problems) {
   JointGroups groups;
   if (node.kind != Node::Kind::map) {
     problems.add(node.place, fmt::format("groups is {}; expected a map NAME: [JOINT, ...]", found(node)));
@@ -55,9 +68,9 @@ JointGroups read_groups(const Node& node, const std::vector<std::string>& joints
   }
   for (std::size_t i = 0; i < node.keys.size(); ++i) {
     const auto& [name, place] = node.keys[i];
-    const std::string wrong = refused_name(name, joints);
+    const std::string wrong = refused_name(name, joints, modules);
     if (!wrong.empty()) problems.add(place, wrong);
-    groups.push_back({name, members(clipped(name), node.items[i], joints, problems)});
+    groups.push_back({name, members(clipped(name), node.items[i], joints, node, problems)});
   }
   return groups;
 }

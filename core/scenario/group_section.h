@@ -14,9 +14,10 @@ inline constexpr const char* kAboutGroups =
     "Groups of joints by name, each a joint, a pattern, or a list of them: {hips: [m3/hinge, \"m[4-6]/hinge\"]}. A group may "
     "stand wherever a pattern of joints may stand.";
 
-/// Reads the section. Every fault is a problem at its place: a name that is not allowed or is that of a joint, a member that
-/// matches no joint, and a group without members.
-JointGroups read_groups(const Node& node, const std::vector<std::string>& joints, Problems& problems);
+/// Reads the section. Every fault is a problem at its place: a name that is not allowed or is that of a joint or module, a
+/// member that matches no joint, and a group without members. A group with a fault has no joints, which is reported only here.
+JointGroups read_groups(const Node& node, const std::vector<std::string>& joints, const std::vector<std::string>& modules,
+                        Problems& problems);
 
 /// The section with all members by name.
 Node groups_node(const JointGroups& groups);

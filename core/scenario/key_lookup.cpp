@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/plugin/plugin_instance.h"
+#include "core/robot_files/module_manual.h"
 #include "core/scenario/manual.h"
 #include "core/settings/wording.h"
 
@@ -29,28 +30,8 @@ std::string name_of_key(const std::string& path) { return path.substr(path.rfind
 
 using TypeInForce = std::function<std::string(Kind)>;
 
-/// True if the scenario has a value at a path of keys.
-bool is_given(const Node& root, const std::string& path) {
-  const Node* node = &root;
-  for (std::size_t begin = 0; node != nullptr && begin <= path.size();) {
-    const std::size_t end = std::min(path.find('.', begin), path.size());
-    node = node->find(path.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return node != nullptr;
-}
-
-/// True if a key is the only one of its name in the sections of the scenario: then it is the unknown key itself, which its
-/// section has under other settings.
-bool is_itself(const Node& root, const std::string& path) {
-  const std::string name = name_of_key(path);
-  const auto sections = std::ranges::count_if(root.items, [&](const Node& section) { return section.find(name) != nullptr; });
-  return sections == 1 && is_given(root, path);
-}
-
 /// True for a key that the scenario may have as it is.
-bool applies(const ScenarioKey& key, const TypeInForce& type, const Node& root) {
-  if (is_itself(root, key.path)) return false;
+bool applies(const ScenarioKey& key, const TypeInForce& type) {
   if (key.plugin == nullptr) return key.path.find('[') == std::string::npos;
   const std::string in_force = type(key.plugin->kind);
   return in_force.empty() || in_force == key.plugin->name;
@@ -62,12 +43,6 @@ std::vector<std::string> paths_of(const std::vector<ScenarioKey>& keys, const st
     if (name_of_key(key.path) == name && std::ranges::find(paths, key.path) == paths.end()) paths.push_back(key.path);
   }
   return paths;
-}
-
-std::string did_you_mean(const std::vector<std::string>& paths) {
-  constexpr std::size_t kMost = 4;
-  if (paths.empty() || paths.size() > kMost) return "";
-  return fmt::format("; did you mean {}?", fmt::join(paths, " or "));
 }
 
 /// `; Kp is a key of controller pid` for a key of plugins of other types than the scenario's.
@@ -94,6 +69,40 @@ std::string type_in_force(Kind kind, const Node& root, const Scenario& scenario)
   return selection.entry == nullptr ? "" : std::string(selection.entry->name);
 }
 
+/// `; did you mean ground.friction?` for paths of keys; "" for none, and for more than a reader takes in.
+std::string did_you_mean(const UnknownKey& unknown, const std::vector<std::string>& paths) {
+  constexpr std::size_t kMost = 4;
+  if (paths.empty() || paths.size() > kMost) return "";
+  if (paths.front() == unknown.key)  // a whole section, or a key beside the sections
+    return fmt::format("; {} belongs to the top level of the file, beside {}", unknown.key, clipped(unknown.section));
+  return fmt::format("; did you mean {}?", fmt::join(paths, " or "));
+}
+
+/// True for a key of the sections that repeat the names of other keys.
+bool repeats(const std::string& path) {
+  return path.starts_with(std::string(kTolerancesSection) + ".") || path.starts_with(std::string(kAsBuiltSection) + ".");
+}
+
+std::string elsewhere(const Catalog& catalog, const TypeInForce& type, const UnknownKey& unknown) {
+  const std::string own = unknown.section + (unknown.section.empty() ? "" : ".") + unknown.key;
+  const std::vector<ScenarioKey> all = all_keys(catalog);
+  std::vector<ScenarioKey> usable;
+  // The path of the unknown key itself is a key of its section under other settings.
+  std::ranges::copy_if(all, std::back_inserter(usable),
+                       [&](const ScenarioKey& one) { return one.path != own && applies(one, type); });
+  const std::vector<std::string> exact = paths_of(usable, unknown.key);
+  std::vector<std::string> first = exact;
+  std::erase_if(first, repeats);
+  if (repeats(own)) return "";  // a setting that does not vary: the section's own keys are offered
+  if (std::string found = did_you_mean(unknown, first); !found.empty()) return found;
+  if (!unknown.near.empty()) return "";
+  if (std::string found = of_other_types(all, unknown.key); !found.empty()) return found;
+  if (std::string found = did_you_mean(unknown, exact); !found.empty()) return found;
+  std::vector<std::string> names;
+  for (const ScenarioKey& one : usable) names.push_back(name_of_key(one.path));
+  return did_you_mean(unknown, paths_of(usable, nearest(unknown.key, names)));
+}
+
 }  // namespace
 
 std::vector<ScenarioKey> all_keys(const Catalog& catalog) {
@@ -109,35 +118,17 @@ std::vector<ScenarioKey> all_keys(const Catalog& catalog) {
   return keys;
 }
 
-namespace {
-
-std::string elsewhere(const Catalog& catalog, const TypeInForce& type, const Node& root, const std::string& key,
-                      const std::string& near) {
-  const std::vector<ScenarioKey> all = all_keys(catalog);
-  std::vector<ScenarioKey> usable;
-  std::ranges::copy_if(all, std::back_inserter(usable), [&](const ScenarioKey& one) { return applies(one, type, root); });
-  std::vector<std::string> exact = paths_of(usable, key);
-  const auto repeats = [](const std::string& path) {  // these sections repeat the names of other keys
-    return path.starts_with(kTolerancesSection) || path.starts_with(kAsBuiltSection);
-  };
-  std::vector<std::string> first = exact;
-  std::erase_if(first, repeats);
-  if (std::string found = did_you_mean(first); !found.empty()) return found;
-  if (!near.empty()) return "";
-  if (std::string found = of_other_types(all, key); !found.empty()) return found;
-  if (std::string found = did_you_mean(exact); !found.empty()) return found;
-  std::vector<std::string> names;
-  for (const ScenarioKey& one : usable) names.push_back(name_of_key(one.path));
-  return did_you_mean(paths_of(usable, nearest(key, names)));
+std::vector<ScenarioKey> module_keys() {
+  std::vector<ScenarioKey> keys;
+  add_rows(module_rows(), "", nullptr, keys);
+  return keys;
 }
 
-}  // namespace
-
 Elsewhere key_search(const Catalog& catalog, const Node& root, const Scenario& scenario) {
-  return [&](const std::string& key, const std::string& near) {
+  return [&](const UnknownKey& unknown) {
     try {
       return elsewhere(
-          catalog, [&](Kind kind) { return type_in_force(kind, root, scenario); }, root, key, near);
+          catalog, [&](Kind kind) { return type_in_force(kind, root, scenario); }, unknown);
     } catch (const PluginError&) {  // the error of a plugin that the scenario does not use
       return std::string();
     }

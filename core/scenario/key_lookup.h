@@ -20,6 +20,9 @@ struct ScenarioKey {
 /// All keys of the scenario file, and of every plugin of the catalog.
 std::vector<ScenarioKey> all_keys(const Catalog& catalog);
 
+/// All keys of the module file.
+std::vector<ScenarioKey> module_keys();
+
 /// Search of unknown keys over all sections: `; did you mean ground.friction?`. A key of a plugin of another type than the
 /// scenario's is named with its type. The result is empty if the known keys of the section say more. Catalog, root and scenario
 /// must outlive the search.

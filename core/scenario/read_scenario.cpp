@@ -58,7 +58,7 @@ class ScenarioReader {
     attempt([&] {
       for (std::string& note : drop_old_keys(root_, retyped, catalog_)) add_note(std::move(note));
     });
-    tell_dropped_source(sets);
+    tell_dropped_keys(sets);
     read_name(head);
     read_body();
     read_sections();
@@ -82,7 +82,7 @@ class ScenarioReader {
     apply_sets(own.root_, sets, own.problems_);
     rename_old_names(own.root_, sets, own.problems_);
     own.raise();
-    own.tell_dropped_source(sets);
+    own.tell_dropped_keys(sets);
     for (const std::string& set : sets) own.touched_.push_back(set.substr(0, set.find_first_of(".=")));
     own.follow_dependencies();
     own.read_sections();
@@ -103,11 +103,12 @@ class ScenarioReader {
     if (!text.empty()) scenario_.notes.push_back({{path_}, std::move(text)});
   }
 
-  void tell_dropped_source(const std::vector<std::string>& sets) {
+  void tell_dropped_keys(const std::vector<std::string>& sets) {
     const auto another = [](const std::string& set) { return set.starts_with("actuator.source="); };
     if (std::ranges::any_of(sets, another)) std::erase(scenario_.notes, source_note_);  // removes the note of the template
     source_note_ = {{path_}, drop_source(root_, sets)};
     add_note(source_note_.text);
+    add_note(drop_engine_keys(root_, sets, catalog_));
   }
 
   void read_name(Reader& reader) {
@@ -121,7 +122,7 @@ class ScenarioReader {
     if (node == nullptr) return;  // read_sections() reports it
     Reader reader(*node, "robot", problems_, nullptr);
     const Elsewhere elsewhere = key_search(catalog_, root_, scenario_);
-    reader.elsewhere(&elsewhere);
+    reader.elsewhere(&elsewhere, "robot");
     if (node->kind != Node::Kind::map) return;
     RobotParts parts = read_robot(reader, node->place, folder_, problems_);
     BaseFields base{scenario_};
@@ -139,7 +140,8 @@ class ScenarioReader {
     if (!scenario_.robot) return;
     joints_ = std::make_shared<const std::vector<std::string>>(joint_names(*scenario_.robot));
     modules_ = std::make_shared<const std::vector<std::string>>(module_names(*scenario_.robot));
-    if (const Node* groups = root_.find(kGroupsSection)) scenario_.groups = read_groups(*groups, *joints_, problems_);
+    if (const Node* groups = root_.find(kGroupsSection))
+      scenario_.groups = read_groups(*groups, *joints_, *modules_, problems_);
   }
 
   [[nodiscard]] bool reads(const std::string& section) const {
@@ -304,7 +306,7 @@ class ScenarioReader {
       const Node* node = root_.find(section);
       const std::string other = node != nullptr ? hidden_file(*node, folder_) : "";
       problems_.add(
-          place_of(root_, section, "type"),
+          place_of_fault(root_, section, error.what()),
           other.empty() ? error.what() : fmt::format("{} does not take the file {}; {}", section, in_quotes(other), kNotShown));
     }
   }
@@ -354,14 +356,7 @@ Scenario read_scenario(const std::string& path, const std::vector<std::string>& 
 }
 
 Scenario read_module(const std::string& path, Catalog& catalog) {
-  Node file{Node::Kind::scalar};
-  file.text = path;
-  file.quoted = true;
-  const std::string alone =
-      "gaitlab: 1\nname: module\nduration: 1\nground: {type: none}\ncontact: {on: none}\n"
-      "robot:\n  modules: " +
-      print_yaml(file);
-  return ScenarioReader("module", catalog, ReadAs::module_type).read(alone, {});
+  return ScenarioReader("module", catalog, ReadAs::module_type).read(scenario_of_module(path), {});
 }
 
 ScenarioTemplate::ScenarioTemplate(std::string path, std::vector<std::string> sets, Catalog& catalog)

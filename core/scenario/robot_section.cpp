@@ -53,6 +53,12 @@ std::vector<Dock> read_connections(Reader& reader, const std::string& folder, Pr
     return {};
   }
   const std::string path = build_path(folder, name.value);
+  const std::string stem = std::filesystem::path(name.value).stem().string();
+  std::error_code none;
+  if (name.value == stem + ".dat" && !std::filesystem::exists(path, none) && build_path(folder, stem).ends_with(".dat")) {
+    problems.add(build->place, fmt::format("there is no file '{}'; did you mean {}, without .dat?", path, in_quotes(stem)));
+    return {};
+  }
   std::vector<Dock> rows;
   Problems found;
   try {
@@ -243,6 +249,16 @@ std::vector<std::pair<std::string, Node>> robot_nodes(const Robot& robot, const 
     types.items.push_back(documents[i]);
   }
   return {{"types", std::move(types)}, {"modules", modules_node(robot, names)}, {"docks", docks_node(robot)}};
+}
+
+std::string scenario_of_module(const std::string& path) {
+  expect_kind(path, FileKind::module);
+  static_cast<void>(read_text(path));  // a file that cannot be read is reported here, and not at a place of the text below
+  Node file{Node::Kind::scalar};
+  file.text = path.find('/') == std::string::npos ? "./" + path : path;  // marks the text as a file
+  file.quoted = true;
+  return "gaitlab: 1\nname: module\nduration: 1\nground: {type: none}\ncontact: {on: none}\nrobot:\n  modules: " +
+         print_yaml(file);
 }
 
 }  // namespace gaitlab

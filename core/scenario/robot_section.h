@@ -23,4 +23,8 @@ RobotParts read_robot(Reader& reader, const SourceLocation& place, const std::st
 /// Self-contained keys of a robot: `types` in full, `modules` by name, and `docks`.
 std::vector<std::pair<std::string, Node>> robot_nodes(const Robot& robot, const std::vector<Node>& documents);
 
+/// Text of a scenario of a single module in nothing, whose type is in a file. Throws InputError, at the file, if the file
+/// cannot be read or is of another kind.
+std::string scenario_of_module(const std::string& path);
+
 }  // namespace gaitlab

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/settings/overlay.h"
+
 namespace gaitlab {
 
 std::optional<SourceLocation> given(const Node& root, const std::string& section, const std::string& key) {
@@ -17,6 +19,29 @@ std::optional<SourceLocation> given(const Node& root, const std::string& section
 SourceLocation place_of(const Node& root, const std::string& section, const std::string& key) {
   if (const std::optional<SourceLocation> exact = given(root, section, key)) return *exact;
   return given(root, section).value_or(root.place);
+}
+
+namespace {
+
+/// First place within a node that --set gave, or nothing.
+std::optional<SourceLocation> set_place(const Node& node) {
+  if (is_set(node)) return node.place;
+  for (const Node& item : node.items) {
+    if (std::optional<SourceLocation> place = set_place(item)) return place;
+  }
+  return {};
+}
+
+}  // namespace
+
+SourceLocation place_of_fault(const Node& root, const std::string& section, const std::string& text) {
+  const Node* map = root.find(section);
+  for (std::size_t i = 0; map != nullptr && i < map->keys.size(); ++i) {
+    const std::string& key = map->keys[i].first;
+    if (key == "type" || text.find(" " + key + " ") == std::string::npos) continue;
+    if (std::optional<SourceLocation> place = set_place(map->items[i])) return *place;
+  }
+  return place_of(root, section, "type");
 }
 
 ContactLaw wanted_law(const Node& root) {

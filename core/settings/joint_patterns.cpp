@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <unordered_set>
 
 #include "core/errors.h"
@@ -69,6 +70,7 @@ std::vector<std::size_t> joints_of(const std::string& text, const std::vector<st
 std::string no_joint(const std::string& text, const std::vector<std::string>& joints, const std::string& part,
                      const JointGroups& groups) {
   if (!joints_of(text, joints, groups).empty()) return "";
+  if (group_named(text, groups) != nullptr) return "";  // the group has a fault, which is reported where it is given
   if (!is_pattern(text)) {
     const std::string range = range_beside(text, joints);
     std::vector<std::string> known = joints;
@@ -87,6 +89,25 @@ std::string not_one_joint(const std::string& text, const std::vector<std::string
   if (group_named(text, groups) != nullptr) return in_quotes(text) + " is a group; expected the name of one " + part;
   return is_pattern(text) ? in_quotes(text) + " is a pattern; expected the name of one " + part
                           : no_joint(text, joints, part, groups);
+}
+
+ColumnChoice::ColumnChoice(std::string text, const std::vector<std::string>& joints, const JointGroups& groups)
+    : text_(std::move(text)), chosen_(joints.size(), false) {
+  const std::size_t end = text_.rfind('.');
+  for (const std::string head : {"joint.", "reaction."}) {
+    if (!text_.starts_with(head) || end < head.size()) continue;
+    head_ = head;
+    part_ = text_.substr(end);
+    for (const std::size_t j : joints_of(text_.substr(head.size(), end - head.size()), joints, groups)) chosen_[j] = true;
+  }
+}
+
+bool ColumnChoice::has(const std::string& column) const {
+  if (glob(text_, column)) return true;
+  if (head_.empty() || !column.starts_with(head_)) return false;
+  std::size_t joint = 0;
+  const auto read = std::from_chars(column.data() + head_.size(), column.data() + column.size(), joint);
+  return read.ec == std::errc() && joint < chosen_.size() && chosen_[joint] && glob(part_, read.ptr);
 }
 
 std::vector<std::string> joints_meant(const std::vector<std::string>& list, const std::vector<std::string>& joints,

@@ -33,6 +33,18 @@ std::string no_joint(const std::string& text, const std::vector<std::string>& jo
 std::string not_one_joint(const std::string& text, const std::vector<std::string>& joints, const std::string& part = "joint",
                           const JointGroups& groups = {});
 
+/// The columns of a recording that a text means: those with this name or of this pattern; for `joint.JOINT.PART` and
+/// `reaction.JOINT.PART`, where JOINT is a name, pattern or group, also those of these joints, whose names have numbers.
+class ColumnChoice {
+ public:
+  ColumnChoice(std::string text, const std::vector<std::string>& joints, const JointGroups& groups);
+  [[nodiscard]] bool has(const std::string& column) const;
+
+ private:
+  std::string text_, head_, part_;  ///< `head_`: `joint.` or `reaction.`; `part_`: `.PART`
+  std::vector<bool> chosen_;        ///< true for the joints of JOINT
+};
+
 /// Names of the joints that match a list of names, patterns and groups, in the order of the list. A pattern or group adds the
 /// joints that no earlier entry names. Texts that match no joint are kept.
 std::vector<std::string> joints_meant(const std::vector<std::string>& list, const std::vector<std::string>& joints,

@@ -69,6 +69,8 @@ class TreeBuilder final : public YAML::EventHandler {
     // A quoted scalar has the tag "!" implicitly. An explicit tag starts with '!' in the text.
     const bool explicit_tag = tag != "?" && (tag != "!" || character(mark) == '!');
     check_tag(mark, explicit_tag, tag);
+    if (node.quoted && !explicit_tag && !is_closed(*text_, node.position))  // the parser accepts it
+      stop(node.place, fmt::format("not valid YAML: the {0} opened here is not closed; expected {0}", character(mark)));
     add(std::move(node));
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
@@ -172,6 +174,13 @@ class TreeBuilder final : public YAML::EventHandler {
   int documents_ = 0;
 };
 
+std::string in_words(const YAML::Exception& e, const std::string& text) {
+  const auto position = std::min(static_cast<std::size_t>(e.mark.pos), text.size());
+  const auto column = std::min(static_cast<std::size_t>(e.mark.column), position);
+  const std::size_t begin = position - column;
+  return yaml_fault_in_words(e.msg, text.substr(begin, text.find_first_of("\r\n", begin) - begin), column);
+}
+
 /// Replaces the last problem, of a list or map as a key, by the bracket that is not closed before it.
 void explain_last(const std::string& text, const std::string& file, Problems& problems) {
   const Problem& last = problems.list().back();
@@ -208,7 +217,8 @@ std::optional<Node> build(const std::string& text, const std::string& file, Prob
       return {};
     }
     problems.add(placed ? SourceLocation{file, e.mark.line + 1, e.mark.column + 1} : SourceLocation{file},
-                 "not valid YAML: " + e.msg + (at == '*' || at == '?' ? "; a pattern goes in quotes: \"*/active\"" : ""));
+                 "not valid YAML: " + (placed ? in_words(e, text) : e.msg) +
+                     (at == '*' || at == '?' ? "; a pattern goes in quotes: \"*/active\"" : ""));
     return {};
   }
 }

@@ -23,8 +23,6 @@ struct Setting {
   SourceLocation place;
 };
 
-bool is_set(const Node& node) { return node.place.file.starts_with(kOption); }
-
 void move_to(Node& node, const SourceLocation& place) {
   node.place = place;
   node.source.reset();
@@ -203,6 +201,8 @@ std::string drop_from(Node& section, bool cpg, const std::vector<std::string>& k
 
 }  // namespace
 
+bool is_set(const Node& node) { return node.place.file.starts_with(kOption); }
+
 std::vector<Retyped> apply_sets(Node& root, const std::vector<std::string>& sets, Problems& problems) {
   std::vector<Setting> settings;
   for (const std::string& text : sets) {
@@ -240,6 +240,24 @@ std::string drop_source(Node& root, const std::vector<std::string>& sets) {
       take_out(root.items[static_cast<std::size_t>(section - root.keys.begin())], "",
                [](const std::string& key, const Node& value) { return key == "source" && !is_set(value); });
   return dropped.empty() ? "" : fmt::format("actuator: dropped source, which does not cover {}{}", kOption, clipped(*other));
+}
+
+std::string drop_engine_keys(Node& root, const std::vector<std::string>& sets, const Catalog& catalog) {
+  constexpr std::string_view kEngine = "physics.engine=";
+  const auto set = std::ranges::find_if(sets, [&](const std::string& one) { return one.starts_with(kEngine); });
+  const auto section = std::ranges::find(root.keys, "physics", [](const auto& key) { return key.first; });
+  if (set == sets.end() || section == root.keys.end()) return "";
+  Node& physics = root.items[static_cast<std::size_t>(section - root.keys.begin())];
+  const Node* name = physics.find("engine");
+  const Engine* engine = name == nullptr ? nullptr : catalog.engine(name->text);
+  if (engine == nullptr) return "";  // the reader of the section reports an unknown engine
+  const std::vector<std::string> integrators = engine->integrator_names();
+  const std::string dropped = take_out(physics, "", [&](const std::string& key, const Node& value) {
+    if (is_set(value)) return false;
+    if (key == "accuracy") return engine->adaptive() == nullptr;
+    return key == "integrator" && std::ranges::find(integrators, value.text) == integrators.end();
+  });
+  return dropped.empty() ? "" : fmt::format("physics: dropped {}, which engine {} does not have", dropped, clipped(name->text));
 }
 
 std::vector<std::string> drop_old_keys(Node& root, const std::vector<Retyped>& retyped, const Catalog& catalog) {

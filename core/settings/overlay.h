@@ -14,6 +14,9 @@ struct Retyped {
   std::string section, from, to;
 };
 
+/// True if --set gave this node.
+bool is_set(const Node& node);
+
 /// Applies the settings to the tree. Settings of `type` are first, and the remaining ones keep their order. The place of a
 /// changed node is the option. Malformed settings are added to `problems`.
 std::vector<Retyped> apply_sets(Node& root, const std::vector<std::string>& sets, Problems& problems);
@@ -25,6 +28,10 @@ void overlay(Node& root, const std::string& path, Node value, const SourceLocati
 /// Removes the key `source` of `actuator` if --set changes other keys of that section but not `source`, because the source does
 /// not state the new values. Returns a message for the user, or "" if nothing was removed.
 std::string drop_source(Node& root, const std::vector<std::string>& sets);
+
+/// Removes `accuracy` and `integrator` of `physics` if --set names an engine that has none of them, unless --set gave them.
+/// Returns a message for the user, or "" if nothing was removed.
+std::string drop_engine_keys(Node& root, const std::vector<std::string>& sets, const Catalog& catalog);
 
 /// Removes keys of a retyped section that the new type lacks, and the whole `model` of the old CPG, unless --set gave them.
 /// Returns a message for the user for each section that lost keys.

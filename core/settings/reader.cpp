@@ -82,15 +82,15 @@ void Reader::finish() {
     if (map_->items[i].kind == Node::Kind::null && colon != std::string::npos) {
       problems_.add(place, "unknown key " + in_quotes(key) + "; put a space after the colon");
     } else {
-      unknown(key, place);
+      unknown(key, map_->items[i], place);
     }
   }
 }
 
-void Reader::unknown(const std::string& key, const SourceLocation& place) {
+void Reader::unknown(const std::string& key, const Node& value, const SourceLocation& place) {
   const bool of_a_list = key.find('[') != std::string::npos;
   const std::string text = "unknown key " + in_quotes(key) +
-                           (of_a_list ? "; an item of a list is addressed by its number: " + dotted(key) : meant(key));
+                           (of_a_list ? "; an item of a list is addressed by its number: " + dotted(key) : meant(key, value));
   const auto misspelt = std::ranges::find(missing_, nearest(key, known_), [](const auto& one) { return one.first; });
   if (misspelt == missing_.end() || of_a_list) {
     problems_.add(place, text);
@@ -100,9 +100,14 @@ void Reader::unknown(const std::string& key, const SourceLocation& place) {
   }
 }
 
-std::string Reader::meant(const std::string& key) const {
-  const std::string near = elsewhere_ == nullptr || !*elsewhere_ ? "" : (*elsewhere_)(key, nearest(key, known_));
-  return near.empty() ? offer(key, known_, "keys") : near;
+std::string Reader::meant(const std::string& key, const Node& value) const {
+  const bool searched = elsewhere_ != nullptr && *elsewhere_;
+  for (const auto& [inner, place] : value.keys) {  // a key of this map within another map: tolerances.actuator.R
+    if (searched && !section_.empty() && std::ranges::find(known_, inner) != known_.end())
+      return fmt::format("; did you mean {}.{}?", section_, clipped(inner));
+  }
+  const std::string found = searched ? (*elsewhere_)({section_, key, nearest(key, known_)}) : "";
+  return found.empty() ? offer(key, known_, "keys") : found;
 }
 
 bool Reader::read_one(const Node& node, const std::string& what, const Spec& spec, double& value) {
@@ -330,7 +335,7 @@ void Reader::on(const char* key, const field::Group& field) {
   Reader reader =
       node != nullptr ? Reader(*node, key, problems_, joints_, folder_) : Reader(map_->place, problems_, joints_, folder_);
   reader.modules(modules_);
-  reader.elsewhere(elsewhere_);
+  reader.elsewhere(elsewhere_, section_ + (section_.empty() ? "" : ".") + key);
   reader.groups(*groups_);
   field.visit(field.self, reader);
   reader.finish();

@@ -16,9 +16,15 @@ using JointNames = const std::vector<std::string>*;
 
 inline const JointGroups kNoGroups;
 
-/// End of a message about an unknown key, which may belong elsewhere in the file: `; did you mean ground.friction?`. `near` is
-/// a similar key of the same map, or "". An empty text means that the known keys of the map are offered.
-using Elsewhere = std::function<std::string(const std::string& key, const std::string& near)>;
+/// An unknown key and its map: the keys that lead to the map, such as `contact`, or "" for the file itself. `near` is a similar
+/// key of the same map, or "".
+struct UnknownKey {
+  std::string section, key, near;
+};
+
+/// End of a message about an unknown key, which may belong elsewhere in the file: `; did you mean ground.friction?`. An empty
+/// text means that the known keys of the map are offered.
+using Elsewhere = std::function<std::string(const UnknownKey& unknown)>;
 
 /// Reader of one map. After the visits of all fields, finish() reports the keys that were not read. A field keeps its value if
 /// its key is absent or invalid.
@@ -44,8 +50,11 @@ class Reader final : public Fields {
   void modules(JointNames names) { modules_ = names; }
   /// Groups of joints, whose names may stand where patterns may. They must outlive the reader.
   void groups(const JointGroups& groups) { groups_ = &groups; }
-  /// Search for unknown keys, also of nested maps. It must outlive the reader.
-  void elsewhere(const Elsewhere* search) { elsewhere_ = search; }
+  /// Search for unknown keys, also of nested maps. It must outlive the reader. `section`: keys that lead to this map.
+  void elsewhere(const Elsewhere* search, std::string section = {}) {
+    elsewhere_ = search;
+    section_ = std::move(section);
+  }
   /// Restricts reading to these keys. Fields with other keys keep their values.
   void only(std::vector<std::string> keys) { only_ = std::move(keys); }
   /// Reports each of these keys that is missing.
@@ -74,8 +83,8 @@ class Reader final : public Fields {
   void on(const char* key, const field::RuleOrList& field);
   void on(const char* key, const field::Group& field);
 
-  void unknown(const std::string& key, const SourceLocation& place);
-  [[nodiscard]] std::string meant(const std::string& key) const;
+  void unknown(const std::string& key, const Node& value, const SourceLocation& place);
+  [[nodiscard]] std::string meant(const std::string& key, const Node& value) const;
   /// Reports that a required key is missing. If finish() finds it misspelt, that becomes the problem instead.
   void missing(const char* key);
   void read_name(const Node& item, const char* key, const field::Names& field);
@@ -110,7 +119,7 @@ class Reader final : public Fields {
   const Node* map_;
   Problems& problems_;
   JointNames joints_, modules_ = nullptr;
-  std::string folder_;
+  std::string folder_, section_;
   const Elsewhere* elsewhere_ = nullptr;
   const JointGroups* groups_ = &kNoGroups;
   std::vector<std::string> known_, only_;

@@ -10,4 +10,11 @@ namespace gaitlab {
 /// indentation fits no earlier line. Without such a reason the text of the problem is empty.
 Problem yaml_fault(const std::string& text, const std::string& file, int line);
 
+/// True if the quote at `position` of a text is closed, or if there is another character.
+bool is_closed(const std::string& text, std::size_t position);
+
+/// The words of the parser for a fault at `column` (from 0) of a line, or, for those that name a rule of YAML, what was found
+/// and what is expected.
+std::string yaml_fault_in_words(const std::string& parser, const std::string& line, std::size_t column);
+
 }  // namespace gaitlab

@@ -7,7 +7,9 @@
 #include "core/model/pattern.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/plugin/robot_info.h"
+#include "core/scenario/sections.h"
 #include "core/scenario/sensor_section.h"
+#include "core/settings/joint_patterns.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab {
@@ -251,6 +253,7 @@ std::vector<bool> matched(const Scenario& scenario, const std::vector<Column>& c
   Problems problems;
   std::vector<std::string> names;
   names.reserve(columns.size());
+  const std::vector<std::string> joints = joint_names(*scenario.robot);
   for (const Column& column : columns) names.push_back(column.name);
   if (scenario.trace.columns.size() > kMostPatterns) {
     throw InputError(scenario.place("trace.columns"),
@@ -259,8 +262,9 @@ std::vector<bool> matched(const Scenario& scenario, const std::vector<Column>& c
   }
   for (const std::string& pattern : scenario.trace.columns) {
     bool found = false;
+    const ColumnChoice choice(pattern, joints, scenario.groups);
     for (std::size_t i = 0; i < columns.size(); ++i) {
-      if (!glob(pattern, columns[i].name)) continue;
+      if (!choice.has(columns[i].name)) continue;
       wanted[i] = found = true;
     }
     // The default patterns include joint.*, and segment in a scenario with changes.

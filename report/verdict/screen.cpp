@@ -35,11 +35,17 @@ class Screen {
   std::size_t columns_;
 };
 
+/// Ids of checks. Those of the loads of docks are one word if none of them is judged.
 std::string names(const std::vector<const Check*>& checks, std::size_t from = 0) {
+  constexpr std::ptrdiff_t kOfDocks = 4;  // tension, shear, bending, torsion
+  const auto open_dock = [](const Check* check) {
+    return check->id.starts_with("dock_") && check->status == CheckStatus::not_judged;
+  };
+  const bool no_dock = std::ranges::count_if(checks, open_dock) == kOfDocks;
   std::vector<std::string> ids;
   bool docks = false;
   for (std::size_t k = from; k < checks.size(); ++k) {
-    const bool dock = checks[k]->id.starts_with("dock_") && checks[k]->status == CheckStatus::not_judged;
+    const bool dock = no_dock && open_dock(checks[k]);
     if (dock && docks) continue;
     docks = docks || dock;
     ids.push_back(dock ? "docks" : checks[k]->id);

@@ -16,16 +16,6 @@ namespace gaitlab::studies {
 
 namespace {
 
-const Node* find_key(const Node& root, const std::string& key) {
-  const Node* node = &root;
-  for (std::size_t at = 0; node != nullptr && at <= key.size();) {
-    const std::size_t end = std::min(key.find('.', at), key.size());
-    node = node->kind == Node::Kind::map ? node->find(key.substr(at, end - at)) : nullptr;
-    at = end + 1;
-  }
-  return node;
-}
-
 /// Settings that replace the engine of a scenario by that of `verify`, with its default step. Empty if `verify` names no
 /// engine, or if the scenario uses that engine already.
 std::vector<std::string> other_engine_of(const Verify& verify, const Scenario& scenario, const Catalog& catalog,
@@ -118,7 +108,7 @@ void BoundStudy::find_nominal(StudyScenario& scenario, Problems& problems) const
     };
     if (!v.times || std::ranges::any_of(study_.parameters, same)) continue;
     if (!tree) tree = parse_yaml(scenario.resolved, scenario.nominal.file);
-    const Node* node = find_key(*tree, v.key);
+    const Node* node = find_key(*tree, v.key, scenario.joints);
     const Reading<double> value = node == nullptr ? Reading<double>{0, "is not a key of the scenario"} : read_number(*node, "");
     if (!value.ok()) problems.add(v.place, v.key + " " + value.wrong + "; `times` needs a number in the scenario");
     scenario.nominal_values[v.key] = value.value;

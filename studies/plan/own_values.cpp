@@ -23,31 +23,13 @@ const Node* entry_of(const Node& list, const std::string& name, const std::vecto
   return at < list.items.size() ? &list.items[at] : nullptr;
 }
 
-/// Node of a key of the scenario; null if there is none. A number for all joints is also the number of each joint.
-const Node* find(const Node& root, const std::string& key, const std::vector<std::string>& joints) {
-  const Node* node = &root;
-  for (std::size_t at = 0; node != nullptr && at <= key.size();) {
-    const std::size_t end = std::min(key.find('.', at), key.size());
-    const std::string part = key.substr(at, end - at);
-    if (node->kind == Node::Kind::map) {
-      node = node->find(part);
-    } else if (node->kind == Node::Kind::list) {
-      node = entry_of(*node, part, joints);
-    } else if (std::ranges::find(joints, part) == joints.end()) {
-      node = nullptr;
-    }
-    at = end + 1;
-  }
-  return node;
-}
-
 /// Node of a key in the scenario's file; null if a setting of the study replaces it.
 const Node* find_in_file(const Node& file, const std::string& key, const Study& study) {
   const std::string section = key.substr(0, key.rfind('.'));
   const auto sets = [&](const std::string& set) {
     return set.starts_with(section) || section.starts_with(set.substr(0, set.find('=')));
   };
-  return std::ranges::any_of(study.sets, sets) ? nullptr : find(file, key, {});
+  return std::ranges::any_of(study.sets, sets) ? nullptr : find_key(file, key, {});
 }
 
 OwnValue own_value(const Node* node, const Parameter& p) {
@@ -66,6 +48,23 @@ OwnValue own_value(const Node* node, const Parameter& p) {
 
 }  // namespace
 
+const Node* find_key(const Node& root, const std::string& key, const std::vector<std::string>& joints) {
+  const Node* node = &root;
+  for (std::size_t at = 0; node != nullptr && at <= key.size();) {
+    const std::size_t end = std::min(key.find('.', at), key.size());
+    const std::string part = key.substr(at, end - at);
+    if (node->kind == Node::Kind::map) {
+      node = node->find(part);
+    } else if (node->kind == Node::Kind::list) {
+      node = entry_of(*node, part, joints);
+    } else if (std::ranges::find(joints, part) == joints.end()) {
+      node = nullptr;
+    }
+    at = end + 1;
+  }
+  return node;
+}
+
 std::vector<OwnValue> own_values(const Study& study, const StudyScenario& scenario) {
   const Node resolved = parse_yaml(scenario.resolved, scenario.nominal.file);
   std::optional<Node> file;
@@ -75,7 +74,7 @@ std::vector<OwnValue> own_values(const Study& study, const StudyScenario& scenar
       all.push_back({"", "is a parameter of the study, without a value in the scenario"});
       continue;
     }
-    const Node* node = find(resolved, p.key, scenario.joints);
+    const Node* node = find_key(resolved, p.key, scenario.joints);
     if (node == nullptr || node->kind != Node::Kind::scalar) {
       if (!file) file = parse_yaml(read_file(scenario.nominal.file, kMostScenario), scenario.nominal.file);
       node = find_in_file(*file, p.key, study);

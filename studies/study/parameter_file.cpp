@@ -126,8 +126,8 @@ void read_parameters(const Node& node, Study& study, Problems& problems) {
     Parameter parameter;
     parameter.key = node.keys[i].first;
     parameter.place = node.keys[i].second;
-    Reader reader(node.items[i], parameter.key, problems, nullptr);
     const std::size_t before = problems.size();
+    Reader reader(node.items[i], parameter.key, problems, nullptr);
     const Node* values = reader.take("values");
     if (values != nullptr) {
       read_values(*values, parameter.key + ".values", parameter.values, parameter.words, problems);

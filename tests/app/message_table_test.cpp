@@ -7,8 +7,8 @@ namespace gaitlab::test {
 namespace {
 
 /// A part of a table: a file to write (`file NAME`), or a call of the program (`$ ARGUMENTS`, or `$0` for one that succeeds),
-/// with its lines. Those of a call are what it prints on stderr; `...` at the end stands for any further lines, and `| TEXT`
-/// for a text within stdout.
+/// with its lines. SCENARIOS/ is the folder of the shipped scenarios. The lines of a call are what it prints on stderr; `...`
+/// at the end stands for any further lines, and `| TEXT` for a text within stdout.
 struct TablePart {
   std::string head;
   std::vector<std::string> lines = {};
@@ -44,7 +44,7 @@ class MessageTable : public ::testing::TestWithParam<const char*> {
 
   void call(const TablePart& part) {
     const bool succeeds = part.head.starts_with("$0");
-    const std::string arguments = part.head.substr(part.head.find(' ') + 1);
+    const std::string arguments = replaced(part.head.substr(part.head.find(' ') + 1), "SCENARIOS/", kScenarios);
     const Result result = gaitlab(part.head.size() <= 2 ? "" : arguments, folder_.path());
     std::string expected;
     bool open = false;

@@ -120,18 +120,6 @@ class CurvesOfPanel final : public PaperPanel {
   }
 
  private:
-  /// Patterns of columns for a pattern with a group in the place of a joint: joint.m3/hinge.torque ... for joint.hips.torque.
-  static std::vector<std::string> by_joint(const std::string& pattern, const JointGroups& groups) {
-    for (const JointGroup& group : groups) {
-      const std::string prefix = "joint." + group.name + ".";
-      if (!pattern.starts_with(prefix)) continue;
-      std::vector<std::string> each;
-      for (const std::string& joint : group.joints) each.push_back("joint." + joint + "." + pattern.substr(prefix.size()));
-      return each;
-    }
-    return {pattern};
-  }
-
   /// Adds the curves of an axis.
   void find(const PanelSource& source, const std::vector<const PaperRun*>& runs, const AxisRecipe& axis, Side side,
             const std::string& key) {
@@ -140,10 +128,10 @@ class CurvesOfPanel final : public PaperPanel {
       const std::vector<FoundColumn> all = columns_of(*run);
       for (std::size_t k = 0; k < axis.columns.size(); ++k) {
         const std::string& pattern = axis.columns[k];
+        const ColumnChoice choice(pattern, joint_names(*run->scenario.robot), run->scenario.groups);
         bool any = false;
         for (const FoundColumn& column : all) {
-          const auto meant = [&](const std::string& one) { return glob(one, column.name) || glob(one, column.alias); };
-          if (std::ranges::none_of(by_joint(pattern, run->scenario.groups), meant)) continue;
+          if (!choice.has(column.name) && !glob(pattern, column.alias)) continue;
           any = true;
           const auto same = [&](const PaperCurve& c) { return c.run == run && c.side == side && c.column.name == column.name; };
           if (std::ranges::none_of(curves_, same)) curves_.push_back(curve_of(*run, column, side));

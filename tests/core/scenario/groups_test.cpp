@@ -73,6 +73,17 @@ TEST_F(GroupsTest, WrongGroups) {
   EXPECT_EQ(error(with("{a: [m0/h, m7/h], b: [\"*/x\"]}")),
             "DIR/s.yaml:5:20: error: no joint 'm7/h'; joints are m0/h, m1/h\n"
             "DIR/s.yaml:5:31: error: no joint matches '*/x'; did you mean '*/h'?");
+  EXPECT_EQ(error(with("{m1: [m0/h]}")),
+            "DIR/s.yaml:5:10: error: 'm1' is the name of a module; expected another name for the group");
+}
+
+TEST_F(GroupsTest, AGroupWithAFaultIsReportedOnce) {
+  const std::string group = "DIR/s.yaml:5:14: error: 'a' is a group; expected a joint or a pattern";
+  EXPECT_EQ(error(with("{a: [a]}")), "DIR/s.yaml:5:14: error: 'a' is a group; expected a joint or a pattern");
+  EXPECT_EQ(error(with("{a: [a]}", "actuator: {R: {a: 3}}\nfigure: {joints: [a]}\n")), group);
+  EXPECT_EQ(error(with("{a: [a]}", "at: [{t: 0.5, fault: {joint: a, kind: dead}}]\n")), group);
+  EXPECT_EQ(error(with("{b: [m0/h], c: [b, m1/h]}", "actuator: {R: {c: 3}}\n")),
+            "DIR/s.yaml:5:25: error: 'b' is a group; expected a joint or a pattern");
 }
 
 TEST_F(GroupsTest, WrongUses) {

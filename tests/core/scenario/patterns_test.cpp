@@ -62,6 +62,30 @@ TEST(JointPatterns, OfARobotWithoutJoints) {
   EXPECT_TRUE(joints_meant({}, {"m0/h"}).empty());
 }
 
+TEST(JointPatterns, InNamesOfColumns) {
+  const std::vector<std::string> joints{"m0/a", "m0/b", "m1/a", "m1/b", "m2/a", "m2/b", "m3/a", "m3/b", "m4/a", "m4/b", "m5/a"};
+  const JointGroups groups{{"hips", {"m0/b", "m5/a"}}};
+  const auto chosen = [&](const std::string& text) {
+    std::string numbers;
+    const ColumnChoice choice(text, joints, groups);
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      if (choice.has("joint." + std::to_string(j) + ".torque")) numbers += std::to_string(j) + " ";
+    }
+    return numbers;
+  };
+  EXPECT_EQ(chosen("joint.hips.torque"), "1 10 ");
+  EXPECT_EQ(chosen("joint.m5/a.torq*"), "10 ");
+  EXPECT_EQ(chosen("joint.m[1-2]/b.*ue"), "3 5 ");
+  EXPECT_EQ(chosen("joint.1.torque"), "1 ") << "a number is that of a joint";
+  EXPECT_EQ(chosen("joint.hips.speed"), "");
+  EXPECT_EQ(chosen("joint.knees.torque"), "");
+  EXPECT_EQ(chosen("reaction.hips.torque"), "");
+  EXPECT_TRUE(ColumnChoice("reaction.hips.m?", joints, groups).has("reaction.10.my"));
+  EXPECT_FALSE(ColumnChoice("reaction.hips.m?", joints, groups).has("reaction.m1/dock.my"));
+  EXPECT_TRUE(ColumnChoice("reaction.m1/dock.my", joints, groups).has("reaction.m1/dock.my"));
+  EXPECT_FALSE(ColumnChoice("joint.", joints, groups).has("joint.0.torque"));
+}
+
 TEST(JointPatterns, AHostileTextIsCheapAndShort) {
   const std::vector<std::string> joints{"m0/h", "m1/h"};
   EXPECT_EQ(no_joint(std::string(100000, '*') + "x", joints),

@@ -47,7 +47,7 @@ TEST(Node, AnchorsAliasesAndTagsAreRefused) {
             "f:1:4: error: found the anchor '&x'; anchors and aliases are not supported\n"
             "f:1:8: error: found an alias (*name); write the value itself");
   EXPECT_EQ(error("a: *x\n"),
-            "f:1:4: error: not valid YAML: the referenced anchor is not defined; a pattern goes in quotes: \"*/active\"");
+            "f:1:4: error: not valid YAML: found * outside of quotes; a pattern goes in quotes: \"*/active\"");
   EXPECT_EQ(error("a: !!float 1\n"), "f:1:4: error: found the tag 'tag:yaml.org,2002:float'; explicit tags are not supported");
   EXPECT_EQ(error("a: ! 1\n"), "f:1:4: error: found the tag '!'; explicit tags are not supported");
   EXPECT_EQ(error("a: !t [1]\n"), "f:1:4: error: found the tag '!t'; explicit tags are not supported");
@@ -108,7 +108,9 @@ TEST(Node, OnlyTextIsRead) {
 
 TEST(Node, SyntaxErrorsHaveAPlace) {
   EXPECT_EQ(error("a: [1, 2\n"), "f:1:4: error: not valid YAML: the [ opened here is not closed; expected ]");
-  EXPECT_EQ(error("a: b: c\n"), "f:1:5: error: not valid YAML: illegal map value");
+  EXPECT_EQ(error("a: b: c\n"),
+            "f:1:5: error: not valid YAML: found a second colon in 'b: c'; expected braces, {b: c}, a text in quotes, or a "
+            "line for each key");
 }
 
 TEST(Node, AMissingFileIsReportedWhereItWasAskedFor) {

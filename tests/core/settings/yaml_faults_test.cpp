@@ -35,11 +35,38 @@ TEST(YamlFaults, IndentationThatFitsNoLine) {
             "f:3:3: error: not valid YAML: found an item of a list (-) among keys; 'b' of line 2 is indented as much");
 }
 
+TEST(YamlFaults, QuotesThatAreNotClosed) {
+  const std::string open = ": error: not valid YAML: the \" opened here is not closed; expected \"";
+  EXPECT_EQ(yaml_error("a: {b: \"c}\n"), "f:1:8" + open);
+  EXPECT_EQ(yaml_error("a: {b: \"c}\nd: \"e\"\n"), "f:1:8" + open) << "closed by the next quote";
+  EXPECT_EQ(yaml_error("a: \"b\nc: \"d\"\n"), "f:1:4" + open);
+  EXPECT_EQ(yaml_error("a: {b: \"c \\\" d}\n"), "f:1:8" + open) << "a quote after a backslash is part of the text";
+  EXPECT_EQ(yaml_error("a: \"b \\\" c\n"), "f:1:4" + open) << "at the end of the text";
+  EXPECT_EQ(yaml_error("a: 'it''s\n"), "f:1:4: error: not valid YAML: the ' opened here is not closed; expected '");
+  EXPECT_EQ(yaml_error("a: \"\\\\\"\nb: ''\nc: ''''\n\"d\": 1\n"), "no error");
+  EXPECT_EQ(yaml_error("a: {b: 'it''s}\n"), "f:1:8: error: not valid YAML: the ' opened here is not closed; expected '");
+}
+
+TEST(YamlFaults, TextsAfterAValue) {
+  EXPECT_EQ(yaml_error("a: [1] 2\n"),
+            "f:1:8: error: not valid YAML: found '2' after the ] that ends the value; expected the end of the line");
+  EXPECT_EQ(yaml_error("a: {b: [1] 2}\n"),
+            "f:1:12: error: not valid YAML: found '2}' after the ] that ends the value; expected a comma or a closing bracket");
+  EXPECT_EQ(yaml_error("a: ]\n"), "f:1:4: error: not valid YAML: found ], but no [ is open; expected [ before it");
+}
+
+// Texts that this scanner of lines does not understand, before a fault of another kind.
+TEST(YamlFaults, AreNotSeenInBlocks) {
+  EXPECT_EQ(
+      yaml_error("a: |\n  \"x\" y {z} w ]\n  'q' r\nb: c: d\n"),
+      "f:4:5: error: not valid YAML: found a second colon in 'c: d'; expected braces, {c: d}, a text in quotes, or a line "
+      "for each key");
+}
+
 TEST(YamlFaults, OtherFaultsKeepTheWordsOfTheParser) {
-  EXPECT_EQ(yaml_error("a: b: c\n"), "f:1:5: error: not valid YAML: illegal map value");
+  EXPECT_EQ(yaml_fault_in_words("some rule", "a: b", 3), "some rule");
   EXPECT_EQ(yaml_fault("", "f", 1).text, "");
   EXPECT_EQ(yaml_fault("a: 1\nb: 2\n", "f", 2).text, "");
-  EXPECT_EQ(yaml_fault("]}\n", "f", 1).text, "") << "closing brackets alone";
 }
 
 }  // namespace
