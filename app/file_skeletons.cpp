@@ -56,7 +56,7 @@ contacts:
 )";
 
 const char* const kSkeletonScenario =
-    R"(# Scenario @NAME@: a wave along @ROBOT@. It runs as it stands, to a verdict: gaitlab run @FILE@
+    R"(# Scenario @NAME@: a wave along @ROBOT@. @PROMISE@: gaitlab run @FILE@
 # Change first: the robot (docks), then frequency, amplitude and phase_lag of the gait. Every key: gaitlab explain
 gaitlab: 1
 name: @TEXT@
@@ -71,12 +71,12 @@ physics:
 @GROUND@
 @INITIAL@cpg:
   type: phase_oscillator   # others: gaitlab list cpg
-  frequency: 0.5           # Hz
+  frequency: @FREQUENCY@           # Hz
   amplitude: @AMPLITUDE@           # rad
   offset: @OFFSET@                # rad, middle of the motion
   phase_lag: 1             # rad from joint to joint; negative: the wave runs the other way
 
-duration: 8                # s: a period to start, and three that are judged
+duration: @DURATION@                # s: a period to start, and three that are judged
 )";
 
 }  // namespace gaitlab::app

@@ -3,17 +3,19 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <filesystem>
 #include <system_error>
 
 #include "app/chain.h"
 #include "app/commands.h"
+#include "app/run_time.h"
+#include "app/scenario_values.h"
 #include "app/skeletons.h"
 #include "app/study/study_text.h"
 #include "core/scenario/read_scenario.h"
 #include "core/settings/wording.h"
 #include "core/settings/writer.h"
+#include "core/simulation/simulation.h"
 #include "interchange/urdf_module.h"
 
 namespace gaitlab::app {
@@ -101,36 +103,6 @@ std::string module_value(const NamedModule& module, const NewFileArguments& argu
   return yaml_text(path);
 }
 
-/// Value of a key per joint: `default` for all hinges, and the values of some hinges by their names.
-std::string per_hinge(double common, const std::vector<std::pair<std::string, double>>& others) {
-  if (others.empty()) return number_text(common);
-  std::string text = "{default: " + number_text(common);
-  for (const auto& [hinge, value] : others) text += fmt::format(", \"*/{}\": {}", hinge, number_text(value));
-  return text + "}";
-}
-
-/// Values of the gait that fit the ranges of the hinges.
-struct GaitValues {
-  std::string amplitude, offset, angles;
-};
-
-GaitValues gait_values(const ModuleType& type) {
-  constexpr double kAmplitude = 0.4;  // rad
-  constexpr double kShare = 0.8;      // of half the range, where it is narrow
-  constexpr double kDigits = 1000;    // values are rounded to 0.001 rad
-  std::vector<std::pair<std::string, double>> amplitudes, offsets, angles;
-  for (const HingeType& hinge : type.hinges) {
-    if (hinge.hi == kNoStop || (hinge.lo <= -kAmplitude && hinge.hi >= kAmplitude)) continue;
-    const double middle = std::round((hinge.lo + hinge.hi) / 2 * kDigits) / kDigits;
-    const double half = std::min(middle - hinge.lo, hinge.hi - middle);
-    angles.emplace_back(hinge.name, middle);
-    if (hinge.passive) continue;
-    offsets.emplace_back(hinge.name, middle);
-    amplitudes.emplace_back(hinge.name, std::min(kAmplitude, std::floor(kShare * half * kDigits) / kDigits));
-  }
-  return {per_hinge(kAmplitude, amplitudes), per_hinge(0, offsets), per_hinge(0, angles)};
-}
-
 /// Text of the docks, with a comment on their numbers.
 std::string docks_text(const std::vector<Dock>& docks) {
   if (docks.empty()) return "";
@@ -140,23 +112,6 @@ std::string docks_text(const std::vector<Dock>& docks) {
                         dock.parent_module, dock.orientation);
   }
   return text;
-}
-
-/// Surroundings of the robot as sections of a scenario, and its base.
-struct Surroundings {
-  std::string base, ground;
-};
-
-/// The ground, or a fixed base for a module that touches nothing.
-Surroundings surroundings(const ModuleType& type) {
-  if (type.all.empty() && type.feet.empty()) {
-    return {"  base: fixed              # the module has no contact elements, so that it would fall\n",
-            "ground: {type: none}\ncontact: {on: none}\n"};
-  }
-  return {"", std::string("ground:\n  friction: 0.8            # coefficient between robot and ground\ncontact:\n") +
-                  (type.all.empty()
-                       ? "  on: feet                 # the module has elements for feet alone; all: every element\n"
-                       : "  on: all                  # every contact element of the module; feet: those of its feet\n")};
 }
 
 /// Description of the robot that `docks` make of modules of a type.
@@ -172,35 +127,88 @@ void check_driven(const ModuleType& type, const std::string& file) {
                                                      type.name));
 }
 
-int new_scenario(const NewFileArguments& arguments) {
+/// The robot of a new scenario: a row of modules of one type.
+struct NewRobot {
+  NamedModule module;
+  Scenario one;  ///< of one module
+  std::vector<Dock> docks;
+  [[nodiscard]] const ModuleType& type() const { return one.robot->types[0]; }
+};
+
+NewRobot new_robot(const NewFileArguments& arguments, Catalog& catalog) {
   constexpr int kModules = 4;
-  const std::string& name = arguments.name;
-  check_file_name("scenario", name);
-  const NamedModule module = named_module(arguments.module);
-  Catalog catalog = standard_catalog();
-  const Scenario one = read_module(module.file, catalog);
-  const ModuleType& type = one.robot->types[0];
-  check_driven(type, module.file);
-  const std::vector<Dock> docks = chain(one, kModules);
-  const GaitValues gait = gait_values(type);
-  const Surroundings around = surroundings(type);
+  NewRobot robot{named_module(arguments.module), {}, {}};
+  robot.one = read_module(robot.module.file, catalog);
+  check_driven(robot.type(), robot.module.file);
+  robot.docks = chain(robot.one, modules_carried(robot.one, kModules));
+  return robot;
+}
+
+/// Text of the scenario with a gait of this amplitude, rad, and `promise` at its head.
+std::string scenario_text(const NewFileArguments& arguments, const NewRobot& robot, double amplitude,
+                          const std::string& promise) {
+  const GaitValues gait = gait_values(robot.one, amplitude);
+  const Surroundings around = surroundings(robot.type(), static_cast<int>(robot.docks.size()) + 1);
   const std::pair<const char*, std::string> values[] = {
-      {"@NAME@", name},
-      {"@TEXT@", yaml_text(name)},
-      {"@ROBOT@", robot_text(type.name, docks)},
-      {"@FILE@", shell_word(arguments.out.value_or(name + ".yaml"))},
-      {"@MODULE@", module_value(module, arguments)},
-      {"@DOCKS@", docks_text(docks)},
+      {"@NAME@", arguments.name},
+      {"@TEXT@", yaml_text(arguments.name)},
+      {"@ROBOT@", robot_text(robot.type().name, robot.docks)},
+      {"@PROMISE@", promise},
+      {"@FILE@", shell_word(arguments.out.value_or(arguments.name + ".yaml"))},
+      {"@MODULE@", module_value(robot.module, arguments)},
+      {"@DOCKS@", docks_text(robot.docks)},
       {"@BASE@", around.base},
       {"@GROUND@", around.ground},
       {"@INITIAL@", gait.angles == "0" ? "" : "initial: {angles: " + gait.angles + "}   # rad\n\n"},
+      {"@FREQUENCY@", gait.frequency},
       {"@AMPLITUDE@", gait.amplitude},
-      {"@OFFSET@", gait.offset}};
+      {"@OFFSET@", gait.offset},
+      {"@DURATION@", gait.duration}};
   std::string text = kSkeletonScenario;
   for (const auto& [mark, value] : values) text = filled(text, mark, value);
-  const std::string file = shell_word(write_new(arguments, text));
-  fmt::print("{0}: {1}; next:\n  gaitlab check {0} --page {2}.html\n  gaitlab run {0}\n", file, robot_text(type.name, docks),
-             name);
+  return text;
+}
+
+/// The reason why the scenario in the file is not feasible; empty if it is, or if a run would take long.
+std::string shortfall(const std::string& file, Catalog& catalog) try {
+  const Scenario s = read_scenario(file, {}, catalog);
+  if (estimated_seconds(s) > kLongRun) return "";
+  Simulation simulation({&s, 1});
+  simulation.run();
+  const Recording recording = simulation.take_recording(0);
+  const report::Summary summary = report::summarise(s, recording, 0);
+  const report::Verdict verdict = report::verdict(s, recording, summary, report::overlaps(s, recording));
+  return verdict.word == report::Word::feasible ? "" : fmt::format("{}: {}", name_of(verdict.word), verdict.why());
+} catch (const InputError& error) {
+  return error.problems().front().text;
+}
+
+/// Writes the scenario with the largest of some amplitudes that is feasible. If none is, the first remains, and the file states
+/// the reason.
+std::string write_scenario(const NewFileArguments& arguments, const NewRobot& robot, Catalog& catalog) {
+  constexpr double kAmplitudes[] = {0.4, 0.2, 0.1};  // rad
+  const auto text = [&](double amplitude) {
+    return scenario_text(arguments, robot, amplitude, "It runs as it stands, to a verdict");
+  };
+  const std::string file = write_new(arguments, text(kAmplitudes[0]));
+  const std::string why = shortfall(file, catalog);
+  if (why.empty()) return file;
+  for (std::size_t i = 1; i < std::size(kAmplitudes); ++i) {
+    write_file(file, text(kAmplitudes[i]));
+    if (shortfall(file, catalog).empty()) return file;
+  }
+  write_file(file, scenario_text(arguments, robot, kAmplitudes[0], "As it stands " + why));
+  say(file, "note", "as it stands " + why);
+  return file;
+}
+
+int new_scenario(const NewFileArguments& arguments) {
+  check_file_name("scenario", arguments.name);
+  Catalog catalog = standard_catalog();
+  const NewRobot robot = new_robot(arguments, catalog);
+  const std::string file = shell_word(write_scenario(arguments, robot, catalog));
+  fmt::print("{0}: {1}; next:\n  gaitlab check {0} --page {2}.html\n  gaitlab run {0}\n", file,
+             robot_text(robot.type().name, robot.docks), arguments.name);
   return 0;
 }
 
