@@ -92,7 +92,22 @@ std::string hinge_text(const UrdfHinge& one, const UrdfBodies& parts, const Urdf
   return text;
 }
 
-std::string module_text(const UrdfBodies& parts, const std::string& name, const std::string& file) {
+/// The text of a module, and the lines at which the parts of links and joints begin.
+struct ModuleText {
+  struct Part {
+    int line;
+    const char* tag;  ///< of the URDF file
+    std::string name;
+  };
+  std::string text;
+  std::vector<Part> parts = {};
+
+  void begin(const char* tag, const std::string& name) {
+    parts.push_back({static_cast<int>(std::ranges::count(text, '\n')) + 1, tag, name});
+  }
+};
+
+ModuleText module_text(const UrdfBodies& parts, const std::string& name, const std::string& file) {
   const auto driven = std::ranges::find_if(parts.hinges, [](const UrdfHinge& one) { return !one.hinge.passive; });
   const UrdfHinge* common = driven == parts.hinges.end() ? nullptr : &*driven;
   const std::string from = std::filesystem::path(file).filename().string();
@@ -101,16 +116,24 @@ std::string module_text(const UrdfBodies& parts, const std::string& name, const 
       "# Add faces, where modules dock; replace the motor by that of a data sheet.\n",
       name);
   for (const std::string& note : parts.notes) text += "# Not carried over: " + note + "\n";
-  text += fmt::format("gaitlab_module: 3\nname: {}\nsource: {}\nbodies:\n", word_text(name), word_text(from));
-  for (const BodyType& body : parts.bodies) text += body_text(body);
-  if (!parts.hinges.empty()) text += "hinges:\n";
-  for (const UrdfHinge& one : parts.hinges) text += hinge_text(one, parts, common);
+  ModuleText made{text + fmt::format("gaitlab_module: 3\nname: {}\nsource: {}\nbodies:\n", word_text(name), word_text(from))};
+  for (std::size_t b = 0; b < parts.bodies.size(); ++b) {
+    made.begin("link", parts.links[b]);
+    made.text += body_text(parts.bodies[b]);
+  }
+  if (!parts.hinges.empty()) made.text += "hinges:\n";
+  for (std::size_t j = 0; j < parts.hinges.size(); ++j) {
+    made.begin("joint", parts.joints[j]);
+    made.text += hinge_text(parts.hinges[j], parts, common);
+  }
+  made.begin("robot", "");
   if (std::ranges::any_of(parts.bodies, [](const BodyType& body) { return !body.shapes.empty(); }))
-    text += "contacts: {all: shapes}\n";
-  if (common == nullptr) return text;
-  return text + fmt::format("actuator: {{type: servo, voltage: {}, {}, source: {}}}\ncontroller: {{type: pid, {}, Kd: 0}}\n",
-                            number_text(kVoltage), motor_text(*common),
-                            word_text("chosen: the voltage; the rest are effort and velocity in " + from), gain_text(*common));
+    made.text += "contacts: {all: shapes}\n";
+  if (common == nullptr) return made;
+  made.text += fmt::format("actuator: {{type: servo, voltage: {}, {}, source: {}}}\ncontroller: {{type: pid, {}, Kd: 0}}\n",
+                           number_text(kVoltage), motor_text(*common),
+                           word_text("chosen: the voltage; the rest are effort and velocity in " + from), gain_text(*common));
+  return made;
 }
 
 /// Throws InputError with the problems in the order of the file.
@@ -121,6 +144,16 @@ void raise_by_line(const Problems& problems) {
   throw InputError(std::move(list));
 }
 
+/// The problem at the link or joint whose part of the module text has it.
+Problem at_urdf(const Problem& problem, const ModuleText& made, const UrdfText& urdf, const std::string& file) {
+  const auto after = std::ranges::find_if(made.parts, [&](const auto& part) { return part.line > problem.place.line; });
+  if (after == made.parts.begin() || std::prev(after)->name.empty()) return {SourceLocation{file}, problem.text};
+  const ModuleText::Part& part = *std::prev(after);
+  const bool named = problem.text.find(in_quotes(part.name)) != std::string::npos;
+  return {urdf.place(part.tag, part.name),
+          named ? problem.text : fmt::format("{} {}: {}", part.tag, in_quotes(part.name), problem.text)};
+}
+
 }  // namespace
 
 UrdfModule module_of_urdf(const std::string& file, const std::string& name) {
@@ -128,13 +161,16 @@ UrdfModule module_of_urdf(const std::string& file, const std::string& name) {
   Problems problems;
   const UrdfBodies parts = urdf_bodies(urdf, problems);
   raise_by_line(problems);
-  UrdfModule made{module_text(parts, name, file), parts.notes};
+  ModuleText made = module_text(parts, name, file);
   // The reader of module files checks what URDF permits: impossible inertias, axes of length 0, sizes of 0.
   Problems found;
   static_cast<void>(read_module(parse_yaml(made.text, file), true, found));
-  for (const Problem& problem : found.list()) problems.add(SourceLocation{file}, problem.text);
-  problems.raise();
-  return made;
+  for (const Problem& problem : found.list()) {
+    const Problem placed = at_urdf(problem, made, urdf, file);
+    problems.add(placed.place, placed.text);
+  }
+  raise_by_line(problems);
+  return {std::move(made.text), parts.notes};
 }
 
 }  // namespace gaitlab::interchange
