@@ -63,8 +63,8 @@ double mass_of(const ModuleType& type) {
   return mass;
 }
 
-/// Stiffness and damping of a ground on which four contact elements, or as many as there are, sink by at most 1 mm under the
-/// robot. Empty if the default is stiff enough.
+/// Stiffness and damping of a ground on which four contact elements (or all, if there are fewer) sink by at most 1 mm under
+/// the robot. Empty if the default is stiff enough.
 std::string stiffer(const ModuleType& type, int modules) {
   constexpr double kSink = 1e-3;  // m
   constexpr std::size_t kFeet = 4;
