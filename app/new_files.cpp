@@ -39,13 +39,6 @@ void check_file_name(const std::string& what, const std::string& name) {
   }
 }
 
-/// A text as YAML, in quotes where it needs them.
-std::string yaml_text(const std::string& text) {
-  std::string value = print_yaml(text_node(text));
-  while (value.ends_with('\n')) value.pop_back();
-  return value;
-}
-
 /// Writes a new file and returns its name.
 std::string write_new(const NewFileArguments& arguments, const std::string& text) {
   const std::string file = arguments.out.value_or(arguments.name + ".yaml");
@@ -63,15 +56,27 @@ int new_module(const NewFileArguments& arguments) {
   }
   std::string text = filled(filled(kSkeletonModule, "@NAME@", name), "@TEXT@", yaml_text(name));
   std::string what = "a module of two bodies and a hinge; replace its numbers by yours";
+  bool driven = true;
   if (arguments.from) {
     interchange::UrdfModule made = interchange::module_of_urdf(*arguments.from, name);
     for (const std::string& note : made.notes) say(*arguments.from, "note", "not carried over: " + note);
     text = std::move(made.text);
     what = "the robot of " + *arguments.from + " as a module";
+    driven = made.driven;
   }
-  const std::string file = shell_word(write_new(arguments, text));
-  fmt::print("{0}: {1}; next:\n  gaitlab explain module {0}\n", file, what);
-  fmt::print("  gaitlab new scenario {0}-walk --module {1}\n  gaitlab run {0}-walk.yaml\n", name, file);
+  const std::string file = write_new(arguments, text);
+  fmt::print("{0}: {1}; next:\n  gaitlab explain module {0}\n", shell_word(file), what);
+  if (driven) {
+    fmt::print("  gaitlab new scenario {0}-walk --module {1}\n  gaitlab run {0}-walk.yaml\n", name, shell_word(file));
+  } else {
+    fmt::print(
+        "No hinge has a motor, so that no gait moves it. To let it fall:\n  echo {1} > {0}-fall.yaml\n  gaitlab run "
+        "{0}-fall.yaml\n",
+        name,
+        shell_word(fmt::format("{{gaitlab: 1, robot: {{modules: {}}}, actuator: {{type: none}}, contact: {{on: all}}, "
+                               "duration: 5}}",
+                               yaml_text(file.find('/') == std::string::npos ? "./" + file : file))));
+  }
   return 0;
 }
 

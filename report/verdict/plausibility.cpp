@@ -114,7 +114,11 @@ Subject::Subject(const Scenario& s) : scenario(s), set_points(set_point_ranges(s
     for (std::size_t b = 0; b < type.bodies.size(); ++b) {
       const BodyType& body = type.bodies[b];
       Size size{body.shapes.empty() ? box_of_points(type, b) : body.shapes, body.shapes.empty()};
-      if (body.mass > 0 && !size.shapes.empty() && size.shapes.size() <= kMostShapes) size.solid = united(size.shapes);
+      if (body.volume > 0) {
+        size.solid.volume = body.volume;
+      } else if (body.mass > 0 && !size.shapes.empty() && size.shapes.size() <= kMostShapes) {
+        size.solid = united(size.shapes);
+      }
       sizes.back().push_back(std::move(size));
     }
   }

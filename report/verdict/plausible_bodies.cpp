@@ -202,6 +202,7 @@ double worst_ratio(const Vec3& moments, const Vec3& of_shapes, double factor) {
 std::vector<Finding> moments(const Subject& subject) {
   std::vector<Finding> found;
   each_solid_body(subject, [&](const TypeBody& one) {
+    if (one.body.volume > 0) return;  // the inertia is that of the shapes
     const Vec3 stated = sorted_moments(one.body.inertia);
     const Vec3 of_shapes = sorted_moments(one.size.solid.inertia(one.body.mass));
     const auto ratio = [one, stated, of_shapes](double factor) { return one.judged(worst_ratio(stated, of_shapes, factor)); };

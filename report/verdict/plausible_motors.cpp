@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "core/laws/data_sheet.h"
 #include "core/laws/dc_motor.h"
 #include "core/model/outline.h"
 #include "core/robot_files/type_presets.h"
@@ -20,8 +21,8 @@ namespace {
 
 constexpr double kGravity = 9.81;  // m/s^2, of the rule of thumb
 
-double of_kgf_cm(double value) { return value * 0.0980665; }
-double of_rev_per_min(double value) { return value * 2 * std::numbers::pi / 60; }
+double of_kgf_cm(double value) { return value * kKgfCm; }
+double of_rev_per_min(double value) { return value * kRevPerMin; }
 double of_s_per_60_degrees(double value) { return std::numbers::pi / 3 / value; }
 
 /// Torque at rest and no-load speed of a joint's motor: the data of a servo, or those that follow from the constants of a DC

@@ -23,7 +23,8 @@ struct Subject {
   struct Size {
     std::vector<Shape> shapes;  ///< of the body, or a box about its points; empty if it has neither
     bool of_points = false;     ///< true for a box about contact elements, faces and hinges
-    Solid solid = {};           ///< union of the shapes; volume 0 for a body without mass, or with too many shapes
+    Solid solid = {};           ///< union of the shapes; volume 0 for a body without mass, or with too many shapes, and no
+                                ///< moments if the body's inertia is that of its shapes
     [[nodiscard]] double largest_edge() const;
   };
   std::vector<std::vector<Size>> sizes;  ///< by type and body

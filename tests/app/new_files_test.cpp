@@ -1,5 +1,9 @@
 // `gaitlab new module` and `new scenario` write files that are valid and run as they stand.
+#include <cstdlib>
+#include <sstream>
+
 #include "app/chain.h"
+#include "core/laws/data_sheet.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -45,6 +49,39 @@ TEST_F(NewFiles, AModuleAndItsScenarioAreFeasibleAsTheyStand) {
             "  gaitlab run demo-walk.yaml\n");
   EXPECT_EQ(read(folder / "demo-walk.yaml").find('@'), std::string::npos);
   EXPECT_EQ(verdict("demo-walk.yaml"), "feasible");
+}
+
+/// The commands that `new module` prints, with and without --from, run as printed.
+TEST_F(NewFiles, ThePrintedCommandsRun) {
+  const std::string link =
+      "'><inertial><mass value='1'/><inertia ixx='0.01' iyy='0.01' izz='0.01' ixy='0' ixz='0' iyz='0'/></inertial>"
+      "<visual><origin xyz='0 0 -0.1'/><geometry><box size='0.1 0.1 0.1'/></geometry></visual></link>";
+  const auto urdf = [&](const std::string& name, const std::string& effort) {
+    folder.write(name,
+                 "<robot name='r'><link name='a" + link + "<link name='b" + link +
+                     "<joint name='j' type='revolute'><parent link='a'/><child link='b'/><axis xyz='0 1 0'/><limit effort='" +
+                     effort + "' velocity='5' lower='-1' upper='1'/></joint></robot>");
+  };
+  urdf("driven.urdf", "9");
+  urdf("passive.urdf", "0");
+  for (const std::string words : {"module one", "module two --from driven.urdf", "module three --from passive.urdf"}) {
+    const Result made = call(words);
+    std::istringstream lines(made.out);
+    int commands = 0;
+    for (std::string line; std::getline(lines, line);) {
+      if (!line.starts_with("  ")) continue;
+      ++commands;
+      folder.write("next.sh", "gaitlab() { '" + std::string(GAITLAB_BINARY_DIR) + "/bin/gaitlab' \"$@\"; }\n" + line + "\n");
+      const std::string shell = "cd '" + (folder / "") + "' && bash next.sh >>out 2>>err";
+      EXPECT_EQ(std::system(shell.c_str()), 0) << line << read(folder / "err");
+    }
+    EXPECT_EQ(commands, 3) << made.out;
+  }
+}
+
+TEST_F(NewFiles, TheGainOfTheExampleIsTheUsualOne) {
+  EXPECT_EQ(call("module demo").code, 0);
+  EXPECT_TRUE(contains(read(folder / "demo.yaml"), fmt::format("Kp: {:.2g} ", gain_of_share(kUsualShare, 4.8, 4.553, 0.015))));
 }
 
 TEST_F(NewFiles, EveryModuleWithAMotorGetsAFeasibleGait) {

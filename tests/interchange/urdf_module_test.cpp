@@ -148,7 +148,9 @@ TEST_F(FromUrdf, MotorsAndPassiveHinges) {
   EXPECT_EQ(type.hinges[2].passive->friction, 0.2);
   EXPECT_TRUE(contains(made_.text, "    actuator: {stall_torque: 1, no_load_speed: 4}\n    controller: {Kp: 140}\n"))
       << made_.text;
-  EXPECT_TRUE(contains(made_.text, "actuator: {type: servo, voltage: 12, stall_torque: 5, no_load_speed: 3, source: \"chosen:"))
+  EXPECT_TRUE(contains(made_.text,
+                       "actuator: {type: servo, voltage: 12, stall_torque: 5, no_load_speed: 3, efficiency_model: directional, "
+                       "source: \"chosen:"))
       << made_.text;
   EXPECT_EQ(made_.notes,
             (std::vector<std::string>{
