@@ -176,8 +176,9 @@ std::string scenario_text(const NewFileArguments& arguments, const NewRobot& rob
 
 /// The reason why the scenario in the file is not feasible; empty if it is, or if a run would take long.
 std::string shortfall(const std::string& file, Catalog& catalog) try {
+  constexpr double kLong = 3;  // s, of one of three runs
   const Scenario s = read_scenario(file, {}, catalog);
-  if (estimated_seconds(s) > kLongRun) return "";
+  if (estimated_seconds(s) > kLong) return "";
   Simulation simulation({&s, 1});
   simulation.run();
   const Recording recording = simulation.take_recording(0);

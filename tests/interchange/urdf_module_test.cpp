@@ -199,8 +199,9 @@ TEST_F(FromUrdf, FaultsOfTheModuleHaveTheirPlace) {
             "r:4:1: error: link 'b': box[1] is -0.1 m; allowed are more than 0 m");
   EXPECT_EQ(refused(urdf_link("a") + urdf_link("b") + joint(std::string("<axis xyz='0 0 0'/>") + kLimit)),
             "r:4:1: error: joint 'j': axis has length 0; expected a direction");
-  EXPECT_EQ(refused(urdf_link("a") + urdf_link("b") + joint("<limit effort='5' velocity='3'/>")),
-            "r:4:1: error: joint 'j': range is 0 to 0 rad; expected the smaller angle first");
+  EXPECT_EQ(refused("<transmission name='t'><joint name='j'/></transmission>\n" + urdf_link("a") + urdf_link("b") +
+                    joint("<limit effort='5' velocity='3'/>")),
+            "r:5:1: error: joint 'j': range is 0 to 0 rad; expected the smaller angle first");
   EXPECT_EQ(refused(urdf_link(
                 "a", "<inertial><mass value='-1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>")),
             "r:2:1: error: link 'a' has mass -1 kg; expected more than 0 (only a link between two hinges may have none)");
