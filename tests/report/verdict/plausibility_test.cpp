@@ -217,17 +217,17 @@ TEST(Plausibility, Hinges) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0],
             "18:58: hinge 'hinge' of emerge is 35 m from the shapes of body 'body', whose largest edge is 0.052 m; expected at "
-            "most twice that: is origin in mm?");
+            "most four times that: is origin in mm?");
   const OddTexts shape = odd_numbers({{"0.052], origin: [0.0235,", "0.052], origin: [23.5,"},
                                       {"        com: [0.0235, 0, 0]\n", ""},
                                       {"        inertia: [3.605e-05, 3.275e-05, 3.275e-05, 0, 0, 0]\n", ""}});
   ASSERT_EQ(shape.size(), 1U) << "and not its faces";
   EXPECT_TRUE(
-      shape[0].ends_with("from the shapes of body 'head', whose largest edge is 0.052 m; expected at most twice that: "
+      shape[0].ends_with("from the shapes of body 'head', whose largest edge is 0.052 m; expected at most four times that: "
                          "are the origins of its shapes in mm?"))
       << shape[0];
-  EXPECT_EQ(odd_numbers({{"child: head, axis", "child: head, origin: [0.1, 0, 0], axis"}}), OddTexts())
-      << "0.1 m from a box of 0.052 m";
+  EXPECT_EQ(odd_numbers({{"child: head, axis", "child: head, origin: [0.2, 0, 0], axis"}}), OddTexts())
+      << "0.2 m from a box of 0.052 m";
 }
 
 /// Bodies without shapes have the size of the box about their contact elements, faces and hinges.
