@@ -4,15 +4,15 @@
 
 #include <algorithm>
 
+#include "core/laws/data_sheet.h"
+
 namespace gaitlab::actuators {
 
 namespace {
 
-constexpr double kUsualEfficiency = 0.7;            // chosen, equal to that of dc_motor
-constexpr double kLeastEfficiency = 0.01;           // chosen, far below any motor with its gear
-constexpr double kRounding = 1e-9;                  // tolerance for a data sheet whose numbers give an efficiency of exactly 1
-constexpr double kKgfCm = 0.0980665;                // N m per kgf cm
-constexpr double kRevPerMin = 0.10471975511965977;  // rad/s per rev/min
+constexpr double kUsualEfficiency = 0.7;   // chosen, equal to that of dc_motor
+constexpr double kLeastEfficiency = 0.01;  // chosen, far below any motor with its gear
+constexpr double kRounding = 1e-9;         // tolerance for a data sheet whose numbers give an efficiency of exactly 1
 
 /// Values of `make(joint)` for every joint; only one call if all given values are equal for all joints.
 template <class Make>

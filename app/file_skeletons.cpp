@@ -41,6 +41,7 @@ actuator:                              # the servo's data sheet
   voltage: 4.8                         # V, at which the sheet states the next two numbers
   stall_torque: 0.31381                # N m: 3.2 kgf cm (1 kgf cm = 0.0980665 N m)
   no_load_speed: 4.553                 # rad/s: 0.23 s/60 degrees (1.0472 rad / 0.23 s)
+  efficiency_model: directional        # gears take energy in both directions; paper, the default, lets them create it
   source: "chosen: a hobby servo"      # name of the data sheet; without it, or with "chosen", verdicts call the motor chosen
 controller:
   type: pid
@@ -56,7 +57,7 @@ contacts:
 )";
 
 const char* const kSkeletonScenario =
-    R"(# Scenario @NAME@: a wave along @ROBOT@. It runs as it stands, to a verdict: gaitlab run @FILE@
+    R"(# Scenario @NAME@: a wave along @ROBOT@. @PROMISE@: gaitlab run @FILE@
 # Change first: the robot (docks), then frequency, amplitude and phase_lag of the gait. Every key: gaitlab explain
 gaitlab: 1
 name: @TEXT@
@@ -71,12 +72,12 @@ physics:
 @GROUND@
 @INITIAL@cpg:
   type: phase_oscillator   # others: gaitlab list cpg
-  frequency: 0.5           # Hz
+  frequency: @FREQUENCY@           # Hz
   amplitude: @AMPLITUDE@           # rad
   offset: @OFFSET@                # rad, middle of the motion
   phase_lag: 1             # rad from joint to joint; negative: the wave runs the other way
 
-duration: 8                # s: a period to start, and three that are judged
+duration: @DURATION@                # s: a period to start, and three that are judged
 )";
 
 }  // namespace gaitlab::app

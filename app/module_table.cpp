@@ -10,6 +10,7 @@
 
 #include "core/model/docking.h"
 #include "core/model/outline.h"
+#include "core/model/solid.h"
 #include "core/robot_files/type_presets.h"
 #include "core/settings/wording.h"
 #include "report/analysis/envelope.h"
@@ -95,10 +96,21 @@ std::string hinges(const Robot& robot, const Motors& known) {
   return rows.size() > 1 ? aligned(rows) : "  no hinges\n";
 }
 
+/// Centre of mass, m, with 0 for coordinates that only rounding made.
+Vec3 clean_com(const BodyType& body) {
+  constexpr double kNoise = 1e-9;  // of the body's largest edge
+  Vec3 com = body.com;
+  if (body.shapes.empty()) return com;
+  const auto [low, high] = bounds(body.shapes);
+  const double least = kNoise * (high - low).maxCoeff();
+  for (double& x : com) x = std::abs(x) < least ? 0 : x;
+  return com;
+}
+
 std::string bodies(const ModuleType& type) {
   std::vector<Cells> rows{{"body", "mass", "centre of mass (body axes)", "inertia xx, yy, zz (kg m^2)"}};
   for (const BodyType& body : type.bodies) {
-    const Vec3 com = 1000 * body.com;
+    const Vec3 com = 1000 * clean_com(body);
     rows.push_back({body.name, fmt::format("{:.4g} kg", body.mass),
                     fmt::format("{:.4g} {:.4g} {:.4g} mm", com.x(), com.y(), com.z()),
                     fmt::format("{:.4g} {:.4g} {:.4g}", body.inertia(0, 0), body.inertia(1, 1), body.inertia(2, 2))});

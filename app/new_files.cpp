@@ -3,17 +3,19 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <filesystem>
 #include <system_error>
 
 #include "app/chain.h"
 #include "app/commands.h"
+#include "app/run_time.h"
+#include "app/scenario_values.h"
 #include "app/skeletons.h"
 #include "app/study/study_text.h"
 #include "core/scenario/read_scenario.h"
 #include "core/settings/wording.h"
 #include "core/settings/writer.h"
+#include "core/simulation/simulation.h"
 #include "interchange/urdf_module.h"
 
 namespace gaitlab::app {
@@ -27,7 +29,7 @@ struct NewFileArguments {
   std::optional<std::string> out;   ///< file to write; the default is NAME.yaml
   std::optional<std::string> from;  ///< URDF file; only for modules
   std::string module = "y1";        ///< name of a shipped module type, or a file; only for scenarios
-  int count = 4;                    ///< number of modules in the row; only for scenarios
+  std::optional<int> count = {};    ///< number of modules in the row; only for scenarios
 };
 
 /// Checks the name of a module or scenario, which becomes the name of its file.
@@ -36,13 +38,6 @@ void check_file_name(const std::string& what, const std::string& name) {
   if (!is_name(name, "_-") || std::isalpha(static_cast<unsigned char>(name[0])) == 0) {
     throw InputError(place, "name " + in_quotes(name) + " is not allowed; expected letters, digits, _ and -, a letter first");
   }
-}
-
-/// A text as YAML, in quotes where it needs them.
-std::string yaml_text(const std::string& text) {
-  std::string value = print_yaml(text_node(text));
-  while (value.ends_with('\n')) value.pop_back();
-  return value;
 }
 
 /// Writes a new file and returns its name.
@@ -62,15 +57,27 @@ int new_module(const NewFileArguments& arguments) {
   }
   std::string text = filled(filled(kSkeletonModule, "@NAME@", name), "@TEXT@", yaml_text(name));
   std::string what = "a module of two bodies and a hinge; replace its numbers by yours";
+  bool driven = true;
   if (arguments.from) {
     interchange::UrdfModule made = interchange::module_of_urdf(*arguments.from, name);
     for (const std::string& note : made.notes) say(*arguments.from, "note", "not carried over: " + note);
     text = std::move(made.text);
     what = "the robot of " + *arguments.from + " as a module";
+    driven = made.driven;
   }
-  const std::string file = shell_word(write_new(arguments, text));
-  fmt::print("{0}: {1}; next:\n  gaitlab explain module {0}\n", file, what);
-  fmt::print("  gaitlab new scenario {0}-walk --module {1}\n  gaitlab run {0}-walk.yaml\n", name, file);
+  const std::string file = write_new(arguments, text);
+  fmt::print("{0}: {1}; next:\n  gaitlab explain module {0}\n", shell_word(file), what);
+  if (driven) {
+    fmt::print("  gaitlab new scenario {0}-walk --module {1}\n  gaitlab run {0}-walk.yaml\n", name, shell_word(file));
+  } else {
+    fmt::print(
+        "No hinge has a motor, so that no gait moves it. To let it fall:\n  echo {1} > {0}-fall.yaml\n  gaitlab run "
+        "{0}-fall.yaml\n",
+        name,
+        shell_word(fmt::format("{{gaitlab: 1, robot: {{modules: {}}}, actuator: {{type: none}}, contact: {{on: all}}, "
+                               "duration: 5}}",
+                               yaml_text(file.find('/') == std::string::npos ? "./" + file : file))));
+  }
   return 0;
 }
 
@@ -105,36 +112,6 @@ std::string module_value(const NamedModule& module, const NewFileArguments& argu
   return yaml_text(path);
 }
 
-/// Value of a key per joint: `default` for all hinges, and the values of some hinges by their names.
-std::string per_hinge(double common, const std::vector<std::pair<std::string, double>>& others) {
-  if (others.empty()) return number_text(common);
-  std::string text = "{default: " + number_text(common);
-  for (const auto& [hinge, value] : others) text += fmt::format(", \"*/{}\": {}", hinge, number_text(value));
-  return text + "}";
-}
-
-/// Values of the gait that fit the ranges of the hinges.
-struct GaitValues {
-  std::string amplitude, offset, angles;
-};
-
-GaitValues gait_values(const ModuleType& type) {
-  constexpr double kAmplitude = 0.4;  // rad
-  constexpr double kShare = 0.8;      // of half the range, where it is narrow
-  constexpr double kDigits = 1000;    // values are rounded to 0.001 rad
-  std::vector<std::pair<std::string, double>> amplitudes, offsets, angles;
-  for (const HingeType& hinge : type.hinges) {
-    if (hinge.hi == kNoStop || (hinge.lo <= -kAmplitude && hinge.hi >= kAmplitude)) continue;
-    const double middle = std::round((hinge.lo + hinge.hi) / 2 * kDigits) / kDigits;
-    const double half = std::min(middle - hinge.lo, hinge.hi - middle);
-    angles.emplace_back(hinge.name, middle);
-    if (hinge.passive) continue;
-    offsets.emplace_back(hinge.name, middle);
-    amplitudes.emplace_back(hinge.name, std::min(kAmplitude, std::floor(kShare * half * kDigits) / kDigits));
-  }
-  return {per_hinge(kAmplitude, amplitudes), per_hinge(0, offsets), per_hinge(0, angles)};
-}
-
 /// Text of the docks, with a comment on their numbers.
 std::string docks_text(const std::vector<Dock>& docks) {
   if (docks.empty()) return "";
@@ -144,23 +121,6 @@ std::string docks_text(const std::vector<Dock>& docks) {
                         dock.parent_module, dock.orientation);
   }
   return text;
-}
-
-/// Surroundings of the robot as sections of a scenario, and its base.
-struct Surroundings {
-  std::string base, ground;
-};
-
-/// The ground, or a fixed base for a module that touches nothing.
-Surroundings surroundings(const ModuleType& type) {
-  if (type.all.empty() && type.feet.empty()) {
-    return {"  base: fixed              # the module has no contact elements, so that it would fall\n",
-            "ground: {type: none}\ncontact: {on: none}\n"};
-  }
-  return {"", std::string("ground:\n  friction: 0.8            # coefficient between robot and ground\ncontact:\n") +
-                  (type.all.empty()
-                       ? "  on: feet                 # the module has elements for feet alone; all: every element\n"
-                       : "  on: all                  # every contact element of the module; feet: those of its feet\n")};
 }
 
 /// Description of the robot that `docks` make of modules of a type.
@@ -176,34 +136,89 @@ void check_driven(const ModuleType& type, const std::string& file) {
                                                      type.name));
 }
 
-int new_scenario(const NewFileArguments& arguments) {
-  const std::string& name = arguments.name;
-  check_file_name("scenario", name);
-  const NamedModule module = named_module(arguments.module);
-  Catalog catalog = standard_catalog();
-  const Scenario one = read_module(module.file, catalog);
-  const ModuleType& type = one.robot->types[0];
-  check_driven(type, module.file);
-  const std::vector<Dock> docks = chain(one, arguments.count);
-  const GaitValues gait = gait_values(type);
-  const Surroundings around = surroundings(type);
+/// The robot of a new scenario: a row of modules of one type.
+struct NewRobot {
+  NamedModule module;
+  Scenario one;  ///< of one module
+  std::vector<Dock> docks;
+  [[nodiscard]] const ModuleType& type() const { return one.robot->types[0]; }
+};
+
+NewRobot new_robot(const NewFileArguments& arguments, Catalog& catalog) {
+  constexpr int kMost = 4;  // modules, if the user asks for no number
+  NewRobot robot{named_module(arguments.module), {}, {}};
+  robot.one = read_module(robot.module.file, catalog);
+  check_driven(robot.type(), robot.module.file);
+  robot.docks = chain(robot.one, arguments.count.value_or(modules_carried(robot.one, kMost)));
+  return robot;
+}
+
+/// Text of the scenario with a gait of this amplitude, rad, and `promise` at its head.
+std::string scenario_text(const NewFileArguments& arguments, const NewRobot& robot, double amplitude,
+                          const std::string& promise) {
+  const GaitValues gait = gait_values(robot.one, amplitude);
+  const Surroundings around = surroundings(robot.type(), static_cast<int>(robot.docks.size()) + 1);
   const std::pair<const char*, std::string> values[] = {
-      {"@NAME@", name},
-      {"@TEXT@", yaml_text(name)},
-      {"@ROBOT@", robot_text(type.name, docks)},
-      {"@FILE@", shell_word(arguments.out.value_or(name + ".yaml"))},
-      {"@MODULE@", module_value(module, arguments)},
-      {"@DOCKS@", docks_text(docks)},
+      {"@NAME@", arguments.name},
+      {"@TEXT@", yaml_text(arguments.name)},
+      {"@ROBOT@", robot_text(robot.type().name, robot.docks)},
+      {"@PROMISE@", promise},
+      {"@FILE@", shell_word(arguments.out.value_or(arguments.name + ".yaml"))},
+      {"@MODULE@", module_value(robot.module, arguments)},
+      {"@DOCKS@", docks_text(robot.docks)},
       {"@BASE@", around.base},
       {"@GROUND@", around.ground},
       {"@INITIAL@", gait.angles == "0" ? "" : "initial: {angles: " + gait.angles + "}   # rad\n\n"},
+      {"@FREQUENCY@", gait.frequency},
       {"@AMPLITUDE@", gait.amplitude},
-      {"@OFFSET@", gait.offset}};
+      {"@OFFSET@", gait.offset},
+      {"@DURATION@", gait.duration}};
   std::string text = kSkeletonScenario;
   for (const auto& [mark, value] : values) text = filled(text, mark, value);
-  const std::string file = shell_word(write_new(arguments, text));
-  fmt::print("{0}: {1}; next:\n  gaitlab check {0} --page {2}.html\n  gaitlab run {0}\n", file, robot_text(type.name, docks),
-             name);
+  return text;
+}
+
+/// The reason why the scenario in the file is not feasible; empty if it is, or if a run would take long.
+std::string shortfall(const std::string& file, Catalog& catalog) try {
+  constexpr double kLong = 3;  // s, of one of three runs
+  const Scenario s = read_scenario(file, {}, catalog);
+  if (estimated_seconds(s) > kLong) return "";
+  Simulation simulation({&s, 1});
+  simulation.run();
+  const Recording recording = simulation.take_recording(0);
+  const report::Summary summary = report::summarise(s, recording, 0);
+  const report::Verdict verdict = report::verdict(s, recording, summary, report::overlaps(s, recording));
+  return verdict.word == report::Word::feasible ? "" : fmt::format("{}: {}", name_of(verdict.word), verdict.why());
+} catch (const InputError& error) {
+  return error.problems().front().text;
+}
+
+/// Writes the scenario with the largest of some amplitudes that is feasible. If none is, the first remains, and the file states
+/// the reason.
+std::string write_scenario(const NewFileArguments& arguments, const NewRobot& robot, Catalog& catalog) {
+  constexpr double kAmplitudes[] = {0.4, 0.2, 0.1};  // rad
+  const auto text = [&](double amplitude) {
+    return scenario_text(arguments, robot, amplitude, "It runs as it stands, to a verdict");
+  };
+  const std::string file = write_new(arguments, text(kAmplitudes[0]));
+  const std::string why = shortfall(file, catalog);
+  if (why.empty()) return file;
+  for (std::size_t i = 1; i < std::size(kAmplitudes); ++i) {
+    write_file(file, text(kAmplitudes[i]));
+    if (shortfall(file, catalog).empty()) return file;
+  }
+  write_file(file, scenario_text(arguments, robot, kAmplitudes[0], "As it stands " + why));
+  say(file, "note", "as it stands " + why);
+  return file;
+}
+
+int new_scenario(const NewFileArguments& arguments) {
+  check_file_name("scenario", arguments.name);
+  Catalog catalog = standard_catalog();
+  const NewRobot robot = new_robot(arguments, catalog);
+  const std::string file = shell_word(write_scenario(arguments, robot, catalog));
+  fmt::print("{0}: {1}; next:\n  gaitlab check {0} --page {2}.html\n  gaitlab run {0}\n", file,
+             robot_text(robot.type().name, robot.docks), arguments.name);
   return 0;
 }
 
@@ -229,7 +244,9 @@ void add_new_files(Commands& commands, CLI::App& command) {
         scenario
             .add_option("--module", arguments.module, "name that `gaitlab list module` prints, or a module file (default: y1)")
             ->check(not_empty);
-        scenario.add_option("--count", arguments.count, "number of modules in the row (default: 4)")
+        scenario
+            .add_option("--count", arguments.count,
+                        "number of modules in the row (default: up to 4, as many as the motors carry)")
             ->check(CLI::Range(1, 1000));
         add_out(scenario, arguments);
       },

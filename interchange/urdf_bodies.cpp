@@ -67,6 +67,7 @@ std::vector<std::string> allowed_names(const std::vector<std::string>& names) {
   std::vector<std::string> allowed;
   for (const std::string& name : names) {
     std::string text = unique ? name.substr(name.rfind('/') + 1) : name;
+    std::erase_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; });  // one _ for each UTF-8 letter
     for (char& c : text) c = is_name(std::string(1, c), "_-") ? c : '_';
     text = text.empty() ? "part" : text.substr(0, 90);
     std::string one = text;
@@ -81,7 +82,8 @@ class BodyWalk {
   BodyWalk(const UrdfText& urdf, Problems& problems) : urdf_(urdf), problems_(problems) {}
 
   UrdfBodies read() {
-    open_.push_back({urdf_.model().getRoot().get(), add_body(*urdf_.model().getRoot()), {}});
+    const urdf::Link* const root = first_link();
+    open_.push_back({root, add_body(*root), {}});
     while (!open_.empty()) {
       const Placed at = open_.back();
       open_.pop_back();
@@ -98,6 +100,21 @@ class BodyWalk {
     std::size_t body;
     Pose pose;
   };
+
+  /// The root, or the link that floats above a root without mass. Adds a note if a root `world` fixes the base.
+  const urdf::Link* first_link() {
+    const urdf::Link* const root = urdf_.model().getRoot().get();
+    if (root->inertial != nullptr || root->child_joints.size() != 1) return root;
+    const urdf::Joint& joint = *root->child_joints.front();
+    if (joint.type == urdf::Joint::FLOATING) {
+      made_.notes.push_back(fmt::format("link {} and floating joint {}: the base of a scenario floats by default",
+                                        in_quotes(root->name), in_quotes(joint.name)));
+      return urdf_.model().getLink(joint.child_link_name).get();
+    }
+    if (joint.type == urdf::Joint::FIXED && root->name == "world")
+      made_.notes.push_back("the fixed base of link 'world'; a scenario has it with robot: {base: fixed}");
+    return root;
+  }
 
   std::size_t add_body(const urdf::Link& link) {
     made_.bodies.push_back({link.name});
@@ -225,17 +242,31 @@ class BodyWalk {
       body.com = whole.com;
       body.inertia = whole.inertia;
       if (!(body.mass > 0) && !(inner[b] && moved[b])) {
-        problems_.add(urdf_.place("link", body.name),
-                      fmt::format("link {} has no mass; expected inertial (only a link between two hinges may have none)",
-                                  in_quotes(body.name)));
+        const std::string found =
+            masses_[b].empty() ? "no mass; expected inertial" : "mass " + number_text(body.mass) + " kg; expected more than 0";
+        problems_.add(
+            urdf_.place("link", body.name),
+            fmt::format("link {} has {} (only a link between two hinges may have none)", in_quotes(body.name), found));
       }
       names.push_back(body.name);
     }
     for (const UrdfHinge& one : made_.hinges) joints.push_back(one.hinge.name);
-    names = allowed_names(names);
-    joints = allowed_names(joints);
-    for (std::size_t b = 0; b < names.size(); ++b) made_.bodies[b].name = names[b];
-    for (std::size_t j = 0; j < joints.size(); ++j) made_.hinges[j].hinge.name = joints[j];
+    made_.links = std::move(names);
+    made_.joints = std::move(joints);
+    const std::vector<std::string> bodies = allowed_names(made_.links);
+    const std::vector<std::string> hinges = allowed_names(made_.joints);
+    for (std::size_t b = 0; b < bodies.size(); ++b) made_.bodies[b].name = bodies[b];
+    for (std::size_t j = 0; j < hinges.size(); ++j) made_.hinges[j].hinge.name = hinges[j];
+    note_names("link", made_.links, bodies);
+    note_names("joint", made_.joints, hinges);
+  }
+
+  /// Adds a note on each name that is not the one in the file, or its end behind a prefix.
+  void note_names(const char* what, const std::vector<std::string>& given, const std::vector<std::string>& allowed) {
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      if (given[i] == allowed[i] || given[i].ends_with("/" + allowed[i])) continue;
+      made_.notes.push_back(fmt::format("the name of {} {}, which is {} here", what, in_quotes(given[i]), allowed[i]));
+    }
   }
 
   const UrdfText& urdf_;

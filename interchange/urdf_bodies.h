@@ -16,7 +16,8 @@ struct UrdfHinge {
 struct UrdfBodies {
   std::vector<BodyType> bodies;
   std::vector<UrdfHinge> hinges;
-  std::vector<std::string> notes;  ///< parts that were left out
+  std::vector<std::string> links, joints;  ///< names of the bodies and hinges in the URDF file, whose names may differ
+  std::vector<std::string> notes;          ///< parts that were left out
 };
 
 /// Adds a problem for everything that a module cannot hold; bodies and hinges must then not be used.

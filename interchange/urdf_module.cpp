@@ -6,7 +6,9 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/laws/data_sheet.h"
 #include "core/robot_files/module_file.h"
+#include "core/scenario/scenario.h"
 #include "core/settings/wording.h"
 #include "core/settings/writer.h"
 #include "interchange/urdf_bodies.h"
@@ -15,9 +17,7 @@ namespace gaitlab::interchange {
 
 namespace {
 
-constexpr double kVoltage = 12;    // V, chosen: URDF has no voltage; torque and speed hold at it
-constexpr double kPeriod = 0.015;  // s, control period of a scenario by default
-constexpr double kShare = 0.7;     // of the error that a command removes per period (docs/modules.md)
+constexpr double kVoltage = 12;  // V, chosen: URDF has no voltage; torque and speed hold at it
 
 std::string list_text(std::span<const double> numbers) {
   std::string text;
@@ -26,13 +26,6 @@ std::string list_text(std::span<const double> numbers) {
   return "[" + text + "]";
 }
 std::string list_text(const Vec3& v) { return list_text(std::span<const double>(v.data(), 3)); }
-
-/// One line of YAML for a text.
-std::string word_text(const std::string& text) {
-  std::string line = print_yaml(text_node(text));
-  while (line.ends_with('\n')) line.pop_back();
-  return line;
-}
 
 /// Pose without the rounding errors of products of quarter turns.
 Pose tidy(const Pose& pose) {
@@ -61,7 +54,7 @@ std::string shape_text(const Shape& shape) {
 std::string body_text(const BodyType& body) {
   const Mat3& I = body.inertia;
   const double moments[] = {I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2)};
-  std::string text = fmt::format("  {}:\n    mass: {}\n", word_text(body.name), number_text(body.mass));
+  std::string text = fmt::format("  {}:\n    mass: {}\n", yaml_text(body.name), number_text(body.mass));
   if (body.mass > 0) text += fmt::format("    com: {}\n    inertia: {}\n", list_text(body.com), list_text(moments));
   if (!body.shapes.empty()) text += "    shape:\n";
   for (const Shape& shape : body.shapes) text += shape_text(shape);
@@ -72,15 +65,18 @@ std::string body_text(const BodyType& body) {
 std::string motor_text(const UrdfHinge& hinge) {
   return fmt::format("stall_torque: {}, no_load_speed: {}", number_text(hinge.effort), number_text(hinge.speed));
 }
-std::string gain_text(const UrdfHinge& hinge) { return fmt::format("Kp: {:.3g}", kShare * kVoltage / (hinge.speed * kPeriod)); }
+std::string gain_text(const UrdfHinge& hinge) {
+  const double period = Scenario().control_period;
+  return fmt::format("Kp: {:.3g}", gain_of_share(kUsualShare, kVoltage, hinge.speed, period));
+}
 
 std::string hinge_text(const UrdfHinge& one, const UrdfBodies& parts, const UrdfHinge* common) {
   const HingeType& hinge = one.hinge;
   const Pose pose = tidy(hinge.in_parent);
   const double range[] = {hinge.lo, hinge.hi};
   std::string text =
-      fmt::format("  - name: {}\n    parent: {}\n    child: {}\n    origin: {}\n", word_text(hinge.name),
-                  word_text(parts.bodies[hinge.parent].name), word_text(parts.bodies[hinge.child].name), list_text(pose.p));
+      fmt::format("  - name: {}\n    parent: {}\n    child: {}\n    origin: {}\n", yaml_text(hinge.name),
+                  yaml_text(parts.bodies[hinge.parent].name), yaml_text(parts.bodies[hinge.child].name), list_text(pose.p));
   if (!pose.R.isIdentity(0)) text += "    rpy: " + list_text(to_rpy(pose.R)) + "\n";
   text += fmt::format("    axis: {}\n    range: {}\n", list_text(hinge.axis), hinge.hi == kNoStop ? "free" : list_text(range));
   if (hinge.passive) {
@@ -92,7 +88,22 @@ std::string hinge_text(const UrdfHinge& one, const UrdfBodies& parts, const Urdf
   return text;
 }
 
-std::string module_text(const UrdfBodies& parts, const std::string& name, const std::string& file) {
+/// The text of a module, and the lines at which the parts of links and joints begin.
+struct ModuleText {
+  struct Part {
+    int line;
+    const char* tag;  ///< of the URDF file
+    std::string name;
+  };
+  std::string text;
+  std::vector<Part> parts = {};
+
+  void begin(const char* tag, const std::string& name) {
+    parts.push_back({static_cast<int>(std::ranges::count(text, '\n')) + 1, tag, name});
+  }
+};
+
+ModuleText module_text(const UrdfBodies& parts, const std::string& name, const std::string& file) {
   const auto driven = std::ranges::find_if(parts.hinges, [](const UrdfHinge& one) { return !one.hinge.passive; });
   const UrdfHinge* common = driven == parts.hinges.end() ? nullptr : &*driven;
   const std::string from = std::filesystem::path(file).filename().string();
@@ -101,16 +112,26 @@ std::string module_text(const UrdfBodies& parts, const std::string& name, const 
       "# Add faces, where modules dock; replace the motor by that of a data sheet.\n",
       name);
   for (const std::string& note : parts.notes) text += "# Not carried over: " + note + "\n";
-  text += fmt::format("gaitlab_module: 3\nname: {}\nsource: {}\nbodies:\n", word_text(name), word_text(from));
-  for (const BodyType& body : parts.bodies) text += body_text(body);
-  if (!parts.hinges.empty()) text += "hinges:\n";
-  for (const UrdfHinge& one : parts.hinges) text += hinge_text(one, parts, common);
+  ModuleText made{text + fmt::format("gaitlab_module: 3\nname: {}\nsource: {}\nbodies:\n", yaml_text(name), yaml_text(from))};
+  for (std::size_t b = 0; b < parts.bodies.size(); ++b) {
+    made.begin("link", parts.links[b]);
+    made.text += body_text(parts.bodies[b]);
+  }
+  if (!parts.hinges.empty()) made.text += "hinges:\n";
+  for (std::size_t j = 0; j < parts.hinges.size(); ++j) {
+    made.begin("joint", parts.joints[j]);
+    made.text += hinge_text(parts.hinges[j], parts, common);
+  }
+  made.begin("robot", "");
   if (std::ranges::any_of(parts.bodies, [](const BodyType& body) { return !body.shapes.empty(); }))
-    text += "contacts: {all: shapes}\n";
-  if (common == nullptr) return text;
-  return text + fmt::format("actuator: {{type: servo, voltage: {}, {}, source: {}}}\ncontroller: {{type: pid, {}, Kd: 0}}\n",
-                            number_text(kVoltage), motor_text(*common),
-                            word_text("chosen: the voltage; the rest are effort and velocity in " + from), gain_text(*common));
+    made.text += "contacts: {all: shapes}\n";
+  if (common == nullptr) return made;
+  made.text += fmt::format(
+      "actuator: {{type: servo, voltage: {}, {}, efficiency_model: directional, source: {}}}\ncontroller: {{type: pid, {}, Kd: "
+      "0}}\n",
+      number_text(kVoltage), motor_text(*common), yaml_text("chosen: the voltage; the rest are effort and velocity in " + from),
+      gain_text(*common));
+  return made;
 }
 
 /// Throws InputError with the problems in the order of the file.
@@ -121,6 +142,16 @@ void raise_by_line(const Problems& problems) {
   throw InputError(std::move(list));
 }
 
+/// The problem at the link or joint whose part of the module text has it.
+Problem at_urdf(const Problem& problem, const ModuleText& made, const UrdfText& urdf, const std::string& file) {
+  const auto after = std::ranges::find_if(made.parts, [&](const auto& part) { return part.line > problem.place.line; });
+  if (after == made.parts.begin() || std::prev(after)->name.empty()) return {SourceLocation{file}, problem.text};
+  const ModuleText::Part& part = *std::prev(after);
+  const bool named = problem.text.find(in_quotes(part.name)) != std::string::npos;
+  return {urdf.place(part.tag, part.name),
+          named ? problem.text : fmt::format("{} {}: {}", part.tag, in_quotes(part.name), problem.text)};
+}
+
 }  // namespace
 
 UrdfModule module_of_urdf(const std::string& file, const std::string& name) {
@@ -128,13 +159,17 @@ UrdfModule module_of_urdf(const std::string& file, const std::string& name) {
   Problems problems;
   const UrdfBodies parts = urdf_bodies(urdf, problems);
   raise_by_line(problems);
-  UrdfModule made{module_text(parts, name, file), parts.notes};
+  ModuleText made = module_text(parts, name, file);
   // The reader of module files checks what URDF permits: impossible inertias, axes of length 0, sizes of 0.
   Problems found;
   static_cast<void>(read_module(parse_yaml(made.text, file), true, found));
-  for (const Problem& problem : found.list()) problems.add(SourceLocation{file}, problem.text);
-  problems.raise();
-  return made;
+  for (const Problem& problem : found.list()) {
+    const Problem placed = at_urdf(problem, made, urdf, file);
+    problems.add(placed.place, placed.text);
+  }
+  raise_by_line(problems);
+  const bool driven = std::ranges::any_of(parts.hinges, [](const UrdfHinge& one) { return !one.hinge.passive; });
+  return {std::move(made.text), driven, parts.notes};
 }
 
 }  // namespace gaitlab::interchange

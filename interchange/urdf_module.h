@@ -7,6 +7,7 @@ namespace gaitlab::interchange {
 
 struct UrdfModule {
   std::string text;                ///< of a module file
+  bool driven = false;             ///< true if a hinge has a motor
   std::vector<std::string> notes;  ///< parts of the URDF that the module file lacks, and that the motion does not need
 };
 

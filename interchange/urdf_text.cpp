@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <exception>
+#include <utility>
+#include <vector>
 
 #include "core/settings/text_file.h"
 
@@ -16,19 +18,17 @@ namespace {
 /// Collects the messages of urdfdom, which it otherwise prints.
 class UrdfMessages final : public console_bridge::OutputHandler {
  public:
-  explicit UrdfMessages(const std::string& file) : file_(file) { console_bridge::useOutputHandler(this); }
+  explicit UrdfMessages(std::vector<std::string>& messages) : messages_(messages) { console_bridge::useOutputHandler(this); }
   ~UrdfMessages() override { console_bridge::restorePreviousOutputHandler(); }
   UrdfMessages(const UrdfMessages&) = delete;
   UrdfMessages& operator=(const UrdfMessages&) = delete;
 
   void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
-    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) problems.add(SourceLocation{file_}, "urdfdom: " + text);
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) messages_.push_back(text);
   }
 
-  Problems problems;
-
  private:
-  std::string file_;
+  std::vector<std::string>& messages_;
 };
 
 /// Checks the number of elements, because the XML parser of urdfdom calls itself for nested ones: 50 000 overflow its stack.
@@ -40,18 +40,49 @@ void check_elements(const std::string& text, const std::string& file) {
     throw InputError(SourceLocation{file}, fmt::format("has {} elements; expected at most {}", number, kMost));
 }
 
+/// The text with blanks in the place of comments, so that elements keep their lines and columns.
+std::string without_comments(std::string text) {
+  for (std::size_t at = text.find("<!--"); at != std::string::npos; at = text.find("<!--", at + 1)) {
+    const std::size_t close = text.find("-->", at + 4);
+    const std::size_t end = close == std::string::npos ? text.size() : close + 3;
+    for (std::size_t i = at; i < end; ++i) text[i] = text[i] == '\n' ? '\n' : ' ';
+  }
+  return text;
+}
+
+/// The name in a message such as `link 'a' is not unique.` or `... for joint [j]`; empty if it has none of `tag`.
+std::string name_in(const std::string& message, const std::string& tag) {
+  for (const auto& [open, close] : {std::pair{" '", '\''}, std::pair{" [", ']'}}) {
+    std::size_t at = message.find(tag + open);
+    if (at == std::string::npos) continue;
+    at += tag.size() + 2;
+    const std::size_t end = message.find(close, at);
+    if (end != std::string::npos) return message.substr(at, end - at);
+  }
+  return "";
+}
+
 }  // namespace
 
 UrdfText::UrdfText(const std::string& file) : file_(file), text_(read_text(file)) {
   check_text(text_, file);
   check_elements(text_, file);
-  UrdfMessages messages(file);
-  try {
-    model_ = urdf::parseURDF(text_);
-  } catch (const std::exception& error) {
-    messages.problems.add(SourceLocation{file}, std::string("urdfdom: ") + error.what());
+  const std::string whole = std::exchange(text_, without_comments(text_));
+  if (const std::size_t macro = text_.find("<xacro:"); macro != std::string::npos) {
+    throw InputError(place_of(macro), "has macros of xacro; expected URDF, which `xacro FILE > ROBOT.urdf` writes of them");
   }
-  messages.problems.raise();
+  if (find("robot", 0) == std::string::npos)
+    throw InputError(SourceLocation{file}, "has no element <robot>; expected a URDF file");
+  std::vector<std::string> messages;
+  {
+    UrdfMessages collector(messages);
+    try {
+      model_ = urdf::parseURDF(whole);
+    } catch (const std::exception& error) {
+      messages.emplace_back(error.what());
+    }
+  }
+  if (!messages.empty()) throw InputError(place_in(messages), "urdfdom: " + messages.front());
   if (model_ == nullptr || model_->getRoot() == nullptr) {
     throw InputError(SourceLocation{file}, "has no robot; expected a URDF file with an element <robot>");
   }
@@ -66,14 +97,31 @@ std::size_t UrdfText::find(const std::string& tag, std::size_t from) const {
   return std::string::npos;
 }
 
-SourceLocation UrdfText::place(const std::string& tag, const std::string& name) const {
-  for (std::size_t at = find(tag, 0); at != std::string::npos; at = find(tag, at + 1)) {
+SourceLocation UrdfText::place(const std::string& tag, const std::string& name, bool last) const {
+  std::size_t found = std::string::npos;
+  for (std::size_t at = find(tag, 0); at != std::string::npos && (last || found == std::string::npos); at = find(tag, at + 1)) {
     const std::string head = text_.substr(at, text_.find('>', at) - at);
-    if (head.find("name=\"" + name + '"') == std::string::npos && head.find("name='" + name + '\'') == std::string::npos)
-      continue;
-    const std::size_t start = text_.rfind('\n', at) + 1;  // 0 in the first line
-    const auto line = std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(at), '\n');
-    return {file_, static_cast<int>(line) + 1, static_cast<int>(at - start) + 1};
+    const bool named =
+        head.find("name=\"" + name + '"') != std::string::npos || head.find("name='" + name + '\'') != std::string::npos;
+    // Elements <joint> of a transmission have no type.
+    if (named && (tag != "joint" || head.find("type=") != std::string::npos)) found = at;
+  }
+  return found == std::string::npos ? SourceLocation{file_} : place_of(found);
+}
+
+SourceLocation UrdfText::place_of(std::size_t offset) const {
+  const std::size_t start = text_.rfind('\n', offset) + 1;  // 0 in the first line
+  const auto line = std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(offset), '\n');
+  return {file_, static_cast<int>(line) + 1, static_cast<int>(offset - start) + 1};
+}
+
+SourceLocation UrdfText::place_in(const std::vector<std::string>& messages) const {
+  for (const std::string& message : messages) {
+    for (const auto& [word, tag] :
+         {std::pair{"link", "link"}, std::pair{"Link", "link"}, std::pair{"joint", "joint"}, std::pair{"Joint", "joint"}}) {
+      const std::string name = name_in(message, word);
+      if (!name.empty()) return place(tag, name, message.find("not unique") != std::string::npos);
+    }
   }
   return {file_};
 }

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/errors.h"
 
@@ -11,12 +12,13 @@ namespace gaitlab::interchange {
 
 class UrdfText {
  public:
-  /// Reads the file. Throws InputError if it cannot be read, or with the messages of urdfdom if it has no model.
+  /// Reads the file. Throws InputError if it cannot be read, or with the first message of urdfdom if it has no model: the
+  /// others follow from the first.
   explicit UrdfText(const std::string& file);
 
   [[nodiscard]] const urdf::ModelInterface& model() const { return *model_; }
-  /// Place of the element `tag` whose name is `name`; the file if it is not found.
-  [[nodiscard]] SourceLocation place(const std::string& tag, const std::string& name) const;
+  /// Place of the first element `tag` whose name is `name`, or of the last; the file if it is not found.
+  [[nodiscard]] SourceLocation place(const std::string& tag, const std::string& name, bool last = false) const;
   /// Number of elements `tag`.
   [[nodiscard]] std::size_t count(const std::string& tag) const;
 
@@ -24,7 +26,12 @@ class UrdfText {
   /// Offset of the next element `tag` from an offset on, or npos.
   [[nodiscard]] std::size_t find(const std::string& tag, std::size_t from) const;
 
-  std::string file_, text_;
+  [[nodiscard]] SourceLocation place_of(std::size_t offset) const;
+  /// Place of the link or joint that one of urdfdom's messages names; the file if none does.
+  [[nodiscard]] SourceLocation place_in(const std::vector<std::string>& messages) const;
+
+  std::string file_;
+  std::string text_;  ///< with blanks in the place of comments
   std::shared_ptr<const urdf::ModelInterface> model_;
 };
 

@@ -28,6 +28,7 @@ struct BodyType {
   Vec3 com = Vec3::Zero();      ///< m, body frame
   Mat3 inertia = Mat3::Zero();  ///< kg m^2, about the COM, body axes
   std::vector<Shape> shapes = {};
+  double volume = 0;  ///< m^3, of the union of the shapes, if the inertia follows from it; 0 if the inertia is stated
 };
 
 inline constexpr double kNoStop = std::numeric_limits<double>::infinity();  ///< value of hi and -lo if a hinge turns freely

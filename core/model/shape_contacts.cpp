@@ -29,11 +29,8 @@ void add_arc(double r, double y, int first, int n, std::vector<Vec3>& points) {
 std::vector<Vec3> points_of(const Shape& shape) {
   std::vector<Vec3> points;
   if (shape.kind == Shape::Kind::box) {
-    for (int corner = 0; corner < 8; ++corner) {
-      const Vec3 sign((corner & 1) != 0 ? 0.5 : -0.5, (corner & 2) != 0 ? 0.5 : -0.5, (corner & 4) != 0 ? 0.5 : -0.5);
-      points.push_back(sign.cwiseProduct(shape.size));
-    }
-    return points;
+    const std::array<Vec3, 8> corners = box_corners(shape.size);
+    return {corners.begin(), corners.end()};
   }
   const bool half = shape.kind == Shape::Kind::half_cylinder;
   // The arc of a half cylinder goes from +z over +x to -z, and its ends are the ends of the straight edges.

@@ -102,11 +102,8 @@ bool within(const Shape& inner, const Shape& outer) {
   }
   if (inner.kind == Shape::Kind::sphere) return distance(outer, inner.in_body.p) <= rounding - inner.size.x();
   if (inner.kind != Shape::Kind::box) return false;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 sign((corner & 1) != 0 ? 0.5 : -0.5, (corner & 2) != 0 ? 0.5 : -0.5, (corner & 4) != 0 ? 0.5 : -0.5);
-    if (distance(outer, inner.in_body * Vec3(sign.cwiseProduct(inner.size))) > rounding) return false;
-  }
-  return true;
+  const std::array<Vec3, 8> corners = box_corners(inner.size);
+  return std::ranges::none_of(corners, [&](const Vec3& one) { return distance(outer, inner.in_body * one) > rounding; });
 }
 
 /// Part of a line in a convex shape, from `lo` to `hi` along the line; empty if lo >= hi.
@@ -249,6 +246,15 @@ Solid merged(const std::vector<Shape>& shapes) {
 }
 
 }  // namespace
+
+std::array<Vec3, 8> box_corners(const Vec3& edges) {
+  std::array<Vec3, 8> corners;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vec3 sign((k & 1) != 0 ? 0.5 : -0.5, (k & 2) != 0 ? 0.5 : -0.5, (k & 4) != 0 ? 0.5 : -0.5);
+    corners[k] = sign.cwiseProduct(edges);
+  }
+  return corners;
+}
 
 void Solid::add(const Solid& other) {
   const double all = volume + other.volume;

@@ -1,11 +1,15 @@
 // Solids of shapes: volume, centre and inertia at uniform density, and distances from their surfaces.
 #pragma once
+#include <array>
 #include <span>
 #include <utility>
 
 #include "core/model/module_type.h"
 
 namespace gaitlab {
+
+/// The 8 corners of a box about the origin with these edges, the sign of x changing fastest.
+std::array<Vec3, 8> box_corners(const Vec3& edges);
 
 /// Moments of a solid: volume V, m^3; centre c = (1/V) int p dV, m; second moments int (p - c)(p - c)^T dV about the centre,
 /// m^5.

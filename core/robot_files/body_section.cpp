@@ -53,6 +53,7 @@ std::string no_inertia(const BodyType& body) {
 void inertia_of_shapes(BodyType& body, bool with_com, const SourceLocation& place, Problems& problems) {
   const Solid whole = united(body.shapes);
   body.inertia = whole.inertia(body.mass);
+  body.volume = whole.volume;
   if (with_com) body.com = whole.centre;
   if (!body.inertia.allFinite() || !body.com.allFinite()) {
     problems.add(place, fmt::format("the shapes of body {} are too small or too large for an inertia; expected sizes in m",

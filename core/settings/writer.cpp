@@ -17,6 +17,12 @@ Node text_node(const std::string& text) {
   return scalar_node(text, !plain || text == "null" || text == "true" || text == "false");
 }
 
+std::string yaml_text(const std::string& text) {
+  std::string line = print_yaml(text_node(text));
+  while (line.ends_with('\n')) line.pop_back();
+  return line;
+}
+
 Node numbers_node(std::span<const double> values) {
   Node node{Node::Kind::list};
   node.flow = true;

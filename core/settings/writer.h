@@ -11,6 +11,8 @@ namespace gaitlab {
 Node scalar_node(std::string text, bool quoted = false);
 /// Node of a text, in quotes if a reader could mistake the text for another type.
 Node text_node(const std::string& text);
+/// YAML of a text on one line, in quotes where it needs them.
+std::string yaml_text(const std::string& text);
 /// Node of a list on one line.
 Node numbers_node(std::span<const double> values);
 

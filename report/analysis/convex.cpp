@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/math/functions.h"
+#include "core/model/solid.h"
 
 namespace gaitlab::report {
 
@@ -15,10 +16,8 @@ constexpr double kNoAxis = 1e-9;    // length of a cross product below which two
 
 Convex block(const Vec3& size) {
   Convex made;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 sign((corner & 1) != 0 ? 0.5 : -0.5, (corner & 2) != 0 ? 0.5 : -0.5, (corner & 4) != 0 ? 0.5 : -0.5);
-    made.vertices.push_back(sign.cwiseProduct(size));
-  }
+  const std::array<Vec3, 8> corners = box_corners(size);
+  made.vertices.assign(corners.begin(), corners.end());
   made.normals = made.directions = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
   return made;
 }

@@ -101,6 +101,25 @@ std::string motor_source(const Scenario& scenario) {
   return !chosen(given) && chosen(stated) ? stated + "; " + given : fmt::format("{}; the rest: {}", given, stated);
 }
 
+std::string silent_defaults(const Scenario& scenario) {
+  if (scenario.actuator.entry == nullptr || scenario.robot->joints.empty()) return "";
+  const SettingsNumbers settings(scenario.actuator);
+  const auto stated = [&](const char* key) {
+    const SourceLocation own = scenario.place(std::string("actuator.") + key);
+    if (own.line > 0 || own.file != scenario.file) return true;
+    return std::ranges::any_of(*scenario.module_documents, [&](const Node& document) {
+      const std::vector<const Node*> maps = preset_maps(document, Kind::actuator);
+      return std::ranges::any_of(maps, [&](const Node* map) { return map->find(key) != nullptr; });
+    });
+  };
+  std::vector<std::string> silent;
+  if (settings.find("stall_current") != nullptr && !stated("stall_current") && !stated("efficiency"))
+    silent.emplace_back("efficiency 0.7");
+  if (settings.find("rotor_inertia") != nullptr && !stated("rotor_inertia"))
+    silent.emplace_back("rotor_inertia 0 (0.002 kg m^2 for a servo of 1 N m)");
+  return silent.empty() ? "" : fmt::format("by default: {}", fmt::join(silent, ", "));
+}
+
 std::string no_created_energy(const Scenario& scenario) {
   if (scenario.actuator.entry == nullptr) return "";
   const std::string key = "efficiency_model";

@@ -22,6 +22,10 @@ std::vector<double> rest_torques(const Scenario& scenario);
 /// an actuator.
 std::string motor_source(const Scenario& scenario);
 
+/// Data of the motors that neither the scenario nor a module type states, although they are not 0 in a real motor: `by default:
+/// efficiency 0.7, rotor_inertia 0`. Unlike other defaults they do not count as chosen. Empty if all are stated.
+std::string silent_defaults(const Scenario& scenario);
+
 /// Change of a setting after which the gears create no energy (eq. 2): `take actuator.efficiency_model: directional`. Empty if
 /// the actuator does not have this setting.
 std::string no_created_energy(const Scenario& scenario);

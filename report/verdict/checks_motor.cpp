@@ -80,7 +80,8 @@ std::string unstated(const CheckedRun& run, MotorLimit limit, double share) {
 
 /// Addition to the source of a threshold: the sources of the motor values.
 std::string of_motors(const CheckedRun& run) {
-  return run.motor_source.empty() ? "" : fmt::format("; motors: {}", run.motor_source);
+  if (run.motor_source.empty()) return "";
+  return fmt::format("; motors: {}{}{}", run.motor_source, run.motor_defaults.empty() ? "" : "; ", run.motor_defaults);
 }
 
 /// Time that a joint is at this limit in each row of ticks, s. With `error` above 0 it is an upper bound: a row at no limit

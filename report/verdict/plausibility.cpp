@@ -20,11 +20,12 @@ bool usual(const PlausibleNumber& row, double value) { return value >= row.least
 const Slip* likely(const PlausibleNumber& row, const Finding& finding) {
   const Slip* best = nullptr;
   double least = kNoLimit;
-  const bool two_ends = row.least > 0 && row.most < kNoLimit;
+  const double low = std::max(row.least, row.likely);
+  const bool two_ends = low > 0 && row.most < kNoLimit;
   for (const Slip& slip : row.slips) {
     const double value = finding.again ? finding.again(slip) : slip.corrected(finding.value);
-    if (!usual(row, value)) continue;
-    const double away = two_ends ? std::abs(std::log(value * value / (row.least * row.most))) : 0;
+    if (!usual(row, value) || value < low || (finding.sensible && !finding.sensible(slip))) continue;
+    const double away = two_ends ? std::abs(std::log(value * value / (low * row.most))) : 0;
     if (away >= least) continue;
     least = away;
     best = &slip;
@@ -40,14 +41,41 @@ std::string question(const Finding& finding, const Slip& slip) {
   return fmt::format(": {} ({})?", slip.question, with_unit(four_digits(slip.corrected(given.value)), given.unit));
 }
 
-/// Warnings of one row, with one for all parts that have the same mistake.
+/// A box about the contact elements, faces and hinges of a body, whose edges are at least a third of the largest. Empty for a
+/// body with fewer than two of these places.
+std::vector<Shape> box_of_points(const ModuleType& type, std::size_t body) {
+  constexpr double kThin = 1.0 / 3;
+  Vec3 low = Vec3::Constant(kNoLimit);
+  Vec3 high = -low;
+  const auto add = [&](std::size_t of, const Vec3& point, double radius) {
+    if (of != body) return;
+    low = low.cwiseMin((point.array() - radius).matrix());
+    high = high.cwiseMax((point.array() + radius).matrix());
+  };
+  for (const auto* elements : {&type.all, &type.feet}) {
+    for (const ContactType& one : *elements) add(one.body, one.centre, one.radius);
+  }
+  for (const FaceType& one : type.faces) add(one.body, one.origin, 0);
+  for (const HingeType& one : type.hinges) {
+    add(one.parent, one.in_parent.p, 0);
+    add(one.child, Vec3::Zero(), 0);
+  }
+  const double edge = (high - low).maxCoeff();
+  if (!(edge > 0)) return {};
+  Shape box;
+  box.in_body.p = (low + high) / 2;
+  box.size = (high - low).cwiseMax(kThin * edge);
+  return {box};
+}
+
+/// Warnings of one row, with one for all parts that have the same mistake, or none that is known.
 class Warnings {
  public:
   explicit Warnings(const PlausibleNumber& row) : row_(row) {}
 
   void add(const Finding& finding, const Slip* slip) {
     for (Group& group : groups_) {
-      if (group.slip != slip || group.remedy != finding.remedy || (slip == nullptr && group.place != finding.place)) continue;
+      if (group.slip != slip || group.remedy != finding.remedy) continue;
       ++group.more;
       return;
     }
@@ -75,14 +103,41 @@ class Warnings {
 
 }  // namespace
 
+double Subject::Size::largest_edge() const {
+  const auto [low, high] = bounds(shapes);
+  return (high - low).maxCoeff();
+}
+
 Subject::Subject(const Scenario& s) : scenario(s), set_points(set_point_ranges(s)) {
   for (const ModuleType& type : s.robot->types) {
-    solids.emplace_back();
-    for (const BodyType& body : type.bodies) {
-      const bool judged = body.mass > 0 && !body.shapes.empty() && body.shapes.size() <= kMostShapes;
-      solids.back().push_back(judged ? united(body.shapes) : Solid());
+    sizes.emplace_back();
+    for (std::size_t b = 0; b < type.bodies.size(); ++b) {
+      const BodyType& body = type.bodies[b];
+      Size size{body.shapes.empty() ? box_of_points(type, b) : body.shapes, body.shapes.empty()};
+      if (body.volume > 0) {
+        size.solid.volume = body.volume;
+      } else if (body.mass > 0 && !size.shapes.empty() && size.shapes.size() <= kMostShapes) {
+        size.solid = united(size.shapes);
+      }
+      sizes.back().push_back(std::move(size));
     }
   }
+}
+
+const Node* entry_map(const Node& document, const char* key, const char* by, const std::string& name) {
+  const Node* const list = document.find(key);
+  for (std::size_t i = 0; list != nullptr && i < list->items.size(); ++i) {
+    const Node* const found = list->items[i].find(by);
+    if (found != nullptr && found->text == name) return &list->items[i];
+  }
+  return nullptr;
+}
+
+const Node* hinge_map(const Scenario& s, std::size_t joint) {
+  const Joint& one = s.robot->joints[joint];
+  const std::size_t type = s.robot->modules[one.module].type;
+  if (type >= s.module_documents->size()) return nullptr;
+  return entry_map((*s.module_documents)[type], "hinges", "name", one.name.substr(one.name.find('/') + 1));
 }
 
 const std::vector<PlausibleNumber>& plausible_numbers() {

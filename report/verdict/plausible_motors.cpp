@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
-#include <set>
 
+#include "core/laws/data_sheet.h"
 #include "core/laws/dc_motor.h"
 #include "core/model/outline.h"
 #include "core/robot_files/type_presets.h"
@@ -20,8 +21,8 @@ namespace {
 
 constexpr double kGravity = 9.81;  // m/s^2, of the rule of thumb
 
-double of_kgf_cm(double value) { return value * 0.0980665; }
-double of_rev_per_min(double value) { return value * 2 * std::numbers::pi / 60; }
+double of_kgf_cm(double value) { return value * kKgfCm; }
+double of_rev_per_min(double value) { return value * kRevPerMin; }
 double of_s_per_60_degrees(double value) { return std::numbers::pi / 3 / value; }
 
 /// Torque at rest and no-load speed of a joint's motor: the data of a servo, or those that follow from the constants of a DC
@@ -52,24 +53,18 @@ std::vector<MotorData> motor_data(const Scenario& s) {
   return all;
 }
 
-/// Place of a motor's key: in the scenario, else in the map of the hinge, else in that of the module type.
-SourceLocation motor_place(const Scenario& s, std::size_t joint, const char* key) {
-  const SourceLocation own = s.place(std::string("actuator.") + key);
+/// Place of a motor's or controller's key: in the scenario, else in the map of the hinge, else in that of the module type.
+SourceLocation motor_place(const Scenario& s, std::size_t joint, const char* key, const char* section = "actuator") {
+  const SourceLocation own = s.place(fmt::format("{}.{}", section, key));
   if (own.line > 0 || own.file != s.file) return own;
-  const Module& module = s.robot->modules[s.robot->joints[joint].module];
-  if (module.type >= s.module_documents->size()) return own;
-  const Node& document = (*s.module_documents)[module.type];
-  const std::string& name = s.robot->joints[joint].name;
-  const Node* const hinges = document.find("hinges");
-  for (std::size_t i = 0; hinges != nullptr && i < hinges->items.size(); ++i) {
-    const Node* const hinge = hinges->items[i].find("name");
-    const Node* const motor = hinges->items[i].find("actuator");
+  const std::size_t type = s.robot->modules[s.robot->joints[joint].module].type;
+  if (type >= s.module_documents->size()) return own;
+  for (const Node* map : {hinge_map(s, joint), &(*s.module_documents)[type]}) {
+    const Node* const motor = map == nullptr ? nullptr : map->find(section);
     const Node* const value = motor == nullptr ? nullptr : motor->find(key);
-    if (value != nullptr && hinge != nullptr && name.ends_with("/" + hinge->text)) return value->place;
+    if (value != nullptr) return value->place;
   }
-  const Node* const motor = document.find("actuator");
-  const Node* const value = motor == nullptr ? nullptr : motor->find(key);
-  return value != nullptr ? value->place : s.nearest_place("actuator");
+  return s.nearest_place(section);
 }
 
 double mass_of_module(const Scenario& s, std::size_t joint) {
@@ -79,20 +74,25 @@ double mass_of_module(const Scenario& s, std::size_t joint) {
   return mass;
 }
 
-std::vector<Finding> speeds_without_load(const Subject& subject) {
+std::vector<Finding> speeds_without_load(const Subject& subject, bool free) {
   const Scenario& s = subject.scenario;
   std::vector<Finding> found;
   for (const MotorData& motor : motor_data(s)) {
+    if (s.robot->joints[motor.joint].turns_freely() != free) continue;
     const std::string& name = s.robot->joints[motor.joint].name;
     found.push_back({motor_place(s, motor.joint, motor.speed_key),
                      {name},
                      fmt::format("the motor of {} turns at {:.4g} rad/s without load", name, motor.speed),
                      motor.speed,
                      {},
+                     {},
                      {{motor.speed, "rad/s"}}});
   }
   return found;
 }
+
+std::vector<Finding> speeds_of_hinges(const Subject& subject) { return speeds_without_load(subject, false); }
+std::vector<Finding> speeds_of_wheels(const Subject& subject) { return speeds_without_load(subject, true); }
 
 std::vector<Finding> stall_torques(const Subject& subject) {
   const Scenario& s = subject.scenario;
@@ -110,33 +110,120 @@ std::vector<Finding> stall_torques(const Subject& subject) {
                      name, motor.torque, motor.torque / (mass * kGravity * edge), mass, edge),
          motor.torque / (mass * kGravity * edge),
          {},
+         {},
          {{motor.torque, "N m"}}});
   }
   return found;
 }
 
+/// Largest power of all motors of a module together, W, with their torques and speeds corrected.
+double power_of(const std::vector<MotorData>& motors, const Slip* slip) {
+  double sum = 0;
+  for (const MotorData& motor : motors) {
+    const double torque = slip != nullptr && slip->input == 0 ? slip->corrected(motor.torque) : motor.torque;
+    const double speed = slip != nullptr && slip->input == 1 ? slip->corrected(motor.speed) : motor.speed;
+    sum += torque * speed / 4;
+  }
+  return sum;
+}
+
+/// Powers per mass of every module with motors.
 std::vector<Finding> powers(const Subject& subject) {
   const Scenario& s = subject.scenario;
+  std::map<std::size_t, std::vector<MotorData>> modules;
+  for (const MotorData& motor : motor_data(s)) modules[s.robot->joints[motor.joint].module].push_back(motor);
   std::vector<Finding> found;
-  for (const MotorData& motor : motor_data(s)) {
-    const std::string& name = s.robot->joints[motor.joint].name;
-    const double mass = mass_of_module(s, motor.joint);
+  for (const auto& [module, motors] : modules) {
+    const double mass = mass_of_module(s, motors.front().joint);
     if (!(mass > 0)) continue;
-    const auto power = [mass](double torque, double speed) { return torque * speed / 4 / mass; };
-    const double now = power(motor.torque, motor.speed);
-    found.push_back({motor_place(s, motor.joint, motor.torque_key),
-                     {name},
-                     fmt::format("the motor of {} gives up to {:.3g} W (stall torque {:.4g} N m x no-load speed {:.4g} rad/s / "
-                                 "4), {:.3g} W per kg of its module",
-                                 name, now * mass, motor.torque, motor.speed, now),
-                     now,
-                     [power, motor](const Slip& slip) {
-                       return slip.input == 0 ? power(slip.corrected(motor.torque), motor.speed)
-                                              : power(motor.torque, slip.corrected(motor.speed));
-                     },
-                     {{motor.torque, "N m"}, {motor.speed, "rad/s"}}});
+    const auto weaker = [](const MotorData& a, const MotorData& b) { return a.torque * a.speed < b.torque * b.speed; };
+    const MotorData& strongest = *std::max_element(motors.begin(), motors.end(), weaker);
+    std::vector<std::string> names;
+    for (const MotorData& motor : motors) names.push_back(s.robot->joints[motor.joint].name);
+    const double power = power_of(motors, nullptr);
+    const std::string whose = motors.size() == 1 ? "the motor of " + names.front()
+                                                 : fmt::format("the {} motors of module m{}", motors.size(), module);
+    found.push_back({motor_place(s, strongest.joint, strongest.torque_key),
+                     names,
+                     fmt::format("{} {} up to {:.3g} W ({}stall torque {:.4g} N m x no-load speed {:.4g} rad/s / 4), {:.3g} W "
+                                 "per kg of {} module",
+                                 whose, motors.size() == 1 ? "gives" : "give", power,
+                                 motors.size() == 1 ? "" : "the strongest: ", strongest.torque, strongest.speed, power / mass,
+                                 motors.size() == 1 ? "its" : "the"),
+                     power / mass,
+                     [motors = motors, mass](const Slip& slip) { return power_of(motors, &slip) / mass; },
+                     {},
+                     {{strongest.torque, "N m"}, {strongest.speed, "rad/s"}}});
   }
   return found;
+}
+
+/// Finding on a number of each driven joint, `key` of a section: its text, and the number that is judged. Empty if the section
+/// lacks the key.
+template <class Text, class Judged>
+std::vector<Finding> each_setting(const Scenario& s, const PluginSelection& plugin, const char* section, const char* key,
+                                  Text text, Judged judged) {
+  if (plugin.entry == nullptr) return {};
+  const SettingsNumbers numbers(plugin);
+  const SettingsNumbers::Found* const values = numbers.find(key);
+  std::vector<Finding> found;
+  for (std::size_t j = 0; values != nullptr && j < s.robot->joints.size(); ++j) {
+    if (!s.robot->joints[j].driven()) continue;
+    const std::string& name = s.robot->joints[j].name;
+    const double value = values->value[j];
+    found.push_back({motor_place(s, j, key, section), {name}, text(name, value, j), judged(value, j)});
+  }
+  return found;
+}
+
+std::vector<Finding> voltages(const Subject& subject) {
+  return each_setting(
+      subject.scenario, subject.scenario.actuator, "actuator", "voltage",
+      [](const std::string& name, double value, std::size_t) {
+        return fmt::format("the data of the motor of {} hold at {} V", name, number_text(value));
+      },
+      [](double value, std::size_t) { return value; });
+}
+
+std::vector<Finding> supplies(const Subject& subject) {
+  const Scenario& s = subject.scenario;
+  if (s.actuator.entry == nullptr) return {};
+  const SettingsNumbers numbers(s.actuator);
+  const SettingsNumbers::Found* const data = numbers.find("voltage");
+  if (data == nullptr) return {};
+  return each_setting(
+      s, s.actuator, "actuator", "u_max",
+      [&](const std::string& name, double value, std::size_t j) {
+        return fmt::format("the supply of the motor of {} is {} V, and its data hold at {} V", name, number_text(value),
+                           number_text(data->value[j]));
+      },
+      [&](double value, std::size_t j) { return value > 0 ? value / data->value[j] : 1; });
+}
+
+std::vector<Finding> rotors(const Subject& subject) {
+  const Scenario& s = subject.scenario;
+  std::map<std::size_t, MotorData> motors;
+  for (const MotorData& motor : motor_data(s)) motors[motor.joint] = motor;
+  const auto time = [&](double inertia, std::size_t j) {
+    const auto motor = motors.find(j);
+    return motor == motors.end() ? 0 : inertia * motor->second.speed / motor->second.torque;
+  };
+  return each_setting(
+      s, s.actuator, "actuator", "rotor_inertia",
+      [&](const std::string& name, double value, std::size_t j) {
+        return fmt::format("rotor_inertia of {} is {} kg m^2 at the joint, so that the motor alone takes {:.3g} s to its speed",
+                           name, number_text(value), time(value, j));
+      },
+      time);
+}
+
+std::vector<Finding> gains(const Subject& subject) {
+  return each_setting(
+      subject.scenario, subject.scenario.controller, "controller", "Kp",
+      [](const std::string& name, double value, std::size_t) {
+        return fmt::format("Kp of {} is {}, so that the motor turns away from its set point", name, number_text(value));
+      },
+      [](double value, std::size_t) { return value; });
 }
 
 }  // namespace
@@ -151,24 +238,47 @@ std::vector<PlausibleNumber> plausible_motors() {
         {"is it in degrees/s", of_degrees},
         {"is it in s per 60 degrees", of_s_per_60_degrees}},
        {},
-       speeds_without_load},
+       speeds_of_hinges},
+      {"wheel speed",
+       0.5,
+       400,
+       "expected 0.5 to 400 rad/s at a joint without stops",
+       {{"is it in rev/min", of_rev_per_min}},
+       {},
+       speeds_of_wheels},
       {"stall torque",
        0,
        60,
        "expected at most 60",
        {{"is it in kgf cm", of_kgf_cm}, {"is it in N cm", of_centi}, {"is it in mN m", of_milli}},
        {},
-       stall_torques},
+       stall_torques,
+       false,
+       0.3},
       {"power",
        0,
-       40,
-       "expected at most 40 W/kg",
+       100,
+       "expected at most 100 W/kg",
        {{"is the torque in kgf cm", of_kgf_cm},
         {"is the torque in N cm", of_centi},
         {"is the speed in rev/min", of_rev_per_min, 1},
         {"is the torque in mN m", of_milli}},
-       {"no-load speed", "stall torque"},
-       powers},
+       {"no-load speed", "wheel speed", "stall torque"},
+       powers,
+       false,
+       1},
+      {"voltage", 0.5, 1000, "expected 0.5 to 1000 V", {{"is it in mV", of_milli}}, {}, voltages},
+      {"supply", 0.3, 3, "expected 0.3 to 3 times that", {}, {"voltage"}, supplies},
+      {"rotor inertia",
+       0,
+       1,
+       "expected at most 1 s",
+       {{"is it in kg cm^2", of_square_cm}, {"is it in g cm^2", of_gram_square_cm}},
+       {"no-load speed", "wheel speed", "stall torque", "power"},
+       rotors,
+       false,
+       1e-4},
+      {"gain", 0, kNoLimit, "expected 0 or more", {{"has it the wrong sign", turned_round}}, {}, gains},
   };
 }
 

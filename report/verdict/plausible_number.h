@@ -19,7 +19,15 @@ namespace gaitlab::report {
 struct Subject {
   explicit Subject(const Scenario& s);
   const Scenario& scenario;
-  std::vector<std::vector<Solid>> solids;  ///< unions of shapes, by type and body; volume 0 for bodies that are not judged
+  /// Size of a body, by which its numbers are judged.
+  struct Size {
+    std::vector<Shape> shapes;  ///< of the body, or a box about its points; empty if it has neither
+    bool of_points = false;     ///< true for a box about contact elements, faces and hinges
+    Solid solid = {};           ///< union of the shapes; volume 0 for a body without mass, or with too many shapes, and no
+                                ///< moments if the body's inertia is that of its shapes
+    [[nodiscard]] double largest_edge() const;
+  };
+  std::vector<std::vector<Size>> sizes;  ///< by type and body
   std::vector<SetPointRange> set_points;
 };
 
@@ -45,6 +53,8 @@ struct Finding {
   double value = 0;  ///< the number that is compared with the range
   /// The measured number without a mistake. Empty if `corrected` applies to the number itself.
   std::function<double(const Slip&)> again = {};
+  /// False for a mistake whose correction would make no sense otherwise, such as a length far below all others.
+  std::function<bool(const Slip&)> sensible = {};
   std::vector<GivenNumber> inputs = {};
   std::string remedy = {};  ///< text in the place of the questions
 };
@@ -59,14 +69,26 @@ struct PlausibleNumber {
   std::vector<std::string_view> unless;
   std::vector<Finding> (*measure)(const Subject&);
   bool of_gait = false;  ///< a number of the scenario's own gait, which a study varies
+  double likely = 0;     ///< least number that a correction may give: a number below is as odd as the given one
 };
 
-/// Numbers that were given in thousandths, hundredths and degrees.
+/// Numbers that were given in thousandths, hundredths, with the other sign, and so on.
 inline double of_milli(double value) { return value * 1e-3; }
 inline double of_centi(double value) { return value * 1e-2; }
+inline double turned_round(double value) { return -value; }
+inline double of_square_cm(double value) { return value * 1e-4; }       ///< of kg cm^2
+inline double of_gram_square_cm(double value) { return value * 1e-7; }  ///< of g cm^2
 inline double of_degrees(double value) { return value * std::numbers::pi / 180; }
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+/// Least length of a correction, relative to a body's largest edge: shorter ones are as odd as the given one.
+inline constexpr double kLeastShare = 0.02;
+
+/// The map of the joint's hinge in the text of its module type; nullptr if the text is not known.
+const Node* hinge_map(const Scenario& s, std::size_t joint);
+/// The entry of the list `key` of a module type whose `name` or `id` is `name`; nullptr if there is none.
+const Node* entry_map(const Node& document, const char* key, const char* by, const std::string& name);
 
 /// Rows on the bodies and faces of module types.
 std::vector<PlausibleNumber> plausible_bodies();

@@ -18,7 +18,7 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kWholeTurn = 2 * std::numbers::pi;
-constexpr double kDegrees = 360;  // a hinge range above this number means "no limit", not an angle in degrees
+constexpr double kNoStopMeant = 360;  // rad; a range above this number means "no stop", not an angle in degrees
 constexpr double kOnTheLimit = 1 + 1e-9;
 
 Finding angle(const Scenario& s, const std::string& part, const std::string& key, double value) {
@@ -27,19 +27,15 @@ Finding angle(const Scenario& s, const std::string& part, const std::string& key
           fmt::format("{} is {} rad, {:.3g} turns", key, number_text(value), std::abs(value) / kWholeTurn),
           value,
           {},
+          {},
           {{value, "rad"}}};
 }
 
 /// Place of the range of a joint's hinge in the text of its module type.
-SourceLocation range_place(const Scenario& s, const Joint& joint) {
-  const std::size_t type = s.robot->modules[joint.module].type;
-  const Node* const hinges = type < s.module_documents->size() ? (*s.module_documents)[type].find("hinges") : nullptr;
-  for (std::size_t i = 0; hinges != nullptr && i < hinges->items.size(); ++i) {
-    const Node* const name = hinges->items[i].find("name");
-    const Node* const range = hinges->items[i].find("range");
-    if (name != nullptr && range != nullptr && joint.name.ends_with("/" + name->text)) return range->place;
-  }
-  return s.nearest_place("robot");
+SourceLocation range_place(const Scenario& s, std::size_t joint) {
+  const Node* const hinge = hinge_map(s, joint);
+  const Node* const range = hinge == nullptr ? nullptr : hinge->find("range");
+  return range == nullptr ? s.nearest_place("robot") : range->place;
 }
 
 std::vector<Finding> angles(const Subject& subject) {
@@ -59,11 +55,12 @@ std::vector<Finding> angles(const Subject& subject) {
     }
   }
   for (Eigen::Index i = 0; i < 3; ++i) found.push_back(angle(s, "robot.orientation", "robot.orientation", s.orientation[i]));
-  for (const Joint& joint : s.robot->joints) {
+  for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
+    const Joint& joint = s.robot->joints[j];
     const double widest = std::max(std::abs(joint.lo), std::abs(joint.hi));
-    if (widest > kDegrees) continue;
+    if (widest > kNoStopMeant) continue;
     found.push_back(angle(s, joint.name, "the range of hinge " + joint.name, widest));
-    found.back().place = range_place(s, joint);
+    found.back().place = range_place(s, j);
   }
   return found;
 }
@@ -75,6 +72,7 @@ std::vector<Finding> control_periods(const Subject& subject) {
            {"controller.period"},
            fmt::format("controller.period is {} s", number_text(s.control_period)),
            s.control_period,
+           {},
            {},
            {{s.control_period, "s"}}}};
 }
@@ -97,6 +95,7 @@ std::vector<Finding> contacts(const Subject& subject) {
        static_cast<double>(known),
        {},
        {},
+       {},
        only_feet ? "take contact: {on: all}"
                  : fmt::format("take contacts: {{all: shapes}} (module format 3) in {}", joined(files))}};
 }
@@ -109,13 +108,14 @@ std::vector<Finding> frictions(const Subject& subject) {
            fmt::format("ground.friction is {}", number_text(s.ground.friction)),
            s.ground.friction,
            {},
+           {},
            {{s.ground.friction, ""}}}};
 }
 
 std::vector<Finding> start_heights(const Subject& subject) {
   const Scenario& s = subject.scenario;
   const double edge = outline_edges(*s.robot).maxCoeff();
-  if (!stands(s) || !(edge > 0)) return {};
+  if (!stands(s) || !(edge > 0) || !(s.physics.gravity.norm() > 0)) return {};
   const RobotState start = start_state(s);
   Kinematics k(*s.robot);
   k.place(*s.robot, start);
@@ -126,7 +126,8 @@ std::vector<Finding> start_heights(const Subject& subject) {
            fmt::format("the lowest point of the robot starts {:.4g} m above the ground; the robot's largest edge is {:.3g} m",
                        lowest, edge),
            std::max(lowest, 0.0) / edge,  // the highest point of boxes is an upper bound
-           [lowest, z, edge](const Slip& slip) { return std::abs(lowest - z + slip.corrected(z)) / edge; },
+           [lowest, z, edge](const Slip& slip) { return (lowest - z + slip.corrected(z)) / edge; },
+           [lowest, z, edge](const Slip& slip) { return lowest - z + slip.corrected(z) >= -kLeastShare * edge; },
            {{z, "m"}}}};
 }
 
@@ -140,6 +141,7 @@ std::vector<Finding> trace_periods(const Subject& subject) {
            fmt::format("trace.period is {} s, and the set points repeat every {:.4g} s", number_text(s.trace.period),
                        1 / frequency),
            s.trace.period * frequency,
+           {},
            {},
            {{s.trace.period, "s"}}}};
 }
@@ -169,6 +171,7 @@ std::vector<Finding> overlaps_at_start(const Subject& subject) {
            met->depth,
            {},
            {},
+           {},
            "look at the docks and at initial.angles"}};
 }
 
@@ -182,14 +185,19 @@ std::vector<Finding> set_points_beyond(const Subject& subject) {
     if (joint.turns_freely()) continue;
     const double beyond = std::max(joint.lo - one.least, one.most - joint.hi);
     const auto again = [one, joint](const Slip& slip) {
-      return std::max(joint.lo - slip.corrected(one.least), slip.corrected(one.most) - joint.hi);
+      return std::max({0.0, joint.lo - slip.corrected(one.least), slip.corrected(one.most) - joint.hi});
+    };
+    const auto sensible = [one](const Slip& slip) {
+      constexpr double kLeastSwing = 0.1;  // rad
+      return slip.corrected(one.most) - slip.corrected(one.least) >= kLeastSwing;
     };
     found.push_back({gait_place(s),
                      {"cpg", s.robot->joints[one.joint].name},
                      fmt::format("the set points of {} go from {:.4g} to {:.4g} rad, and its range from {:.4g} to {:.4g} rad",
                                  joint.name, one.least, one.most, joint.lo, joint.hi),
                      std::max(0.0, beyond),
-                     again});
+                     again,
+                     sensible});
   }
   return found;
 }
@@ -216,9 +224,17 @@ std::vector<Finding> set_point_speeds(const Subject& subject) {
 std::vector<PlausibleNumber> plausible_scenario() {
   return {
       {"angle", -2 * kWholeTurn, 2 * kWholeTurn, "expected at most two turns", {{"is it in degrees", of_degrees}}, {}, angles},
-      {"control period", 0, 0.5, "expected at most 0.5 s", {{"is it in ms", of_milli}}, {}, control_periods},
+      {"control period", 0, 0.5, "expected at most 0.5 s", {{"is it in ms", of_milli}}, {}, control_periods, false, 1e-3},
       {"contact", 1, kNoLimit, "expected at least one", {}, {}, contacts},
-      {"friction", 0, 3, "expected at most 3 (rubber on concrete: about 1)", {{"is it in percent", of_centi}}, {}, frictions},
+      {"friction",
+       0,
+       3,
+       "expected at most 3 (rubber on concrete: about 1)",
+       {{"is it in percent", of_centi}},
+       {},
+       frictions,
+       false,
+       0.05},
       {"height",
        -1,
        1,
@@ -232,7 +248,9 @@ std::vector<PlausibleNumber> plausible_scenario() {
        "expected at most a tenth of that",
        {{"is it in ms", of_milli}},
        {},
-       trace_periods},
+       trace_periods,
+       false,
+       1e-3},
       {"overlap", 0, 0, "expected bodies apart", {}, {"density"}, overlaps_at_start},
       {"set points",
        0,
@@ -247,7 +265,7 @@ std::vector<PlausibleNumber> plausible_scenario() {
        1,
        "expected less than that",
        {},
-       {"angle", "set points", "no-load speed"},
+       {"angle", "set points", "no-load speed", "wheel speed"},
        set_point_speeds,
        true},
   };

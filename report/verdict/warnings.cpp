@@ -113,7 +113,8 @@ std::vector<Warning> setup_warnings(const Scenario& s) {
     const Implausible odd = implausible(s);
     out = odd.warnings;
     const auto reported = [&](const char* row) { return std::ranges::find(odd.rows, row) != odd.rows.end(); };
-    check_motors(s, !reported("control period") && !reported("no-load speed"), out);
+    const bool gain_known = !reported("control period") && !reported("no-load speed") && !reported("wheel speed");
+    check_motors(s, gain_known && !reported("gain"), out);
   } catch (const PluginError&) {
     out.clear();  // the run reports the error with its place
   }

@@ -1,5 +1,9 @@
 // `gaitlab new module` and `new scenario` write files that are valid and run as they stand.
+#include <cstdlib>
+#include <sstream>
+
 #include "app/chain.h"
+#include "core/laws/data_sheet.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -47,7 +51,40 @@ TEST_F(NewFiles, AModuleAndItsScenarioAreFeasibleAsTheyStand) {
   EXPECT_EQ(verdict("demo-walk.yaml"), "feasible");
 }
 
-TEST_F(NewFiles, EveryModuleWithAMotorGetsAVerdict) {
+/// The commands that `new module` prints, with and without --from, run as printed.
+TEST_F(NewFiles, ThePrintedCommandsRun) {
+  const std::string link =
+      "'><inertial><mass value='1'/><inertia ixx='0.01' iyy='0.01' izz='0.01' ixy='0' ixz='0' iyz='0'/></inertial>"
+      "<visual><origin xyz='0 0 -0.1'/><geometry><box size='0.1 0.1 0.1'/></geometry></visual></link>";
+  const auto urdf = [&](const std::string& name, const std::string& effort) {
+    folder.write(name,
+                 "<robot name='r'><link name='a" + link + "<link name='b" + link +
+                     "<joint name='j' type='revolute'><parent link='a'/><child link='b'/><axis xyz='0 1 0'/><limit effort='" +
+                     effort + "' velocity='5' lower='-1' upper='1'/></joint></robot>");
+  };
+  urdf("driven.urdf", "9");
+  urdf("passive.urdf", "0");
+  for (const std::string words : {"module one", "module two --from driven.urdf", "module three --from passive.urdf"}) {
+    const Result made = call(words);
+    std::istringstream lines(made.out);
+    int commands = 0;
+    for (std::string line; std::getline(lines, line);) {
+      if (!line.starts_with("  ")) continue;
+      ++commands;
+      folder.write("next.sh", "gaitlab() { '" + std::string(GAITLAB_BINARY_DIR) + "/bin/gaitlab' \"$@\"; }\n" + line + "\n");
+      const std::string shell = "cd '" + (folder / "") + "' && bash next.sh >>out 2>>err";
+      EXPECT_EQ(std::system(shell.c_str()), 0) << line << read(folder / "err");
+    }
+    EXPECT_EQ(commands, 3) << made.out;
+  }
+}
+
+TEST_F(NewFiles, TheGainOfTheExampleIsTheUsualOne) {
+  EXPECT_EQ(call("module demo").code, 0);
+  EXPECT_TRUE(contains(read(folder / "demo.yaml"), fmt::format("Kp: {:.2g} ", gain_of_share(kUsualShare, 4.8, 4.553, 0.015))));
+}
+
+TEST_F(NewFiles, EveryModuleWithAMotorGetsAFeasibleGait) {
   for (const auto& [name, file] : app::shipped_files("module")) {
     const Result made = call("scenario s --module " + name);
     if (name == "revolve_brick" || name == "revolve_core") {
@@ -57,10 +94,49 @@ TEST_F(NewFiles, EveryModuleWithAMotorGetsAVerdict) {
       continue;
     }
     ASSERT_EQ(made.code, 0) << name << made.err;
-    const std::string word = verdict("s.yaml");
-    EXPECT_TRUE(word == "feasible" || word == "infeasible") << name << ": " << word;
+    EXPECT_EQ(gaitlab("check s.yaml", folder / "").err, "") << name;
+    EXPECT_EQ(made.err, "") << name;
+    EXPECT_EQ(verdict("s.yaml"), "feasible") << name;
     std::filesystem::remove(folder / "s.yaml");
   }
+}
+
+/// A hinge of 0.5 rad/s and 1 N m between bodies of 5 kg and 0.2 m: 0.25 rad/s = 0.4 rad 2 pi 0.099 Hz; n modules of 10 kg and
+/// 0.4 m bend with n^2 10 kg 9.81 m/s^2 0.4 m / 8 = 4.9 N m n^2, so that one is left; its weight on four points is 24.5 N,
+/// which 1e4 N/m bear with 2.45 mm.
+TEST_F(NewFiles, AGaitFitsTheMotorsAndTheWeight) {
+  const std::string box = "mass: 5, shape: [{box: [0.2, 0.2, 0.2], origin: [";
+  folder.write(
+      "slow.yaml",
+      "gaitlab_module: 3\nname: slow\nbodies:\n  a: {" + box + "-0.1, 0, 0]}]}\n  b: {" + box +
+          "0.1, 0, 0]}]}\nhinges:\n  - {name: hinge, parent: a, child: b, axis: [0, 0, 1], range: [-1, 1]}\n"
+          "actuator: {type: servo, voltage: 5, stall_torque: 1, no_load_speed: 0.5}\ncontacts: {all: shapes}\n"
+          "faces:\n  - {id: 0, body: a, gender: none, origin: [-0.2, 0, 0], normal: [-1, 0, 0], reference: [0, 1, 0]}\n"
+          "  - {id: 1, body: b, gender: none, origin: [0.2, 0, 0], normal: [1, 0, 0], reference: [0, 1, 0]}\n");
+  const Result made = call("scenario slow-walk --module slow.yaml");
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_TRUE(made.out.starts_with("slow-walk.yaml: one module slow; next:\n")) << made.out;
+  const std::string text = read(folder / "slow-walk.yaml");
+  EXPECT_TRUE(contains(text, "  frequency: 0.099 ")) << text;
+  EXPECT_TRUE(contains(text, "duration: 41 ")) << text;
+  EXPECT_TRUE(contains(text, "  stiffness: 30000 ")) << text;
+  EXPECT_TRUE(contains(text, "  damping: 300000 ")) << text;
+}
+
+TEST_F(NewFiles, AFileStatesWhyItsGaitIsNotFeasible) {
+  folder.write(
+      "weak.yaml",
+      "gaitlab_module: 3\nname: weak\nbodies:\n  a: {mass: 1, shape: [{box: [0.1, 0.1, 0.1], origin: [-0.05, 0, 0]}]}\n"
+      "  b: {mass: 1, shape: [{box: [0.1, 0.1, 0.1], origin: [0.05, 0, 0]}]}\n"
+      "hinges:\n  - {name: hinge, parent: a, child: b, axis: [0, 1, 0], range: [-1, 1]}\n"
+      "actuator: {type: servo, voltage: 5, stall_torque: 0.01, no_load_speed: 5}\ncontacts: {all: shapes}\n");
+  const Result made = call("scenario walk --module weak.yaml");
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_TRUE(made.err.starts_with("walk.yaml: note: as it stands infeasible: ")) << made.err;
+  const std::string text = read(folder / "walk.yaml");
+  EXPECT_TRUE(contains(text, "# Scenario walk: a wave along one module weak. As it stands infeasible: ")) << text;
+  EXPECT_TRUE(contains(text, "amplitude: 0.4 ")) << text;
+  EXPECT_EQ(verdict("walk.yaml"), "infeasible");
 }
 
 TEST_F(NewFiles, AFileIsNeverReplaced) {

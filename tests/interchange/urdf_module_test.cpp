@@ -148,10 +148,14 @@ TEST_F(FromUrdf, MotorsAndPassiveHinges) {
   EXPECT_EQ(type.hinges[2].passive->friction, 0.2);
   EXPECT_TRUE(contains(made_.text, "    actuator: {stall_torque: 1, no_load_speed: 4}\n    controller: {Kp: 140}\n"))
       << made_.text;
-  EXPECT_TRUE(contains(made_.text, "actuator: {type: servo, voltage: 12, stall_torque: 5, no_load_speed: 3, source: \"chosen:"))
+  EXPECT_TRUE(contains(made_.text,
+                       "actuator: {type: servo, voltage: 12, stall_torque: 5, no_load_speed: 3, efficiency_model: directional, "
+                       "source: \"chosen:"))
       << made_.text;
-  EXPECT_EQ(made_.notes, (std::vector<std::string>{"damping and friction of joint 'x y', which has a motor",
-                                                   "1 element of <transmission>", "2 elements of <gazebo>"}));
+  EXPECT_EQ(made_.notes,
+            (std::vector<std::string>{
+                "damping and friction of joint 'x y', which has a motor", "the name of joint 'dock', which is dock_2 here",
+                "the name of joint 'x y', which is x_y here", "1 element of <transmission>", "2 elements of <gazebo>"}));
 }
 
 /// Everything that a module cannot hold, in one list in the order of the file.
@@ -178,11 +182,61 @@ TEST_F(FromUrdf, RefusesInOneList) {
       refused(urdf_link("a") + urdf_link("b") + urdf_joint("j", "continuous", "a", "b", "")),
       "r:4:1: error: joint 'j' has no limit; expected effort and velocity of its motor, or effort 0 for a joint without a "
       "motor");
-  EXPECT_EQ(refused(urdf_link("a",
-                              "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='4' ixy='0' ixz='0' iyz='0'/>"
-                              "</inertial>")),
-            "r: error: the inertia of body 'a' is not possible: its principal moments are 1, 1, 4 kg m^2, but the largest must "
-            "not exceed the sum of the other two");
+  EXPECT_EQ(
+      refused(urdf_link("a",
+                        "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='4' ixy='0' ixz='0' iyz='0'/>"
+                        "</inertial>")),
+      "r:2:1: error: the inertia of body 'a' is not possible: its principal moments are 1, 1, 4 kg m^2, but the largest must "
+      "not exceed the sum of the other two");
+}
+
+/// Faults that only the reader of module files finds have the place and the name of their link or joint.
+TEST_F(FromUrdf, FaultsOfTheModuleHaveTheirPlace) {
+  const std::string box = std::string(kInertial) + "<visual><geometry><box size='0.1 -0.1 0.1'/></geometry></visual>";
+  const auto joint = [](const std::string& content) { return urdf_joint("j", "revolute", "a", "b", content); };
+  EXPECT_EQ(refused(urdf_link("a", box) + "<!-- <link name='b'/> -->\n" + urdf_link("b", box) + joint(kLimit)),
+            "r:2:1: error: link 'a': box[1] is -0.1 m; allowed are more than 0 m\n"
+            "r:4:1: error: link 'b': box[1] is -0.1 m; allowed are more than 0 m");
+  EXPECT_EQ(refused(urdf_link("a") + urdf_link("b") + joint(std::string("<axis xyz='0 0 0'/>") + kLimit)),
+            "r:4:1: error: joint 'j': axis has length 0; expected a direction");
+  EXPECT_EQ(refused("<transmission name='t'><joint name='j'/></transmission>\n" + urdf_link("a") + urdf_link("b") +
+                    joint("<limit effort='5' velocity='3'/>")),
+            "r:5:1: error: joint 'j': range is 0 to 0 rad; expected the smaller angle first");
+  EXPECT_EQ(refused(urdf_link(
+                "a", "<inertial><mass value='-1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>")),
+            "r:2:1: error: link 'a' has mass -1 kg; expected more than 0 (only a link between two hinges may have none)");
+}
+
+/// One fault is one message, at the link or joint that urdfdom names.
+TEST_F(FromUrdf, FaultsOfTheFileHaveTheirPlace) {
+  EXPECT_EQ(
+      refused(urdf_link("a") + urdf_link("b") + urdf_joint("j", "revolute", "a", "b", "<limit effort='nan' velocity='3'/>")),
+      "r:4:1: error: urdfdom: effort value (nan) is not a valid float");
+  EXPECT_EQ(refused(urdf_link("a") + urdf_link("a")), "r:3:1: error: urdfdom: link 'a' is not unique.");
+  EXPECT_EQ(refused("<xacro:macro name='leg'/>\n"),
+            "r:2:1: error: has macros of xacro; expected URDF, which `xacro FILE > ROBOT.urdf` writes of them");
+  for (const char* const text : {"", " \n", "mass: 1", "<!-- <robot/> -->"})
+    EXPECT_TRUE(message_of([&] {
+                  module_of_urdf(folder_.write("e.urdf", text), "made");
+                }).ends_with("e.urdf: error: has no element <robot>; expected a URDF file"))
+        << text;
+}
+
+TEST_F(FromUrdf, TheLinkWorldIsTheBase) {
+  const ModuleType type = read_urdf(urdf_link("world", "") + urdf_link("a") + urdf_joint("f", "floating", "world", "a", ""));
+  ASSERT_EQ(type.bodies.size(), 1U);
+  EXPECT_EQ(type.bodies[0].name, "a");
+  EXPECT_EQ(made_.notes,
+            (std::vector<std::string>{"link 'world' and floating joint 'f': the base of a scenario floats by default"}));
+  read_urdf(urdf_link("world", "") + urdf_link("a") + urdf_joint("f", "fixed", "world", "a", ""));
+  EXPECT_EQ(made_.notes,
+            (std::vector<std::string>{"the fixed base of link 'world'; a scenario has it with robot: {base: fixed}"}));
+}
+
+TEST_F(FromUrdf, NamesThatChangeAreNoted) {
+  const ModuleType type = read_urdf(urdf_link("k\u00f6rper"));
+  EXPECT_EQ(type.bodies[0].name, "k_rper");
+  EXPECT_EQ(made_.notes, (std::vector<std::string>{"the name of link 'k\u00f6rper', which is k_rper here"}));
 }
 
 /// Elements nested so deep that the parser's stack would overflow.

@@ -279,6 +279,18 @@ TEST(MotorSource, OfPlugins) {
   EXPECT_TRUE(notes(with(kServo, "actuator: {type: pushes, most: 3}\n")).empty());
 }
 
+TEST(MotorSource, DefaultsThatDoNotCountAreNamed) {
+  const auto defaults = [](const std::string& motor, const std::string& more) {
+    return report::silent_defaults(scenario(one(motor, more)));
+  };
+  const std::string rotor = "rotor_inertia 0 (0.002 kg m^2 for a servo of 1 N m)";
+  EXPECT_EQ(defaults(kServo, ""), "by default: efficiency 0.7, " + rotor);
+  EXPECT_EQ(defaults(std::string(kServo) + ", stall_current: 2", ""), "by default: " + rotor);
+  EXPECT_EQ(defaults(std::string(kServo) + ", efficiency: 0.6, rotor_inertia: 0", ""), "") << "a stated 0";
+  EXPECT_EQ(defaults(std::string(kServo) + ", efficiency: 0.6", "actuator: {rotor_inertia: 0.001}\n"), "");
+  EXPECT_EQ(defaults(kServo, "actuator: {type: none}\n"), "");
+}
+
 TEST(MotorSource, InAFewWords) {
   using Sources = std::vector<std::string>;
   EXPECT_EQ(figures_sentence({"maxon catalogue 118752"}, {"chosen: after the M-TRAN"}),

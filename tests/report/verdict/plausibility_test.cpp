@@ -84,15 +84,15 @@ TEST(Plausibility, Masses) {
   EXPECT_EQ(
       odd_numbers({{"mass: 0.08", "mass: 80"}}),
       OddTexts(
-          {"13:15: body 'head' of emerge has 80 kg in 127 cm^3, which is a density of 6.29e+05 kg/m^3; expected 50 to 20000 "
-           "kg/m^3, from foam to tungsten: is the mass in g (0.08 kg)?"}));
+          {"13:15: body 'head' of emerge has 80 kg in 127 cm^3, which is a density of 6.29e+05 kg/m^3; expected 5 to 20000 "
+           "kg/m^3, from a hollow shell to tungsten: is the mass in g (0.08 kg)?"}));
   const OddTexts both = odd_numbers({{"mass: 0.08", "mass: 80"}, {"mass: 0.12", "mass: 120"}});
   ASSERT_EQ(both.size(), 1U) << "one mistake in two bodies";
   EXPECT_TRUE(both[0].ends_with("is the mass in g (0.12 kg)? (and 1 more)")) << both[0];
   EXPECT_EQ(
-      odd_numbers({{"mass: 0.08", "mass: 0.0064"}, {"[3.605e-05, 3.275e-05, 3.275e-05", "[3.605e-06, 3.275e-06, 3.275e-06"}}),
+      odd_numbers({{"mass: 0.08", "mass: 0.00064"}, {"[3.605e-05, 3.275e-05, 3.275e-05", "[3.605e-07, 3.275e-07, 3.275e-07"}}),
       OddTexts())
-      << "50.4 kg/m^3";
+      << "5.04 kg/m^3";
   EXPECT_EQ(
       odd_numbers({{"mass: 0.08", "mass: 2.5"}, {"[3.605e-05, 3.275e-05, 3.275e-05", "[3.605e-03, 3.275e-03, 3.275e-03"}}),
       OddTexts())
@@ -165,8 +165,113 @@ TEST(Plausibility, Motors) {
   EXPECT_EQ(end("no_load_speed: 10.2", "no_load_speed: 600"), ": is it in degrees/s (10.47 rad/s)? (and 3 more)");
   EXPECT_EQ(end("no_load_speed: 10.2", "no_load_speed: 0.103"), ": is it in s per 60 degrees (10.17 rad/s)? (and 3 more)")
       << "and not the speed of the set points";
-  EXPECT_EQ(end("stall_torque: 1.8", "stall_torque: 4"), ": is the torque in kgf cm (0.3923 N m)? (and 3 more)")
-      << "51 W/kg, at 26 times m g L";
+  EXPECT_EQ(end("stall_torque: 1.8", "stall_torque: 8.5"), ": is the torque in kgf cm (0.8336 N m)? (and 3 more)")
+      << "108 W/kg, at 56 times m g L";
+  EXPECT_EQ(end("stall_torque: 1.8", "stall_torque: 3.8"), "0")
+      << "48 W/kg, as a servo of 82 g, 4.1 N m and 4.8 rad/s with its horn";
+  EXPECT_EQ(end("voltage: 12", "voltage: 12000"), ": is it in mV? (and 3 more)");
+  EXPECT_EQ(end("range: [-1.57, 1.57]", "range: free, actuator: {no_load_speed: 70, stall_torque: 0.2}, controller: {Kp: 5}"),
+            "0")
+      << "a wheel";
+  EXPECT_EQ(end("range: [-1.57, 1.57]", "range: free, actuator: {no_load_speed: 700, stall_torque: 0.2}, controller: {Kp: 5}"),
+            ": is it in rev/min (73.3 rad/s)? (and 3 more)");
+}
+
+TEST(Plausibility, SettingsOfMotors) {
+  const auto with = [](const std::string& key) {
+    const OddTexts found = odd_numbers({{"voltage: 12", "voltage: 12, " + key},
+                                        {"actuator:\n", "actuator: {"},
+                                        {"      type: servo\n      ", "type: servo, "},
+                                        {"\n      stall_torque", ", stall_torque"},
+                                        {"\n      no_load_speed: 10.2", ", no_load_speed: 10.2}"}});
+    return found.size() == 1 ? found[0] : fmt::format("{}", found.size());
+  };
+  EXPECT_TRUE(contains(with("u_max: 111"),
+                       "the supply of the motor of m0/hinge is 111 V, and its data hold at 12 V; expected 0.3 to 3"));
+  EXPECT_EQ(with("u_max: 7.4"), "0");
+  // 5 kg m^2 * 10.2 rad/s / 1.8 N m = 28.3 s; 0.0005 kg m^2 take 2.8 ms.
+  EXPECT_TRUE(
+      contains(with("rotor_inertia: 5"), "takes 28.3 s to its speed; expected at most 1 s: is it in kg cm^2? (and 3 more)"));
+  EXPECT_EQ(with("rotor_inertia: 0.002"), "0");
+  const OddTexts gain = odd_numbers({{"Kp: 50", "Kp: -50"}});
+  ASSERT_EQ(gain.size(), 1U);
+  EXPECT_TRUE(gain[0].ends_with("turns away from its set point; expected 0 or more: has it the wrong sign? (and 3 more)"))
+      << gain[0];
+}
+
+/// Two motors of 60 W/kg each in a module of 0.2 kg.
+TEST(Plausibility, PowerIsThatOfAllMotorsOfAModule) {
+  const OddTexts found = odd_numbers({{"docks: [[0, 1, 1, 0, 0], [0, 2, 1, 1, 0], [0, 3, 1, 2, 0]]", "docks: []"},
+                                      {"stall_torque: 1.8", "stall_torque: 4.7"},
+                                      {"axis: [0, 1, 0], range: [-1.57, 1.57]}",
+                                       "axis: [0, 1, 0], range: [-1.57, 1.57]}\n      - {name: tip, parent: head, child: end, "
+                                       "origin: [0.047, 0, 0], axis: [0, 0, 1], "
+                                       "range: [-1, 1]}"},
+                                      {"    hinges:", "      end: {mass: 1e-4, shape: [{sphere: 0.005}]}\n    hinges:"}});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_TRUE(contains(found[0], "the 2 motors of module m0 give up to 24 W (the strongest: stall torque 4.7 N m")) << found[0];
+}
+
+TEST(Plausibility, Hinges) {
+  const OddTexts found = odd_numbers({{"child: head, axis", "child: head, origin: [35, 0, 0], axis"}});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0],
+            "18:58: hinge 'hinge' of emerge is 35 m from the shapes of body 'body', whose largest edge is 0.052 m; expected at "
+            "most four times that: is origin in mm?");
+  const OddTexts shape = odd_numbers({{"0.052], origin: [0.0235,", "0.052], origin: [23.5,"},
+                                      {"        com: [0.0235, 0, 0]\n", ""},
+                                      {"        inertia: [3.605e-05, 3.275e-05, 3.275e-05, 0, 0, 0]\n", ""}});
+  ASSERT_EQ(shape.size(), 1U) << "and not its faces";
+  EXPECT_TRUE(
+      shape[0].ends_with("from the shapes of body 'head', whose largest edge is 0.052 m; expected at most four times that: "
+                         "are the origins of its shapes in mm?"))
+      << shape[0];
+  EXPECT_EQ(odd_numbers({{"child: head, axis", "child: head, origin: [0.2, 0, 0], axis"}}), OddTexts())
+      << "0.2 m from a box of 0.052 m";
+}
+
+/// Bodies without shapes have the size of the box about their contact elements, faces and hinges.
+TEST(Plausibility, BodiesWithoutShapes) {
+  const std::vector<std::pair<std::string, std::string>> bare = {
+      {"        shape: [{box: [0.03, 0.052, 0.052], origin: [-0.015, 0, 0]}]\n", ""},
+      {"        shape: [{box: [0.047, 0.052, 0.052], origin: [0.0235, 0, 0]}]\n", ""},
+      {"contacts: {all: shapes}", "contacts: {all: [{body: head, point: [0.047, 0.026, 0.026]}]}"}};
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::vector<std::pair<std::string, std::string>> changes = bare;
+    changes.emplace_back(from, to);
+    return odd_numbers(changes);
+  };
+  EXPECT_EQ(odd_numbers(bare), OddTexts());
+  const OddTexts mass = with("mass: 0.08", "mass: 80");
+  ASSERT_EQ(mass.size(), 1U);
+  EXPECT_TRUE(contains(mass[0], "(the box about its contact elements, faces and hinges)")) << mass[0];
+  EXPECT_TRUE(mass[0].ends_with("is the mass in g (0.08 kg)?")) << mass[0];
+  const OddTexts com = with("com: [0.0235", "com: [23.5");
+  ASSERT_EQ(com.size(), 1U);
+  EXPECT_TRUE(com[0].ends_with("is it in mm?")) << com[0];
+  const OddTexts inertia = with("[3.605e-05, 3.275e-05, 3.275e-05", "[3.605e+04, 3.275e+04, 3.275e+04");
+  ASSERT_EQ(inertia.size(), 1U);
+  EXPECT_TRUE(inertia[0].ends_with("is it in g mm^2?")) << inertia[0];
+  EXPECT_EQ(with("com: [0.0235", "com: [0.09"), OddTexts()) << "a body may be larger than the box about its points";
+}
+
+/// A correction that would leave another odd number is not asked for.
+TEST(Plausibility, QuestionsMakeSense) {
+  const auto end = [](const OddTexts& found) { return found.size() == 1 ? found[0].substr(found[0].rfind("; ")) : "none"; };
+  EXPECT_EQ(end(odd_numbers({}, {"robot.position=[0, 0, 0.4]"})), "; expected at most that height")
+      << "0.4 mm is in the ground";
+  EXPECT_EQ(odd_numbers({}, {"robot.position=[0, 0, 0.4]", "physics.gravity=[0, 0, 0]"}), OddTexts());
+  EXPECT_EQ(end(odd_numbers({}, {"trace.period=0.3"})), "; expected at most a tenth of that")
+      << "0.3 ms are 7000 rows a period";
+  EXPECT_EQ(end(odd_numbers({{"com: [0.0235", "com: [0.09"}})), "; expected a point in their convex hull") << "0.09 mm is 0";
+}
+
+/// Parts with one fault that has no known mistake share a warning.
+TEST(Plausibility, UnexplainedPartsShareAWarning) {
+  const OddTexts found = odd_numbers({{"[3.605e-05, 3.275e-05, 3.275e-05", "[3.605e-04, 3.275e-04, 3.275e-04"},
+                                      {"[5.408e-05, 3.604e-05, 3.604e-05", "[5.408e-04, 3.604e-04, 3.604e-04"}});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_TRUE(found[0].ends_with("expected 0.05 to 5 times that (and 1 more)")) << found[0];
 }
 
 TEST(Plausibility, PlaceOfAMotor) {

@@ -1,0 +1,16 @@
+// Units of data sheets of servos, and the gain that fits a servo.
+#pragma once
+
+namespace gaitlab {
+
+inline constexpr double kKgfCm = 0.0980665;                // N m per kgf cm
+inline constexpr double kRevPerMin = 0.10471975511965977;  // rad/s per rev/min
+
+/// Gain Kp, V/rad, whose command removes a share of the error per control period: share V / (w0 period). V: voltage, at which
+/// the no-load speed w0, rad/s, holds; period: s.
+inline constexpr double gain_of_share(double share, double voltage, double no_load_speed, double period) {
+  return share * voltage / (no_load_speed * period);
+}
+inline constexpr double kUsualShare = 0.7;  // chosen (docs/modules.md): fast, without overshoot
+
+}  // namespace gaitlab
