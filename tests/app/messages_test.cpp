@@ -90,7 +90,8 @@ TEST_F(Messages, AValueOfAnotherKind) {
   refused("converge ok.yaml --jobs 1.5", "gaitlab converge: error: --jobs is '1.5'" + jobs);
   refused("run ok.yaml --format hd5", "gaitlab run: error: --format is 'hd5'; expected h5 or csv; did you mean 'h5'?");
   refused("test '' ok.yaml",
-          "gaitlab test: error: SCENARIO is empty; expected scenario files, or folders of them (default: scenarios)");
+          "gaitlab test: error: SCENARIO is empty; expected scenario files, names of `gaitlab list scenarios`, or folders "
+          "(default: scenarios)");
   refused("report ''",
           "gaitlab report: error: RUN is empty; expected run folder, or two, A and B: a page shows B over A, compare.html in "
           "the folder of A");
