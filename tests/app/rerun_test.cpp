@@ -188,7 +188,9 @@ TEST_F(Rerun, DamagedTextsAreRefused) {
 TEST_F(Rerun, NoRunAtAll) {
   EXPECT_EQ(verify("nowhere").code, 2);
   EXPECT_EQ(verify("nowhere").err, "nowhere: error: there is no such run folder or trace file\n");
-  EXPECT_EQ(verify("a/summary.json").err, "a/summary.json: error: is neither a run folder nor a trace file (.h5, .csv)\n");
+  EXPECT_EQ(verify("a/summary.json").err,
+            "a/summary.json: error: is neither a run folder nor a trace file (.h5, .csv); it is a file of results in JSON; the "
+            "scenario of a run is scenario.resolved.yaml in its folder\n");
   EXPECT_EQ(gaitlab("rerun a --verify --out b", folder / "").code, 2);
 }
 
