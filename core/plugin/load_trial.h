@@ -4,10 +4,10 @@
 
 namespace gaitlab {
 
-/// Loads the library in a child process, where its static objects may throw or crash without ending this process. Returns a
-/// sentence on what ended the child, such as "a static object of this plugin threw an exception when it was loaded"; empty if
-/// the child came to its end, also if dlopen refused the file. What static objects print in the child is dropped. Returns an
-/// empty text, too, if no child can be made.
+/// Loads the library in a child process, where its static objects may throw or crash without an end of this process. Returns
+/// the reason of the child's end, such as "a static object of this plugin threw an exception when it was loaded"; an empty text
+/// if the child came to its end, if dlopen refused the file, or without a child. Output of static objects in the child is
+/// dropped.
 std::string load_trial(const std::string& path);
 
 }  // namespace gaitlab

@@ -33,8 +33,8 @@ struct GearPeak {
   std::optional<double> beyond = {};  ///< s, time when the torque was first above the limit
 };
 
-/// Peak of a joint's gear, from the column `gear.J.torque` of the loads; nothing without that column. `limit` (N m) is no limit
-/// if it is 0.
+/// Peak of a joint's gear, from the column `gear.J.torque` of the loads; nothing without that column. A `limit` of 0 (N m) is
+/// not exceeded.
 std::optional<GearPeak> gear_load(const Recording& record, std::size_t joint, double limit);
 
 }  // namespace gaitlab::report
