@@ -20,7 +20,9 @@ struct OscillatorKeys {
     f.per_joint("amplitude", amplitude,
                 {"rad", 0, 1000, "Peak of the set point about its offset; up to 3.2 for a hinge with a range."});
     f.per_joint("offset", offset, {"rad", -1000, 1000, "Mean of the set point; within +-3.2 for a hinge with a range."});
-    f.per_joint("phase_lag", phase_lag, {"rad", -100, 100, "Lead of each joint over the joint that it follows by the rule; a joint of amplitude 0 is in the row, too."});
+    f.per_joint("phase_lag", phase_lag,
+                {"rad", -100, 100,
+                 "Lead of each joint over the joint that it follows by the rule; a joint of amplitude 0 is in the row, too."});
     f.rule_or_list("couplings", rule, kCouplingRules, couplings, kCouplingRulesAbout);
   }
 

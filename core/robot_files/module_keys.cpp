@@ -58,7 +58,8 @@ constexpr ModuleKey kBodyKeys[] = {
     {.key = "inertia",
      .form = ModuleForm::vector,
      .spec = any("kg m^2",
-                 "xx, yy, zz, xy, xz, yz about the COM, body axes; elements of the tensor (xy: -sum of m x y). From format 3 on, by default that of the shapes at "
+                 "xx, yy, zz, xy, xz, yz about the COM, body axes; elements of the tensor (xy: -sum of m x y). From format 3 "
+                 "on, by default that of the shapes at "
                  "uniform density."),
      .size = 6},
     {.key = "shape",

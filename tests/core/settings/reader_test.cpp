@@ -167,8 +167,7 @@ TEST(Reader, PatternErrors) {
             "f:1:20: error: frequency of '*/x' is 30 Hz; allowed are 0 to 20 Hz");
   const std::string quotes = "; a pattern goes in quotes: \"*/active\"";
   const auto unquoted = [](const std::string& text) { return test::message_of([&] { parse_yaml(text, "f"); }); };
-  EXPECT_EQ(unquoted("frequency: {*/active: 2}\n"),
-            "f:1:13: error: not valid YAML: found * outside of quotes" + quotes);
+  EXPECT_EQ(unquoted("frequency: {*/active: 2}\n"), "f:1:13: error: not valid YAML: found * outside of quotes" + quotes);
   EXPECT_EQ(unquoted("frequency: {m?/active: 2}\n"), "f:1:14: error: not valid YAML: found ? outside of quotes" + quotes);
   Gains gains;
   EXPECT_EQ(read("leader: \"*/active\"\n", gains), "f:1:9: error: '*/active' is a pattern; expected the name of one joint");
