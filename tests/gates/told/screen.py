@@ -205,7 +205,8 @@ def first_screen(text, verdict, judged, known):
         fails = fails[1:]
     for title, list_ in (("fails", fails), ("too close", of["too close"]), ("warns", [c for c in of["warn"] if c["id"] != "created"])):
         must(title, " ".join(sentence(c) for c in list_) if list_ else None)
-    names = list(dict.fromkeys("docks" if c["id"].startswith("dock_") else c["id"] for c in of["not judged"]))
+    no_dock = sum(c["id"].startswith("dock_") for c in of["not judged"]) == 4
+    names = list(dict.fromkeys("docks" if no_dock and c["id"].startswith("dock_") else c["id"] for c in of["not judged"]))
     must("unknown", ", ".join(names) + " (gaitlab explain verdict)" if names else None)
     if word in ("feasible", "not judged") and verdict["tightest"]:
         c = next(c for c in checks if c["id"] == verdict["tightest"])
