@@ -42,7 +42,7 @@ void check_file_name(const std::string& what, const std::string& name) {
 
 /// Writes a new file and returns its name.
 std::string write_new(const NewFileArguments& arguments, const std::string& text) {
-  const std::string file = arguments.out.value_or(arguments.name + ".yaml");
+  std::string file = arguments.out.value_or(arguments.name + ".yaml");
   check_new(file);
   write_file(file, text, Existing::refused);
   return file;
@@ -200,7 +200,7 @@ std::string write_scenario(const NewFileArguments& arguments, const NewRobot& ro
   const auto text = [&](double amplitude) {
     return scenario_text(arguments, robot, amplitude, "It runs as it stands, to a verdict");
   };
-  const std::string file = write_new(arguments, text(kAmplitudes[0]));
+  std::string file = write_new(arguments, text(kAmplitudes[0]));
   const std::string why = shortfall(file, catalog);
   if (why.empty()) return file;
   for (std::size_t i = 1; i < std::size(kAmplitudes); ++i) {
