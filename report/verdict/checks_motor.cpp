@@ -359,13 +359,15 @@ void gear_peak(const CheckedRun& run, Check& made) {
         return Rated{passed ? passed->torque : joint.torque_peak, rating(j), passed ? passed->time : joint.torque_peak_time};
       });
   if (made.status == CheckStatus::not_judged) return;
+  bool measured = false;
   for (std::size_t j = 0; j < run.summary.judged.joints.size(); ++j) {
     const std::optional<GearPeak> passed = gear_load(run.record, j, rating(j));
+    measured = measured || passed;
     if (!passed || !passed->beyond || *passed->beyond >= made.first || !run.judges(j, made.span)) continue;
     made.first = *passed->beyond;
     made.first_part = run.joint(j);
   }
-  if (made.first_part.empty()) {
+  if (!measured) {
     find_first(
         run, 0, kTorquePeak, [&](std::size_t j, double now, double) { return rating(j) > 0 && now > rating(j); }, made);
   }

@@ -270,6 +270,22 @@ TEST_P(LoadsOf, AGearThatTurnsItsRotor) {
   EXPECT_NEAR(check.value, half, 1e-6);
 }
 
+/// The torque of a motor that turns a heavy rotor at the start is beyond the rating, and that of its gear is not: no joint is
+/// named as the first beyond it. The motor has the inertia of the rod 100 times over, so that the gear passes on a hundredth.
+TEST_P(LoadsOf, AGearThatIsSparedByItsRotor) {
+  const Scenario s = shipped(
+      "pendulum.yaml", {"actuator={type: dc_motor, gear: 100, rotor_inertia: 3.3333333333333335e-3, gear_torque_peak: 0.3}",
+                        "controller={type: pid, Kp: 1000}", "cpg={type: sine, amplitude: 0, offset: 1.5}",
+                        "physics.engine=" + GetParam(), "duration=0.1", "physics.gravity=[0, 0, 0]"});
+  const Recording record = run_with_loads(s);
+  ASSERT_GT(record.joints[0].torque_peak, 0.3);
+  const report::Verdict verdict = report::verdict(s, record, report::summarise(s, record, 0), report::overlaps(s, record));
+  const report::Check& check = *std::ranges::find(verdict.checks, "gear_peak", &report::Check::id);
+  EXPECT_EQ(check.status, report::CheckStatus::pass) << check.text;
+  EXPECT_EQ(check.first_part, "");
+  EXPECT_NEAR(check.value, record.joints[0].torque_peak / 101, 0.01 * check.value) << "I / (I + n^2 J) of the torque";
+}
+
 TEST(Loads, OfFeetAreThoseOfTheirContactElements) {
   Scenario s = shipped("hexapod.yaml", {"duration=0.6", "physics.engine=articulated", "trace.period=0.015"});
   s.trace.columns = {"contact.*"};
