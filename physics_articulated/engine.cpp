@@ -93,6 +93,9 @@ class ArticulatedPlant final : public Plant {
     kept_ = history;
   }
   void advance(In command, double h) override { kernel_->step(numbers_, kept_, command, h); }
+  bool state_within(std::size_t lane, std::size_t eighth, Out state) const override {
+    return kernel_->state_within(lane, eighth, state);
+  }
   void change_joints(In hold) override {
     kernel_->change(hold);
     for (const auto& solo : own_solos_) solo->change(hold);

@@ -27,6 +27,9 @@ class LaneKernel final : public Kernel {
     std::ranges::copy(math::numbers(std::span<const T>(x_)), state.begin());
     std::ranges::copy(own, history.begin());
   }
+  bool state_within(std::size_t lane, std::size_t eighth, Out state) const override {
+    return stepper_.eighths().state(lane, eighth, state);
+  }
   void change(In hold) override { stepper_.implicit.change(hold, {0, math::kLanes<T>}); }
   [[nodiscard]] History history() const override { return stepper_.layout; }
 

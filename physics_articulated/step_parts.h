@@ -1,5 +1,7 @@
 // Parts of a step, from which torques, works and statistics are summed, and the numbers that a rollout keeps between steps.
 #pragma once
+#include <array>
+
 #include "physics_articulated/implicit.h"
 
 namespace gaitlab::articulated {
@@ -48,6 +50,40 @@ struct Level {
   std::vector<T> start;
   Way<T> whole, halves, quarters, half, quarter, early;
   Limits<T> limits;  ///< after the first two quarters
+};
+
+/// States at the eighths of an adaptive step, in the lanes where a part of the divided step ended there.
+template <class T>
+class Eighths {
+ public:
+  static constexpr std::size_t kCount = 8;
+
+  explicit Eighths(std::size_t numbers) { states_.fill({std::vector<T>(numbers, T(0.0)), math::Mask<T>{}}); }
+
+  void clear() {
+    for (State& one : states_) one.lanes = math::Mask<T>{};
+  }
+  /// Keeps the state x of the lanes `which` if `at` of `of` equal parts of the step is an eighth within it.
+  void keep(std::span<const T> x, const math::Mask<T>& which, std::size_t at, std::size_t of) {
+    if (at == of || at * kCount % of != 0) return;
+    State& one = states_[at * kCount / of - 1];
+    for (std::size_t e = 0; e < x.size(); ++e) one.x[e] = math::select(which, x[e], one.x[e]);
+    one.lanes = math::mask_or(one.lanes, which);
+  }
+  /// See Plant::state_within.
+  bool state(std::size_t lane, std::size_t eighth, Out out) const {
+    const State& one = states_[eighth - 1];
+    if (!(math::lane(math::select(one.lanes, T(1.0), T(0.0)), lane) > 0)) return false;
+    for (std::size_t e = 0; e < one.x.size(); ++e) out[e * math::kLanes<T> + lane] = math::lane(one.x[e], lane);
+    return true;
+  }
+
+ private:
+  struct State {
+    std::vector<T> x;
+    math::Mask<T> lanes{};
+  };
+  std::array<State, kCount - 1> states_;
 };
 
 }  // namespace gaitlab::articulated

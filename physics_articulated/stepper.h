@@ -37,7 +37,8 @@ class Stepper {
         history_(layout.size(), T(0.0)),
         solos_(solos),
         of_solo_(StateLayout::kAngles + 2 * joints_),
-        command_of_solo_(joints_) {
+        command_of_solo_(joints_),
+        eighths_(of_solo_.size()) {
     const std::vector<T> zero(StateLayout::kAngles + 2 * joints_, T(0.0));
     for (auto* state : {&sum_, &stage_, &rate_}) *state = zero;
     const Way<T> way{zero, 0, 0};
@@ -51,6 +52,7 @@ class Stepper {
   /// Advances x by a step h. `command` is constant, with index joint * lanes + lane.
   void step(std::span<T> x, In command, double h) {
     used_ = 0;
+    eighths_.clear();
     contact = friction = stops = hinges = T(0.0);
     if (method_ == Method::rk4) {
       runge_kutta(x, command, h);
@@ -68,13 +70,15 @@ class Stepper {
   std::span<T> history() { return history_; }
   [[nodiscard]] std::size_t most_parts() const { return parts_.size(); }  ///< largest number of parts if every search converges
   [[nodiscard]] std::span<const Part<T>> parts() const { return {parts_.data(), used_}; }
+  [[nodiscard]] const Eighths<T>& eighths() const { return eighths_; }
 
   Implicit<T> implicit;
   T contact = 0.0, friction = 0.0, stops = 0.0, hinges = 0.0;  ///< work of the last step, J
   History layout;
 
  private:
-  static constexpr std::size_t kLevels = 7;    ///< number of lengths of an adaptive step, h to h / 64
+  static constexpr std::size_t kLevels = 7;  ///< number of lengths of an adaptive step, h to h / 64
+  static constexpr std::size_t kShortest = std::size_t{1} << (kLevels - 1);
   static constexpr std::size_t kHalvings = 6;  ///< depth of halving a step whose search does not converge
   // Largest allowed difference between the results of two orders, in units of the accuracy. Together with the scales of the
   // base below, these are the least strict values that bring the gaits and limits of docs/validation.md within the accuracy.
@@ -265,8 +269,9 @@ class Stepper {
     own.quarter.to = own.early.from + of_quarter;
   }
 
-  /// Advances the lanes `which` by a step h. At level kLevels the step has second order, regardless of its error.
-  void adapt(std::span<T> x, In command, double h, const math::Mask<T>& which, std::size_t level,
+  /// Advances the lanes `which` by a step h, which ends at `end` of the kShortest shortest parts of the whole step. At level
+  /// kLevels the step has second order, regardless of its error.
+  void adapt(std::span<T> x, In command, double h, const math::Mask<T>& which, std::size_t level, std::size_t end = kShortest,
              const Level<T>* before = nullptr) {
     using math::select;
     const bool fixed = level == kLevels;
@@ -300,11 +305,12 @@ class Stepper {
     normalise<T>(x);
     const auto taken = math::mask_or(second, third);
     for (std::size_t e = 0; e < x.size(); ++e) x[e] = select(taken, x[e], own.start[e]);
+    eighths_.keep(x, taken, end, kShortest);
     const auto shorter = math::mask_and(math::fresh(which, taken), finite(own.start));
     if (!math::any_lane(shorter)) return;
     if (!math::any_lane(taken)) drop(own, first);  // no lane uses the others
-    adapt(x, command, h / 2, shorter, level + 1, &own);
-    adapt(x, command, h / 2, shorter, level + 1);
+    adapt(x, command, h / 2, shorter, level + 1, end - (kShortest >> (level + 1)), &own);
+    adapt(x, command, h / 2, shorter, level + 1, end);
   }
 
   /// Computes sums over the parts, and peaks.
@@ -376,6 +382,7 @@ class Stepper {
   Limits<T> limits_;
   std::span<const SoloOfLane> solos_;
   std::vector<double> of_solo_, command_of_solo_;
+  Eighths<T> eighths_;
   math::Mask<T> apart_{};  ///< lanes whose last step was that of a solo
   math::Mask<T> slide_{};  ///< of these, lanes where most of the load slides
   std::vector<std::vector<T>> halved_;

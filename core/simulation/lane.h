@@ -76,7 +76,7 @@ struct Simulation::Lane {
   std::size_t index;
   LaneClock clock;
   bool closed = false;   ///< the recording of the lane is complete
-  bool divided = false;  ///< the integrator divided the last step of the lane
+  bool divided = false;  ///< scratch: the integrator divided the last step of the lane at the present eighth
   Outcome outcome;
   std::vector<ContactElement> contacts;
   std::vector<std::size_t> passive = {};  ///< joints without a motor

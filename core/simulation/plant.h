@@ -88,6 +88,9 @@ class Plant {
   [[nodiscard]] virtual std::optional<Vec3> com(std::size_t /*lane*/) const { return {}; }
   /// Writes the motion of the ground boxes that have a mass. Entries of other boxes stay unchanged.
   virtual void boxes(std::span<BoxMotion> /*out*/) const {}
+  /// Writes the state of a lane at `eighth` (1 to 7) eighths of the last step into the entries of the lane in `state`, which
+  /// has those of all lanes. Returns false and writes nothing unless the integrator divided the step there.
+  virtual bool state_within(std::size_t /*lane*/, std::size_t /*eighth*/, Out /*state*/) const { return false; }
   /// Writes all members except the estimate of the torque error.
   virtual void tally(std::size_t /*lane*/, StepTally& /*out*/) const {}
   /// Takes the motors of the actuator anew, whose constants have changed, and the angles of stuck hinges: index joint

@@ -168,55 +168,33 @@ void Simulation::fill_loads(Lane& lane) {
 
 namespace {
 
-constexpr double kWatchEvery = 1e-3;    // s; least interval between loads of docks at the ends of steps
-constexpr double kUndivided = 0.2;      // share of a step; parts of a step that is not divided are at least a quarter of it
-constexpr int kWatchesPerDivision = 8;  // loads within a divided step
+constexpr double kWatchEvery = 1e-3;  // s; least interval between loads of docks at the ends of steps
+constexpr std::size_t kEighths = 8;
 
 }  // namespace
 
-/// Keeps the plant at the start of a step that may be divided, for watch_docks().
-void Simulation::keep_start() {
-  const auto watches = [](const auto& lane) { return lane->recorder != nullptr && lane->recorder->watches_docks(); };
-  start_.clear();
-  if (!scenarios_[0].physics.adaptive_step || std::ranges::none_of(lanes_, watches)) return;
-  start_.assign(plant_state_.begin(), plant_state_.end());
-  start_.insert(start_.end(), plant_history_.begin(), plant_history_.end());
-}
-
 /// Measures the loads of docks between control ticks: at the ends of steps at least kWatchEvery apart and, where the integrator
-/// divided the step of a lane, at eighths of this step. An impact divides steps, and can be over at the end of its step.
-/// Shorter steps from the start lead to the eighths; the state is then restored, so that the motion does not depend on the
-/// loads.
+/// divided a step, at those eighths of the step at which a part ended. An impact divides steps, and can be over at the end of
+/// its step.
 void Simulation::watch_docks() {
   const auto watches = [&](const Lane& lane) {
     return lane.recorder != nullptr && !lane.closed && lane.recorder->watches_docks();
   };
   if (std::ranges::none_of(lanes_, [&](const auto& lane) { return watches(*lane); })) return;
-  const StepEffort applied = plant_->applied();
-  bool any_divided = false;
-  for (const auto& lane : lanes_) {
-    const auto is_short = [&](const StepEffort::Part& part) {
-      return !part.instant && part.share[lane->index] > 0 && part.share[lane->index] < kUndivided * h_;
-    };
-    lane->divided = !start_.empty() && watches(*lane) && std::ranges::any_of(applied.parts, is_short);
-    any_divided = any_divided || lane->divided;
-  }
   const auto every = static_cast<std::int64_t>(std::ceil(kWatchEvery / h_ - 1e-9));
   if (step_number() % every == every - 1)
     watch_docks([&](const Lane& lane) { return watches(lane) && !lane.clock.commands(step_number() + 1); });
-  if (!any_divided) return;
-  const auto put = [&](const std::vector<double>& plant) {
-    std::copy_n(plant.begin(), plant_state_.size(), plant_state_.begin());
-    std::copy(plant.begin() + static_cast<std::ptrdiff_t>(plant_state_.size()), plant.end(), plant_history_.begin());
-  };
   end_.assign(plant_state_.begin(), plant_state_.end());
-  end_.insert(end_.end(), plant_history_.begin(), plant_history_.end());
-  put(start_);
-  for (int k = 1; k < kWatchesPerDivision; ++k) {
-    plant_->advance(command_, h_ / kWatchesPerDivision);
+  for (std::size_t eighth = 1; eighth < kEighths; ++eighth) {
+    bool any = false;
+    for (const auto& lane : lanes_) {
+      lane->divided = watches(*lane) && plant_->state_within(lane->index, eighth, plant_state_);
+      any = any || lane->divided;
+    }
+    if (!any) continue;
     watch_docks([](const Lane& lane) { return lane.divided; });
+    std::ranges::copy(end_, plant_state_.begin());
   }
-  put(end_);
 }
 
 void Simulation::watch_docks(const std::function<bool(const Lane&)>& wanted) {

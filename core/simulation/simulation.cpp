@@ -40,7 +40,6 @@ void Simulation::step() try {
     command();
   }
   record_within_step();
-  keep_start();
   advance(h_, [](const Lane&) { return true; });
   watch_docks();
   if (step_error_) estimate();
