@@ -86,16 +86,20 @@ void print_time(const CheckArguments& arguments, Catalog& catalog, const Scenari
   if (!advice.empty()) fmt::print("  {}\n", advice);
 }
 
+void note_boxes(const Scenario& s, const CheckArguments& arguments) {
+  constexpr std::size_t kManyBoxes = 1000;
+  const std::size_t boxes = s.ground.boxes().size();
+  if (boxes <= kManyBoxes || arguments.quiet) return;
+  say(arguments.file, "note",
+      fmt::format("simulates one step with {} boxes, which takes seconds if many of them are close together", boxes));
+}
+
 int check(const CheckArguments& arguments) {
   if (arguments.page) check_page(*arguments.page);
   Catalog catalog = careful_catalog(arguments.plugins);
   const Scenario s = read(arguments, catalog);
   warn_of_start(s, arguments.quiet);
-  constexpr std::size_t kManyBoxes = 1000;
-  if (const std::size_t boxes = s.ground.boxes().size(); boxes > kManyBoxes && !arguments.quiet) {
-    say(arguments.file, "note",
-        fmt::format("simulates one step with {} boxes, which takes seconds if many of them are close together", boxes));
-  }
+  note_boxes(s, arguments);
   const auto simulation = made(s);
   const Robot& robot = *s.robot;
   const auto contacts = contact_elements(robot, s.contact.on);

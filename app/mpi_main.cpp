@@ -89,6 +89,33 @@ std::optional<std::vector<Row>> done(const Executor& local, std::vector<Job> job
   return all;
 }
 
+/// Packs of jobs of `work`, which two threads take.
+class Packs {
+ public:
+  Packs(const Work& work, std::size_t size, const std::atomic<bool>& stop) : work_(work), size_(size), stop_(stop) {}
+
+  /// The next jobs; none at the end or if `stop` was set.
+  std::vector<Job> take() {
+    const std::lock_guard lock(mutex_);
+    std::vector<Job> jobs;
+    std::vector<std::uint64_t> runs;
+    while (jobs.size() < size_ && !stop_) {
+      std::optional<Job> job = work_.next();
+      if (!job) break;
+      runs.push_back(job->row.run);
+      jobs.push_back(std::move(*job));
+    }
+    if (!jobs.empty()) work_.begin(runs);
+    return jobs;
+  }
+
+ private:
+  const Work& work_;
+  std::size_t size_;
+  const std::atomic<bool>& stop_;
+  std::mutex mutex_;
+};
+
 /// The other processes, as seen by rank 0.
 class Others {
  public:
@@ -116,23 +143,10 @@ class Others {
 
   /// Simulates all jobs of `work` in all processes. It has the effect of a call of an Executor.
   bool lead(const Executor& local, std::size_t pack, const Work& work, std::atomic<bool>& stop) {
-    std::mutex asking;
-    const auto take = [&] {
-      const std::lock_guard lock(asking);
-      std::vector<Job> jobs;
-      std::vector<std::uint64_t> runs;
-      while (jobs.size() < pack && !stop) {
-        std::optional<Job> job = work.next();
-        if (!job) break;
-        runs.push_back(job->row.run);
-        jobs.push_back(std::move(*job));
-      }
-      if (!jobs.empty()) work.begin(runs);
-      return jobs;
-    };
+    Packs packs(work, pack, stop);
     std::future<void> own = std::async(std::launch::async, [&] {
       try {
-        for (std::vector<Job> jobs = take(); !jobs.empty() && !stop; jobs = take()) {
+        for (std::vector<Job> jobs = packs.take(); !jobs.empty() && !stop; jobs = packs.take()) {
           if (std::optional<std::vector<Row>> rows = done(local, std::move(jobs), stop)) work.end(std::move(*rows));
         }
       } catch (...) {
@@ -145,7 +159,7 @@ class Others {
     try {
       while (!stop && (more || !busy.empty() || own.wait_for(std::chrono::seconds(0)) != std::future_status::ready)) {
         for (; more && !idle_.empty(); idle_.pop_back()) {
-          const std::vector<Job> jobs = take();
+          const std::vector<Job> jobs = packs.take();
           more = !jobs.empty();
           if (!more) break;
           busy.insert(idle_.back());

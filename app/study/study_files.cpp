@@ -241,6 +241,24 @@ void write_replicates(const Drawn& drawn, const studies::Quantity& name, const s
   write_file(folder / "replicates.csv", csv);
 }
 
+/// Writes the figures of a quantity: a map, or parallel axes and scatter plots. Returns their names.
+std::vector<std::string> write_figures(const Drawn& drawn, std::size_t k, const studies::Quantity& quantity, bool map,
+                                       const std::filesystem::path& folder) {
+  const std::string name = file_name(drawn.head.shown[k]);
+  const auto write = [&](const std::string& file, const std::string& text) { write_file(folder / file, text); };
+  if (map) {
+    const report::StudyFigure drawing = map_of(drawn, k, quantity);
+    write(name + ".svg", report::study_svg(drawing));
+    write(name + ".csv", report::study_csv(drawing));
+    return {name + ".svg"};
+  }
+  const report::ManyFigure drawing = many_of(drawn, k, quantity);
+  write(name + ".svg", report::parallel_svg(drawing));
+  write(name + "-scatter.svg", report::scatter_svg(drawing));
+  write(name + ".csv", report::many_csv(drawing));
+  return {name + ".svg", name + "-scatter.svg"};
+}
+
 }  // namespace
 
 std::string study_note(const JournalHead& head, std::uint64_t runs) {
@@ -272,21 +290,7 @@ std::vector<std::string> write_study_files(Journal& journal, const Results& resu
                     best_of(journal, results)};
   const bool map = is_map(head, parameters);
   for (std::size_t k = 0; k < figures.size() && !parameters.empty(); ++k) {
-    const studies::Quantity& figure = head.quantities[figures[k]];
-    const std::string name = file_name(head.shown[k]);
-    const auto write = [&](const std::string& file, const std::string& text) { write_file(folder / file, text); };
-    files.push_back(name + ".svg");
-    if (map) {
-      const report::StudyFigure drawing = map_of(drawn, k, figure);
-      write(name + ".svg", report::study_svg(drawing));
-      write(name + ".csv", report::study_csv(drawing));
-      continue;
-    }
-    const report::ManyFigure drawing = many_of(drawn, k, figure);
-    write(name + ".svg", report::parallel_svg(drawing));
-    write(name + "-scatter.svg", report::scatter_svg(drawing));
-    write(name + ".csv", report::many_csv(drawing));
-    files.push_back(name + "-scatter.svg");
+    std::ranges::move(write_figures(drawn, k, head.quantities[figures[k]], map, folder), std::back_inserter(files));
   }
   if (head.replicates > 1 && !figures.empty()) {
     write_replicates(drawn, head.quantities[figures.front()], folder);

@@ -190,10 +190,17 @@ std::string objective_text(const JournalHead& head) {
   return clipped(head.objectives.front().expression) + (unit.empty() ? "" : "," + unit);
 }
 
-std::string points_table(Journal& journal, const studies::Results& results, const std::vector<std::size_t>& order,
-                         std::size_t most) {
+namespace {
+
+/// Columns of a table of points: the run, cells of the journal at `places`, then those of the objectives and the outcome.
+struct PointColumns {
+  std::vector<ColumnOfTable> columns;
+  std::vector<std::size_t> places;
+  std::size_t objective = 0;  ///< index of the first objective
+};
+
+PointColumns point_columns(Journal& journal, const std::vector<std::string>& names) {
   const JournalHead& head = journal.head();
-  const std::vector<std::string> names = journal.columns().all();
   std::vector<ColumnOfTable> columns{{"run", "", {}}};
   std::vector<std::size_t> places;
   for (std::size_t k = 0; k < head.parameters.size(); ++k) {
@@ -221,6 +228,16 @@ std::string points_table(Journal& journal, const studies::Results& results, cons
   if (head.replicates > 1) columns.push_back({"feasible", "runs", {}});
   columns.push_back({"violation", "", {}});
   columns.push_back({"verdict", "", {}});
+  return {std::move(columns), std::move(places), objective};
+}
+
+}  // namespace
+
+std::string points_table(Journal& journal, const studies::Results& results, const std::vector<std::size_t>& order,
+                         std::size_t most) {
+  const JournalHead& head = journal.head();
+  const std::vector<std::string> names = journal.columns().all();
+  auto [columns, places, objective] = point_columns(journal, names);
   const std::size_t verdict = place_in(names, "verdict");
   const std::size_t outcome = place_in(names, "outcome");
   for (std::size_t k = 0; k < std::min(most, order.size()); ++k) {
@@ -242,16 +259,12 @@ std::string points_table(Journal& journal, const studies::Results& results, cons
   return laid_out(columns);
 }
 
-std::string study_summary(Journal& journal, const studies::Results& results, const std::filesystem::path& folder,
-                          std::size_t most) {
+namespace {
+
+/// Tables of the best and the worst points, or of the Pareto front.
+std::string ranking_text(Journal& journal, const studies::Results& results, std::size_t most) {
   const JournalHead& head = journal.head();
-  std::uint64_t failed = 0;
-  for (const auto& [outcome, one] : results.failures.by_outcome) failed += one.count;
-  std::string text =
-      fmt::format("{}: {} of {} runs ended, {} kept{}, {} feasible, {} failed\n", clipped(head.name), results.runs, head.runs,
-                  results.kept_runs, share(results.kept_runs, results.runs), results.feasible_runs, failed);
-  text += estimated_text(journal, results);
-  if (!head.guarded) text += "without guards: results may exploit the simulation\n";
+  std::string text;
   if (head.objectives.size() > 1) {
     const std::vector<std::size_t> best = studies::front(results.points, head.objectives);
     text += fmt::format("Pareto front: {} that no other point beats in all objectives\n", counted(best.size(), "point"));
@@ -266,16 +279,38 @@ std::string study_summary(Journal& journal, const studies::Results& results, con
       text += fmt::format("worst:\n{}", points_table(journal, results, last, most));
     }
   }
-  text += rejected_text(journal, results);
-  text += sensitivity_text(journal, results);
-  text += importance_text(journal, results);
+  return text;
+}
+
+/// The most frequent broken limits on one line.
+std::string broken_text(Journal& journal) {
   constexpr std::size_t kLimits = 4;
   const std::vector<studies::BrokenLimit> limits = studies::broken_limits(journal);
+  std::string text;
   for (std::size_t k = 0; k < std::min(kLimits, limits.size()); ++k) {
     text += fmt::format("{}{} ({})", k == 0 ? "broken limits, most frequent first: " : ", ", limit_text(limits[k].text),
                         counted(limits[k].runs, "run"));
   }
-  if (!limits.empty()) text += "\n";
+  return limits.empty() ? "" : text + "\n";
+}
+
+}  // namespace
+
+std::string study_summary(Journal& journal, const studies::Results& results, const std::filesystem::path& folder,
+                          std::size_t most) {
+  const JournalHead& head = journal.head();
+  std::uint64_t failed = 0;
+  for (const auto& [outcome, one] : results.failures.by_outcome) failed += one.count;
+  std::string text =
+      fmt::format("{}: {} of {} runs ended, {} kept{}, {} feasible, {} failed\n", clipped(head.name), results.runs, head.runs,
+                  results.kept_runs, share(results.kept_runs, results.runs), results.feasible_runs, failed);
+  text += estimated_text(journal, results);
+  if (!head.guarded) text += "without guards: results may exploit the simulation\n";
+  text += ranking_text(journal, results, most);
+  text += rejected_text(journal, results);
+  text += sensitivity_text(journal, results);
+  text += importance_text(journal, results);
+  text += broken_text(journal);
   for (const auto& [outcome, one] : results.failures.by_outcome) {
     text += fmt::format("{} {}, first: run {}{}: {}\n", one.count, clipped(outcome), one.first_run,
                         in_which_scenario(head, one.first_run), one_line(one.message));

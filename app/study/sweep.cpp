@@ -69,6 +69,29 @@ void write_results(Journal& journal, const fs::path& folder, bool quiet) {
   fmt::print("files in {}: {}, {}\n", folder.string(), studies::kJournalFile, fmt::join(files, ", "));
 }
 
+/// Prints how a sweep ended and writes the files of a complete one. Returns the exit code.
+int end_sweep(Journal& journal, const studies::Standing& standing, const studies::Shard& shard, const fs::path& folder,
+              const fs::path& file, bool quiet) {
+  const bool all_failed = standing.wanted > 0 && standing.failed == standing.wanted;
+  if (!shard.whole()) {
+    if (!quiet) {
+      fmt::print("{}: {} runs ended; when all shards have ended, merge them: gaitlab study merge {}\n", file.string(),
+                 standing.ended, shell_word(folder.string()));
+    }
+    return all_failed ? 1 : 0;
+  }
+  write_results(journal, folder, quiet);
+  if (all_failed) say(fmt::format("{}: error: none of the {} runs came to its end\n", folder.string(), standing.wanted));
+  return all_failed ? 1 : 0;
+}
+
+int print_dry_run(const Plan& plan, const SweepArguments& a) {
+  print_notes(plan, a.quiet);
+  note_engine(plan, a, a.quiet);
+  print_plan(plan, a);
+  return 0;
+}
+
 int sweep_study(const SweepArguments& a) {
   refuse_copies("gaitlab sweep");
   Catalog catalog = standard_catalog();
@@ -76,12 +99,7 @@ int sweep_study(const SweepArguments& a) {
   const studies::Shard shard = wanted_shard(a);
   if (study.name.empty()) study.name = read_scenario(study.scenario, study.sets, catalog).name;
   Plan plan(std::move(study), quantity_offer(), catalog);
-  if (a.dry_run) {
-    print_notes(plan, a.quiet);
-    note_engine(plan, a, a.quiet);
-    print_plan(plan, a);
-    return 0;
-  }
+  if (a.dry_run) return print_dry_run(plan, a);
   // The executor is made before the folder is locked, because only one process may lock the folder.
   const studies::Executor executor = study_executor(plan, a);
   print_notes(plan, a.quiet);  // only one process of a team reaches this line
@@ -111,17 +129,7 @@ int sweep_study(const SweepArguments& a) {
                     standing.wanted, goes_on(a, folder)));
     return 1;
   }
-  const bool all_failed = standing.wanted > 0 && standing.failed == standing.wanted;
-  if (!shard.whole()) {
-    if (!a.quiet) {
-      fmt::print("{}: {} runs ended; when all shards have ended, merge them: gaitlab study merge {}\n", file.string(),
-                 standing.ended, shell_word(folder.string()));
-    }
-    return all_failed ? 1 : 0;
-  }
-  write_results(journal, folder, a.quiet);
-  if (all_failed) say(fmt::format("{}: error: none of the {} runs came to its end\n", folder.string(), standing.wanted));
-  return all_failed ? 1 : 0;
+  return end_sweep(journal, standing, shard, folder, file, a.quiet);
 }
 
 void repeatable(CLI::Option* option) {

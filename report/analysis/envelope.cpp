@@ -90,6 +90,32 @@ void AvailableTorque::at(In speed, Out most, Out least) const {
   actuator_->effort(least_, speed, least, slope);
 }
 
+namespace {
+
+/// Adds the envelopes at kSpeeds speeds.
+void add_speeds(const AvailableTorque& available, double fastest, std::vector<Envelope>& of_joint) {
+  const std::size_t joints = of_joint.size();
+  for (std::size_t i = 0; i < kSpeeds; ++i) {
+    const double part = 2 * static_cast<double>(i) / (kSpeeds - 1) - 1;
+    std::vector<double> speeds;
+    for (std::size_t j = 0; j < joints; ++j) speeds.push_back(part * widest(of_joint[j].no_load, fastest));
+    std::vector<double> most(joints);
+    std::vector<double> least(joints);
+    available.at(speeds, most, least);
+    const std::vector<double> current = limited_currents(available, speeds);
+    for (std::size_t j = 0; j < joints; ++j) {
+      Envelope& motor = of_joint[j];
+      if (!motor.command) continue;
+      motor.speed.push_back(speeds[j]);
+      motor.most.push_back(most[j]);
+      motor.least.push_back(least[j]);
+      if (std::isfinite(current[j])) motor.current = std::max(motor.current.value_or(0), current[j]);
+    }
+  }
+}
+
+}  // namespace
+
 Motors motors(const Scenario& scenario, double fastest) try {
   const std::size_t joints = scenario.robot->joints.size();
   if (scenario.actuator.entry == nullptr || joints == 0) return {};
@@ -111,23 +137,7 @@ Motors motors(const Scenario& scenario, double fastest) try {
     of_joint[j].rest = finite(rest[j]);
     if (rest[j] > 0) of_joint[j].no_load = no_load[j];
   }
-  for (std::size_t i = 0; i < kSpeeds; ++i) {
-    const double part = 2 * static_cast<double>(i) / (kSpeeds - 1) - 1;
-    std::vector<double> speeds;
-    for (std::size_t j = 0; j < joints; ++j) speeds.push_back(part * widest(of_joint[j].no_load, fastest));
-    std::vector<double> most(joints);
-    std::vector<double> least(joints);
-    available.at(speeds, most, least);
-    const std::vector<double> current = limited_currents(available, speeds);
-    for (std::size_t j = 0; j < joints; ++j) {
-      Envelope& motor = of_joint[j];
-      if (!motor.command) continue;
-      motor.speed.push_back(speeds[j]);
-      motor.most.push_back(most[j]);
-      motor.least.push_back(least[j]);
-      if (std::isfinite(current[j])) motor.current = std::max(motor.current.value_or(0), current[j]);
-    }
-  }
+  add_speeds(available, fastest, of_joint);
   Motors found;
   for (const Envelope& motor : of_joint) {
     const auto known = std::ranges::find(found.kinds, motor);

@@ -186,21 +186,30 @@ std::string json_text(const nlohmann::ordered_json& json) {
   return text;
 }
 
-PageData page_data(const Scenario& scenario, const Recording& r, const Summary& summary, const Verdict& verdict,
-                   std::vector<std::string> missing, std::size_t most) {
-  const Robot& robot = *scenario.robot;
-  const RobotTree tree(robot);
-  const Motors motors = report::motors(scenario, fastest_joint(r));
-  const Trace loads = loads_at_rows(r);
-  const std::vector<Foot> feet = report::feet(scenario, r, loads);
-  const std::vector<Signal> signals = report::signals(r, loads, feet, motors.kinds.empty() ? "" : motors.kinds[0].unit);
+namespace {
+
+/// Signals of every `stride`-th row.
+struct PackedRows {
   std::size_t stride = 1;
-  Packing packing = packed(signals, r.rows(), stride);
-  std::string data = packing.text();
-  for (; data.size() > most && thinned(r.rows(), stride) > 2; data = packing.text()) {
-    stride *= 2;
-    packing = packed(signals, r.rows(), stride);
+  Packing packing;
+  std::string data;
+};
+
+/// Packs as many rows as fit into `most` bytes.
+PackedRows packed_rows(const std::vector<Signal>& signals, std::size_t rows, std::size_t most) {
+  PackedRows all{.stride = 1, .packing = packed(signals, rows, 1), .data = ""};
+  all.data = all.packing.text();
+  while (all.data.size() > most && thinned(rows, all.stride) > 2) {
+    all.stride *= 2;
+    all.packing = packed(signals, rows, all.stride);
+    all.data = all.packing.text();
   }
+  return all;
+}
+
+/// Adds the notes on what the page lacks to `missing`.
+void add_missing(std::vector<std::string>& missing, const Scenario& scenario, const Recording& r, const Verdict& verdict,
+                 const std::vector<Signal>& signals, std::size_t stride) {
   if (!verdict.of_rows.empty()) missing.push_back(verdict.of_rows);
   if (!verdict.window_of_rows.empty()) missing.push_back(verdict.window_of_rows);
   if (r.rows() > 1) std::ranges::move(left_out(scenario, signals), std::back_inserter(missing));
@@ -211,8 +220,10 @@ PageData page_data(const Scenario& scenario, const Recording& r, const Summary& 
   if (const std::size_t heights = height_stride(scenario.ground); heights > 1) {
     missing.push_back(fmt::format("one height of every {} in x and in y is drawn; the robot walked on all", heights));
   }
+}
 
-  Json meta;
+/// Adds program, engine, steps and extent of the run.
+void add_run(Json& meta, const Scenario& scenario, const Recording& r, const Summary& summary, std::size_t stride) {
   meta["format"] = 1;
   meta["name"] = scenario.name;
   meta["build"] = summary.build;
@@ -224,6 +235,11 @@ PageData page_data(const Scenario& scenario, const Recording& r, const Summary& 
   meta["rows"] = thinned(r.rows(), stride);
   meta["duration"] = summary.simulated;
   meta["outcome"] = summary.outcome.text();
+}
+
+/// Adds modules, joints, bodies and contact elements.
+void add_robot(Json& meta, const Scenario& scenario, const RobotTree& tree, const Motors& motors) {
+  const Robot& robot = *scenario.robot;
   meta["mass"] = robot.mass;
   meta["weight"] = robot.mass * scenario.physics.gravity.norm();
   meta["modules"] = Json::array();
@@ -236,6 +252,23 @@ PageData page_data(const Scenario& scenario, const Recording& r, const Summary& 
   meta["docks"] = tree.docks();
   meta["contacts"] = Json::array();
   for (const ContactElement& element : contact_elements(robot, scenario.contact.on)) meta["contacts"].push_back(element.name);
+}
+
+}  // namespace
+
+PageData page_data(const Scenario& scenario, const Recording& r, const Summary& summary, const Verdict& verdict,
+                   std::vector<std::string> missing, std::size_t most) {
+  const Robot& robot = *scenario.robot;
+  const RobotTree tree(robot);
+  const Motors motors = report::motors(scenario, fastest_joint(r));
+  const Trace loads = loads_at_rows(r);
+  const std::vector<Foot> feet = report::feet(scenario, r, loads);
+  const std::vector<Signal> signals = report::signals(r, loads, feet, motors.kinds.empty() ? "" : motors.kinds[0].unit);
+  PackedRows rows = packed_rows(signals, r.rows(), most);
+  add_missing(missing, scenario, r, verdict, signals, rows.stride);
+  Json meta;
+  add_run(meta, scenario, r, summary, rows.stride);
+  add_robot(meta, scenario, tree, motors);
   meta["ground"] = page_ground(scenario, r);
   meta["feet"] = feet_json(scenario, feet, tree);
   meta["motors"] = motors_json(motors);
@@ -249,14 +282,14 @@ PageData page_data(const Scenario& scenario, const Recording& r, const Summary& 
   meta["command"] = "gaitlab rerun FOLDER";
   meta["missing"] = missing;
   meta["scenario"] = resolved(scenario);
-  meta["channels"] = channels_json(packing);
+  meta["channels"] = channels_json(rows.packing);
   for (const ToldChange& change : told_changes(scenario, r.simulated)) {
     meta["changes"].push_back({{"t", change.t}, {"text", change.text}});
   }
   if (Json sensors = sensors_json(scenario); !sensors.empty()) meta["sensors"] = std::move(sensors);
   leave_folders_out(meta, scenario);
 
-  return {scenario.name, json_text(meta), std::move(data)};
+  return {scenario.name, json_text(meta), std::move(rows.data)};
 }
 
 }  // namespace gaitlab::report

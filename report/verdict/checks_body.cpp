@@ -134,16 +134,34 @@ void tracking(const CheckedRun& run, Check& made) {
   made.text = fmt::format("joint {} is up to {} rad from its set point", made.worst, texts::thousandths(made.value));
 }
 
-void stops(const CheckedRun& run, Check& made) {
-  std::vector<BeyondRange> joints = beyond_range(*run.scenario.robot, run.record);
+namespace {
+
+/// Clears the joints that have a fault. Returns true if all have one.
+bool leave_faulty_out(const CheckedRun& run, std::vector<BeyondRange>& joints) {
   std::size_t faulty = 0;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     if (!run.faulty(j, CheckSpan::whole_run)) continue;
     joints[j] = {};
     ++faulty;
   }
+  return faulty > 0 && faulty == joints.size();
+}
+
+/// Text of the check `stops`: the joint that is farthest beyond its range, by angle or by share of time.
+std::string beyond_text(const Check& made, const BeyondRange& worst, bool by_angle, double most) {
+  return fmt::format("{} leave{} the range of the hinge; worst {}: ", counted(made.parts, "joint"), made.parts == 1 ? "s" : "",
+                     made.worst) +
+         (by_angle ? fmt::format("by {:.3g} rad, for {} of the run", worst.worst, texts::percent(worst.share))
+                   : fmt::format("for {} of the run (at most {}), by up to {:.3g} rad", texts::percent(worst.share),
+                                 texts::percent(most), worst.worst));
+}
+
+}  // namespace
+
+void stops(const CheckedRun& run, Check& made) {
+  std::vector<BeyondRange> joints = beyond_range(*run.scenario.robot, run.record);
   made.text = kAllFaulty;
-  if (faulty > 0 && faulty == joints.size()) return;
+  if (leave_faulty_out(run, joints)) return;
   made.text = "neither statistics of all steps were recorded nor the angle of every joint";
   if (joints.empty() && !run.scenario.robot->joints.empty()) return;
   made.value = 0;
@@ -174,12 +192,7 @@ void stops(const CheckedRun& run, Check& made) {
   if (!by_angle) made.source = threshold("beyond_range_share", most, Limits().beyond_range_share);
   name_joint(made, run, worst);
   made.status = made.margin < 0 ? CheckStatus::fail : CheckStatus::warn;
-  made.text = fmt::format("{} leave{} the range of the hinge; worst {}: ", counted(made.parts, "joint"),
-                          made.parts == 1 ? "s" : "", made.worst);
-  made.text += by_angle
-                   ? fmt::format("by {:.3g} rad, for {} of the run", joints[worst].worst, texts::percent(joints[worst].share))
-                   : fmt::format("for {} of the run (at most {}), by up to {:.3g} rad", texts::percent(joints[worst].share),
-                                 texts::percent(most), joints[worst].worst);
+  made.text = beyond_text(made, joints[worst], by_angle, most);
   if (made.status == CheckStatus::fail)
     made.remedy = "take a smaller amplitude or offset: the motor works against the hinge stop";
 }

@@ -134,15 +134,20 @@ std::vector<double> dock_limits(const Robot& robot, DockQuantity quantity) {
   return limits;
 }
 
-void judge_docks(const Scenario& scenario, const Recording& record, DockQuantity quantity, const std::vector<double>& limits,
-                 Check& made) {
-  const std::size_t modules = scenario.robot->modules.size();
-  made.text = modules < 2 ? "the robot has no dock" : unknown(scenario, record);
-  if (!made.text.empty()) return;
-  const Window window(record);  // the whole run, because an opened dock stays open
+namespace {
+
+/// Peaks of all docks in the whole run, because an opened dock stays open.
+std::vector<DockPeak> dock_peaks(const Recording& record, std::size_t modules, DockQuantity quantity,
+                                 const std::vector<double>& limits) {
+  const Window window(record);
   std::vector<DockPeak> peaks;
   for (std::size_t m = 1; m < modules; ++m)
     peaks.push_back(peak_of(window, m, quantity, m < limits.size() ? limits[m] : kUnknown));
+  return peaks;
+}
+
+/// Sets the worst dock of the check, and the dock that is first beyond its limit. Returns the worst.
+DockPeak take_worst(const std::vector<DockPeak>& peaks, Check& made) {
   const auto less = [](const DockPeak& a, const DockPeak& b) {
     if (a.limited() != b.limited()) return b.limited();
     return a.limited() ? a.share() < b.share() : a.value < b.value;
@@ -157,6 +162,18 @@ void judge_docks(const Scenario& scenario, const Recording& record, DockQuantity
     made.first = peak.first;
     made.first_part = fmt::format("m{}", peak.module);
   }
+  return worst;
+}
+
+}  // namespace
+
+void judge_docks(const Scenario& scenario, const Recording& record, DockQuantity quantity, const std::vector<double>& limits,
+                 Check& made) {
+  const std::size_t modules = scenario.robot->modules.size();
+  made.text = modules < 2 ? "the robot has no dock" : unknown(scenario, record);
+  if (!made.text.empty()) return;
+  const std::vector<DockPeak> peaks = dock_peaks(record, modules, quantity, limits);
+  const DockPeak worst = take_worst(peaks, made);
   const DockWords are = words(quantity);
   if (std::isnan(worst.value) && !worst.limited()) {
     made.text = "the module types do not state what a dock holds";

@@ -75,34 +75,25 @@ void check_seed(const Study& study, Problems& problems) {
   }
 }
 
-}  // namespace
+/// Checks the values of a parameter against the method and the replicates.
+void check_parameter(const Study& study, const Parameter& p, Problems& problems) {
+  if (study.method == Method::grid && !p.in_grid())
+    problems.add(p.place, p.key + " has no count; expected one for a grid, or method: {type: random} or sobol");
+  if (study.of_sensitivity() && !p.values.empty()) {
+    problems.add(p.place, fmt::format("{} has values one by one; method {} needs low and high", p.key, name_of(study.method)));
+  }
+  if (study.method != Method::grid && p.count > 0 && !study.asked) {
+    problems.add(p.place,
+                 fmt::format("{} has a count, which only method grid uses; method.type is {}", p.key, name_of(study.method)));
+  }
+  const auto same = [&](const Variation& v) { return v.key == p.key && !v.times; };
+  if (std::ranges::any_of(study.replicates.vary, same)) {
+    problems.add(p.place, p.key + " is a parameter and drawn for every replicate; expected vary: {" + p.key +
+                              ": {times: ...}}, or one of the two");
+  }
+}
 
-void check_study(const Study& study, const SourceLocation& place, Problems& problems) {
-  if (is_search(study.method)) check_search(study, place, problems);
-  check_followers(study, problems);
-  check_seed(study, problems);
-  for (const Parameter& p : study.parameters) {
-    if (study.method == Method::grid && !p.in_grid())
-      problems.add(p.place, p.key + " has no count; expected one for a grid, or method: {type: random} or sobol");
-    if (study.of_sensitivity() && !p.values.empty()) {
-      problems.add(p.place,
-                   fmt::format("{} has values one by one; method {} needs low and high", p.key, name_of(study.method)));
-    }
-    if (study.method != Method::grid && p.count > 0 && !study.asked) {
-      problems.add(p.place,
-                   fmt::format("{} has a count, which only method grid uses; method.type is {}", p.key, name_of(study.method)));
-    }
-    const auto same = [&](const Variation& v) { return v.key == p.key && !v.times; };
-    if (std::ranges::any_of(study.replicates.vary, same)) {
-      problems.add(p.place, p.key + " is a parameter and drawn for every replicate; expected vary: {" + p.key +
-                                ": {times: ...}}, or one of the two");
-    }
-  }
-  if (study.asked) return;
-  if (!study.starts.empty() && !is_search(study.method)) {
-    problems.add(study.starts.front().place,
-                 fmt::format("start is for searches such as scbo; method {} does not search", name_of(study.method)));
-  }
+void check_budget(const Study& study, const SourceLocation& place, Problems& problems) {
   if (study.method == Method::grid && study.runs > 0)
     problems.add(place, "method grid runs every combination; remove `budget: {runs: ...}`");
   if (study.of_sensitivity() && study.runs > 0) {
@@ -115,6 +106,10 @@ void check_study(const Study& study, const SourceLocation& place, Problems& prob
     problems.add(place, fmt::format("a budget of {} runs is less than the {} {} of one point", study.runs,
                                     study.runs_of_point(), study.scenarios.empty() ? "replicates" : "runs"));
   }
+}
+
+/// Checks the number of runs of methods that have no budget.
+void check_size(const Study& study, const SourceLocation& place, Problems& problems) {
   constexpr double kMostRuns = 1e9;
   double runs = static_cast<double>(study.runs_of_point());
   for (const Parameter& p : study.parameters)
@@ -125,6 +120,22 @@ void check_study(const Study& study, const SourceLocation& place, Problems& prob
     problems.add(place, fmt::format("the study has {:.3g} runs; allowed are up to {:g}", runs_of_blocks, kMostRuns));
   if (study.method == Method::grid && runs > kMostRuns)
     problems.add(place, fmt::format("the grid has {:.3g} runs; allowed are up to {:g}", runs, kMostRuns));
+}
+
+}  // namespace
+
+void check_study(const Study& study, const SourceLocation& place, Problems& problems) {
+  if (is_search(study.method)) check_search(study, place, problems);
+  check_followers(study, problems);
+  check_seed(study, problems);
+  for (const Parameter& p : study.parameters) check_parameter(study, p, problems);
+  if (study.asked) return;
+  if (!study.starts.empty() && !is_search(study.method)) {
+    problems.add(study.starts.front().place,
+                 fmt::format("start is for searches such as scbo; method {} does not search", name_of(study.method)));
+  }
+  check_budget(study, place, problems);
+  check_size(study, place, problems);
 }
 
 }  // namespace gaitlab::studies

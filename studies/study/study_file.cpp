@@ -222,6 +222,29 @@ Replicates in_worlds() {
   return {.count = kMost, .vary = {}, .combine = Combine::robust, .quantile = kShare};
 }
 
+/// Reads `scenario` and `scenarios`.
+void read_scenario_keys(Reader& reader, const std::string& scenario, Study& study, Problems& problems) {
+  const std::filesystem::path folder = std::filesystem::path(study.file).parent_path();
+  study.scenario = (folder / scenario).lexically_normal().string();
+  const Node* node = reader.take("scenarios");
+  if (node == nullptr) return;
+  read_named_scenarios(*node, folder, study, problems);
+  if (reader.has("scenario")) problems.add(node->place, "the study has scenario and scenarios; expected one or the other");
+}
+
+/// Reads the replicates, which a robust study has by itself.
+void read_worlds(Reader& reader, Study& study, Problems& problems) {
+  if (const Node* node = reader.take("replicates")) {
+    read_replicates(*node, study.replicates, problems);
+    if (study.robust) {
+      problems.add(node->place,
+                   "robust: true makes the worlds of a point its replicates, and replicates are given, too; "
+                   "expected one of them");
+    }
+  }
+  if (study.robust) study.replicates = in_worlds();
+}
+
 }  // namespace
 
 Study read_study(const std::string& file, Purpose purpose) {
@@ -239,12 +262,7 @@ Study read_study(const std::string& file, Purpose purpose) {
   PlainKeys{study, scenario}.fields(reader);
   check_name(study, root, problems);
   take_places(root, study);
-  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-  study.scenario = (folder / scenario).lexically_normal().string();
-  if (const Node* node = reader.take("scenarios")) {
-    read_named_scenarios(*node, folder, study, problems);
-    if (reader.has("scenario")) problems.add(node->place, "the study has scenario and scenarios; expected one or the other");
-  }
+  read_scenario_keys(reader, scenario, study, problems);
   MethodKeys method{study};
   const Node* chosen = root.find("method");
   const bool named = chosen != nullptr && chosen->find("type") != nullptr;
@@ -254,15 +272,7 @@ Study read_study(const std::string& file, Purpose purpose) {
   VerifyKeys verify{study.verify};
   reader.group("verify", verify, "");
   if (const Node* node = reader.take("parameters")) read_parameters(*node, study, problems);
-  if (const Node* node = reader.take("replicates")) {
-    read_replicates(*node, study.replicates, problems);
-    if (study.robust) {
-      problems.add(node->place,
-                   "robust: true makes the worlds of a point its replicates, and replicates are given, too; "
-                   "expected one of them");
-    }
-  }
-  if (study.robust) study.replicates = in_worlds();
+  read_worlds(reader, study, problems);
   if (const Node* node = reader.take("objective")) read_objectives(*node, study.objectives, problems);
   if (const Node* node = reader.take("constraints")) read_constraints(*node, study, problems);
   if (const Node* node = reader.take("guards")) read_guards(*node, study, problems);
