@@ -72,7 +72,8 @@ std::string json(const Results& results, const RaceSettings& settings) {
   out["settings"] = {{"seconds", settings.seconds},
                      {"errors_from", settings.seconds / 2},
                      {"rounds", settings.rounds},
-                     {"least", settings.least}};
+                     {"least", settings.least},
+                     {"sets", settings.sets}};
   for (const Converged& c : results.references) {
     Json reference{{"scenario", c.scenario}, {"name", c.name}, {"step", c.step}, {"left", errors(c.left)}};
     add_course(reference, c.course);

@@ -34,7 +34,8 @@ class Race {
     const std::string name = scenario(file, {}, 0).name;  // throws the errors of the scenario file
     std::vector<const Contender*> contenders;
     for (const Contender& c : all.contenders) {
-      if (glob(settings_.only, c.name)) contenders.push_back(&c);
+      const bool named = std::ranges::any_of(settings_.only, [&](const std::string& p) { return glob(p, c.name); });
+      if (named) contenders.push_back(&c);
     }
     // The memory is reserved, so that pointers to the elements remain valid.
     std::vector<Converged> references;
@@ -62,7 +63,9 @@ class Race {
     for (Converged& r : references) results_.references.push_back(std::move(r));
   }
 
-  Scenario scenario(const std::string& file, std::vector<std::string> sets, double step) {
+  Scenario scenario(const std::string& file, const std::vector<std::string>& own, double step) {
+    std::vector<std::string> sets = settings_.sets;
+    sets.insert(sets.end(), own.begin(), own.end());
     sets.push_back(fmt::format("duration={}", settings_.seconds));
     sets.emplace_back("trace.columns=[joint.*]");
     if (step > 0) sets.push_back(fmt::format("physics.step={}", step));

@@ -13,7 +13,8 @@ namespace gaitlab::versus {
 
 struct RaceSettings {
   std::vector<std::string> scenarios;  ///< names of scenario files
-  std::string only = "*";              ///< pattern of the names of the contenders that take part
+  std::vector<std::string> sets;       ///< overrides of every scenario, key.path=value
+  std::vector<std::string> only{"*"};  ///< patterns of the names of the contenders that take part
   double seconds = 8;                  ///< s, simulated time; errors are over its second half
   int rounds = 5;
   double least = 0.2;  ///< s of real time; within a round, a shorter run is repeated until this time has passed

@@ -1,5 +1,6 @@
 // `./lab bench --versus`, which compares gaitlab's engines, Bullet and MuJoCo in time and in torques.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -25,12 +26,19 @@ int versus_of(int argc, char** argv) {
   std::string page;
   bool markdown = false;
   app.add_option("SCENARIO", settings.scenarios, "scenario files (default: the shipped hexapod and caterpillar)");
+  app.add_option("--set", settings.sets, "override a key of every scenario, as key.path=value; may be repeated")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--seconds", settings.seconds, "simulated; errors are of the second half (default 8)")
       ->check(CLI::Range(0.02, 1e4));
   app.add_option("--rounds", settings.rounds, "every contender runs once a round (default 5)")->check(CLI::Range(1, 1000));
   app.add_option("--least", settings.least, "seconds that a contender runs in a round at least (default 0.2)")
       ->check(CLI::Range(0.0, 1e3));
-  app.add_option("--only", settings.only, "pattern of the contenders' names, with * and ? (default *)");
+  app.add_option("--only", settings.only, "pattern of the contenders' names, with * and ?; may be repeated (default *)")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--out", out, "folder of versus.json and versus.svg (default runs/versus)");
   app.add_option("--renew", page, "page whose tables are written anew, with its plot beside it: docs/benchmarks.md")
       ->check(CLI::ExistingFile);
@@ -55,8 +63,9 @@ int versus_of(int argc, char** argv) {
   write_file(out + "/versus.json", versus::json(results, settings));
   write_file(out + "/versus.svg", versus::plot(results));
   const std::string versions = fmt::format("Bullet {}, MuJoCo {}", bullet_version(), mujoco_version());
-  const std::string rounds = fmt::format("{} rounds, interleaved; {} s simulated, errors from {} s on; medians",
-                                         settings.rounds, settings.seconds, settings.seconds / 2);
+  std::string rounds = fmt::format("{} rounds, interleaved; {} s simulated, errors from {} s on; medians", settings.rounds,
+                                   settings.seconds, settings.seconds / 2);
+  if (!settings.sets.empty()) rounds += fmt::format("; {}", fmt::join(settings.sets, ", "));
   if (!page.empty()) {
     const std::string head =
         fmt::format("gaitlab {}. {}. {}, one thread; {}.", build_id(), versions, versus::processor(), rounds);

@@ -71,7 +71,7 @@ TEST(Versus, ARobotThatFallsThroughTheGroundIsLeftOut) {
   catalog.add(falling);
   versus::RaceSettings settings;
   settings.scenarios = {kScenarios + "hexapod.yaml"};
-  settings.only = "mujoco armature";
+  settings.only = {"mujoco armature"};
   settings.seconds = 0.2;
   settings.rounds = 1;
   settings.least = 0;
@@ -145,6 +145,27 @@ TEST(Versus, MujocoInTheAirIsOurRobot) {
   EXPECT_LT(versus::torque_error(torques("mujoco", "dcmotor", 1.25e-4, 0.05), limited, 0).worst, 1e-9);
   EXPECT_GT(versus::torque_error(torques("mujoco", "dcmotor", 1.25e-4, 1.2), limited, 0).worst, 0.1)
       << "the limit of 0.05 A is not reached";
+}
+
+TEST(Versus, OverridesAndPatternsHoldForReferencesAndContenders) {
+  versus::RaceSettings settings;
+  settings.scenarios = {kScenarios + "hexapod.yaml"};
+  settings.sets = {"ground.type=none"};
+  settings.only = {"articulated extrapolated", "bullet"};
+  settings.seconds = 0.02;
+  settings.rounds = 1;
+  settings.least = 0;
+  const versus::Results results = versus::race(settings, with_mujoco());
+  ASSERT_FALSE(results.references.empty());
+  ASSERT_FALSE(results.points.empty());
+  for (const versus::Converged& c : results.references) EXPECT_EQ(c.course.force, 0) << c.name;
+  std::set<std::string> ran;
+  for (const versus::Point& p : results.points) {
+    EXPECT_TRUE(p.ran() && p.course.force == 0) << p.step << p.note;
+    ran.insert(p.contender);
+  }
+  EXPECT_EQ(ran, (std::set<std::string>{"articulated extrapolated", "bullet"}));
+  EXPECT_EQ(nlohmann::json::parse(versus::json(results, settings))["settings"]["sets"][0], "ground.type=none");
 }
 
 // A benchmark run has finite errors for every method of three engines. It takes 6 s of CPU time, including the reference.
