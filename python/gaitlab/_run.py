@@ -6,7 +6,7 @@ import os
 from typing import Any, Callable, Union
 
 from . import _native
-from ._scenario import Scenario
+from ._scenario import Plugins, Scenario, trusted
 from ._table import Table
 from ._warnings import tell
 
@@ -94,8 +94,11 @@ def run(
     return made
 
 
-def read(folder: Union[str, "os.PathLike[str]"]) -> Run:
-    """Reads a run folder, or a trace.h5, and judges the run. Raises InputError if it is not one."""
-    made = Run(_native.read_run(os.fspath(folder)))
+def read(folder: Union[str, "os.PathLike[str]"], *, plugins: Plugins = "refuse") -> Run:
+    """Reads a run folder, or a trace.h5, and judges the run. Raises InputError if it is not one.
+
+    plugins: as in Scenario. By default a folder whose scenario names plugin libraries is refused, because it may come from others.
+    """
+    made = Run(_native.read_run(os.fspath(folder), *trusted(plugins)))
     tell(made.warnings)
     return made

@@ -10,6 +10,16 @@ from ._settings import texts
 from ._warnings import tell
 
 
+Plugins = Union[str, Sequence[Union[str, "os.PathLike[str]"]]]
+
+
+def trusted(plugins: Plugins) -> tuple[bool, list[str]]:
+    """The argument `plugins` as "all of them" and a list of files."""
+    if isinstance(plugins, str) and plugins not in ("trust", "refuse"):
+        raise ValueError(f"plugins is 'trust', 'refuse' or a list of files, not {plugins!r}")
+    return plugins == "trust", [] if isinstance(plugins, str) else [os.fspath(file) for file in plugins]
+
+
 @dataclass(frozen=True)
 class Check:
     """Parts and sizes of a scenario, as `gaitlab check` prints them."""
@@ -48,15 +58,13 @@ class Scenario:
         path: Union[str, "os.PathLike[str]"],
         settings: Union[Mapping[str, Any], None] = None,
         *,
-        plugins: Union[str, Sequence[Union[str, "os.PathLike[str]"]]] = "trust",
+        plugins: Plugins = "trust",
     ) -> None:
-        if isinstance(plugins, str) and plugins not in ("trust", "refuse"):
-            raise ValueError(f"plugins is 'trust', 'refuse' or a list of files, not {plugins!r}")
         self.path = os.fspath(path)
         self.settings: dict[str, Any] = dict(settings or {})
-        self._plugins = plugins if isinstance(plugins, str) else [os.fspath(file) for file in plugins]
-        files = [] if isinstance(self._plugins, str) else self._plugins
-        self._native = _native.read(self.path, texts(self.settings), plugins == "trust", files)
+        all_plugins, files = trusted(plugins)
+        self._plugins = plugins if isinstance(plugins, str) else files
+        self._native = _native.read(self.path, texts(self.settings), all_plugins, files)
         tell(self.warnings)
 
     @property

@@ -24,6 +24,7 @@ namespace {
 void add_errors(py::module_& m) {
   static const py::exception<InputError> input_error(m, "InputError", PyExc_ValueError);
   static const py::exception<RunError> run_error(m, "RunError", PyExc_RuntimeError);
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): the type that pybind11 takes
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
@@ -75,7 +76,12 @@ void add_run_class(py::module_& m) {
       .def("figure", &figure_of)
       .def("save", &save_run, py::arg("folder"));
   m.def("simulate", &simulate_run, py::arg("scenario"), py::arg("progress"), py::arg("loads"));
-  m.def("read_run", &read_run_folder, py::arg("folder"));
+  m.def(
+      "read_run",
+      [](const std::string& folder, bool all, const Texts& plugins) {
+        return read_run_folder(folder, {all, plugins});
+      },
+      py::arg("folder"), py::arg("all_plugins"), py::arg("plugins"));
 }
 
 void add_functions(py::module_& m) {

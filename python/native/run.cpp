@@ -89,11 +89,12 @@ std::shared_ptr<PyRun> simulate_run(const PyScenario& scenario, const py::object
   return run;
 }
 
-std::shared_ptr<PyRun> read_run_folder(const std::string& folder) {
+std::shared_ptr<PyRun> read_run_folder(const std::string& folder, const Trusted& trusted) {
   auto run = std::make_shared<PyRun>();
   apart([&] {
     run->file = std::make_shared<ReadFile>(kit::standard_catalog());
     register_classes(run->file->catalog);
+    run->file->catalog.set_trust(trust_of(trusted, "read"));
     kit::JudgedRun read = kit::read_judged(folder, run->file->catalog);
     read.keep_demand();
     read.keep_remedy();

@@ -34,7 +34,7 @@ struct PyRun {
 /// Simulates the scenario as `gaitlab run` does, and judges the run. `progress` is None or is called with the share that is
 /// done.
 std::shared_ptr<PyRun> simulate_run(const PyScenario& scenario, const pybind11::object& progress, bool loads);
-std::shared_ptr<PyRun> read_run_folder(const std::string& folder);
+std::shared_ptr<PyRun> read_run_folder(const std::string& folder, const Trusted& trusted);
 
 /// A table of the run as a dict of names, units, definitions and values, an array that shares its memory and keeps the run.
 pybind11::dict table_of(const std::shared_ptr<PyRun>& run, const std::string& table);

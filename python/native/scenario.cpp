@@ -17,10 +17,8 @@ namespace py = pybind11;
 
 namespace gaitlab::python {
 
-namespace {
-
-PluginTrust trust_of(const Trusted& trusted) {
-  PluginTrust trust{.all = trusted.all, .files = {}, .remedy = "if you trust it: Scenario(..., plugins=\"trust\")"};
+PluginTrust trust_of(const Trusted& trusted, const std::string& call) {
+  PluginTrust trust{.all = trusted.all, .files = {}, .remedy = "if you trust it: " + call + "(..., plugins=\"trust\")"};
   for (const std::string& file : trusted.files) {
     std::error_code failure;
     trust.files.insert(std::filesystem::canonical(file, failure).string());
@@ -28,8 +26,6 @@ PluginTrust trust_of(const Trusted& trusted) {
   }
   return trust;
 }
-
-}  // namespace
 
 std::shared_ptr<PyScenario> read_python(const std::string& file, const Texts& sets, const Trusted& trusted) {
   auto made = std::make_shared<PyScenario>();
@@ -40,7 +36,7 @@ std::shared_ptr<PyScenario> read_python(const std::string& file, const Texts& se
     read.sets = sets;
     read.trusted = trusted;
     read.classes = register_classes(read.catalog);
-    read.catalog.set_trust(trust_of(trusted));
+    read.catalog.set_trust(trust_of(trusted, "Scenario"));
     read.common = std::make_unique<ScenarioTemplate>(read.path, sets, read.catalog);
     made->scenario = read.with({});
   });

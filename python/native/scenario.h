@@ -43,6 +43,10 @@ struct PyScenario {
   Scenario scenario;
 };
 
+/// The trust of a catalog. `call` is the function of Python whose argument `plugins` a refusal names. Throws InputError if a
+/// file does not exist.
+PluginTrust trust_of(const Trusted& trusted, const std::string& call);
+
 std::shared_ptr<PyScenario> read_python(const std::string& file, const Texts& sets, const Trusted& trusted);
 /// The scenario with further settings. If a class of Python was registered meanwhile, the file is read again.
 std::shared_ptr<PyScenario> with_sets(const PyScenario& scenario, const Texts& sets);

@@ -14,7 +14,7 @@ import gaitlab
 from common import ROOT, called
 
 engine, duration, points, rounds = [*sys.argv[1:], *["articulated", "4", "1000", "3"][len(sys.argv) - 1:]]
-side = int(int(points) ** 0.5)
+side = max(k for k in range(1, int(int(points) ** 0.5) + 1) if int(points) % k == 0)
 warnings.simplefilter("ignore", gaitlab.Warning)
 
 

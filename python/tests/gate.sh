@@ -23,8 +23,9 @@ case $what in
     ;;
   stub)
     need mypy mypy
-    MYPYPATH=$PYTHONPATH "$python" -m mypy.stubtest gaitlab._native --mypy-config-file "$here/mypy.ini" --allowlist "$here/stub_allowed.txt"
-    "$python" -m mypy --config-file "$here/mypy.ini" --cache-dir "$work" --package gaitlab
+    export MYPYPATH=$PYTHONPATH MYPY_CACHE_DIR=$work
+    "$python" -m mypy.stubtest gaitlab._native --mypy-config-file "$here/mypy.ini" --allowlist "$here/stub_allowed.txt"
+    "$python" -m mypy --config-file "$here/mypy.ini" --package gaitlab
     ;;
   tutorial)
     need nbconvert python3-nbconvert

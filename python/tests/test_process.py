@@ -289,7 +289,12 @@ class Plugins(InFolder):
         with self.assertRaisesRegex(gaitlab.InputError, "p.yaml"):
             gaitlab.Scenario("p.yaml", plugins=["p.yaml"])
         first = gaitlab.Scenario("p.yaml", plugins=["wave.so"])
-        self.assertEqual(gaitlab.run(first).outcome, "done")
+        run = gaitlab.run(first)
+        self.assertEqual(run.outcome, "done")
+        folder = run.save()
+        with self.assertRaisesRegex(gaitlab.InputError, r'read\(..., plugins="trust"\)'):
+            gaitlab.read(folder)
+        self.assertEqual(digest(gaitlab.read(folder, plugins="trust")), digest(run))
         self.compiled(2)
         with self.assertRaisesRegex(gaitlab.InputError, "built again"):
             gaitlab.Scenario("p.yaml")
