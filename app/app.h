@@ -2,7 +2,6 @@
 // failed run, 2 bad input, 3 infeasible, 4 regression).
 #pragma once
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,14 +9,16 @@
 
 #include "core/plugin/catalog.h"
 #include "core/scenario/scenario.h"
+#include "kit/catalog.h"
+#include "kit/judged_run.h"
+#include "kit/shipped.h"
 #include "report/analysis/summary.h"
 #include "report/verdict/screen.h"
 #include "report/verdict/verdict.h"
 
 namespace gaitlab::app {
 
-/// Catalog of all built-in engines, actuators, controllers and CPGs, and of the given plugin libraries.
-Catalog standard_catalog(const std::vector<std::string>& plugins = {});
+using namespace kit;  // what the Python module needs, too
 
 /// Plugins that the command line allows a scenario or a recorded run to load. Used by commands that may read files from unknown
 /// sources.
@@ -30,12 +31,6 @@ struct PluginArguments {
 Catalog careful_catalog(const PluginArguments& allowed);
 /// The command line as typed, for messages.
 std::string& typed();
-
-/// Files that are shipped with the program, of `kind` module, robot, scenario or study, as a map from name to file.
-std::map<std::string, std::string> shipped_files(const std::string& kind);
-/// File that a command line names: a path or, if there is no such file, the name of a shipped scenario or study. Throws
-/// InputError for a name that is similar to one of them; other names are returned.
-std::string named_file(const std::string& word);
 
 /// Arguments of every command that reads a scenario.
 struct ScenarioArguments {
@@ -89,7 +84,6 @@ struct Remedied {
 Remedied take_remedy(const Scenario& scenario, report::Verdict& verdict, const RunArguments& arguments);
 /// Prints lines of a summary, in colour on a terminal.
 void print_lines(const std::vector<report::ScreenLine>& lines);
-inline constexpr const char* kRemedyFile = "remedy.json";  ///< name of the remedy in a run folder
 
 /// Prints the summary of a run; the verdict is its first line.
 void print_summary(const Scenario& scenario, const Recording& recording, const report::Summary& summary,

@@ -8,6 +8,7 @@
 #include "app/app.h"
 #include "app/subcommands.h"
 #include "core/files/atomic_file.h"
+#include "kit/run_writer.h"
 
 namespace gaitlab::app {
 
@@ -50,7 +51,6 @@ std::string not_empty(const std::string& text);
 /// Throws InputError if the file exists or its folder does not.
 void check_new(const std::string& name);
 
-inline constexpr const char* kPageFile = "report.html";  ///< name of the page in a run folder
 /// Checks that a page can be written and returns the mode of writing. Throws the InputError of check_new, except for `own`: an
 /// existing page of that name may be replaced.
 Existing check_page(const std::string& name, const std::filesystem::path& own = {});

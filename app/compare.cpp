@@ -9,12 +9,12 @@
 #include <optional>
 
 #include "app/commands.h"
-#include "app/stored_scenario.h"
 #include "core/errors.h"
 #include "core/model/pattern.h"
 #include "core/recording/run_files.h"
 #include "core/settings/changed_settings.h"
 #include "core/settings/wording.h"
+#include "kit/stored_scenario.h"
 #include "report/verdict/numbers.h"
 
 namespace gaitlab::app {

@@ -3,7 +3,6 @@
 #include <filesystem>
 
 #include "app/commands.h"
-#include "app/stored_scenario.h"
 #include "core/build_id.h"
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
@@ -14,6 +13,7 @@
 #include "interchange/mesh.h"
 #include "interchange/mjcf.h"
 #include "interchange/urdf.h"
+#include "kit/stored_scenario.h"
 #include "report/figures/run/views.h"
 
 namespace gaitlab::app {

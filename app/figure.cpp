@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "app/commands.h"
-#include "app/stored_scenario.h"
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
 #include "core/recording/csv.h"
@@ -14,6 +13,7 @@
 #include "core/recording/run_files.h"
 #include "core/settings/text_file.h"
 #include "core/settings/wording.h"
+#include "kit/stored_scenario.h"
 #include "report/figures/paper/paper_figure.h"
 #include "report/plot/pdf.h"
 #include "report/plot/svg.h"

@@ -2,9 +2,7 @@
 
 #include "app/commands.h"
 #include "core/scenario/read_scenario.h"
-#include "report/analysis/summary.h"
-#include "report/verdict/summary_text.h"
-#include "report/verdict/warnings.h"
+#include "kit/run_warnings.h"
 
 namespace gaitlab::app {
 
@@ -39,11 +37,7 @@ Scenario read(const ScenarioArguments& arguments, Catalog& catalog) {
 }
 
 void warn_of_start(const Scenario& scenario, bool quiet) {
-  if (const std::string warning = report::start_warning(scenario); !warning.empty()) {
-    const SourceLocation place = scenario.on_ground ? SourceLocation{scenario.file} : scenario.place("robot.position");
-    say(to_string(place), "warning", warning);
-  }
-  for (const report::Warning& doubt : report::setup_warnings(scenario)) {
+  for (const report::Warning& doubt : start_warnings(scenario)) {
     if (doubt.severe || !quiet) say(to_string(doubt.place), doubt.severe ? "warning" : "note", doubt.text);
   }
 }

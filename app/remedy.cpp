@@ -14,11 +14,11 @@
 #include "app/judged_run.h"
 #include "app/progress.h"
 #include "app/stop_on_signal.h"
-#include "app/stored_scenario.h"
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
 #include "core/scenario/resolved.h"
 #include "core/settings/wording.h"
+#include "kit/stored_scenario.h"
 #include "report/page/page.h"
 #include "report/remedy/remedy_text.h"
 

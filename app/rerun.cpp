@@ -9,7 +9,6 @@
 
 #include "app/commands.h"
 #include "app/progress.h"
-#include "app/stored_scenario.h"
 #include "core/build_id.h"
 #include "core/errors.h"
 #include "core/recording/compare.h"
@@ -19,6 +18,7 @@
 #include "core/scenario/resolved.h"
 #include "core/settings/changed_settings.h"
 #include "core/simulation/simulation.h"
+#include "kit/stored_scenario.h"
 
 namespace gaitlab::app {
 

@@ -10,20 +10,16 @@
 #include "app/progress.h"
 #include "app/run_time.h"
 #include "app/stop_on_signal.h"
-#include "app/stored_scenario.h"
 #include "app/study/study_text.h"
-#include "core/build_id.h"
-#include "core/files/atomic_file.h"
-#include "core/recording/recording_file.h"
 #include "core/recording/run_folder.h"
 #include "core/scenario/resolved.h"
 #include "core/scenario/sensor_section.h"
 #include "core/simulation/batch.h"
 #include "core/simulation/simulation.h"
+#include "kit/run_warnings.h"
+#include "kit/run_writer.h"
+#include "kit/stored_scenario.h"
 #include "report/analysis/summary.h"
-#include "report/figures/run/figure.h"
-#include "report/figures/run/run_figure.h"
-#include "report/page/page.h"
 #include "report/verdict/draws.h"
 #include "report/verdict/number_texts.h"
 #include "report/verdict/spread.h"
@@ -33,56 +29,6 @@
 namespace gaitlab::app {
 
 namespace {
-
-/// Writer of the files of a run. A file is written even if others failed, so that one failure does not lose hours of
-/// simulation. A file that cannot be written is reported at once.
-class RunFiles {
- public:
-  explicit RunFiles(const std::filesystem::path& folder) : folder_(folder) {}
-
-  template <class Write>
-  void write(const char* name, const Write& file) {
-    try {
-      file(folder_ / name);
-      ++written_;
-    } catch (const std::bad_alloc&) {
-      lose((folder_ / name).string() + ": cannot be written: out of memory");
-    } catch (const RunError& error) {
-      lose(error.what());
-    }
-  }
-  void write_text(const char* name, const std::function<std::string()>& text) {
-    write(name, [&](const std::filesystem::path& file) { write_file(file, text()); });
-  }
-  [[nodiscard]] bool lost_any() const { return lost_ > 0; }
-  [[nodiscard]] bool wrote_any() const { return written_ > 0; }
-
- private:
-  void lose(const std::string& why) {
-    ++lost_;
-    say("gaitlab", "error", why);
-  }
-
-  std::filesystem::path folder_;
-  int written_ = 0, lost_ = 0;
-};
-
-void write_run(RunFiles& files, const std::string& format, const Scenario& scenario, const Recording& recording) {
-  files.write(format == "csv" ? "trace.csv" : "trace.h5", [&](const std::filesystem::path& file) {
-    write_recording(recording, {resolved(scenario), scenario.seed, build_id(), recording.outcome.text()}, format,
-                    file.parent_path());
-  });
-  files.write_text("scenario.resolved.yaml", [&] { return resolved(scenario); });
-}
-
-void write_report(RunFiles& files, const Scenario& scenario, const Recording& recording, const report::Summary& summary,
-                  const report::Verdict& verdict, bool page) {
-  files.write_text("figure.svg", [&] { return report::run_figure(scenario, recording, summary); });
-  files.write_text("verdict.json", [&] { return report::to_json(verdict); });
-  if (page) files.write_text(kPageFile, [&] { return report::page(report::page_data(scenario, recording, summary, verdict)); });
-  // The summary is written last, so that a folder with a summary is complete except for files that failed.
-  files.write_text("summary.json", [&] { return report::to_json(summary, scenario, recording); });
-}
 
 /// Prints the estimated time of a long run, and the faster engine. A run without a file is a repeated run of a study, which has
 /// printed them.
@@ -97,8 +43,7 @@ void note_time(const Scenario& scenario, const RunArguments& arguments, const Ro
 /// Simulates the rollouts for Recording::spread if the motion is unpredictable. If memory is short or a plugin throws, the run
 /// is written without them.
 void take_spread(const Scenario& scenario, Recording& recording, const report::Summary& summary, bool quiet) try {
-  const report::Predictability found = report::predictability(scenario, recording);
-  if (found != report::Predictability::chaotic && found != report::Predictability::ill) return;
+  if (!needs_spread(scenario, recording)) return;
   if (!quiet) {
     say(scenario.file, "note",
         report::predictability_text(scenario, recording) +
@@ -221,7 +166,7 @@ int run(const Scenario& scenario, const RunArguments& arguments, std::span<const
   }
   const Scenario seen = with_row_stride(scenario, all ? all->stride : 1);
   if (!arguments.quiet) note_row_stride(seen, all ? all->stride : 1);
-  RunFiles files(folder.path());
+  RunWriter files(folder.path(), [](const std::string& why) { say("gaitlab", "error", why); });
   const auto summarised = [&] { return report::summarise(seen, recording, wall.count()); };
   std::optional<report::Summary> made;  // kept, because the memory of a failed trace.h5 may not be freed
   try {
@@ -231,14 +176,14 @@ int run(const Scenario& scenario, const RunArguments& arguments, std::span<const
   if (made) take_spread(scenario, recording, *made, arguments.quiet);
   const bool complete = made ? take_draws(scenario, draws, arguments, recording, *made) : draws.empty();
   if (all) all->swap(recording);
-  write_run(files, arguments.format, scenario, recording);
+  files.write_run(arguments.format, scenario, recording);
   if (all) all->swap(recording);
   all.reset();
   const report::Summary summary = made ? std::move(*made) : summarised();
   if (files.lost_any()) files.write_text("summary.json", [&] { return report::to_json(summary, scenario, recording); });
   const report::Overlaps overlaps = report::overlaps(seen, recording);
   report::Verdict verdict = judged(seen, recording, summary, overlaps, arguments.shown, arguments.quiet);
-  write_report(files, seen, recording, summary, verdict, !arguments.no_page);
+  files.write_report(seen, recording, summary, verdict, !arguments.no_page);
   if (files.wrote_any()) folder.keep();
   if (!arguments.quiet) print_summary(scenario, recording, summary, verdict, arguments.shown);
   if (!arguments.quiet && !verdict.draws.empty()) {
@@ -249,7 +194,7 @@ int run(const Scenario& scenario, const RunArguments& arguments, std::span<const
   const Remedied remedied = interrupted ? Remedied() : take_remedy(scenario, verdict, arguments);
   if (!remedied.json.empty()) {
     files.write_text(kRemedyFile, [&] { return remedied.json; });
-    write_report(files, seen, recording, summary, verdict, !arguments.no_page);
+    files.write_report(seen, recording, summary, verdict, !arguments.no_page);
   }
   if (!arguments.quiet) print_lines(remedied.lines);
   if (!arguments.quiet && !files.lost_any()) print_files(arguments, folder.path());

@@ -12,18 +12,18 @@
 
 #include "app/commands.h"
 #include "app/progress.h"
-#include "app/stored_scenario.h"
 #include "core/errors.h"
 #include "core/scenario/resolved.h"
 #include "core/scenario/sections.h"
 #include "core/settings/joint_patterns.h"
 #include "core/settings/wording.h"
+#include "kit/run_warnings.h"
+#include "kit/stored_scenario.h"
 #include "report/analysis/summary.h"
 #include "report/verdict/demand.h"
 #include "report/verdict/number_texts.h"
 #include "report/verdict/screen.h"
 #include "report/verdict/summary_text.h"
-#include "report/verdict/trust.h"
 
 namespace gaitlab::app {
 
@@ -131,18 +131,7 @@ void draw_joints(Scenario& scenario, const std::vector<std::string>& joints) {
 }
 
 void warn_of_run(const Scenario& scenario, const Recording& recording, const report::Verdict& verdict) {
-  for (const report::Check& check : verdict.checks) {
-    if (check.status == report::CheckStatus::pass || check.remedy.empty()) continue;
-    // In a run that ended early, the checks of accuracy only show its failure.
-    if (check.group == report::CheckGroup::trust && !recording.outcome.done()) continue;
-    say(to_string(check.place), "warning", check.text + "; " + check.remedy);
-  }
-  if (const std::vector<std::string> names = report::not_finite(scenario, recording); !names.empty()) {
-    say(scenario.file, "warning",
-        fmt::format("the results for {} are not finite (printed as -, null in summary.json); check masses, lengths and gains "
-                    "of the robot",
-                    joined(names)));
-  }
+  for (const report::Warning& one : run_warnings(scenario, recording, verdict)) say(to_string(one.place), "warning", one.text);
 }
 
 }  // namespace gaitlab::app

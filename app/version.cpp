@@ -1,6 +1,6 @@
 #include "app/app.h"
-#include "app/engines.h"
 #include "core/build_id.h"
+#include "kit/engines.h"
 
 namespace gaitlab::app {
 

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "app/commands.h"
-#include "app/stored_scenario.h"
 #include "app/study/study_quantities.h"
 #include "app/study/study_text.h"
 #include "core/settings/wording.h"
+#include "kit/stored_scenario.h"
 #include "studies/journal/study_folder.h"
 #include "studies/plan/definition.h"
 #include "studies/plan/worlds.h"

@@ -171,7 +171,7 @@ PluginError::PluginError(const Entry& entry, const std::string& what)
     : RunError(title(entry) + ": " + what), kind(entry.kind) {}
 
 std::shared_ptr<void> default_settings(const Entry& entry) {
-  return guarded(entry, "Settings", [&] { return entry.settings(); });
+  return guarded(entry, "Settings", [&] { return entry.settings(entry); });
 }
 
 void visit_settings(const Entry& entry, void* settings, Fields& fields) {

@@ -82,7 +82,7 @@ void add_sensor(Registry& registry, std::string_view name, std::string_view manu
   Entry entry{Kind::sensor,
               name,
               manual,
-              [] { return std::shared_ptr<void>(std::make_shared<S>()); },
+              [](const Entry&) { return std::shared_ptr<void>(std::make_shared<S>()); },
               [](void* settings, Fields& f) { static_cast<S*>(settings)->fields(f); },
               nullptr};
   entry.make_sensor = [](const SensorSite& site, const void* settings) -> Sensor* {

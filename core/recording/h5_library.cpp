@@ -7,6 +7,8 @@ namespace gaitlab {
 
 namespace {
 
+H5Guard other_user;
+
 /// Resizes `image`, an Image, and returns its bytes; nullptr if memory is short.
 void* grow(std::size_t size, void* image) {
   try {
@@ -19,6 +21,10 @@ void* grow(std::size_t size, void* image) {
 }
 
 }  // namespace
+
+void guard_h5(H5Guard guard) noexcept { other_user = guard; }
+
+H5Guard h5_guard() noexcept { return other_user; }
 
 H5FD_file_image_callbacks_t memory_of(Image& image) {
   H5FD_file_image_callbacks_t calls{};

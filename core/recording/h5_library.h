@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/files/spill.h"
+#include "core/recording/h5_guard.h"
 #include "core/recording/h5_image.h"
 
 namespace gaitlab {
@@ -26,7 +27,7 @@ class Library {
  public:
   Library() : lock_(mutex()) {
     // To be called before the first use. Otherwise objects left open after a damaged file make HDF5 complain at exit.
-    static const herr_t kNeverAtExit = H5dont_atexit();
+    static const herr_t kNeverAtExit = h5_guard().enter == nullptr ? H5dont_atexit() : 0;
     static_cast<void>(kNeverAtExit);
     // A file names filters by number. For an unknown number HDF5 would load any library from a folder of the environment.
     H5PLget_loading_state(&loading_);
@@ -46,6 +47,22 @@ class Library {
     static std::mutex only;
     return only;
   }
+  /// The other user's lock, which is taken before the lock of this class.
+  class Guarded {
+   public:
+    Guarded() : guard_(h5_guard()), entered_(guard_.enter == nullptr ? nullptr : guard_.enter()) {}
+    ~Guarded() {
+      if (guard_.leave != nullptr) guard_.leave(entered_);
+    }
+    Guarded(const Guarded&) = delete;
+    Guarded& operator=(const Guarded&) = delete;
+
+   private:
+    H5Guard guard_;
+    void* entered_;
+  };
+
+  Guarded guarded_;
   std::lock_guard<std::mutex> lock_;
   H5E_auto2_t report_ = nullptr;
   void* data_ = nullptr;

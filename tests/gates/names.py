@@ -15,7 +15,7 @@ import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 ROOMS = ['core', 'actuators', 'controllers', 'cpg', 'sensors', 'physics_bullet', 'physics_articulated', 'studies', 'report', 'golden', 'interchange',
-         'app', 'tests', 'bench', 'docs', 'scenarios', 'cmake']
+         'kit', 'python', 'app', 'tests', 'bench', 'docs', 'scenarios', 'cmake']
 
 # Names of files that are not part of the project, with the reason.
 FOREIGN = {
@@ -23,7 +23,7 @@ FOREIGN = {
     'lash.cpp': 'written by the user: docs/tutorials/write-a-cpg.md', 'my_cpg.cpp': "a user's project in docs/ci.md",
     'scenarios/walk.yaml': "a user's project in docs/ci.md", 'scenarios/w.yaml': "a user's project in docs/ci.md",
     'tune.py': 'written by the user: docs/tutorials/optuna.md', 'test.cmake': 'written by `gaitlab new plugin`',
-    'build_id.cpp': 'written by the build',
+    'build_id.cpp': 'written by the build', 'gait.py': 'written by the user: docs/python.md',
 }
 # Words that represent any name.
 PLACEHOLDER = re.compile(r'NAME|KIND|READER|WORD|[$<]')

@@ -79,7 +79,7 @@ std::vector<Plugin> oscillators() {
   std::vector<Plugin> some;
   for (const Plugin& plugin : registered()) {
     const Entry& entry = *catalog().find(plugin.kind, plugin.name);
-    if (plugin.kind == Kind::cpg && numbers_of(entry, entry.settings().get()).found.contains("phase_lag"))
+    if (plugin.kind == Kind::cpg && numbers_of(entry, entry.settings(entry).get()).found.contains("phase_lag"))
       some.push_back(plugin);
   }
   return some;
@@ -106,7 +106,7 @@ class Contract : public ::testing::TestWithParam<Plugin> {
     const auto& [kind, name] = GetParam();
     std::string own = section(kind) + ": {type: " + name;
     // The value 1e-7 is so small that a stall current slightly above 0 requires no efficiency above 1.
-    for (const std::string& key : numbers_of(entry(), entry().settings().get()).required) own += ", " + key + ": 1e-7";
+    for (const std::string& key : numbers_of(entry(), entry().settings(entry()).get()).required) own += ", " + key + ": 1e-7";
     own += "}\n";
     const bool volts = kind != Kind::actuator || name == "dc_motor" || name == "servo";
     return text(own, volts ? "" : "controller: {type: pid, unit: N m, Kp: 5, Kd: 0.05}\n");
@@ -126,7 +126,7 @@ TEST_P(Contract, ExplainsItself) {
   EXPECT_TRUE(manual.find("Source: ") != std::string::npos || manual.find("Reference: ") != std::string::npos) << manual;
   EXPECT_NE(manual.find("\n    " + section(GetParam().kind) + ":"), std::string::npos) << "no minimal scenario";
   EXPECT_LT(manual.find(" = "), manual.find("\n    " + section(GetParam().kind) + ":")) << "no equation";
-  const Numbers numbers = numbers_of(entry(), entry().settings().get());
+  const Numbers numbers = numbers_of(entry(), entry().settings(entry()).get());
   EXPECT_EQ(numbers.empty_abouts, std::vector<std::string>{}) << "fields need a sentence";
   for (const auto& [path, number] : numbers.found) {
     if (std::ranges::find(numbers.required, path) != numbers.required.end()) continue;
@@ -158,7 +158,7 @@ TEST_P(Contract, EveryNumberIsReachedAndRefusesNan) {
   std::filesystem::create_directory_symlink(kScenarios + "modules", folder / "modules");
   std::filesystem::create_directory_symlink(kScenarios + "robots", folder / "robots");
   const std::string path = folder.write("s.yaml", plain());
-  const Numbers defaults = numbers_of(entry(), entry().settings().get());
+  const Numbers defaults = numbers_of(entry(), entry().settings(entry()).get());
   for (const auto& [key, number] : defaults.found) {
     const std::string full = section(GetParam().kind) + "." + key;
     EXPECT_THROW((void)read_scenario(path, {full + "=.nan"}, catalog()), InputError) << full;

@@ -6,7 +6,7 @@
 #include "core/recording/recording_file.h"
 #include "core/scenario/scenario.h"
 
-namespace gaitlab::app {
+namespace gaitlab::kit {
 
 struct StoredScenario {
   std::string file;   ///< path of scenario.resolved.yaml; empty if the text comes from inside trace.h5
@@ -46,4 +46,4 @@ Scenario with_row_stride(const Scenario& scenario, std::size_t stride);
 /// Prints the note on that, if `stride` is above 1.
 void note_row_stride(const Scenario& seen, std::size_t stride);
 
-}  // namespace gaitlab::app
+}  // namespace gaitlab::kit

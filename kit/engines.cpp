@@ -1,9 +1,9 @@
-#include "app/engines.h"
+#include "kit/engines.h"
 
 #include "physics_articulated/engine.h"
 #include "physics_bullet/engine.h"
 
-namespace gaitlab::app {
+namespace gaitlab::kit {
 
 void register_engines(Catalog& catalog) {
   register_bullet(catalog);
@@ -12,4 +12,4 @@ void register_engines(Catalog& catalog) {
 
 std::string bullet_text() { return "Bullet " + bullet_version(); }
 
-}  // namespace gaitlab::app
+}  // namespace gaitlab::kit

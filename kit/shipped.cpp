@@ -1,14 +1,16 @@
+#include "kit/shipped.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
 
-#include "app/app.h"
+#include "core/errors.h"
 #include "core/settings/data_folder.h"
 #include "core/settings/wording.h"
 
-namespace gaitlab::app {
+namespace gaitlab::kit {
 
 namespace {
 
@@ -68,4 +70,4 @@ std::string named_file(const std::string& word) {
                                              ", which comes with gaitlab (gaitlab list scenarios)?");
 }
 
-}  // namespace gaitlab::app
+}  // namespace gaitlab::kit

@@ -1,4 +1,4 @@
-#include "app/stored_scenario.h"
+#include "kit/stored_scenario.h"
 
 #include <fmt/format.h>
 #include <sys/mman.h>
@@ -21,7 +21,7 @@
 #include "core/simulation/probes.h"
 #include "report/analysis/row_statistics.h"
 
-namespace gaitlab::app {
+namespace gaitlab::kit {
 
 namespace {
 
@@ -194,4 +194,4 @@ void note_row_stride(const Scenario& seen, std::size_t stride) {
           stride, seen.trace.period, static_cast<double>(kMostInMemory) / 1e6));
 }
 
-}  // namespace gaitlab::app
+}  // namespace gaitlab::kit

@@ -4,11 +4,11 @@
 
 #include "core/plugin/catalog.h"
 
-namespace gaitlab::app {
+namespace gaitlab::kit {
 
 void register_engines(Catalog& catalog);
 
 /// Text `Bullet 3.24 float64`, or `without Bullet`.
 std::string bullet_text();
 
-}  // namespace gaitlab::app
+}  // namespace gaitlab::kit

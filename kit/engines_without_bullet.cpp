@@ -1,10 +1,10 @@
-#include "app/engines.h"
+#include "kit/engines.h"
 #include "physics_articulated/engine.h"
 
-namespace gaitlab::app {
+namespace gaitlab::kit {
 
 void register_engines(Catalog& catalog) { register_articulated(catalog); }
 
 std::string bullet_text() { return "without Bullet"; }
 
-}  // namespace gaitlab::app
+}  // namespace gaitlab::kit

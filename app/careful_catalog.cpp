@@ -1,29 +1,12 @@
-// Catalog of the program: engines, actuators, controllers, CPGs and plugin libraries.
+// Catalog for commands that read files from unknown sources, and the command line for its messages.
 #include <filesystem>
 #include <system_error>
 #include <utility>
 
-#include "actuators/register.h"
 #include "app/app.h"
-#include "app/engines.h"
-#include "controllers/register.h"
 #include "core/errors.h"
-#include "core/scenario/plugin_files.h"
-#include "cpg/register.h"
-#include "sensors/register.h"
 
 namespace gaitlab::app {
-
-Catalog standard_catalog(const std::vector<std::string>& plugins) {
-  Catalog catalog;
-  register_engines(catalog);
-  actuators::register_actuators(catalog);
-  controllers::register_controllers(catalog);
-  cpg::register_cpgs(catalog);
-  sensors::register_sensors(catalog);
-  for (const std::string& plugin : plugins) load_plugin_file(plugin, catalog);
-  return catalog;
-}
 
 Catalog careful_catalog(const PluginArguments& allowed) {
   constexpr std::size_t kLongest = 200;  // bytes of the longest command line that a message repeats

@@ -1,0 +1,18 @@
+// Lock of another user of HDF5 in the same process, for a library of gaitlab in another program.
+#pragma once
+
+namespace gaitlab {
+
+/// Functions that are called before the first and after the last call of HDF5 in each use of the library. `leave` gets the
+/// result of `enter`.
+struct H5Guard {
+  void* (*enter)() = nullptr;
+  void (*leave)(void* entered) = nullptr;
+};
+
+/// Sets the guard, which must be done before the first use of HDF5. With a guard HDF5 also closes its files at exit, as the
+/// other user expects.
+void guard_h5(H5Guard guard) noexcept;
+H5Guard h5_guard() noexcept;
+
+}  // namespace gaitlab

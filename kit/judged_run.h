@@ -1,0 +1,37 @@
+// A run folder, read and judged, without simulating the run again.
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "kit/stored_scenario.h"
+#include "report/page/page_data.h"
+#include "report/verdict/verdict.h"
+
+namespace gaitlab::kit {
+
+inline constexpr const char* kRemedyFile = "remedy.json";  ///< name of the remedy in a run folder
+
+struct JudgedRun {
+  std::string name;             ///< folder as the user typed it
+  std::filesystem::path trace;  ///< path of the trace file
+  StoredRun read;               ///< its scenario has the trace period of the kept rows
+  double period = 0;            ///< trace period of the run, s
+  std::string scenario_hash = {};
+  std::optional<AllRows> all = {};  ///< all rows, if thin_rows() removed some
+  report::Summary summary = {};
+  report::Overlaps overlaps = {};
+  report::Verdict verdict = {};
+
+  [[nodiscard]] const Recording& recording() const { return read.stored.recording; }
+  [[nodiscard]] report::PageData page_data(std::size_t most = report::kMostData) const;
+  /// Adds the results of an earlier --demand to the verdict, from verdict.json, because recordings do not contain them.
+  void keep_demand();
+  /// Adds the remedy of an earlier search to the verdict, from remedy.json.
+  void keep_remedy();
+};
+
+/// Reads and judges a run. `catalog` must outlive the result. Throws InputError as read_run does.
+JudgedRun read_judged(const std::string& name, Catalog& catalog);
+
+}  // namespace gaitlab::kit

@@ -1,0 +1,45 @@
+"""gaitlab: gaits of modular robots, simulated and judged. All numbers are in SI units, angles in rad.
+
+    import gaitlab
+    scenario = gaitlab.Scenario("hexapod", {"physics.engine": "articulated", "duration": 4})
+    run = gaitlab.run(scenario)
+    print(run.verdict["verdict"], run.summary["speed"])
+    torque = run.trace["joint.0.torque"]        # N m, a value per row
+    table = gaitlab.rollouts(scenario, [{"cpg.frequency": f} for f in (0.5, 1.0)]).to_pandas()
+
+Names of settings, columns and quantities, and their definitions, are those of the program gaitlab.
+"""
+from ._native import InputError, RunError, build
+from ._cpg import Joint, cpg
+from ._evaluator import Evaluator
+from ._rollouts import Rollouts, quantities, rollouts
+from ._run import Run, read, run
+from ._scenario import Check, Scenario
+from ._study import Study, study
+from ._table import Table
+from ._warnings import Warning
+
+for _error in (InputError, RunError):
+    _error.__module__ = "gaitlab"
+del _error
+
+__all__ = [
+    "Check",
+    "Evaluator",
+    "InputError",
+    "Joint",
+    "Rollouts",
+    "Run",
+    "RunError",
+    "Scenario",
+    "Study",
+    "Table",
+    "Warning",
+    "build",
+    "cpg",
+    "quantities",
+    "read",
+    "rollouts",
+    "run",
+    "study",
+]

@@ -1,0 +1,117 @@
+"""Scenarios."""
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import Any, Mapping, Sequence, Union
+
+from . import _native
+from ._settings import texts
+from ._warnings import tell
+
+
+Plugins = Union[str, Sequence[Union[str, "os.PathLike[str]"]]]
+
+
+def trusted(plugins: Plugins) -> tuple[bool, list[str]]:
+    """The argument `plugins` as "all of them" and a list of files."""
+    if isinstance(plugins, str) and plugins not in ("trust", "refuse"):
+        raise ValueError(f"plugins is 'trust', 'refuse' or a list of files, not {plugins!r}")
+    return plugins == "trust", [] if isinstance(plugins, str) else [os.fspath(file) for file in plugins]
+
+
+@dataclass(frozen=True)
+class Check:
+    """Parts and sizes of a scenario, as `gaitlab check` prints them."""
+
+    name: str
+    mass: float  #: of the robot, kg
+    masses: Mapping[str, float]  #: of each body, kg
+    ranges: Mapping[str, tuple[float, float]]  #: of each joint, rad; infinite for one that turns freely
+    modules: int
+    links: int
+    degrees_of_freedom: int
+    engine: str
+    integrator: str
+    step: float  #: s
+    damping: float  #: step times damping rate for the standing robot; allowed up to 1
+    start: tuple[float, float, float]  #: base frame at the start, m
+    contacts: int  #: number of contact elements
+    rows: float  #: rows of the trace
+    columns: float  #: columns of the trace
+    megabytes: float  #: size of the trace, MB
+
+
+class Scenario:
+    """A scenario, read and checked: Scenario("hexapod.yaml", {"cpg.frequency": 0.5}).
+
+    path: a file, or the name of a shipped scenario (`gaitlab list scenarios`).
+    settings: values by key, as --set takes them. Numbers, lists and mappings keep their bits; a text is read as YAML.
+    plugins: "trust" loads the plugin libraries that the scenario names and runs their code, "refuse" loads none, and a list of
+        files loads only these.
+
+    Raises InputError with all problems, with the text that `gaitlab check` prints.
+    """
+
+    def __init__(
+        self,
+        path: Union[str, "os.PathLike[str]"],
+        settings: Union[Mapping[str, Any], None] = None,
+        *,
+        plugins: Plugins = "trust",
+    ) -> None:
+        self.path = os.fspath(path)
+        self.settings: dict[str, Any] = dict(settings or {})
+        all_plugins, files = trusted(plugins)
+        self._plugins = plugins if isinstance(plugins, str) else files
+        self._native = _native.read(self.path, texts(self.settings), all_plugins, files)
+        tell(self.warnings)
+
+    @property
+    def name(self) -> str:
+        return self._native.name
+
+    @property
+    def joints(self) -> list[str]:
+        """Names of the joints, by number."""
+        return self._native.joints
+
+    @property
+    def resolved(self) -> str:
+        """The complete scenario with all defaults, YAML."""
+        return self._native.resolved()
+
+    @property
+    def warnings(self) -> list[str]:
+        """Warnings that `gaitlab check` prints, each with its place."""
+        return self._native.warnings(True)
+
+    @property
+    def notes(self) -> list[str]:
+        """Notes that `gaitlab check` prints, each with its place."""
+        return self._native.warnings(False)
+
+    def check(self) -> Check:
+        """Makes the simulation and takes its sizes, without a step. Raises InputError if the step or the memory is refused."""
+        return Check(**self._native.check())
+
+    def with_(self, settings: Mapping[str, Any]) -> "Scenario":
+        """The scenario with further settings. It shares the robot and what else the settings do not change."""
+        other = Scenario.__new__(Scenario)
+        other.path, other._plugins = self.path, self._plugins
+        # A key that is set again comes last, as on the command line.
+        other.settings = {**{k: v for k, v in self.settings.items() if k not in settings}, **settings}
+        other._native = self._native.with_(texts(settings))
+        tell(other.warnings)
+        return other
+
+    def __repr__(self) -> str:
+        return f"<gaitlab.Scenario {self.name!r}, {len(self.joints)} joints>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        path = os.path.abspath(self.path) if os.path.exists(self.path) else self.path
+        return _again, (path, self.settings, self._plugins)
+
+
+def _again(path: str, settings: Mapping[str, Any], plugins: Any) -> Scenario:
+    return Scenario(path, settings, plugins=plugins)

@@ -1,0 +1,40 @@
+"""Settings of Python as texts of --set."""
+from __future__ import annotations
+
+import json
+import os
+from typing import Any, Iterable, Mapping
+
+import numpy as np
+
+
+def _nested(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False) if isinstance(value, str) else text(value)
+
+
+def text(value: Any) -> str:
+    """A value as --set takes it. Floats are written by repr, whose shortest form reads back as the same bits."""
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value.item()
+    if isinstance(value, (bool, np.bool_)):
+        return "true" if value else "false"
+    if isinstance(value, (float, np.floating)):
+        return repr(float(value))
+    if isinstance(value, (int, np.integer)):
+        return repr(int(value))
+    if isinstance(value, str):
+        return value
+    if isinstance(value, os.PathLike):
+        return json.dumps(os.fspath(value), ensure_ascii=False)
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{_nested(str(key))}: {_nested(one)}" for key, one in value.items()) + "}"
+    if isinstance(value, Iterable):
+        return "[" + ", ".join(_nested(one) for one in value) + "]"
+    raise TypeError(f"a setting is a number, a text, a list or a mapping, not {type(value).__name__}")
+
+
+def texts(settings: Mapping[str, Any]) -> list[str]:
+    """Settings `key.path=value`, in the order of the mapping."""
+    if not isinstance(settings, Mapping):
+        raise TypeError(f"settings are a mapping from key to value, not {type(settings).__name__}")
+    return [f"{key}={text(value)}" for key, value in settings.items()]

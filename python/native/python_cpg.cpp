@@ -1,0 +1,244 @@
+#include "python/native/python_cpg.h"
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <utility>
+
+#include "core/errors.h"
+#include "kit/catalog.h"
+
+namespace py = pybind11;
+
+namespace gaitlab::python {
+
+namespace {
+
+constexpr const char* kManual = "A class written in Python (gaitlab.cpg), registered in this process.";
+
+struct PythonClass {
+  std::string name;
+  py::object type;
+  std::vector<NumberSetting> settings;
+};
+
+/// Ends an object that holds objects of Python, under the interpreter's lock. After the interpreter's end, it is left alone.
+template <class T>
+void end_locked(T* object) {
+  if (Py_IsInitialized() == 0) return;
+  const py::gil_scoped_acquire held;
+  delete object;
+}
+
+/// Settings of a class in a scenario. They keep the class.
+struct ClassValues {
+  std::shared_ptr<PythonClass> of;
+  std::vector<double> values;
+  void fields(Fields& f) {
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const NumberSetting& s = of->settings[k];
+      f.number(s.key.c_str(), values[k], {s.unit.c_str(), s.low, s.high, s.about.c_str()});
+    }
+  }
+};
+
+std::string text_of(const py::handle& object) { return py::str(object).cast<std::string>(); }
+
+/// Type, text and place of an exception, on one line: `ZeroDivisionError: division by zero (gait.py:12)`.
+std::string told(py::error_already_set& error) {
+  std::string text = text_of(error.type().attr("__name__"));
+  if (const std::string value = text_of(error.value()); !value.empty()) text += ": " + value;
+  std::ranges::replace(text, '\n', ' ');
+  py::object place = error.trace();
+  if (!place || place.is_none()) return text;
+  for (py::object next = place.attr("tb_next"); !next.is_none(); next = place.attr("tb_next")) place = next;
+  return text + " (" + text_of(place.attr("tb_frame").attr("f_code").attr("co_filename")) + ":" +
+         text_of(place.attr("tb_lineno")) + ")";
+}
+
+/// Calls Python under the interpreter's lock. An exception becomes one of C++, and what Python keeps of it ends under the lock.
+template <class Call>
+auto under_lock(Call call) {
+  const py::gil_scoped_acquire held;
+  try {
+    return call();
+  } catch (py::error_already_set& error) {
+    throw std::runtime_error(told(error));
+  } catch (const py::cast_error& error) {
+    throw std::runtime_error(error.what());
+  }
+}
+
+/// An array of Python, made once. Numbers are copied in and out, so that nothing of Python points into the simulation.
+class CopiedArray {
+ public:
+  py::array_t<double>& of(In values) {
+    if (static_cast<std::size_t>(array_.size()) != values.size())
+      array_ = py::array_t<double>(static_cast<py::ssize_t>(values.size()));
+    std::copy(values.begin(), values.end(), array_.mutable_data());
+    return array_;
+  }
+  void take(Out values) const {
+    if (static_cast<std::size_t>(array_.size()) != values.size()) throw std::runtime_error("the size of an array was changed");
+    std::copy(array_.data(), array_.data() + values.size(), values.begin());
+  }
+
+ private:
+  py::array_t<double> array_{py::ssize_t{0}};
+};
+
+/// The object, its methods (None if it lacks one) and the arrays that they get.
+struct BoundObject {
+  py::object self, output, derivative, event, start, measured;
+  std::size_t states = 0;
+  CopiedArray x, rate, setpoint, angle, speed, torque, touching, channels;
+
+  explicit BoundObject(py::object made) : self(std::move(made)) {
+    const auto method = [&](const char* name) { return py::getattr(self, name, py::none()); };
+    output = method("output");
+    derivative = method("derivative");
+    event = method("event");
+    start = method("start");
+    states = py::getattr(self, "states", py::int_(0)).cast<std::size_t>();
+    measured = py::module_::import("types").attr("SimpleNamespace")();
+  }
+  const py::object& of(const Measured& m) {
+    measured.attr("t") = m.t;
+    measured.attr("period") = m.period;
+    measured.attr("angle") = angle.of(m.angle);
+    measured.attr("speed") = speed.of(m.speed);
+    measured.attr("torque") = torque.of(m.torque);
+    measured.attr("touching") = touching.of(m.touching);
+    measured.attr("channels") = channels.of(m.channels);
+    return measured;
+  }
+};
+
+class PythonCpg final : public Cpg {
+ public:
+  explicit PythonCpg(std::unique_ptr<BoundObject, void (*)(BoundObject*)> bound) : bound_(std::move(bound)) {}
+  [[nodiscard]] std::size_t states() const override { return bound_->states; }
+  void start(Out x) const override {
+    if (bound_->start.is_none()) return;
+    under_lock([&] {
+      bound_->start(bound_->x.of(x));
+      bound_->x.take(x);
+    });
+  }
+  void derivative(const Measured& m, In x, Out rate) const override {
+    if (bound_->derivative.is_none()) return;
+    under_lock([&] {
+      bound_->derivative(bound_->of(m), bound_->x.of(x), bound_->rate.of(rate));
+      bound_->rate.take(rate);
+    });
+  }
+  void event(const Measured& m, Out x) const override {
+    if (bound_->event.is_none()) return;
+    under_lock([&] {
+      bound_->event(bound_->of(m), bound_->x.of(x));
+      bound_->x.take(x);
+    });
+  }
+  void output(double t, In x, Out setpoint) const override {
+    under_lock([&] {
+      bound_->output(t, bound_->x.of(x), bound_->setpoint.of(setpoint));
+      bound_->setpoint.take(setpoint);
+    });
+  }
+
+ private:
+  std::unique_ptr<BoundObject, void (*)(BoundObject*)> bound_;
+};
+
+py::list joints_of(const RobotInfo& robot) {
+  const py::object joint = py::module_::import("gaitlab").attr("Joint");
+  py::list joints;
+  for (const JointInfo& one : robot.joints)
+    joints.append(joint(one.name, one.module, one.lo, one.hi, one.driven, one.parent, one.origin, one.axis));
+  return joints;
+}
+
+void* make_cpg_of_python(const RobotInfo& robot, std::span<const void* const> settings) {
+  const auto& values = *static_cast<const ClassValues*>(settings[0]);
+  return under_lock([&]() -> void* {
+    py::dict named;
+    for (std::size_t k = 0; k < values.values.size(); ++k) named[values.of->settings[k].key.c_str()] = values.values[k];
+    std::unique_ptr<BoundObject, void (*)(BoundObject*)> bound(new BoundObject(values.of->type(joints_of(robot), named)),
+                                                               &end_locked<BoundObject>);
+    return static_cast<Cpg*>(new PythonCpg(std::move(bound)));
+  });
+}
+
+Entry entry_of(const std::shared_ptr<PythonClass>& type) {
+  Entry entry{Kind::cpg,
+              type->name,
+              kManual,
+              [](const Entry& of) {
+                auto values = std::make_shared<ClassValues>();
+                values->of = std::static_pointer_cast<PythonClass>(of.context);
+                for (const NumberSetting& s : values->of->settings) values->values.push_back(s.value);
+                return std::shared_ptr<void>(values);
+              },
+              [](void* values, Fields& f) { static_cast<ClassValues*>(values)->fields(f); },
+              &make_cpg_of_python};
+  entry.context = type;
+  return entry;
+}
+
+using Classes = std::vector<std::shared_ptr<PythonClass>>;
+
+/// The registered classes, under their mutex. Nobody asks for the interpreter's lock while holding it.
+struct RegisteredClasses {
+  std::mutex mutex;
+  Classes all;
+  std::size_t added = 0;
+};
+RegisteredClasses& classes() {
+  static auto* const made = new RegisteredClasses;  // never destroyed: the interpreter may be gone by then
+  return *made;
+}
+
+}  // namespace
+
+void add_class(const std::string& name, const py::object& type, std::vector<NumberSetting> settings) {
+  std::shared_ptr<PythonClass> added(new PythonClass{name, type, std::move(settings)}, &end_locked<PythonClass>);
+  try {
+    kit::standard_catalog().add(entry_of(added));
+  } catch (const std::invalid_argument& error) {
+    throw InputError(SourceLocation{"gaitlab.cpg"}, error.what());
+  }
+  RegisteredClasses& known = classes();
+  const std::lock_guard lock(known.mutex);
+  ++known.added;
+  const auto same = std::ranges::find(known.all, name, [](const auto& one) { return one->name; });
+  if (same == known.all.end())
+    known.all.push_back(added);
+  else
+    std::swap(*same, added);  // the old one ends after the mutex is unlocked
+}
+
+std::size_t classes_added() {
+  const std::lock_guard lock(classes().mutex);
+  return classes().added;
+}
+
+std::size_t register_classes(Catalog& catalog) {
+  RegisteredClasses& known = classes();
+  Classes all;
+  std::size_t added = 0;
+  {
+    const std::lock_guard lock(known.mutex);
+    all = known.all;
+    added = known.added;
+  }
+  catalog.set_origin("Python");
+  for (const std::shared_ptr<PythonClass>& one : all) catalog.add(entry_of(one));
+  catalog.set_origin(std::string(kBuiltIn));
+  return added;
+}
+
+}  // namespace gaitlab::python

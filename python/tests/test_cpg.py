@@ -1,0 +1,170 @@
+"""Pattern generators written in Python."""
+import gc
+import math
+import unittest
+
+import numpy as np
+
+import gaitlab
+
+from common import FAST, caterpillar, digest, of_class
+
+
+def register(name, **methods):
+    """Registers a class with these methods, as gaitlab.cpg does."""
+    return gaitlab.cpg(name)(type("Made", (), {"__init__": lambda self, joints, settings: None, "output": still, **methods}))
+
+
+def still(self, t, x, setpoint):
+    setpoint[:] = 0
+
+
+class Bits(unittest.TestCase):
+    def test_settings_and_joints(self):
+        seen = {}
+
+        @gaitlab.cpg("test_sine", amplitude=(0.5, "rad", 0, 2, "Amplitude."), frequency=0.5)
+        class Sine:
+            def __init__(self, joints, settings):
+                seen.update(joints=joints, settings=settings)
+                self.phase = np.array([0.3 * joint.module for joint in joints])
+                self.settings = settings
+
+            def output(self, t, x, setpoint):
+                setpoint[:] = self.settings["amplitude"] * np.sin(2 * math.pi * self.settings["frequency"] * t + self.phase)
+
+        run = gaitlab.run(of_class("test_sine", **{"cpg.amplitude": 1 / 3}))
+        self.assertEqual(run.outcome, "done")
+        self.assertEqual(seen["settings"], {"amplitude": 1 / 3, "frequency": 0.5})
+        self.assertEqual([joint.name for joint in seen["joints"]], caterpillar().joints)
+        self.assertIn("amplitude: 0.3333333333333333", run.resolved)
+        t, setpoint = run.trace["t"], run.trace["joint.1.setpoint"]
+        wanted = np.sin(2 * math.pi * 0.5 * t) / 3
+        late = wanted - setpoint  # a set point is held for a control period, 15 ms: at most the change in that time
+        self.assertLess(np.abs(late).max(), 0.015 * math.pi / 3 + 1e-12)
+        with self.assertRaisesRegex(gaitlab.InputError, "amplitude is 3"):
+            of_class("test_sine", **{"cpg.amplitude": 3})
+
+    def test_states_are_integrated(self):
+        """x' = -x from 1: the classical Runge-Kutta method of cpg.step has an error of its fourth order."""
+        kept = []
+        register("test_decay", states=1, start=lambda self, x: x.fill(1), derivative=lambda self, m, x, rate: np.negative(x, rate),
+                 output=lambda self, t, x, setpoint: (kept.append((t, x[0])), setpoint.fill(0))[1])
+        gaitlab.run(of_class("test_decay"))
+        for t, x in kept:
+            self.assertAlmostEqual(x, math.exp(-t), delta=1e-8)  # h^4 / 120 for a step of 15 ms: 4e-10
+        self.assertGreater(len(kept), 60)
+
+    def test_event_and_measured(self):
+        seen = []
+
+        def event(self, m, x):
+            seen.append((m.t, m.period, m.angle.shape, m.speed.shape, m.torque.shape, m.touching.shape, m.channels.shape))
+            x[0] = 2
+
+        register("test_event", states=1, event=event, output=lambda self, t, x, setpoint: setpoint.fill(0.01 * x[0]))
+        run = gaitlab.run(of_class("test_event"))
+        joints = len(caterpillar().joints)
+        self.assertEqual(seen[0][1:], (0.015, (joints,), (joints,), (joints,), (8,), (0,)))
+        self.assertEqual(run.trace["joint.0.setpoint"][-1], 0.02)
+
+    def test_rollouts_have_the_bits_of_runs(self):
+        register("test_mixed", output=lambda self, t, x, setpoint: setpoint.fill(0.3 * math.sin(3 * t)))
+        table = gaitlab.rollouts(of_class("test_mixed"), [{"ground.friction": 0.4 + 0.1 * k} for k in range(6)], threads=3)
+        self.assertEqual(table.outcome, ["done"] * 6)
+        run = gaitlab.run(of_class("test_mixed", **{"ground.friction": 0.4 + 0.1 * 2}))
+        self.assertEqual(run.summary["speed"], table["speed"][2])
+
+    def test_arrays_are_copies(self):
+        kept = []
+
+        def output(self, t, x, setpoint):
+            setpoint[:] = 0.1
+            kept.append(setpoint)
+
+        register("test_keeps", output=output)
+        run = gaitlab.run(of_class("test_keeps"))
+        kept[0][:] = 99
+        self.assertEqual(set(run.trace["joint.0.setpoint"][1:]), {0.1})
+
+
+class Exceptions(unittest.TestCase):
+    def outcome(self, name, **methods):
+        register(name, **methods)
+        return gaitlab.run(of_class(name)).outcome
+
+    def test_during_the_run(self):
+        def fails(self, *arguments):
+            arguments[-1][:] = 0
+            if getattr(arguments[0], "t", arguments[0]) > 0.5:
+                raise ZeroDivisionError("oops")
+
+        for method in ("output", "derivative", "event"):
+            with self.subTest(method):
+                outcome = self.outcome("test_fails_" + method, states=1, **{method: fails})
+                self.assertRegex(outcome, f"cpg 'test_fails_{method}' \\(Python\\): {method} threw: ZeroDivisionError: oops "
+                                          r"\(.*test_cpg.py:\d+\)")
+
+    def test_before_the_run(self):
+        def fails(self, *arguments):
+            raise KeyError("lost")
+
+        for method in ("__init__", "start"):
+            with self.subTest(method), self.assertRaisesRegex((gaitlab.InputError, gaitlab.RunError), "KeyError: 'lost'"):
+                register("test_fails" + method, states=1, **{method: fails})
+                gaitlab.run(of_class("test_fails" + method))
+
+    def test_wrong_use(self):
+        outcome = self.outcome("test_resizes", output=lambda self, t, x, setpoint: setpoint.resize(3, refcheck=False))
+        self.assertRegex(outcome, "the size of an array was changed")
+        with self.assertRaisesRegex(TypeError, "has none"):
+            gaitlab.cpg("test_none")(type("None_", (), {}))
+        with self.assertRaisesRegex(gaitlab.InputError, "registered twice"):
+            register("hopf")
+        with self.assertRaisesRegex(gaitlab.InputError, "invalid name"):
+            register("two words")
+
+    def test_rows_of_rollouts(self):
+        def fails(self, t, x, setpoint):
+            raise ValueError("no")
+
+        register("test_row_fails", output=fails)
+        table = gaitlab.rollouts(of_class("test_row_fails"), [{}, {}])
+        self.assertEqual(table.outcome, ["plugin", "plugin"])
+        self.assertRegex(table.message[0], "ValueError: no")
+
+
+class Registration(unittest.TestCase):
+    def test_again_replaces(self):
+        register("test_again", output=lambda self, t, x, setpoint: setpoint.fill(0.1))
+        old = of_class("test_again")
+        first = digest(gaitlab.run(old))
+        register("test_again", output=lambda self, t, x, setpoint: setpoint.fill(0.2))
+        gc.collect()
+        self.assertEqual(digest(gaitlab.run(old)), first)
+        self.assertEqual(gaitlab.run(of_class("test_again")).trace["joint.0.setpoint"][-1], 0.2)
+        self.assertEqual(gaitlab.run(old.with_({"duration": 0.5})).trace["joint.0.setpoint"][-1], 0.2)
+
+    def test_with_finds_a_class_of_later(self):
+        scenario = gaitlab.Scenario("caterpillar", FAST)
+        register("test_later")
+        self.assertEqual(gaitlab.run(scenario.with_({"cpg": {"type": "test_later"}})).outcome, "done")
+
+    def test_class_ends_with_its_scenarios(self):
+        import weakref
+
+        made = register("test_ends")
+        ended = weakref.ref(made)
+        scenario = of_class("test_ends")
+        gaitlab.run(scenario)
+        register("test_ends")
+        del made
+        gc.collect()
+        self.assertIsNotNone(ended())
+        del scenario
+        gc.collect()
+        self.assertIsNone(ended())
+
+
+if __name__ == "__main__":
+    unittest.main()

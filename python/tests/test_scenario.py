@@ -1,0 +1,125 @@
+"""Scenarios: texts of errors, warnings, settings, checks, pickling."""
+import gc
+import os
+import pickle
+import unittest
+import warnings
+
+import numpy as np
+
+import gaitlab
+from gaitlab._settings import texts
+
+from common import FAST, ROOT, InFolder, called, caterpillar
+
+BAD = "gaitlab: 1\nname: bad\nrobot: {modules: mtran, build: none.dat}\ncpg: {type: hopff}\nduration: x\n"
+
+
+class Errors(InFolder):
+    def test_text_is_that_of_check(self):
+        with open("bad.yaml", "w") as file:
+            file.write(BAD)
+        _, told = called("check", "bad.yaml", code=2)
+        with self.assertRaises(gaitlab.InputError) as caught:
+            gaitlab.Scenario("bad.yaml")
+        self.assertEqual(str(caught.exception), told.rstrip("\n"))
+        self.assertEqual([line for _, line, _, _ in caught.exception.problems], [3, 4, 5])
+        self.assertTrue(all(file == "bad.yaml" for file, *_ in caught.exception.problems))
+        self.assertIsInstance(caught.exception, ValueError)
+
+    def test_setting_has_the_place_of_the_option(self):
+        with self.assertRaises(gaitlab.InputError) as caught:
+            gaitlab.Scenario("caterpillar", {"cpg.frequncy": 1})
+        _, told = called("check", "caterpillar", "--set", "cpg.frequncy=1", code=2)
+        self.assertEqual(str(caught.exception), told.rstrip("\n"))
+
+    def test_numbers_that_are_not_finite(self):
+        for value in (float("nan"), float("inf"), -float("inf"), np.float64("nan")):
+            with self.assertRaisesRegex(gaitlab.InputError, "cpg.frequency"):
+                caterpillar(cpg__frequency=value)
+
+    def test_no_such_file(self):
+        with self.assertRaisesRegex(gaitlab.InputError, "nowhere.yaml"):
+            gaitlab.Scenario("nowhere.yaml")
+
+    def test_arguments_of_another_type(self):
+        with self.assertRaises(TypeError):
+            gaitlab.Scenario("caterpillar", {"duration": object()})
+        with self.assertRaises(ValueError):
+            gaitlab.Scenario("caterpillar", plugins="some")
+
+
+class Settings(unittest.TestCase):
+    def test_texts(self):
+        self.assertEqual(texts({"a": 0.1, "b": True, "c": np.float32(0.1), "d": [1, 2.5], "e": np.arange(2), "f": "x: 1"}),
+                         ["a=0.1", "b=true", f"c={float(np.float32(0.1))!r}", "d=[1, 2.5]", "e=[0, 1]", "f=x: 1"])
+        self.assertEqual(texts({"cpg": {"type": "hopf", "phase": [0, "a b"]}}), ['cpg={"type": "hopf", "phase": [0, "a b"]}'])
+
+    def test_bits_survive(self):
+        for value in (1 / 3, np.nextafter(0.25, 1), 5e-324):
+            self.assertEqual(float(texts({"k": value})[0].split("=")[1]), value)
+
+    def test_with_is_the_same_as_reading(self):
+        one = caterpillar().with_({"cpg.frequency": 1 / 3, "duration": 2})
+        two = caterpillar(cpg__frequency=1 / 3, duration=2)
+        self.assertEqual(one.resolved, two.resolved)
+        self.assertEqual(one.settings, two.settings)
+        self.assertEqual(one.with_({"duration": 1}).resolved, two.with_({"duration": 1}).resolved)
+
+    def test_pickle(self):
+        one = caterpillar().with_({"cpg.frequency": 1 / 3})
+        two = pickle.loads(pickle.dumps(one))
+        self.assertEqual(one.resolved, two.resolved)
+
+    def test_outlives_its_creator(self):
+        def made():
+            first = caterpillar()
+            return first.with_({"duration": 0.5})
+
+        scenario = made()
+        gc.collect()
+        self.assertEqual(gaitlab.run(scenario).outcome, "done")
+
+
+class Checks(InFolder):
+    def test_numbers_of_check(self):
+        check = gaitlab.Scenario("hexapod", FAST).check()
+        said, _ = called("check", "hexapod", "--set", "physics.engine=articulated", "--set", "duration=1")
+        self.assertIn(f"{check.mass:.3f} kg", said)
+        self.assertIn(f"records {check.rows:.0f} rows of {check.columns:.0f} columns", said)
+        self.assertIn(f"{check.degrees_of_freedom} degrees of freedom", said)
+        self.assertIn(f"{check.contacts} contact elements", said)
+        self.assertAlmostEqual(sum(check.masses.values()), check.mass, places=9)  # a sum in another order
+        self.assertEqual(list(check.ranges), gaitlab.Scenario("hexapod", FAST).joints)
+
+    def test_warnings_are_of_python(self):
+        odd = {**FAST, "ground.friction": 30}
+        with warnings.catch_warnings(record=True) as heard:
+            warnings.simplefilter("always")
+            scenario = gaitlab.Scenario("caterpillar", odd)
+        _, told = called("check", "caterpillar", "--set", "physics.engine=articulated", "--set", "duration=1", "--set",
+                         "ground.friction=30", "--quiet")
+        self.assertNotEqual(scenario.warnings, [])
+        self.assertEqual([str(one.message) for one in heard], scenario.warnings)
+        self.assertEqual(heard[0].category, gaitlab.Warning)
+        self.assertEqual(os.path.basename(heard[0].filename), "test_scenario.py")
+        self.assertEqual("\n".join(scenario.warnings), told.rstrip("\n"))
+
+    def test_plugins_are_refused(self):
+        with open("p.yaml", "w") as file:
+            file.write(f"gaitlab: 1\nplugins: [{ROOT}/none.so]\nrobot: {{modules: mtran}}\nduration: 1\n")
+        with self.assertRaises(gaitlab.InputError) as caught:
+            gaitlab.Scenario("p.yaml", plugins="refuse")
+        self.assertRegex(str(caught.exception), "none.so")
+
+
+class Library(unittest.TestCase):
+    def test_other_robots(self):
+        """Scenarios whose modules are not M-TRAN's."""
+        for name in ("dtto-caterpillar", "smores-drive", "rofi-snake"):
+            run = gaitlab.run(gaitlab.Scenario(name, FAST))
+            self.assertEqual(run.outcome, "done", name)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,44 @@
+// Quantities of a run by name: summary numbers, `feasible`, and margins of the verdict's checks.
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/verdict/quantities.h"
+#include "report/verdict/verdict.h"
+
+namespace gaitlab::report {
+
+/// A quantity that a table of runs can have as a column.
+struct QuantityText {
+  std::string name, unit, meaning;
+};
+
+/// Quantities that every run has: the summary numbers (quantities.h), `feasible`, `margin`, and `margin.ID` for each check.
+std::vector<QuantityText> common_quantities();
+/// Numbers per joint, whose names accept [JOINT].
+std::vector<QuantityText> quantities_of_joints();
+
+/// A summary number by its name, `torque.peak` or `torque.peak[m3/active]`. Nothing if the robot does not have it.
+std::optional<Quantity> find_quantity(const std::string& name, const Robot& robot);
+/// Text of a quantity of this robot: a summary number, `feasible`, `margin`, `margin.ID` or `margin.ID[LIMIT]`. Nothing if the
+/// name is unknown.
+std::optional<QuantityText> describe_quantity(const std::string& name, const Robot& robot);
+
+/// Result of a run: its quantities (NaN if not known), the word of its verdict, the reason for that word as a sentence, and the
+/// same in few words, as in `voltage of m5/passive`.
+struct MeasuredRun {
+  std::vector<double> quantities;
+  std::string verdict, why, cause = {};
+};
+
+/// Function that computes the named quantities of a run, and the parts of the recording that it reads. An unknown quantity is
+/// NaN. Runs of another robot have the quantities of their own joints. Several threads may call it at once.
+struct RunMeasure {
+  std::function<MeasuredRun(const Scenario&, const Recording&)> measured;
+  Records reads;
+};
+RunMeasure run_measure(const std::vector<std::string>& names, const Robot& robot);
+
+}  // namespace gaitlab::report
