@@ -2,7 +2,7 @@
 import type { Theme } from "./colour";
 import { element } from "./dom";
 import type { Page } from "./page";
-import type { Look } from "./view";
+import type { Look } from "./scene/view";
 
 export function controls(page: Page): void {
   buttons(page);

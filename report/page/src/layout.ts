@@ -1,22 +1,22 @@
 // Selection of the panels: only panels with data in the recording are shown.
-import { blocks } from "./about";
-import { Balance } from "./balance";
-import { checks } from "./checks";
-import { demand } from "./demand";
-import { docks } from "./docks";
+import { blocks } from "./verdict/about";
+import { Balance } from "./plots/balance";
+import { checks } from "./verdict/checks";
+import { demand } from "./verdict/demand";
+import { docks } from "./verdict/docks";
 import { element, panelOf } from "./dom";
-import { Energy } from "./energy";
-import { Envelope } from "./envelope";
-import { Footfalls } from "./footfalls";
-import { HeatMap } from "./heatmap";
-import { JointPlots } from "./joint_plots";
-import { Overview } from "./overview";
+import { Energy } from "./plots/energy";
+import { Envelope } from "./plots/envelope";
+import { Footfalls } from "./plots/footfalls";
+import { HeatMap } from "./plots/heatmap";
+import { JointPlots } from "./plots/joint_plots";
+import { Overview } from "./plots/overview";
 import type { Desk, Panel } from "./panel";
-import { parts } from "./parts";
-import { Path } from "./path";
-import { Phases } from "./phases";
-import { remedy } from "./remedy";
-import { Strays } from "./strays";
+import { parts } from "./verdict/parts";
+import { Path } from "./plots/path";
+import { Phases } from "./plots/phases";
+import { remedy } from "./verdict/remedy";
+import { Strays } from "./plots/strays";
 
 /** Fills the tables, and returns the panels that change with time or joint. */
 export function arrange(desk: Desk): Panel[] {

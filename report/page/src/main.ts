@@ -1,11 +1,11 @@
 // Start of the page: reads its data, creates it, and draws its frames.
-import { unpack } from "./channels";
+import { unpack } from "./data/channels";
 import { bodyColours, rim, ringGradient, ringLoad } from "./colour";
 import { make } from "./dom";
-import { least, most, use } from "./motor";
-import { capital, decimalsOf, percent, quantity } from "./numbers";
+import { least, most, use } from "./data/motor";
+import { capital, decimalsOf, percent, quantity } from "./data/numbers";
 import { Page } from "./page";
-import { Recording } from "./recording";
+import { Recording } from "./data/recording";
 
 /** Interface for tests, and for the console of a browser. */
 declare global {

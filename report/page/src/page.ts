@@ -1,21 +1,21 @@
 // Page of the report: the panels, and the time, joint and span of time that the panels show.
 import { Address } from "./address";
-import { captions } from "./captions";
+import { captions } from "./verdict/captions";
 import { inkOf, type Ink, type Theme } from "./colour";
 import { controls } from "./controls";
 import { element } from "./dom";
-import type { Check } from "./format";
-import { Ghost } from "./ghost";
+import type { Check } from "./data/format";
+import { Ghost } from "./data/ghost";
 import { arrange } from "./layout";
-import { Loads } from "./loads";
-import { opening, type Opening } from "./opening";
+import { Loads } from "./data/loads";
+import { opening, type Opening } from "./verdict/opening";
 import type { Desk, Panel, Run, Span, State } from "./panel";
-import { dockAt } from "./places";
-import { Problems } from "./problems";
-import type { Recording, Second } from "./recording";
-import { Stage } from "./stage";
+import { dockAt } from "./data/places";
+import { Problems } from "./verdict/problems";
+import type { Recording, Second } from "./data/recording";
+import { Stage } from "./scene/stage";
 import { Transport } from "./transport";
-import type { Look } from "./view";
+import type { Look } from "./scene/view";
 
 type Stretch = "all" | "four" | "one";
 

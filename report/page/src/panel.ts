@@ -1,9 +1,9 @@
 // Interfaces of the panels: the state that panels show, the functions of the page that panels call, and the events
 // that panels receive.
 import type { Ink } from "./colour";
-import type { Ghost } from "./ghost";
-import type { Loads } from "./loads";
-import type { Recording } from "./recording";
+import type { Ghost } from "./data/ghost";
+import type { Loads } from "./data/loads";
+import type { Recording } from "./data/recording";
 
 export type Span = [from: number, to: number];
 

@@ -1,6 +1,6 @@
 // Transport controls: play button, speed, time slider, clock.
 import { element, make } from "./dom";
-import { fixed } from "./numbers";
+import { fixed } from "./data/numbers";
 import type { Desk, Panel } from "./panel";
 
 export class Transport implements Panel {

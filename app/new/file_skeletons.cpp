@@ -1,0 +1,83 @@
+// Templates of a module and of a scenario, and the function that fills templates.
+#include "app/new/skeletons.h"
+
+namespace gaitlab::app {
+
+std::string filled(std::string text, const std::string& mark, const std::string& value) {
+  for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + value.size())) {
+    text.replace(at, mark.size(), value);
+  }
+  return text;
+}
+
+const char* const kSkeletonModule =
+    R"(# Module @NAME@: two boxes on one hinge, driven by a servo. It is valid as it stands; every number is to be replaced.
+# Measure first: masses (scale), boxes (ruler); then the hinge, the servo's data sheet, and the docking faces.
+# Units: m, kg, N m, rad, s, V, A. Every key: gaitlab explain module
+gaitlab_module: 3
+name: @TEXT@
+source: "chosen: the example of gaitlab new module"   # origin of the numbers; begin with "chosen" if they are not measured
+
+bodies:                                # inertia and centre of mass follow from shape and mass; com and inertia replace them
+  base:                                # the root: the frame of the body that no hinge moves is that of the module
+    mass: 0.06                         # kg, with servo, electronics and screws
+    shape:                             # box: edges; cylinder: [radius, length] along y; sphere: radius
+      - {box: [0.04, 0.05, 0.05], origin: [-0.02, 0, 0]}   # origin: its middle
+  head:
+    mass: 0.03
+    shape:
+      - {box: [0.04, 0.05, 0.05], origin: [0.02, 0, 0]}
+
+hinges:
+  - name: hinge                        # its joint in module 0 is m0/hinge
+    parent: base
+    child: head
+    origin: [0, 0, 0]                  # m, in the frame of base
+    axis: [0, 1, 0]                    # a positive angle turns head about it by the right-hand rule
+    range: [-1.5708, 1.5708]           # rad, +-90 degrees; or free, without a stop
+
+actuator:                              # the servo's data sheet
+  type: servo
+  voltage: 4.8                         # V, at which the sheet states the next two numbers
+  stall_torque: 0.31381                # N m: 3.2 kgf cm (1 kgf cm = 0.0980665 N m)
+  no_load_speed: 4.553                 # rad/s: 0.23 s/60 degrees (1.0472 rad / 0.23 s)
+  efficiency_model: directional        # gears take energy in both directions; paper, the default, lets them create it
+  source: "chosen: a hobby servo"      # name of the data sheet; without it, or with "chosen", verdicts call the motor chosen
+controller:
+  type: pid
+  Kp: 49                               # V/rad: 0.7 voltage/(no_load_speed 0.015 s) takes 70 % of the error each 15 ms
+  Kd: 0
+
+faces:                                 # where modules dock
+  - {id: 0, body: base, gender: none, origin: [-0.04, 0, 0], normal: [-1, 0, 0], reference: [0, 1, 0]}
+  - {id: 1, body: head, gender: none, origin: [0.04, 0, 0], normal: [1, 0, 0], reference: [0, 1, 0]}
+
+contacts:
+  all: shapes                          # elements that touch the ground: the vertices of boxes; or a list of points and spheres
+)";
+
+const char* const kSkeletonScenario =
+    R"(# Scenario @NAME@: a wave along @ROBOT@. @PROMISE@: gaitlab run @FILE@
+# Change first: the robot (docks), then frequency, amplitude and phase_lag of the gait. Every key: gaitlab explain
+gaitlab: 1
+name: @TEXT@
+
+robot:
+  modules: @MODULE@
+@DOCKS@@BASE@
+physics:
+  engine: articulated      # bullet: an independent engine, for comparison
+  accuracy: 0.001          # of the motors' torques
+
+@GROUND@
+@INITIAL@cpg:
+  type: phase_oscillator   # others: gaitlab list cpg
+  frequency: @FREQUENCY@           # Hz
+  amplitude: @AMPLITUDE@           # rad
+  offset: @OFFSET@                # rad, middle of the motion
+  phase_lag: 1             # rad from joint to joint; negative: the wave runs the other way
+
+duration: @DURATION@                # s: a period to start, and three that are judged
+)";
+
+}  // namespace gaitlab::app

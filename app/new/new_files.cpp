@@ -1,0 +1,256 @@
+// The commands `gaitlab new module` and `gaitlab new scenario`, which write a file that is valid as it stands.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <system_error>
+
+#include "app/chain.h"
+#include "app/commands.h"
+#include "app/new/skeletons.h"
+#include "app/run_time.h"
+#include "app/scenario_values.h"
+#include "app/study/study_text.h"
+#include "core/scenario/read_scenario.h"
+#include "core/settings/wording.h"
+#include "core/settings/writer.h"
+#include "core/simulation/simulation.h"
+#include "interchange/urdf_module.h"
+
+namespace gaitlab::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NewFileArguments {
+  std::string name;
+  std::optional<std::string> out;   ///< file to write; the default is NAME.yaml
+  std::optional<std::string> from;  ///< URDF file; only for modules
+  std::string module = "y1";        ///< name of a shipped module type, or a file; only for scenarios
+  std::optional<int> count = {};    ///< number of modules in the row; only for scenarios
+};
+
+/// Checks the name of a module or scenario, which becomes the name of its file.
+void check_file_name(const std::string& what, const std::string& name) {
+  const SourceLocation place{"gaitlab new " + what};
+  if (!is_name(name, "_-") || std::isalpha(static_cast<unsigned char>(name[0])) == 0) {
+    throw InputError(place, "name " + in_quotes(name) + " is not allowed; expected letters, digits, _ and -, a letter first");
+  }
+}
+
+/// Writes a new file and returns its name.
+std::string write_new(const NewFileArguments& arguments, const std::string& text) {
+  std::string file = arguments.out.value_or(arguments.name + ".yaml");
+  check_new(file);
+  write_file(file, text, Existing::refused);
+  return file;
+}
+
+int new_module(const NewFileArguments& arguments) {
+  const std::string& name = arguments.name;
+  check_file_name("module", name);
+  if (shipped_files("module").contains(name)) {
+    throw InputError(SourceLocation{"gaitlab new module"},
+                     fmt::format("module '{}' comes with the program; choose another name", name));
+  }
+  std::string text = filled(filled(kSkeletonModule, "@NAME@", name), "@TEXT@", yaml_text(name));
+  std::string what = "a module of two bodies and a hinge; replace its numbers by yours";
+  bool driven = true;
+  if (arguments.from) {
+    interchange::UrdfModule made = interchange::module_of_urdf(*arguments.from, name);
+    for (const std::string& note : made.notes) say(*arguments.from, "note", "not carried over: " + note);
+    text = std::move(made.text);
+    what = "the robot of " + *arguments.from + " as a module";
+    driven = made.driven;
+  }
+  const std::string file = write_new(arguments, text);
+  fmt::print("{0}: {1}; next:\n  gaitlab explain module {0}\n", shell_word(file), what);
+  if (driven) {
+    fmt::print("  gaitlab new scenario {0}-walk --module {1}\n  gaitlab run {0}-walk.yaml\n", name, shell_word(file));
+  } else {
+    fmt::print(
+        "No hinge has a motor, so that no gait moves it. To let it fall:\n  echo {1} > {0}-fall.yaml\n  gaitlab run "
+        "{0}-fall.yaml\n",
+        name,
+        shell_word(fmt::format("{{gaitlab: 1, robot: {{modules: {}}}, actuator: {{type: none}}, contact: {{on: all}}, "
+                               "duration: 5}}",
+                               yaml_text(file.find('/') == std::string::npos ? "./" + file : file))));
+  }
+  return 0;
+}
+
+/// A module type as the command line names it.
+struct NamedModule {
+  std::string file;
+  bool shipped;
+};
+
+NamedModule named_module(const std::string& name) {
+  const std::map<std::string, std::string> shipped = shipped_files("module");
+  if (const auto known = shipped.find(name); known != shipped.end()) return {known->second, true};
+  std::error_code none;
+  if (fs::exists(name, none)) return {name, false};
+  std::vector<std::string> names;
+  for (const auto& [one, path] : shipped) names.push_back(one);
+  const std::string near = nearest(name, names);
+  throw InputError(SourceLocation{"--module"},
+                   "no module " + in_quotes(name) +
+                       (near.empty() ? "; expected a name that `gaitlab list module` prints, or a file"
+                                     : "; did you mean " + in_quotes(near) + "?"));
+}
+
+/// Value of `robot.modules`: the name of a shipped module, or the path of a file from the folder of the scenario.
+std::string module_value(const NamedModule& module, const NewFileArguments& arguments) {
+  if (module.shipped) return arguments.module;
+  const fs::path folder = fs::path(arguments.out.value_or(arguments.name)).parent_path();
+  std::error_code none;
+  std::string path = fs::relative(module.file, folder.empty() ? fs::path(".") : folder, none).string();
+  if (none || path.empty()) path = fs::absolute(module.file).string();
+  if (path.find('/') == std::string::npos) path = "./" + path;  // marks the text as a file
+  return yaml_text(path);
+}
+
+/// Text of the docks, with a comment on their numbers.
+std::string docks_text(const std::vector<Dock>& docks) {
+  if (docks.empty()) return "";
+  std::string text = "  docks:                   # child face, child module, parent face, parent module, quarter turns\n";
+  for (const Dock& dock : docks) {
+    text += fmt::format("    - [{}, {}, {}, {}, {}]\n", dock.child_face, dock.child_module, dock.parent_face,
+                        dock.parent_module, dock.orientation);
+  }
+  return text;
+}
+
+/// Description of the robot that `docks` make of modules of a type.
+std::string robot_text(const std::string& type, const std::vector<Dock>& docks) {
+  return docks.empty() ? "one module " + type : fmt::format("{} modules {} in a row", docks.size() + 1, type);
+}
+
+/// Checks that a gait can move the module type.
+void check_driven(const ModuleType& type, const std::string& file) {
+  if (std::ranges::any_of(type.hinges, [](const HingeType& hinge) { return !hinge.passive; })) return;
+  throw InputError(SourceLocation{file}, fmt::format("module '{}' has no hinge with a motor, and a gait needs one; dock it to "
+                                                     "modules that have one, in the scenario of such a module",
+                                                     type.name));
+}
+
+/// The robot of a new scenario: a row of modules of one type.
+struct NewRobot {
+  NamedModule module;
+  Scenario one;  ///< of one module
+  std::vector<Dock> docks;
+  [[nodiscard]] const ModuleType& type() const { return one.robot->types[0]; }
+};
+
+NewRobot new_robot(const NewFileArguments& arguments, Catalog& catalog) {
+  constexpr int kMost = 4;  // modules, if the user asks for no number
+  NewRobot robot{named_module(arguments.module), {}, {}};
+  robot.one = read_module(robot.module.file, catalog);
+  check_driven(robot.type(), robot.module.file);
+  robot.docks = chain(robot.one, arguments.count.value_or(modules_carried(robot.one, kMost)));
+  return robot;
+}
+
+/// Text of the scenario with a gait of this amplitude, rad, and `promise` at its head.
+std::string scenario_text(const NewFileArguments& arguments, const NewRobot& robot, double amplitude,
+                          const std::string& promise) {
+  const GaitValues gait = gait_values(robot.one, amplitude);
+  const Surroundings around = surroundings(robot.type(), static_cast<int>(robot.docks.size()) + 1);
+  const std::pair<const char*, std::string> values[] = {
+      {"@NAME@", arguments.name},
+      {"@TEXT@", yaml_text(arguments.name)},
+      {"@ROBOT@", robot_text(robot.type().name, robot.docks)},
+      {"@PROMISE@", promise},
+      {"@FILE@", shell_word(arguments.out.value_or(arguments.name + ".yaml"))},
+      {"@MODULE@", module_value(robot.module, arguments)},
+      {"@DOCKS@", docks_text(robot.docks)},
+      {"@BASE@", around.base},
+      {"@GROUND@", around.ground},
+      {"@INITIAL@", gait.angles == "0" ? "" : "initial: {angles: " + gait.angles + "}   # rad\n\n"},
+      {"@FREQUENCY@", gait.frequency},
+      {"@AMPLITUDE@", gait.amplitude},
+      {"@OFFSET@", gait.offset},
+      {"@DURATION@", gait.duration}};
+  std::string text = kSkeletonScenario;
+  for (const auto& [mark, value] : values) text = filled(text, mark, value);
+  return text;
+}
+
+/// The reason why the scenario in the file is not feasible; empty if it is, or if a run would take long.
+std::string shortfall(const std::string& file, Catalog& catalog) try {
+  constexpr double kLong = 3;  // s, of one of three runs
+  const Scenario s = read_scenario(file, {}, catalog);
+  if (estimated_seconds(s) > kLong) return "";
+  Simulation simulation({&s, 1});
+  simulation.run();
+  const Recording recording = simulation.take_recording(0);
+  const report::Summary summary = report::summarise(s, recording, 0);
+  const report::Verdict verdict = report::verdict(s, recording, summary, report::overlaps(s, recording));
+  return verdict.word == report::Word::feasible ? "" : fmt::format("{}: {}", name_of(verdict.word), verdict.why());
+} catch (const InputError& error) {
+  return error.problems().front().text;
+}
+
+/// Writes the scenario with the largest of some amplitudes that is feasible. If none is, the first remains, and the file states
+/// the reason.
+std::string write_scenario(const NewFileArguments& arguments, const NewRobot& robot, Catalog& catalog) {
+  constexpr double kAmplitudes[] = {0.4, 0.2, 0.1};  // rad
+  const auto text = [&](double amplitude) {
+    return scenario_text(arguments, robot, amplitude, "It runs as it stands, to a verdict");
+  };
+  std::string file = write_new(arguments, text(kAmplitudes[0]));
+  const std::string why = shortfall(file, catalog);
+  if (why.empty()) return file;
+  for (std::size_t i = 1; i < std::size(kAmplitudes); ++i) {
+    write_file(file, text(kAmplitudes[i]));
+    if (shortfall(file, catalog).empty()) return file;
+  }
+  write_file(file, scenario_text(arguments, robot, kAmplitudes[0], "As it stands " + why));
+  say(file, "note", "as it stands " + why);
+  return file;
+}
+
+int new_scenario(const NewFileArguments& arguments) {
+  check_file_name("scenario", arguments.name);
+  Catalog catalog = standard_catalog();
+  const NewRobot robot = new_robot(arguments, catalog);
+  const std::string file = shell_word(write_scenario(arguments, robot, catalog));
+  fmt::print("{0}: {1}; next:\n  gaitlab check {0} --page {2}.html\n  gaitlab run {0}\n", file,
+             robot_text(robot.type().name, robot.docks), arguments.name);
+  return 0;
+}
+
+void add_out(CLI::App& command, NewFileArguments& arguments) {
+  command.add_option("--out", arguments.out, "file to write (default: NAME.yaml); must not exist")->check(not_empty);
+}
+
+}  // namespace
+
+void add_new_files(Commands& commands, CLI::App& command) {
+  add_command<NewFileArguments>(
+      commands, "module", "Write a commented module file, to be filled from a data sheet.", new_module,
+      [](CLI::App& module, NewFileArguments& arguments) {
+        module.add_option("NAME", arguments.name, "name of the module")->required();
+        module.add_option("--from", arguments.from, "URDF file of the robot, instead of an example")->check(not_empty);
+        add_out(module, arguments);
+      },
+      &command);
+  add_command<NewFileArguments>(
+      commands, "scenario", "Write a commented scenario that runs: a wave along modules in a row.", new_scenario,
+      [](CLI::App& scenario, NewFileArguments& arguments) {
+        scenario.add_option("NAME", arguments.name, "name of the scenario")->required();
+        scenario
+            .add_option("--module", arguments.module, "name that `gaitlab list module` prints, or a module file (default: y1)")
+            ->check(not_empty);
+        scenario
+            .add_option("--count", arguments.count,
+                        "number of modules in the row (default: up to 4, as many as the motors carry)")
+            ->check(CLI::Range(1, 1000));
+        add_out(scenario, arguments);
+      },
+      &command);
+}
+
+}  // namespace gaitlab::app

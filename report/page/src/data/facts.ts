@@ -1,0 +1,119 @@
+// Main numbers on the card of a run: the missing torque or voltage of an infeasible gait, otherwise the tightest check
+// and the motion.
+import type { Check, Meta, Part } from "./format";
+import { make } from "../dom";
+import { inSentence, number, percent, quantity, span, time } from "./numbers";
+import type { Run } from "../panel";
+import { firstMoment, jointAt, longestMoment, moment, partName, show } from "./places";
+
+export type Fact = [name: string, value: Node | string, small?: string];
+
+/** Check that the torques are within the envelopes of the motors; null if this check was not judged. */
+export const hardest = (meta: Meta): Check | null =>
+  meta.verdict.checks.find(
+    (c) => c.id === "envelope" && c.status !== "not judged" && c.value !== null && c.worst !== null,
+  ) ?? null;
+
+const limitOf = ({ limit, unit, least }: Check): string => `limit ${least ? "≥ " : ""}${quantity(limit, unit)}`;
+const held = (check: Check): string => `${quantity(check.value, check.unit)}, ${limitOf(check)}`;
+
+/**
+ * Facts of an infeasible gait, the same as on the terminal and in the figure. They are the part that first exceeds the
+ * limit of the failed check, the part that exceeds the limit most, the joint that is at a limit of its motor for the
+ * largest share of the judged time, and the missing amount.
+ */
+export const shortfall = (run: Run, first: Check, failed: Check[]): Fact[] => [
+  ...firstOver(run, first),
+  ...worst(run, first),
+  ...longest(run, first),
+  ...when(run, first),
+  ...missing(first, failed),
+];
+
+const ofMotor = ({ id }: Check): boolean => id === "voltage" || id === "current";
+
+function firstOver(run: Run, check: Check): Fact[] {
+  const { part, first, first_part } = check;
+  if (first === null || first_part === null) return [];
+  return [["First over the limit", place(run, part, first_part, firstMoment(run, check)), `at ${time(first)}`]];
+}
+
+function worst(run: Run, check: Check): Fact[] {
+  if (check.worst !== null) return [["Worst", place(run, check.part, check.worst, moment(run, check)), held(check)]];
+  return check.value === null ? [] : [["Worst", quantity(check.value, check.unit), limitOf(check)]];
+}
+
+function longest(run: Run, check: Check): Fact[] {
+  const { meta } = run.recording;
+  const { longest: most } = meta.verdict;
+  if (!ofMotor(check) || !most) return [];
+  const kinds = (["voltage", "current"] as const)
+    .filter((kind) => most[kind] > 0)
+    .map((kind) => `${kind} ${percent(most[kind])}`);
+  const t = longestMoment(run, jointAt(meta, "joint", most.joint));
+  return [["Longest at a limit", place(run, "joint", most.joint, t), `${kinds.join(", ")} of the time`]];
+}
+
+function when({ recording: { meta } }: Run, { from, to, part, worst }: Check): Fact[] {
+  return from === null ? [] : [["When", span(from, to ?? from), worst === null ? "" : partName(meta, part, worst)]];
+}
+
+function missing(first: Check, failed: Check[]): Fact[] {
+  const text = failed.find((c) => c.missing)?.missing ?? "";
+  // A text is `7.51 V at m8/passive (needs 14.9 V; 2.53 N m, 5.88 rad/s at most)`. The card omits the part after the
+  // semicolon, which the table of checks contains.
+  const [, amount, at, need] = /^(.*?)(?: at (\S+))?(?: \((.*?)[;)].*)?$/.exec(text)!;
+  if (amount) return [["Missing", amount, [at ? `at ${at}` : "", need].filter(Boolean).join(", ")]];
+  const strays = failed.find((c) => c.id === "tracking");
+  if (!ofMotor(first) || !strays) return [];
+  const { value, limit, unit } = strays;
+  return [["Off its set point", quantity(value, unit), `limit ${quantity(limit, unit)}`]];
+}
+
+function place(run: Run, part: Part, name: string, t: number | null): HTMLButtonElement {
+  const go = make("button.link", partName(run.recording.meta, part, name));
+  go.type = "button";
+  go.addEventListener("click", () => show(run, part, name, t));
+  return go;
+}
+
+/** Facts of a run that is not infeasible: its tightest check, speed, cost of transport and period. */
+export function walked(run: Run): Fact[] {
+  const { meta } = run.recording;
+  const { summary, cycle, ground } = meta;
+  const facts = load(run);
+  const walks = ground.kind !== "none";
+  if (walks && summary.speed) facts.push(["Speed", number(100 * summary.speed, 3, "m"), "cm/s"]);
+  const cost = summary.cost_of_transport?.electrical ?? null;
+  if (walks && cost) facts.push(["Cost of transport", number(cost)]);
+  if (cycle) facts.push(["Period", number(cycle.period, 4), "s"]);
+  return facts;
+}
+
+/** The tightest check; without one the largest load of a motor; without motor limits the largest torque. */
+function load(run: Run): Fact[] {
+  const { checks, tightest: id } = run.recording.meta.verdict;
+  const tightest = checks.find((c) => c.id === id);
+  const most = hardest(run.recording.meta);
+  if (tightest && tightest.margin !== null && tightest.limit) return [margin(run, tightest, tightest.margin)];
+  if (most) {
+    const share = `${percent(most.value!, 2)} of its motor at ${time(moment(run, most) ?? 0)}`;
+    return [["Hardest worked", place(run, most.part, most.worst!, moment(run, most)), share]];
+  }
+  return run.loads.peak > 1e-6 ? [["Largest torque", number(run.loads.peak), "N m"]] : [];
+}
+
+function margin(run: Run, check: Check, left: number): Fact {
+  const { least, part, title, worst: name } = check;
+  const share = left >= 0 && left <= 1 ? `${percent(least ? 1 + left : 1 - left, 2)} of the limit` : held(check);
+  const word = left < 0 ? "Worst" : "Tightest";
+  return name !== null && part !== "none"
+    ? [word, place(run, part, name, moment(run, check)), `${inSentence(title)}: ${share}`]
+    : [word, title, share];
+}
+
+export const built = (meta: Meta): Fact[] => [
+  ["Modules", String(meta.modules.length)],
+  ["Joints", String(meta.joints.length)],
+  ["Mass", number(meta.mass), "kg"],
+];

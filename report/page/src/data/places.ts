@@ -1,0 +1,124 @@
+// Place of a check in a run: the name of the worst part, its joint or dock, and the time of the largest value.
+import type { Check, Meta, Part } from "./format";
+import type { Run } from "../panel";
+
+export const dockName = (module: string): string => `${module}'s dock`;
+
+/** Name of a part in texts: for a dock `m5's dock`, for a foot the name of its leg, for other parts their own name. */
+export function partName(meta: Meta, part: Part, name: string): string {
+  if (part === "dock") return dockName(name);
+  return part === "foot" ? (meta.feet.find((f) => f.name === name)?.title ?? name) : name;
+}
+
+/** Number of a joint, or of a joint next to a body, foot or dock; -1 if there is none. */
+export function jointAt({ joints, bodies, modules }: Meta, part: Part, name: string | null): number {
+  if (name === null) return -1;
+  if (part === "joint") return joints.findIndex((j) => j.name === name);
+  const body = bodies.findIndex((b) => b.name === name);
+  const own = body < 0 ? -1 : joints.findIndex((j) => j.body === body);
+  const module = part === "dock" ? modules.findIndex((m) => m.name === name) : (bodies[body]?.module ?? -1);
+  return own >= 0 ? own : joints.findIndex((j) => j.module === module);
+}
+
+/** Number of a dock; -1 if the part is not a dock. */
+export const dockAt = ({ docks }: Meta, part: Part, name: string | null): number =>
+  part === "dock" ? docks.findIndex((d) => d.name === name) : -1;
+
+type Measure = (row: number) => number;
+
+/** Function from a row to a measure of a check that is largest at the worst row; null without a suitable channel. */
+function measure({ recording, loads }: Run, { id, part }: Check, name: string | null): Measure | null {
+  const { joints } = recording.meta;
+  if (part === "dock") {
+    const kind = id.slice("dock_".length);
+    const loaded = recording.find(`dock.${dockAt(recording.meta, part, name)}.${kind}`);
+    return loaded && ((i) => (kind === "tension" ? loaded[i] : Math.abs(loaded[i])));
+  }
+  const j = part === "joint" ? jointAt(recording.meta, part, name) : -1;
+  if (j < 0) return null;
+  const { lo, hi } = joints[j];
+  const of = (quantity: string) => recording.find(`joint.${j}.${quantity}`);
+  const setpoint = of("setpoint");
+  const angle = of("angle");
+  const size = (quantity: string): Measure | null => {
+    const values = of(quantity);
+    return values && ((i) => Math.abs(values[i]));
+  };
+  const beyond = (values: typeof angle): Measure | null =>
+    values && ((i) => Math.max(values[i] - (hi ?? Infinity), (lo ?? -Infinity) - values[i]));
+  const torque = size("torque");
+  const saturated = of("saturation");
+  const share = loads.limited ? loads.share(j) : null;
+  const measures: Record<string, Measure | null> = {
+    voltage: saturated && ((i) => Math.sign(saturated[i])),
+    envelope: share && ((i) => share[i]),
+    speed: size("speed"),
+    heat: size("current"),
+    gear_peak: torque,
+    gear_continuous: torque,
+    tracking: setpoint && angle && ((i) => Math.abs(setpoint[i] - angle[i])),
+    stops: beyond(angle),
+    setpoints: beyond(setpoint),
+  };
+  return measures[id === "current" ? "voltage" : id] ?? null;
+}
+
+/**
+ * Time of the row with the largest measure between two times, s. Among rows with equal measures, the middle row counts.
+ * If there is no row between the times, the result is the time of the row nearest to their middle.
+ */
+function largestRow({ recording: { times, rows } }: Run, of: Measure, from: number, to: number): number {
+  const within: number[] = [];
+  let nearest = 0;
+  for (let i = 0; i < rows; i++) {
+    const t = times[i];
+    const middle = (from + to) / 2;
+    if (Math.abs(t - middle) < Math.abs(times[nearest] - middle)) nearest = i;
+    if (t > from - 1e-6 && t < to + 1e-6) within.push(i);
+  }
+  const most = within.reduce((a, i) => Math.max(a, of(i)), -Infinity);
+  const equal = within.filter((i) => of(i) === most);
+  return times[equal[equal.length >> 1] ?? nearest];
+}
+
+/** Time of the worst row of the worst part of a check, s; null if the check does not refer to a time. */
+export function moment(run: Run, check: Check): number | null {
+  const { window } = run.recording.meta.verdict;
+  const of = measure(run, check, check.worst);
+  const { from } = check;
+  if (!of) return check.id === "outcome" && check.status === "fail" ? run.recording.end : from;
+  const all = check.span === "window" ? window : { from: 0, to: run.recording.end };
+  return from === null ? largestRow(run, of, all.from, all.to) : largestRow(run, of, from, check.to ?? from);
+}
+
+/** Time of the first row beyond the limit of a check, s; null if no row is beyond the limit or the time is unknown. */
+export function firstMoment(run: Run, check: Check): number | null {
+  const { first, first_part: part } = check;
+  const of = first === null ? null : measure(run, check, part);
+  if (first === null || !of) return first;
+  // The first row beyond the limit follows the exact time `first` within a few control ticks.
+  return largestRow(run, of, first, first + Math.max(0.02, run.recording.meta.period));
+}
+
+/** Middle of the longest interval in the judged window in which a joint is at a limit of its motor, s. */
+export function longestMoment({ recording }: Run, joint: number): number | null {
+  const at = recording.find(`joint.${joint}.saturation`);
+  let best = 0;
+  let middle: number | null = null;
+  let length = 0;
+  for (let i = recording.judged; at && i < at.length; i++) {
+    length = at[i] > 0 ? length + 1 : 0;
+    if (length <= best) continue;
+    best = length;
+    middle = recording.times[i - (length >> 1)];
+  }
+  return middle;
+}
+
+/** Shows a part and a time: selects the joint of the part, marks the part if it is a dock, and sets the time. */
+export function show(run: Run, part: Part, name: string | null, t: number | null): void {
+  const joint = jointAt(run.recording.meta, part, name);
+  if (joint >= 0) run.choose(joint);
+  run.mark(dockAt(run.recording.meta, part, name));
+  if (t !== null) run.goTo(t);
+}

@@ -1,0 +1,171 @@
+// Judgement of a run in words: the verdict, the reasons for the verdict, and the limitations of the verdict.
+import { make } from "../dom";
+import { built, hardest, shortfall, walked, type Fact } from "../data/facts";
+import { folder } from "../data/folder";
+import type { Check, Meta } from "../data/format";
+import { capital, inSentence, percent, plural, quantity, sentence } from "../data/numbers";
+import type { Run } from "../panel";
+import { jointAt, moment } from "../data/places";
+
+export type Mood = "good" | "bad" | "open" | "plan";
+
+export interface Judgement {
+  mood: Mood;
+  said: string;
+  why: string[];
+  facts: Fact[];
+}
+
+const few = 2; // largest number of further failed checks in the sentence; the table of checks contains all
+
+export function judgement(run: Run): Judgement {
+  const judged = ofRun(run);
+  const { draws } = run.recording.meta.verdict ?? {};
+  if (!draws) return judged;
+  const why = [...judged.why, sentence(draws.text)];
+  if (judged.mood !== "good" || draws.feasible === draws.count) return { ...judged, why };
+  return { ...judged, mood: "open", said: `Feasible with ${draws.feasible} of ${draws.count} seeds`, why };
+}
+
+function ofRun(run: Run): Judgement {
+  const { outcome, verdict } = run.recording.meta;
+  if (outcome === "not run") return planned(run);
+  switch (verdict.verdict) {
+    case "failed":
+      return ended(run);
+    case "infeasible":
+      return infeasible(run);
+    case "not judged":
+      return unjudged(run);
+    case "feasible":
+      return feasible(run);
+  }
+}
+
+const planned = ({ recording: { meta } }: Run): Judgement => ({
+  mood: "plan",
+  said: "Built, not run",
+  why: [
+    "The robot as the scenario describes it: its modules, the axes of its hinges, its faces. A verdict needs a run.",
+  ],
+  facts: built(meta),
+});
+
+function ended(run: Run): Judgement {
+  const { meta } = run.recording;
+  return {
+    mood: "bad",
+    said: `The run ended early, at ${quantity(meta.duration, "s")}`,
+    why: [sentence(meta.verdict.why || meta.outcome), ...others(failures(meta).filter((c) => c.id !== "outcome"))],
+    facts: walked(run),
+  };
+}
+
+function infeasible(run: Run): Judgement {
+  const { meta } = run.recording;
+  const failed = failures(meta);
+  const [first, ...rest] = failed;
+  return {
+    mood: "bad",
+    said: first?.group === "motor" ? "Not feasible with these motors" : "Not feasible",
+    why: [sentence(meta.verdict.why), ...others(rest)],
+    facts: first ? shortfall(run, first, failed) : walked(run),
+  };
+}
+
+function unjudged(run: Run): Judgement {
+  const { meta } = run.recording;
+  const { why, reason } = meta.verdict;
+  return {
+    mood: "open",
+    said: "Not judged",
+    why: [sentence(why || reason), ...(reason.includes("so far:") ? [] : others(failures(meta)))],
+    facts: walked(run),
+  };
+}
+
+function feasible(run: Run): Judgement {
+  const { meta } = run.recording;
+  const { checks, rests_on } = meta.verdict;
+  const most = hardest(meta);
+  const left =
+    most && most.value! < 1
+      ? [`The motors have at least ${percent(1 - most.value!, 2)} of their torque left, at the speeds that they reach.`]
+      : [];
+  const kept = checks.some((c) => c.group !== "trust" && c.status === "warn")
+    ? "no check fails"
+    : "all known limits are kept";
+  return {
+    mood: "good",
+    said: "Feasible with these motors",
+    why: [sentence(rests_on ? `over ${rests_on}: ${kept}` : kept), ...left],
+    facts: walked(run),
+  };
+}
+
+/** Failed checks: first the check that decides the verdict, then checks of group `run`, then others by margin. */
+export function failures({ verdict: { checks, decided_by } }: Meta): Check[] {
+  const urgency = ({ id, group, margin }: Check) =>
+    id === decided_by ? [0, 0] : [group === "run" ? 1 : 2, margin ?? -1e300];
+  const sooner = ([a, m]: number[], [b, n]: number[]) => a - b || m - n;
+  return checks.filter((c) => c.status === "fail").sort((a, b) => sooner(urgency(a), urgency(b)));
+}
+
+/**
+ * The check that the page shows first. It is the first of these that exists: the failed check that decides the verdict,
+ * a check that is too close, the tightest check of a feasible run, the check `envelope`. Null if none exists.
+ */
+export function leading(run: Run): Check | null {
+  const { meta } = run.recording;
+  const { checks, tightest, verdict } = meta.verdict;
+  const placed = (c: Check | undefined) =>
+    c && (moment(run, c) !== null || jointAt(meta, c.part, c.worst) >= 0) ? c : null;
+  return (
+    failures(meta)[0] ??
+    placed(checks.find((c) => c.status === "too close")) ??
+    (verdict === "feasible" ? placed(checks.find((c) => c.id === tightest)) : null) ??
+    hardest(meta)
+  );
+}
+
+function others(failed: Check[]): string[] {
+  const rest = failed.length - few;
+  const more = rest > 0 ? `; ${plural(rest, "more check")} fail${rest > 1 ? "" : "s"}` : "";
+  return failed.length ? [`Also: ${briefly(failed.slice(0, few))}${more}.`] : [];
+}
+
+/** Findings of the checks, without advice. */
+const briefly = (found: Check[]): string => found.map((c) => c.text.split("; ")[0].replace(/[.]$/, "")).join("; ");
+
+/** Limitations of the verdict: warnings, doubtful numbers, checks that were not judged. */
+export function aside(meta: Meta, own = true): (string | Node)[] {
+  if (meta.outcome === "not run") return [];
+  const { verdict, counts, chosen_motors, chosen_docks, demand } = meta.verdict;
+  const of = (trust: boolean, ...status: Check["status"][]) =>
+    meta.verdict.checks.filter((c) => status.includes(c.status) && (c.group === "trust") === trust);
+  const warned = of(false, "warn");
+  const doubtful = of(true, "warn");
+  const open = of(false, "not judged");
+  const gait = of(false, "fail");
+  const limited = gait.some((c) => c.id === "voltage" || c.id === "current");
+  return [
+    ...(warned.length
+      ? [verdict === "feasible" ? `Warned of: ${briefly(warned)}.` : `${capital(plural(counts.warn, "warning"))}.`]
+      : []),
+    ...(chosen_motors ? ["Motor data are chosen, not the manufacturer's."] : []),
+    ...(chosen_docks ? ["Strengths of the docks are chosen."] : []),
+    ...(limited && !gait.some((c) => c.missing)
+      ? [
+          "The missing torque or current was not computed. To compute it:",
+          make("code", make("span.whole", "gaitlab report --demand"), ` ${own ? folder() : "FOLDER"}`),
+        ]
+      : []),
+    ...(doubtful.length ? [`Doubtful: ${briefly(doubtful)}.`] : []),
+    ...(demand?.doubt ? [sentence(demand.doubt)] : []),
+    ...(open.length > 6
+      ? [`${open.length} checks were not judged.`]
+      : open.length
+        ? [`Not judged: ${open.map((c) => inSentence(c.title)).join(", ")}.`]
+        : []),
+  ];
+}
