@@ -27,6 +27,7 @@ class Study:
 
         journal = sqlite3.connect(f"file:{quote(self.path)}?mode=ro", uri=True)
         try:
+            journal.execute("pragma trusted_schema=off")  # a journal may come from others
             return pandas.read_sql(query, journal)
         finally:
             journal.close()

@@ -215,10 +215,11 @@ void add_class(const std::string& name, const py::object& type, std::vector<Numb
   const std::lock_guard lock(known.mutex);
   ++known.added;
   const auto same = std::ranges::find(known.all, name, [](const auto& one) { return one->name; });
-  if (same == known.all.end())
+  if (same == known.all.end()) {
     known.all.push_back(added);
-  else
+  } else {
     std::swap(*same, added);  // the old one ends after the mutex is unlocked
+  }
 }
 
 std::size_t classes_added() {
