@@ -39,7 +39,7 @@ phi_i: phase, the time since x rose through 0 as a share of the period, 2 pi in 
 the limit cycle. So every mu has the common keys exactly; a lag is one of time, L / (2 pi) of the period. The coupling (chosen)
 changes the pace and not the orbit; where it would turn an oscillator back, it stands. Start: on the limit cycle at the phases
 of the lags (where they contradict one another around a cycle: at phase 0, with a note), r = 0.
-For f h T max(1, mu) <= 0.3 (h: cpg.step); beyond it the error of RK4 shows, then it diverges.
+Accurate for f h T max(1, mu) <= 0.3, where h is cpg.step. Above this, RK4 first deviates and then diverges.
 Reference: B. van der Pol, On relaxation-oscillations, Philosophical Magazine 2 (1926) 978-992.
 
     cpg: {type: van_der_pol, frequency: 0.25, amplitude: 0.6, phase_lag: 1.2, model: {mu: 1}})";

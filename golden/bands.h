@@ -23,7 +23,7 @@ struct GoldenRun {
 /// coordinate at rest).
 std::vector<double> scales(const Trace& trace);
 
-/// Scales of numbers, as for columns, with the magnitude of the number in place of the range.
+/// Scales of single numbers, computed as those of columns, but from the absolute value of the number instead of the range.
 std::vector<double> scales(const std::vector<Number>& numbers);
 
 /// Mean square of the difference of a column between two traces with equal rows, in the unit of the column squared.

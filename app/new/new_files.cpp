@@ -123,7 +123,7 @@ std::string docks_text(const std::vector<Dock>& docks) {
   return text;
 }
 
-/// Description of the robot that `docks` make of modules of a type.
+/// Description of a robot of modules of one type, connected by `docks`.
 std::string robot_text(const std::string& type, const std::vector<Dock>& docks) {
   return docks.empty() ? "one module " + type : fmt::format("{} modules {} in a row", docks.size() + 1, type);
 }

@@ -5,7 +5,7 @@
 
 namespace gaitlab {
 
-/// The functions of Actuator with these names, for a list of motors.
+/// Functions that do the same as those of equal name in Actuator, for a list of motors.
 namespace motors {
 void effort(std::span<const DcMotor> motors, In command, In speed, Out torque, Out slope);
 void unlimited(std::span<const DcMotor> motors, In command, In speed, Out torque, Out slope);

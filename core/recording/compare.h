@@ -11,8 +11,8 @@ namespace gaitlab {
 
 struct CompareOptions {
   std::vector<std::string> columns = {"*"};  ///< glob patterns; a column counts if one matches its name or its label
-  double divergence = 1e-6;                  ///< largest difference without divergence, as a share of the scale of a column
-  PartNames names = {};                      ///< names in labels
+  double divergence = 1e-6;  ///< least difference that counts as divergence, as a share of the scale of a column
+  PartNames names = {};      ///< names in labels
 };
 
 /// Differences of one column between traces A and B, over the shared rows.

@@ -58,7 +58,7 @@ std::string of_other_types(const std::vector<ScenarioKey>& keys, const std::stri
   return types.empty() ? "" : fmt::format("; {} is a key of {}", name, joined(types));
 }
 
-/// Type of plugin of a kind in a scenario, or "" where it has none yet.
+/// Type that a scenario selects for this kind of plugin; "" if it selects none yet.
 std::string type_in_force(Kind kind, const Node& root, const Scenario& scenario) {
   const Node* section = root.find(word(kind));
   const Node* type = section == nullptr ? nullptr : section->find("type");

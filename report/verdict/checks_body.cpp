@@ -243,7 +243,7 @@ void collision(const CheckedRun& run, Check& made) {
   made.parts = found->pairs;
   made.part = Part::body;
   made.worst = run.scenario.robot->bodies[found->deepest_first].name;
-  made.remedy = "take smaller amplitudes or offsets: contact.law penalty does not keep bodies apart";
+  made.remedy = "take smaller amplitudes or offsets: with contact.law: penalty, bodies can pass through one another";
   made.text = fmt::format("{} of bodies pass{} through one another, deepest {} and {}", counted(found->pairs, "pair"),
                           found->pairs == 1 ? "es" : "", made.worst, run.scenario.robot->bodies[found->deepest_second].name);
   made.text += fmt::format(", by {}", texts::length(found->depth));

@@ -80,7 +80,8 @@ std::string swap_table(const std::vector<NamedRun>& runs) {
 
 namespace {
 
-/// CSV line with `text`, followed by a cell for every number that is a single number or text and is not measured by the clock.
+/// CSV line: `text`, then a cell for each entry of the summary that is one number or one text, no list, and no time of the
+/// clock.
 template <class Cell>
 std::string csv_row(std::string text, const Cell& cell) {
   for (const SummaryNumber& number : summary_numbers()) {

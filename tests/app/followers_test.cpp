@@ -55,7 +55,7 @@ TEST_F(FollowersOfNumbers, AnotherExpressionIsAnotherStudy) {
   EXPECT_EQ(other.code, 2);
   EXPECT_TRUE(contains(other.err, "\"legs sets cpg.offset: 0.2*legs\", was \"legs sets cpg.offset: 0.3*legs\"")) << other.err;
   const Result answered = call("sweep t.yaml --out t --answers s");
-  EXPECT_TRUE(contains(answered.out, "1 of 3 runs were taken from other studies")) << answered.out;  // the run of legs 0
+  EXPECT_TRUE(contains(answered.out, "1 of 3 runs were taken from other studies")) << answered.out;  // the run with legs = 0
 }
 
 TEST_F(FollowersOfNumbers, AreSearchedAndWeighed) {

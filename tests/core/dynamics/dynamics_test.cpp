@@ -103,7 +103,7 @@ TEST_P(EveryBase, PowerIsTheRateOfKineticEnergy) {
   }
 }
 
-/// Numbers of all bodies of a module and of the modules that are docked to it, directly or indirectly.
+/// Indices of all bodies of a module and of the modules that are docked to it, directly or indirectly.
 std::vector<std::size_t> hanging_on(const Robot& robot, std::size_t module) {
   std::vector<std::size_t> bodies;
   for (std::size_t b = 0; b < robot.bodies.size(); ++b) {
