@@ -1,6 +1,7 @@
 #include "physics_articulated/lane_model.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "physics_articulated/eigen.h"
 
@@ -34,6 +35,7 @@ LaneModel::LaneModel(const PlantSettings& settings, const LaneSettings& own, std
       rotor_(own.robot->joints.size()),
       a_(6 + rotor_.size()),
       zero_(rotor_.size()),
+      first_(own.robot->links.size()),
       kinematics_(*own.robot),
       monitor_(*own.robot) {
   for (auto* values : {&command_, &speed_, &torque_, &slope_}) values->resize(rotor_.size() * lanes);
@@ -44,9 +46,14 @@ LaneModel::LaneModel(const PlantSettings& settings, const LaneSettings& own, std
 
 void LaneModel::accelerate(In x, const RobotState& state, In torque, std::span<const BodyWrench> wrenches, Acceleration& out) {
   body_.forward_kinematics(x);
+  // Lists of the wrenches on each link, in their order. A search per link would be quadratic in the size of the robot.
+  const std::size_t end = wrenches.size();
+  std::ranges::fill(first_, end);
+  next_.resize(end);
+  for (std::size_t i = end; i-- > 0;) next_[i] = std::exchange(first_[own_.robot->bodies[wrenches[i].body].link], i);
   body_.solve(torque, rotor_, a_, [&](std::size_t link, Body<double>::Load load) {
-    for (const BodyWrench& w : wrenches) {
-      if (own_.robot->bodies[w.body].link != link) continue;
+    for (std::size_t i = first_[link]; i < end; i = next_[i]) {
+      const BodyWrench& w = wrenches[i];
       load.add_force(vec(w.point - state.position), vec(w.force));
       load.add_moment(vec(w.torque));
     }

@@ -48,6 +48,7 @@ std::vector<double> set_points_alone(const Scenario& s, std::int64_t ticks, cons
   CpgIntegrator integrator(state.size());
   cpg->start(state);
   std::vector<double> all;
+  all.reserve(static_cast<std::size_t>(ticks) * joints);
   for (std::int64_t k = 0; k < ticks; ++k) {
     const double t = static_cast<double>(k) * s.control_period;
     cpg->event(measured(t), state);
