@@ -29,7 +29,7 @@ def build(work, program):
         gallery.write(program, source, os.path.join(site, "gallery"))
     sphinx = [sys.executable, "-m", "sphinx", "-b", "html", "-W", "--keep-going", "-q", "-c", HERE, "-d", os.path.join(work, "doctrees")]
     if subprocess.run(sphinx + [source, site]).returncode:
-        sys.exit("the site could not be built")
+        sys.exit(1)
     os.remove(os.path.join(site, ".buildinfo"))
     found = list(links.faults(site))
     if found:

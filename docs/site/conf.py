@@ -11,6 +11,7 @@ extensions = ["myst_parser", "sphinx_copybutton"]
 source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
 root_doc = "index"
 myst_heading_anchors = 6
+smartquotes = False  # "--" in a sentence is an option
 highlight_language = "none"  # of blocks without a language: kinds_of_blocks finds it
 
 html_theme = "furo"

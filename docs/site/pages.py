@@ -1,7 +1,7 @@
 """Sources of the site: the project's pages, at their places, with links that stay within the site.
 
 README.md becomes the first page, with the table of contents. A link to a file that is no page leads to a page with the text of the file, and a link
-to a folder to a list of its files.
+to a folder to a list of its files. A link whose text is the name of a page shows the title of that page.
 """
 import json
 import os
@@ -11,8 +11,9 @@ import shutil
 import yaml
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-LINK = re.compile(r"(\]\()([^)\s]+)(\))")
+LINK = re.compile(r"(?:\[([\w./-]+\.md)\]|\])\(([^)\s]+)\)")  # text that is the name of a page, or the end of any text; target
 CODE = re.compile(r"`[^`\n]+`")
+MOVED = {"README.md": "index.md", "docs/decisions": "docs/decisions.md"}
 PICTURES = (".svg", ".png")
 LEXERS = {".yaml": "yaml", ".py": "python", ".cpp": "cpp", ".h": "cpp", ".sh": "bash", ".dat": "text"}
 
@@ -41,7 +42,7 @@ CONTENTS = (
         ("Decisions", "docs/decisions.md"))),
 )
 
-COMMAND = re.compile(r"(\$ |gaitlab |\./lab |cmake (-|\.)|ctest |export |mpirun |python3 |npm |cd |git |[A-Z_]+=\S+ )")
+COMMAND = re.compile(r"(\$ |gaitlab |\./lab |cmake (-|\.)|ctest |export |mpirun |python3 |tests/\S+ |npm |cd |git |[A-Z_]+=\S+ )")
 PLACEHOLDER = re.compile(r"\[-|SCENARIO|\|[A-Z]")
 SECTION = re.compile(r'[\w."*/-]+:( |$)')
 
@@ -100,10 +101,10 @@ class Sources:
         if whole.endswith(PICTURES):
             os.makedirs(os.path.join(self.folder, os.path.dirname(whole)), exist_ok=True)
             shutil.copyfile(os.path.join(ROOT, whole), os.path.join(self.folder, whole))
-        elif whole == "README.md":
-            whole = "index.md"
+        elif whole in MOVED:
+            whole = MOVED[whole]
         elif whole.endswith(".ipynb"):
-            whole += ".md"
+            whole += ".md"  # write_notebook
         elif whole not in self.pages:
             self.files.add(whole)
             whole = os.path.join("files", whole + ("/index.md" if os.path.isdir(os.path.join(ROOT, whole)) else ".md"))
@@ -119,7 +120,12 @@ class Sources:
         return "".join(parts) + self.moved(page, text[end:])
 
     def moved(self, page, text):
-        return LINK.sub(lambda link: link.group(1) + self.place(page, link.group(2)) + link.group(3), text)
+        return LINK.sub(lambda link: "{}({})".format(self.text(page, *link.groups()), self.place(page, link.group(2))), text)
+
+    def text(self, page, name, target):
+        """Text of a link: the title of the page in the place of its name."""
+        whole = os.path.normpath(os.path.join(os.path.dirname(page), target))
+        return "]" if name is None else "[{}]".format(title(whole) if whole in self.pages else name)
 
     def write_pages(self):
         for page in sorted(self.pages - {"README.md"}):
