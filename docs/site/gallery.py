@@ -10,15 +10,13 @@ import subprocess
 import tempfile
 
 SETTINGS = ["--set", "physics.engine=articulated"]
-HEAD = """Gallery of gaits
-================
-
-Every shipped scenario and every scenario of the :doc:`library <docs/library>`, simulated with engine ``articulated``. A picture is the figure of the
-run, and leads to its page: the moving robot, every check and every curve, a single file of about 1 MB. ``gaitlab run NAME --set
-physics.engine=articulated`` repeats a run.
-
-.. container:: gallery
-"""
+HEAD = (
+    "Gallery of gaits\n"
+    "================\n\n"
+    "Every shipped scenario and every scenario of the :doc:`library <docs/library>`, simulated with engine ``articulated``. A picture is the\n"
+    "figure of the run, and leads to its page: the moving robot, every check and every curve, a single file of about 1 MB.\n"
+    "``gaitlab run NAME --set physics.engine=articulated`` repeats a run.\n\n"
+    ".. container:: gallery\n")
 ENTRY = """
    .. container:: gait
 
