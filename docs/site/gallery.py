@@ -7,6 +7,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 
 SETTINGS = ["--set", "physics.engine=articulated"]
@@ -41,7 +42,8 @@ ENTRY = """
 def scenarios(program):
     """Names and descriptions, as `gaitlab list scenario` prints them."""
     lines = subprocess.run([program, "list", "scenario"], check=True, capture_output=True, text=True).stdout.splitlines()
-    return [line.split(None, 1) for line in lines if line.startswith("  ")]
+    found = [line.split(None, 1) for line in lines if line.startswith("  ")]
+    return found or sys.exit("{} finds no scenarios".format(program))
 
 
 def escaped(text):
@@ -58,7 +60,7 @@ def simulate(program, name, folder):
     """Runs a scenario into the folder; its summary. A run that fails has a page, too."""
     run = subprocess.run([program, "run", name, *SETTINGS, "--out", folder], capture_output=True, text=True)
     if run.returncode not in (0, 1) or not os.path.exists(os.path.join(folder, "report.html")):
-        raise SystemExit("{}: {}".format(name, run.stderr))
+        sys.exit("{}: {}".format(name, run.stderr))
     return run.stdout
 
 

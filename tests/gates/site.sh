@@ -29,6 +29,8 @@ for fault in '<a href="docs/no-page.html">' '<a href="docs/glossary.html#no-anch
   (($(wc -l <"$work/log") == 1)) || bad "$fault is not one fault: $(<"$work/log")"
   mv -- "$work/first" "$site/index.html"
 done
+! grep -q "copied" "$site/docs/equations.html" || bad "an equation has a button to copy it"
+grep -q "copied" "$site/docs/tutorials/feasible.html" || bad "a command has no button to copy it"
 ok "every link has its target, and nothing is loaded from elsewhere"
 
 # A folder with other contents is kept.
