@@ -3,8 +3,8 @@
 
     build.py SITE [--program PROGRAM]     with a gallery, if PROGRAM is given
 
-Warnings of Sphinx and broken links are errors; the folder SITE is replaced only if there is none. Needs Sphinx, myst-parser, furo, sphinx-copybutton and
-PyYAML (Debian: the packages that `./lab site` installs).
+Warnings of Sphinx and broken links are errors; the folder SITE is replaced only if there is none. Needs Sphinx, myst-parser, furo,
+sphinx-copybutton and PyYAML (Debian: the packages that `./lab site` installs).
 """
 import argparse
 import os

@@ -29,7 +29,7 @@ ENTRY = """
 
       `{name} <gallery/{name}.html>`__
 
-      {about}.
+      {about}
 
       .. rst-class:: {word}
 
@@ -78,6 +78,6 @@ def write(program, source, reports):
             shutil.copyfile(os.path.join(folder, "figure.svg"), os.path.join(pictures, name + ".svg"))
             with open(os.path.join(folder, "verdict.json"), encoding="utf-8") as file:
                 word = json.load(file)["verdict"].replace(" ", "-")
-        text += ENTRY.format(name=name, about=escaped(about), word=word, verdict=lines_of(summary, "verdict"), gait=lines_of(summary, "gait"))
+        text += ENTRY.format(name=name, about=escaped(about if about.endswith("?") else about + "."), word=word, verdict=lines_of(summary, "verdict"), gait=lines_of(summary, "gait"))
     with open(os.path.join(source, "gallery.rst"), "w", encoding="utf-8") as file:
         file.write(text)

@@ -17,7 +17,7 @@ MOVED = {"README.md": "index.md", "docs/decisions": "docs/decisions.md"}
 PICTURES = (".svg", ".png")
 LEXERS = {".yaml": "yaml", ".py": "python", ".cpp": "cpp", ".h": "cpp", ".sh": "bash", ".dat": "text"}
 
-# Order of the first pages: by use. `*` is every other page of a folder.
+# Order of the first pages: by use. docs/decisions.md is written here.
 CONTENTS = (
     ("First gaits", (
         ("1. Is my gait feasible?", "docs/tutorials/feasible.md"), ("2. Your own module", "docs/modules.md"),
@@ -132,9 +132,8 @@ class Sources:
             with open(os.path.join(ROOT, page), encoding="utf-8") as file:
                 self.write(page, self.linked(page, file.read()))
         decisions = sorted(page for page in self.pages if page.startswith("docs/decisions/"))
-        numbered = ["{}. {} <{}>".format(int(os.path.basename(page)[:4]), title(page), os.path.relpath(page, "docs")) for page in decisions]
         self.write("docs/decisions.md", "# Decisions\n\nOne page for each decision, with its reasons and the alternatives.\n\n"
-                   + toctree(numbered, maxdepth=1))
+                   + toctree([os.path.relpath(page, "docs") for page in decisions], maxdepth=1))
 
     def write_first(self, gallery):
         with open(os.path.join(ROOT, "README.md"), encoding="utf-8") as file:
