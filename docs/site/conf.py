@@ -19,6 +19,7 @@ html_static_path = [os.path.join(os.path.dirname(os.path.abspath(__file__)), "st
 html_css_files = ["site.css"]
 html_show_sourcelink = False
 html_copy_source = False
+html_use_index = False
 html_show_copyright = False
 copybutton_selector = "div.copied pre"  # commands and files, neither output nor equations
 copybutton_prompt_text = "$ "

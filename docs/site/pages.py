@@ -7,6 +7,7 @@ import json
 import os
 import re
 import shutil
+import sys
 
 import yaml
 
@@ -17,7 +18,7 @@ MOVED = {"README.md": "index.md", "docs/decisions": "docs/decisions.md"}
 PICTURES = (".svg", ".png")
 LEXERS = {".yaml": "yaml", ".py": "python", ".cpp": "cpp", ".h": "cpp", ".sh": "bash", ".dat": "text"}
 
-# Order of the first pages: by use. docs/decisions.md is written here.
+# Order of the pages: by use. The page of decisions is written below.
 CONTENTS = (
     ("First gaits", (
         ("1. Is my gait feasible?", "docs/tutorials/feasible.md"), ("2. Your own module", "docs/modules.md"),
@@ -98,13 +99,15 @@ class Sources:
         if not path or re.match(r"[a-z]+:", target):
             return target
         whole = os.path.normpath(os.path.join(os.path.dirname(page), path))
-        if whole.endswith(PICTURES):
+        if whole.endswith(PICTURES) and os.path.exists(os.path.join(ROOT, whole)):
             os.makedirs(os.path.join(self.folder, os.path.dirname(whole)), exist_ok=True)
             shutil.copyfile(os.path.join(ROOT, whole), os.path.join(self.folder, whole))
         elif whole in MOVED:
             whole = MOVED[whole]
         elif whole.endswith(".ipynb"):
             whole += ".md"  # write_notebook
+        elif not os.path.exists(os.path.join(ROOT, whole)):
+            sys.exit("{}: {} does not exist".format(page, target))
         elif whole not in self.pages:
             self.files.add(whole)
             whole = os.path.join("files", whole + ("/index.md" if os.path.isdir(os.path.join(ROOT, whole)) else ".md"))
