@@ -99,6 +99,32 @@ double rate(const Engine& engine, const Lane& lane, Base base) {
   return plant->stability(0, lane.command, false).rate;
 }
 
+/// Compares the states at the eighths of the last step of a lane in a pack with those of its rollout alone, which went from
+/// `before` to `after` in a step h, and their positions with the cubic through both ends (half an eighth of the way: impacts).
+/// Returns the number of eighths that have a state.
+int compare_within(const Plant& pack, std::size_t lane, std::size_t lanes, const Plant& alone,
+                   const std::vector<double>& before, const std::vector<double>& after, double h) {
+  int found = 0;
+  for (std::size_t eighth = 1; eighth < 8; ++eighth) {
+    std::vector<double> beside(after.size() * lanes);
+    std::vector<double> own(after.size());
+    const bool has = alone.state_within(0, eighth, own);
+    EXPECT_EQ(pack.state_within(lane, eighth, beside), has) << "eighth " << eighth;
+    if (!has) continue;
+    ++found;
+    for (std::size_t e = 0; e < own.size(); ++e) EXPECT_EQ(beside[e * lanes + lane], own[e]) << "eighth " << eighth;
+    const double s = static_cast<double>(eighth) / 8;
+    for (std::size_t e = 0; e < 3; ++e) {
+      const double way = after[e] - before[e];
+      const double first = h * before[StateLayout::kVelocity + e];
+      const double last = h * after[StateLayout::kVelocity + e];
+      const double cubic = way * s * s * (3 - 2 * s) + first * s * (1 - s) * (1 - s) - last * s * s * (1 - s);
+      EXPECT_NEAR(own[e] - before[e], cubic, 0.0625 * std::abs(way) + 1e-6) << "eighth " << eighth;
+    }
+  }
+  return found;
+}
+
 // Every rollout has the same bits alone and in any lane of every number of lanes. The test takes 5 s of CPU time for
 // `adaptive`.
 TEST_P(Lanes, GiveEveryRolloutTheBitsItHasAlone) {
@@ -106,6 +132,7 @@ TEST_P(Lanes, GiveEveryRolloutTheBitsItHasAlone) {
   constexpr int kSteps = 60;
   RandomRobots random(41);
   double rubbed = 0;  // friction energy of all lanes, J
+  int within = 0;     // states at eighths of divided steps
   for (const std::size_t width : engine().lanes) {
     for (int i = 0; i < 4; ++i) {
       const Robot first = random.robot_of(4);
@@ -156,7 +183,12 @@ TEST_P(Lanes, GiveEveryRolloutTheBitsItHasAlone) {
         const std::unique_ptr<Plant> alone = engine().make(own);
         lanes[l].history.resize(alone->history());
         alone->bind(lanes[l].numbers, lanes[l].history);
-        for (int step = 0; step < kSteps; ++step) alone->advance(lanes[l].command, h);
+        std::vector<double> before;
+        for (int step = 0; step < kSteps; ++step) {
+          before = lanes[l].numbers;
+          alone->advance(lanes[l].command, h);
+        }
+        within += compare_within(*pack, l, width, *alone, before, lanes[l].numbers, h);
         for (std::size_t e = 0; e < lanes[l].numbers.size(); ++e) {
           EXPECT_EQ(std::bit_cast<std::uint64_t>(numbers[e * width + l]), std::bit_cast<std::uint64_t>(lanes[l].numbers[e]))
               << width << " lanes, robot " << i << ", lane " << l << ", entry " << e;
@@ -177,6 +209,7 @@ TEST_P(Lanes, GiveEveryRolloutTheBitsItHasAlone) {
       }
     }
   }
+  EXPECT_EQ(within > 0, GetParam() == "adaptive");
   EXPECT_GT(rubbed, 0);
 }
 
