@@ -34,7 +34,7 @@ class LaneModel final : private InverseMass {
   Contacts<double> contacts_;
   std::vector<double> rotor_, a_, zero_;
   std::vector<double> command_, speed_, torque_, slope_;  // all lanes: joint * lanes + lane
-  std::vector<std::size_t> first_, next_;  // wrenches of accelerate(): first of each link, next on the same link
+  std::vector<std::size_t> first_, next_;                 // wrenches of accelerate(): first of each link, next on the same link
   Kinematics kinematics_;
   RateMonitor monitor_;
 };
