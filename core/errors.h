@@ -53,8 +53,9 @@ std::string one_line(const std::string& name);
 /// because messages contain file names and texts from unknown sources. All messages of the program are printed by this
 /// function. If stderr cannot be written, the message is lost.
 void say(std::string_view text) noexcept;
-/// Receiver of the texts of say() instead of stderr, with control characters replaced; null for stderr. A library in another
-/// program sets it, whose stderr is not its own.
+/// Sets the receiver of the texts of say(), which replaces stderr; null restores stderr. For a library inside another program,
+/// which owns stderr. The texts are as
+/// they were given to say(): they may have control characters.
 void say_to(void (*receiver)(std::string_view text) noexcept) noexcept;
 /// Prints `NAME: KIND: TEXT` on a line. KIND is error, warning or note.
 void say(const std::string& name, const char* kind, const std::string& text);

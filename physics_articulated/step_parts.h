@@ -56,8 +56,6 @@ struct Level {
 template <class T>
 class Eighths {
  public:
-  static constexpr std::size_t kCount = 8;
-
   explicit Eighths(std::size_t numbers) { states_.fill({std::vector<T>(numbers, T(0.0)), math::Mask<T>{}}); }
 
   void clear() {
@@ -65,8 +63,8 @@ class Eighths {
   }
   /// Keeps the state x of the lanes `which` if `at` of `of` equal parts of the step is an eighth within it.
   void keep(std::span<const T> x, const math::Mask<T>& which, std::size_t at, std::size_t of) {
-    if (at == of || at * kCount % of != 0) return;
-    State& one = states_[at * kCount / of - 1];
+    if (at == of || at * kEighths % of != 0) return;
+    State& one = states_[at * kEighths / of - 1];
     for (std::size_t e = 0; e < x.size(); ++e) one.x[e] = math::select(which, x[e], one.x[e]);
     one.lanes = math::mask_or(one.lanes, which);
   }
@@ -83,7 +81,7 @@ class Eighths {
     std::vector<T> x;
     math::Mask<T> lanes{};
   };
-  std::array<State, kCount - 1> states_;
+  std::array<State, kEighths - 1> states_;
 };
 
 }  // namespace gaitlab::articulated

@@ -169,7 +169,6 @@ void Simulation::fill_loads(Lane& lane) {
 namespace {
 
 constexpr double kWatchEvery = 1e-3;  // s; least interval between loads of docks at the ends of steps
-constexpr std::size_t kEighths = 8;
 
 }  // namespace
 

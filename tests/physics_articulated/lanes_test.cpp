@@ -105,7 +105,7 @@ double rate(const Engine& engine, const Lane& lane, Base base) {
 int compare_within(const Plant& pack, std::size_t lane, std::size_t lanes, const Plant& alone,
                    const std::vector<double>& before, const std::vector<double>& after, double h) {
   int found = 0;
-  for (std::size_t eighth = 1; eighth < 8; ++eighth) {
+  for (std::size_t eighth = 1; eighth < kEighths; ++eighth) {
     std::vector<double> beside(after.size() * lanes);
     std::vector<double> own(after.size());
     const bool has = alone.state_within(0, eighth, own);
@@ -113,7 +113,7 @@ int compare_within(const Plant& pack, std::size_t lane, std::size_t lanes, const
     if (!has) continue;
     ++found;
     for (std::size_t e = 0; e < own.size(); ++e) EXPECT_EQ(beside[e * lanes + lane], own[e]) << "eighth " << eighth;
-    const double s = static_cast<double>(eighth) / 8;
+    const double s = static_cast<double>(eighth) / kEighths;
     for (std::size_t e = 0; e < 3; ++e) {
       const double way = after[e] - before[e];
       const double first = h * before[StateLayout::kVelocity + e];
