@@ -23,7 +23,8 @@ using Moved = std::vector<double>;
 
 struct Columns : std::vector<Moved> {
   using std::vector<Moved>::vector;
-  double floor = kStill;  // smallest scale of a column, rad
+  double floor = kStill;          // smallest scale of a column, rad
+  mutable std::size_t pairs = 0;  // compared so far
 };
 
 struct Range {
@@ -115,6 +116,7 @@ class RoughError {
       range.add(earlier);
       squares += (later - earlier) * (later - earlier);
     }
+    columns_.pairs += count;
     const double scale = std::max(range.half(), columns_.floor);
     return {std::sqrt(squares / static_cast<double>(count)) / scale, range.half()};
   }
@@ -142,6 +144,7 @@ class Misfit {
   [[nodiscard]] double at(std::size_t lag) const {
     const std::size_t rows = columns_[0].size();
     if (lag < 2 || window_ + lag > rows) return kNoMatch;
+    columns_.pairs += columns_.size() * (window_ / stride_);
     double sum = 0;
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       const double* end = columns_[c].data() + rows - 1;
@@ -229,6 +232,7 @@ class Repetition {
   // Error in the last window. kNoMatch if there is no window or nothing moves.
   [[nodiscard]] double error() const {
     if (starts_ == 0 || !moves_) return kNoMatch;
+    columns_.pairs += columns_.size() * window_;
     double worst = 0;
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       double squares = 0;
@@ -242,6 +246,7 @@ class Repetition {
   [[nodiscard]] std::size_t from() const {
     std::size_t from = 0;
     std::vector<double> sums(starts_ + window_);  // sums of squares before each sample; a window is a difference of two sums
+    columns_.pairs += columns_.size() * sums.size();
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       for (std::size_t i = 0; i + 1 < sums.size(); ++i) sums[i + 1] = sums[i] + squared(c, i);
       const double limit = kRepeats * scales_[c];
@@ -317,6 +322,7 @@ MotionCycle find_limit_cycle(std::span<const double> values, std::size_t columns
     best.from = static_cast<double>(repetition.from()) * sample_period;
     break;
   }
+  best.pairs = split.pairs;
   return best;
 }
 

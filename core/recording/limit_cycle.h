@@ -13,8 +13,9 @@ struct MotionCycle {
   bool found = false;
   double from =
       0;  ///< s after the first row: earliest sample t with e < 0.02 at t and at every later sample; 0 if no cycle is found
-  double period = 0;  ///< shortest period found, s; else the period of the best candidate; 0 without candidates
-  double error = 1;   ///< error of that period; 1 without candidates
+  double period = 0;      ///< shortest period found, s; else the period of the best candidate; 0 without candidates
+  double error = 1;       ///< error of that period; 1 without candidates
+  std::size_t pairs = 0;  ///< samples compared with a later sample: the cost of the search, which grows with the rows
 };
 
 /// Searches for the shortest period in rows x columns of angles and set points (rad, row-major, sampled every `sample_period`
