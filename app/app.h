@@ -59,7 +59,8 @@ struct SummaryOptions {
 struct RunArguments : ScenarioArguments {
   std::optional<std::string> out;
   std::string format = "h5";
-  bool no_page = false;  ///< do not write report.html
+  bool no_page = false;     ///< do not write report.html
+  bool names_files = true;  ///< true: print the names of the files
   SummaryOptions shown;
   std::vector<std::string> joints;  ///< names of the joints in the figure; if empty, those that the scenario chooses
   int draws = 1;                    ///< number of seeds, starting with the scenario's

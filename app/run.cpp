@@ -197,7 +197,7 @@ int run(const Scenario& scenario, const RunArguments& arguments, std::span<const
     files.write_report(seen, recording, summary, verdict, !arguments.no_page);
   }
   if (!arguments.quiet) print_lines(remedied.lines);
-  if (!arguments.quiet && !files.lost_any()) print_files(arguments, folder.path());
+  if (!arguments.quiet && arguments.names_files && !files.lost_any()) print_files(arguments, folder.path());
   warn_of_run(scenario, recording, verdict);
   const bool sound = report::not_finite(scenario, recording).empty();
   if (recording.outcome.done())

@@ -1,5 +1,4 @@
-// Estimate of the CPU time of a run, from a table of costs. It reads no clock, so that a scenario has the same estimate in
-// every call, and no result depends on it.
+// Texts of the estimated CPU time of runs, and the advice to take the faster engine.
 #pragma once
 #include <functional>
 #include <span>
@@ -7,24 +6,12 @@
 #include <vector>
 
 #include "app/app.h"
-#include "core/simulation/simulation.h"
+#include "kit/run_time.h"
 
 namespace gaitlab::app {
 
 /// Least estimated CPU time, s, from which a run prints its estimate.
 inline constexpr double kLongRun = 10;
-
-/// CPU time of a run, s, to within a factor of two on one core of the machine of docs/benchmarks.md; 0 if the table lacks the
-/// engine. An integrator that chooses its steps is tried for at most a hundred control periods, with at most 10 ms of work,
-/// because the number of its steps depends on the gait. `rows` is the size of the trace.
-double estimated_seconds(const Scenario& scenario, const RowsNeeded& rows = {});
-
-/// The same for a run of a study, which writes no files. Its lanes save as much as ticks and statistics of each lane cost.
-double estimated_seconds_in_study(const Scenario& scenario);
-
-/// Takes the first steps of a simulation, at most a hundred control periods and about 4 ms of work. Returns the message of the
-/// error that ends the run in them; empty if none does.
-std::string early_failure(Simulation& simulation, const Scenario& scenario);
 
 /// Text of a time in two digits: `about 14 s`, `less than 0.1 s`.
 std::string about(double seconds);

@@ -7,6 +7,7 @@ struct Commands;
 
 /// Registration functions, in the order of the program's help.
 void add_run(Commands& commands);
+void add_watch(Commands& commands);
 void add_report(Commands& commands);
 void add_check(Commands& commands);
 void add_demo(Commands& commands);

@@ -3,15 +3,12 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <deque>
 #include <set>
-#include <system_error>
 #include <thread>
 
-#include "app/study/lines.h"
+#include "app/study/asking.h"
 #include "app/study/study_quantities.h"
 #include "app/study/study_text.h"
 #include "app/study/sweep_arguments.h"
@@ -94,13 +91,7 @@ class Replies {
     const std::span<const Brief> of = runs == nullptr ? std::span<const Brief>() : std::span<const Brief>(*runs);
     std::vector<std::vector<std::string>> figures;
     for (const Brief& run : of) figures.push_back(journal_.quantities(run.run));
-    const std::string line = answer(question, journal_.head(), guards_, of, figures) + "\n";
-    if (std::fwrite(line.data(), 1, line.size(), stdout) != line.size() || std::fflush(stdout) != 0) {
-      const int error = errno;
-      throw RunError(
-          fmt::format("standard output cannot be written: {}; completed runs are in the journal",
-                      error == EPIPE ? "the reader of the answers has closed it" : std::generic_category().message(error)));
-    }
+    print_line(answer(question, journal_.head(), guards_, of, figures), "completed runs are in the journal");
   }
 
   Journal& journal_;

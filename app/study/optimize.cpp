@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
 
 #include "app/commands.h"
+#include "app/study/asking.h"
 #include "app/study/optimize_seeds.h"
 #include "app/study/own_gait.h"
 #include "app/study/study_quantities.h"
@@ -35,6 +37,7 @@ struct OptimizeArguments : StudyRunArguments {
   std::vector<std::string> sets;
   std::int64_t runs = 0, seed = -1, seeds = 0;
   bool quiet = false, dry_run = false;
+  bool ask = false;    ///< true if another program simulates the points
   bool noted = false;  ///< true if the notes on the study have been printed, for another seed
 };
 
@@ -50,6 +53,7 @@ Study searched_study(const OptimizeArguments& a) {
   if (!studies::is_search(study.method) && !a.method.empty()) study.starts.clear();  // for comparison with a search
   if (a.runs > 0) study.runs = a.runs;
   if (a.seed >= 0) study.seed = a.seed;
+  study.told = a.ask;
   add_sets(study, a.sets);
   Problems problems;
   check_study(study, SourceLocation{a.runs > 0 ? "--runs" : a.method.empty() ? a.file : "--method"}, problems);
@@ -72,6 +76,7 @@ std::string search_goes_on(const OptimizeArguments& a, const fs::path& folder) {
   if (!a.method.empty()) line += " --method " + a.method;
   if (a.runs > 0) line += fmt::format(" --runs {}", a.runs);
   if (a.seed >= 0) line += fmt::format(" --seed {}", a.seed);
+  if (a.ask) line += " --ask";
   if (a.seeds > 0) line += fmt::format(" --seeds {}", a.seeds);
   line += set_words(a.sets);
   for (const std::string& answers : a.answers) line += " --answers " + shell_word(answers);
@@ -189,6 +194,32 @@ bool add_faults(const Plan& plan, Journal& journal, const studies::Results& resu
   return true;
 }
 
+void expect_one_run(const Plan& plan, const OptimizeArguments& a) {
+  std::signal(SIGPIPE, SIG_IGN);  // the failed write reports the closed output instead
+  if (team()) throw InputError(SourceLocation{"--ask"}, "is not for gaitlab-mpi; expected gaitlab");
+  if (const std::uint64_t runs = plan.points().runs_of_point(); runs > 1) {
+    throw InputError(SourceLocation{a.file},
+                     fmt::format("has {} runs per point (replicates, scenarios or worlds); expected 1 with --ask, because the "
+                                 "other program gives one result per point",
+                                 runs));
+  }
+}
+
+/// Writes the files of a search whose points another program simulated. Returns the exit code.
+int finish_asked(const Plan& plan, Journal& journal, const fs::path& folder, SearchEnd end, bool quiet) {
+  const studies::Results results = studies::results(journal);
+  const std::vector<std::string> files = write_study_files(journal, results, folder);
+  if (quiet) return 0;
+  say(study_summary(journal, results, folder, 5));
+  if (end == SearchEnd::converged) say("all searches have converged before the budget was used\n");
+  if (end == SearchEnd::stopped) {
+    say(fmt::format("the results ended before the budget of {}; continue with\n{}\n", plan.most_runs(),
+                    journal.head().command));
+  }
+  say(fmt::format("files in {}: {}, {}\n", folder.string(), studies::kJournalFile, fmt::join(files, ", ")));
+  return 0;
+}
+
 int optimize_once(const OptimizeArguments& a) {
   refuse_copies("gaitlab optimize");
   Catalog catalog = standard_catalog();
@@ -199,8 +230,10 @@ int optimize_once(const OptimizeArguments& a) {
     print_plan(plan, a);
     return 0;
   }
+  Lines lines;
+  if (a.ask) expect_one_run(plan, a);
   // The executor is made before the folder is locked, because only one process may lock the folder.
-  const studies::Executor executor = study_executor(plan, a);
+  const studies::Executor executor = a.ask ? asking_executor(plan, lines) : study_executor(plan, a);
   print_notes(plan, a.quiet || a.noted);  // only one process of a team reaches this line
   studies::JournalHead head = study_head(plan);
   std::vector<studies::Answers> answers = other_answers(plan, a, head.build);
@@ -212,7 +245,7 @@ int optimize_once(const OptimizeArguments& a) {
   const bool begins = !std::filesystem::exists(folder / studies::kJournalFile, none);
   Journal journal(folder / studies::kJournalFile, head, taken_build(a));
   keep_runs(plan, journal, folder, a.quiet);
-  if (begins) {
+  if (begins && !a.ask) {
     note_engine(plan, a, a.quiet || a.noted);
     print_own_gait(plan, a.quiet || a.noted);
   }
@@ -223,6 +256,7 @@ int optimize_once(const OptimizeArguments& a) {
                     plan.most_runs(), head.command));
     return 1;
   };
+  if (a.ask && (end != SearchEnd::stopped || lines.ended())) return finish_asked(plan, journal, folder, end, a.quiet);
   if (end == SearchEnd::stopped) return interrupted();
   const studies::Results results = studies::results(journal);
   const auto tried = verify_best(plan, journal, results, executor, a.quiet);
@@ -287,6 +321,9 @@ void add_optimize(Commands& commands) {
         add_study_sets(command, a.sets);
         command.add_flag("--dry-run", a.dry_run, "print the runs and the time that they take, and write nothing");
         add_study_run(command, a, "runs/optimize-NAME");
+        CLI::Option* ask = command.add_flag(
+            "--ask", a.ask, "print the points as lines of JSON, and read their results, instead of simulating them");
+        for (const char* of_runs : {"--jobs", "--lanes", "--answers", "--dry-run", "--seeds"}) ask->excludes(of_runs);
         command.add_flag("--quiet", a.quiet, "print no progress and no summary");
       });
 }

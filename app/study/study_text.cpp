@@ -13,6 +13,7 @@
 #include "app/study/verification_text.h"
 #include "core/files/atomic_file.h"
 #include "core/settings/wording.h"
+#include "studies/plan/definition.h"
 #include "studies/study/number.h"
 
 namespace gaitlab::app {
@@ -305,6 +306,7 @@ std::string study_summary(Journal& journal, const studies::Results& results, con
       fmt::format("{}: {} of {} runs ended, {} kept{}, {} feasible, {} failed\n", clipped(head.name), results.runs, head.runs,
                   results.kept_runs, share(results.kept_runs, results.runs), results.feasible_runs, failed);
   text += estimated_text(journal, results);
+  if (studies::told(head.definition)) text += "results of another program (--ask): nothing is verified\n";
   if (!head.guarded) text += "without guards: results may exploit the simulation\n";
   text += ranking_text(journal, results, most);
   text += rejected_text(journal, results);

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "core/files/files_read.h"
 
 namespace gaitlab {
 
@@ -59,7 +60,9 @@ class Regular {
  public:
   explicit Regular(const std::filesystem::path& path)
       : path_(path), file_{::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)} {
-    if (file_.descriptor < 0) fail(std::generic_category().message(errno));
+    const int error = errno;
+    FilesRead::note(path_);
+    if (file_.descriptor < 0) fail(std::generic_category().message(error));
     struct stat about {};
     if (::fstat(file_.descriptor, &about) != 0) fail(std::generic_category().message(errno));
     if (S_ISDIR(about.st_mode)) fail(std::generic_category().message(EISDIR));

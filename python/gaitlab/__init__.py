@@ -15,6 +15,7 @@ from ._evaluator import Evaluator
 from ._rollouts import Rollouts, quantities, rollouts
 from ._run import Run, read, run
 from ._scenario import Check, Scenario
+from ._search import Search
 from ._study import Study, study
 from ._table import Table
 from ._warnings import Warning
@@ -32,6 +33,7 @@ __all__ = [
     "Run",
     "RunError",
     "Scenario",
+    "Search",
     "Study",
     "Table",
     "Warning",

@@ -8,7 +8,7 @@ import numpy as np
 
 from . import _native
 from ._scenario import Scenario
-from ._settings import texts
+from ._settings import records, texts
 from ._warnings import tell
 
 if TYPE_CHECKING:
@@ -18,12 +18,13 @@ if TYPE_CHECKING:
 class Rollouts(Mapping[str, "np.ndarray[Any, Any]"]):
     """A row per rollout, in the order of the overrides: table["speed"] is an array; NaN where a quantity is not known."""
 
-    def __init__(self, raw: Mapping[str, Any], overrides: Sequence[Mapping[str, Any]]) -> None:
+    def __init__(self, raw: Mapping[str, Any], overrides: Sequence[Mapping[str, Any]], index: Any = None) -> None:
         self.values: "np.ndarray[Any, Any]" = raw["values"]  # type: ignore[assignment]
         """All quantities: rows x quantities, float64, in the order of `quantities`."""
         self.quantities: list[str] = raw["names"]
         self.units: dict[str, str] = dict(zip(raw["names"], raw["units"]))
         self.overrides = list(overrides)
+        self._index = index
         self.outcome: list[str] = raw["outcome"]
         """Per row `done`, `refused` (by the scenario), `diverged`, `plugin` (which threw) or `not run` (interrupted)."""
         self.verdict: list[str] = raw["verdict"]
@@ -45,10 +46,11 @@ class Rollouts(Mapping[str, "np.ndarray[Any, Any]"]):
         return f"<gaitlab.Rollouts, {len(self.outcome)} rows of {len(self.quantities)} quantities>"
 
     def to_pandas(self) -> "pandas.DataFrame":
-        """A copy as a DataFrame: overrides, quantities, outcome, verdict, message; units in attrs["units"]."""
+        """A copy as a DataFrame: overrides, quantities, outcome, verdict, message; units in attrs["units"]. Its index is that of the
+        DataFrame of overrides, if it was one."""
         import pandas
 
-        index = range(len(self.outcome))
+        index = range(len(self.outcome)) if self._index is None else self._index
         parts = [
             pandas.DataFrame(self.overrides, index=index),
             pandas.DataFrame(self.values.copy(), columns=self.quantities, index=index),
@@ -83,15 +85,13 @@ def rollouts(
 
     KeyboardInterrupt, and an exception of `progress`, stop the work; its attribute `rollouts` has the rows that ended.
     """
-    if hasattr(overrides, "to_dict"):
-        overrides = overrides.to_dict("records")
-    rows = [dict(one) for one in overrides]
+    rows, index = records(overrides)
     if threads is None:
         threads = len(os.sched_getaffinity(0))
     if threads < 1 or lanes < 0 or estimate_every < 0:
         raise ValueError("threads is at least 1, lanes and estimate_every are at least 0")
     raw = _native.rollouts(scenario._native, [texts(one) for one in rows], list(quantities), threads, lanes, estimate_every, progress)
-    table = Rollouts(raw, rows)
+    table = Rollouts(raw, rows, index)
     if raw["raised"] is not None:
         try:
             raw["raised"].rollouts = table

@@ -40,6 +40,8 @@ class Check:
     rows: float  #: rows of the trace
     columns: float  #: columns of the trace
     megabytes: float  #: size of the trace, MB
+    seconds: float  #: estimated CPU time of `gaitlab run`, s, to within a factor of two; 0 if the engine has no known cost
+    fails: str  #: error that ends the run in its first steps; "" without one
 
 
 class Scenario:
@@ -92,7 +94,7 @@ class Scenario:
         return self._native.warnings(False)
 
     def check(self) -> Check:
-        """Makes the simulation and takes its sizes, without a step. Raises InputError if the step or the memory is refused."""
+        """Makes the simulation, and takes its sizes and first steps. Raises InputError if the step or the memory is refused."""
         return Check(**self._native.check())
 
     def with_(self, settings: Mapping[str, Any]) -> "Scenario":

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import json
 import os
-from typing import Any, Iterable, Mapping
+from typing import Any, Iterable, Mapping, Optional
 
 import numpy as np
 
@@ -38,3 +38,15 @@ def texts(settings: Mapping[str, Any]) -> list[str]:
     if not isinstance(settings, Mapping):
         raise TypeError(f"settings are a mapping from key to value, not {type(settings).__name__}")
     return [f"{key}={text(value)}" for key, value in settings.items()]
+
+
+def set_options(settings: Optional[Mapping[str, Any]]) -> list[str]:
+    """Settings as options of the program."""
+    return [word for one in texts(settings or {}) for word in ("--set", one)]
+
+
+def records(rows: Any) -> tuple[list[dict[str, Any]], Any]:
+    """Rows of a DataFrame, or an iterable of mappings, as dictionaries; and their index, None for an iterable."""
+    if hasattr(rows, "to_dict"):
+        return rows.to_dict("records"), rows.index
+    return [dict(one) for one in rows], None

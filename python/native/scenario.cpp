@@ -8,6 +8,7 @@
 #include "core/simulation/simulation.h"
 #include "core/simulation/start.h"
 #include "kit/catalog.h"
+#include "kit/run_time.h"
 #include "kit/run_warnings.h"
 #include "kit/shipped.h"
 #include "python/native/apart.h"
@@ -73,12 +74,16 @@ py::dict check_of(const PyScenario& scenario) {
   const Robot& robot = *s.robot;
   RowsNeeded rows;
   double damping = 0;
+  double seconds = 0;
   Vec3 start = Vec3::Zero();
+  std::string fails;
   apart([&] {
-    const Simulation simulation({&s, 1});
+    Simulation simulation({&s, 1});
     rows = simulation.rows_needed(0);
     damping = s.physics.step * simulation.standing().rate;
     start = start_state(s).position;
+    seconds = kit::estimated_seconds(s, rows);
+    fails = kit::early_failure(simulation, s);
   });
   py::dict masses;
   for (const Body& body : robot.bodies) masses[body.name.c_str()] = body.mass;
@@ -90,7 +95,8 @@ py::dict check_of(const PyScenario& scenario) {
                   py::arg("integrator") = s.physics.integrator->name, py::arg("step") = s.physics.step,
                   py::arg("damping") = damping, py::arg("start") = py::make_tuple(start.x(), start.y(), start.z()),
                   py::arg("contacts") = contact_elements(robot, s.contact.on).size(), py::arg("rows") = rows.rows,
-                  py::arg("columns") = rows.columns, py::arg("megabytes") = rows.bytes() / 1e6);
+                  py::arg("columns") = rows.columns, py::arg("megabytes") = rows.bytes() / 1e6, py::arg("seconds") = seconds,
+                  py::arg("fails") = fails);
 }
 
 }  // namespace gaitlab::python

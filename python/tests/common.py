@@ -8,7 +8,7 @@ import unittest
 import numpy as np
 
 import gaitlab
-from gaitlab._evaluator import program
+from gaitlab._child import program
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 PROGRAM = program()

@@ -7,21 +7,34 @@ import unittest
 
 import numpy
 
-from common import ROOT
+from common import ROOT, InFolder
+
+STUDY = f"""gaitlab_study: 1
+scenario: {ROOT}/scenarios/hexapod.yaml
+parameters:
+  cpg.frequency: {{low: 0.25, high: 1}}
+objective: {{maximize: speed}}
+method: {{type: random}}
+budget: {{runs: 4}}
+"""
 
 
-class Page(unittest.TestCase):
+class Page(InFolder):
     def test_blocks(self):
         with open(os.path.join(ROOT, "docs", "python.md")) as file:
             blocks = re.findall(r"(?:^    .*\n|^\n(?=    ))+", file.read(), re.M)
         code = [re.sub(r"^    ", "", block, flags=re.M) for block in blocks if "gaitlab." in block]
-        self.assertEqual(len(code), 2)
+        self.assertEqual(len(code), 3)
+        with open("study.yaml", "w") as file:
+            file.write(STUDY)
         names = {"numpy": numpy}
         with contextlib.redirect_stdout(io.StringIO()) as said:
             for block in code:
                 exec(compile(block, "docs/python.md", "exec"), names)
-        self.assertRegex(said.getvalue(), r"^[a-z ]+ \S+\n$")
-        self.assertEqual(len(names["table"]), 2)
+        verdict, best = said.getvalue().split("\n", 1)
+        self.assertRegex(verdict, r"^[a-z ]+ \S+$")
+        self.assertRegex(best, r"^-?0\.\d+\n$")
+        self.assertEqual(len(names["table"]), 4)  # of the last block
         self.assertEqual(names["run"].outcome, "done")
 
 

@@ -91,6 +91,17 @@ class Checks(InFolder):
         self.assertIn(f"{check.contacts} contact elements", said)
         self.assertAlmostEqual(sum(check.masses.values()), check.mass, places=9)  # a sum in another order
         self.assertEqual(list(check.ranges), gaitlab.Scenario("hexapod", FAST).joints)
+        self.assertIn(f"takes about {check.seconds:.2g} s" if check.seconds >= 0.1 else "takes less than 0.1 s", said)
+        self.assertEqual(check.fails, "")
+
+    def test_early_failure(self):
+        with open("wild.yaml", "w") as file:
+            file.write("gaitlab: 1\nrobot: {modules: mtran}\nduration: 1\n"
+                       "cpg: {type: equations, model: {states: {phi: exp(700)*exp(700)}, output: phi}}\n")
+        check = gaitlab.Scenario("wild.yaml").check()
+        said, _ = called("check", "wild.yaml")
+        self.assertRegex(check.fails, "^diverged at step ")
+        self.assertIn(f"fails early: {check.fails}", said)
 
     def test_warnings_are_of_python(self):
         odd = {**FAST, "ground.friction": 30}

@@ -1,6 +1,10 @@
 #include "report/page/page.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
+#include <stdexcept>
 #include <utility>
 
 namespace gaitlab::report {
@@ -53,6 +57,22 @@ std::string page(const PageData& data) {
     at += found->first.size();
   }
   return text;
+}
+
+std::string watched_page(std::string page, int run) {
+  const auto replace = [&](std::string_view from, const std::string& to) {
+    const std::size_t at = page.find(from);
+    if (at == std::string::npos) throw std::logic_error("the page lacks " + std::string(from));
+    page.replace(at, from.size(), to);
+  };
+  replace("img-src data: blob:", "img-src data: blob: file:");
+  replace("<html lang=\"en\"", fmt::format("<html lang=\"en\" data-watch=\"{}\"", run));
+  return page;
+}
+
+std::string stamp(int run, bool error) {
+  return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" height=\"{}\"/>\n", std::max(run, 1),
+                     error ? 2 : 1);
 }
 
 }  // namespace gaitlab::report

@@ -29,6 +29,7 @@ std::string law_text(const Variation& v) {
   return text;
 }
 
+constexpr std::string_view kTold = "results: of another program\n";
 constexpr std::string_view kRobust = "robust: ";
 constexpr std::string_view kBetween = ", ";
 
@@ -48,6 +49,7 @@ std::string definition(const BoundStudy& bound) {
   const Study& study = bound.study();
   std::string text = fmt::format("seed: {}\nmethod: {}\n", study.seed, study.asked ? "asked" : name_of(study.method));
   if (!study.asked && is_search(study.method)) text += search_text(study);
+  if (study.told) text += kTold;
   for (const std::vector<std::string>& start : bound.starts()) text += fmt::format("start: {}\n", fmt::join(start, ", "));
   for (const Parameter& p : study.parameters) {
     text += fmt::format("parameter {}: {}\n", p.key,
@@ -79,6 +81,8 @@ std::string definition(const BoundStudy& bound) {
   }
   return text + "quantities: " + hash128(columns) + "\n";
 }
+
+bool told(const std::string& definition) { return definition.find(fmt::format("\n{}", kTold)) != std::string::npos; }
 
 std::vector<std::string> robust_worlds(const std::string& definition) {
   std::vector<std::string> names;

@@ -149,6 +149,7 @@ Answers::Answers(const Plan& plan, std::filesystem::path file, const std::string
     refuse("was written by another build, which may give other numbers: " + head.build + ", and this is " + build +
            "; take its answers all the same with --accept-build");
   }
+  if (told(head.definition)) refuse("has results that another program gave; expected the journal of simulated runs");
   if (stop_lines(head.definition) != stop_lines(definition(plan.bound())))
     refuse("is of a study with other rules for stopping runs; its runs may have ended at other times");
   const std::vector<std::string> names = journal_->columns().all();

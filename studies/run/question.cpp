@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "core/settings/wording.h"
+#include "studies/run/json_line.h"
 #include "studies/study/number.h"
 
 namespace gaitlab::studies {
@@ -15,23 +15,6 @@ namespace {
 
 using Json = nlohmann::json;
 constexpr const char* kExpected = R"(; expected {"id": 7, "parameters": {"KEY": VALUE}})";
-
-Json parsed(const std::string& line, const SourceLocation& place) {
-  constexpr int kDeep = 2;  // largest nesting depth of objects
-  const auto shallow = [&](int depth, Json::parse_event_t, Json&) {
-    if (depth > kDeep) throw InputError(place, "holds values within values" + std::string(kExpected));
-    return true;
-  };
-  try {
-    return Json::parse(line, shallow);
-  } catch (const Json::parse_error& error) {
-    SourceLocation at = place;
-    at.column = static_cast<int>(error.byte);
-    throw InputError(at, "is not JSON" + std::string(kExpected));
-  } catch (const Json::exception&) {  // a number exceeds the range of a double
-    throw InputError(place, "holds a number that is too large" + std::string(kExpected));
-  }
-}
 
 /// Value of a parameter in the form of --set. A value of the wrong type is a problem. A value out of range marks the question
 /// as refused.
@@ -53,10 +36,6 @@ std::string value_of(const Json& value, const Parameter& p, Question& question, 
   return text;
 }
 
-std::string json_text(const std::string& text) { return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace); }
-
-std::string json_number(double value) { return std::isfinite(value) ? number_text(value) : "null"; }
-
 /// Value of a column less `least`; with several runs of a point a list of their values.
 std::string of_runs(std::span<const std::vector<std::string>> quantities, std::size_t column, double least, bool several) {
   std::string values;
@@ -70,10 +49,9 @@ std::string of_runs(std::span<const std::vector<std::string>> quantities, std::s
 }  // namespace
 
 Question read_question(const std::string& line, const SourceLocation& place, const std::vector<Parameter>& parameters) {
-  const Json root = parsed(line, place);
+  const Json root = json_object(line, place, kExpected);
   Problems problems;
   Question question;
-  if (!root.is_object()) throw InputError(place, "is not a JSON object" + std::string(kExpected));
   for (const auto& [key, value] : root.items()) {
     if (key != "id" && key != "parameters") problems.add(place, "unknown key " + in_quotes(key) + kExpected);
   }
@@ -106,6 +84,15 @@ Question read_question(const std::string& line, const SourceLocation& place, con
   return question;
 }
 
+std::string question_text(std::uint64_t id, const std::vector<Parameter>& parameters, std::span<const std::string> values) {
+  std::string text = fmt::format(R"({{"id":{},"parameters":{{)", id);
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    text += (k == 0 ? "" : ",") + json_text(parameters[k].key) + ":";
+    text += parameters[k].words ? json_text(values[k]) : json_number(number_of(values[k]));
+  }
+  return text + "}}";
+}
+
 std::string answer(const Question& question, const JournalHead& head, std::span<const MarginGuard> guards,
                    std::span<const Brief> runs, std::span<const std::vector<std::string>> quantities) {
   std::string text = fmt::format(R"({{"id":{})", question.id);
@@ -117,6 +104,10 @@ std::string answer(const Question& question, const JournalHead& head, std::span<
   } else {
     text += fmt::format(R"(,"run":{},"outcome":{})", runs.front().run, json_text(done ? "done" : failed->outcome));
     if (!done) text += R"(,"message":)" + json_text(failed->message);
+    double simulated = runs.front().simulated;
+    for (const Brief& run : runs) simulated = std::min(simulated, run.simulated);
+    text += R"(,"simulated":)" + json_number(simulated);
+    if (runs.size() == 1) text += R"(,"verdict":)" + json_text(runs.front().verdict);
   }
   text += R"(,"figures":{)";
   for (std::size_t k = 0; done && k < head.quantities.size(); ++k)

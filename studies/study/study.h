@@ -160,6 +160,7 @@ struct Study {
   [[nodiscard]] std::uint64_t runs_of_point() const { return std::max<std::size_t>(1, scenarios.size()) * replicates.number(); }
   std::int64_t estimate_every = 16;  ///< the torque error is estimated for one point in this number; 0 disables the estimate
   bool asked = false;                ///< true if another program chooses the points (`gaitlab evaluate`)
+  bool told = false;                 ///< true if another program gives the results (`gaitlab optimize --ask`)
 };
 
 }  // namespace studies

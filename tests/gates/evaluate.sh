@@ -59,6 +59,29 @@ cmp <(rows "$work/whole") <(rows "$work/killed" | head -n 96) || bad "other ques
 cmp <(tail -n 10 "$work/answers") <(head -n 10 "$work/more") || bad "other questions: other answers"
 ok "other questions, in the same folder"
 
+# A search whose points `evaluate` simulates has the rows of a search that simulates them itself, but for reasons of verdicts. It goes
+# on in its folder after the answers have ended.
+sed -i '/^replicates/d' "$work/study.yaml"
+printf '%s\n' 'objective: {maximize: speed}' 'method: {type: cma, population: 6}' 'budget: {runs: 36}' >>"$work/study.yaml"
+"$program" optimize "$work/study.yaml" --quiet --out "$work/alone" -j 2 2>"$work/log" || (($? == 3)) || bad "optimize: $(<"$work/log")"
+# searched LINES: a search by the first lines of answers.
+searched() {
+  rm -f "$work/questions"
+  mkfifo "$work/questions"
+  { evaluate --out "$work/simulated" -j 1 <"$work/questions" | sed -u "$1q" || true; } 2>"$work/log" |
+    "$program" optimize "$work/study.yaml" --ask --quiet --out "$work/searched" >"$work/questions" || bad "optimize --ask: $?"
+}
+columns() { sqlite3 "$1/study.db" 'select * from run order by run' | sed -E 's/^(([^|]*[|]){5})[^|]*/\1/'; }
+searched 9
+[[ $(rows "$work/searched" | wc -l) == 9 ]] || bad "after nine answers the search has $(rows "$work/searched" | wc -l) rows"
+searched 1000
+cmp <(columns "$work/alone") <(columns "$work/searched") || bad "the rows of a search that asks differ from those of a search alone"
+[[ $(rows "$work/searched" | wc -l) == 36 ]] || bad "the search that asks has $(rows "$work/searched" | wc -l) rows of 36"
+code=0
+"$program" evaluate "$work/study.yaml" --quiet --out "$work/taken" --answers "$work/searched" </dev/null 2>"$work/log" || code=$?
+((code == 2)) && said "has results that another program gave" || bad "results of another program are taken as answers: exit code $code"
+ok "a search whose points another program simulates"
+
 # If no process reads the answers, the exit code is 1.
 mkfifo "$work/answered"
 exec 8<>"$work/answered"

@@ -129,4 +129,16 @@ if ! node "$page/test/page_test.mjs" "${pages[@]}" trace=trace.csv >"$work/log" 
   fail "the page in $("$CHROMIUM" --version 2>/dev/null || printf %s "$CHROMIUM")"
 fi
 ok "the page in a browser: $(grep -E '^# pass|^ℹ pass' "$work/log")"
+
+# A page of `gaitlab watch` follows the file.
+cp -- "$root/scenarios/pendulum.yaml" watched.yaml
+"$program" watch watched.yaml --quiet --out watched 2>"$work/log" &
+watcher=$!
+trap 'kill "$watcher" 2>/dev/null || true; rm -rf -- "$work"' EXIT
+until [[ -s watched/stamp.svg ]]; do
+  kill -0 "$watcher" 2>/dev/null || fail "gaitlab watch has ended"
+  sleep 0.1
+done
+node "$page/test/watch_test.mjs" watched/report.html watched.yaml >"$work/log" 2>&1 || { show_log; fail "a watched page in a browser"; }
+ok "a watched page follows its scenario, with camera, time and joint"
 verdict

@@ -6,6 +6,7 @@ import { least, most, use } from "./data/motor";
 import { capital, decimalsOf, percent, quantity } from "./data/numbers";
 import { Page } from "./page";
 import { Recording } from "./data/recording";
+import { watch } from "./watch";
 
 /** Interface for tests, and for the console of a browser. */
 declare global {
@@ -37,6 +38,7 @@ Recording.of(document)
     requestAnimationFrame((now) => {
       frame(now);
       document.documentElement.dataset.ready = "";
+      watch(page);
     });
   })
   .catch((e: unknown) => {

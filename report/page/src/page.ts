@@ -28,7 +28,7 @@ export class Page implements Desk {
   ink: Ink;
   private readonly panels: Panel[] = [];
   private readonly stretches: Record<Stretch, number>;
-  private readonly address = new Address();
+  readonly address = new Address();
   private width: number; // width of the span that the page chooses, s; 0 if the reader has selected a span
   private last: number | null = null; // time of the frame before, ms; null while the page does not play
   private late = 0; // number of consecutive slow frames

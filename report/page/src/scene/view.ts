@@ -31,6 +31,8 @@ import { Support } from "./support";
 import { Travel } from "./travel";
 
 export type Look = "iso" | "side" | "top" | "front";
+/** Camera and the point that it turns to, m, both relative to the point of the robot that it follows. */
+export type Pose = [position: number[], target: number[]];
 
 const directions: Record<Look, Vector3> = {
   iso: new Vector3(0.55, -0.76, 0.46),
@@ -162,6 +164,22 @@ export class View {
     }
     this.camera.position.copy(direction).multiplyScalar(distance).add(centre);
     this.controls.target.copy(centre);
+    this.controls.update();
+    this.dirty = true;
+  }
+
+  /** The camera relative to the point that it follows. */
+  kept(): Pose {
+    const from = this.centre(this.time);
+    const seen = (p: Vector3) => p.clone().sub(from).toArray();
+    return [seen(this.camera.position), seen(this.controls.target)];
+  }
+
+  /** Moves the camera to a place that kept() has given. */
+  pose([position, target]: Pose): void {
+    const from = this.centre(this.time);
+    this.camera.position.fromArray(position).add(from);
+    this.controls.target.fromArray(target).add(from);
     this.controls.update();
     this.dirty = true;
   }

@@ -1,0 +1,91 @@
+"""A child process `gaitlab COMMAND`, whose input and output are lines of JSON."""
+from __future__ import annotations
+
+import os
+from typing import IO, TYPE_CHECKING, NoReturn, Optional, Sequence, TypeVar, Union
+
+from . import _native
+from ._native import InputError, RunError
+
+if TYPE_CHECKING:
+    from types import TracebackType
+
+Path = Union[str, "os.PathLike[str]"]
+_Self = TypeVar("_Self", bound="Child")
+
+
+def program() -> str:
+    """The program gaitlab: of the environment variable GAITLAB, of the module's own installation, or of PATH."""
+    import shutil
+
+    if given := os.environ.get("GAITLAB"):
+        return given
+    folder = os.path.dirname(os.path.abspath(_native.__file__))
+    while folder != os.path.dirname(folder):
+        own = os.path.join(folder, "bin", "gaitlab")
+        if os.access(own, os.X_OK) and os.path.isdir(os.path.join(folder, "share", "gaitlab")):
+            return own
+        folder = os.path.dirname(folder)
+    if found := shutil.which("gaitlab"):
+        return found
+    raise FileNotFoundError("the program gaitlab is not in PATH; the environment variable GAITLAB may name it")
+
+
+class Child:
+    """The process. Used as a context, it ends with the context; an exception terminates it."""
+
+    def __init__(self, name: str, file: Path, folder: Optional[Path], options: Sequence[str]) -> None:
+        import subprocess  # here, because few sessions need it
+        import tempfile
+
+        command = [program(), name, os.fspath(file), "--quiet", *options]
+        command += [] if folder is None else ["--out", os.fspath(folder)]
+        self._name = name
+        self._said: IO[bytes] = tempfile.TemporaryFile()
+        self._child = subprocess.Popen(
+            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._said, text=True, encoding="utf-8"
+        )
+
+    def close(self) -> None:
+        """Ends the child, which writes the tables and figures of its folder."""
+        if self._said.closed:
+            return
+        self._child.communicate()
+        if self._child.returncode:
+            self._fail()
+        self._said.close()
+
+    def _write(self, lines: Sequence[str]) -> None:
+        assert self._child.stdin is not None
+        try:
+            self._child.stdin.write("".join(line + "\n" for line in lines))
+            self._child.stdin.flush()
+        except (BrokenPipeError, ValueError):  # ValueError: closed before
+            self._fail()
+
+    def _read(self) -> str:
+        """The next line, or "" at the end of the output."""
+        assert self._child.stdout is not None
+        return self._child.stdout.readline() if not self._child.stdout.closed else ""
+
+    def _fail(self) -> NoReturn:
+        code = self._child.wait()
+        if self._said.closed:
+            raise RunError(f"gaitlab {self._name} has ended")
+        self._said.seek(0)
+        text = self._said.read().decode("utf-8", "replace").rstrip("\n")
+        self._said.close()
+        raise (InputError if code == 2 else RunError)(text or f"gaitlab {self._name} ended with code {code}")
+
+    def __enter__(self: _Self) -> _Self:
+        return self
+
+    def __exit__(
+        self, kind: Optional[type[BaseException]], error: Optional[BaseException], trace: "Optional[TracebackType]"
+    ) -> None:
+        if error is None:
+            self.close()
+            return
+        self._child.terminate()  # its completed runs are in the journal
+        self._child.communicate()
+        self._said.close()

@@ -1,0 +1,115 @@
+"""A search of the program whose points Python evaluates."""
+from __future__ import annotations
+
+import json
+import math
+from typing import TYPE_CHECKING, Any, Iterable, Mapping, Optional, Union
+
+from ._child import Child, Path
+from ._native import RunError
+from ._settings import set_options
+
+if TYPE_CHECKING:
+    import pandas
+
+
+class Search(Child):
+    """A child `gaitlab optimize --ask`: its methods choose the points of a study, and the caller gives their results.
+
+        with gaitlab.Search("study.yaml", "runs/mine") as search:
+            while len(points := search.ask()):
+                table = gaitlab.rollouts(scenario, points).to_pandas()
+                search.tell(table.assign(objective=table["speed"]))
+
+    file: a study file (docs/studies.md) with one run per point. folder: of the journal (default runs/optimize-NAME); a search that
+    was ended goes on there. method, runs, seed: instead of the file's.
+    """
+
+    def __init__(
+        self,
+        file: Path,
+        folder: Optional[Path] = None,
+        *,
+        settings: Union[Mapping[str, Any], None] = None,
+        method: Optional[str] = None,
+        runs: Optional[int] = None,
+        seed: Optional[int] = None,
+    ) -> None:
+        options = ["--ask", *set_options(settings)]
+        for name, value in (("--method", method), ("--runs", runs), ("--seed", seed)):
+            options += [] if value is None else [name, str(value)]
+        super().__init__("optimize", file, folder, options)
+        self._points: dict[int, Mapping[str, Any]] = {}  # of this batch, not asked yet
+        self._open: set[int] = set()  # asked, but not told
+        self._ended = False
+
+    def ask(self, n: Optional[int] = None) -> "pandas.DataFrame":
+        """The next points, at most n: a column per parameter, and as index the number of the point. Without n all points that the
+        method offers now, its generation. Empty if the search has ended. Raises RunError if all points of the generation are asked
+        and some are not told."""
+        import pandas
+
+        if n is not None and n < 1:
+            raise ValueError("n is at least 1")
+        if not self._points and not self._ended:
+            if self._open:
+                raise RunError(f"{len(self._open)} points of this generation have no result; tell() gives it")
+            self._read_batch()
+        numbers = list(self._points)[:n]
+        self._open.update(numbers)
+        return pandas.DataFrame([self._points.pop(k) for k in numbers], index=pandas.Index(numbers, name="point", dtype="int64"))
+
+    def tell(self, rows: "pandas.DataFrame") -> None:
+        """Gives the results of points that were asked, all or some, in any order.
+
+        rows: the number of the point as index, as in the table of ask(), and the columns
+            objective, or objective.1 ... : the study's objectives, each in the direction of the study; NaN: not known
+            violation: 0 (default) if the point is kept, else more than 0, the larger the farther from being kept
+            outcome, message: of a failed point a word other than `done`, and the reason
+            others: quantities for the journal, where the study has a column of this name
+        """
+        lines = []
+        for number, row in zip(rows.index, rows.to_dict("records")):
+            if number not in self._open:
+                raise ValueError(f"point {number} is not open; expected points of ask() that have no result yet, by the index of the table")
+            lines.append(_result(int(number), row))
+        if lines and all("outcome" not in one and set(one["objective"]) <= {None} for one in lines):
+            raise ValueError("no row has an objective; a column assigned from a table with another index is NaN")
+        self._write([json.dumps(one) for one in lines])
+        self._open.difference_update(rows.index)
+
+    def _read_batch(self) -> None:
+        while line := self._read():
+            if not line.strip():
+                return
+            question = json.loads(line)
+            self._points[question["id"]] = question["parameters"]
+        self._ended = True
+        if self._child.wait():
+            self._fail()
+
+
+def _number(value: Any) -> Optional[float]:
+    """A number of JSON; None if it is not finite."""
+    return float(value) if math.isfinite(value) else None
+
+
+def _result(number: int, row: Mapping[str, Any]) -> dict[str, Any]:
+    """A result as `gaitlab optimize --ask` reads it."""
+    if row.get("outcome", "done") != "done":
+        failed = {"id": number, "outcome": str(row["outcome"]), "message": str(row.get("message", ""))}
+        return failed | ({"simulated": _number(row["simulated"])} if "simulated" in row else {})
+    names = ["objective"] if "objective" in row else [f"objective.{k}" for k in range(1, 10) if f"objective.{k}" in row]
+    if not names:
+        raise ValueError("a row has neither objective nor objective.1")
+    figures = {
+        key: _number(value)
+        for key, value in row.items()
+        if key not in (*names, "violation") and isinstance(value, (int, float)) and not isinstance(value, bool)
+    }
+    result: dict[str, Any] = {"id": number, "objective": [_number(row[name]) for name in names], "figures": figures}
+    if "violation" in row:
+        result["violation"] = _number(row["violation"])
+    if isinstance(row.get("verdict"), str):
+        result["verdict"] = row["verdict"]
+    return result

@@ -1,0 +1,94 @@
+"""Searches of the program whose points Python evaluates."""
+import unittest
+
+import gaitlab
+import pandas
+
+from common import ROOT, InFolder
+
+STUDY = f"""gaitlab_study: 1
+scenario: {ROOT}/scenarios/pendulum.yaml
+set: [physics.engine=articulated, duration=0.1]
+parameters:
+  cpg.amplitude: {{low: 0.1, high: 1.2}}
+  cpg.frequency: {{low: 0.25, high: 2, scale: log}}
+objective: {{minimize: speed}}
+method: {{type: cma}}
+budget: {{runs: 200}}
+"""
+
+
+def bowl(points):
+    """A function with its minimum of 0 at an amplitude of 0.4 and a frequency of 1."""
+    return (points["cpg.amplitude"] - 0.4) ** 2 + (points["cpg.frequency"] - 1) ** 2
+
+
+class Search(InFolder):
+    def setUp(self):
+        super().setUp()
+        with open("study.yaml", "w") as file:
+            file.write(STUDY)
+
+    def test_finds_a_minimum(self):
+        with gaitlab.Search("study.yaml", "found") as search:
+            while len(points := search.ask()):
+                search.tell(points.assign(objective=bowl(points)))
+        study = gaitlab.study("found")
+        self.assertLess(study.best["objective.1"].min(), 1e-3)  # 200 points at random: a median of 3e-3
+        self.assertEqual(len(study.points), 200)
+
+    def test_order_and_pieces_do_not_matter(self):
+        tables = []
+        for n in (None, 3):
+            with gaitlab.Search("study.yaml", f"in-{n}", runs=30, seed=5) as search:
+                while len(points := search.ask(n)):
+                    told = points.assign(objective=bowl(points)).sample(frac=1, random_state=1)
+                    search.tell(told[:1])
+                    search.tell(told[1:])
+            tables.append(gaitlab.study(f"in-{n}").points)
+        pandas.testing.assert_frame_equal(*tables)
+
+    def test_goes_on(self):
+        def some(folder, budget):
+            with gaitlab.Search("study.yaml", folder, runs=30) as search:
+                while budget > 0 and len(points := search.ask(4)):
+                    search.tell(points.assign(objective=bowl(points)))
+                    budget -= 4
+
+        some("two", 9)
+        some("two", 99)
+        some("one", 99)
+        pandas.testing.assert_frame_equal(gaitlab.study("two").points, gaitlab.study("one").points)
+
+    def test_failed_points_and_limits(self):
+        with gaitlab.Search("study.yaml", "failed", runs=16) as search:
+            while len(points := search.ask()):
+                told = points.assign(objective=bowl(points), outcome="done", message="", violation=0.0)
+                told.loc[told["cpg.amplitude"] > 0.8, ["outcome", "message"]] = ["broken", "a leg"]
+                told.loc[told["cpg.frequency"] > 1, "violation"] = 0.5
+                search.tell(told)
+        rows = gaitlab.study("failed").points
+        self.assertTrue((rows["cpg.amplitude"][rows["outcome"] == "broken"] > 0.8).all())
+        self.assertEqual(set(rows["outcome"]), {"broken", "done"})
+        self.assertTrue((rows["violation"][(rows["outcome"] == "done") & (rows["cpg.frequency"] > 1)] == 0.5).all())
+
+    def test_errors(self):
+        with gaitlab.Search("study.yaml", "errors", runs=16) as search:
+            points = search.ask()
+            with self.assertRaisesRegex(gaitlab.RunError, "points of this generation have no result"):
+                search.ask()
+            with self.assertRaisesRegex(ValueError, "no row has an objective; a column assigned"):
+                search.tell(points.assign(objective=float("nan")))
+            with self.assertRaisesRegex(ValueError, "neither objective nor objective.1"):
+                search.tell(points)
+            with self.assertRaisesRegex(ValueError, "point 99 is not open"):
+                search.tell(points.assign(objective=1.0).set_index(points.index + 99))
+        with self.assertRaisesRegex(gaitlab.InputError, "replicates"):
+            with open("three.yaml", "w") as file:
+                file.write(STUDY + "replicates: {count: 3}\n")
+            with gaitlab.Search("three.yaml", "three") as search:
+                search.ask()
+
+
+if __name__ == "__main__":
+    unittest.main()

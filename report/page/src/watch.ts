@@ -1,0 +1,44 @@
+// Renewal of a page that `gaitlab watch` writes again after each change of the scenario. Such a page has the attribute
+// data-watch with the number of its run, and stamp.svg beside it: its width is the number of the newest run in the
+// folder, its height is 2 if the scenario has an error since. (A page from a file may load pictures, but no data.)
+import { make } from "./dom";
+import type { Page } from "./page";
+import type { Pose } from "./scene/view";
+
+/** What a renewed page keeps. Joint and time are in its address. */
+interface Kept {
+  pose: Pose | null;
+  playing: boolean;
+}
+
+const often = 500; // ms between looks at the stamp
+
+/** Looks for a newer run from now on, if the page is watched. Shows the view that the page had before. */
+export function watch(page: Page): void {
+  const run = Number(document.documentElement.dataset.watch ?? 0);
+  if (!run) return;
+  const kept = (history.state as { watched?: Kept } | null)?.watched;
+  if (kept?.pose) page.stage.view?.pose(kept.pose);
+  if (kept?.playing) page.play(true);
+  const note = make("p.watch-note", "The scenario has an error, which the terminal shows. This is the run before it.");
+  note.setAttribute("role", "status");
+  note.hidden = true;
+  document.body.prepend(note);
+  const look = () => {
+    const stamp = new Image();
+    stamp.onload = () => {
+      if (stamp.naturalWidth !== run) return renew(page);
+      note.hidden = stamp.naturalHeight < 2;
+      setTimeout(look, often);
+    };
+    stamp.onerror = () => setTimeout(look, often); // being written, or the folder has gone
+    stamp.src = `stamp.svg?${Date.now()}`;
+  };
+  look();
+}
+
+function renew(page: Page): void {
+  const watched: Kept = { pose: page.stage.view?.kept() ?? null, playing: page.state.playing };
+  page.address.write(page, { watched });
+  location.reload();
+}

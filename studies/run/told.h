@@ -1,0 +1,26 @@
+// Result of a point that another program gives, as a line of JSON.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "studies/journal/results.h"
+
+namespace gaitlab::studies {
+
+/// Result of a point. A failed point has an outcome other than `done`, and no score.
+struct Told {
+  std::uint64_t point = 0;  ///< id of the question
+  std::string outcome = "done", message = {};
+  double simulated = 0;  ///< time until the failure, s
+  Score score = {};
+  std::string verdict = "not judged";
+  std::map<std::string, double> quantities = {};  ///< by name; NaN if not known
+};
+
+/// Reads a result from `line` at `place`: `{"id": 7, "objective": 0.031, "violation": 0}`, or an answer of answer(). An unknown
+/// objective (null) adds 1 to the violation. Throws InputError with every problem found: no JSON, an unknown key, a value of
+/// the wrong type, or another number of objectives than `objectives`.
+Told read_told(const std::string& line, const SourceLocation& place, std::size_t objectives);
+
+}  // namespace gaitlab::studies

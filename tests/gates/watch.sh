@@ -1,0 +1,72 @@
+#!/usr/bin/env bash
+# `gaitlab watch` runs again when the scenario, its module or its plugin is saved, and not otherwise; an error leaves the run before it.
+# usage: watch.sh PROGRAM
+source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
+(($#)) || usage
+program=$(readlink -f -- "$1")
+cd -- "$work"
+cp -r -- "$root/scenarios/modules" .
+cat >two.yaml <<'END'
+gaitlab: 1
+robot: {modules: modules/mtran.yaml, docks: [[1, 1, 4, 0, 0]]}
+contact: {on: all}
+physics: {engine: articulated}
+cpg: {type: phase_oscillator, frequency: 1, amplitude: 0.6}
+duration: 0.2
+END
+# begin FILE: starts a watch. number, height: of stamp.svg.
+begin() {
+  "$program" watch "$1" --out seen >out 2>err &
+  watcher=$!
+}
+trap 'kill "$watcher" 2>/dev/null || true; rm -rf -- "$work"' EXIT
+number() { sed -n 's/.* width="\([0-9]*\)".*/\1/p' seen/stamp.svg 2>/dev/null; }
+height() { sed -n 's/.* height="\([0-9]*\)".*/\1/p' seen/stamp.svg 2>/dev/null; }
+runs() { grep -c 'waiting for a change' err || true; }
+have_runs() { (($(runs) == $1)); }
+is_height() { [[ $(height) == "$1" ]]; }
+in_page() { grep -q "data-watch=\"$(number)\"" seen/report.html; }
+
+begin two.yaml
+wait_for "$watcher" "run 1" have_runs 1
+first=$(number)
+in_page && is_height 1 || bad "the page of the first run has no number $first"
+[[ -s seen/trace.h5 && -s seen/summary.json && ! -e seen.next && ! -e seen/.read ]] || bad "files: $(ls -A . seen)"
+grep -q 'waiting for a change of 2 files' err || bad "the scenario and its module are not both watched: $(<err)"
+grep -q 'seen/report.html' out || bad "the page is not named"
+code=0
+"$program" watch two.yaml --out seen >/dev/null 2>second || code=$?
+((code == 2)) && grep -q 'being written by another process' second || bad "a second watch of a folder: exit code $code, $(<second)"
+
+sed -i 's/amplitude: 0.6/amplitude: 0.5/' two.yaml
+wait_for "$watcher" "run 2" have_runs 2
+(($(number) == first + 1)) && in_page || bad "a saved scenario: run $(number) after $first"
+grep -q 'amplitude: 0.5' seen/scenario.resolved.yaml || bad "the run is not of the saved scenario"
+
+sed -i 's/^name:/# saved again\n&/' modules/mtran.yaml
+wait_for "$watcher" "run 3" have_runs 3
+(($(number) == first + 2)) || bad "a saved module: run $(number) after $first"
+
+echo 'duration: -1' >>two.yaml
+wait_for "$watcher" "run 4" have_runs 4
+is_height 2 && (($(number) == first + 2)) || bad "an error: stamp $(<seen/stamp.svg)"
+grep -q "two.yaml:7:" err || bad "the error is not printed"
+sed -i '$d' two.yaml
+# An editor that writes a new file and renames it.
+cp -- two.yaml saved && sed -i 's/0.5/0.4/' saved && mv -- saved two.yaml
+wait_for "$watcher" "run 5" have_runs 5
+is_height 1 && in_page || bad "mended: stamp $(<seen/stamp.svg)"
+
+kill -TERM "$watcher" # (a background process of a script ignores SIGINT)
+code=0
+wait "$watcher" || code=$?
+((code == 0)) || bad "interrupted: exit code $code"
+[[ ! -e seen.next ]] || bad "seen.next is left"
+ok "watch: scenario, module, error, editor"
+
+mkdir other && touch other/thesis.txt
+code=0
+"$program" watch two.yaml --out other >/dev/null 2>err || code=$?
+((code == 2)) && [[ $(ls other) == thesis.txt ]] && grep -q 'is not a folder of gaitlab watch' err || bad "a folder of something else: exit code $code"
+ok "watch: other folders are refused"
+verdict
