@@ -25,7 +25,7 @@ class InMujoco {
   explicit InMujoco(const Scenario& s) : scenario_(s) {
     const Folder folder;
     std::array<char, 1000> error{};
-    model_.reset(mj_loadXML(folder.write("robot.xml", to_mjcf(s)).c_str(), nullptr, error.data(), error.size()));
+    model_.reset(mj_loadXML(folder.write("robot.xml", to_mjcf(s, MjcfModel::strict)).c_str(), nullptr, error.data(), error.size()));
     if (model_ == nullptr) throw std::runtime_error(error.data());
     data_.reset(mj_makeData(model_.get()));
     mj_resetDataKeyframe(model_.get(), data_.get(), 0);
@@ -282,7 +282,7 @@ TEST(Mujoco, NamesTheIntegratorOfEitherEngine) {
   const auto exported = [](const std::vector<std::string>& more) {
     std::vector<std::string> sets{"physics.engine=articulated"};
     sets.insert(sets.end(), more.begin(), more.end());
-    return to_mjcf(shipped("hexapod.yaml", sets));
+    return to_mjcf(shipped("hexapod.yaml", sets), MjcfModel::strict);
   };
   const auto expect = [](const std::string& text, const std::string& step, const std::string& sentence) {
     EXPECT_TRUE(text.find("timestep=\"" + step + "\"") != std::string::npos) << step;
@@ -307,7 +307,7 @@ TEST(Mujoco, HoldsTheHexapodWithItsNames) {
   EXPECT_EQ(m.nu, 22);
   EXPECT_EQ(m.nsite, 24);  // six feet with four points each
   EXPECT_DOUBLE_EQ(m.opt.timestep, s.physics.step);
-  EXPECT_NE(to_mjcf(s).find("Integrator: semi_implicit, of order 1; RK4 at the same step"), std::string::npos);
+  EXPECT_NE(to_mjcf(s, MjcfModel::strict).find("Integrator: semi_implicit, of order 1; RK4 at the same step"), std::string::npos);
   EXPECT_EQ(m.opt.integrator, mjINT_RK4);
   for (int g = 0; g < m.ngeom; ++g) EXPECT_EQ(m.geom_contype[g] + m.geom_conaffinity[g], 0);
   mj_forward(&m, &mujoco.data());
