@@ -51,7 +51,8 @@ void export_robot(const ExportArguments& arguments) {
   Catalog catalog = careful_catalog(arguments.plugins);
   const Scenario scenario = read(arguments.source, catalog);
   const auto model = arguments.strict ? interchange::MjcfModel::strict : interchange::MjcfModel::walking;
-  write_file(arguments.file, arguments.format == "mjcf" ? interchange::to_mjcf(scenario, model) : interchange::to_urdf(scenario),
+  write_file(arguments.file,
+             arguments.format == "mjcf" ? interchange::to_mjcf(scenario, model) : interchange::to_urdf(scenario),
              Existing::refused);
   fmt::print("{}: {} bodies, {} joints\n", one_line(arguments.file), scenario.robot->bodies.size(),
              scenario.robot->joints.size());
@@ -140,9 +141,10 @@ void add_export(Commands& commands) {
             ->required()
             ->check(CLI::IsMember({"csv", "gltf", "mjcf", "urdf"}));
         command.add_option("FILE", arguments.file, "file to write; must not exist")->required();
-        command.add_flag("--strict", arguments.strict,
-                         "mjcf: exactly the robot's dynamics, for comparison: nothing touches, and controls are torques; without "
-                         "it the robot stands and walks, and controls are set points");
+        command.add_flag(
+            "--strict", arguments.strict,
+            "mjcf: exactly the robot's dynamics, for comparison: nothing touches, and controls are torques; without "
+            "it the robot stands and walks, and controls are set points");
         add_trust(command, arguments.plugins);
         command.add_option("--set", arguments.source.sets, "key.path=value in the scenario")
             ->expected(1)

@@ -27,7 +27,7 @@ std::string row(const std::string& file, double seconds, Catalog& catalog) {
   const Recording record = simulation.take_recording(0);
   const versus::Walk ours = versus::recorded_walk(record, kFrom);
   const versus::Walk theirs =
-      versus::walk_in_mujoco(interchange::to_mjcf(s, interchange::MjcfModel::walking), *s.robot, record, kFrom);
+      versus::walk_in_mujoco(interchange::to_mjcf(s, interchange::MjcfModel::walking), s, record, kFrom, versus::Between::line);
   std::size_t worst = 0;
   for (std::size_t j = 0; j < ours.rms.size(); ++j) {
     if (std::abs(theirs.rms[j] - ours.rms[j]) > std::abs(theirs.rms[worst] - ours.rms[worst])) worst = j;
@@ -52,7 +52,9 @@ int main(int count, char** words) {
       }
     }
     fmt::print("MuJoCo {}\n\n", mujoco_version());
-    fmt::print("| scenario | travel, m | in MuJoCo | | RMS torque, N m | in MuJoCo | | worst joint |\n|---|---|---|---|---|---|---|---|\n");
+    fmt::print(
+        "| scenario | travel, m | in MuJoCo | | RMS torque, N m | in MuJoCo | | worst joint "
+        "|\n|---|---|---|---|---|---|---|---|\n");
     for (const std::string& file : files) {
       try {
         fmt::print("{}\n", row(file, seconds, catalog));

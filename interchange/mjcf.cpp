@@ -43,11 +43,12 @@ class Mjcf {
     Xml root;
     root.name = "mujoco";
     set(root, "model", s_.name);
-    comment(root, walking_ ? fmt::format("Written by gaitlab.{}{}{}", walking_->comment(), method(), massless())
-                           : fmt::format("Written by gaitlab. Not in this file, because MJCF does not hold it:{}{} Geoms touch "
-                                         "nothing: those of group 3 are the contact elements (points are drawn as spheres of {} "
-                                         "m), each with a site.{}",
-                                         left_out(s_), method(), text({kPointSize}), massless()));
+    comment(root, walking_
+                      ? fmt::format("Written by gaitlab.{}{}{}", walking_->comment(), method(), massless())
+                      : fmt::format("Written by gaitlab. Not in this file, because MJCF does not hold it:{}{} Geoms touch "
+                                    "nothing: those of group 3 are the contact elements (points are drawn as spheres of {} "
+                                    "m), each with a site.{}",
+                                    left_out(s_), method(), text({kPointSize}), massless()));
     write_options(root);
     Xml& world = add(root, "worldbody");
     write_ground(world);

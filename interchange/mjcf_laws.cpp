@@ -13,8 +13,8 @@ namespace gaitlab::interchange {
 
 namespace {
 
-// Least impedance d, and greatest ratio of the slopes of friction and damping (chosen): with d = 0.05 the mass at a contact is a
-// twentieth of the inertia there, and MuJoCo's solver converges within its tolerance.
+// Least impedance d, and greatest ratio of the slopes of friction and damping (chosen): with d = 0.05 the mass at a contact is
+// a twentieth of the inertia there, and MuJoCo's solver converges within its tolerance.
 constexpr double kLeastImpedance = 0.05;
 constexpr double kMostImpratio = 100;
 constexpr double kUsualGravity = 9.81;  // m/s^2, for the standing depth where gravity does not press the robot on the ground

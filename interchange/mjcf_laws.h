@@ -10,8 +10,8 @@
 namespace gaitlab::interchange {
 
 /// MuJoCo's estimate of the inertia at its constraints, 1 / A_0, computed once with all angles at 0: `body_invweight0` and
-/// `dof_invweight0`. Of a body, A_0 is the mean of the diagonal of J M^-1 J^T at its centre of mass (translation); of a hinge,
-/// the diagonal of M^-1. M contains the rotors.
+/// `dof_invweight0`. A_0 of a body is the mean of the diagonal of J M^-1 J^T at its centre of mass (translation), and A_0 of a
+/// hinge the diagonal of M^-1. M contains the rotors.
 struct Mobility {
   std::vector<double> bodies;  ///< 1/kg, per body; 0 for a body that cannot move
   std::vector<double> joints;  ///< 1/(kg m^2), per joint
@@ -25,8 +25,9 @@ Mobility mobility(const Scenario& scenario, const std::vector<MotorLimits>& limi
 ///     f = (stiffness p + damping p') / ((1 - d) A_0) - m' a,   m' = d / ((1 - d) A_0).
 /// With stiffness = (1 - d) A_0 Kn and damping = (1 - d) A_0 C it is Kn p + C p' of the law, exactly, and a mass m' at the
 /// contact while it lasts. A semi-implicit step of the law has such a term, too, with m' = h C: d must not be less than that,
-/// because the step would otherwise be explicit. Friction has R / impratio, the same damping and no stiffness: it is viscous with
-/// the slope impratio C up to f Fn, which is that of the law, f Fn / v_lim, if impratio is the ratio of the two slopes at p0.
+/// because the step would otherwise be explicit. Friction has R / impratio, the same damping and no stiffness: it is viscous
+/// with the slope impratio C up to f Fn, which is that of the law, f Fn / v_lim, if impratio is the ratio of the two slopes at
+/// p0.
 struct ContactLine {
   double depth = 0;      ///< p0, m
   double stiffness = 0;  ///< N/m, dFn/dp at p0

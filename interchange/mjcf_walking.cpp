@@ -15,6 +15,9 @@ namespace {
 // m, radius of the sphere by which a point touches. If the body tilts by an angle a from the start, the bottom of the sphere is
 // (1 - cos a) radii below the point: 8 um at 0.4 rad.
 constexpr double kTouchRadius = 1e-4;
+// m, the same on a ground with boxes. MuJoCo 2.2 takes the radius for the depth of a sphere whose centre is inside a box (3.12
+// does not), so that the radius must be greater than the penetration, 0.6 mm of a hexapod that walks.
+constexpr double kTouchRadiusOnBoxes = 1e-3;
 
 }  // namespace
 
@@ -29,6 +32,8 @@ MjcfWalking::MjcfWalking(const Scenario& s, const RobotState& start, const std::
   at_start_.place(*s.robot, start);
   if (penalty()) line_ = contact_line(s);
 }
+
+double MjcfWalking::touch_radius() const { return s_.ground.boxes().empty() ? kTouchRadius : kTouchRadiusOnBoxes; }
 
 void MjcfWalking::write_direct(Xml& element, const char* reference, const char* impedance, const DirectReference& r) const {
   set(element, reference, text({-r.stiffness, -r.damping}));
@@ -54,13 +59,13 @@ void MjcfWalking::write_element(Xml& geom, const ContactElement& e) const {
   Vec3 centre = e.centre;
   double radius = e.radius - line_.onset;
   if (!(e.radius > 0)) {
-    radius = kTouchRadius;
-    centre += at_start_.R[e.link].transpose() * Vec3(0, 0, kTouchRadius + line_.onset);
+    radius = touch_radius();
+    centre += at_start_.R[e.link].transpose() * Vec3(0, 0, touch_radius() + line_.onset);
   }
   set(geom, "size", text({radius}));
   set(geom, "pos", text(Vec3(body.in_link.inverse() * centre)));
   set(geom, "contype", "1");
-  // Of two geoms of equal priority MuJoCo uses the larger friction, which is the ground's.
+  // MuJoCo uses the larger friction of two geoms of equal priority, which is the ground's.
   set(geom, "friction", text({e.friction == 1 ? 0 : e.friction * s_.ground.friction, 0, 0}));
   if (e.friction != 1) set(geom, "priority", "1");
   const double A = mobility_.bodies[e.body];
@@ -72,8 +77,7 @@ void MjcfWalking::write_element(Xml& geom, const ContactElement& e) const {
 void MjcfWalking::write_hinge(Xml& joint, std::size_t j) const {
   const double A = mobility_.joints[j];
   if (s_.robot->joints[j].turns_freely() || !(A > 0)) return;
-  write_direct(joint, "solreflimit", "solimplimit",
-               direct_reference(HingeStop::kStiffness, HingeStop::kDamping, A, step_));
+  write_direct(joint, "solreflimit", "solimplimit", direct_reference(HingeStop::kStiffness, HingeStop::kDamping, A, step_));
 }
 
 void MjcfWalking::write_motors(Xml& root) const {
@@ -116,7 +120,7 @@ std::string MjcfWalking::contact_comment() const {
       "{:.6g} m of the standing robot, and friction {} Fn with the slope {:.6g} N s/m, that of the law at this depth. solref "
       "is -(1 - d) A K, -(1 - d) A C with d of solimp and A MuJoCo's body_invweight0; d / ((1 - d) A) is a mass at the contact "
       "that the law has not.",
-      number_text(kTouchRadius), line_.stiffness, line_.damping, line_.onset, number_text(s_.contact.penalty.kn),
+      number_text(touch_radius()), line_.stiffness, line_.damping, line_.onset, number_text(s_.contact.penalty.kn),
       number_text(s_.contact.penalty.k), number_text(s_.contact.penalty.cd), number_text(s_.contact.penalty.d), line_.depth,
       number_text(s_.ground.friction), line_.impratio * line_.damping);
   const bool boxes_differ =
@@ -133,12 +137,14 @@ std::string MjcfWalking::motor_comment() const {
   };
   if (!drives_.by_set_points) {
     return fmt::format(
-        " Controls are the commands of actuator {}, {}; the law of its motors at rest, and their torque limit. Controller {} is "
+        " Controls are the commands of actuator {}, {}; the law of its motors at rest, and their torque limit. Controller {} "
+        "is "
         "not in this file.",
         name(s_.actuator), drives_.command_unit, name(s_.controller));
   }
   std::string out = fmt::format(
-      " Controls are set points, rad (columns setpoint of the trace). Torque = c Kp (ctrl - q) - (c Kd + B) w: controller pid and "
+      " Controls are set points, rad (columns setpoint of the trace). Torque = c Kp (ctrl - q) - (c Kd + B) w: controller pid "
+      "and "
       "the law T = c u - B w of actuator {} at rest, within its torque at rest under the largest command. Not in this file: "
       "the control period of {} s",
       name(s_.actuator), number_text(s_.control_period));

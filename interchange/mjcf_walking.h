@@ -17,7 +17,7 @@ class MjcfWalking {
   void write_hinge(Xml& joint, std::size_t index) const;
   /// Writes the motors: controls are set points with controller `pid`, otherwise the motor's commands.
   void write_motors(Xml& root) const;
-  /// Adds the controls with which the robot stands at its start.
+  /// Adds the controls that hold the pose at the start.
   void write_controls(Xml& key) const;
   /// Sentences on what the file has and lacks.
   [[nodiscard]] std::string comment() const;
@@ -25,6 +25,7 @@ class MjcfWalking {
  private:
   [[nodiscard]] bool touches() const { return s_.ground.exists() && s_.contact.on != ContactSet::none; }
   [[nodiscard]] bool penalty() const { return touches() && s_.contact.model().penalty_settings; }
+  [[nodiscard]] double touch_radius() const;
   [[nodiscard]] std::string contact_comment() const;
   [[nodiscard]] std::string motor_comment() const;
   void write_direct(Xml& element, const char* reference, const char* impedance, const DirectReference& r) const;
