@@ -17,7 +17,11 @@ using namespace gaitlab;
 
 constexpr double kFrom = 2;  // s; the robot has then settled on the ground and the amplitudes have risen
 
-std::string percent(double theirs, double ours) { return fmt::format("{:+.1f} %", 100 * (theirs / ours - 1)); }
+constexpr double kNothing = 1e-3;  // m, N m; no ratio is shown for less
+
+std::string percent(double theirs, double ours) {
+  return ours < kNothing ? "-" : fmt::format("{:+.1f} %", 100 * (theirs / ours - 1));
+}
 
 std::string row(const std::string& file, double seconds, Catalog& catalog) {
   const Scenario s = read_scenario(
@@ -53,8 +57,8 @@ int main(int count, char** words) {
     }
     fmt::print("MuJoCo {}\n\n", mujoco_version());
     fmt::print(
-        "| scenario | travel, m | in MuJoCo | | RMS torque, N m | in MuJoCo | | worst joint "
-        "|\n|---|---|---|---|---|---|---|---|\n");
+        "| scenario | travel, m | in MuJoCo | difference | RMS torque, N m | in MuJoCo | difference | worst joint |\n"
+        "|---|---|---|---|---|---|---|---|\n");
     for (const std::string& file : files) {
       try {
         fmt::print("{}\n", row(file, seconds, catalog));

@@ -111,6 +111,9 @@ void MjcfWalking::write_controls(Xml& key) const {
 std::string MjcfWalking::contact_comment() const {
   if (!touches()) return " Nothing touches.";
   std::string out = " The contact elements, geoms of group 3 with a site each, touch the ground, and nothing else touches.";
+  if (std::ranges::any_of(s_.ground.boxes(), [](const Box& box) { return box.mass > 0; })) {
+    out += " Boxes with a mass are fixed here.";
+  }
   if (!penalty()) {
     return out + " The contact law is Bullet's solver there and MuJoCo's with its default parameters here.";
   }
