@@ -89,7 +89,7 @@ Scenario lifted(Scenario s, double height) {
 }
 
 /// A robot that is dropped comes to rest at the same height, because contact law and controller have the same static force. The
-/// tolerance is 0.6 % of the depth at rest of 0.18 mm: a factor (1 - d) would be 5 %. Where k is not 1, the line through the
+/// tolerance is 0.6 % of the depth at rest of 0.18 mm: a factor (1 - d) would be 5 %. For k other than 1, the line through the
 /// law at the mean depth differs from the law by the square of the differences in load.
 void expect_equal_rest(const Scenario& s, double tolerance) {
   const Recording record = run(s);
