@@ -24,6 +24,7 @@ struct ExportArguments {
   ScenarioArguments source;  ///< `file` is a run folder or trace file (csv, gltf) or a scenario (mjcf, urdf, gltf)
   std::string format;        ///< csv, gltf, mjcf or urdf
   std::string file;          ///< file to write, which must not exist
+  bool strict = false;       ///< mjcf: exact dynamics, without contacts and controller
   PluginArguments plugins;
 };
 
@@ -49,7 +50,9 @@ void export_robot(const ExportArguments& arguments) {
   }
   Catalog catalog = careful_catalog(arguments.plugins);
   const Scenario scenario = read(arguments.source, catalog);
-  write_file(arguments.file, arguments.format == "mjcf" ? interchange::to_mjcf(scenario) : interchange::to_urdf(scenario),
+  const auto model = arguments.strict ? interchange::MjcfModel::strict : interchange::MjcfModel::walking;
+  write_file(arguments.file,
+             arguments.format == "mjcf" ? interchange::to_mjcf(scenario, model) : interchange::to_urdf(scenario),
              Existing::refused);
   fmt::print("{}: {} bodies, {} joints\n", one_line(arguments.file), scenario.robot->bodies.size(),
              scenario.robot->joints.size());
@@ -107,6 +110,9 @@ void export_gltf(const ExportArguments& arguments) {
 }
 
 int export_to(const ExportArguments& arguments) {
+  if (arguments.strict && arguments.format != "mjcf") {
+    throw InputError(SourceLocation{"--strict"}, fmt::format("found --to {}; expected --to mjcf", arguments.format));
+  }
   check_new(arguments.file);
   const auto& make = arguments.format == "csv" ? export_trace : arguments.format == "gltf" ? export_gltf : export_robot;
   make(arguments);
@@ -135,6 +141,10 @@ void add_export(Commands& commands) {
             ->required()
             ->check(CLI::IsMember({"csv", "gltf", "mjcf", "urdf"}));
         command.add_option("FILE", arguments.file, "file to write; must not exist")->required();
+        command.add_flag(
+            "--strict", arguments.strict,
+            "mjcf: exactly the robot's dynamics, for comparison: nothing touches, and controls are torques; without "
+            "it the robot stands and walks, and controls are set points");
         add_trust(command, arguments.plugins);
         command.add_option("--set", arguments.source.sets, "key.path=value in the scenario")
             ->expected(1)

@@ -2,9 +2,6 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
-#include <mujoco/mujoco.h>
-#include <stdlib.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +9,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "bench/mujoco_model.h"
 #include "core/files/atomic_file.h"
 #include "core/laws/dc_motor.h"
 #include "core/simulation/plant.h"
@@ -31,12 +29,6 @@ constexpr double kTime = 0.01, kOnset = 0.001, kDepth = 0.002;
 // Iterations of the solver in set-up armature. Newton's method starts from the solution of the last step, so that three are
 // sufficient (default: 100, or until the tolerance is reached).
 constexpr int kIterations = 3;
-
-struct Delete {
-  void operator()(mjModel* m) const { mj_deleteModel(m); }
-  void operator()(mjData* d) const { mj_deleteData(d); }
-};
-using Model = std::unique_ptr<mjModel, Delete>;
 
 /// Part of the scenario that is exported: without shapes, and without motors, which are applied as forces on the joints.
 Scenario bare(const PlantSettings& s) {
@@ -90,25 +82,6 @@ std::string dc_motors(const PlantSettings& s) {
     out += fmt::format("ctrllimited=\"true\" ctrlrange=\"{} {}\"/>\n", -motor->u_max, motor->u_max);
   }
   return out + "</actuator>\n";
-}
-
-/// Compiles a model. MuJoCo reads models from files, so a temporary file is written.
-Model load(const std::string& mjcf) {
-  std::string path = std::filesystem::temp_directory_path() / "gaitlab-XXXXXX.xml";
-  const int file = mkstemps(path.data(), 4);
-  if (file < 0) throw RunError(path + ": cannot be made");
-  close(file);
-  std::array<char, 1000> error{};
-  try {
-    write_file(path, mjcf);
-    Model model(mj_loadXML(path.c_str(), nullptr, error.data(), error.size()));
-    std::filesystem::remove(path);
-    if (model == nullptr) throw RunError(fmt::format("MuJoCo does not take the model: {}", error.data()));
-    return model;
-  } catch (...) {
-    std::filesystem::remove(path);
-    throw;
-  }
 }
 
 enum class SetUp { armature, euler, implicit, implicitfast, dcmotor };
@@ -196,11 +169,11 @@ class MujocoPlant final : public Plant {
   }
 
  private:
-  static Model make_model(const PlantSettings& s) {
+  static MujocoModel make_model(const PlantSettings& s) {
     if (s.base != Base::floating) throw RunError("engine mujoco of the benchmarks has floating bases only");
-    std::string mjcf = lean(interchange::to_mjcf(bare(s)));
+    std::string mjcf = lean(interchange::to_mjcf(bare(s), interchange::MjcfModel::strict));
     if (set_up(s.integrator) == SetUp::dcmotor) mjcf.insert(mjcf.rfind("</mujoco>"), dc_motors(s));
-    return load(mjcf);
+    return load_mjcf(mjcf);
   }
 
   [[nodiscard]] int integrator() const {
@@ -296,8 +269,8 @@ class MujocoPlant final : public Plant {
   std::size_t joints_;
   StateLayout layout_;
   Out numbers_;
-  Model model_;
-  std::unique_ptr<mjData, Delete> data_;
+  MujocoModel model_;
+  MujocoData data_;
   std::vector<int> dof_, q_;          // index for each joint
   std::vector<std::size_t> element_;  // contact element of each geom
   std::vector<double> slope_, torque_, speed_, zero_;

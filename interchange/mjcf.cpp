@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string_view>
 
 #include "core/model/principal_axes.h"
 #include "core/scenario/sensor_section.h"
 #include "core/settings/wording.h"
 #include "core/simulation/start.h"
+#include "interchange/mjcf_walking.h"
 #include "interchange/robot_xml.h"
 
 namespace gaitlab::interchange {
@@ -32,17 +34,21 @@ void set_pose(Xml& element, const Pose& pose) {
 
 class Mjcf {
  public:
-  explicit Mjcf(const Scenario& s)
-      : s_(s), robot_(*s.robot), start_(start_state(s)), tree_(robot_), limits_(motor_limits(s)), sensors_(make_sensors(s)) {}
+  Mjcf(const Scenario& s, MjcfModel model)
+      : s_(s), robot_(*s.robot), start_(start_state(s)), tree_(robot_), limits_(motor_limits(s)), sensors_(make_sensors(s)) {
+    if (model == MjcfModel::walking) walking_.emplace(s, start_, limits_, step());
+  }
 
   std::string write() {
     Xml root;
     root.name = "mujoco";
     set(root, "model", s_.name);
-    comment(root, fmt::format(
-                      "Written by gaitlab. Not in this file, because MJCF does not hold it:{}{} Geoms touch nothing: those of "
-                      "group 3 are the contact elements (points are drawn as spheres of {} m), each with a site.{}",
-                      left_out(s_), method(), text({kPointSize}), massless()));
+    comment(root, walking_
+                      ? fmt::format("Written by gaitlab.{}{}{}", walking_->comment(), method(), massless())
+                      : fmt::format("Written by gaitlab. Not in this file, because MJCF does not hold it:{}{} Geoms touch "
+                                    "nothing: those of group 3 are the contact elements (points are drawn as spheres of {} "
+                                    "m), each with a site.{}",
+                                    left_out(s_), method(), text({kPointSize}), massless()));
     write_options(root);
     Xml& world = add(root, "worldbody");
     write_ground(world);
@@ -68,12 +74,15 @@ class Mjcf {
                        fmt::format("MJCF holds no {} of this kind; expected type: {}", ground.name, plane_and_box_types()));
     }
     if (!s_.ground.exists()) return;
-    set(geom(world, "ground", "plane", "0 0 1"), "group", "2");
+    Xml& plane = geom(world, "ground", "plane", "0 0 1");
+    set(plane, "group", "2");
+    if (walking_) walking_->write_ground(plane, s_.ground.friction);
     for (std::size_t i = 0; i < s_.ground.boxes().size(); ++i) {
       const Box& box = s_.ground.boxes()[i];
       Xml& e = geom(world, fmt::format("ground/{}", i), "box", text(Vec3(box.size / 2)));
       set_pose(e, {box.R, box.center});
       set(e, "group", "2");
+      if (walking_) walking_->write_ground(e, box.friction);
     }
   }
 
@@ -85,6 +94,7 @@ class Mjcf {
     set(option, "timestep", text({step()}));
     set(option, "gravity", text(s_.physics.gravity));
     set(option, "integrator", "RK4");
+    if (walking_) walking_->write_options(option);
     Xml& drawn = add(add(root, "default"), "geom");
     set(drawn, "contype", "0");
     set(drawn, "conaffinity", "0");
@@ -140,6 +150,7 @@ class Mjcf {
     set(e, "axis", text(Vec3(hinge.R * robot_.links[body.link].axis)));
     set(e, "limited", joint.turns_freely() ? "false" : "true");
     if (!joint.turns_freely()) set(e, "range", text({joint.lo, joint.hi}));
+    if (walking_) walking_->write_hinge(e, j);
     if (!joint.driven()) {
       set(e, "stiffness", text({joint.passive->stiffness}));
       set(e, "springref", text({joint.passive->rest}));
@@ -162,12 +173,13 @@ class Mjcf {
   [[nodiscard]] double step() const { return s_.physics.adapts() ? s_.physics.engine->step : s_.physics.step; }
   /// Sentence of the comment on the integrator: MuJoCo uses RK4, whose error is small, instead of the scenario's integrator.
   std::string method() const {
-    if (s_.physics.integrator == nullptr || s_.physics.integrator->name == "rk4") return "";
+    if (s_.physics.integrator == nullptr || (!walking_ && s_.physics.integrator->name == "rk4")) return "";
     const Integrator& own = *s_.physics.integrator;
     const std::string order =
         own.adapts ? fmt::format("accuracy {}", number_text(s_.physics.accuracy)) : fmt::format("of order {}", own.order);
-    return fmt::format(" Integrator: {}, {}; RK4 at {} stands here, of order 4.", own.name, order,
-                       own.adapts ? fmt::format("{} s", number_text(step())) : "the same step");
+    return fmt::format(" Integrator: {}, {}; {} at {} stands here, of order {}.", own.name, order,
+                       walking_ ? "MuJoCo's implicit" : "RK4",
+                       own.adapts ? fmt::format("{} s", number_text(step())) : "the same step", walking_ ? 1 : 4);
   }
   std::string massless() const {
     std::string names;
@@ -219,6 +231,7 @@ class Mjcf {
     Xml& e = geom(element, contact.name, "sphere", size);
     set(e, "pos", pos);
     set(e, "group", "3");
+    if (walking_) walking_->write_element(e, contact);
     Xml& site = add(element, "site");
     set(site, "name", contact.name);
     set(site, "pos", pos);
@@ -229,6 +242,10 @@ class Mjcf {
   /// Writes the motors. Their controls are torques on the joints.
   void write_motors(Xml& root) {
     if (limits_.empty()) return;
+    if (walking_) {
+      walking_->write_motors(root);
+      return;
+    }
     Xml& actuator = add(root, "actuator");
     for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
       if (!robot_.joints[j].driven()) continue;
@@ -302,6 +319,7 @@ class Mjcf {
     set(key, "name", "start");
     set(key, "qpos", text(q));
     set(key, "qvel", text(v));
+    if (walking_) walking_->write_controls(key);
   }
 
   void append_joints(const Xml& element, const std::map<std::string_view, std::size_t>& numbers, std::vector<double>& q,
@@ -322,11 +340,12 @@ class Mjcf {
   BodyTree tree_;
   std::vector<MotorLimits> limits_;
   std::vector<std::unique_ptr<Sensor>> sensors_;
+  std::optional<MjcfWalking> walking_;                 ///< absent in a strict file
   std::vector<std::vector<ContactElement>> elements_;  ///< contact elements of each body
 };
 
 }  // namespace
 
-std::string to_mjcf(const Scenario& scenario) { return Mjcf(scenario).write(); }
+std::string to_mjcf(const Scenario& scenario, MjcfModel model) { return Mjcf(scenario, model).write(); }
 
 }  // namespace gaitlab::interchange

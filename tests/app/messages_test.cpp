@@ -209,6 +209,10 @@ TEST_F(Messages, AFolderIsNotARobotToExport) {
           "run: error: is a folder; --to mjcf needs a scenario file, for a run folder its scenario.resolved.yaml");
 }
 
+TEST_F(Messages, OnlyMjcfIsStrict) {
+  refused("export ok.yaml --strict --to urdf a.urdf", "--strict: error: found --to urdf; expected --to mjcf");
+}
+
 TEST_F(Messages, WhatTheMachineCannotHold) {
   for (const char* command : {"check", "run"}) {
     const Result result = call(std::string(command) + " ok.yaml --set duration=1e6 --set trace.period=2.5e-5");

@@ -1,13 +1,9 @@
 // The exported MJCF in MuJoCo, an independent program, has the mass matrix, bias and passive motion of gaitlab.
-#include <mujoco/mujoco.h>
-
-#include <memory>
-
 #include "core/dynamics/mass_matrix.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/plugin/robot_info.h"
 #include "core/simulation/start.h"
-#include "interchange/mjcf.h"
+#include "tests/interchange/in_mujoco.h"
 #include "tests/program/random_scenario.h"
 #include "tests/validation.h"
 
@@ -18,78 +14,6 @@ using namespace interchange;
 namespace {
 
 constexpr std::array<Base, 3> kBases{Base::floating, Base::fixed, Base::planar};
-
-/// Robot of a scenario in MuJoCo, at the keyframe `start` of the exported file.
-class InMujoco {
- public:
-  explicit InMujoco(const Scenario& s) : scenario_(s) {
-    const Folder folder;
-    std::array<char, 1000> error{};
-    model_.reset(mj_loadXML(folder.write("robot.xml", to_mjcf(s)).c_str(), nullptr, error.data(), error.size()));
-    if (model_ == nullptr) throw std::runtime_error(error.data());
-    data_.reset(mj_makeData(model_.get()));
-    mj_resetDataKeyframe(model_.get(), data_.get(), 0);
-  }
-
-  [[nodiscard]] const mjModel& model() const { return *model_; }
-  [[nodiscard]] mjData& data() { return *data_; }
-  [[nodiscard]] int id(const std::string& joint) const { return mj_name2id(model_.get(), mjOBJ_JOINT, joint.c_str()); }
-  double& q(std::size_t joint) { return data_->qpos[model_->jnt_qposadr[id(scenario_.robot->joints[joint].name)]]; }
-  [[nodiscard]] int dof(std::size_t joint) const { return model_->jnt_dofadr[id(scenario_.robot->joints[joint].name)]; }
-
-  /// Sets the state in MuJoCo to the state of gaitlab. The pose of a planar base is given by x, z and its rotation from the
-  /// start.
-  void set(const RobotState& s, double x, double z, double turn) {
-    const Vec3 w = s.orientation.conjugate() * s.angular_velocity;
-    if (scenario_.base == Base::floating) {
-      const Quat& r = s.orientation;
-      const std::array<double, 7> pose{s.position.x(), s.position.y(), s.position.z(), r.w(), r.x(), r.y(), r.z()};
-      const std::array<double, 6> twist{s.velocity.x(), s.velocity.y(), s.velocity.z(), w.x(), w.y(), w.z()};
-      std::copy(pose.begin(), pose.end(), data_->qpos);
-      std::copy(twist.begin(), twist.end(), data_->qvel);
-    } else if (scenario_.base == Base::planar) {
-      const std::array<double, 3> pose{x, z, turn};
-      const std::array<double, 3> twist{s.velocity.x(), s.velocity.z(), s.angular_velocity.y()};
-      std::copy(pose.begin(), pose.end(), data_->qpos);
-      std::copy(twist.begin(), twist.end(), data_->qvel);
-    }
-    for (std::size_t j = 0; j < s.q.size(); ++j) {
-      q(j) = s.q[j];
-      data_->qvel[dof(j)] = s.qd[j];
-    }
-    mj_forward(model_.get(), data_.get());
-  }
-
-  /// Matrix from the generalised velocity of gaitlab to the generalised velocity of MuJoCo. In MuJoCo the angular velocity of a
-  /// free joint is in body axes, and joints are in depth-first order.
-  [[nodiscard]] Eigen::MatrixXd from_ours(const RobotState& s) const {
-    const auto base = static_cast<Eigen::Index>(base_entries(scenario_.base).size());
-    Eigen::MatrixXd T = Eigen::MatrixXd::Zero(model_->nv, model_->nv);
-    T.topLeftCorner(base, base).setIdentity();
-    if (base == 6) T.block<3, 3>(3, 3) = s.orientation.toRotationMatrix().transpose();
-    for (std::size_t j = 0; j < s.q.size(); ++j) T(dof(j), base + static_cast<Eigen::Index>(j)) = 1;
-    return T;
-  }
-
-  /// Mass matrix, computed column by column as M e_i, because the arguments of the function for the whole matrix differ between
-  /// versions of MuJoCo.
-  Eigen::MatrixXd mass() {
-    const Eigen::MatrixXd units = Eigen::MatrixXd::Identity(model_->nv, model_->nv);
-    Eigen::MatrixXd M(model_->nv, model_->nv);
-    for (Eigen::Index i = 0; i < M.cols(); ++i) mj_mulM(model_.get(), data_.get(), M.col(i).data(), units.col(i).data());
-    return M;
-  }
-  Eigen::VectorXd bias() { return Eigen::Map<const Eigen::VectorXd>(data_->qfrc_bias, model_->nv); }
-
- private:
-  struct Delete {
-    void operator()(mjModel* m) const { mj_deleteModel(m); }
-    void operator()(mjData* d) const { mj_deleteData(d); }
-  };
-  const Scenario& scenario_;
-  std::unique_ptr<mjModel, Delete> model_;
-  std::unique_ptr<mjData, Delete> data_;
-};
 
 /// Largest difference of two mass matrices, with each entry relative to its bound sqrt(M_ii M_jj).
 double apart(const Eigen::MatrixXd& theirs, const Eigen::MatrixXd& ours) {
@@ -282,7 +206,7 @@ TEST(Mujoco, NamesTheIntegratorOfEitherEngine) {
   const auto exported = [](const std::vector<std::string>& more) {
     std::vector<std::string> sets{"physics.engine=articulated"};
     sets.insert(sets.end(), more.begin(), more.end());
-    return to_mjcf(shipped("hexapod.yaml", sets));
+    return to_mjcf(shipped("hexapod.yaml", sets), MjcfModel::strict);
   };
   const auto expect = [](const std::string& text, const std::string& step, const std::string& sentence) {
     EXPECT_TRUE(text.find("timestep=\"" + step + "\"") != std::string::npos) << step;
@@ -307,7 +231,8 @@ TEST(Mujoco, HoldsTheHexapodWithItsNames) {
   EXPECT_EQ(m.nu, 22);
   EXPECT_EQ(m.nsite, 24);  // six feet with four points each
   EXPECT_DOUBLE_EQ(m.opt.timestep, s.physics.step);
-  EXPECT_NE(to_mjcf(s).find("Integrator: semi_implicit, of order 1; RK4 at the same step"), std::string::npos);
+  EXPECT_NE(to_mjcf(s, MjcfModel::strict).find("Integrator: semi_implicit, of order 1; RK4 at the same step"),
+            std::string::npos);
   EXPECT_EQ(m.opt.integrator, mjINT_RK4);
   for (int g = 0; g < m.ngeom; ++g) EXPECT_EQ(m.geom_contype[g] + m.geom_conaffinity[g], 0);
   mj_forward(&m, &mujoco.data());
@@ -323,6 +248,33 @@ TEST(Mujoco, HoldsTheHexapodWithItsNames) {
   // At the start, the lowest point of a contact element is on the ground.
   EXPECT_NEAR(mujoco.data().site_xpos[2], 0, 1e-14);
   EXPECT_DOUBLE_EQ(m.actuator_ctrlrange[1], 0.7 * 0.00395 * 594 * 1.2);  // eta Kt n i_max
+}
+
+/// The strict file keeps its bytes, because exact comparisons rest on it.
+TEST(Mujoco, StrictFileIsTheRobotWithoutContactsAndControllers) {
+  EXPECT_EQ(to_mjcf(shipped("pendulum.yaml"), MjcfModel::strict), R"(<mujoco model="pendulum">
+    <!-- Written by gaitlab. Not in this file, because MJCF does not hold it: Hinge stops: a spring of 50 N m/rad and a damper of 0.5 N m s/rad outside the range. Geoms touch nothing: those of group 3 are the contact elements (points are drawn as spheres of 0.001 m), each with a site. -->
+    <compiler angle="radian" inertiafromgeom="false"/>
+    <option timestep="0.0001" gravity="0 0 -9.81" integrator="RK4"/>
+    <default>
+        <geom contype="0" conaffinity="0" group="1"/>
+    </default>
+    <worldbody>
+        <body name="m0/pivot" pos="0 0 1.2" quat="1 0 0 0">
+            <inertial pos="0 0 0" mass="1" quat="1 0 0 0" diaginertia="0.001 0.001 0.001"/>
+            <geom type="box" size="0.025 0.025 0.025" pos="0 0 0" quat="1 0 0 0"/>
+            <body name="m0/rod" pos="0 0 0" quat="1 0 0 0">
+                <joint name="m0/hinge" type="hinge" pos="0 0 0" axis="0 1 0" limited="true" range="-3.2 3.2"/>
+                <inertial pos="0 0 -0.5" mass="1" quat="1 0 0 0" diaginertia="0.08333333333333333 0.08333333333333333 1e-06"/>
+                <geom type="box" size="0.01 0.01 0.5" pos="0 0 -0.5" quat="1 0 0 0"/>
+            </body>
+        </body>
+    </worldbody>
+    <keyframe>
+        <key name="start" qpos="1" qvel="0"/>
+    </keyframe>
+</mujoco>
+)");
 }
 
 }  // namespace

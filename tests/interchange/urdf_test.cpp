@@ -146,11 +146,11 @@ TEST(Urdf, TorqueWithoutLimit) {
     EXPECT_EQ(limits(*s).velocity, 1e6);
     EXPECT_NE(to_urdf(*s).find("of 1000000 stands for no limit"), std::string::npos);
     EXPECT_EQ(to_urdf(*s).find("inf"), std::string::npos);
-    EXPECT_EQ(to_mjcf(*s).find("\"inf"), std::string::npos);
+    EXPECT_EQ(to_mjcf(*s, MjcfModel::strict).find("\"inf"), std::string::npos);
   }
-  EXPECT_NE(to_mjcf(free).find("ctrllimited=\"false\""), std::string::npos);
-  EXPECT_NE(to_mjcf(held).find("ctrlrange=\"-0.5 0.5\""), std::string::npos);
-  EXPECT_EQ(to_mjcf(none).find("<motor"), std::string::npos);
+  EXPECT_NE(to_mjcf(free, MjcfModel::strict).find("ctrllimited=\"false\""), std::string::npos);
+  EXPECT_NE(to_mjcf(held, MjcfModel::strict).find("ctrlrange=\"-0.5 0.5\""), std::string::npos);
+  EXPECT_EQ(to_mjcf(none, MjcfModel::strict).find("<motor"), std::string::npos);
 }
 
 TEST(Urdf, StandsAsTheScenarioWhereTheBaseIsHeld) {

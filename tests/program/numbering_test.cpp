@@ -46,7 +46,7 @@ duration: 0.03
     EXPECT_NE(check.find("3 modules, 9 bodies (moving as 7), 12 degrees of freedom"), std::string::npos) << check;
     for (const char* written : {"run", "s.xml", "s.urdf"}) std::filesystem::remove_all(folder_ / written);
     call("run s.yaml --quiet --out run");
-    call("export s.yaml --to mjcf s.xml");
+    call("export s.yaml --strict --to mjcf s.xml");
     call("export s.yaml --to urdf s.urdf");
     return {read(folder_ / "s.xml"), read(folder_ / "s.urdf"),
             nlohmann::json::parse(call("dynamics s.yaml --state state.json").out),

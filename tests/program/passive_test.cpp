@@ -261,7 +261,7 @@ TEST(PassiveHinge, HasNoMotorAmongOthersThatHave) {
 
 TEST(PassiveHinge, IsExported) {
   const Scenario s = scenario(with_castor("stiffness: 0.5, rest: 0.2, damping: 0.01, friction: 0.002"));
-  const std::string mjcf = interchange::to_mjcf(s);
+  const std::string mjcf = interchange::to_mjcf(s, interchange::MjcfModel::strict);
   EXPECT_TRUE(contains(mjcf, R"(limited="false" stiffness="0.5" springref="0.2" damping="0.01" frictionloss="0.002")")) << mjcf;
   EXPECT_TRUE(contains(mjcf, R"(<motor name="m0/two")"));
   EXPECT_FALSE(contains(mjcf, R"(<motor name="m0/castor")")) << mjcf;

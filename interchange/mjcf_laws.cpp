@@ -1,0 +1,168 @@
+#include "interchange/mjcf_laws.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "core/dynamics/mass_matrix.h"
+#include "core/plugin/actuator.h"
+#include "core/scenario/built_robot.h"
+#include "core/simulation/start.h"
+
+namespace gaitlab::interchange {
+
+namespace {
+
+// Least impedance d, and greatest ratio of the slopes of friction and damping (chosen): with d = 0.05 the mass at a contact is
+// a twentieth of the inertia there, and MuJoCo's solver converges within its tolerance.
+constexpr double kLeastImpedance = 0.05;
+constexpr double kMostImpratio = 100;
+constexpr double kUsualGravity = 9.81;  // m/s^2, for the standing depth where gravity does not press the robot on the ground
+constexpr int kHalvings = 60;           // from the first bracket to the rounding of a double
+
+/// Total force of the springs of the contact elements if the robot sinks by `sunk` from its start on the ground; and the mean
+/// depth of those that touch.
+struct Press {
+  double force = 0, depth = 0;
+};
+Press press(const Scenario& s, const std::vector<ContactElement>& elements, const Kinematics& k, double sunk) {
+  Press sum;
+  int touching = 0;
+  for (const ContactElement& e : elements) {
+    const Vec3 centre = k.point(e.link, e.centre) - sunk * Vec3::UnitZ();
+    const double p = s.ground.query(centre, e.radius).penetration;
+    if (!(p > 0)) continue;
+    sum.force += s.contact.penalty.spring(p);
+    sum.depth += p;
+    ++touching;
+  }
+  if (touching > 0) sum.depth /= touching;
+  return sum;
+}
+
+double standing_depth(const Scenario& s) {
+  const std::vector<ContactElement> elements = contact_elements(*s.robot, s.contact.on);
+  if (elements.empty() || !s.ground.exists()) return 0;
+  Kinematics k(*s.robot);
+  k.place(*s.robot, lowered_start(s));
+  const double g = s.physics.gravity.z() < 0 ? -s.physics.gravity.z() : kUsualGravity;
+  const double weight = s.robot->mass * g;
+  double lo = 0;
+  double hi = 1e-6;
+  while (press(s, elements, k, hi).force < weight && hi < 1) hi *= 2;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = lo + (hi - lo) / 2;
+    (press(s, elements, k, middle).force < weight ? lo : hi) = middle;
+  }
+  return press(s, elements, k, hi).depth;
+}
+
+/// Jacobian of a point of a link: its velocity per unit of each generalised velocity, world axes.
+Eigen::MatrixXd jacobian(const Robot& robot, Base base, const Kinematics& k, std::size_t link, const Vec3& x) {
+  const auto entries = base_entries(base);
+  const auto first = static_cast<Eigen::Index>(entries.size());
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, first + static_cast<Eigen::Index>(robot.joints.size()));
+  for (Eigen::Index i = 0; i < first; ++i) {
+    const std::size_t entry = entries[static_cast<std::size_t>(i)];
+    const Vec3 axis = Vec3::Unit(static_cast<Eigen::Index>(entry % 3));
+    J.col(i) = entry < 3 ? axis : axis.cross(x - k.p[0]);
+  }
+  for (std::size_t l = link; robot.links[l].parent >= 0; l = static_cast<std::size_t>(robot.links[l].parent)) {
+    const Vec3 axis = k.R[l] * robot.links[l].axis;
+    J.col(first + robot.links[l].joint) = axis.cross(x - k.p[l]);
+  }
+  return J;
+}
+
+/// Gains of controller `pid`, found among its settings by their keys.
+class PidGains final : public Fields {
+ public:
+  void visit(const Field& field) override {
+    const auto* each = std::get_if<field::EachJoint>(&field.value);
+    if (each == nullptr) return;
+    const std::string_view key = field.key;
+    if (key == "Kp") kp = each->value;
+    if (key == "Ki") ki = each->value;
+    if (key == "Kd") kd = each->value;
+  }
+  void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
+
+  PerJoint kp, ki, kd;
+};
+
+}  // namespace
+
+Mobility mobility(const Scenario& s, const std::vector<MotorLimits>& limits) {
+  const Robot& robot = *s.robot;
+  RobotState zero = start_state(s);
+  zero.q.assign(robot.joints.size(), 0.0);
+  zero.qd.assign(robot.joints.size(), 0.0);
+  Kinematics k(robot);
+  k.update(robot, zero);
+  MassMatrix mass(robot, s.base);
+  mass.update(k);
+  Eigen::MatrixXd M = mass.matrix();
+  const Eigen::Index first = M.rows() - static_cast<Eigen::Index>(robot.joints.size());
+  for (std::size_t j = 0; j < limits.size(); ++j) {
+    const Eigen::Index i = first + static_cast<Eigen::Index>(j);
+    M(i, i) += limits[j].armature;
+  }
+  const Eigen::LDLT<Eigen::MatrixXd> solver(M);
+  Mobility out;
+  for (const Body& body : robot.bodies) {
+    const Vec3 com = k.point(body.link, body.in_link * body.com);
+    const Eigen::MatrixXd J = jacobian(robot, s.base, k, body.link, com);
+    out.bodies.push_back(M.rows() == 0 ? 0 : (J * solver.solve(J.transpose())).trace() / 3);
+  }
+  const Eigen::MatrixXd inverse = solver.solve(Eigen::MatrixXd::Identity(M.rows(), M.cols()));
+  for (Eigen::Index i = first; i < M.rows(); ++i) out.joints.push_back(inverse(i, i));
+  return out;
+}
+
+ContactLine contact_line(const Scenario& s) {
+  const PenaltyContact& law = s.contact.penalty;
+  ContactLine line;
+  line.depth = standing_depth(s);
+  if (!(line.depth > 0)) return line;
+  const double force = law.spring(line.depth);
+  line.stiffness = law.stiffness(line.depth);
+  line.onset = line.depth - force / line.stiffness;
+  const double friction_slope = s.ground.friction * force / law.v_lim;
+  line.damping = std::max(law.damping(line.depth), friction_slope / kMostImpratio);
+  if (friction_slope > 0) line.impratio = friction_slope / line.damping;
+  return line;
+}
+
+DirectReference direct_reference(double stiffness, double damping, double mobility, double step) {
+  const double mass_of_step = step * damping * mobility;  // of the semi-implicit step, times A_0
+  const double d = std::max(kLeastImpedance, mass_of_step / (1 + mass_of_step));
+  return {(1 - d) * mobility * stiffness, (1 - d) * mobility * damping, d};
+}
+
+Drives drives(const Scenario& s) {
+  const std::unique_ptr<Actuator> actuator = make_motors(s);
+  if (actuator == nullptr) return {};
+  const std::size_t joints = s.robot->joints.size();
+  // The law is evaluated at rest and far below its limits. A power of two keeps the slope free of rounding.
+  constexpr double kSmall = 1.0 / 1024;
+  const std::vector<double> command(joints, kSmall);
+  const std::vector<double> rest(joints, 0.0);
+  std::vector<double> torque(joints);
+  std::vector<double> slope(joints);
+  actuator->effort(command, rest, torque, slope);
+  Drives out;
+  out.command_unit = actuator->command_unit();
+  PidGains gains;
+  out.by_set_points = s.controller.entry != nullptr && std::string_view(s.controller.entry->name) == "pid";
+  if (out.by_set_points) visit_settings(*s.controller.entry, s.controller.settings.get(), gains);
+  for (std::size_t j = 0; j < joints; ++j) {
+    const double c = torque[j] / kSmall;
+    out.joints.push_back(out.by_set_points ? GainAndBias{c * gains.kp[j], c * gains.kp[j], c * gains.kd[j] + slope[j]}
+                                           : GainAndBias{c, 0, slope[j]});
+    out.integral = out.integral || gains.ki[j] != 0;
+    out.derivative = out.derivative || gains.kd[j] != 0;
+  }
+  return out;
+}
+
+}  // namespace gaitlab::interchange
