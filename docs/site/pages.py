@@ -30,7 +30,7 @@ CONTENTS = (
     ("More", (
         ("Remedies", "docs/remedy.md"), ("Library of modules", "docs/library.md"), ("Studies", "docs/studies.md"),
         ("The page of a run", "docs/report.md"), ("Sensors", "docs/sensors.md"), ("Robots as built", "docs/as-built.md"),
-        ("Changes and faults", "docs/faults.md"), ("Write a CPG", "docs/tutorials/write-a-cpg.md"), ("Clusters", "docs/cluster.md"),
+        ("Changes and faults", "docs/faults.md"), ("Write a CPG", "docs/tutorials/write-a-cpg.md"), ("Debian packages", "docs/packages.md"), ("Clusters", "docs/cluster.md"),
         ("Files of others", "docs/trust.md"))),
     ("Reference", (
         ("Scenario", "docs/reference/scenario.md"), ("Module", "docs/reference/module.md"), ("Plugins", "docs/reference/plugins.md"),
