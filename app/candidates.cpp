@@ -1,6 +1,7 @@
 #include "app/candidates.h"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 #include <utility>
 
@@ -91,18 +92,28 @@ Words listed_names(const std::string& about, const Words& arguments) {
   return names;
 }
 
+/// Words that a key permits, such as `bullet | articulated`, without ranges and kinds of values.
+Words permitted(const KeyRow& row) {
+  constexpr std::array<std::string_view, 6> kKinds{"file", "list", "map", "name", "number", "text"};
+  Words words = CLI::detail::split(row.range, '|');
+  if (words.size() == 1) return {};
+  for (std::string& word : words) CLI::detail::trim(word);
+  std::erase_if(words, [&](const std::string& word) {
+    return word.find(' ') != std::string::npos || std::ranges::find(kKinds, word) != kKinds.end();
+  });
+  return words;
+}
+
 /// Keys of a scenario with `=`; behind it, the words that the key permits.
 Words settings(const std::string& typed) {
-  const std::size_t equal = typed.find('=');
+  const std::string key = typed.substr(0, typed.find('='));
   Words found;
-  for (const ScenarioKey& key : all_keys(standard_catalog())) {
-    if (key.path.find_first_of("[ ") != std::string::npos || key.path.find("NAME") != std::string::npos) continue;
-    if (equal == std::string::npos) {
-      found.push_back(key.path + "=");
-    } else if (key.path == typed.substr(0, equal)) {
-      Words permitted = CLI::detail::split(key.row.range, '|');
-      for (std::string& word : permitted) CLI::detail::trim(word);
-      if (permitted.size() > 1) found.insert(found.end(), permitted.begin(), permitted.end());
+  for (const ScenarioKey& known : all_keys(standard_catalog())) {
+    if (known.path.find_first_of("[ ") != std::string::npos || known.path.find("NAME") != std::string::npos) continue;
+    if (key == typed) {
+      found.push_back(known.path + "=");
+    } else if (known.path == key) {
+      for (const std::string& word : permitted(known.row)) found.push_back(key + "=" + word);
     }
   }
   return found;

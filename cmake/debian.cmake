@@ -27,6 +27,7 @@ set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_SOURCE_DI
   ${CMAKE_SOURCE_DIR}/report/page/LICENSES.txt ${CMAKE_SOURCE_DIR}/report/plot/fonts/OFL.txt)
 
 set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "") # CPack would put it before the descriptions below
 set(CPACK_PACKAGE_VENDOR "gaitlab developers")
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -57,30 +58,30 @@ function(debian_package component name section copyright description)
 endfunction()
 
 debian_package(program gaitlab science copyright "gait lab for modular robots
- gaitlab simulates a modular robot, its motors, controllers and pattern
- generator (CPG) on the ground, from a YAML file. It prints a verdict on
- motors, docks and falls, and writes a page with the moving robot, every check
- and every curve.
- .
- This package contains the program, the shipped modules, robots, scenarios and
- studies, the schemas for editors, and the documentation.")
+gaitlab simulates a modular robot, its motors, controllers and pattern
+generator (CPG) on the ground, from a YAML file. It prints a verdict on
+motors, docks and falls, and writes a page with the moving robot, every check
+and every curve.
+
+This package contains the program, the shipped modules, robots, scenarios and
+studies, the schemas for editors, and the documentation.")
 debian_package(development gaitlab-dev libdevel copyright-dev "gait lab for modular robots (plugins)
- gaitlab simulates a modular robot, its motors, controllers and pattern
- generator (CPG) on the ground, from a YAML file.
- .
- This package contains the headers of plugins (CPGs, controllers, actuators),
- and the CMake package with which plugins are built and gaits are tested.")
+gaitlab simulates a modular robot, its motors, controllers and pattern
+generator (CPG) on the ground, from a YAML file.
+
+This package contains the headers of plugins (CPGs, controllers, actuators),
+and the CMake package with which plugins are built and gaits are tested.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${same_version}")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "cmake, ${gaitlab_compiler_name}, make | ninja-build")
 if(GAITLAB_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)
   debian_package(python python3-gaitlab python copyright "gait lab for modular robots (Python package)
- gaitlab simulates a modular robot, its motors, controllers and pattern
- generator (CPG) on the ground, from a YAML file.
- .
- This package contains the Python package gaitlab: single runs, tables of
- rollouts with the bits of the program, run folders and studies as arrays, and
- pattern generators written in Python.")
+gaitlab simulates a modular robot, its motors, controllers and pattern
+generator (CPG) on the ground, from a YAML file.
+
+This package contains the Python package gaitlab: single runs, tables of
+rollouts with the bits of the program, run folders and studies as arrays, and
+pattern generators written in Python.")
   math(EXPR next "${Python_VERSION_MINOR} + 1")
   set(python 3.${Python_VERSION_MINOR})
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${same_version}, python3 (>= ${python}~), python3 (<< 3.${next}), python3-numpy")

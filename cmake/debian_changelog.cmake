@@ -2,7 +2,7 @@
 # is SOURCE_DATE_EPOCH, if it is set.
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 file(WRITE "${doc}/changelog.Debian"
-  "${package} (${version}) unstable; urgency=medium\n\n  * Built from the sources; their changes: CHANGELOG.md (changelog.gz of gaitlab).\n\n"
+  "${package} (${version}) unstable; urgency=medium\n\n  * Changes of the sources: changelog.gz of the package gaitlab.\n\n"
   " -- ${maintainer}  ${date}\n")
 set(files "${doc}/changelog.Debian")
 if(package STREQUAL "gaitlab")
