@@ -16,7 +16,7 @@ make_root() {
   mkdir -p "$fresh/packages"
   cp -- "$packages"/*.deb "$fresh/packages/"
   expect 0 inside apt-get update
-  expect 0 inside apt-get install --yes --no-install-recommends --reinstall ./packages/gaitlab_*.deb
+  expect 0 inside sh -c 'apt-get install --yes --no-install-recommends --reinstall /packages/gaitlab_*.deb'
   [[ ! -e $fresh$root ]] || fail "the fresh system has the source tree"
   ok "apt installs gaitlab: $(inside dpkg -l | grep -c '^ii') packages in all"
 }
@@ -55,7 +55,7 @@ print("gaitlab", gaitlab.__version__, len(gaitlab.rollouts(gaitlab.Scenario("cat
 
 make_root
 check_program "without /proc"
-expect 0 inside apt-get install --yes --no-install-recommends ./packages/gaitlab-dev_*.deb ./packages/python3-gaitlab_*.deb cmake make g++-12
+expect 0 inside sh -c 'apt-get install --yes --no-install-recommends --reinstall /packages/gaitlab-dev_*.deb /packages/python3-gaitlab_*.deb cmake make g++-12'
 ok "apt installs gaitlab-dev and python3-gaitlab"
 check_python "without /proc"
 check_plugin "without /proc"
