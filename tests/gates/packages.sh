@@ -69,6 +69,7 @@ check_program() {
   cd -- "$work"
   expect 2 ./alone check mtran.yaml
   said "looked in $work/modules, $(dirname -- "$work")/modules, $(dirname -- "$work")/share/gaitlab/scenarios/modules"
+  said 'GAITLAB_DATA names another folder'
   # Without /proc (tests/tools/clean_root.sh): a scenario within a trace is read without a name below it.
   cp -- demo/trace.h5 other.h5
   expect 0 strace -f -qq -e trace=%file -o files "$program" report other.h5
