@@ -73,7 +73,7 @@ constexpr std::string_view kList = "`gaitlab list";
 /// Names that the description of an argument names by `gaitlab list KIND`. Without a kind: the names of the kind that was typed
 /// before, or else the kinds.
 Words listed_names(const std::string& about, const Words& arguments) {
-  static const Catalog catalog = standard_catalog();
+  static const Catalog catalog = kit::standard_catalog();
   Words names;
   const auto add = [&](const ListedKind& kind) {
     for (std::string& name : kind.names(catalog)) names.push_back(std::move(name));
@@ -108,7 +108,7 @@ Words permitted(const KeyRow& row) {
 Words settings(const std::string& typed) {
   const std::string key = typed.substr(0, typed.find('='));
   Words found;
-  for (const ScenarioKey& known : all_keys(standard_catalog())) {
+  for (const ScenarioKey& known : all_keys(kit::standard_catalog())) {
     if (known.path.find_first_of("[ ") != std::string::npos || known.path.find("NAME") != std::string::npos) continue;
     if (key == typed) {
       found.push_back(known.path + "=");
@@ -121,7 +121,7 @@ Words settings(const std::string& typed) {
 
 /// Words that an option or argument accepts in the place of `typed`.
 Candidates values(const CLI::Option& option, const Words& arguments, const std::string& typed) {
-  const std::string about = option.get_description();
+  const std::string& about = option.get_description();
   if (about.find("key.path=value") != std::string::npos) return {settings(typed)};
   Candidates known{choices(option)};
   if (!known.words.empty() || is_number(option)) return known;

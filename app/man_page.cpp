@@ -39,7 +39,7 @@ std::string option_names(const CLI::Option& option) {
   std::vector<std::string> names;
   for (const std::string& name : option.get_snames()) names.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
-  const std::string all = fmt::format("{}", fmt::join(names, ", "));
+  std::string all = fmt::format("{}", fmt::join(names, ", "));
   if (option.get_positional()) return option.get_name();
   if (option.get_items_expected_max() == 0) return all;
   const std::vector<std::string> known = choices(option);

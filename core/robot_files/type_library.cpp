@@ -110,9 +110,11 @@ std::optional<std::size_t> TypeLibrary::find_name(const Node& node) {
   known.erase(std::unique(known.begin(), known.end()), known.end());
   Problem& problem = problems_.add(node.place, "no module type " + in_quotes(node.text) + offer(node.text, known, "types"));
   problem.notes.emplace_back(node.place, "looked in " + joined(whole_paths(search_folders())));
-  if (std::error_code none; !fs::exists(data_folder(), none))
+  std::error_code none;
+  if (!fs::exists(data_folder(), none)) {
     problem.notes.emplace_back(
         node.place, "the data of the program are missing; GAITLAB_DATA names another folder with modules/ and robots/");
+  }
   return {};
 }
 
