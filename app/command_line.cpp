@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/command_tree.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab::app {
@@ -11,10 +12,6 @@ namespace gaitlab::app {
 namespace {
 
 using Words = std::vector<std::string>;
-
-std::string full_name(const CLI::App& command) {
-  return command.get_parent() == nullptr ? "gaitlab" : full_name(*command.get_parent()) + " " + command.get_name();
-}
 
 [[noreturn]] void refuse(const CLI::App& command, const std::string& text) {
   throw InputError(SourceLocation{full_name(command)}, text);
@@ -28,11 +25,9 @@ std::vector<const CLI::App*> levels(const CLI::App& app) {
 }
 
 /// Names of the subcommands that the help of a command shows.
-Words shown_commands(const CLI::App& command) {
+Words shown_names(const CLI::App& command) {
   Words known;
-  for (const CLI::App* within : command.get_subcommands({})) {
-    if (!within->get_group().empty()) known.push_back(within->get_name());
-  }
+  for (const CLI::App* within : shown_commands(command)) known.push_back(within->get_name());
   return known;
 }
 
@@ -54,29 +49,6 @@ bool among(const Words& known, const std::string& name) { return std::find(known
 
 bool looks_like_option(const std::string& word) { return word.size() > 1 && word[0] == '-' && word != "--"; }
 
-/// Allowed values of an option, `h5, csv` from the parser's text `TEXT:{h5,csv}`. Empty if any text is allowed.
-Words choices(const CLI::Option& option) {
-  const std::string type = option.get_type_name();
-  const std::size_t open = type.find('{');
-  if (open == std::string::npos) return {};
-  return CLI::detail::split(type.substr(open + 1, type.find('}') - open - 1), ',');
-}
-
-/// Usage of a command, `gaitlab swap SCENARIO --cpg ...`: required arguments, and optional ones in brackets.
-std::string usage(const CLI::App& command) {
-  std::string text = full_name(command);
-  for (const CLI::Option* option : command.get_options()) {
-    const bool place = option->get_positional();
-    if (!place && !option->get_required()) continue;
-    const Words list = choices(*option);
-    std::string part = place ? option->get_name() : fmt::format("{} {}", option->get_name(), fmt::join(list, "|"));
-    if (!place && list.empty()) part += "...";
-    if (place && option->get_items_expected_max() > 1) part += "...";
-    text += option->get_required() ? " " + part : " [" + part + "]";
-  }
-  return text;
-}
-
 /// Description of the value that an option expects.
 std::string expected(const CLI::Option& option) {
   const std::string type = option.get_type_name();
@@ -94,7 +66,7 @@ void check_command(const CLI::App& app, const Words& words) {
   if (words.empty() || words.front().starts_with('-')) return;
   const auto all = app.get_subcommands({});
   if (std::any_of(all.begin(), all.end(), [&](const CLI::App* one) { return one->get_name() == words.front(); })) return;
-  Words known = shown_commands(app);
+  Words known = shown_names(app);
   known.push_back("help");
   refuse(app, "unknown command " + in_quotes(words.front()) + offer(words.front(), known, "commands"));
 }
@@ -117,7 +89,7 @@ void check_options(const std::vector<const CLI::App*>& chosen) {
 /// Throws InputError if a command requires a subcommand and none follows.
 void check_within(const CLI::App& command) {
   if (command.get_require_subcommand_min() == 0 || !command.get_subcommands().empty()) return;
-  const Words known = shown_commands(command);
+  const Words known = shown_names(command);
   const Words left = command.remaining();
   if (!left.empty()) refuse(command, "unknown command " + in_quotes(left.front()) + offer(left.front(), known, "commands"));
   if (command.get_parent() == nullptr) refuse(command, "a command is missing");  // all commands have just been printed

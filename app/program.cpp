@@ -47,11 +47,11 @@ constexpr const char* kCompare = "Compare and draw";
 constexpr const char* kMany = "Many runs";
 constexpr const char* kKeep = "Keep results, extend";
 constexpr GroupedCommand kGrouped[] = {
-    {"run", kSimulate},     {"watch", kSimulate}, {"report", kSimulate}, {"check", kSimulate}, {"remedy", kSimulate},
-    {"rerun", kSimulate},   {"demo", kSimulate},  {"list", kLookUp},     {"explain", kLookUp}, {"schema", kLookUp},
-    {"compare", kCompare},  {"swap", kCompare},   {"figure", kCompare},  {"export", kCompare}, {"dynamics", kCompare},
-    {"converge", kCompare}, {"sweep", kMany},     {"optimize", kMany},   {"evaluate", kMany},  {"study", kMany},
-    {"approve", kKeep},     {"test", kKeep},      {"new", kKeep}};
+    {"run", kSimulate},      {"watch", kSimulate},   {"report", kSimulate}, {"check", kSimulate}, {"remedy", kSimulate},
+    {"rerun", kSimulate},    {"demo", kSimulate},    {"list", kLookUp},     {"explain", kLookUp}, {"schema", kLookUp},
+    {"completion", kLookUp}, {"compare", kCompare},  {"swap", kCompare},    {"figure", kCompare}, {"export", kCompare},
+    {"dynamics", kCompare},  {"converge", kCompare}, {"sweep", kMany},      {"optimize", kMany},  {"evaluate", kMany},
+    {"study", kMany},        {"approve", kKeep},     {"test", kKeep},       {"new", kKeep}};
 
 /// Puts the commands of the program into groups. Commands without a group are hidden.
 void group(CLI::App& app) {

@@ -28,5 +28,7 @@ void add_export(Commands& commands);
 void add_approve(Commands& commands);
 void add_test(Commands& commands);
 void add_new(Commands& commands);
+void add_completion(Commands& commands);
+void add_man(Commands& commands);
 
 }  // namespace gaitlab::app

@@ -1,7 +1,7 @@
 # What an installation offers beside the program: the headers of a plugin and a CMake package (docs/ci.md).
 include(CMakePackageConfigHelpers)
 
-install(DIRECTORY core/plugin DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gaitlab/core
+install(DIRECTORY core/plugin DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gaitlab/core COMPONENT development
   FILES_MATCHING PATTERN "*.h"
   PATTERN catalog.h EXCLUDE PATTERN plugin_instance.h EXCLUDE PATTERN sensor.h EXCLUDE) # the program's own side
 
@@ -12,7 +12,6 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 else()
   set(gaitlab_compiler_name clang++-${major})
 endif()
-install(DIRECTORY docs/tutorials DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/gaitlab)
 configure_package_config_file(cmake/gaitlabConfig.cmake.in ${CMAKE_BINARY_DIR}/generated/gaitlabConfig.cmake
@@ -21,4 +20,4 @@ configure_package_config_file(cmake/gaitlabConfig.cmake.in ${CMAKE_BINARY_DIR}/g
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/generated/gaitlabConfigVersion.cmake
   COMPATIBILITY SameMinorVersion) # before 1.0 a minor version may break
 install(FILES ${CMAKE_BINARY_DIR}/generated/gaitlabConfig.cmake ${CMAKE_BINARY_DIR}/generated/gaitlabConfigVersion.cmake
-  DESTINATION ${package})
+  DESTINATION ${package} COMPONENT development)

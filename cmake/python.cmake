@@ -24,5 +24,5 @@ foreach(file ${package})
 endforeach()
 
 set(GAITLAB_PYTHON_FOLDER lib/python3/dist-packages CACHE STRING "Folder of Python packages in the installation prefix")
-install(TARGETS gaitlab_native DESTINATION ${GAITLAB_PYTHON_FOLDER}/gaitlab)
-install(FILES ${package} DESTINATION ${GAITLAB_PYTHON_FOLDER}/gaitlab)
+install(TARGETS gaitlab_native DESTINATION ${GAITLAB_PYTHON_FOLDER}/gaitlab COMPONENT python)
+install(FILES ${package} DESTINATION ${GAITLAB_PYTHON_FOLDER}/gaitlab COMPONENT python)

@@ -1,11 +1,8 @@
 #include "kit/stored_scenario.h"
 
 #include <fmt/format.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -26,52 +23,6 @@ namespace gaitlab::kit {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A file in memory with a path, for functions that read files. It leaves nothing on the disk, even after a crash.
-class MemoryFile {
- public:
-  explicit MemoryFile(std::string_view text) : descriptor_(::memfd_create("scenario", MFD_CLOEXEC)) {
-    if (descriptor_ < 0) fail();
-    while (!text.empty()) {
-      const ssize_t written = ::write(descriptor_, text.data(), text.size());
-      if (written < 0) fail();
-      text.remove_prefix(static_cast<std::size_t>(written));
-    }
-  }
-  ~MemoryFile() { ::close(descriptor_); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  [[nodiscard]] std::string path() const { return fmt::format("/proc/self/fd/{}", descriptor_); }
-
- private:
-  [[noreturn]] static void fail() {
-    throw RunError("no memory for the recorded scenario: " + std::generic_category().message(errno));
-  }
-  int descriptor_;
-};
-
-void rename(SourceLocation& place, const std::string& from, const std::string& to) {
-  if (place.file == from) place.file = to;
-}
-
-Scenario read_inside(const StoredScenario& stored, const std::vector<std::string>& sets, Catalog& catalog) {
-  const MemoryFile copy(stored.text);
-  try {
-    Scenario scenario = read_scenario(copy.path(), sets, catalog, ReadAs::record);
-    scenario.file = stored.shown;
-    Scenario::Places places = *scenario.places;
-    for (auto& [key, place] : places) rename(place, copy.path(), stored.shown);
-    scenario.places = std::make_shared<const Scenario::Places>(std::move(places));
-    return scenario;
-  } catch (const InputError& error) {
-    std::vector<Problem> problems = error.problems();
-    for (Problem& problem : problems) {
-      rename(problem.place, copy.path(), stored.shown);
-      for (auto& [place, text] : problem.notes) rename(place, copy.path(), stored.shown);
-    }
-    throw InputError(std::move(problems));
-  }
-}
 
 /// Entries of `plugins:` in a resolved scenario, each with path and hash. Empty if the text has another form, which the reader
 /// of the scenario reports.
@@ -115,7 +66,8 @@ Scenario read_stored(const StoredScenario& stored, Catalog& catalog, OtherPlugin
     for (const PluginFile& file : recorded_plugins(stored)) paths.push_back(file.path);
     sets.push_back("plugins=" + paths.dump());
   }
-  return stored.file.empty() ? read_inside(stored, sets, catalog) : read_scenario(stored.file, sets, catalog, ReadAs::record);
+  return stored.file.empty() ? read_record(stored.text, stored.shown, sets, catalog)
+                             : read_scenario(stored.file, sets, catalog, ReadAs::record);
 }
 
 namespace {

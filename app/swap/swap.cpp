@@ -235,7 +235,8 @@ void add_swap(Commands& commands) {
             ->transform(named_file);
         command
             .add_option("--cpg", arguments.cpgs,
-                        "types of the CPGs, separated by commas; their common keys are kept, `model` gets its defaults")
+                        "types of the CPGs (`gaitlab list cpg`), separated by commas; their common keys are kept, `model` gets "
+                        "its defaults")
             ->required();
         command.add_option(
             "--out", arguments.out,

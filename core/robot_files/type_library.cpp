@@ -42,6 +42,15 @@ std::string file_key(const std::string& path) {
   return "file " + (failure ? path : canonical.string());
 }
 
+std::vector<std::string> whole_paths(std::vector<std::string> folders) {
+  for (std::string& folder : folders) {
+    std::error_code failure;
+    const fs::path whole = fs::absolute(folder, failure);
+    if (!failure) folder = whole.lexically_normal().string();
+  }
+  return folders;
+}
+
 }  // namespace
 
 bool TypeLibrary::is_inline(const Node& map) {
@@ -100,7 +109,12 @@ std::optional<std::size_t> TypeLibrary::find_name(const Node& node) {
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());
   Problem& problem = problems_.add(node.place, "no module type " + in_quotes(node.text) + offer(node.text, known, "types"));
-  problem.notes.emplace_back(node.place, "looked in " + joined(search_folders()));
+  problem.notes.emplace_back(node.place, "looked in " + joined(whole_paths(search_folders())));
+  std::error_code none;
+  if (!fs::exists(data_folder(), none)) {
+    problem.notes.emplace_back(
+        node.place, "the data of the program are missing; GAITLAB_DATA names another folder with modules/ and robots/");
+  }
   return {};
 }
 

@@ -355,6 +355,10 @@ Scenario read_scenario(const std::string& path, const std::vector<std::string>& 
   return ScenarioReader(path, catalog, as).read(read_text(path), sets);
 }
 
+Scenario read_record(const std::string& text, const std::string& file, const std::vector<std::string>& sets, Catalog& catalog) {
+  return ScenarioReader(file, catalog, ReadAs::record).read(text, sets);
+}
+
 Scenario read_module(const std::string& path, Catalog& catalog) {
   return ScenarioReader("module", catalog, ReadAs::module_type).read(scenario_of_module(path), {});
 }

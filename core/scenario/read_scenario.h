@@ -19,6 +19,10 @@ enum class ReadAs { scenario, record, module_type };
 Scenario read_scenario(const std::string& path, const std::vector<std::string>& sets, Catalog& catalog,
                        ReadAs as = ReadAs::scenario);
 
+/// The scenario of an earlier run from its text, read as a `record`. `file` stands for it in messages, and its folder is that
+/// of relative paths.
+Scenario read_record(const std::string& text, const std::string& file, const std::vector<std::string>& sets, Catalog& catalog);
+
 /// Scenario with a single module of the type in a file, without ground. Throws InputError with every problem found.
 Scenario read_module(const std::string& path, Catalog& catalog);
 

@@ -41,6 +41,16 @@ fs::path find_prefix() {
   return {};
 }
 
+/// Prefix in which an installation would have the file with this code, the folder above its own: PREFIX/bin/gaitlab.
+fs::path wanted_prefix() {
+  for (const fs::path& file : own_files()) {
+    std::error_code none;
+    const fs::path own = file.has_parent_path() ? fs::canonical(file, none) : fs::path();
+    if (!own.empty()) return own.parent_path().parent_path();
+  }
+  return "/usr";
+}
+
 }  // namespace
 
 std::string installation_prefix() {
@@ -52,8 +62,10 @@ std::string data_folder() {
   std::error_code none;
   if (const std::string prefix = installation_prefix(); !prefix.empty())
     return fs::canonical(fs::path(prefix) / kBelow, none).string();
-  const char* given = std::getenv("GAITLAB_DATA");
-  return given == nullptr ? kBelow : given;
+  const char* given = std::getenv("GAITLAB_DATA");  // NOLINT(concurrency-mt-unsafe): nothing sets variables
+  if (given != nullptr && *given != '\0') return fs::absolute(given, none).string();
+  static const std::string missing = (wanted_prefix() / kBelow).string();
+  return missing;
 }
 
 }  // namespace gaitlab

@@ -10,7 +10,7 @@ namespace gaitlab {
 std::string installation_prefix();
 
 /// `share/gaitlab/scenarios` in the installation prefix. Without a prefix, the folder that the environment variable
-/// GAITLAB_DATA names.
+/// GAITLAB_DATA names; without it, the folder in which an installation would have it, for messages. Always a whole path.
 std::string data_folder();
 
 }  // namespace gaitlab

@@ -31,7 +31,7 @@ CONTENTS = (
         ("Remedies", "docs/remedy.md"), ("Library of modules", "docs/library.md"), ("Studies", "docs/studies.md"),
         ("The page of a run", "docs/report.md"), ("Sensors", "docs/sensors.md"), ("Robots as built", "docs/as-built.md"),
         ("Changes and faults", "docs/faults.md"), ("Write a CPG", "docs/tutorials/write-a-cpg.md"), ("Clusters", "docs/cluster.md"),
-        ("In MuJoCo", "docs/mujoco.md"), ("Files of others", "docs/trust.md"))),
+        ("In MuJoCo", "docs/mujoco.md"), ("Debian packages", "docs/packages.md"), ("Files of others", "docs/trust.md"))),
     ("Reference", (
         ("Scenario", "docs/reference/scenario.md"), ("Module", "docs/reference/module.md"), ("Plugins", "docs/reference/plugins.md"),
         ("Verdict", "docs/reference/verdict.md"), ("Study", "docs/reference/study.md"), ("Figure", "docs/reference/figure.md"))),

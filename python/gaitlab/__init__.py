@@ -20,6 +20,8 @@ from ._study import Study, study
 from ._table import Table
 from ._warnings import Warning
 
+__version__ = build.partition("+")[0]
+
 for _error in (InputError, RunError):
     _error.__module__ = "gaitlab"
 del _error

@@ -28,7 +28,7 @@ except ImportError as error:
 NOT_RUN = {
     'CONTRIBUTING.md': 'stages of ./lab', 'docs/benchmarks.md': 'a quarter of an hour', 'docs/ci.md': 'Install.Gate',
     'docs/tutorials/write-a-cpg.md': 'Install.Gate', 'docs/tutorials/optuna.md': 'Python.Gate', 'docs/python.md': 'Python.tests',
-    'docs/cluster.md': 'Slurm.Gate, Mpi.Gate', 'docs/validation.md': 'writes the page', './lab ': 'builds',
+    'docs/packages.md': 'Packages.Gate', 'docs/cluster.md': 'Slurm.Gate, Mpi.Gate', 'docs/validation.md': 'writes the page', './lab ': 'builds',
 }
 PLACEHOLDER = re.compile(r'\b(DIR|FILE|KEYS|SCENARIO|RUN|NAME|PROGRAM)\b')
 SLOW = re.compile(r'gaitlab (optimize|sweep|remedy scenarios/hexapod.yaml --set cpg)')

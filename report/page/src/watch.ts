@@ -5,7 +5,7 @@ import { make } from "./dom";
 import type { Page } from "./page";
 import type { Pose } from "./scene/view";
 
-/** What a renewed page keeps. Joint and time are in its address. */
+/** View that a renewed page keeps. Joint and time are in its address. */
 interface Kept {
   pose: Pose | null;
   playing: boolean;

@@ -1,0 +1,18 @@
+// Words that may follow on a command line, for the completion of a shell.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace gaitlab::app {
+
+struct Candidates {
+  std::vector<std::string> words;  ///< in the place of the last word that was typed
+  bool files = false;              ///< a file or folder may follow, too
+};
+
+/// Words that may take the place of the last of `words`, which are those after the program's name. A `=` may be a word of its
+/// own, because bash divides words there; the candidates contain the part before it, too.
+Candidates candidates(const CLI::App& app, const std::vector<std::string>& words);
+
+}  // namespace gaitlab::app
