@@ -4,9 +4,9 @@ set(man_folder ${CMAKE_BINARY_DIR}/share/man/man1)
 set(completion_folder ${CMAKE_BINARY_DIR}/share/bash-completion/completions)
 file(MAKE_DIRECTORY ${man_folder} ${completion_folder})
 add_custom_command(TARGET gaitlab POST_BUILD
-  COMMAND $<TARGET_FILE:gaitlab> man > ${man_folder}/gaitlab.1
+  COMMAND ${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0 $<TARGET_FILE:gaitlab> man > ${man_folder}/gaitlab.1
   COMMAND ${GZIP} -9nf ${man_folder}/gaitlab.1
-  COMMAND $<TARGET_FILE:gaitlab> completion bash > ${completion_folder}/gaitlab)
+  COMMAND ${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0 $<TARGET_FILE:gaitlab> completion bash > ${completion_folder}/gaitlab)
 install(FILES ${man_folder}/gaitlab.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
 install(FILES ${completion_folder}/gaitlab DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program PATTERN docs/site EXCLUDE)
