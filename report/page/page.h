@@ -17,8 +17,8 @@ std::string page(const PageData& data);
 /// A page of `gaitlab watch`: the page of the run with this number, 1 or more, which looks for a newer run in its folder every
 /// half second, and may load pictures from there for this purpose (report/page/src/watch.ts).
 std::string watched_page(std::string page, int run);
-/// The picture stamp.svg beside a watched page: its width is the number of the newest run, and its height is 2 if the scenario has
-/// an error since, otherwise 1.
+/// The picture stamp.svg beside a watched page: its width is the number of the newest run, and its height is 2 if the scenario
+/// has an error since, otherwise 1.
 std::string stamp(int run, bool error);
 
 }  // namespace gaitlab::report
