@@ -1,13 +1,14 @@
 // `gaitlab watch`, which runs a scenario again after each change of a file that it reads, and renews the page in the browser.
 #include <fmt/format.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
-#include <set>
+#include <optional>
 #include <sstream>
 #include <thread>
 
@@ -17,6 +18,7 @@
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
 #include "core/files/child_process.h"
+#include "core/files/file_kind.h"
 #include "core/files/files_read.h"
 #include "core/files/folder_lock.h"
 #include "core/settings/wording.h"
@@ -30,6 +32,7 @@ namespace fs = std::filesystem;
 constexpr const char* kStamp =
     "stamp.svg";                        // of the run that the folder contains; the page looks at it (report/page/src/watch.ts)
 constexpr const char* kRead = ".read";  // files that the run has read, as its process tells them to this one
+constexpr const char* kNext = ".next";  // folder of a run that has not ended
 constexpr std::uintmax_t kMostRead = 1 << 26;
 
 struct WatchArguments : ScenarioArguments {
@@ -37,22 +40,43 @@ struct WatchArguments : ScenarioArguments {
   SummaryOptions shown;
 };
 
+/// Number of the run in a folder of `gaitlab watch`; 0 in a new folder, or if there is no page yet. Nothing for other folders.
+std::optional<int> run_in(const fs::path& folder) {
+  constexpr std::uintmax_t kMostStamp = 4096;
+  std::error_code none;
+  if (fs::is_empty(folder, none)) return 0;
+  if (!fs::is_regular_file(folder / kStamp, none)) return {};
+  const std::optional<int> run = report::stamped(read_file(folder / kStamp, kMostStamp));
+  return run && fs::exists(folder / kPageFile, none) ? run : run ? std::optional(0) : std::nullopt;
+}
+
 /// Folder of the newest run: `--out`, or runs/watch-NAME. Throws InputError if it has files of something else.
 fs::path watch_folder(const WatchArguments& a) {
   const fs::path folder = a.out ? fs::path(*a.out) : fs::path("runs") / ("watch-" + fs::path(a.file).stem().string());
+  const SourceLocation place{"--out " + folder.string()};
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw InputError(SourceLocation{"--out " + folder.string()}, "cannot be made: " + error.message());
-  const bool is_own = fs::exists(folder / kStamp, error) || fs::exists(folder / kRead, error) || fs::is_empty(folder, error);
-  if (!is_own) {
-    throw InputError(SourceLocation{"--out " + folder.string()},
-                     "exists and is not a folder of gaitlab watch; expected one, or a new or empty folder");
-  }
+  if (error) throw InputError(place, "cannot be made: " + error.message());
+  if (!run_in(folder))
+    throw InputError(place, "exists and is not a folder of gaitlab watch; expected one, or a new or empty folder");
   return folder;
 }
 
-/// Runs the scenario into the folder `out`, in a process of its own: a plugin that was compiled again is loaded anew, and one
-/// that crashes ends only that process. Returns the exit code of `gaitlab run`.
+/// Waits for the end of a child. If this process is stopped, the child is, too, and is killed if that takes five seconds.
+int wait_for_child(pid_t child) {
+  constexpr std::chrono::milliseconds kOften{20};
+  constexpr int kPatience = 250;
+  int status = 0;
+  for (int since = 0; ::waitpid(child, &status, WNOHANG) == 0; since += stopped() ? 1 : 0) {
+    if (since == 1) ::kill(child, SIGTERM);
+    if (since == kPatience) ::kill(child, SIGKILL);
+    std::this_thread::sleep_for(kOften);
+  }
+  return status;
+}
+
+/// Runs the scenario into the folder `out`, in another process: a plugin that was compiled again is loaded anew, and one that
+/// crashes ends only that process. Returns the exit code of `gaitlab run`.
 int run_apart(const WatchArguments& a, const fs::path& out, const fs::path& told) {
   (void)std::fflush(stdout);
   const pid_t child = begin_child([&] {
@@ -71,47 +95,46 @@ int run_apart(const WatchArguments& a, const fs::path& out, const fs::path& told
     return code;
   });
   if (child < 0) throw RunError(fmt::format("no process can be started: {}", std::generic_category().message(errno)));
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  const int status = wait_for_child(child);
   if (WIFEXITED(status)) return WEXITSTATUS(status);
-  say(a.file, "error", fmt::format("the run crashed (signal {})", WTERMSIG(status)));
+  if (!stopped()) say(a.file, "error", fmt::format("the run crashed (signal {})", WTERMSIG(status)));
   return 1;
 }
 
-/// The files that the last run has read; at least the scenario.
-std::vector<FileRead> files_to_watch(const WatchArguments& a, const fs::path& told) {
+/// The files that the last run has read. After a crash they are those of the run before, and the scenario, as they are now.
+std::vector<FileRead> files_to_watch(const WatchArguments& a, const fs::path& told, std::vector<FileRead> before) {
   std::vector<FileRead> files;
   std::error_code none;
-  if (fs::exists(told, none)) {
-    std::istringstream all(read_file(told, kMostRead));
-    for (std::string record; std::getline(all, record, '\0');) {
-      FileRead one;
-      std::istringstream in(record);
-      in >> one.stamp.modified >> one.stamp.size >> one.stamp.inode;
-      one.path = record.substr(static_cast<std::size_t>(in.tellg()) + 1);
-      files.push_back(std::move(one));
-    }
+  if (!fs::exists(told, none)) {
+    if (before.empty()) before.push_back({fs::absolute(a.file, none), {}});
+    for (FileRead& file : before) file.stamp = stamp_of(file.path);
+    return before;
+  }
+  std::istringstream all(read_file(told, kMostRead));
+  for (std::string record; std::getline(all, record, '\0');) {
+    FileRead one;
+    std::istringstream in(record);
+    in >> one.stamp.modified >> one.stamp.size >> one.stamp.inode;
+    one.path = record.substr(static_cast<std::size_t>(in.tellg()) + 1);
+    files.push_back(std::move(one));
   }
   fs::remove(told, none);
-  if (files.empty()) files.push_back({fs::absolute(a.file, none), stamp_of(a.file)});
   return files;
 }
 
-/// Replaces the files in `folder` by those of the run in `made`, the page after its files and before its stamp.
+/// Replaces the files in `folder` by those of the run in `made`, the page after its files and before its stamp. Other files
+/// stay.
 void publish(const fs::path& made, const fs::path& folder, int run) {
-  std::set<std::string> names{kStamp};
-  for (const auto& file : fs::directory_iterator(made)) names.insert(file.path().filename().string());
-  for (const std::string& name : names) {
-    if (name != kStamp && name != kPageFile) fs::rename(made / name, folder / name);
-  }
   constexpr std::uintmax_t kMostHtml = std::uintmax_t{1} << 31;
-  write_file(folder / kPageFile, report::watched_page(read_file(made / kPageFile, kMostHtml), run));
-  for (const auto& file : fs::directory_iterator(folder)) {
-    if (file.is_regular_file() && !names.contains(file.path().filename().string())) fs::remove(file.path());
+  std::error_code error;
+  for (const auto& file : fs::directory_iterator(made)) {
+    const fs::path name = file.path().filename();
+    if (name == kPageFile) continue;
+    fs::rename(file.path(), folder / name, error);
+    if (error) throw RunError(fmt::format("{}: cannot be replaced: {}", (folder / name).string(), error.message()));
   }
+  write_file(folder / kPageFile, report::watched_page(read_file(made / kPageFile, kMostHtml), run));
   write_file(folder / kStamp, report::stamp(run, false));
-  fs::remove_all(made);
 }
 
 /// Waits until one of the files has changed, and until it is not being written any more. Returns early if stopped.
@@ -131,35 +154,48 @@ void wait_for_change(const std::vector<FileRead>& files) {
   }
 }
 
+/// Runs the scenario, and shows the run if it has a page, or else the error on the page before. Returns the number of the run
+/// that the folder contains.
+int renew(const WatchArguments& a, const fs::path& folder, int shown) {
+  const fs::path made = folder / kNext;
+  std::error_code none;
+  fs::remove_all(made, none);
+  fs::create_directories(folder, none);
+  const int code = run_apart(a, made, folder / kRead);
+  const bool made_page = code != 2 && !stopped() && fs::exists(made / kPageFile, none);
+  (void)guarded(
+      [&] {
+        if (made_page) publish(made, folder, shown + 1);
+        if (!made_page && !stopped()) write_file(folder / kStamp, report::stamp(shown, true));
+        shown += made_page ? 1 : 0;
+        if (made_page && !a.quiet) print_page(folder / kPageFile);
+        return 0;
+      },
+      say);
+  fs::remove_all(made, none);
+  return shown;
+}
+
 int watch(const WatchArguments& a) {
+  (void)read_file(a.file, kMostScenario + 1);  // a scenario that has never been there is an error, not a reason to wait
+  expect_kind(a.file, FileKind::scenario);
   const fs::path folder = watch_folder(a);
-  const fs::path made = folder.string() + ".next";
   FolderLock lock;
   if (!lock.take(folder)) throw InputError(SourceLocation{folder.string()}, "is being written by another process");
   const StopOnSignal stop(StopOnSignal::Second::is_ignored);
-  int shown = 0;  // number of the run that the folder contains
-  // Numbers differ from those of an earlier process, whose page may still be open.
-  constexpr int kNumbers = 16000;
-  for (int number = ::getpid() % kNumbers + 1; !stopped(); ++number) {
-    std::error_code none;
-    fs::remove_all(made, none);
-    const int code = run_apart(a, made, folder / kRead);
-    const std::vector<FileRead> files = files_to_watch(a, folder / kRead);
+  std::vector<FileRead> files;
+  for (int shown = run_in(folder).value_or(0); !stopped();) {
+    shown = renew(a, folder, shown);
+    files = files_to_watch(a, folder / kRead, std::move(files));
     if (stopped()) break;
-    if (code != 2 && fs::exists(made / kPageFile, none)) {
-      publish(made, folder, shown = number);
-    } else {
-      write_file(folder / kStamp, report::stamp(shown, true));
-    }
+    const auto there = std::ranges::count_if(files, [](const FileRead& file) { return file.stamp != FileStamp{}; });
     if (!a.quiet) {
-      if (shown == number) print_page(folder / kPageFile);
-      say(fmt::format("{}: waiting for a change of {}; Ctrl-C ends\n", a.file, counted(files.size(), "file")));
+      say(fmt::format("{}: waiting for a change of {}; Ctrl-C ends\n", a.file,
+                      counted(static_cast<std::size_t>(there), "file")));
     }
     (void)std::fflush(stdout);
     wait_for_change(files);
   }
-  std::error_code none;
-  fs::remove_all(made, none);
   return 0;
 }
 

@@ -1,12 +1,16 @@
 #include "interchange/mjcf_laws.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "core/dynamics/mass_matrix.h"
+#include "core/errors.h"
 #include "core/plugin/actuator.h"
 #include "core/scenario/built_robot.h"
+#include "core/settings/wording.h"
 #include "core/simulation/start.h"
 
 namespace gaitlab::interchange {
@@ -50,6 +54,11 @@ double standing_depth(const Scenario& s) {
   double lo = 0;
   double hi = 1e-6;
   while (press(s, elements, k, hi).force < weight && hi < 1) hi *= 2;
+  if (press(s, elements, k, hi).force < weight) {
+    throw InputError(s.place("contact.stiffness"),
+                     fmt::format("{} does not carry the robot: its weight is {:.3g} N; expected stiffer contacts, or --strict",
+                                 number_text(s.contact.penalty.kn), weight));
+  }
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = lo + (hi - lo) / 2;
     (press(s, elements, k, middle).force < weight ? lo : hi) = middle;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/errors.h"
 #include "core/laws/hinge_stop.h"
 #include "core/settings/wording.h"
 
@@ -58,6 +59,13 @@ void MjcfWalking::write_element(Xml& geom, const ContactElement& e) const {
   const Body& body = s_.robot->bodies[e.body];
   Vec3 centre = e.centre;
   double radius = e.radius - line_.onset;
+  if (e.radius > 0 && !(radius > 0)) {
+    throw InputError(
+        s_.place("contact.stiffness"),
+        fmt::format("spheres of {} m are {:.3g} m deep in the ground under the robot's weight, which MJCF cannot hold; "
+                    "expected stiffer contacts, or --strict",
+                    number_text(e.radius), line_.depth));
+  }
   if (!(e.radius > 0)) {
     radius = touch_radius();
     centre += at_start_.R[e.link].transpose() * Vec3(0, 0, touch_radius() + line_.onset);

@@ -37,11 +37,14 @@ Row with_result(Row row, Told&& told, const std::vector<studies::Quantity>& colu
 /// The questions of one batch, by number.
 using Open = std::map<std::uint64_t, Row>;
 
-Open ask(const studies::Plan& plan, const studies::Work& work) {
+/// Prints the questions. The results that arrive meanwhile are read into `lines`: a program that answers each question at once
+/// would wait for ever if neither its results nor the next questions found room in their pipes.
+Open ask(const studies::Plan& plan, const studies::Work& work, Lines& lines) {
   Open open;
   while (const std::optional<studies::Job> job = work.next()) {
     print_line(question_text(job->row.run, plan.study().parameters, job->row.values), "all results are in the journal");
     open.emplace(job->row.run, job->row);
+    lines.take();
   }
   if (!open.empty()) print_line("", "all results are in the journal");
   return open;
@@ -73,7 +76,7 @@ void print_line(const std::string& line, const std::string& kept) {
 
 studies::Executor asking_executor(const studies::Plan& plan, Lines& lines) {
   return [&plan, &lines](const studies::Work& work, std::atomic<bool>& stop) {
-    Open open = ask(plan, work);
+    Open open = ask(plan, work, lines);
     while (!open.empty()) {
       const std::optional<std::string> line = lines.next(stop);
       if (!line) return false;

@@ -20,11 +20,16 @@ std::optional<std::string> Lines::next(const std::atomic<bool>& stop) {
   const std::size_t size = std::min(end, text_.size()) - at_;
   if (size > kLongest) {
     throw InputError(SourceLocation{"stdin", number_, 1},
-                     fmt::format("is longer than {} bytes; expected a question", kLongest));
+                     fmt::format("is longer than {} bytes; expected a shorter one", kLongest));
   }
   std::string line = text_.substr(at_, size);
   at_ = std::min(at_ + size + 1, text_.size());
   return line;
+}
+
+void Lines::take() {
+  const std::atomic<bool> never = false;
+  for (pollfd input{STDIN_FILENO, POLLIN, 0}; !ended_ && ::poll(&input, 1, 0) > 0;) (void)read_more(never);
 }
 
 /// Waits for more input. Returns false if the input has ended or `stop` is set.

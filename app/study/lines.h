@@ -12,6 +12,8 @@ class Lines {
   /// Returns the next line without its line end, or nothing at the end of the input or if `stop` is set. Throws InputError if
   /// the line is too long or cannot be read.
   std::optional<std::string> next(const std::atomic<bool>& stop);
+  /// Reads the input that has arrived, without waiting.
+  void take();
   /// True if the input has ended and all of its lines were returned.
   [[nodiscard]] bool ended() const { return ended_ && at_ == text_.size(); }
   /// Number of the line that was returned last, from 1.

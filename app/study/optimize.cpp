@@ -194,7 +194,8 @@ bool add_faults(const Plan& plan, Journal& journal, const studies::Results& resu
   return true;
 }
 
-void expect_one_run(const Plan& plan, const OptimizeArguments& a) {
+/// Checks that another program can give the results of this study.
+void prepare_asking(const Plan& plan, const OptimizeArguments& a) {
   std::signal(SIGPIPE, SIG_IGN);  // the failed write reports the closed output instead
   if (team()) throw InputError(SourceLocation{"--ask"}, "is not for gaitlab-mpi; expected gaitlab");
   if (const std::uint64_t runs = plan.points().runs_of_point(); runs > 1) {
@@ -231,7 +232,7 @@ int optimize_once(const OptimizeArguments& a) {
     return 0;
   }
   Lines lines;
-  if (a.ask) expect_one_run(plan, a);
+  if (a.ask) prepare_asking(plan, a);
   // The executor is made before the folder is locked, because only one process may lock the folder.
   const studies::Executor executor = a.ask ? asking_executor(plan, lines) : study_executor(plan, a);
   print_notes(plan, a.quiet || a.noted);  // only one process of a team reaches this line

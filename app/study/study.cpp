@@ -50,7 +50,8 @@ int show_study(const StudyArguments& a) {
   const studies::Results results = studies::results(journal);
   constexpr std::size_t kShown = 5;
   fmt::print("{}", study_summary(journal, results, a.folder, kShown));
-  if (const studies::Effort effort = journal.effort(); effort.runs > 0 && effort.wall > 0)
+  if (const studies::Effort effort = journal.effort();
+      effort.runs > 0 && effort.wall > 0 && !studies::told(journal.head().definition))
     fmt::print("{:.3g} runs per s and thread\n", static_cast<double>(effort.runs) / effort.wall);
   const std::string who = studies::Lock::holder(fs::path(a.folder) / "lock");
   if (!who.empty()) {
@@ -181,7 +182,7 @@ int merge_study(const StudyArguments& a) {
 /// Sentences on the differences between a row and the repeated run.
 std::vector<std::string> differences(const std::vector<std::string>& names, const std::vector<std::string>& row,
                                      const studies::RunColumns& columns, const std::vector<double>& quantities,
-                                     const Outcome& outcome) {
+                                     const Outcome& outcome, bool told) {
   std::vector<std::string> found;
   const auto cell = [&](const std::string& name) {
     return row[static_cast<std::size_t>(std::ranges::find(names, name) - names.begin())];
@@ -195,6 +196,7 @@ std::vector<std::string> differences(const std::vector<std::string>& names, cons
   for (std::size_t k = 0; k < quantities.size(); ++k) {
     if (is_gone(columns.quantities[k]) || (!estimated && depends_on_estimate(columns.quantities[k]))) continue;
     const std::string then = cell(columns.quantities[k]);
+    if (told && then.empty()) continue;  // the other program did not give it
     const std::string now = std::isfinite(quantities[k]) ? number_text(quantities[k] + 0.0) : "";
     const bool same = then.empty() ? now.empty() : !now.empty() && studies::number_of(then) == quantities[k];
     if (!same) {
@@ -300,8 +302,8 @@ int rerun_study(const StudyArguments& a) {
     return code == 2 ? 2 : 0;
   }
   const studies::Measured measured = quantity_measure(head.quantities, scenario)(scenario, again.stored.recording);
-  const std::vector<std::string> found =
-      differences(names, row, journal.columns(), measured.quantities, again.stored.recording.outcome);
+  const std::vector<std::string> found = differences(names, row, journal.columns(), measured.quantities,
+                                                     again.stored.recording.outcome, studies::told(journal.head().definition));
   if (found.empty()) {
     fmt::print("the quantities are equal to those in the journal\n");
     const bool lost = code == 1 && again.stored.recording.outcome.done();  // true if some files of the run could not be written

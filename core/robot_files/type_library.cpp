@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/files/file_kind.h"
+#include "core/files/files_read.h"
 #include "core/robot_files/module_file.h"
 #include "core/settings/data_folder.h"
 #include "core/settings/text_file.h"
@@ -101,6 +102,7 @@ std::optional<std::size_t> TypeLibrary::find_name(const Node& node) {
   for (const std::string& folder : search_folders()) {
     const std::string path = folder + "/" + node.text + ".yaml";
     std::error_code failure;
+    if (is_name(node.text, "_-")) FilesRead::note(path);  // a file that is made there later changes the robot
     if (is_name(node.text, "_-") && fs::exists(path, failure)) return seen->second = read_file(path, node.place);
     add_names(folder, known);
   }

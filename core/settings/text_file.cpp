@@ -74,7 +74,9 @@ bool may_quote(const std::string& path, const std::string& folder) {
 
 void add_found(const Problems& found, const NamedFile& file, Problems& problems) {
   const auto of_file = [&](const Problem& problem) { return problem.place.file == file.path; };
-  const bool hidden = std::ranges::any_of(found.list(), of_file) && !may_quote(file.path, file.folder) && !says(file);
+  std::error_code none;
+  const bool hidden = std::filesystem::exists(file.path, none) && std::ranges::any_of(found.list(), of_file) &&
+                      !may_quote(file.path, file.folder) && !says(file);
   bool first = true;
   for (const Problem& problem : found.list()) {
     if (!hidden || !of_file(problem)) {

@@ -1,7 +1,7 @@
 """gaitlab: gaits of modular robots, simulated and judged. All numbers are in SI units, angles in rad.
 
     import gaitlab
-    scenario = gaitlab.Scenario("hexapod", {"physics.engine": "articulated", "duration": 4})
+    scenario = gaitlab.Scenario("hexapod", {"physics.engine": "articulated", "duration": 6})
     run = gaitlab.run(scenario)
     print(run.verdict["verdict"], run.summary["speed"])
     torque = run.trace["joint.0.torque"]        # N m, a value per row

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import os
+import re
 from typing import IO, TYPE_CHECKING, NoReturn, Optional, Sequence, TypeVar, Union
 
 from . import _native
@@ -29,6 +30,13 @@ def program() -> str:
     if found := shutil.which("gaitlab"):
         return found
     raise FileNotFoundError("the program gaitlab is not in PATH; the environment variable GAITLAB may name it")
+
+
+def _problem(line: str) -> tuple[str, int, int, str]:
+    """File, line, column (0 if there is none) and text of a problem that the program has printed."""
+    place, _, text = line.partition(": error: ")
+    file, row, column = re.fullmatch(r"(.*?)(?::(\d+))?(?::(\d+))?", place, re.S).groups()  # type: ignore[union-attr]
+    return file, int(row or 0), int(column or 0), text
 
 
 class Child:
@@ -75,7 +83,10 @@ class Child:
         self._said.seek(0)
         text = self._said.read().decode("utf-8", "replace").rstrip("\n")
         self._said.close()
-        raise (InputError if code == 2 else RunError)(text or f"gaitlab {self._name} ended with code {code}")
+        error = (InputError if code == 2 else RunError)(text or f"gaitlab {self._name} ended with code {code}")
+        if code == 2:
+            error.problems = [_problem(line) for line in text.split("\n") if ": error: " in line]
+        raise error
 
     def __enter__(self: _Self) -> _Self:
         return self

@@ -54,7 +54,7 @@ def _row(point: Mapping[str, Any], answer: Mapping[str, Any]) -> dict[str, Any]:
     row = {**point, "outcome": answer["outcome"], "message": answer.get("message", "")}
     for k, value in enumerate(answer.get("objective") or []):
         row[f"objective.{k + 1}"] = value
-    for key in ("violation", "kept", "feasible", "feasible_share", "verdict", "run"):
+    for key in ("violation", "kept", "feasible", "feasible_share", "verdict", "simulated", "run"):
         if key in answer:
             row[key] = answer[key]
     row.update({f"margin.{check}": value for check, value in (answer.get("margins") or {}).items()})

@@ -51,6 +51,8 @@ class Search(Child):
 
         if n is not None and n < 1:
             raise ValueError("n is at least 1")
+        if self._said.closed:
+            raise RunError("the search is closed")
         if not self._points and not self._ended:
             if self._open:
                 raise RunError(f"{len(self._open)} points of this generation have no result; tell() gives it")
@@ -64,19 +66,31 @@ class Search(Child):
 
         rows: the number of the point as index, as in the table of ask(), and the columns
             objective, or objective.1 ... : the study's objectives, each in the direction of the study; NaN: not known
-            violation: 0 (default) if the point is kept, else more than 0, the larger the farther from being kept
+            violation: 0 if the point satisfies all limits, else more than 0, the larger the farther from satisfying them. Without
+                this column it follows from `verdict`, if there is one, as in tables of rollouts: 0 for a feasible gait, otherwise
+                -margin, at least 0.5; and it is 0 without a verdict
             outcome, message: of a failed point a word other than `done`, and the reason
             others: quantities for the journal, where the study has a column of this name
+
+        Raises ValueError, and gives nothing, if a row has no number as objective, a negative violation, or a point that is not open.
         """
-        lines = []
+        if not hasattr(rows, "to_dict"):
+            raise TypeError(f"rows is a DataFrame with the index of the table of ask(), not {type(rows).__name__}")
+        results = []
         for number, row in zip(rows.index, rows.to_dict("records")):
-            if number not in self._open:
-                raise ValueError(f"point {number} is not open; expected points of ask() that have no result yet, by the index of the table")
-            lines.append(_result(int(number), row))
-        if lines and all("outcome" not in one and set(one["objective"]) <= {None} for one in lines):
+            if number not in self._open or number in (one["id"] for one in results):
+                raise ValueError(f"point {number} is not open; expected points of ask() without a result, by the index of the table")
+            results.append(_result(int(number), row))
+        if len(results) > 1 and all("outcome" not in one and set(one["objective"]) <= {None} for one in results):
             raise ValueError("no row has an objective; a column assigned from a table with another index is NaN")
-        self._write([json.dumps(one) for one in lines])
+        self._write([json.dumps(one) for one in results])
         self._open.difference_update(rows.index)
+
+    def close(self) -> None:
+        super().close()
+        self._ended = True
+        self._points.clear()
+        self._open.clear()
 
     def _read_batch(self) -> None:
         while line := self._read():
@@ -89,27 +103,47 @@ class Search(Child):
             self._fail()
 
 
-def _number(value: Any) -> Optional[float]:
-    """A number of JSON; None if it is not finite."""
-    return float(value) if math.isfinite(value) else None
+def _number(value: Any, what: str, number: int) -> Optional[float]:
+    """A number for JSON; None for NaN."""
+    try:
+        found = float(value)
+    except (TypeError, ValueError):
+        found = math.inf
+    if math.isinf(found):
+        raise ValueError(f"{what} of point {number} is {value!r}; expected a number, or NaN if it is not known")
+    return None if math.isnan(found) else found
+
+
+def _violation(row: Mapping[str, Any], number: int) -> Optional[float]:
+    """The violation of a row, or what follows from its verdict. None without either."""
+    if "violation" in row:
+        given = _number(row["violation"], "violation", number)
+        if given is None or given < 0:
+            raise ValueError(f"violation of point {number} is {given}; expected 0 or more")
+        return given
+    if not isinstance(row.get("verdict"), str):
+        return None
+    margin = row.get("margin", math.nan)
+    return 0.0 if row["verdict"] == "feasible" else max(0.5, -margin if math.isfinite(margin) else 0.5)
 
 
 def _result(number: int, row: Mapping[str, Any]) -> dict[str, Any]:
     """A result as `gaitlab optimize --ask` reads it."""
     if row.get("outcome", "done") != "done":
-        failed = {"id": number, "outcome": str(row["outcome"]), "message": str(row.get("message", ""))}
-        return failed | ({"simulated": _number(row["simulated"])} if "simulated" in row else {})
+        failed = {"id": number, "outcome": str(row["outcome"]), "message": str(row.get("message", ""))[:2000]}
+        return failed | {"simulated": _number(row.get("simulated", math.nan), "simulated", number)}
     names = ["objective"] if "objective" in row else [f"objective.{k}" for k in range(1, 10) if f"objective.{k}" in row]
     if not names:
-        raise ValueError("a row has neither objective nor objective.1")
+        raise ValueError("the table has neither a column objective nor objective.1")
     figures = {
-        key: _number(value)
+        key: float(value)
         for key, value in row.items()
-        if key not in (*names, "violation") and isinstance(value, (int, float)) and not isinstance(value, bool)
+        if key not in (*names, "violation") and isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
     }
-    result: dict[str, Any] = {"id": number, "objective": [_number(row[name]) for name in names], "figures": figures}
-    if "violation" in row:
-        result["violation"] = _number(row["violation"])
+    result: dict[str, Any] = {"id": number, "objective": [_number(row[name], name, number) for name in names], "figures": figures}
+    violation = _violation(row, number)
+    if violation is not None:
+        result["violation"] = violation
     if isinstance(row.get("verdict"), str):
         result["verdict"] = row["verdict"]
     return result

@@ -49,4 +49,6 @@ def records(rows: Any) -> tuple[list[dict[str, Any]], Any]:
     """Rows of a DataFrame, or an iterable of mappings, as dictionaries; and their index, None for an iterable."""
     if hasattr(rows, "to_dict"):
         return rows.to_dict("records"), rows.index
+    if isinstance(rows, Mapping):
+        raise TypeError("expected a DataFrame, or a list of mappings: one for each point")
     return [dict(one) for one in rows], None

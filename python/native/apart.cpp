@@ -2,11 +2,13 @@
 
 #include <pybind11/pybind11.h>
 
+#include <algorithm>
 #include <cfenv>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <string>
 #include <string_view>
 #include <thread>
 #include <utility>
@@ -60,11 +62,18 @@ std::vector<std::string>& said() {
   return *texts;
 }
 
+/// Receives a text of say(). Control characters other than newlines are escaped, as on stderr.
 void hear(std::string_view text) noexcept {
   try {
     while (text.ends_with('\n')) text.remove_suffix(1);
+    std::string lines;
+    for (std::size_t at = 0; at <= text.size();) {
+      const std::size_t end = std::min(text.find('\n', at), text.size());
+      lines += (at == 0 ? "" : "\n") + one_line(std::string(text.substr(at, end - at)));
+      at = end + 1;
+    }
     const std::lock_guard lock(said_mutex);
-    said().emplace_back(text);
+    said().push_back(std::move(lines));
   } catch (const std::bad_alloc&) {  // NOLINT(bugprone-empty-catch): a message is lost
   }
 }

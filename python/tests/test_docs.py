@@ -9,15 +9,6 @@ import numpy
 
 from common import ROOT, InFolder
 
-STUDY = f"""gaitlab_study: 1
-scenario: {ROOT}/scenarios/hexapod.yaml
-parameters:
-  cpg.frequency: {{low: 0.25, high: 1}}
-objective: {{maximize: speed}}
-method: {{type: random}}
-budget: {{runs: 4}}
-"""
-
 
 class Page(InFolder):
     def test_blocks(self):
@@ -25,8 +16,9 @@ class Page(InFolder):
             blocks = re.findall(r"(?:^    .*\n|^\n(?=    ))+", file.read(), re.M)
         code = [re.sub(r"^    ", "", block, flags=re.M) for block in blocks if "gaitlab." in block]
         self.assertEqual(len(code), 3)
-        with open("study.yaml", "w") as file:
-            file.write(STUDY)
+        study = next(re.sub(r"^    ", "", block, flags=re.M) for block in blocks if "gaitlab_study: 1" in block)
+        with open("study.yaml", "w") as file:  # with four points, for a short test
+            file.write(study.replace("scenarios/", f"{ROOT}/scenarios/").replace("cma", "random").replace("96", "4"))
         names = {"numpy": numpy}
         with contextlib.redirect_stdout(io.StringIO()) as said:
             for block in code:

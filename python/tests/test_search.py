@@ -72,6 +72,14 @@ class Search(InFolder):
         self.assertEqual(set(rows["outcome"]), {"broken", "done"})
         self.assertTrue((rows["violation"][(rows["outcome"] == "done") & (rows["cpg.frequency"] > 1)] == 0.5).all())
 
+    def test_violation_follows_from_the_verdict(self):
+        with gaitlab.Search("study.yaml", "judged", runs=16) as search:
+            points = search.ask()
+            verdicts = ["feasible", "infeasible", "not judged", "infeasible"] * 4
+            search.tell(points.assign(objective=1.0, verdict=verdicts, margin=[0.1, -0.7, 0.2, -0.1] * 4))
+        self.assertEqual(list(gaitlab.study("judged").points["violation"][:4]), [0, 0.7, 0.5, 0.5])
+        self.assertEqual(gaitlab.study("judged").quantities["name"].isna().sum(), 0)
+
     def test_errors(self):
         with gaitlab.Search("study.yaml", "errors", runs=16) as search:
             points = search.ask()
@@ -79,10 +87,29 @@ class Search(InFolder):
                 search.ask()
             with self.assertRaisesRegex(ValueError, "no row has an objective; a column assigned"):
                 search.tell(points.assign(objective=float("nan")))
-            with self.assertRaisesRegex(ValueError, "neither objective nor objective.1"):
+            for column, value, said in (
+                ("objective", float("inf"), "objective of point 0 is inf; expected a number"),
+                ("objective", "high", "objective of point 0 is 'high'; expected a number"),
+                ("violation", -1.0, "violation of point 0 is -1.0; expected 0 or more"),
+            ):
+                with self.assertRaisesRegex(ValueError, said):
+                    search.tell(points.assign(**{"objective": 1.0, column: value}))
+            with self.assertRaisesRegex(ValueError, "point 0 is not open"):
+                search.tell(pandas.concat([points[:1], points[:1]]).assign(objective=1.0))
+            with self.assertRaisesRegex(TypeError, "rows is a DataFrame"):
+                search.tell([{"objective": 1}])
+            with self.assertRaisesRegex(ValueError, "neither a column objective nor objective.1"):
                 search.tell(points)
             with self.assertRaisesRegex(ValueError, "point 99 is not open"):
                 search.tell(points.assign(objective=1.0).set_index(points.index + 99))
+        with self.assertRaisesRegex(gaitlab.RunError, "the search is closed"):
+            search.ask()
+        with self.assertRaisesRegex(gaitlab.InputError, "nosuch.yaml.*No such file") as caught:
+            with open("absent.yaml", "w") as file:
+                file.write(STUDY.replace("pendulum.yaml", "nosuch.yaml"))
+            with gaitlab.Search("absent.yaml") as search:
+                search.ask()
+        self.assertTrue(caught.exception.problems[0][0].endswith("nosuch.yaml"))
         with self.assertRaisesRegex(gaitlab.InputError, "replicates"):
             with open("three.yaml", "w") as file:
                 file.write(STUDY + "replicates: {count: 3}\n")

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <stdexcept>
 #include <utility>
 
@@ -70,9 +71,21 @@ std::string watched_page(std::string page, int run) {
   return page;
 }
 
+namespace {
+constexpr std::string_view kStampStart = R"(<svg xmlns="http://www.w3.org/2000/svg" width=")";
+}  // namespace
+
 std::string stamp(int run, bool error) {
-  return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" height=\"{}\"/>\n", std::max(run, 1),
-                     error ? 2 : 1);
+  return fmt::format("{}{}\" height=\"{}\"/>\n", kStampStart, std::max(run, 1), error ? 2 : 1);
+}
+
+std::optional<int> stamped(std::string_view text) {
+  int run = 0;
+  if (!text.starts_with(kStampStart)) return {};
+  text.remove_prefix(kStampStart.size());
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), run);
+  const bool whole = error == std::errc() && (stamp(run, false).ends_with(text) || stamp(run, true).ends_with(text));
+  return whole && run >= 1 ? std::optional(run) : std::nullopt;
 }
 
 }  // namespace gaitlab::report

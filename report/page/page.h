@@ -1,5 +1,6 @@
 // report.html, which shows a run as one self-contained file for a browser.
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -20,5 +21,7 @@ std::string watched_page(std::string page, int run);
 /// The picture stamp.svg beside a watched page: its width is the number of the newest run, and its height is 2 if the scenario
 /// has an error since, otherwise 1.
 std::string stamp(int run, bool error);
+/// Number of the run in a text of stamp(); nothing for other texts.
+std::optional<int> stamped(std::string_view text);
 
 }  // namespace gaitlab::report

@@ -33,6 +33,11 @@ constexpr std::string_view kTold = "results: of another program\n";
 constexpr std::string_view kRobust = "robust: ";
 constexpr std::string_view kBetween = ", ";
 
+/// Name of an objective whose values another program gives: they need not be those of the expression in the study.
+std::string told_objective(const Study& study, std::size_t number) {
+  return study.objectives.size() == 1 ? "result" : fmt::format("result {}", number + 1);
+}
+
 /// Settings of a search, without its method.
 std::string search_text(const Study& study) {
   const SearchKeys& s = study.search;
@@ -108,7 +113,8 @@ JournalHead journal_head(const Plan& plan) {
     if (!one.name.empty()) head.scenarios.push_back(one.name);
   }
   for (std::size_t k = 0; k < study.objectives.size(); ++k)
-    head.objectives.push_back({plan.scorer().objectives()[k], study.objectives[k].maximize});
+    head.objectives.push_back(
+        {study.told ? told_objective(study, k) : plan.scorer().objectives()[k], study.objectives[k].maximize});
   head.combine = name_of(study.replicates.combine);
   head.quantile = study.replicates.quantile;
   head.runs = plan.most_runs();

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string_view>
 
 #include "core/settings/wording.h"
 #include "studies/run/json_line.h"
@@ -20,6 +21,8 @@ constexpr const char* kExpected =
 // The keys of an answer. Those that are not read here follow from the others.
 constexpr std::array kKeys{"id",      "objective", "violation", "outcome", "message",  "simulated",
                            "verdict", "figures",   "margins",   "kept",    "feasible", "run"};
+
+constexpr std::array<std::string_view, 3> kVerdicts{"feasible", "infeasible", "not judged"};
 
 class ToldReader {
  public:
@@ -40,6 +43,7 @@ class ToldReader {
       read_violation(told.score);
       read_figures(told.quantities);
       text("verdict", told.verdict);
+      if (std::ranges::find(kVerdicts, told.verdict) == kVerdicts.end()) wrong("verdict", "feasible, infeasible or not judged");
     } else {
       told.verdict = "failed";
     }
@@ -80,7 +84,7 @@ class ToldReader {
 
   void number(const char* key, double& value) {
     const Json* given = find(key);
-    if (given == nullptr) return;
+    if (given == nullptr || given->is_null()) return;
     const std::optional<double> read = number_of(*given);
     if (!read || !(*read >= 0)) return wrong(key, "a number, 0 or more");
     value = *read;

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# `gaitlab watch` runs again when the scenario, its module or its plugin is saved, and not otherwise; an error leaves the run before it.
+# `gaitlab watch` runs again when the scenario or its module is saved; an error leaves the run before it, and files of others stay.
 # usage: watch.sh PROGRAM
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
@@ -31,13 +31,14 @@ begin two.yaml
 wait_for "$watcher" "run 1" have_runs 1
 first=$(number)
 in_page && is_height 1 || bad "the page of the first run has no number $first"
-[[ -s seen/trace.h5 && -s seen/summary.json && ! -e seen.next && ! -e seen/.read ]] || bad "files: $(ls -A . seen)"
+[[ -s seen/trace.h5 && -s seen/summary.json && ! -e seen/.next && ! -e seen/.read ]] || bad "files: $(ls -A . seen)"
 grep -q 'waiting for a change of 2 files' err || bad "the scenario and its module are not both watched: $(<err)"
 grep -q 'seen/report.html' out || bad "the page is not named"
 code=0
 "$program" watch two.yaml --out seen >/dev/null 2>second || code=$?
 ((code == 2)) && grep -q 'being written by another process' second || bad "a second watch of a folder: exit code $code, $(<second)"
 
+echo mine >seen/notes.txt
 sed -i 's/amplitude: 0.6/amplitude: 0.5/' two.yaml
 wait_for "$watcher" "run 2" have_runs 2
 (($(number) == first + 1)) && in_page || bad "a saved scenario: run $(number) after $first"
@@ -61,12 +62,38 @@ kill -TERM "$watcher" # (a background process of a script ignores SIGINT)
 code=0
 wait "$watcher" || code=$?
 ((code == 0)) || bad "interrupted: exit code $code"
-[[ ! -e seen.next ]] || bad "seen.next is left"
+[[ ! -e seen/.next && $(<seen/notes.txt) == mine ]] || bad "the folder has $(ls -A seen)"
 ok "watch: scenario, module, error, editor"
 
-mkdir other && touch other/thesis.txt
+# Another process goes on with the number of the page, also with an error at first. A signal ends it in the middle of a run.
+last=$(number)
+echo 'duration: -1' >>two.yaml
+begin two.yaml
+wait_for "$watcher" "an error" have_runs 1
+is_height 2 && [[ $(number) == "$last" ]] && in_page || bad "an error at the start: stamp $(<seen/stamp.svg) after $last"
+sed -i '$d' two.yaml
+wait_for "$watcher" "a run after the error" have_runs 2
+is_height 1 && (($(number) == last + 1)) && in_page || bad "after the error: stamp $(<seen/stamp.svg)"
+sed -i 's/^duration:.*/duration: 20000/' two.yaml
+wait_for "$watcher" "a long run" test -d seen/.next
+kill -TERM "$watcher"
+code=0
+wait "$watcher" || code=$?
+((code == 0)) && [[ ! -e seen/.next ]] || bad "ended within a run: exit code $code, $(ls -A seen)"
+sed -i 's/^duration:.*/duration: 0.2/' two.yaml
+ok "watch: begun again, and ended within a run"
+
+mkdir other icons && touch other/thesis.txt && echo '<svg xmlns="http://www.w3.org/2000/svg" width="16" height="16"/>' >icons/stamp.svg
+code=0
+"$program" watch two.yaml --out icons >/dev/null 2>err || code=$?
+((code == 2)) && [[ $(ls icons) == stamp.svg ]] || bad "a folder with another stamp.svg: exit code $code"
 code=0
 "$program" watch two.yaml --out other >/dev/null 2>err || code=$?
 ((code == 2)) && [[ $(ls other) == thesis.txt ]] && grep -q 'is not a folder of gaitlab watch' err || bad "a folder of something else: exit code $code"
-ok "watch: other folders are refused"
+for file in absent.yaml modules/mtran.yaml; do
+  code=0
+  "$program" watch "$file" --out fresh >/dev/null 2>err || code=$?
+  ((code == 2)) && [[ ! -e fresh ]] || bad "watch $file: exit code $code, $(<err)"
+done
+ok "watch: other folders and files are refused"
 verdict

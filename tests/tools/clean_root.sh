@@ -59,8 +59,8 @@ expect 0 inside sh -c 'apt-get install --yes --no-install-recommends --reinstall
 ok "apt installs gaitlab-dev and python3-gaitlab"
 check_python "without /proc"
 check_plugin "without /proc"
+trap 'umount "$fresh/proc"; rm -rf --one-file-system -- "$work"' EXIT
 mount -t proc proc "$fresh/proc"
-trap 'umount "$fresh/proc"; rm -rf -- "$work"' EXIT
 check_program "with /proc"
 check_python "with /proc"
 check_plugin "with /proc"

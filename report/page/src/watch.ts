@@ -7,6 +7,7 @@ import type { Pose } from "./scene/view";
 
 /** View that a renewed page keeps. Joint and time are in its address. */
 interface Kept {
+  run: number; // for which the page was loaded again
   pose: Pose | null;
   playing: boolean;
 }
@@ -27,7 +28,7 @@ export function watch(page: Page): void {
   const look = () => {
     const stamp = new Image();
     stamp.onload = () => {
-      if (stamp.naturalWidth !== run) return renew(page);
+      if (![run, kept?.run].includes(stamp.naturalWidth)) return renew(page, stamp.naturalWidth);
       note.hidden = stamp.naturalHeight < 2;
       setTimeout(look, often);
     };
@@ -37,8 +38,8 @@ export function watch(page: Page): void {
   look();
 }
 
-function renew(page: Page): void {
-  const watched: Kept = { pose: page.stage.view?.kept() ?? null, playing: page.state.playing };
+function renew(page: Page, run: number): void {
+  const watched: Kept = { run, pose: page.stage.view?.kept() ?? null, playing: page.state.playing };
   page.address.write(page, { watched });
   location.reload();
 }

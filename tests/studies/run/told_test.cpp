@@ -60,6 +60,7 @@ TEST(Told, FailedPointsHaveNoScore) {
   EXPECT_EQ(one.outcome, "fell");
   EXPECT_EQ(one.message, "on its back");
   EXPECT_EQ(one.verdict, "failed");
+  EXPECT_EQ(told(R"({"id": 1, "outcome": "fell", "simulated": null})").simulated, 0);
 }
 
 TEST(Told, FaultyLinesAreRefused) {
@@ -74,8 +75,8 @@ TEST(Told, FaultyLinesAreRefused) {
   EXPECT_EQ(refused(R"({"id": 1, "objective": 1})", 2), "stdin:3:1: error: objective is 1; expected a list of 2 numbers");
   EXPECT_EQ(refused(R"({"id": 1, "objective": 1, "violation": -1})"),
             "stdin:3:1: error: violation is -1; expected a number, 0 or more");
-  EXPECT_EQ(refused(R"({"id": 1, "objective": 1, "violation": null})"),
-            "stdin:3:1: error: violation is null; expected a number, 0 or more");
+  EXPECT_EQ(refused(R"({"id": 1, "objective": 1, "verdict": "good"})"),
+            "stdin:3:1: error: verdict is \"good\"; expected feasible, infeasible or not judged");
   EXPECT_EQ(refused(R"({"id": 1, "outcome": 3, "objective": 1})"), "stdin:3:1: error: outcome is 3; expected a text");
   EXPECT_EQ(refused(R"({"id": 1, "objective": 1, "figures": {"speed": "x"}})"),
             "stdin:3:1: error: figure speed is \"x\"; expected a number");
