@@ -83,10 +83,12 @@ class Child:
         self._said.seek(0)
         text = self._said.read().decode("utf-8", "replace").rstrip("\n")
         self._said.close()
-        error = (InputError if code == 2 else RunError)(text or f"gaitlab {self._name} ended with code {code}")
-        if code == 2:
-            error.problems = [_problem(line) for line in text.split("\n") if ": error: " in line]
-        raise error
+        text = text or f"gaitlab {self._name} ended with code {code}"
+        if code != 2:
+            raise RunError(text)
+        wrong = InputError(text)
+        setattr(wrong, "problems", [_problem(line) for line in text.split("\n") if ": error: " in line])  # as the module does
+        raise wrong
 
     def __enter__(self: _Self) -> _Self:
         return self

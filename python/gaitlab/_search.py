@@ -76,7 +76,7 @@ class Search(Child):
         """
         if not hasattr(rows, "to_dict"):
             raise TypeError(f"rows is a DataFrame with the index of the table of ask(), not {type(rows).__name__}")
-        results = []
+        results: list[dict[str, Any]] = []
         for number, row in zip(rows.index, rows.to_dict("records")):
             if number not in self._open or number in (one["id"] for one in results):
                 raise ValueError(f"point {number} is not open; expected points of ask() without a result, by the index of the table")

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "studies/study/number.h"
+#include "core/settings/wording.h"
 
 namespace gaitlab::studies {
 
