@@ -1,10 +1,12 @@
 """Searches of the program whose points Python evaluates."""
+import json
+import subprocess
 import unittest
 
 import gaitlab
 import pandas
 
-from common import ROOT, InFolder
+from common import PROGRAM, ROOT, InFolder
 
 STUDY = f"""gaitlab_study: 1
 scenario: {ROOT}/scenarios/pendulum.yaml
@@ -71,6 +73,21 @@ class Search(InFolder):
         self.assertTrue((rows["cpg.amplitude"][rows["outcome"] == "broken"] > 0.8).all())
         self.assertEqual(set(rows["outcome"]), {"broken", "done"})
         self.assertTrue((rows["violation"][(rows["outcome"] == "done") & (rows["cpg.frequency"] > 1)] == 0.5).all())
+
+    def test_a_program_that_answers_each_question_at_once(self):
+        """Neither pipe has room for all lines."""
+        with open("many.yaml", "w") as file:
+            file.write(STUDY.replace("cma", "random").replace("200", "3000"))
+        command = [PROGRAM, "optimize", "many.yaml", "--ask", "--out", "many", "--quiet"]
+        with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as child:
+            for line in child.stdout:
+                if line.strip():
+                    told = {"id": json.loads(line)["id"], "objective": 1, "message": 50 * "x"}
+                    print(json.dumps(told), file=child.stdin, flush=True)
+                else:
+                    child.stdin.close()
+        self.assertEqual(child.returncode, 0)
+        self.assertEqual(len(gaitlab.study("many").points), 3000)
 
     def test_violation_follows_from_the_verdict(self):
         with gaitlab.Search("study.yaml", "judged", runs=16) as search:
