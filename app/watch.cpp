@@ -52,7 +52,7 @@ std::optional<int> run_in(const fs::path& folder) {
 
 /// Folder of the newest run: `--out`, or runs/watch-NAME. Throws InputError if it has files of something else.
 fs::path watch_folder(const WatchArguments& a) {
-  const fs::path folder = a.out ? fs::path(*a.out) : fs::path("runs") / ("watch-" + fs::path(a.file).stem().string());
+  fs::path folder = a.out ? fs::path(*a.out) : fs::path("runs") / ("watch-" + fs::path(a.file).stem().string());
   const SourceLocation place{"--out " + folder.string()};
   std::error_code error;
   fs::create_directories(folder, error);
@@ -82,7 +82,8 @@ int run_apart(const WatchArguments& a, const fs::path& out, const fs::path& told
   const pid_t child = begin_child([&] {
     const FilesRead reading;
     RunArguments arguments;
-    static_cast<ScenarioArguments&>(arguments) = a;
+    const ScenarioArguments& scenario = a;
+    static_cast<ScenarioArguments&>(arguments) = scenario;
     arguments.out = out.string();
     arguments.shown = a.shown;
     arguments.names_files = false;

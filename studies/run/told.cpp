@@ -123,9 +123,10 @@ class ToldReader {
     if (!given->is_object()) return wrong("figures", "an object of numbers");
     for (const auto& [name, value] : given->items()) {
       const std::optional<double> read = number_of(value);
-      if (!read)
+      if (!read) {
         problems_.add(place_,
                       fmt::format("figure {} is {}; expected a number", clipped(name), clipped(value.dump(-1, ' ', true))));
+      }
       quantities[name] = read.value_or(0);
     }
   }
