@@ -10,10 +10,11 @@ JudgedRun judged_run(const std::string& name, Catalog& catalog, const std::vecto
   JudgedRun run = read_judged(name, catalog);
   run.all.reset();
   draw_joints(run.read.scenario, joints);
-  if (shown.demand)
+  if (shown.demand) {
     run.verdict = judged(run.read.scenario, run.recording(), run.summary, run.overlaps, shown);
-  else
+  } else {
     run.keep_demand();
+  }
   run.keep_remedy();
   return run;
 }

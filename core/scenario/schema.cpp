@@ -215,7 +215,7 @@ std::string module_schema(const Catalog& catalog) {
     section = plugin_section(*plugin, head, catalog, kind.default_type);
   }
   Json schema = titled("gaitlab module", "gaitlab schema --module");
-  schema.update(std::move(type));
+  schema.update(type);
   schema["required"].insert(schema["required"].begin(), "gaitlab_module");
   return schema.dump(1) + "\n";
 }

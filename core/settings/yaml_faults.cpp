@@ -218,9 +218,10 @@ std::string yaml_fault_in_words(const std::string& parser, const std::string& li
   }
   if (parser == YAML::ErrorMsg::CHAR_IN_BLOCK)
     return "found a text after | or >, which begin a text of several lines; expected this text in the lines below, or quotes";
-  if (parser.starts_with(YAML::ErrorMsg::INVALID_ESCAPE))
+  if (parser.starts_with(YAML::ErrorMsg::INVALID_ESCAPE)) {
     return "found a backslash in double quotes before a character that it does not change; expected two of them, or single "
            "quotes";
+  }
   return parser;
 }
 

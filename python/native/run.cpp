@@ -105,7 +105,7 @@ std::shared_ptr<PyRun> read_run_folder(const std::string& folder, const Trusted&
     run->missing = std::move(read.read.stored.missing);
     run->all = std::move(read.all);
     run->summary = std::move(read.summary);
-    run->overlaps = std::move(read.overlaps);
+    run->overlaps = read.overlaps;
     run->verdict = std::move(read.verdict);
     run->folder = folder;
   });

@@ -83,7 +83,7 @@ class Remembering {
   };
 
   /// Row of another run with the same values, renumbered for the run `wanted`.
-  static Row as(Row wanted, const Row& known) {
+  static Row as(const Row& wanted, const Row& known) {
     Row row = known;
     row.run = wanted.run;
     return row;
