@@ -10,7 +10,7 @@
 #include "app/progress.h"
 #include "app/run_time.h"
 #include "app/stop_on_signal.h"
-#include "app/study/study_text.h"
+#include "app/study/study_progress.h"
 #include "core/recording/run_folder.h"
 #include "core/scenario/resolved.h"
 #include "core/scenario/sensor_section.h"

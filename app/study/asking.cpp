@@ -19,7 +19,7 @@ namespace {
 using studies::Row;
 using studies::Told;
 
-/// The row of a run with the result that was told.
+/// Row of a run with the result of the other program.
 Row with_result(Row row, Told&& told, const std::vector<studies::Quantity>& columns) {
   row.outcome = std::move(told.outcome);
   row.message = std::move(told.message);
@@ -54,7 +54,7 @@ Open ask(const studies::Plan& plan, const studies::Work& work, Lines& lines) {
 Row asked_row(Open& open, const Told& told, const SourceLocation& place) {
   const auto at = open.find(told.point);
   if (at == open.end()) {
-    throw InputError(place, fmt::format("id {} is not that of an open question; expected {}", told.point,
+    throw InputError(place, fmt::format("no open question has the id {}; expected {}", told.point,
                                         open.size() == 1 ? fmt::format("{}", open.begin()->first)
                                                          : fmt::format("one of {} from {} to {}", open.size(),
                                                                        open.begin()->first, open.rbegin()->first)));

@@ -9,6 +9,7 @@
 #include "app/study/asking.h"
 #include "app/study/optimize_seeds.h"
 #include "app/study/own_gait.h"
+#include "app/study/study_progress.h"
 #include "app/study/study_quantities.h"
 #include "app/study/study_run.h"
 #include "app/study/study_text.h"

@@ -8,8 +8,8 @@
 
 #include "app/app.h"
 #include "app/stop_on_signal.h"
+#include "app/study/study_progress.h"
 #include "app/study/study_quantities.h"
-#include "app/study/study_text.h"
 #include "core/errors.h"
 #include "core/settings/wording.h"
 #include "core/simulation/batch.h"

@@ -1,17 +1,10 @@
 // Texts and files of a study, printed and written during its runs and at its end.
 #pragma once
-#include <chrono>
-#include <deque>
 #include <filesystem>
-#include <memory>
 #include <string>
-#include <utility>
 
-#include "app/progress.h"
 #include "core/files/atomic_file.h"
 #include "studies/journal/results.h"
-#include "studies/run/runner.h"
-#include "studies/search/optimizer.h"
 
 namespace gaitlab::app {
 
@@ -44,43 +37,6 @@ std::vector<std::string> write_search_files(studies::Journal& journal, const stu
 
 /// Text below a figure: number of runs, guards, build.
 std::string study_note(const studies::JournalHead& head, std::uint64_t runs);
-
-/// Progress of a study.
-class StudyProgress {
- public:
-  StudyProgress(bool quiet, std::string unit) : line_(quiet), unit_(std::move(unit)) {}
-  void operator()(const studies::Standing& standing);
-  /// Called before each generation of a search.
-  void operator()(const studies::SearchPlace& place);
-
- private:
-  using Time = std::chrono::steady_clock::time_point;
-  /// Rate in runs per s over the last minute. 0 if not known yet.
-  double rate(Time now, std::uint64_t ended);
-
-  ProgressLine line_;
-  std::string unit_, place_;
-  std::deque<std::pair<Time, std::uint64_t>> minute_;  ///< number of completed runs at these times
-};
-
-/// Progress of a known number of runs. Calls from several threads at once are allowed. Copies continue the same line, because
-/// functions that execute runs take their progress by value.
-class AgainProgress {
- public:
-  /// `what` states the purpose of the runs, as in `verification`.
-  AgainProgress(bool quiet, std::string what);
-  /// With `done` 0 a line states the purpose and the number of the runs.
-  void operator()(std::size_t done, std::size_t of);
-  /// Counts further runs that have ended.
-  void add(std::size_t runs, std::size_t of);
-
- private:
-  struct Line;
-  void show(std::size_t done, std::size_t of);
-
-  std::shared_ptr<Line> line_;
-  std::string what_;
-};
 
 /// Text as a cell of a CSV table, in quotes if it contains commas, quotes or line ends.
 std::string csv_cell(const std::string& text);

@@ -5,6 +5,7 @@
 
 #include "app/commands.h"
 #include "app/study/own_gait.h"
+#include "app/study/study_progress.h"
 #include "app/study/study_quantities.h"
 #include "app/study/study_run.h"
 #include "app/study/study_text.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "app/stop_on_signal.h"
-#include "app/study/study_text.h"
+#include "app/study/study_progress.h"
 #include "core/errors.h"
 #include "core/simulation/batch.h"
 #include "report/analysis/collisions.h"
