@@ -107,9 +107,10 @@ class Lexer {
     if (at_ == begin && std::string_view("+-*/^()[],<>").find(text_[begin]) != std::string_view::npos) ++at_;
     if (at_ > begin) return {Token::Kind::sign, begin, text_.substr(begin, at_ - begin)};
     if (text_[begin] == '=') throw Fault{begin, "found '='; compare with '=='"};
-    do ++at_;
-    // Remaining bytes of a UTF-8 character.
-    while (at_ < text_.size() && (static_cast<unsigned char>(text_[at_]) & 0xC0U) == 0x80);
+    do {
+      ++at_;
+      // Remaining bytes of a UTF-8 character.
+    } while (at_ < text_.size() && (static_cast<unsigned char>(text_[at_]) & 0xC0U) == 0x80);
     throw Fault{begin, "found " + quoted(text_.substr(begin, at_ - begin)) + ", which has no meaning here"};
   }
 

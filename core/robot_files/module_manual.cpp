@@ -24,7 +24,7 @@ std::string words_of(const ModuleKey& key) {
 std::string form_of(const ModuleKey& key) {
   Spec spec = key.spec;
   spec.unit = "";
-  const std::string range = range_text(spec);
+  std::string range = range_text(spec);
   const std::string limited = range.empty() ? "" : ", " + range;
   switch (key.form) {
     case ModuleForm::text:
@@ -83,7 +83,7 @@ Json map_schema(const ModuleMap& map);
 
 /// Schema of a value other than words.
 Json form_schema(const ModuleKey& key) {
-  const Json inner = key.map == nullptr ? Json{{"type", "object"}} : map_schema(*key.map);
+  Json inner = key.map == nullptr ? Json{{"type", "object"}} : map_schema(*key.map);
   switch (key.form) {
     case ModuleForm::text:
       return scalar_schema();

@@ -55,7 +55,7 @@ std::vector<MotorData> motor_data(const Scenario& s) {
 
 /// Place of a motor's or controller's key: in the scenario, else in the map of the hinge, else in that of the module type.
 SourceLocation motor_place(const Scenario& s, std::size_t joint, const char* key, const char* section = "actuator") {
-  const SourceLocation own = s.place(fmt::format("{}.{}", section, key));
+  SourceLocation own = s.place(fmt::format("{}.{}", section, key));
   if (own.line > 0 || own.file != s.file) return own;
   const std::size_t type = s.robot->modules[s.robot->joints[joint].module].type;
   if (type >= s.module_documents->size()) return own;
