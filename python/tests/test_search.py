@@ -95,7 +95,6 @@ class Search(InFolder):
             verdicts = ["feasible", "infeasible", "not judged", "infeasible"] * 4
             search.tell(points.assign(objective=1.0, verdict=verdicts, margin=[0.1, -0.7, 0.2, -0.1] * 4))
         self.assertEqual(list(gaitlab.study("judged").points["violation"][:4]), [0, 0.7, 0.5, 0.5])
-        self.assertEqual(gaitlab.study("judged").quantities["name"].isna().sum(), 0)
 
     def test_errors(self):
         with gaitlab.Search("study.yaml", "errors", runs=16) as search:

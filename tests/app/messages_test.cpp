@@ -213,6 +213,20 @@ TEST_F(Messages, OnlyMjcfIsStrict) {
   refused("export ok.yaml --strict --to urdf a.urdf", "--strict: error: found --to urdf; expected --to mjcf");
 }
 
+TEST_F(Messages, ContactsThatMjcfCannotHold) {
+  const std::string robot = " --to mjcf a.xml --set contact.stiffness=";
+  const Result soft = call("export '" + kScenarios + "hexapod.yaml'" + robot + "1");
+  EXPECT_EQ(soft.code, 2);
+  EXPECT_TRUE(
+      soft.err.ends_with("--set contact.stiffness=1: error: 1 does not carry the robot: its weight is 43.2 N; "
+                         "expected stiffer contacts, or --strict\n"))
+      << soft.err;
+  const Result deep = call("export '" + kScenarios + "library/linkbot-drive.yaml'" + robot + "1000 --set contact.exponent=3");
+  EXPECT_EQ(deep.code, 2);
+  EXPECT_TRUE(contains(deep.err, "error: spheres of 0.01 m are 0.108 m deep in the ground")) << deep.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a.xml"));
+}
+
 TEST_F(Messages, WhatTheMachineCannotHold) {
   for (const char* command : {"check", "run"}) {
     const Result result = call(std::string(command) + " ok.yaml --set duration=1e6 --set trace.period=2.5e-5");
