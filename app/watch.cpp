@@ -62,7 +62,7 @@ fs::path watch_folder(const WatchArguments& a) {
   return folder;
 }
 
-/// Waits for the end of a child. If this process is stopped, the child is, too, and is killed if that takes five seconds.
+/// Waits for the end of a child. If this process is stopped, the child is stopped, and killed after five seconds.
 int wait_for_child(pid_t child) {
   constexpr std::chrono::milliseconds kOften{20};
   constexpr int kPatience = 250;
@@ -102,7 +102,7 @@ int run_apart(const WatchArguments& a, const fs::path& out, const fs::path& told
   return 1;
 }
 
-/// The files that the last run has read. After a crash they are those of the run before, and the scenario, as they are now.
+/// The files that the last run has read; after a crash, the files of the run before it, as they are now.
 std::vector<FileRead> files_to_watch(const WatchArguments& a, const fs::path& told, std::vector<FileRead> before) {
   std::vector<FileRead> files;
   std::error_code none;
@@ -123,8 +123,7 @@ std::vector<FileRead> files_to_watch(const WatchArguments& a, const fs::path& to
   return files;
 }
 
-/// Replaces the files in `folder` by those of the run in `made`, the page after its files and before its stamp. Other files
-/// stay.
+/// Moves the files of the run in `made` to `folder`, then writes the page, then its stamp. Other files stay.
 void publish(const fs::path& made, const fs::path& folder, int run) {
   constexpr std::uintmax_t kMostHtml = std::uintmax_t{1} << 31;
   std::error_code error;

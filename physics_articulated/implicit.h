@@ -333,7 +333,7 @@ class Implicit {
     const T end = excess + h * qd;
     const T torque = -k * end - c * select(within, (1 / h) * end, qd);
     const auto acts = math::mask_or(math::mask_and(up, torque < zero), math::fresh(torque > zero, up));
-    const Stop own{select(acts, torque, zero), select(acts, T(c + h * k), zero)};
+    Stop own{select(acts, torque, zero), select(acts, T(c + h * k), zero)};
     if (!holds_) return own;
     using Hold = BasicHingeHold<T>;
     return {select(held_[j], Hold::torque(q + h * qd, qd, hold_[j]), own.torque),

@@ -114,7 +114,7 @@ class ToldReader {
   void read_violation(Score& score) {
     double violation = 0;
     number("violation", violation);
-    score.violation = std::max(score.violation, violation);  // that of an answer has the unknown objectives already
+    score.violation = std::max(score.violation, violation);  // an answer counts unknown objectives in its violation
   }
 
   void read_figures(std::map<std::string, double>& quantities) {
