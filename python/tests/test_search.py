@@ -36,7 +36,7 @@ class Search(InFolder):
             while len(points := search.ask()):
                 search.tell(points.assign(objective=bowl(points)))
         study = gaitlab.study("found")
-        self.assertLess(study.best["objective.1"].min(), 1e-3)  # 200 points at random: a median of 3e-3
+        self.assertLess(study.best["objective.1"].min(), 1e-3)  # seeds 1 to 5: at most 4e-5; 200 points at random: a median of 2.5e-3
         self.assertEqual(len(study.points), 200)
 
     def test_order_and_pieces_do_not_matter(self):
