@@ -115,7 +115,7 @@ class Race {
         for (std::size_t lane = 0; lane < c.lanes; ++lane) {
           std::vector<std::string> sets = c.sets;
           if (lane > 0) sets.push_back(fmt::format("actuator.R={}", 4.3 + 0.1 * static_cast<double>(lane)));
-          runner.lanes.push_back(scenario(file, std::move(sets), step));
+          runner.lanes.push_back(scenario(file, sets, step));
         }
       } catch (const InputError& error) {
         runner.point.note = error.what();

@@ -14,7 +14,7 @@ namespace gaitlab::interchange {
 /// float32, rounded to nearest, or uint32, little-endian. Each accessor has its own buffer view.
 class Glb {
  public:
-  Glb() = default;
+  Glb() = default;  // NOLINT(bugprone-exception-escape): a JSON null does not throw
   ~Glb() = default;
   Glb(const Glb&) = delete;
   Glb& operator=(const Glb&) = delete;

@@ -64,7 +64,7 @@ JudgedJoint from_ticks(const Recording& record, std::size_t joint, std::size_t f
     if (!j.reaches_limit()) j.first_limit = motor_limit(limit[k]);
     j.first_limit_time = t[k];
   }
-  if (std::isnan(torque.back())) j.torque_peak = j.torque_peak_time = kNotKnown;
+  if (torque.empty() || std::isnan(torque.back())) j.torque_peak = j.torque_peak_time = kNotKnown;
   std::tie(j.error_peak, j.error_peak_time) = peak_of(t, column(kErrorPeak), first);
   std::tie(j.envelope_peak, j.envelope_peak_time) = peak_of(t, column(kEnvelopePeak), first);
   std::tie(j.speed_peak, j.speed_peak_time) = peak_of(t, column(kSpeedPeak), first);

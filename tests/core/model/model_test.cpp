@@ -42,8 +42,8 @@ void expect_near(const std::array<double, 3>& a, const Vec3& b, const std::strin
     EXPECT_NEAR(a[i], b[static_cast<Eigen::Index>(i)], kPoseRounding) << what << " axis " << i;
 }
 
-Vec3 column(const ModuleInfo& m, int axis) {
-  const auto at = [&](int row) { return m.rotation[static_cast<std::size_t>(3 * row + axis)]; };
+Vec3 column(const ModuleInfo& m, std::size_t axis) {
+  const auto at = [&](std::size_t row) { return m.rotation[3 * row + axis]; };
   return {at(0), at(1), at(2)};
 }
 

@@ -165,7 +165,10 @@ TEST(Solid, UnionsOfRandomShapes) {
     const Vec3 cell = (high - low) / kCells;
     Raw raw;
     for (int i = 0; i < kCells * kCells * kCells; ++i) {
-      const Vec3 n(i % kCells + 0.5, i / kCells % kCells + 0.5, i / kCells / kCells + 0.5);
+      const int x = i % kCells;
+      const int y = i / kCells % kCells;
+      const int z = i / kCells / kCells;
+      const Vec3 n(x + 0.5, y + 0.5, z + 0.5);
       const Vec3 p = low + cell.cwiseProduct(n);
       bool in = false;
       for (const Shape& shape : shapes) in = in || in_shape(shape, p);

@@ -22,9 +22,9 @@ double swing(double t, double period, double phase = 0) { return math::sin(2 * k
 
 std::vector<double> sample(const std::vector<Motion>& columns, double duration = 20, double dt = kDt) {
   std::vector<double> values;
-  const int last = static_cast<int>(duration / dt + 0.5);
-  for (int row = 0; row <= last; ++row) {
-    for (const Motion& column : columns) values.push_back(column(row * dt));
+  const long last = std::lround(duration / dt);
+  for (long row = 0; row <= last; ++row) {
+    for (const Motion& column : columns) values.push_back(column(static_cast<double>(row) * dt));
   }
   return values;
 }

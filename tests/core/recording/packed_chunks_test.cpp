@@ -75,7 +75,7 @@ TEST(PackedChunks, AreSmallWhereTheyCanBeAndBarelyLargerWhereNot) {
   ASSERT_EQ(chunks.size(), 3U);
   EXPECT_LT(chunks[1].packed, kRows * sizeof(double) / 100);  // constant column
   // The overhead is two bytes of header, four of checksum, and five per stored block of at most 65535 bytes.
-  EXPECT_LE(chunks[2].packed, kRows * sizeof(double) + 2 + 4 + 2 * 5);
+  EXPECT_LE(chunks[2].packed, kRows * sizeof(double) + 2 + 4 + 2UL * 5);
 }
 
 TEST(PackedChunks, OfNoRowsAreNone) { EXPECT_TRUE(unpacked(table(0, 2), 1).empty()); }

@@ -41,7 +41,8 @@ TEST(StateLayout, WritesEveryNumberOfALaneAndNoneOfAnother) {
         layout.write(numbered(100, joints), lane, state);
         for (std::size_t at = 0; at < state.size(); ++at) {
           if (at % lanes == lane) {
-            EXPECT_EQ(state[at], 100 + static_cast<double>(at / lanes)) << at;
+            const std::size_t entry = at / lanes;
+            EXPECT_EQ(state[at], 100 + static_cast<double>(entry)) << at;
           } else {
             EXPECT_TRUE(std::isnan(state[at])) << at << " is of another lane";
           }

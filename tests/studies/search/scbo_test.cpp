@@ -146,7 +146,9 @@ TEST(PointModels, OrdersByObjectiveWhereTheViolationIsAcceptable) {
 TEST(PointModels, BearAnObjectiveFarFromTheOthers) {
   std::vector<Rated> points;
   for (int k = 0; k < 40; ++k) {
-    const Vector x{(k % 8) / 7.0, (k / 8) / 4.0};
+    const int column = k % 8;
+    const int row = k / 8;
+    const Vector x{column / 7.0, row / 4.0};
     points.push_back({x, constrained(-x[0], x[1] - 0.8)});
   }
   points[39].rating.objective = -1000;

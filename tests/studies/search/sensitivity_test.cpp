@@ -93,7 +93,7 @@ double jansens_first(std::span<const double> values, std::size_t parameter) {
 /// its mean is right. The tolerance is three standard errors of a mean of 64.
 TEST(Sensitivity, SmallFirstOrdersHaveLittleNoise) {
   constexpr std::size_t kDesigns = 64;
-  constexpr std::size_t kPoints = 32 * 6;
+  constexpr std::size_t kPoints = 32UL * 6;
   for (const std::size_t parameter : {2U, 3U}) {
     const double exact = first_of_sobol_g(parameter);
     double own = 0;
