@@ -52,10 +52,7 @@ class Mjcf {
     write_options(root);
     Xml& world = add(root, "worldbody");
     write_ground(world);
-    elements_.resize(robot_.bodies.size());
-    for (ContactElement& e : contact_elements(robot_, s_.contact.on)) {
-      elements_[e.body].push_back(std::move(e));
-    }
+    elements_ = contact_elements_by_body(robot_, s_.contact.on);
     std::vector<Xml*> bodies(robot_.bodies.size());
     for (const std::size_t b : tree_.order) {
       const Attachment& at = tree_.attachments[b];

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "core/dynamics/mass_matrix.h"
+#include "core/dynamics/mobility.h"
 #include "core/errors.h"
 #include "core/plugin/actuator.h"
 #include "core/scenario/built_robot.h"
@@ -66,23 +66,6 @@ double standing_depth(const Scenario& s) {
   return press(s, elements, k, hi).depth;
 }
 
-/// Jacobian of a point of a link: its velocity per unit of each generalised velocity, world axes.
-Eigen::MatrixXd jacobian(const Robot& robot, Base base, const Kinematics& k, std::size_t link, const Vec3& x) {
-  const auto entries = base_entries(base);
-  const auto first = static_cast<Eigen::Index>(entries.size());
-  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, first + static_cast<Eigen::Index>(robot.joints.size()));
-  for (Eigen::Index i = 0; i < first; ++i) {
-    const std::size_t entry = entries[static_cast<std::size_t>(i)];
-    const Vec3 axis = Vec3::Unit(static_cast<Eigen::Index>(entry % 3));
-    J.col(i) = entry < 3 ? axis : axis.cross(x - k.p[0]);
-  }
-  for (std::size_t l = link; robot.links[l].parent >= 0; l = static_cast<std::size_t>(robot.links[l].parent)) {
-    const Vec3 axis = k.R[l] * robot.links[l].axis;
-    J.col(first + robot.links[l].joint) = axis.cross(x - k.p[l]);
-  }
-  return J;
-}
-
 /// Gains of controller `pid`, found among its settings by their keys.
 class PidGains final : public Fields {
  public:
@@ -101,30 +84,20 @@ class PidGains final : public Fields {
 
 }  // namespace
 
-Mobility mobility(const Scenario& s, const std::vector<MotorLimits>& limits) {
+InverseWeights inverse_weights(const Scenario& s, const std::vector<MotorLimits>& limits) {
   const Robot& robot = *s.robot;
   RobotState zero = start_state(s);
   zero.q.assign(robot.joints.size(), 0.0);
   zero.qd.assign(robot.joints.size(), 0.0);
   Kinematics k(robot);
   k.update(robot, zero);
-  MassMatrix mass(robot, s.base);
-  mass.update(k);
-  Eigen::MatrixXd M = mass.matrix();
-  const Eigen::Index first = M.rows() - static_cast<Eigen::Index>(robot.joints.size());
-  for (std::size_t j = 0; j < limits.size(); ++j) {
-    const Eigen::Index i = first + static_cast<Eigen::Index>(j);
-    M(i, i) += limits[j].armature;
-  }
-  const Eigen::LDLT<Eigen::MatrixXd> solver(M);
-  Mobility out;
+  std::vector<double> armature(robot.joints.size(), 0.0);
+  for (std::size_t j = 0; j < limits.size(); ++j) armature[j] = limits[j].armature;
+  Mobility all = mobility(robot, s.base, k, armature);
+  InverseWeights out{.joints = std::move(all.joints)};
   for (const Body& body : robot.bodies) {
-    const Vec3 com = k.point(body.link, body.in_link * body.com);
-    const Eigen::MatrixXd J = jacobian(robot, s.base, k, body.link, com);
-    out.bodies.push_back(M.rows() == 0 ? 0 : (J * solver.solve(J.transpose())).trace() / 3);
+    out.bodies.push_back(all.at(body.link, k.point(body.link, body.in_link * body.com), k));
   }
-  const Eigen::MatrixXd inverse = solver.solve(Eigen::MatrixXd::Identity(M.rows(), M.cols()));
-  for (Eigen::Index i = first; i < M.rows(); ++i) out.joints.push_back(inverse(i, i));
   return out;
 }
 

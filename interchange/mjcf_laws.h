@@ -12,11 +12,11 @@ namespace gaitlab::interchange {
 /// MuJoCo's estimate of the inertia at its constraints, 1 / A_0, computed once with all angles at 0: `body_invweight0` and
 /// `dof_invweight0`. A_0 of a body is the mean of the diagonal of J M^-1 J^T at its centre of mass (translation), and A_0 of a
 /// hinge the diagonal of M^-1. M contains the rotors.
-struct Mobility {
-  std::vector<double> bodies;  ///< 1/kg, per body; 0 for a body that cannot move
-  std::vector<double> joints;  ///< 1/(kg m^2), per joint
+struct InverseWeights {
+  std::vector<double> bodies = {};  ///< 1/kg, per body; 0 for a body that cannot move
+  std::vector<double> joints = {};  ///< 1/(kg m^2), per joint
 };
-Mobility mobility(const Scenario& scenario, const std::vector<MotorLimits>& limits);
+InverseWeights inverse_weights(const Scenario& scenario, const std::vector<MotorLimits>& limits);
 
 /// The contact law at the penetration p0 at which the robot stands: a line through its force there, with its slopes.
 ///

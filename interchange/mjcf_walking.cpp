@@ -28,7 +28,7 @@ MjcfWalking::MjcfWalking(const Scenario& s, const RobotState& start, const std::
       step_(step),
       angles_(start.q),
       at_start_(*s.robot),
-      mobility_(mobility(s, limits)),
+      weights_(inverse_weights(s, limits)),
       drives_(drives(s)) {
   at_start_.place(*s.robot, start);
   if (penalty()) line_ = contact_line(s);
@@ -76,14 +76,14 @@ void MjcfWalking::write_element(Xml& geom, const ContactElement& e) const {
   // MuJoCo uses the larger friction of two geoms of equal priority, which is the ground's.
   set(geom, "friction", text({e.friction == 1 ? 0 : e.friction * s_.ground.friction, 0, 0}));
   if (e.friction != 1) set(geom, "priority", "1");
-  const double A = mobility_.bodies[e.body];
+  const double A = weights_.bodies[e.body];
   if (line_.stiffness > 0 && A > 0) {
     write_direct(geom, "solref", "solimp", direct_reference(line_.stiffness, line_.damping, A, step_));
   }
 }
 
 void MjcfWalking::write_hinge(Xml& joint, std::size_t j) const {
-  const double A = mobility_.joints[j];
+  const double A = weights_.joints[j];
   if (s_.robot->joints[j].turns_freely() || !(A > 0)) return;
   write_direct(joint, "solreflimit", "solimplimit", direct_reference(HingeStop::kStiffness, HingeStop::kDamping, A, step_));
 }

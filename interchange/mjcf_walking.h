@@ -35,7 +35,7 @@ class MjcfWalking {
   double step_;
   std::vector<double> angles_;  ///< at the start, rad
   Kinematics at_start_;
-  Mobility mobility_;
+  InverseWeights weights_;
   ContactLine line_;
   Drives drives_;
 };

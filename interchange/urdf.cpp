@@ -41,9 +41,9 @@ class Urdf {
                 text(start.velocity), text(start.angular_velocity), text(start.q), text(start.qd), text({kPointRadius}),
                 text({kUnlimited}), springs()));
     if (s_.base != Base::floating) write_world(root, {start.orientation.toRotationMatrix(), start.position});
-    const std::vector<ContactElement> contacts = contact_elements(robot_, s_.contact.on);
+    const std::vector<std::vector<ContactElement>> contacts = contact_elements_by_body(robot_, s_.contact.on);
     for (const std::size_t b : tree_.order) {
-      write_link(root, b, contacts);
+      write_link(root, b, contacts[b]);
       if (tree_.attachments[b].kind != Attachment::Kind::base) write_joint(root, b);
     }
     return print(root);
@@ -143,7 +143,6 @@ class Urdf {
       draw(add(visual, "geometry"), shape);
     }
     for (const ContactElement& contact : contacts) {
-      if (contact.body != b) continue;
       Xml& collision = add(e, "collision");
       set(collision, "name", contact.name);
       add_origin(collision, {Mat3::Identity(), frame(b).inverse() * contact.centre});

@@ -226,6 +226,15 @@ std::vector<ContactElement> contact_elements(const Robot& robot, ContactSet on) 
   return elements;
 }
 
+std::vector<std::vector<ContactElement>> contact_elements_by_body(const Robot& robot, ContactSet on) {
+  std::vector<std::vector<ContactElement>> all(robot.bodies.size());
+  for (ContactElement& element : contact_elements(robot, on)) {
+    const std::size_t body = element.body;
+    all[body].push_back(std::move(element));
+  }
+  return all;
+}
+
 RobotInfo info(const Robot& robot) {
   const Kinematics kinematics = at_zero(robot);
   const auto array = [](const Vec3& v) { return std::array<double, 3>{v.x(), v.y(), v.z()}; };

@@ -5,18 +5,38 @@
 
 namespace gaitlab {
 
-Vec3 outline_edges(const Robot& robot, std::optional<std::size_t> module) {
+namespace {
+
+/// Shapes of the robot in the base frame, a list per module.
+std::vector<std::vector<Shape>> shapes_of_modules(const Robot& robot) {
   const Kinematics zero = at_zero(robot);
-  std::vector<Shape> shapes;
+  std::vector<std::vector<Shape>> all(robot.modules.size());
   for (const Body& body : robot.bodies) {
-    if (module && body.module != *module) continue;
     const Pose pose = Pose{zero.R[body.link], zero.p[body.link]} * body.in_link;
     for (const Shape& shape : robot.types[robot.modules[body.module].type].bodies[body.type].shapes)
-      shapes.push_back({shape.kind, pose * shape.in_body, shape.size});
+      all[body.module].push_back({shape.kind, pose * shape.in_body, shape.size});
   }
+  return all;
+}
+
+Vec3 edges(const std::vector<Shape>& shapes) {
   if (shapes.empty()) return Vec3::Zero();
   const auto [low, high] = bounds(shapes);
   return high - low;
+}
+
+}  // namespace
+
+Vec3 outline_edges(const Robot& robot) {
+  std::vector<Shape> all;
+  for (const std::vector<Shape>& shapes : shapes_of_modules(robot)) all.insert(all.end(), shapes.begin(), shapes.end());
+  return edges(all);
+}
+
+std::vector<Vec3> outline_edges_of_modules(const Robot& robot) {
+  std::vector<Vec3> all;
+  for (const std::vector<Shape>& shapes : shapes_of_modules(robot)) all.push_back(edges(shapes));
+  return all;
 }
 
 }  // namespace gaitlab

@@ -1,13 +1,14 @@
-// Box around the shapes of a robot.
+// Boxes around the shapes of a robot and of its modules.
 #pragma once
-#include <optional>
+#include <vector>
 
 #include "core/model/robot.h"
 
 namespace gaitlab {
 
-/// Edges of the box around all shapes of a robot at zero angles, or of one of its modules, along the axes of the base frame, m.
-/// 0 without shapes.
-Vec3 outline_edges(const Robot& robot, std::optional<std::size_t> module = {});
+/// Edges of the box around all shapes of a robot at zero angles, along the axes of the base frame, m. 0 without shapes.
+Vec3 outline_edges(const Robot& robot);
+/// The same of each module.
+std::vector<Vec3> outline_edges_of_modules(const Robot& robot);
 
 }  // namespace gaitlab

@@ -60,10 +60,8 @@ LoadMeter::LoadMeter(const Scenario& scenario, const std::vector<ContactElement>
   dock_loads_.resize(docks_.size());
   gear_loads_.resize(gears_.size());
   for (std::size_t e = 0; e < elements.size(); ++e) {
-    const auto same = [&](const Foot& foot) { return foot.body == elements[e].body; };
-    auto foot = std::ranges::find_if(feet_, same);
-    if (foot == feet_.end()) foot = feet_.insert(foot, Foot{.body = elements[e].body, .elements = {}});
-    foot->elements.push_back(e);
+    if (feet_.empty() || feet_.back().body != elements[e].body) feet_.push_back({.body = elements[e].body, .elements = {}});
+    feet_.back().elements.push_back(e);
   }
   add_columns(scenario);
 }

@@ -43,18 +43,18 @@ std::vector<std::string> foot_names(const Scenario& scenario, std::span<const st
   const Robot& robot = *scenario.robot;
   const std::vector<Leg> legs = legs_that_walk(scenario);
   const std::vector<std::string> of_legs = leg_names(legs);
+  std::vector<std::size_t> leg_of(robot.modules.size(), legs.size());  // per module; legs.size() outside the legs
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    for (const std::int64_t module : legs[i].modules) leg_of[static_cast<std::size_t>(module)] = i;
+  }
+  const auto leg = [&](std::size_t body) { return leg_of[robot.bodies[body].module]; };
+  std::vector<std::size_t> feet(legs.size() + 1, 0);
+  for (const std::size_t body : bodies) ++feet[leg(body)];
   std::vector<std::string> names;
   for (const std::size_t body : bodies) {
-    names.push_back(robot.bodies[body].name);
-    for (std::size_t i = 0; i < legs.size(); ++i) {
-      const std::vector<std::int64_t>& modules = legs[i].modules;
-      const auto in_leg = [&](std::size_t one) {
-        return std::ranges::find(modules, static_cast<std::int64_t>(robot.bodies[one].module)) != modules.end();
-      };
-      if (!in_leg(body)) continue;
-      const bool alone = std::ranges::count_if(bodies, in_leg) == 1;
-      names.back() = alone ? of_legs[i] : fmt::format("{}, {}", of_legs[i], robot.bodies[body].name);
-    }
+    const std::string& own = robot.bodies[body].name;
+    const std::size_t i = leg(body);
+    names.push_back(i == legs.size() ? own : feet[i] == 1 ? of_legs[i] : fmt::format("{}, {}", of_legs[i], own));
   }
   return names;
 }

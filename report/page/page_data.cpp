@@ -79,13 +79,16 @@ Json motors_json(const Motors& motors) {
   return all;
 }
 
-/// Contact elements of a body, as [x, y, z, radius] in body axes; the radius of a point is 0.
-Json points_json(const Scenario& scenario, std::size_t body) {
-  Json all = Json::array();
-  for (const ContactElement& element : contact_elements(*scenario.robot, scenario.contact.on)) {
-    if (element.body != body) continue;
-    const Vec3 at = scenario.robot->bodies[body].in_link.inverse() * element.centre;
-    all.push_back({at.x(), at.y(), at.z(), element.radius});
+/// Contact elements of each body, as [x, y, z, radius] in body axes; the radius of a point is 0.
+std::vector<Json> points_json(const Scenario& scenario) {
+  std::vector<Json> all;
+  for (const std::vector<ContactElement>& of_body : contact_elements_by_body(*scenario.robot, scenario.contact.on)) {
+    Json points = Json::array();
+    for (const ContactElement& element : of_body) {
+      const Vec3 at = scenario.robot->bodies[element.body].in_link.inverse() * element.centre;
+      points.push_back({at.x(), at.y(), at.z(), element.radius});
+    }
+    all.push_back(std::move(points));
   }
   return all;
 }
@@ -95,13 +98,14 @@ Json feet_json(const Scenario& scenario, const std::vector<Foot>& feet, const Ro
   bodies.reserve(feet.size());
   for (const Foot& foot : feet) bodies.push_back(foot.body);
   const std::vector<std::string> titles = foot_names(scenario, bodies);
+  std::vector<Json> points = points_json(scenario);
   Json all = Json::array();
   for (std::size_t i = 0; i < feet.size(); ++i) {
     all.push_back({{"name", feet[i].name},
                    {"title", titles[i]},
                    {"module", feet[i].module},
                    {"body", tree.place(feet[i].body)},
-                   {"points", points_json(scenario, feet[i].body)}});
+                   {"points", std::move(points[feet[i].body])}});
   }
   return all;
 }

@@ -97,10 +97,11 @@ std::vector<Finding> speeds_of_wheels(const Subject& subject) { return speeds_wi
 std::vector<Finding> stall_torques(const Subject& subject) {
   const Scenario& s = subject.scenario;
   std::vector<Finding> found;
+  const std::vector<Vec3> edges = outline_edges_of_modules(*s.robot);
   for (const MotorData& motor : motor_data(s)) {
     const std::string& name = s.robot->joints[motor.joint].name;
     const double mass = mass_of_module(s, motor.joint);
-    const double edge = outline_edges(*s.robot, s.robot->joints[motor.joint].module).maxCoeff();
+    const double edge = edges[s.robot->joints[motor.joint].module].maxCoeff();
     if (!(edge > 0) || !(mass > 0)) continue;
     found.push_back(
         {motor_place(s, motor.joint, motor.torque_key),

@@ -14,10 +14,10 @@ using namespace interchange;
 namespace {
 
 /// Largest relative difference of A_0 from MuJoCo's own estimate.
-double mobility_error(const Scenario& s) {
+double weight_error(const Scenario& s) {
   const InMujoco mujoco(s, MjcfModel::walking);
   const mjModel& m = mujoco.model();
-  const Mobility ours = mobility(s, motor_limits(s));
+  const InverseWeights ours = inverse_weights(s, motor_limits(s));
   double worst = 0;
   for (std::size_t b = 0; b < s.robot->bodies.size(); ++b) {
     const double theirs = m.body_invweight0[std::ptrdiff_t{2} * mj_name2id(&m, mjOBJ_BODY, s.robot->bodies[b].name.c_str())];
@@ -30,9 +30,9 @@ double mobility_error(const Scenario& s) {
 }
 
 /// A_0 in the parameters of contacts and stops is the estimate that MuJoCo itself computes, whatever the base.
-TEST(MujocoWalking, HasMujocosOwnMobilities) {
+TEST(MujocoWalking, HasMujocosOwnInverseWeights) {
   double worst = 0;
-  for (const Scenario& s : shipped_library()) worst = std::max(worst, mobility_error(s));
+  for (const Scenario& s : shipped_library()) worst = std::max(worst, weight_error(s));
   RandomRobots random(31);
   for (const Base base : {Base::floating, Base::fixed, Base::planar}) {
     for (int i = 0; i < 4; ++i) {
@@ -40,7 +40,7 @@ TEST(MujocoWalking, HasMujocosOwnMobilities) {
       add_motors(random, s);
       s.ground.shape = Plane{};
       s.contact.on = ContactSet::all;
-      worst = std::max(worst, mobility_error(s));
+      worst = std::max(worst, weight_error(s));
     }
   }
   EXPECT_LT(worst, 1e-9);  // rounding of 1e-16, times the condition of M, up to 1e6

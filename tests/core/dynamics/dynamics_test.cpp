@@ -1,7 +1,10 @@
 // Inverse dynamics and mass matrix agree with kinetic energy, momentum, each other, statics, and a chain computed by hand.
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+
 #include "core/dynamics/mass_matrix.h"
+#include "core/dynamics/mobility.h"
 #include "tests/random_robots.h"
 
 namespace gaitlab::test {
@@ -70,6 +73,66 @@ TEST_P(EveryBase, MassMatrixAndBiasMakeTheInverseDynamics) {
     const Eigen::VectorXd force = generalised_force(dynamics, GetParam());
     const Eigen::VectorXd sum = mass.matrix() * generalised(a.linear, a.angular, a.joints, GetParam()) + bias;
     EXPECT_LT((sum - force).norm(), kDynamicsRounding * (1 + force.norm()));
+  }
+}
+
+/// Jacobian of the origin of a link and of its rotation, column by column from the velocities of Kinematics.
+Eigen::MatrixXd jacobian(const Robot& robot, RobotState state, std::size_t link, Base base) {
+  const auto columns = static_cast<Eigen::Index>(base_entries(base).size() + robot.joints.size());
+  Eigen::MatrixXd J(6, columns);
+  for (Eigen::Index c = 0; c < columns; ++c) {
+    state.velocity = state.angular_velocity = Vec3::Zero();
+    state.qd.assign(robot.joints.size(), 0.0);
+    const auto at = static_cast<std::size_t>(c);
+    if (at < base_entries(base).size()) {
+      const std::size_t entry = base_entries(base)[at];
+      (entry < 3 ? state.velocity : state.angular_velocity)[static_cast<Eigen::Index>(entry % 3)] = 1;
+    } else {
+      state.qd[at - base_entries(base).size()] = 1;
+    }
+    const Kinematics k = moved(robot, state);
+    J.col(c) << k.v[link], k.omega[link];
+  }
+  return J;
+}
+
+/// The recursion gives J M^-1 J^T and the diagonal of M^-1 of the mass matrix, which it does not form.
+TEST_P(EveryBase, MobilityIsThatOfTheMassMatrix) {
+  constexpr double kRounding = 1e-10;  // 1e-16, times the condition of M, up to 1e6
+  RandomRobots random(5);
+  for (int i = 0; i < kRobots; ++i) {
+    const Robot robot = random.robot();
+    const RobotState state = random.state(robot, GetParam());
+    const Kinematics k = moved(robot, state);
+    std::vector<double> armature(robot.joints.size());
+    for (double& one : armature) one = random.scaled(1e-5, 1e-3);
+    if (robot.dof(GetParam()) == 0) continue;
+    const Mobility own = mobility(robot, GetParam(), k, armature);
+    MassMatrix mass(robot, GetParam());
+    mass.update(k);
+    Eigen::MatrixXd M = mass.matrix();
+    for (std::size_t j = 0; j < armature.size(); ++j) {
+      const Eigen::Index at = M.rows() - static_cast<Eigen::Index>(armature.size() - j);
+      M(at, at) += armature[j];
+    }
+    const Eigen::LDLT<Eigen::MatrixXd> solver(M);
+    for (std::size_t j = 0; j < armature.size(); ++j) {
+      const Eigen::Index at = M.rows() - static_cast<Eigen::Index>(armature.size() - j);
+      const double expected = solver.solve(Eigen::VectorXd::Unit(M.rows(), at))[at];
+      EXPECT_NEAR(own.joints[j], expected, kRounding * expected);
+    }
+    for (std::size_t l = 0; l < robot.links.size(); ++l) {
+      const Eigen::MatrixXd J = jacobian(robot, state, l, GetParam());
+      const Eigen::MatrixXd expected = J * solver.solve(J.transpose());
+      EXPECT_LE((own.links[l] - expected).norm(), kRounding * expected.norm()) << l;
+      const Vec3 x = k.p[l] + random.vector(0.1);
+      Eigen::MatrixXd to = Eigen::MatrixXd::Zero(3, 6);
+      for (int axis = 0; axis < 3; ++axis) {
+        to.col(axis) = Vec3::Unit(axis);
+        to.col(3 + axis) = Vec3::Unit(axis).cross(x - k.p[l]);
+      }
+      EXPECT_NEAR(own.at(l, x, k), (to * expected * to.transpose()).trace() / 3, kRounding * expected.norm());
+    }
   }
 }
 
