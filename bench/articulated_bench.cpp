@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
-#include "app/app.h"
+#include "bench/scenarios.h"
 #include "core/plugin/plugin_instance.h"
-#include "core/scenario/read_scenario.h"
 #include "core/simulation/simulation.h"
 #include "core/simulation/start.h"
 
@@ -16,25 +16,11 @@ namespace {
 
 constexpr double kStep = 5e-4;  // s
 
-/// Catalog of all engines and plugins. Static, because it must outlive the scenarios made from it.
-Catalog& catalog() {
-  static Catalog all = app::standard_catalog();
-  return all;
-}
+const std::string kJoints = "trace.columns=[joint.*]";
 
 Scenario shipped(const std::string& name, std::vector<std::string> sets = {}) {
-  sets.emplace_back("physics.engine=articulated");
-  sets.emplace_back("trace.columns=[joint.*]");
-  return read_scenario(std::string(GAITLAB_SOURCE_DIR) + "/scenarios/" + name, sets, catalog());
-}
-
-/// Scenario of a caterpillar with this number of modules.
-Scenario chain(std::size_t modules) {
-  std::vector<Dock> docks;
-  for (int k = 1; k < static_cast<int>(modules); ++k) docks.push_back({1, k, 4, k - 1, 0});
-  Scenario s = shipped("caterpillar.yaml");
-  s.robot = std::make_shared<Robot>(assemble(s.robot->types, std::vector<std::size_t>(modules, 0), docks));
-  return s;
+  sets.push_back(kJoints);
+  return bench::shipped(name, std::move(sets));
 }
 
 /// Measures one step of the implicit method for `lanes` rollouts side by side. The robot stands on the ground, and its motors
@@ -79,7 +65,7 @@ void kernel_of(benchmark::State& state, const char* file) {
 /// Measures one step of a caterpillar. The argument of the benchmark is the number of modules. The cost per module is fitted;
 /// the exponent of the cost is log10(t(1000) / t(10)) / 2.
 void kernel_of_chain(benchmark::State& state) {
-  kernel(state, chain(static_cast<std::size_t>(state.range(0))), 1);
+  kernel(state, bench::chain(static_cast<std::size_t>(state.range(0)), {kJoints}), 1);
   state.SetComplexityN(state.range(0));
 }
 
