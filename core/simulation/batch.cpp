@@ -1,11 +1,13 @@
 #include "core/simulation/batch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <utility>
 
 #include "core/parallel.h"
 #include "core/scenario/read_scenario.h"
+#include "core/settings/settings_numbers.h"
 
 namespace gaitlab {
 
@@ -25,6 +27,16 @@ std::size_t width(std::span<const std::size_t> widths, std::size_t left, std::si
   return best;
 }
 
+/// Frequencies among the settings of the CPG, Hz; of settings with a value per joint, the first joint's.
+std::vector<double> frequencies(const Scenario& s) {
+  std::vector<double> all;
+  const SettingsNumbers settings(s.cpg);
+  for (const SettingsNumbers::Found& one : settings.all()) {
+    if (one.unit == "Hz") all.push_back(one.value[0]);
+  }
+  return all;
+}
+
 /// Queue of waiting rollouts, from which threads take lane groups.
 class Waiting {
  public:
@@ -37,18 +49,21 @@ class Waiting {
     while (more_ && waiting_.size() < look_ahead_) {
       std::optional<Rollout> one = stream_.next();
       more_ = one.has_value();
-      if (one) waiting_.push_back(std::move(*one));
+      if (one) {
+        std::vector<double> of_cpg = frequencies(one->scenario);
+        waiting_.push_back({std::move(*one), std::move(of_cpg)});
+      }
     }
     if (waiting_.empty()) return {};
-    const Scenario& first = waiting_.front().scenario;
+    const Scenario& first = waiting_.front().rollout.scenario;
     LaneGroup group;
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
-      if (i == 0 || can_share(first, waiting_[i].scenario)) group.push_back(i);
+      if (i == 0 || can_share(first, waiting_[i].rollout.scenario)) group.push_back(i);
     }
     if (estimated_by_rollouts(first)) group.resize(1);
-    group.resize(std::min(group.size(), width(first.physics.engine->lanes, fair(group.size()), settings_.lanes)));
+    keep_nearest(group, width(first.physics.engine->lanes, fair(group.size()), settings_.lanes));
     std::vector<Rollout> pack;
-    for (const std::size_t i : group) pack.push_back(std::move(waiting_[i]));
+    for (const std::size_t i : group) pack.push_back(std::move(waiting_[i].rollout));
     for (std::size_t k = group.size(); k-- > 0;) waiting_.erase(waiting_.begin() + static_cast<std::ptrdiff_t>(group[k]));
     if (stream_.begin) stream_.begin(pack);
     return pack;
@@ -62,11 +77,29 @@ class Waiting {
     return more_ ? left : (left + threads - 1) / threads;
   }
 
+  /// Keeps the `most` rollouts whose frequencies are nearest to those of the first, in their order.
+  void keep_nearest(LaneGroup& group, std::size_t most) const {
+    const auto apart = [&, &first = waiting_[group.front()].frequencies](std::size_t i) {
+      const std::vector<double>& own = waiting_[i].frequencies;
+      double sum = 0;
+      for (std::size_t k = 0; k < std::min(own.size(), first.size()); ++k) sum += std::abs(own[k] - first[k]);
+      return sum;
+    };
+    std::ranges::stable_sort(group, {}, apart);
+    group.resize(std::min(group.size(), most));
+    std::ranges::sort(group);
+  }
+
+  struct Entry {
+    Rollout rollout;
+    std::vector<double> frequencies;
+  };
+
   const BatchStream& stream_;
   const BatchSettings& settings_;
   std::size_t look_ahead_;
   std::mutex mutex_;
-  std::vector<Rollout> waiting_;
+  std::vector<Entry> waiting_;
   bool more_ = true;
 };
 

@@ -55,12 +55,13 @@ struct BatchStream {
   std::function<void(std::vector<RolloutEnd>&&)> end;
 };
 
-/// run_batch for any number of rollouts. A free thread takes, from the first `look_ahead` waiting rollouts, a group that can
-/// share lanes. Only the waiting and the running rollouts exist at a time. Once `stop` is set, no lane group begins, and
-/// running rollouts end at their next step without a call of `end`. Returns false if the batch was stopped. An exception of
-/// `next`, `begin` or `end` stops the batch and is rethrown when all threads have ended.
+/// run_batch for any number of rollouts. A free thread takes the first of the waiting rollouts, of which at most `look_ahead`
+/// exist, and those that can share lanes with it and whose CPGs have the nearest frequencies: robots in step touch the ground
+/// and reach their limits at the same times, so that the lanes divide their steps together (docs/benchmarks.md). Once `stop` is
+/// set, no lane group begins, and running rollouts end at their next step without a call of `end`. Returns false if the batch
+/// was stopped. An exception of `next`, `begin` or `end` stops the batch and is rethrown when all threads have ended.
 bool run_pulled(const BatchStream& stream, const BatchSettings& settings, Records records, std::atomic<bool>& stop,
-                std::size_t look_ahead = 64);
+                std::size_t look_ahead = 512);
 
 /// run_pulled for a complete list of rollouts. Calls `end(i, result of rollout i)` from several threads at once, in any order.
 bool run_all(std::span<const Scenario> rollouts, const BatchSettings& settings, Records records, std::atomic<bool>& stop,

@@ -7,8 +7,8 @@
 #include "core/math/periods.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/scenario/sensor_section.h"
+#include "core/settings/settings_numbers.h"
 #include "core/simulation/cpg_integrator.h"
-#include "report/analysis/settings_numbers.h"
 
 namespace gaitlab::report {
 

@@ -12,7 +12,7 @@
 #include "core/scenario/built_robot.h"
 #include "core/scenario/sections.h"
 #include "core/settings/explainer.h"
-#include "report/analysis/settings_numbers.h"
+#include "core/settings/settings_numbers.h"
 
 namespace gaitlab::report {
 

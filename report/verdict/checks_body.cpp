@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/settings/settings_numbers.h"
 #include "core/settings/wording.h"
 #include "report/analysis/motors.h"
 #include "report/analysis/row_statistics.h"
-#include "report/analysis/settings_numbers.h"
 #include "report/analysis/upright.h"
 #include "report/verdict/checks.h"
 #include "report/verdict/number_texts.h"

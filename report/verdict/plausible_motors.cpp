@@ -10,8 +10,8 @@
 #include "core/model/outline.h"
 #include "core/robot_files/type_presets.h"
 #include "core/scenario/built_robot.h"
+#include "core/settings/settings_numbers.h"
 #include "core/settings/wording.h"
-#include "report/analysis/settings_numbers.h"
 #include "report/verdict/plausible_number.h"
 #include "report/verdict/warnings.h"
 

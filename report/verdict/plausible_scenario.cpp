@@ -5,12 +5,12 @@
 #include <numbers>
 
 #include "core/model/outline.h"
+#include "core/settings/settings_numbers.h"
 #include "core/settings/wording.h"
 #include "core/simulation/start.h"
 #include "report/analysis/collisions.h"
 #include "report/analysis/cpg_alone.h"
 #include "report/analysis/envelope.h"
-#include "report/analysis/settings_numbers.h"
 #include "report/verdict/plausible_number.h"
 
 namespace gaitlab::report {

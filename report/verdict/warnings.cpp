@@ -9,7 +9,7 @@
 #include "core/laws/dc_motor.h"
 #include "core/scenario/built_robot.h"
 #include "core/scenario/sensor_section.h"
-#include "report/analysis/settings_numbers.h"
+#include "core/settings/settings_numbers.h"
 #include "report/verdict/plausibility.h"
 
 namespace gaitlab::report {

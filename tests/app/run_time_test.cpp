@@ -82,7 +82,7 @@ TEST(RunTimes, TheTableHasEveryEngineAndIntegrator) {
 }
 
 TEST(RunTimes, GrowsWithDurationAndWithFinerSteps) {
-  const auto of = [](std::vector<std::string> sets) { return estimated_seconds(shipped("caterpillar.yaml", sets)); };
+  const auto of = [](const std::vector<std::string>& sets) { return estimated_seconds(shipped("caterpillar.yaml", sets)); };
   EXPECT_NEAR(of({"duration=40"}) - of({"duration=20"}), of({"duration=60"}) - of({"duration=40"}), 1e-9);
   EXPECT_GT(of({"physics.step=2.5e-5"}), 1.8 * of({}));
   EXPECT_GT(of({"physics.engine=articulated", "physics.accuracy=0.001"}), 2 * of({"physics.engine=articulated"}));

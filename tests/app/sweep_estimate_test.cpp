@@ -13,7 +13,7 @@ TEST_F(SweepEstimate, EstimatesSomePoints) {
     folder_.write("study.yaml", "gaitlab_study: 1\nscenario: " + kScenarios +
                                     "caterpillar.yaml\nset: [physics.engine=articulated, duration=12]\n" + every +
                                     "parameters: {cpg.amplitude: {low: 0.2, high: 0.34, count: 8}}\n");
-    const Result made = call(fmt::format("sweep study.yaml --out {} {}", out, how));
+    Result made = call(fmt::format("sweep study.yaml --out {} {}", out, how));
     EXPECT_EQ(made.code, 0) << made.err;
     return made;
   };
@@ -68,7 +68,7 @@ TEST_F(SweepEstimate, IsOfAllPointsWhereSomeAreNotToBeTrusted) {
                       "caterpillar.yaml\nset: [physics.engine=articulated, physics.integrator=implicit, physics.step=0.005, "
                       "cpg.frequency=0.8, duration=12]\n" +
                       every + "parameters: {cpg.amplitude: {low: 0.2, high: 0.34, count: 8}}\n");
-    const Result made = call(fmt::format("sweep study.yaml --out {} {}", out, how));
+    Result made = call(fmt::format("sweep study.yaml --out {} {}", out, how));
     EXPECT_EQ(made.code, 0) << made.err;
     return made;
   };

@@ -215,11 +215,12 @@ TEST_F(FromUrdf, FaultsOfTheFileHaveTheirPlace) {
   EXPECT_EQ(refused(urdf_link("a") + urdf_link("a")), "r:3:1: error: urdfdom: link 'a' is not unique.");
   EXPECT_EQ(refused("<xacro:macro name='leg'/>\n"),
             "r:2:1: error: has macros of xacro; expected URDF, which `xacro FILE > ROBOT.urdf` writes of them");
-  for (const char* const text : {"", " \n", "mass: 1", "<!-- <robot/> -->"})
+  for (const char* const text : {"", " \n", "mass: 1", "<!-- <robot/> -->"}) {
     EXPECT_TRUE(message_of([&] {
                   module_of_urdf(folder_.write("e.urdf", text), "made");
                 }).ends_with("e.urdf: error: has no element <robot>; expected a URDF file"))
         << text;
+  }
 }
 
 TEST_F(FromUrdf, TheLinkWorldIsTheBase) {

@@ -1,7 +1,9 @@
 // Rollouts that are simulated side by side, in lanes and in threads, have the same results as each rollout alone.
 #include "core/simulation/batch.h"
 
+#include <atomic>
 #include <mutex>
+#include <optional>
 
 #include "tests/program/bits.h"
 #include "tests/program/fixture.h"
@@ -75,6 +77,31 @@ TEST(Batch, TellsOfTheOthersBesideOneThatIsRefused) {
                InputError);
   EXPECT_TRUE(ends[1].empty()) << ends[1];
   for (const std::size_t i : {0U, 2U, 3U}) EXPECT_EQ(ends[i], alone(all[i]));
+}
+
+/// Robots in step divide their steps together, which makes lanes worth their while.
+TEST(Batch, PutsEqualFrequenciesSideBySide) {
+  std::vector<std::vector<std::string>> own;
+  for (int k = 0; k < 8; ++k) own.push_back({k % 2 == 0 ? "cpg.frequency=0.4" : "cpg.frequency=0.6"});
+  const std::vector<Scenario> all =
+      rollouts(kScenarios + "hexapod.yaml", {"physics.engine=articulated", "duration=0.01"}, own, catalog());
+  std::size_t next = 0;
+  std::vector<std::vector<std::size_t>> groups;
+  const BatchStream stream{.next = [&]() -> std::optional<Rollout> {
+                             if (next == all.size()) return {};
+                             const std::size_t number = next++;
+                             return Rollout{number, all[number]};
+                           },
+                           .begin =
+                               [&](std::span<const Rollout> group) {
+                                 groups.emplace_back();
+                                 for (const Rollout& one : group) groups.back().push_back(one.number);
+                               },
+                           .end = [](std::vector<RolloutEnd>&&) {}};
+  std::atomic<bool> stop = false;
+  ASSERT_TRUE(run_pulled(stream, {1, 4}, Loads::left_out, stop));
+  if (all[0].physics.engine->lanes.size() == 1) GTEST_SKIP() << "this processor has no lanes";
+  EXPECT_EQ(groups, (std::vector<std::vector<std::size_t>>{{0, 2, 4, 6}, {1, 3, 5, 7}}));
 }
 
 TEST(Batch, RunsEveryEngine) {

@@ -127,7 +127,7 @@ TEST(GroundStart, SaysWhyTheRobotIsDeepInTheGround) {
   std::filesystem::create_directory_symlink(kScenarios + "robots", folder / "robots");
   const auto stands = [&](const std::string& start) {
     folder.write("s.yaml", "gaitlab: 1\nrobot: {modules: mtran, build: robots/hexapod.dat" + start + "}\nduration: 0.015\n");
-    const Result check = gaitlab("check s.yaml", folder / "");
+    Result check = gaitlab("check s.yaml", folder / "");
     std::filesystem::remove_all(folder / "runs");
     const Result run = gaitlab("run s.yaml --quiet", folder / "");
     EXPECT_EQ(check.code, 0) << check.err;

@@ -1,8 +1,8 @@
-#include "report/analysis/settings_numbers.h"
+#include "core/settings/settings_numbers.h"
 
 #include <algorithm>
 
-namespace gaitlab::report {
+namespace gaitlab {
 
 SettingsNumbers::SettingsNumbers(const PluginSelection& plugin) {
   if (plugin.entry != nullptr) visit_settings(*plugin.entry, plugin.settings.get(), *this);
@@ -26,4 +26,4 @@ const SettingsNumbers::Found* SettingsNumbers::find(const std::string& key) cons
   return at == found_.end() ? nullptr : &*at;
 }
 
-}  // namespace gaitlab::report
+}  // namespace gaitlab

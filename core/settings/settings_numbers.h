@@ -5,7 +5,7 @@
 
 #include "core/plugin/plugin_instance.h"
 
-namespace gaitlab::report {
+namespace gaitlab {
 
 /// Numbers by key, such as `Kp` or `model.ramp`. Numbers in lists are left out.
 class SettingsNumbers final : public Fields {
@@ -27,4 +27,4 @@ class SettingsNumbers final : public Fields {
   std::string prefix_;
 };
 
-}  // namespace gaitlab::report
+}  // namespace gaitlab
