@@ -25,7 +25,7 @@ struct Mobility {
 /// The mobility in the pose of `kinematics`. With the articulated inertia I of a link (Featherstone, Rigid Body Dynamics
 /// Algorithms, 2008, 7.3), the axis S of its joint, U = I S, D = S^T U + armature, and the transform X of motions from the
 /// parent p to the link,
-///     links[p] of the base = I^-1 (in the entries in which the base can move)
+///     links[0] = I^-1 of the base, in the entries in which it can move
 ///     links[i] = S S^T / D + L X links[p] X^T L^T,   L = 1 - S U^T / D
 ///     joints[j] = 1 / D + U^T X links[p] X^T U / D^2,
 /// a recursion from the base outwards as in Rodriguez, Jain, Kreutz-Delgado, Int. J. Robotics Research 10 (1991) 371. The cost

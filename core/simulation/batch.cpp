@@ -90,7 +90,7 @@ class Waiting {
     std::ranges::sort(group);
   }
 
-  struct Entry {
+  struct Candidate {
     Rollout rollout;
     std::vector<double> frequencies;
   };
@@ -99,7 +99,7 @@ class Waiting {
   const BatchSettings& settings_;
   std::size_t look_ahead_;
   std::mutex mutex_;
-  std::vector<Entry> waiting_;
+  std::vector<Candidate> waiting_;
   bool more_ = true;
 };
 
