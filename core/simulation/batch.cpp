@@ -46,11 +46,12 @@ class Waiting {
   /// Takes out rollouts that can share lanes, in the order of next(). Empty after the last rollout.
   std::vector<Rollout> take() {
     const std::lock_guard lock(mutex_);
-    while (more_ && waiting_.size() < look_ahead_) {
+    while (more_ && waiting_.size() < look_ahead_ && (waiting_.size() < kFew || links_ < kMostLinks)) {
       std::optional<Rollout> one = stream_.next();
       more_ = one.has_value();
       if (one) {
         std::vector<double> of_cpg = frequencies(one->scenario);
+        links_ += one->scenario.robot->links.size();
         waiting_.push_back({std::move(*one), std::move(of_cpg)});
       }
     }
@@ -63,13 +64,19 @@ class Waiting {
     if (estimated_by_rollouts(first)) group.resize(1);
     keep_nearest(group, width(first.physics.engine->lanes, fair(group.size()), settings_.lanes));
     std::vector<Rollout> pack;
-    for (const std::size_t i : group) pack.push_back(std::move(waiting_[i].rollout));
+    for (const std::size_t i : group) {
+      links_ -= waiting_[i].rollout.scenario.robot->links.size();
+      pack.push_back(std::move(waiting_[i].rollout));
+    }
     for (std::size_t k = group.size(); k-- > 0;) waiting_.erase(waiting_.begin() + static_cast<std::ptrdiff_t>(group[k]));
     if (stream_.begin) stream_.begin(pack);
     return pack;
   }
 
  private:
+  // Robots within tolerances have a robot each, 6 kB a link. Large ones wait in small numbers.
+  static constexpr std::size_t kFew = 64, kMostLinks = 20000;
+
   /// Largest number of the `left` waiting rollouts for one thread: all of them while more are to come, and then an equal share,
   /// so that the last rollouts occupy all threads.
   [[nodiscard]] std::size_t fair(std::size_t left) const {
@@ -100,6 +107,7 @@ class Waiting {
   std::size_t look_ahead_;
   std::mutex mutex_;
   std::vector<Candidate> waiting_;
+  std::size_t links_ = 0;  ///< of the robots that wait
   bool more_ = true;
 };
 

@@ -56,10 +56,11 @@ struct BatchStream {
 };
 
 /// run_batch for any number of rollouts. A free thread takes the first of the waiting rollouts, of which at most `look_ahead`
-/// exist, and those that can share lanes with it and whose CPGs have the nearest frequencies: robots in step touch the ground
-/// and reach their limits at the same times, so that the lanes divide their steps together (docs/benchmarks.md). Once `stop` is
-/// set, no lane group begins, and running rollouts end at their next step without a call of `end`. Returns false if the batch
-/// was stopped. An exception of `next`, `begin` or `end` stops the batch and is rethrown when all threads have ended.
+/// exist (64 of large robots), and those that can share lanes with it and whose CPGs have the nearest frequencies: robots in
+/// step touch the ground and reach their limits at the same times, so that the lanes divide their steps together
+/// (docs/benchmarks.md). Once `stop` is set, no lane group begins, and running rollouts end at their next step without a call
+/// of `end`. Returns false if the batch was stopped. An exception of `next`, `begin` or `end` stops the batch and is rethrown
+/// when all threads have ended.
 bool run_pulled(const BatchStream& stream, const BatchSettings& settings, Records records, std::atomic<bool>& stop,
                 std::size_t look_ahead = 512);
 
