@@ -8,7 +8,7 @@ namespace gaitlab {
 
 /// Edges of the box around all shapes of a robot at zero angles, along the axes of the base frame, m. 0 without shapes.
 Vec3 outline_edges(const Robot& robot);
-/// The same of each module.
+/// Edges of the box around the shapes of each module, as above.
 std::vector<Vec3> outline_edges_of_modules(const Robot& robot);
 
 }  // namespace gaitlab

@@ -117,7 +117,7 @@ Robot as_built(const Robot& drawn, std::span<const ModuleBuild> modules);
 /// Contact elements of the set `on`, by body, then in file order. The set `feet` contains the feet of the free body of every
 /// module without children.
 std::vector<ContactElement> contact_elements(const Robot& robot, ContactSet on);
-/// The same elements, a list per body.
+/// Contact elements of the set `on`, a list per body.
 std::vector<std::vector<ContactElement>> contact_elements_by_body(const Robot& robot, ContactSet on);
 
 /// Description of the robot for plugins.
