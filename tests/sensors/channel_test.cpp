@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <numeric>
 
 #include "tests/validation.h"
 
@@ -251,6 +253,64 @@ TEST(Channel, DelayInARangeIsDrawnOnceARunWithEqualChances) {
   EXPECT_EQ(count[0] + count[4], 0);
   // Four standard errors of a third of 3000: 4 sqrt(3000 * 2 / 9).
   for (const std::size_t d : {1U, 2U, 3U}) EXPECT_NEAR(count[d], 1000, 104) << d;
+}
+
+using Columns = std::map<std::string, std::vector<double>>;
+
+/// Numbers in which a channel with the errors `keys` shows its draws, by channel: `truth` at tick 1, where it is 0 at tick 0.
+void add_draws(Columns& all, const std::string& name, const ChannelKeys& keys, double truth, std::size_t size = 3) {
+  for (int c = 0; c < 10000; ++c) {
+    const Channel one = channel(keys, "channel-" + std::to_string(c), 1, size);
+    const std::vector<double> y = values(one, 2, [&](std::int64_t tick) { return truth * static_cast<double>(tick); });
+    for (std::size_t i = 0; i < size; ++i) all[name + "." + std::to_string(i)].push_back(y[size + i]);
+  }
+}
+
+void subtract_mean(std::vector<double>& all) {
+  double sum = 0;
+  for (const double x : all) sum += x;
+  for (double& x : all) x -= sum / static_cast<double>(all.size());
+}
+
+/// The columns, and the magnitudes of the normal ones: a uniform number that a normal one is made of determines its magnitude
+/// and not its sign. All have the mean 0.
+Columns with_magnitudes(Columns all) {
+  for (auto& [name, column] : all) subtract_mean(column);
+  Columns magnitudes;
+  for (const auto& [name, column] : all) {
+    if (name == "lost.0" || name == "delay.0") continue;  // uniform
+    for (const double x : column) magnitudes["|" + name + "|"].push_back(std::abs(x));
+    subtract_mean(magnitudes["|" + name + "|"]);
+  }
+  all.merge(magnitudes);
+  return all;
+}
+
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  const auto product = [](const auto& x, const auto& y) { return std::inner_product(x.begin(), x.end(), y.begin(), 0.0); };
+  return product(a, b) / std::sqrt(product(a, a) * product(b, b));
+}
+
+/// No two draws of a channel are one number: 0.05 is five standard errors of a correlation of 10 000 channels.
+TEST(Channel, DrawsAreIndependentOfEachOther) {
+  ChannelKeys noise = keys(), walk = keys(), zero = keys(), gain = keys(), lost = keys(), delay = keys();
+  noise.noise = walk.walk = zero.zero = gain.gain_deviation = 1;
+  lost.lost = 0.5;
+  delay.delay_most = 9 * kPeriod;
+  Columns draws;
+  add_draws(draws, "noise", noise, 0);
+  add_draws(draws, "walk", walk, 0);
+  add_draws(draws, "zero", zero, 0);
+  add_draws(draws, "gain", gain, 1);
+  add_draws(draws, "lost", lost, 1, 1);
+  for (int c = 0; c < 10000; ++c)
+    draws["delay.0"].push_back(static_cast<double>(channel(delay, "channel-" + std::to_string(c)).delay()));
+  const Columns all = with_magnitudes(draws);
+  ASSERT_EQ(all.size(), 2 * 12 + 2U);
+  for (auto a = all.begin(); a != all.end(); ++a) {
+    for (auto b = std::next(a); b != all.end(); ++b)
+      EXPECT_LT(std::abs(correlation(a->second, b->second)), 0.05) << a->first << " and " << b->first;
+  }
 }
 
 TEST(Channel, StateIsCompleteWithinADelay) {

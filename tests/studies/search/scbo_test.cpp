@@ -113,6 +113,67 @@ TEST(Scbo, RequestsTheSamePointsAgain) {
   }
 }
 
+/// A search whose points so far are one point, the centre of the box, which has no objective. No model therefore chooses among
+/// the candidates, and those that are made of the best points stay near the centre.
+class TrustRegion {
+ public:
+  static constexpr double kSpread = 0.02;  ///< largest distance of a candidate that is made of the best points
+  TrustRegion() { generation(2e6); }
+  /// Largest distance of the next points from the centre in a coordinate: half the side of the trust region.
+  double reach() {
+    double most = 0;
+    for (const Vector& point : search_->ask()) {
+      for (const double x : point) most = std::max(most, std::abs(x - 0.5));
+    }
+    return most;
+  }
+  /// A generation whose best fitness is `fitness`.
+  void generation(double fitness) {
+    rated_.push_back({{0.5, 0.5}, {{fitness}}});
+    if (search_) return search_->tell({});
+    EvolutionSettings settings;
+    settings.points.resize(kPoints);
+    settings.rated = &rated_;
+    search_ = scbo(settings);
+  }
+
+ private:
+  static constexpr std::size_t kPoints = 400;  // of which about 120 lie in the trust region
+  std::vector<Rated> rated_;
+  std::unique_ptr<Evolution> search_;
+};
+
+/// At least one of 120 points lies in the outermost twentieth of the region.
+void expect_side(TrustRegion& region, double side) {
+  const double reach = std::max(side / 2, TrustRegion::kSpread);
+  EXPECT_LE(region.reach(), reach * (1 + 1e-12)) << side;  // rounding of 0.5 + x - 0.5
+  EXPECT_GT(region.reach(), 0.95 * reach) << side;
+}
+
+TEST(Scbo, TrustRegionShrinksWithoutGains) {
+  TrustRegion region;
+  double side = 0.8;
+  for (; side >= 0.02; side /= 1.7) {
+    expect_side(region, side);
+    region.generation(2e6);
+    expect_side(region, side);  // one generation without a gain is not enough
+    region.generation(2e6);
+  }
+  expect_side(region, 0.6);  // starts again
+}
+
+TEST(Scbo, TrustRegionGrowsWithGains) {
+  TrustRegion region;
+  for (int generation = 0; generation < 4; ++generation) region.generation(2e6);
+  double fitness = 2e6;
+  for (double side = 0.8 / 1.7 / 1.7; side < 1; side *= 1.6) {
+    expect_side(region, side);
+    region.generation(fitness /= 2);
+    expect_side(region, side);
+    region.generation(fitness /= 2);
+  }
+}
+
 /// The best is at a face of the box: points that were clamped there would be one point.
 TEST(Scbo, RequestsNoPointTwiceAtAFaceOfTheBox) {
   Search search({.algorithm = Method::scbo, .dimensions = 1});

@@ -1,10 +1,11 @@
 // Numbers of a resolved scenario multiplied by key: scalars, maps by joint, lists, boxes, keys that are missing or change in
-// time.
-#include "report/remedy/remedy_keys.h"
+// time. The engine of a search.
+#include "report/remedy/remedy.h"
 
 #include <cmath>
 
 #include "core/scenario/resolved.h"
+#include "report/analysis/collisions.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -86,6 +87,49 @@ TEST(RemedySettings, MeanTheSameForTheFileAndTheResolvedScenario) {
       EXPECT_EQ(resolved(shipped(file, sets)), of_record) << file << " " << key.name;
     }
   }
+}
+
+/// Two modules in engine bullet, whose heating currents are far below their rating of 1 A.
+const std::string kTwoInBullet = R"(gaitlab: 1
+robot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}
+physics: {engine: bullet, step: 5e-5}
+contact: {on: all}
+cpg: {type: sine, frequency: 5, amplitude: 0.03, phase_lag: 1.2}
+actuator: {i_continuous: 1}
+trace: {period: 0.05}
+duration: 0.8
+)";
+
+/// Engine of the search for a scenario in engine bullet; under engine articulated it also has the settings `other`. No setting
+/// is tried, so that the only run of the search is the one that compares the engines.
+std::string engine_of_search(const Sets& own, const Sets& other, report::Word word) {
+  const Scenario s = scenario(kTwoInBullet, own);
+  const Recording record = run(s);
+  const report::Verdict verdict = report::verdict(s, record, report::summarise(s, record, 0), report::overlaps(s, record));
+  EXPECT_EQ(verdict.word, word) << verdict.reason << verdict.why();
+  const auto with = [&](const Sets& sets) {
+    Sets all = own;
+    all.insert(all.end(), sets.begin(), sets.end());
+    if (std::ranges::count(sets, "physics.engine=articulated") > 0) all.insert(all.end(), other.begin(), other.end());
+    return scenario(kTwoInBullet, all);
+  };
+  std::atomic<bool> stop = false;
+  const std::optional<report::Remedy> made = report::remedy({s, verdict, with, false, {"none"}, {}, {}}, stop);
+  EXPECT_EQ(made->runs, 1U);
+  EXPECT_EQ(made->own_engine, "bullet");
+  return made->engine;
+}
+
+TEST(RemedyEngine, IsTheFasterOneWhereTheVerdictsAgree) {
+  EXPECT_EQ(engine_of_search({}, {}, report::Word::feasible), "articulated");
+  const Sets weak{"actuator.i_continuous=0.001"};
+  EXPECT_EQ(engine_of_search(weak, {}, report::Word::infeasible), "articulated");
+}
+
+TEST(RemedyEngine, IsThatOfTheScenarioWhereTheVerdictsDiffer) {
+  const Sets weak{"actuator.i_continuous=0.001"}, strong{"actuator.i_continuous=1"};
+  EXPECT_EQ(engine_of_search({}, weak, report::Word::feasible), "bullet");
+  EXPECT_EQ(engine_of_search(weak, strong, report::Word::infeasible), "bullet");
 }
 
 }  // namespace
