@@ -15,6 +15,7 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 sys.dont_write_bytecode = True
+import assets  # noqa: E402
 import gallery  # noqa: E402
 import links  # noqa: E402
 import pages  # noqa: E402
@@ -31,6 +32,7 @@ def build(work, program):
     if subprocess.run(sphinx + [source, site]).returncode:
         sys.exit(1)
     os.remove(os.path.join(site, ".buildinfo"))
+    assets.complete(site)
     found = list(links.faults(site))
     if found:
         sys.exit("\n".join(found))
@@ -43,7 +45,7 @@ def main():
     parser.add_argument("--program")
     options = parser.parse_args()
     target = os.path.abspath(options.site)
-    if os.path.exists(target) and os.listdir(target) and not os.path.exists(os.path.join(target, "searchindex.js")):
+    if os.path.exists(target) and os.listdir(target) and not os.path.exists(os.path.join(target, "search.html")):
         sys.exit("{}: exists and is not a site".format(options.site))
     os.makedirs(os.path.dirname(target), exist_ok=True)
     with tempfile.TemporaryDirectory(dir=os.path.dirname(target), prefix=".site-") as work:

@@ -4,8 +4,11 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import pages  # noqa: E402
+import search  # noqa: E402
 
 project = "gaitlab"
+version = pages.version()
+html_context = {"repository": pages.repository()}
 html_title = "gaitlab"
 extensions = ["myst_parser", "sphinx_copybutton"]
 source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
@@ -15,6 +18,8 @@ smartquotes = False  # "--" in a sentence is an option
 highlight_language = "none"  # of blocks without a language: kinds_of_blocks finds it
 
 html_theme = "furo"
+templates_path = [os.path.join(os.path.dirname(os.path.abspath(__file__)), "templates")]
+html_sidebars = {"**": ["sidebar/brand.html", "project.html", "sidebar/search.html", "sidebar/scroll-start.html", "sidebar/navigation.html", "sidebar/scroll-end.html"]}
 html_static_path = [os.path.join(os.path.dirname(os.path.abspath(__file__)), "static")]
 html_css_files = ["site.css"]
 html_show_sourcelink = False
@@ -36,4 +41,5 @@ def kinds_of_blocks(app, doctree):
 
 def setup(app):
     app.connect("doctree-read", kinds_of_blocks)
-    return {"parallel_read_safe": True}
+    search.setup(app)
+    return {"parallel_read_safe": True, "parallel_write_safe": False}

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks a built site: every link has its file and its anchor, and no page loads anything from elsewhere.
+"""Checks a built site: every link has its file and its anchor, no page loads anything from elsewhere, and its styles and
+scripts have what they load.
 
     links.py SITE          prints the faults; exit code 1 if there is one
 
@@ -7,6 +8,7 @@ Pages of runs, in the folder gallery, are not read: they are single files of the
 """
 import html.parser
 import os
+import re
 import sys
 import urllib.parse
 
@@ -31,7 +33,25 @@ class Page(html.parser.HTMLParser):
             self.links.append((self.getpos()[0], attributes[LOADS[tag]], True))
 
 
+STYLE_LOADS = re.compile(r"url\(\s*[\"']?([^\"')]+)")
+SCRIPT_IMPORT = re.compile(r"^import\b.*", re.M)
+
+
 def faults(site):
+    yield from faults_of_pages(site)
+    for folder, _, names in os.walk(os.path.join(site, "_static")):
+        for path in sorted(os.path.join(folder, name) for name in names if name.endswith((".css", ".js"))):
+            with open(path, encoding="utf-8") as file:
+                text = file.read()
+            # The pages load scripts as such, and not as modules: none can import.
+            pattern = STYLE_LOADS if path.endswith(".css") else SCRIPT_IMPORT
+            for load in pattern.finditer(text):
+                target = load.group(load.lastindex or 0)
+                if not target.startswith("data:") and not os.path.isfile(os.path.join(folder, target)):
+                    yield "{}:{}: {} does not exist".format(os.path.relpath(path, site), text.count("\n", 0, load.start()) + 1, target)
+
+
+def faults_of_pages(site):
     pages = {}
     for folder, folders, names in os.walk(site):
         folders[:] = [name for name in folders if os.path.join(folder, name) != os.path.join(site, "gallery")]

@@ -70,6 +70,18 @@ def title(path):
         return next((line[2:].strip() for line in file if line.startswith("# ")), path)
 
 
+def version():
+    with open(os.path.join(ROOT, "CMakeLists.txt"), encoding="utf-8") as file:
+        return re.search(r"^project\(\w+ VERSION ([\d.]+)", file.read(), re.M).group(1)
+
+
+def repository():
+    """The address that a link of README.md with the word repository has; None without such a link."""
+    with open(os.path.join(ROOT, "README.md"), encoding="utf-8") as file:
+        found = re.search(r"\[[^\]]*\brepository\b[^\]]*\]\((https?://[^)\s]+)\)", file.read())
+    return found and found.group(1)
+
+
 def listed():
     """Paths of the pages of the project."""
     found = ["CHANGELOG.md", "CONTRIBUTING.md", "README.md"]

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The site of the documentation (docs/site) builds without warnings, without its gallery; its links have their targets, no page loads
-# anything from elsewhere, and the search works from a file.
+# The site of the documentation (docs/site) builds without warnings, without its gallery; its links have their targets, and no page loads
+# anything from elsewhere. In Chromium six pages load whatever they name, light and dark, wide and narrow; the search finds.
 # usage: site.sh     (exit code 77 without Sphinx and its packages)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 python=/usr/bin/python3 # Python of Debian
@@ -29,6 +29,11 @@ for fault in '<a href="docs/no-page.html">' '<a href="docs/glossary.html#no-anch
   (($(wc -l <"$work/log") == 1)) || bad "$fault is not one fault: $(<"$work/log")"
   mv -- "$work/first" "$site/index.html"
 done
+printf '@import url(/javascript/none.css);\n' >"$site/_static/fault.css"
+printf 'import None from "./none.js";\n' >"$site/_static/fault.js"
+"${links[@]}" >"$work/log" && bad "not found: a style and a script that load what is not there"
+(($(wc -l <"$work/log") == 2)) || bad "a style and a script are not two faults: $(<"$work/log")"
+rm -- "$site"/_static/fault.*
 ! grep -q "copied" "$site/docs/equations.html" || bad "an equation has a button to copy it"
 grep -q "copied" "$site/docs/tutorials/feasible.html" || bad "a command has no button to copy it"
 ok "every link has its target, and nothing is loaded from elsewhere"
@@ -40,13 +45,30 @@ expect 1 "$python" "$root/docs/site/build.py" "$work/mine"
 said "is not a site"
 [[ -e $work/mine/file ]] || bad "the build removes a folder that is no site"
 
-chromium=$(command -v chromium || true)
-if [[ -n $chromium ]]; then
-  "$chromium" --headless --no-sandbox --disable-gpu --virtual-time-budget=20000 --user-data-dir="$work/chromium" \
-    --dump-dom "file://$site/search.html?q=no-load+speed+of+the+motors" >"$work/log" 2>/dev/null || fail "Chromium does not open the search"
-  grep -q 'href="docs/[a-z/-]*.html' "$work/log" || { show_log; fail "the search finds nothing"; }
-  ok "the search works from a file"
-else
-  skip "the search of the site" "no Chromium (Debian: chromium)"
+# The look, the buttons and the search, in a browser.
+left_out() {
+  [[ ${CI:-} != true ]] || fail "the site in a browser: not tested, though this is CI: $1"
+  skip "the site in a browser" "$1"
+  verdict
+  exit
+}
+for tool in node npm; do
+  command -v "$tool" >/dev/null || left_out "no $tool (Debian: nodejs, npm)"
+done
+export CHROMIUM=${CHROMIUM:-$(command -v chromium || true)}
+[[ -n $CHROMIUM ]] || left_out "no Chromium (Debian: chromium)"
+mkdir "$work/page"
+cp -- "$root"/tests/page/browser.mjs "$root"/tests/site/site_test.mjs "$work/page"
+cd -- "$work/page"
+driver=$(node -p 'require(process.argv[1]).devDependencies["playwright-core"]' "$root/report/page/package.json")
+if ! npm install --no-save --ignore-scripts --no-audit --no-fund "playwright-core@$driver" >"$work/log" 2>&1; then
+  show_log
+  ! grep -qE 'ENOTFOUND|EAI_AGAIN|ECONNREFUSED|ECONNRESET|ENETUNREACH|ETIMEDOUT' "$work/log" || left_out "the package registry cannot be reached"
+  fail "npm install playwright-core"
 fi
+if ! node site_test.mjs "$site" >"$work/log" 2>&1; then
+  grep -A 30 '^not ok' "$work/log" | head -n 300 >&2 || show_log
+  fail "the site in $("$CHROMIUM" --version 2>/dev/null || printf %s "$CHROMIUM")"
+fi
+ok "the site in a browser, light and dark, wide and narrow, and its search: $(grep -E '^# pass|^ℹ pass' "$work/log")"
 verdict
