@@ -2,11 +2,12 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 from typing import TYPE_CHECKING, Any, Iterable, Mapping, Optional, Union
 
 from ._child import Child, Path
-from ._settings import records, set_options
+from ._settings import is_empty, records, set_options
 
 if TYPE_CHECKING:
     import pandas
@@ -39,7 +40,7 @@ class Evaluator(Child):
         import pandas
 
         rows, index = records(points)
-        asked = [{key: getattr(value, "item", lambda v=value: v)() for key, value in one.items()} for one in rows]
+        asked = [{key: _value(value, key, k) for key, value in one.items()} for k, one in enumerate(rows)]
         self._write([*(json.dumps({"id": k, "parameters": one}) for k, one in enumerate(asked)), ""])
         answers = []
         for point in asked:
@@ -48,6 +49,14 @@ class Evaluator(Child):
                 self._fail()
             answers.append(_row(point, json.loads(line)))
         return pandas.DataFrame(answers, index=index)
+
+
+def _value(value: Any, key: str, row: int) -> Any:
+    """A value for JSON. Raises ValueError for an empty cell of a table, and for a number that is not finite."""
+    plain = getattr(value, "item", lambda: value)()
+    if is_empty(plain) or (isinstance(plain, float) and not math.isfinite(plain)):
+        raise ValueError(f"{key} of row {row} is {value!r}; expected a value of the parameter")
+    return plain
 
 
 def _row(point: Mapping[str, Any], answer: Mapping[str, Any]) -> dict[str, Any]:

@@ -1,13 +1,14 @@
 """A search of the program whose points Python evaluates."""
 from __future__ import annotations
 
+import itertools
 import json
 import math
 from typing import TYPE_CHECKING, Any, Iterable, Mapping, Optional, Union
 
 from ._child import Child, Path
 from ._native import RunError
-from ._settings import set_options
+from ._settings import is_empty, set_options
 
 if TYPE_CHECKING:
     import pandas
@@ -55,9 +56,13 @@ class Search(Child):
             raise RunError("the search is closed")
         if not self._points and not self._ended:
             if self._open:
-                raise RunError(f"{len(self._open)} points of this generation have no result; tell() gives it")
+                some = ", ".join(str(number) for number in sorted(self._open)[:5])
+                raise RunError(
+                    f"{len(self._open)} points of this generation have no result; tell() gives it "
+                    f"(points {some}{', ...' if len(self._open) > 5 else ''})"
+                )
             self._read_batch()
-        numbers = list(self._points)[:n]
+        numbers = list(itertools.islice(self._points, n))
         self._open.update(numbers)
         return pandas.DataFrame([self._points.pop(k) for k in numbers], index=pandas.Index(numbers, name="point", dtype="int64"))
 
@@ -69,22 +74,27 @@ class Search(Child):
             violation: 0 if the point satisfies all limits, else more than 0, the larger the farther from satisfying them. Without
                 this column it follows from `verdict`, if there is one, as in tables of rollouts: 0 for a feasible gait, otherwise
                 -margin, at least 0.5; and it is 0 without a verdict
-            outcome, message: of a failed point a word other than `done`, and the reason
+            outcome, message: of a failed point a word other than `done`, and the reason. NaN, None and "" are `done`. A point whose
+                word is `not run` has no result: it stays open, and is told again later
             others: quantities for the journal, where the study has a column of this name
 
-        Raises ValueError, and gives nothing, if a row has no number as objective, a negative violation, or a point that is not open.
+        Raises ValueError, and gives nothing, if a row has no number as objective, a negative violation, an outcome that is no text,
+        another verdict than those of the program, or a point that is not open.
         """
         if not hasattr(rows, "to_dict"):
             raise TypeError(f"rows is a DataFrame with the index of the table of ask(), not {type(rows).__name__}")
         results: list[dict[str, Any]] = []
+        seen: set[int] = set()
         for number, row in zip(rows.index, rows.to_dict("records")):
-            if number not in self._open or number in (one["id"] for one in results):
+            if number not in self._open or number in seen:
                 raise ValueError(f"point {number} is not open; expected points of ask() without a result, by the index of the table")
-            results.append(_result(int(number), row))
+            seen.add(number)
+            if (result := _result(int(number), row)) is not None:
+                results.append(result)
         if len(results) > 1 and all("outcome" not in one and set(one["objective"]) <= {None} for one in results):
             raise ValueError("no row has an objective; a column assigned from a table with another index is NaN")
         self._write([json.dumps(one) for one in results])
-        self._open.difference_update(rows.index)
+        self._open.difference_update(one["id"] for one in results)
 
     def close(self) -> None:
         super().close()
@@ -106,7 +116,7 @@ class Search(Child):
 def _number(value: Any, what: str, number: int) -> Optional[float]:
     """A number for JSON; None for NaN."""
     try:
-        found = float(value)
+        found = math.nan if not isinstance(value, str) and is_empty(value) else float(value)
     except (TypeError, ValueError):
         found = math.inf
     if math.isinf(found):
@@ -114,23 +124,45 @@ def _number(value: Any, what: str, number: int) -> Optional[float]:
     return None if math.isnan(found) else found
 
 
+def _word(row: Mapping[str, Any], column: str, number: int) -> str:
+    """The text of a cell; "" for an empty one, which pandas fills with NaN."""
+    value = row.get(column)
+    if is_empty(value):
+        return ""
+    if not isinstance(value, str):
+        raise ValueError(f"{column} of point {number} is {value!r}; expected a text, or NaN if there is none")
+    return value
+
+
+def _verdict(row: Mapping[str, Any], number: int) -> str:
+    """The verdict of a row; "" without one."""
+    word = _word(row, "verdict", number)
+    if word not in ("", "feasible", "infeasible", "not judged"):
+        raise ValueError(f"verdict of point {number} is {word!r}; expected 'feasible', 'infeasible' or 'not judged'")
+    return word
+
+
 def _violation(row: Mapping[str, Any], number: int) -> Optional[float]:
     """The violation of a row, or what follows from its verdict. None without either."""
     if "violation" in row:
         given = _number(row["violation"], "violation", number)
         if given is None or given < 0:
-            raise ValueError(f"violation of point {number} is {given}; expected 0 or more")
+            raise ValueError(f"violation of point {number} is {row['violation']}; expected 0 or more")
         return given
-    if not isinstance(row.get("verdict"), str):
+    verdict = _verdict(row, number)
+    if not verdict:
         return None
-    margin = row.get("margin", math.nan)
-    return 0.0 if row["verdict"] == "feasible" else max(0.5, -margin if math.isfinite(margin) else 0.5)
+    margin = row.get("margin")
+    return 0.0 if verdict == "feasible" else max(0.5, -margin if isinstance(margin, float) and math.isfinite(margin) else 0.5)
 
 
-def _result(number: int, row: Mapping[str, Any]) -> dict[str, Any]:
-    """A result as `gaitlab optimize --ask` reads it."""
-    if row.get("outcome", "done") != "done":
-        failed = {"id": number, "outcome": str(row["outcome"]), "message": str(row.get("message", ""))[:2000]}
+def _result(number: int, row: Mapping[str, Any]) -> Optional[dict[str, Any]]:
+    """A result as `gaitlab optimize --ask` reads it. None for a point that was not run."""
+    outcome = _word(row, "outcome", number) or "done"
+    if outcome == "not run":
+        return None
+    if outcome != "done":
+        failed = {"id": number, "outcome": outcome, "message": _word(row, "message", number)[:2000]}
         return failed | {"simulated": _number(row.get("simulated", math.nan), "simulated", number)}
     names = ["objective"] if "objective" in row else [f"objective.{k}" for k in range(1, 10) if f"objective.{k}" in row]
     if not names:
@@ -144,6 +176,6 @@ def _result(number: int, row: Mapping[str, Any]) -> dict[str, Any]:
     violation = _violation(row, number)
     if violation is not None:
         result["violation"] = violation
-    if isinstance(row.get("verdict"), str):
-        result["verdict"] = row["verdict"]
+    if verdict := _verdict(row, number):
+        result["verdict"] = verdict
     return result

@@ -8,6 +8,13 @@ from typing import Any, Iterable, Mapping, Optional
 import numpy as np
 
 
+def is_empty(value: Any) -> bool:
+    """True for a cell of a table without a value: NaN, NaT and NA of pandas, None, and an empty text."""
+    if value is None or (isinstance(value, str) and not value):
+        return True
+    return type(value).__name__ in ("NAType", "NaTType") or (isinstance(value, (float, np.floating)) and bool(np.isnan(value)))
+
+
 def _nested(value: Any) -> str:
     return json.dumps(value, ensure_ascii=False) if isinstance(value, str) else text(value)
 

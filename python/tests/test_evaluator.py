@@ -46,6 +46,11 @@ class Evaluate(InFolder):
         with self.assertRaisesRegex(gaitlab.InputError, "cpg.amplitude"):
             with gaitlab.Evaluator("study.yaml", "asked") as study:
                 study.evaluate([{"cpg.frequency": 0.5}])
+        with gaitlab.Evaluator("study.yaml", "empty") as study:
+            for value in (float("nan"), None, float("inf")):
+                with self.assertRaisesRegex(ValueError, "cpg.amplitude of row 0 is .*expected a value of the parameter"):
+                    study.evaluate([{"cpg.frequency": 0.5, "cpg.amplitude": value}])
+            self.assertEqual(list(study.evaluate([{"cpg.frequency": 0.5, "cpg.amplitude": 0.5}])["outcome"]), ["done"])
         with self.assertRaises(FileNotFoundError):
             gaitlab.study("nowhere")
 

@@ -1,6 +1,7 @@
 """Searches of the program whose points Python evaluates."""
 import json
 import subprocess
+import sys
 import unittest
 
 import gaitlab
@@ -73,6 +74,69 @@ class Search(InFolder):
         self.assertTrue((rows["cpg.amplitude"][rows["outcome"] == "broken"] > 0.8).all())
         self.assertEqual(set(rows["outcome"]), {"broken", "done"})
         self.assertTrue((rows["violation"][(rows["outcome"] == "done") & (rows["cpg.frequency"] > 1)] == 0.5).all())
+
+    def test_cells_that_pandas_fills(self):
+        """An outcome in some rows only: the cells of the others are NaN, None or empty, and their points are done."""
+        with gaitlab.Search("study.yaml", "filled", runs=16) as search:
+            points = search.ask()
+            told = points.assign(objective=1.0, message="slipped")
+            for k, cell in enumerate([float("nan"), None, "", pandas.NaT, "done", pandas.NA, "broken"]):
+                told.loc[k, "outcome"] = cell
+            told["outcome"] = told["outcome"].astype(object)
+            told.loc[6, "message"] = float("nan")
+            told.loc[7:, "verdict"] = "infeasible"
+            search.tell(told)
+        rows = gaitlab.study("filled").points
+        self.assertEqual(list(rows["outcome"][:len(points)]), ["done"] * 6 + ["broken"] + ["done"] * (len(points) - 7))
+        self.assertEqual(rows["message"][6], "")
+        self.assertEqual([*rows["violation"][:6], rows["violation"][7]], [0] * 6 + [0.5])
+
+    def test_points_that_were_not_run_stay_open(self):
+        with gaitlab.Search("study.yaml", "interrupted", runs=16) as search:
+            points = search.ask()
+            told = points.assign(objective=1.0, outcome="done")
+            told.loc[told.index[2:], "outcome"] = "not run"
+            search.tell(told)
+            with self.assertRaisesRegex(gaitlab.RunError, f"{len(points) - 2} points of this generation have no result.*points 2, 3"):
+                search.ask()
+            search.tell(points[2:].assign(objective=2.0))
+            search.ask()
+        rows = gaitlab.study("interrupted").points
+        self.assertEqual(set(rows["outcome"]), {"done"})
+        self.assertEqual(list(rows["objective.1"][:4]), [1, 1, 2, 2])
+
+    def test_refused_words_record_nothing(self):
+        with gaitlab.Search("study.yaml", "words", runs=16) as search:
+            points = search.ask()
+            for column, value, said in (
+                ("outcome", 3.5, "outcome of point 1 is 3.5; expected a text"),
+                ("outcome", True, "outcome of point 1 is True; expected a text"),
+                ("outcome", ["done"], "outcome of point 1 is .*expected a text"),
+                ("verdict", "good", "verdict of point 1 is 'good'; expected 'feasible', 'infeasible' or 'not judged'"),
+                ("verdict", 1.0, "verdict of point 1 is 1.0; expected a text"),
+            ):
+                told = points.assign(objective=1.0)
+                told[column] = pandas.Series([value if number == 1 else None for number in told.index], index=told.index, dtype=object)
+                with self.assertRaisesRegex(ValueError, said):
+                    search.tell(told)
+        self.assertEqual(len(gaitlab.study("words").points), 0)
+
+    def test_told_tables_cost_their_length(self):
+        """Calls of functions, which depend on no clock: of twice as many rows at most twice as many, and a few."""
+        def calls(folder, runs):
+            with gaitlab.Search("many.yaml", folder, runs=runs) as search:
+                told, count = search.ask().assign(objective=1.0), []
+                sys.setprofile(lambda frame, event, _: count.append(1) if event == "call" else None)
+                try:
+                    search.tell(told)
+                finally:
+                    sys.setprofile(None)
+            return len(count)
+
+        with open("many.yaml", "w") as file:
+            file.write(STUDY.replace("cma", "random"))
+        few, many = calls("few", 250), calls("many", 500)
+        self.assertLess(many, 2 * few + 100)
 
     def test_a_program_that_answers_each_question_at_once(self):
         """Neither pipe has room for all lines."""

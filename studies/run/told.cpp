@@ -22,6 +22,7 @@ constexpr const char* kExpected =
 constexpr std::array kKeys{"id",      "objective", "violation", "outcome", "message",  "simulated",
                            "verdict", "figures",   "margins",   "kept",    "feasible", "run"};
 
+constexpr std::string_view kNotRun = "not run";  // of tables of rollouts: an interrupt, and no failure of the gait
 constexpr std::array<std::string_view, 3> kVerdicts{"feasible", "infeasible", "not judged"};
 
 class ToldReader {
@@ -36,6 +37,7 @@ class ToldReader {
       if (!id->is_number_unsigned()) wrong("id", "the id of a question");
     }
     text("outcome", told.outcome);
+    if (told.outcome == kNotRun) wrong("outcome", "no result of this point before it has run");
     text("message", told.message);
     number("simulated", told.simulated);
     if (told.outcome == "done") {
@@ -76,10 +78,9 @@ class ToldReader {
 
   void text(const char* key, std::string& value) {
     const Json* given = find(key);
-    if (given == nullptr) return;
-    if (!given->is_string() || (given->get_ref<const std::string&>().empty() && std::string(key) == "outcome"))
-      return wrong(key, "a text");
-    value = given->get<std::string>();
+    if (given == nullptr || given->is_null()) return;
+    if (!given->is_string()) return wrong(key, "a text");
+    if (const auto& read = given->get_ref<const std::string&>(); !read.empty()) value = read;
   }
 
   void number(const char* key, double& value) {
@@ -119,7 +120,7 @@ class ToldReader {
 
   void read_figures(std::map<std::string, double>& quantities) {
     const Json* given = find("figures");
-    if (given == nullptr) return;
+    if (given == nullptr || given->is_null()) return;
     if (!given->is_object()) return wrong("figures", "an object of numbers");
     for (const auto& [name, value] : given->items()) {
       const std::optional<double> read = number_of(value);

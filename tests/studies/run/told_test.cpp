@@ -63,6 +63,16 @@ TEST(Told, FailedPointsHaveNoScore) {
   EXPECT_EQ(told(R"({"id": 1, "outcome": "fell", "simulated": null})").simulated, 0);
 }
 
+TEST(Told, EmptyCellsOfATableAreLeftOut) {
+  const Told one = told(R"({"id": 1, "objective": 2, "outcome": null, "message": null, "verdict": null, "figures": null})");
+  EXPECT_EQ(one.outcome, "done");
+  EXPECT_EQ(one.verdict, "not judged");
+  EXPECT_EQ(one.score.objective(), 2);
+  const Told empty = told(R"({"id": 1, "objective": 2, "outcome": "", "verdict": ""})");
+  EXPECT_EQ(empty.outcome, "done");
+  EXPECT_EQ(empty.verdict, "not judged");
+}
+
 TEST(Told, FaultyLinesAreRefused) {
   const std::string end = R"(; expected {"id": 7, "objective": 0.031, "violation": 0}, or an answer of gaitlab evaluate)";
   EXPECT_EQ(refused("{"), "stdin:3:2: error: is not JSON" + end);
@@ -78,6 +88,8 @@ TEST(Told, FaultyLinesAreRefused) {
   EXPECT_EQ(refused(R"({"id": 1, "objective": 1, "verdict": "good"})"),
             "stdin:3:1: error: verdict is \"good\"; expected feasible, infeasible or not judged");
   EXPECT_EQ(refused(R"({"id": 1, "outcome": 3, "objective": 1})"), "stdin:3:1: error: outcome is 3; expected a text");
+  EXPECT_EQ(refused(R"({"id": 1, "outcome": "not run"})"),
+            "stdin:3:1: error: outcome is \"not run\"; expected no result of this point before it has run");
   EXPECT_EQ(refused(R"({"id": 1, "objective": 1, "figures": {"speed": "x"}})"),
             "stdin:3:1: error: figure speed is \"x\"; expected a number");
   EXPECT_EQ(refused(R"({"id": 1, "objective": 1e999})"), "stdin:3:1: error: holds a number that is too large" + end);
