@@ -3,11 +3,14 @@ lost the rules of readers whose system is dark.
 
 Nothing here needs node: a machine without it builds the same site.
 """
+import base64
 import os
 import re
 import sys
 
 SHARED = "/usr/share"  # Debian's web servers give /usr/share/javascript the address /javascript
+KATEX = "/usr/share/javascript/katex"
+FONT = re.compile(r"url\((fonts/[\w-]+\.woff2)\) format\('woff2'\)(,url\([^)]+\) format\('[a-z]+'\))*")
 IMPORT_CSS = re.compile(r"@import url\((/javascript/[^)]+)\);")
 DARK = re.compile(r'@media not print \{\n  body\[data-theme="dark"\] \{[^@]*\} \}\n')
 IMPORT_SCRIPT = re.compile(r'^import \w+ from "\./([\w-]+\.js)";$', re.M)
@@ -34,8 +37,20 @@ def replace(path, mark, text):
         file.write(new)
 
 
+def write_katex(folder):
+    """KaTeX with its fonts in its style: of a file, a browser may read no font from another folder."""
+    def embedded(font):
+        with open(os.path.join(KATEX, font.group(1)), "rb") as file:
+            return "url(data:font/woff2;base64,{}) format('woff2')".format(base64.b64encode(file.read()).decode())
+
+    for name, text in (("katex.js", text_of(KATEX, "katex.min.js")), ("katex.css", FONT.sub(embedded, text_of(KATEX, "katex.min.css")))):
+        with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+            file.write(text)
+
+
 def complete(site):
-    """Puts the files that furo's style and script import into these two."""
+    """Writes KaTeX, and puts the files that furo's style and script import into these two."""
+    write_katex(os.path.join(site, "_static"))
     styles, scripts = os.path.join(site, "_static", "styles"), os.path.join(site, "_static", "scripts")
     replace(os.path.join(styles, "furo.css"), IMPORT_CSS, lambda match: text_of(SHARED + match.group(1)))
     replace(os.path.join(styles, "furo.css"), DARK, lambda match: of_the_system(match.group()))

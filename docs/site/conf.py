@@ -3,6 +3,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import equations  # noqa: E402
 import pages  # noqa: E402
 import search  # noqa: E402
 
@@ -17,6 +18,7 @@ myst_heading_anchors = 6
 smartquotes = False  # "--" in a sentence is an option
 highlight_language = "none"  # of blocks without a language: kinds_of_blocks finds it
 
+html_math_renderer = "katex"
 html_theme = "furo"
 templates_path = [os.path.join(os.path.dirname(os.path.abspath(__file__)), "templates")]
 html_sidebars = {"**": ["sidebar/brand.html", "project.html", "sidebar/search.html", "sidebar/scroll-start.html", "sidebar/navigation.html", "sidebar/scroll-end.html"]}
@@ -41,5 +43,6 @@ def kinds_of_blocks(app, doctree):
 
 def setup(app):
     app.connect("doctree-read", kinds_of_blocks)
+    equations.setup(app)
     search.setup(app)
     return {"parallel_read_safe": True, "parallel_write_safe": False}

@@ -145,7 +145,7 @@ class Sources:
     def write_pages(self):
         for page in sorted(self.pages - {"README.md"}):
             with open(os.path.join(ROOT, page), encoding="utf-8") as file:
-                self.write(page, self.linked(page, file.read()))
+                self.write(page, self.linked(page, file.read().replace("\n```math\n", "\n```{math}\n")))
         decisions = sorted(page for page in self.pages if page.startswith("docs/decisions/"))
         self.write("docs/decisions.md", "# Decisions\n\nOne page for each decision, with its reasons and the alternatives.\n\n"
                    + toctree([os.path.relpath(page, "docs") for page in decisions], maxdepth=1))

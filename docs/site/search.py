@@ -25,7 +25,7 @@ def group_of(docname):
 def sections(node):
     """[anchor, heading, text] of each section of a page, in their order; the text excludes that of sections within."""
     for section in node.findall(lambda part: part.tagname == "section"):
-        parts = [part for part in section.children if part.tagname not in ("section", "title", "toctree", "compound")]
+        parts = [part for part in section.children if part.tagname not in ("section", "title", "toctree", "compound", "math_block")]
         title = next((part.astext() for part in section.children if part.tagname == "title"), "")
         yield [section["ids"][0], title, " ".join(" ".join(part.astext() for part in parts).split())]
 

@@ -10,6 +10,10 @@ for module in sphinx myst_parser furo sphinx_copybutton yaml; do
     exit 77
   }
 done
+[[ -e /usr/share/javascript/katex/katex.min.js ]] || {
+  skip "the site" "KaTeX is missing (Debian: libjs-katex)"
+  exit 77
+}
 export PYTHONDONTWRITEBYTECODE=1
 site=$work/site
 links=("$python" "$root/docs/site/links.py" "$site")

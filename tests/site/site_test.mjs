@@ -79,6 +79,17 @@ test("the table of contents follows the reader", async () => {
   await done();
 });
 
+for (const [path, least] of [["equations", 25], ["sensors", 1], ["mujoco", 1], ["as-built", 1], ["conventions", 2]]) test(`the equations of ${path} are set`, async () => {
+  const { page, complaints, close: done } = await open(`docs/${path}.html`, { width: 1366 });
+  const made = await page.$$eval("article .math", (all) => all.map((e) => ({ set: Boolean(e.querySelector(".katex-html")), error: e.querySelector(".katex-error")?.title })));
+  assert.ok(made.length >= least, `${made.length} equations`);
+  assert.deepEqual(made.filter((e) => !e.set || e.error), []);
+  await page.evaluate(() => document.fonts.ready);
+  assert.ok(await page.evaluate(() => document.fonts.check("16px KaTeX_Main") && document.fonts.check("italic 16px KaTeX_Math")), "in the fonts of KaTeX");
+  assert.deepEqual(complaints, []); // KaTeX names doubtful TeX on the console
+  await done();
+});
+
 /** Titles of what the search finds. */
 async function searched(query, check = () => {}) {
   const { page, complaints, close: done } = await open(`search.html?q=${encodeURIComponent(query)}`, { width: 390 });
