@@ -63,7 +63,8 @@ void write_h5(const Trace& trace, const Provenance& origin, const std::filesyste
 /// Reads a file of write_h5, bit for bit, or a file of format gaitlab-trace-1, which has no `/recording` and has texts of
 /// variable length. Throws InputError `PATH: error: ...`, with one message for each of: cannot be read, is empty, is not a
 /// gaitlab trace (foreign HDF5, foreign file), has another format version, is truncated, is corrupt. A file that another
-/// program has changed counts as corrupt. HDF5 receives only bytes with the right checksum, because some other files crash it.
+/// program has changed counts as corrupt. HDF5 receives only bytes with the right checksum, because some other files crash it,
+/// and does not unpack values (unpack_chunks() does). An error of a dataset contains its name.
 StoredTrace read_h5(const std::filesystem::path& path);
 
 }  // namespace gaitlab

@@ -141,7 +141,7 @@ std::array<hsize_t, 2> shape_of(hid_t space, int rank, const char* what) {
 std::int64_t read_number(hid_t owner, const char* name) {
   const Handle attribute(H5Aopen(owner, name, H5P_DEFAULT), H5Aclose, name);
   const Handle type(H5Aget_type(attribute), H5Tclose, name);
-  if (H5Tget_class(type) != H5T_INTEGER) throw ImageError(fmt::format("{} is not an integer", name));
+  if (checked(H5Tequal(type, H5T_STD_I64LE), name) == 0) throw ImageError(fmt::format("{} is not an integer of 64 bits", name));
   shape_of(Handle(H5Aget_space(attribute), H5Sclose, name), 0, name);
   std::int64_t number = 0;
   checked(H5Aread(attribute, H5T_NATIVE_INT64, &number), name);
@@ -166,10 +166,11 @@ std::vector<std::string> read_texts(hid_t owner, const char* name, int rank, std
     return found;
   }
   const std::size_t size = H5Tget_size(stored);
-  if (size == 0 || count > bytes.size() / size)
-    throw ImageError(fmt::format("dataset {}: the declared size exceeds the file", name));
+  if (size == 0 || count > bytes.size() / size) throw ImageError(fmt::format("{}: the declared size exceeds the file", name));
+  const Handle type = string_type(size);
+  if (checked(H5Tequal(stored, type), name) == 0) throw ImageError(fmt::format("{} is not a text in UTF-8", name));
   std::string all(count * size + 1, '\0');  // at least one byte, so that the address is valid without columns
-  checked(H5Aread(attribute, string_type(size), all.data()), name);
+  checked(H5Aread(attribute, type, all.data()), name);
   for (std::size_t i = 0; i < count; ++i) {
     const std::string_view text = std::string_view(all).substr(i * size, size);
     found.emplace_back(text.substr(0, text.find('\0')));
@@ -198,65 +199,107 @@ std::vector<Column> read_columns(hid_t data, std::size_t count, std::string_view
 void check_link(hid_t owner, const char* name) {
   H5L_info_t link{};
   checked(H5Lget_info(owner, name, &link, H5P_DEFAULT), name);
-  if (link.type != H5L_TYPE_HARD) throw ImageError(fmt::format("/{} is a link to another place", name));
+  if (link.type != H5L_TYPE_HARD) throw ImageError(fmt::format("{} is a link to another place", name));
 }
 
-/// Requires values that are stored in the file itself, packed as by this program. A virtual dataset or external storage would
-/// read other files.
-void check_storage(hid_t data, const char* name) {
-  const Handle properties(H5Dget_create_plist(data), H5Pclose, name);
-  const H5D_layout_t layout = H5Pget_layout(properties);
-  if (layout != H5D_CHUNKED && layout != H5D_CONTIGUOUS && layout != H5D_COMPACT)
-    throw ImageError(fmt::format("/{} is not stored in this file", name));
-  if (checked(H5Pget_external_count(properties), name) != 0)
-    throw ImageError(fmt::format("/{} is not stored in this file", name));
-  const int filters = checked(H5Pget_nfilters(properties), name);
+/// Requires the filters of this program: shuffle, then gzip. HDF5 does not run them, but their order gives the bytes a meaning.
+void check_filters(hid_t properties) {
+  constexpr std::array kFilters{H5Z_FILTER_SHUFFLE, H5Z_FILTER_DEFLATE};
+  const int filters = checked(H5Pget_nfilters(properties), "filters");
   for (int k = 0; k < filters; ++k) {
     unsigned flags = 0;
     unsigned config = 0;
     std::size_t values = 0;
-    const H5Z_filter_t filter =
-        H5Pget_filter2(properties, static_cast<unsigned>(k), &flags, &values, nullptr, 0, nullptr, &config);
-    if (filter != H5Z_FILTER_SHUFFLE && filter != H5Z_FILTER_DEFLATE)
-      throw ImageError(fmt::format("/{} is packed by filter {}, which is neither shuffle nor gzip", name, filter));
+    const auto at = static_cast<unsigned>(k);
+    const H5Z_filter_t filter = H5Pget_filter2(properties, at, &flags, &values, nullptr, 0, nullptr, &config);
+    if (at >= kFilters.size() || filter != kFilters[at])
+      throw ImageError(fmt::format("is packed by filter {}; expected shuffle, then gzip", filter));
   }
+  if (filters != kFilters.size()) throw ImageError("is not packed by shuffle and gzip");
 }
 
-// Rows of many chunks at a time, so that pages of a table in a file can leave memory.
-void read_rows(hid_t data, hid_t space, hsize_t rows, const Image& file, Trace& trace) {
-  constexpr hsize_t kRows = 4 * kChunkRows;
-  const hsize_t columns = trace.columns.size();
-  trace.values.reserve(rows * columns);
-  for (hsize_t row = 0; row < rows; row += kRows) {
-    const std::array<hsize_t, 2> start{row, 0};
-    const std::array<hsize_t, 2> count{std::min(kRows, rows - row), columns};
-    trace.values.resize((row + count[0]) * columns);
-    checked(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), "selecting rows");
-    const Handle memory(H5Screate_simple(2, count.data(), nullptr), H5Sclose, "shape of the rows");
-    checked(H5Dread(data, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, &trace.values[row * columns]), "reading the values");
-    release(trace.values);
-    release(file);
+/// Requires values that are stored in the file itself, in the chunks of this program. A virtual dataset or external storage
+/// would read other files.
+void check_storage(hid_t data, hsize_t rows) {
+  const Handle properties(H5Dget_create_plist(data), H5Pclose, "properties");
+  const H5D_layout_t layout = H5Pget_layout(properties);
+  if (layout == H5D_VIRTUAL || checked(H5Pget_external_count(properties), "external files") != 0)
+    throw ImageError("is not stored in this file");
+  if (layout != H5D_CHUNKED) throw ImageError("is not stored in chunks");
+  check_filters(properties);
+  std::array<hsize_t, 2> chunk{};
+  H5D_chunk_index_t index{};
+  checked(H5Dget_chunk_index_type(data, &index), "index of chunks");
+  if (checked(H5Pget_chunk(properties, 2, chunk.data()), "chunks") != 2 || chunk != std::array{chunk_rows(rows), hsize_t{1}} ||
+      index != H5D_CHUNK_IDX_BTREE)
+    throw ImageError(fmt::format("has other chunks than {} rows of one column", chunk_rows(rows)));
+}
+
+/// Reader of the chunks of a dataset as they are in the file.
+class StoredChunks {
+ public:
+  StoredChunks(hid_t data, const Image& file) : data_(data), file_(file) {}
+  PackedChunk operator()(hsize_t row, hsize_t column) {
+    const std::array<hsize_t, 2> at{row, column};
+    hsize_t size = 0;
+    checked(H5Dget_chunk_storage_size(data_, at.data(), &size), "size of a chunk");
+    if (size == 0 || size > file_.size())
+      throw ImageError(fmt::format("there is no chunk of column {} from row {} on", column, row));
+    bytes_.resize(size);
+    std::uint32_t left_out = 0;  // filters, a bit each
+    checked(H5Dread_chunk(data_, H5P_DEFAULT, at.data(), &left_out, bytes_.data()), "reading a chunk");
+    constexpr std::uint32_t kGzipLeftOut = 2;
+    if (left_out != 0 && left_out != kGzipLeftOut)
+      throw ImageError(fmt::format("the chunk of column {} from row {} on is not shuffled", column, row));
+    return {bytes_, left_out == 0};
   }
+
+ private:
+  hid_t data_;
+  const Image& file_;
+  std::vector<std::byte> bytes_;
+};
+
+/// Reads the values past the filters of HDF5, whose version 1.10 reads beyond a chunk that is shorter than declared.
+void read_rows(hid_t data, hsize_t rows, const Image& file, Trace& trace) {
+  trace.values.reserve(rows * trace.columns.size());
+  StoredChunks stored(data, file);
+  const std::size_t length = chunk_rows(rows);
+  const auto wrong = unpack_chunks(trace, rows, length, [&](std::size_t row, std::size_t column) {
+    if (column == 0) {  // pages of a table in a file, and of the file, can leave memory
+      release(trace.values);
+      release(file);
+    }
+    return stored(row, column);
+  });
+  if (wrong)
+    throw ImageError(fmt::format("the chunk of column {} from row {} on does not unpack to {} bytes", wrong->column, wrong->row,
+                                 length * sizeof(double)));
 }
 
 Trace read_dataset(hid_t owner, const char* name, const Image& bytes) {
   check_link(owner, name);
   const Handle data(H5Dopen2(owner, name, H5P_DEFAULT), H5Dclose, name);
-  check_storage(data, name);
-  const Handle type(H5Dget_type(data), H5Tclose, name);
-  if (H5Tget_class(type) != H5T_FLOAT || H5Tget_size(type) != sizeof(double)) {
-    throw ImageError(fmt::format("/{} is not float64", name));
-  }
-  const Handle space(H5Dget_space(data), H5Sclose, name);
-  const auto [rows, columns] = shape_of(space, 2, name);
+  const Handle type(H5Dget_type(data), H5Tclose, "type");
+  if (checked(H5Tequal(type, H5T_IEEE_F64LE), "type") == 0) throw ImageError("is not float64");
+  const auto [rows, columns] = shape_of(Handle(H5Dget_space(data), H5Sclose, "shape"), 2, "the table");
+  const bool empty = rows == 0 || columns == 0;
+  if (!empty) check_storage(data, rows);
   // gzip compresses at most by a factor of 1032. A larger declared size is forged, and would only exhaust the memory.
-  if (columns != 0 && rows > 1040 * bytes.size() / sizeof(double) / columns) {
-    throw ImageError(fmt::format("dataset /{}: the declared size exceeds the file", name));
-  }
+  if (!empty && rows > 1040 * bytes.size() / sizeof(double) / columns) throw ImageError("the declared size exceeds the file");
   Trace trace;
   trace.columns = read_columns(data, columns, view(bytes));
-  if (columns != 0) read_rows(data, space, rows, bytes, trace);
+  if (!empty) read_rows(data, rows, bytes, trace);
   return trace;
+}
+
+/// Reads the dataset of this path. Every error contains its name.
+Trace read_table(hid_t file, const std::string& name, const Image& bytes) {
+  try {
+    return read_dataset(file, name.c_str(), bytes);
+  } catch (const ImageError& error) {
+    throw ImageError(fmt::format("dataset /{}: {}", name, error.what()));
+  }
 }
 
 }  // namespace
@@ -311,16 +354,16 @@ StoredTrace from_image(const Image& file_bytes) {
   StoredTrace stored;
   stored.origin = {text("scenario"), read_number(file, "seed"), text("build"), first ? "" : text("outcome"),
                    first ? "" : text("csv_hash")};
-  stored.trace = read_dataset(file, "trace", file_bytes);
+  stored.trace = read_table(file, "trace", file_bytes);
   if (read_number(file, "rows") != static_cast<std::int64_t>(stored.trace.rows()))
     throw ImageError(fmt::format("{} rows, of which not all were written", stored.trace.rows()));
   if (!is_hash(text("checksum"), stored.trace)) throw ImageError("the trace does not match its checksum");
   if (first || checked(H5Lexists(file, "recording", H5P_DEFAULT), "recording") == 0) return stored;
   check_link(file, "recording");
-  const Handle group(H5Gopen2(file, "recording", H5P_DEFAULT), H5Gclose, "recording");
   for (const char* name : kBeside) {
-    if (checked(H5Lexists(group, name, H5P_DEFAULT), name) == 0) continue;
-    stored.beside.push_back({name, read_dataset(group, name, file_bytes)});
+    const std::string path = std::string("recording/") + name;
+    if (checked(H5Lexists(file, path.c_str(), H5P_DEFAULT), name) == 0) continue;
+    stored.beside.push_back({name, read_table(file, path, file_bytes)});
   }
   return stored;
 }

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 
 #include "core/recording/trace.h"
@@ -16,5 +17,23 @@ using TakeChunk = std::function<void(std::size_t row, std::size_t column, std::s
 /// format of zlib, by libdeflate at a fixed level. A chunk that gzip does not shrink has stored blocks. The same table gives
 /// the same bytes with one version of libdeflate. Throws std::bad_alloc, and exceptions of `take`.
 void pack_chunks(const Trace& table, std::size_t rows, const TakeChunk& take);
+
+/// A packed chunk as it is in a file. HDF5 leaves a chunk that gzip would not shrink shuffled only.
+struct PackedChunk {
+  std::span<const std::byte> bytes;
+  bool deflated = true;
+};
+
+/// Giver of the packed chunk that begins at a row of a column. Its bytes are valid until the next call.
+using GiveChunk = std::function<PackedChunk(std::size_t row, std::size_t column)>;
+
+struct ChunkPlace {
+  std::size_t row, column;
+};
+
+/// Appends `count` rows to `table`, whose columns are set, from chunks of `rows` values of one column. Returns the place of the
+/// first chunk that does not have exactly `rows` values, and leaves the table unfinished then. No declared size is believed:
+/// each chunk must be consumed whole and must fill its values to the last byte.
+std::optional<ChunkPlace> unpack_chunks(Trace& table, std::size_t count, std::size_t rows, const GiveChunk& give);
 
 }  // namespace gaitlab

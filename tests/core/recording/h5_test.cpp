@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include <limits>
 
 #include "core/errors.h"
+#include "tests/core/recording/damaged_trace.h"
 #include "tests/folder.h"
 #include "tests/messages.h"
 
@@ -46,11 +48,6 @@ class H5 : public testing::Test {
     const std::string prefix = file_.string() + ": error: ";
     EXPECT_EQ(text.substr(0, prefix.size()), prefix);
     return text.substr(prefix.size());
-  }
-  // Bytes with a corrected hash in the header, so that HDF5 reads them.
-  [[nodiscard]] static std::string sealed(std::string bytes) {
-    const std::string from = "from byte 512 on: ";
-    return bytes.replace(bytes.find(from) + from.size(), 16, hash_words(std::string_view(bytes).substr(kHeader)));
   }
 
   const Provenance kOrigin{"gaitlab: 1\nname: \"é\"\n", -5, "0.1.0+abc (g++)", "done"};
@@ -249,15 +246,15 @@ TEST_F(H5, ContentThatDoesNotFitTogether) {
     std::string bytes = whole;
     const std::size_t at = bytes.find(from, kHeader);
     EXPECT_NE(at, std::string::npos);
-    return sealed(bytes.replace(at, to.size(), to));
+    return test::sealed(bytes.replace(at, to.size(), to));
   };
-  ASSERT_EQ(complaint(sealed(whole)), "");
+  ASSERT_EQ(complaint(test::sealed(whole)), "");
   // HDF5 detects changes of names and attributes of format 2 by a separate checksum.
-  for (const auto& [from, to] : {std::pair<std::string, std::string>{hash(sample(3)), "0123456789abcdef"},
-                                 {"joint.0.angle", "joint.1.angle"},
-                                 {"gaitlab-trace-2", "gaitlab-trace-3"},
-                                 {"checksum", "checksun"}}) {
-    EXPECT_TRUE(complaint(changed(from, to)).starts_with("is corrupt: HDF5: ")) << from;
+  for (const auto& [from, to, where] : {std::array{hash(sample(3)), std::string("0123456789abcdef"), std::string()},
+                                        {"joint.0.angle", "joint.1.angle", "dataset /trace: "},
+                                        {"gaitlab-trace-2", "gaitlab-trace-3", ""},
+                                        {"checksum", "checksun", ""}}) {
+    EXPECT_TRUE(complaint(changed(from, to)).starts_with("is corrupt: " + where + "HDF5: ")) << from;
   }
 }
 

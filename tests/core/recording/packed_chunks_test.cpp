@@ -78,6 +78,68 @@ TEST(PackedChunks, AreSmallWhereTheyCanBeAndBarelyLargerWhereNot) {
   EXPECT_LE(chunks[2].packed, kRows * sizeof(double) + 2 + 4 + 2UL * 5);
 }
 
+// Chunks as a writer gives them, to be unpacked again.
+struct Packed {
+  std::vector<std::vector<std::byte>> chunks;
+  bool deflated = true;
+};
+
+Packed packed(const Trace& table, std::size_t rows) {
+  Packed made;
+  pack_chunks(table, rows, [&](std::size_t, std::size_t, std::span<const std::byte> bytes) {
+    made.chunks.emplace_back(bytes.begin(), bytes.end());
+  });
+  return made;
+}
+
+std::optional<ChunkPlace> unpack(const Packed& from, Trace& to, std::size_t count, std::size_t rows) {
+  std::size_t next = 0;
+  return unpack_chunks(to, count, rows, [&](std::size_t, std::size_t) {
+    return PackedChunk{from.chunks.at(next++), from.deflated};
+  });
+}
+
+TEST(PackedChunks, AreUnpackedBitForBit) {
+  constexpr std::size_t kRows = 100;
+  for (const std::size_t noise : {0U, 5U, 6U, 7U, 15U}) {
+    for (const std::size_t count : {1U, 99U, 100U, 101U, 250U}) {
+      const Trace whole = table(count, noise);
+      Trace read{whole.columns, {}};
+      ASSERT_FALSE(unpack(packed(whole, kRows), read, count, kRows));
+      ASSERT_EQ(read.values.size(), whole.values.size());
+      EXPECT_EQ(std::memcmp(read.values.data(), whole.values.data(), whole.values.size() * sizeof(double)), 0);
+    }
+  }
+}
+
+TEST(PackedChunks, OfAnotherSizeAreNotUnpacked) {
+  const Trace whole = table(100, 1);
+  for (const std::size_t rows : {1U, 99U, 101U, 200U}) {  // shorter and longer than the chunks of 100 rows are
+    Trace read{whole.columns, {}};
+    const auto wrong = unpack(packed(whole, 100), read, rows, rows);
+    ASSERT_TRUE(wrong);
+    EXPECT_EQ(wrong->column, 0U);
+  }
+  Packed longer = packed(whole, 100);
+  longer.chunks[2].push_back(std::byte{});  // behind the end of the stream
+  Trace read{whole.columns, {}};
+  const auto wrong = unpack(longer, read, 100, 100);
+  ASSERT_TRUE(wrong);
+  EXPECT_EQ(wrong->column, 2U);
+}
+
+TEST(PackedChunks, OfHdf5MayBeShuffledOnly) {
+  Packed raw{{std::vector<std::byte>(16)}, false};
+  raw.chunks[0][15] = std::byte{0x40};  // the highest byte of the second value
+  raw.chunks[0][1] = std::byte{1};      // the lowest byte of the second value
+  Trace read{{{"t", "s", ""}}, {}};
+  ASSERT_FALSE(unpack(raw, read, 2, 2));
+  EXPECT_EQ(read.values[0], 0.0);
+  EXPECT_EQ(read.values[1], std::nextafter(2.0, 3.0));
+  raw.chunks[0].pop_back();
+  EXPECT_TRUE(unpack(raw, read, 2, 2));
+}
+
 TEST(PackedChunks, OfNoRowsAreNone) { EXPECT_TRUE(unpacked(table(0, 2), 1).empty()); }
 
 }  // namespace
