@@ -1,10 +1,10 @@
 #include "app/study/asking.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <system_error>
 
@@ -37,19 +37,6 @@ Row with_result(Row row, Told&& told, const std::vector<studies::Quantity>& colu
 /// The questions of one batch, by number.
 using Open = std::map<std::uint64_t, Row>;
 
-/// Prints the questions. The results that arrive meanwhile are read into `lines`: a program that answers each question at once
-/// would wait for ever if neither its results nor the next questions found room in their pipes.
-Open ask(const studies::Plan& plan, const studies::Work& work, Lines& lines) {
-  Open open;
-  while (const std::optional<studies::Job> job = work.next()) {
-    print_line(question_text(job->row.run, plan.study().parameters, job->row.values), "all results are in the journal");
-    open.emplace(job->row.run, job->row);
-    lines.take();
-  }
-  if (!open.empty()) print_line("", "all results are in the journal");
-  return open;
-}
-
 /// Takes the question of a result from `open`.
 Row asked_row(Open& open, const Told& told, const SourceLocation& place) {
   const auto at = open.find(told.point);
@@ -64,31 +51,77 @@ Row asked_row(Open& open, const Told& told, const SourceLocation& place) {
   return row;
 }
 
+/// The questions and results of one batch.
+class Batch {
+ public:
+  Batch(const studies::Plan& plan, const studies::Work& work, Lines& lines) : plan_(plan), work_(work), lines_(lines) {}
+
+  /// Prints the questions. Results that arrive meanwhile are taken at once: a program that answers each question at once would
+  /// wait for ever if neither its results nor the next questions found room in their pipes. If their reader has gone, a
+  /// question stays open, and wait() ends.
+  void ask(const std::atomic<bool>& stop) {
+    bool asked = false;
+    while (const std::optional<studies::Job> job = stop ? std::nullopt : work_.next()) {
+      asked = true;
+      open_.emplace(job->row.run, job->row);
+      if (!print_line(question_text(job->row.run, plan_.study().parameters, job->row.values), kKept, stop)) return;
+      while (const std::optional<std::string> line = stop ? std::nullopt : lines_.arrived()) take(*line);
+    }
+    if (asked) (void)print_line("", kKept, stop);  // if it fails, wait() ends
+  }
+
+  /// Waits for the missing results. Returns false if they do not come.
+  bool wait(const std::atomic<bool>& stop) {
+    while (!open_.empty()) {
+      const std::optional<std::string> line = lines_.next(stop);
+      if (!line) return false;
+      take(*line);
+    }
+    return true;
+  }
+
+ private:
+  static constexpr const char* kKept = "all results are in the journal";
+
+  void take(const std::string& line) {
+    if (is_blank(line)) return;
+    const SourceLocation place{"stdin", lines_.number(), 1};
+    Told told = studies::read_told(line, place, plan_.study().objectives.size());
+    Row row = asked_row(open_, told, place);
+    std::vector<Row> rows;
+    rows.push_back(with_result(std::move(row), std::move(told), plan_.columns()));
+    work_.end(std::move(rows));
+  }
+
+  const studies::Plan& plan_;
+  const studies::Work& work_;
+  Lines& lines_;
+  Open open_ = {};
+};
+
 }  // namespace
 
-void print_line(const std::string& line, const std::string& kept) {
+bool print_line(const std::string& line, const std::string& kept, const std::atomic<bool>& stop) {
   const std::string text = line + "\n";
-  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
-  const int error = errno;
-  throw RunError(fmt::format("standard output cannot be written: {}; {}",
-                             error == EPIPE ? "its reader has closed it" : std::generic_category().message(error), kept));
+  // Not by stdio, which would try again at the end of the program.
+  for (std::size_t at = 0; at < text.size();) {
+    const ssize_t size = ::write(STDOUT_FILENO, text.data() + at, text.size() - at);
+    if (size >= 0) {
+      at += static_cast<std::size_t>(size);
+    } else if (errno == EPIPE || (errno == EINTR && stop)) {
+      return false;
+    } else if (errno != EINTR) {
+      throw RunError(fmt::format("standard output cannot be written: {}; {}", std::generic_category().message(errno), kept));
+    }
+  }
+  return true;
 }
 
 studies::Executor asking_executor(const studies::Plan& plan, Lines& lines) {
   return [&plan, &lines](const studies::Work& work, std::atomic<bool>& stop) {
-    Open open = ask(plan, work, lines);
-    while (!open.empty()) {
-      const std::optional<std::string> line = lines.next(stop);
-      if (!line) return false;
-      if (line->find_first_not_of(" \t\r") == std::string::npos) continue;
-      const SourceLocation place{"stdin", lines.number(), 1};
-      Told told = studies::read_told(*line, place, plan.study().objectives.size());
-      Row row = asked_row(open, told, place);
-      std::vector<Row> rows;
-      rows.push_back(with_result(std::move(row), std::move(told), plan.columns()));
-      work.end(std::move(rows));
-    }
-    return true;
+    Batch batch(plan, work, lines);
+    batch.ask(stop);
+    return batch.wait(stop);
   };
 }
 

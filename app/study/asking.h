@@ -6,12 +6,14 @@
 namespace gaitlab::app {
 
 /// Executor that prints the points of its jobs on standard output, each as a question of one line, with an empty line after the
-/// last one, and reads a result for each from `lines`, in any order (studies/run/told.h). It returns false if the lines end
-/// before. It throws InputError if a line is not the result of an open question, and RunError if the output cannot be written.
-/// Each point must have one run. Plan and lines must outlive the executor.
+/// last one, and reads a result for each from `lines`, in any order (studies/run/told.h). Results are taken as they arrive, so
+/// that none is kept. It returns false if it was stopped, the lines end before, or the output is closed. It throws InputError
+/// if a line is not the result of an open question, and RunError if the output cannot be written for another reason. Each point
+/// must have one run. Plan and lines must outlive the executor.
 studies::Executor asking_executor(const studies::Plan& plan, Lines& lines);
 
-/// Writes a line to standard output at once. Throws RunError if that fails; `kept` ends the message.
-void print_line(const std::string& line, const std::string& kept);
+/// Writes a line to standard output at once. Returns false if its reader has closed it, or if `stop` is set while the reader
+/// takes nothing. Throws RunError for any other failure; `kept` ends the message.
+bool print_line(const std::string& line, const std::string& kept, const std::atomic<bool>& stop);
 
 }  // namespace gaitlab::app

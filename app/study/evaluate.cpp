@@ -91,7 +91,8 @@ class Replies {
     const std::span<const Brief> of = runs == nullptr ? std::span<const Brief>() : std::span<const Brief>(*runs);
     std::vector<std::vector<std::string>> figures;
     for (const Brief& run : of) figures.push_back(journal_.quantities(run.run));
-    print_line(answer(question, journal_.head(), guards_, of, figures), "completed runs are in the journal");
+    if (!print_line(answer(question, journal_.head(), guards_, of, figures), "completed runs are in the journal", stopped()))
+      throw RunError("standard output cannot be written: its reader has closed it; completed runs are in the journal");
   }
 
   Journal& journal_;

@@ -208,14 +208,15 @@ void prepare_asking(const Plan& plan, const OptimizeArguments& a) {
 }
 
 /// Writes the files of a search whose points another program simulated. Returns the exit code.
-int finish_asked(const Plan& plan, Journal& journal, const fs::path& folder, SearchEnd end, bool quiet) {
+int finish_asked(const Plan& plan, Journal& journal, const fs::path& folder, SearchEnd end, const Lines& lines, bool quiet) {
   const studies::Results results = studies::results(journal);
   const std::vector<std::string> files = write_study_files(journal, results, folder);
   if (quiet) return 0;
   say(study_summary(journal, results, folder, 5));
   if (end == SearchEnd::converged) say("all searches have converged before the budget was used\n");
   if (end == SearchEnd::stopped) {
-    say(fmt::format("the results ended before the budget of {}; continue with\n{}\n", plan.most_runs(),
+    say(fmt::format("the {} before the budget of {}; continue with\n{}\n",
+                    lines.output_closed() ? "reader of the points has closed the output" : "results ended", plan.most_runs(),
                     journal.head().command));
   }
   say(fmt::format("files in {}: {}, {}\n", folder.string(), studies::kJournalFile, fmt::join(files, ", ")));
@@ -232,7 +233,7 @@ int optimize_once(const OptimizeArguments& a) {
     print_plan(plan, a);
     return 0;
   }
-  Lines lines;
+  Lines lines(Lines::Until::output_is_closed);
   if (a.ask) prepare_asking(plan, a);
   // The executor is made before the folder is locked, because only one process may lock the folder.
   const studies::Executor executor = a.ask ? asking_executor(plan, lines) : study_executor(plan, a);
@@ -258,7 +259,8 @@ int optimize_once(const OptimizeArguments& a) {
                     plan.most_runs(), head.command));
     return 1;
   };
-  if (a.ask && (end != SearchEnd::stopped || lines.ended())) return finish_asked(plan, journal, folder, end, a.quiet);
+  if (a.ask && (end != SearchEnd::stopped || lines.ended() || lines.output_closed()))
+    return finish_asked(plan, journal, folder, end, lines, a.quiet);
   if (end == SearchEnd::stopped) return interrupted();
   const studies::Results results = studies::results(journal);
   const auto tried = verify_best(plan, journal, results, executor, a.quiet);

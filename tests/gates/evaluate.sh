@@ -82,6 +82,43 @@ code=0
 ((code == 2)) && said "has results that another program gave" || bad "results of another program are taken as answers: exit code $code"
 ok "a search whose points another program simulates"
 
+# Input without end ends with an error, and not with the memory (`head` is the limit for a program that takes all).
+asks=("$program" optimize "$work/many.yaml" --ask --quiet --out "$work/asks")
+sed -e 's/^method:.*/method: {type: random}/' -e 's/^budget:.*/budget: {runs: 5000}/' "$work/study.yaml" >"$work/many.yaml"
+for command in optimize\ --ask evaluate; do
+  # shellcheck disable=SC2086 # words of a command
+  endless() { "$program" $command "$work/many.yaml" --quiet --out "$work/endless" >/dev/null 2>"$work/log"; }
+  code=0
+  head -c 100000000 /dev/zero | endless || code=$?
+  ((code == 2)) && said "stdin:1:1: error: is longer than 1048576 bytes" || bad "$command: zeros without end: exit code $code"
+  code=0
+  tr '\0' '\n' </dev/zero | head -c 100000000 | endless || code=$?
+  ((code == 2)) && said "stdin:1048577:1: error: follows 1048576 bytes of blank lines" || bad "$command: blank lines without end: exit code $code"
+  rm -r "$work/endless"
+done
+ok "input without end"
+
+# A search whose questions have no reader any more ends, although its input stays open; the results that had arrived are taken.
+mkfifo "$work/results"
+exec 7<>"$work/results"
+echo '{"id": 0, "objective": 1}' >&7
+code=0
+{ "${asks[@]}" <"$work/results" 2>"$work/log" || echo $? >"$work/code"; } | head -n 3 >"$work/first"
+[[ ! -e $work/code && $(rows "$work/asks" | wc -l) == 1 ]] || bad "no reader of the questions: $(cat "$work/code" "$work/log"), $(rows "$work/asks" | wc -l) rows"
+ok "a search without a reader ends"
+# One signal ends a search that waits for room in the pipe of its questions.
+mkfifo "$work/unread"
+exec 6<>"$work/unread"
+"${asks[@]}" <"$work/results" >"$work/unread" 2>"$work/log" 7>&- 6>&- &
+search=$!
+read -r -t 1200 -u 6 || bad "a search asks nothing"
+kill -TERM "$search"
+code=0
+wait "$search" || code=$?
+((code == 1)) && said "interrupted: 1 of 5000 runs" || bad "one signal: exit code $code"
+exec 6>&- 7>&-
+ok "one signal ends a search"
+
 # If no process reads the answers, the exit code is 1.
 mkfifo "$work/answered"
 exec 8<>"$work/answered"
