@@ -13,6 +13,7 @@
 #include "core/model/kinematics.h"
 #include "core/robot_files/module_file.h"
 #include "core/scenario/scenario.h"
+#include "tests/folders.h"
 
 namespace gaitlab::test {
 
@@ -157,7 +158,8 @@ class RandomRobots {
 
  private:
   static const ModuleType& mtran() {
-    static const ModuleType type = read_module_file(std::string(GAITLAB_SOURCE_DIR) + "/scenarios/modules/mtran.yaml").type;
+    static const ModuleType type =
+        read_module_file(std::string(gaitlab::test::source_folder()) + "/scenarios/modules/mtran.yaml").type;
     return type;
   }
 

@@ -1,4 +1,5 @@
 // Tests of `export --to gltf`: files, notes, complete messages.
+#include "tests/folders.h"
 #include "tests/interchange/glb_file.h"
 #include "tests/program/fixture.h"
 
@@ -47,7 +48,7 @@ TEST_F(ExportGltf, OfARunMovesAndOfAScenarioStands) {
 }
 
 TEST_F(ExportGltf, TakesFoldersOfFormat1AndOfCsv) {
-  std::filesystem::copy(std::string(GAITLAB_SOURCE_DIR) + "/tests/data/run-of-format-1", folder / "old");
+  std::filesystem::copy(std::string(gaitlab::test::source_folder()) + "/tests/data/run-of-format-1", folder / "old");
   Result result = call("export old --to gltf old.glb");
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(result.err, "");

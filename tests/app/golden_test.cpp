@@ -5,6 +5,7 @@
 #include "core/scenario/read_scenario.h"
 #include "core/scenario/resolved.h"
 #include "tests/app/golden_command.h"
+#include "tests/folders.h"
 
 namespace gaitlab::test {
 
@@ -375,7 +376,7 @@ TEST_F(GoldenCommand, AFileThatCannotBeWrittenHidesNothing) {
   EXPECT_EQ(result.code, 4);
   expect_contains(result.out, "\n0 passed, 1 failed\n");
   expect_contains(result.err, "runs");
-  const std::string command = "cd '" + folder.path().string() + "' && '" + std::string(GAITLAB_BINARY_DIR) +
+  const std::string command = "cd '" + folder.path().string() + "' && '" + std::string(gaitlab::test::build_folder()) +
                               "/bin/gaitlab' check good.yaml >/dev/full 2>full";
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
   EXPECT_EQ(read(folder / "full").find("defect"), std::string::npos) << read(folder / "full");

@@ -1,4 +1,5 @@
 // Robots and grounds that are far too large are refused quickly, with little memory, and without a signal.
+#include "tests/folders.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -16,7 +17,7 @@ class LargeRobot : public ::testing::Test {
   /// Result of `check` of s.yaml within limits of ulimit (-v is memory in kB, -t is CPU time in s).
   Result check(const std::string& limits) {
     const std::string command = fmt::format("cd '{}' && ulimit {}; '{}/bin/gaitlab' check s.yaml 2>err >out",
-                                            folder_.path().string(), limits, GAITLAB_BINARY_DIR);
+                                            folder_.path().string(), limits, gaitlab::test::build_folder());
     const int status = std::system(("bash -c \"" + command + "\"").c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(folder_ / "out"), read(folder_ / "err")};
   }

@@ -1,4 +1,5 @@
 // If the trace of a run cannot be written, all other results are written, and the rows if possible.
+#include "tests/folders.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -15,7 +16,8 @@ class LostTrace : public ::testing::Test {
                   "physics: {engine: articulated}\ntrace: {period: 2e-5, columns: ['*']}\nduration: 0.15\n");
   }
   Result run(const std::string& limits) {
-    const std::string command = "cd '" + folder_.path().string() + "' && " + limits + "; '" + std::string(GAITLAB_BINARY_DIR) +
+    const std::string command = "cd '" + folder_.path().string() + "' && " + limits + "; '" +
+                                std::string(gaitlab::test::build_folder()) +
                                 "/bin/gaitlab' run s.yaml --quiet --no-report --out a 2>err >out";
     const int status = std::system(("bash -c \"" + command + "\"").c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(folder_ / "out"), read(folder_ / "err")};

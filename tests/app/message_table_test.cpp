@@ -1,6 +1,7 @@
 // Tests of the messages in tests/data/messages: inputs of new users, each with what the program prints.
 #include <sstream>
 
+#include "tests/folders.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -67,7 +68,7 @@ class MessageTable : public ::testing::TestWithParam<const char*> {
 };
 
 TEST_P(MessageTable, IsWhatTheProgramPrints) {
-  const std::string file = std::string(GAITLAB_SOURCE_DIR) + "/tests/data/messages/" + GetParam();
+  const std::string file = std::string(gaitlab::test::source_folder()) + "/tests/data/messages/" + GetParam();
   std::size_t calls = 0;
   for (const TablePart& part : parts_of_table(read(file))) {
     if (part.head.starts_with("file ")) {

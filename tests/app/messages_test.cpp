@@ -1,5 +1,6 @@
 // Tests of the messages for mistakes of new users.
 #include "app/run_time.h"
+#include "tests/folders.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -237,7 +238,7 @@ TEST_F(Messages, WhatTheMachineCannotHold) {
   // The process has a memory limit. One run needs more than the limit, and one needs less, but not with the memory of the
   // program.
   const std::string program =
-      "'" + std::string(GAITLAB_BINARY_DIR) + "/bin/gaitlab' check ok.yaml --set trace.period=1e-4 2>err";
+      "'" + std::string(gaitlab::test::build_folder()) + "/bin/gaitlab' check ok.yaml --set trace.period=1e-4 2>err";
   for (const auto& [duration, there_is] :
        {std::pair("350", "ulimit -v allows 1.02 GB of memory"), {"227", "that much memory is not available"}}) {
     const int status = std::system(
@@ -270,7 +271,7 @@ TEST_F(Messages, HowLongARunTakes) {
 }
 
 TEST_F(Messages, ALongRunSaysSoBeforeItStarts) {
-  const std::string run = "'" + std::string(GAITLAB_BINARY_DIR) + "/bin/gaitlab' run ok.yaml --set duration=3000";
+  const std::string run = "'" + std::string(gaitlab::test::build_folder()) + "/bin/gaitlab' run ok.yaml --set duration=3000";
   // The call with --quiet is ended after 1 s of CPU time, when its run has begun.
   folder_.write("run.sh", run +
                               " --out slow 2>slow.err &\n"

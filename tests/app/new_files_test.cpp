@@ -4,6 +4,7 @@
 
 #include "app/chain.h"
 #include "core/laws/data_sheet.h"
+#include "tests/folders.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -71,7 +72,8 @@ TEST_F(NewFiles, ThePrintedCommandsRun) {
     for (std::string line; std::getline(lines, line);) {
       if (!line.starts_with("  ")) continue;
       ++commands;
-      folder.write("next.sh", "gaitlab() { '" + std::string(GAITLAB_BINARY_DIR) + "/bin/gaitlab' \"$@\"; }\n" + line + "\n");
+      folder.write("next.sh",
+                   "gaitlab() { '" + std::string(gaitlab::test::build_folder()) + "/bin/gaitlab' \"$@\"; }\n" + line + "\n");
       const std::string shell = "cd '" + (folder / "") + "' && bash next.sh >>out 2>>err";
       EXPECT_EQ(std::system(shell.c_str()), 0) << line << read(folder / "err");
     }

@@ -2,13 +2,14 @@
 #include <xmmintrin.h>
 
 #include "core/scenario/plugin_files.h"
+#include "tests/folders.h"
 #include "tests/messages.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
 
-const std::string kPlugins = std::string(GAITLAB_BINARY_DIR) + "/plugins/";
+const std::string kPlugins = std::string(gaitlab::test::build_folder()) + "/plugins/";
 
 std::string with(const std::string& library, const std::string& cpg) {
   return "gaitlab: 1\nplugins: [" + kPlugins + library + "]\nrobot: {modules: mtran}\nduration: 0.3\ncpg: {type: " + cpg +

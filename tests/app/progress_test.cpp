@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 
+#include "tests/folders.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -34,8 +35,8 @@ TEST(ProgressLines, NoTerminalHasTheWidthThatTheCallerNames) {
 
 /// Output of a command on a terminal of this width, of which `script` of util-linux makes one; empty without that program.
 std::string on_terminal(const Folder& folder, int columns, const std::string& environment, const std::string& arguments) {
-  const std::string command =
-      fmt::format("stty cols {}; {} '{}/bin/gaitlab' {}", columns, environment, std::string(GAITLAB_BINARY_DIR), arguments);
+  const std::string command = fmt::format("stty cols {}; {} '{}/bin/gaitlab' {}", columns, environment,
+                                          std::string(gaitlab::test::build_folder()), arguments);
   folder.write("command.sh", command + "\n");
   const int status = std::system(
       fmt::format("cd '{}' && script -qec 'sh command.sh' out </dev/null >/dev/null 2>&1", folder.path().string()).c_str());

@@ -1,4 +1,5 @@
 // Commands load plugins of unknown scenarios and run folders only if an option on the command line permits it.
+#include "tests/folders.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -21,7 +22,7 @@ class RefusedPlugins : public ::testing::Test {
     EXPECT_TRUE(contains(refused.err, " is foreign code and is not loaded; if you trust it: gaitlab " + arguments +
                                           " --plugins-from-scenario, or --plugin FILE for each plugin\n"))
         << refused.err;
-    const Result other = call(arguments + " --plugin '" + std::string(GAITLAB_BINARY_DIR) + "/plugins/rises.so'");
+    const Result other = call(arguments + " --plugin '" + std::string(gaitlab::test::build_folder()) + "/plugins/rises.so'");
     EXPECT_EQ(other.code, 2) << arguments;
     EXPECT_TRUE(contains(other.err, "is not loaded")) << other.err;
     for (const std::string& leave : {std::string(" --plugins-from-scenario"), " --plugin '" + library_ + "'"}) {
@@ -32,7 +33,7 @@ class RefusedPlugins : public ::testing::Test {
   }
 
   Folder folder_;
-  std::string library_ = std::string(GAITLAB_BINARY_DIR) + "/plugins/wave.so";
+  std::string library_ = std::string(gaitlab::test::build_folder()) + "/plugins/wave.so";
 };
 
 TEST_F(RefusedPlugins, WhatLooksAtAScenarioLoadsNone) {

@@ -1,5 +1,6 @@
 // Tests of `gaitlab rerun`: a run is repeated from its run folder alone, --verify reports differences, damaged folders are
 // refused.
+#include "tests/folders.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -126,7 +127,7 @@ TEST_F(Rerun, ADivergedRunIsVerified) {
 
 TEST_F(Rerun, AnotherPluginFileIsRefusedButComparedByVerify) {
   const std::string library = folder / "wave.so";
-  fs::copy(std::string(GAITLAB_BINARY_DIR) + "/plugins/wave.so", library);
+  fs::copy(std::string(gaitlab::test::build_folder()) + "/plugins/wave.so", library);
   fs::create_directory_symlink(kScenarios + "modules", folder / "modules");
   folder.write("p.yaml", "gaitlab: 1\nplugins: [" + library + "]\nrobot: {modules: mtran}\nduration: 0.1\ncpg: {type: wave}\n");
   ASSERT_EQ(gaitlab("run p.yaml --quiet --out p", folder / "").code, 0);

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include "tests/cpu_time.h"
+#include "tests/folders.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -148,7 +149,7 @@ TEST_F(FasterEngine, RunAndSwapNameItBeforeTheRuns) {
   const Folder folder;
   // The commands are ended by a limit of CPU time; the note is printed before the first step.
   const auto err = [&](const std::string& arguments) {
-    const std::string program = std::string("'") + GAITLAB_BINARY_DIR + "/bin/gaitlab' ";
+    const std::string program = std::string("'") + gaitlab::test::build_folder() + "/bin/gaitlab' ";
     (void)std::system(
         fmt::format("cd '{}' && ( ulimit -t 1; {} {} >out 2>err )", folder.path().string(), program, arguments).c_str());
     return read(folder / "err");

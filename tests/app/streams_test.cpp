@@ -1,4 +1,5 @@
 // Tests of the output streams of the program: output to a full disk, control characters in messages, threads without memory.
+#include "tests/folders.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -13,8 +14,8 @@ class Streams : public ::testing::Test {
   Result call(const std::string& arguments) { return gaitlab(arguments, folder_.path()); }
   /// Calls the program by a shell, with the texts `before` and `after` around the call.
   Result shell(const std::string& before, const std::string& arguments, const std::string& after = "") {
-    const std::string command = "cd '" + folder_.path().string() + "' && " + before + " '" + std::string(GAITLAB_BINARY_DIR) +
-                                "/bin/gaitlab' " + arguments + " 2>err " + after;
+    const std::string command = "cd '" + folder_.path().string() + "' && " + before + " '" +
+                                std::string(gaitlab::test::build_folder()) + "/bin/gaitlab' " + arguments + " 2>err " + after;
     const int status = std::system(("bash -c \"" + command + "\"").c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, "", read(folder_ / "err")};
   }

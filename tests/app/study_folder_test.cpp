@@ -7,6 +7,7 @@
 #include "studies/run/runner.h"
 #include "studies/study/study_file.h"
 #include "tests/app/study_fixture.h"
+#include "tests/folders.h"
 #include "tests/messages.h"
 
 namespace gaitlab::test {
@@ -22,8 +23,8 @@ class StudyFolder : public StudyFixture {
   void ends(const std::string& arguments, int code, const std::string& message, const std::string& before = "") {
     const Folder capture;
     const std::string command = "cd '" + folder_.path().string() + "' && " + before + " timeout -s KILL 600 '" +
-                                std::string(GAITLAB_BINARY_DIR) + "/bin/gaitlab' " + arguments + " >'" + (capture / "out") +
-                                "' 2>'" + (capture / "err") + "'";
+                                std::string(gaitlab::test::build_folder()) + "/bin/gaitlab' " + arguments + " >'" +
+                                (capture / "out") + "' 2>'" + (capture / "err") + "'";
     const int status = std::system(command.c_str());
     EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, code) << arguments;
     EXPECT_TRUE(read(capture / "err").starts_with(message)) << arguments << ": " << read(capture / "err");

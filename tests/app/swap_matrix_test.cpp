@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/study_fixture.h"
+#include "tests/folders.h"
 
 namespace gaitlab::test {
 namespace {
@@ -19,8 +20,8 @@ class SwapMatrix : public StudyFixture {
   /// Calls the program, and sends a signal as soon as the folder `made` exists. The program must not inherit ignored signals,
   /// which a background job of a shell has.
   Result signalled(const std::string& arguments, const std::string& made, const std::string& signal) {
-    folder_.write("call.sh", "env --default-signal=INT,HUP,TERM '" + std::string(GAITLAB_BINARY_DIR) + "/bin/gaitlab' " +
-                                 arguments + " >out 2>err &\nwhile [ ! -d " + made +
+    folder_.write("call.sh", "env --default-signal=INT,HUP,TERM '" + std::string(gaitlab::test::build_folder()) +
+                                 "/bin/gaitlab' " + arguments + " >out 2>err &\nwhile [ ! -d " + made +
                                  " ] && kill -0 $!; do sleep 0.01; done\nkill -" + signal + " $!\nwait $!\n");
     const int status = std::system(("cd '" + folder_.path().string() + "' && bash call.sh 2>/dev/null").c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(folder_ / "out"), read(folder_ / "err")};

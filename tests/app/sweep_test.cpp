@@ -8,6 +8,7 @@
 #include "core/files/atomic_file.h"
 #include "studies/journal/journal.h"
 #include "tests/app/study_fixture.h"
+#include "tests/folders.h"
 
 namespace gaitlab::test {
 namespace {
@@ -180,7 +181,7 @@ TEST_F(Sweep, WhatFailsIsAResult) {
 
 /// A run whose plugin throws is a failed result. A run whose plugin ends the process is a failed result after two attempts.
 TEST_F(Sweep, SurvivesPlugins) {
-  folder_.write("plugin.yaml", "gaitlab: 1\nplugins: [" + std::string(GAITLAB_BINARY_DIR) +
+  folder_.write("plugin.yaml", "gaitlab: 1\nplugins: [" + std::string(gaitlab::test::build_folder()) +
                                    "/plugins/throws.so]\nrobot: {modules: mtran, base: fixed}\nground: {type: none}\n"
                                    "contact: {on: none}\nphysics: {engine: articulated}\nduration: 0.3\n"
                                    "cpg: {type: throws, where: nowhere}\n");

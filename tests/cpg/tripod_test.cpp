@@ -9,6 +9,7 @@
 #include "core/model/robot.h"
 #include "core/robot_files/module_file.h"
 #include "core/scenario/scenario.h"
+#include "tests/folders.h"
 
 namespace gaitlab::cpg {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 RobotInfo robot_of(const std::vector<std::array<int, 5>>& rows) {
   std::vector<Dock> docks;
   for (const auto& r : rows) docks.push_back({r[0], r[1], r[2], r[3], r[4], SourceLocation{"robot.dat", 1, 1}});
-  const ModuleType mtran = read_module_file(std::string(GAITLAB_SOURCE_DIR) + "/scenarios/modules/mtran.yaml").type;
+  const ModuleType mtran = read_module_file(std::string(gaitlab::test::source_folder()) + "/scenarios/modules/mtran.yaml").type;
   return info(assemble({mtran}, std::vector<std::size_t>(rows.size() + 1, 0), docks));
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "tests/folders.h"
 #include "tests/fuzz/readers.h"
 
 namespace gaitlab::test {
@@ -13,7 +14,8 @@ namespace {
 TEST(Corpus, NoFileEndsAReaderButByAMessage) {
   for (const fuzz::Reader& reader : fuzz::kReaders) {
     std::vector<std::filesystem::path> files;
-    const std::filesystem::path corpus = std::filesystem::path(GAITLAB_SOURCE_DIR) / "tests/fuzz/corpus" / reader.name;
+    const std::filesystem::path corpus =
+        std::filesystem::path(gaitlab::test::source_folder()) / "tests/fuzz/corpus" / reader.name;
     for (const auto& entry : std::filesystem::directory_iterator(corpus)) files.push_back(entry.path());
     std::ranges::sort(files);
     EXPECT_FALSE(files.empty()) << reader.name;
@@ -28,8 +30,8 @@ TEST(Corpus, NoFileEndsAReaderButByAMessage) {
 TEST(Corpus, EveryReaderTakesItsSeed) {
   for (const fuzz::Reader& reader : fuzz::kReaders) {
     SCOPED_TRACE(reader.name);
-    EXPECT_NO_THROW(
-        reader.read(read(std::string(GAITLAB_SOURCE_DIR) + "/tests/fuzz/corpus/" + std::string(reader.name) + "/seed")));
+    EXPECT_NO_THROW(reader.read(
+        read(std::string(gaitlab::test::source_folder()) + "/tests/fuzz/corpus/" + std::string(reader.name) + "/seed")));
   }
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/folders.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -17,7 +18,7 @@ Gait walk_under(const std::string& type, double lag) {
   constexpr double kFrom = 3.5, kUntil = 8;
   std::vector<std::string> sets{"cpg.type=" + type, fmt::format("cpg.phase_lag={}", lag), "duration=8",
                                 "physics.engine=articulated"};
-  if (type == "wave") sets.push_back("plugins=[" + std::string(GAITLAB_BINARY_DIR) + "/plugins/wave.so]");
+  if (type == "wave") sets.push_back("plugins=[" + std::string(gaitlab::test::build_folder()) + "/plugins/wave.so]");
   const Recording record = run(shipped("caterpillar.yaml", sets));
   const Table table(record.trace);
   std::vector<std::vector<double>> rises(16);  // by joint: times at which the angle rises through 0

@@ -5,6 +5,7 @@
 #include "report/analysis/collisions.h"
 #include "report/verdict/spread.h"
 #include "report/verdict/trust.h"
+#include "tests/folders.h"
 #include "tests/program/bits.h"
 #include "tests/program/engines.h"
 #include "tests/program/torque_error.h"
@@ -48,7 +49,7 @@ TEST_P(WhatTheStepsMissed, IsTold) {
   const auto made = [&](std::vector<std::string> sets) {
     sets.insert(sets.end(), GetParam().sets.begin(), GetParam().sets.end());
     sets.insert(sets.end(), {"physics.engine=articulated", "trace.period=0.005"});
-    return read_scenario(std::string(GAITLAB_SOURCE_DIR) + "/" + GetParam().file, sets, catalog());
+    return read_scenario(std::string(gaitlab::test::source_folder()) + "/" + GetParam().file, sets, catalog());
   };
   const Recording truth = run(made({"physics.integrator=extrapolated", "physics.step=5e-5"}));
   const Scenario s = made({"physics.integrator=adaptive", "physics.step=auto"});
@@ -105,7 +106,7 @@ TEST(Estimate, IsOfARunAlone) {
 /// The program detects a run that is not predictable. References at 50 and 20 us differ by 27 %, and as much from Bullet. A
 /// factor of 1 + 1e-9 on gravity changes the torques as much.
 TEST(Estimate, FindsWhatNobodyCanPredict) {
-  const std::string file = std::string(GAITLAB_SOURCE_DIR) + "/tests/data/events/unpredictable-tree.yaml";
+  const std::string file = std::string(gaitlab::test::source_folder()) + "/tests/data/events/unpredictable-tree.yaml";
   const Scenario s = read_scenario(file, {}, catalog());
   Recording r = run(s);
   EXPECT_EQ(report::predictability(s, r), report::Predictability::chaotic);

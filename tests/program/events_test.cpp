@@ -1,5 +1,6 @@
 // Short events that the integrator `adaptive` once missed without a warning. The reference is engine articulated at a short
 // step.
+#include "tests/folders.h"
 #include "tests/program/fixture.h"
 #include "tests/program/torque_error.h"
 #include "tests/validation.h"
@@ -18,7 +19,7 @@ class Events : public testing::TestWithParam<Event> {};
 /// Torque errors are below 1 %. The reference at 50 us differs from one at 20 us by at most 0.2 % of a torque's peak, and from
 /// Bullet at 2.5 us by 2.2 %.
 TEST_P(Events, AreMetByTheSteps) {
-  const std::string file = std::string(GAITLAB_SOURCE_DIR) + "/tests/data/events/" + GetParam().name + ".yaml";
+  const std::string file = std::string(gaitlab::test::source_folder()) + "/tests/data/events/" + GetParam().name + ".yaml";
   const auto made = [&](const std::vector<std::string>& sets) {
     std::vector<std::string> all = sets;
     all.emplace_back("trace.period=0.005");

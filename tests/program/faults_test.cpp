@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/scenario/resolved.h"
+#include "tests/folders.h"
 #include "tests/messages.h"
 #include "tests/program/allocations.h"
 #include "tests/program/as_alone.h"
@@ -125,7 +126,7 @@ TEST(Faults, AStuckJointShortensExplicitSteps) {
 TEST(Faults, NeedAMotor) {
   const auto error = [](const std::string& joint) {
     return message_of([&] {
-      static_cast<void>(read_scenario(std::string(GAITLAB_SOURCE_DIR) + "/tests/data/castor-first.yaml",
+      static_cast<void>(read_scenario(std::string(gaitlab::test::source_folder()) + "/tests/data/castor-first.yaml",
                                       {fmt::format("at=[{{t: 1, fault: {{joint: {}, kind: dead}}}}]", joint)}, catalog()));
     });
   };

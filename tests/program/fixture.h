@@ -13,10 +13,11 @@
 #include "core/scenario/read_scenario.h"
 #include "core/simulation/simulation.h"
 #include "tests/folder.h"
+#include "tests/folders.h"
 
 namespace gaitlab::test {
 
-inline const std::string kScenarios = std::string(GAITLAB_SOURCE_DIR) + "/scenarios/";
+inline const std::string kScenarios = std::string(gaitlab::test::source_folder()) + "/scenarios/";
 
 /// Catalog of the standard plugins, which exists until the end of the process because scenarios refer to it.
 inline Catalog& catalog() {
@@ -88,8 +89,8 @@ struct Result {
 /// Calls the executable gaitlab with `folder` as the working directory. Returns its exit code and outputs.
 inline Result gaitlab(const std::string& arguments, const std::string& folder) {
   const Folder capture;
-  const std::string command = "cd '" + folder + "' && '" + std::string(GAITLAB_BINARY_DIR) + "/bin/gaitlab' " + arguments +
-                              " >'" + (capture / "out") + "' 2>'" + (capture / "err") + "'";
+  const std::string command = "cd '" + folder + "' && '" + std::string(gaitlab::test::build_folder()) + "/bin/gaitlab' " +
+                              arguments + " >'" + (capture / "out") + "' 2>'" + (capture / "err") + "'";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(capture / "out"), read(capture / "err")};
 }

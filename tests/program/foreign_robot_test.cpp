@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/model/pattern.h"
+#include "tests/folders.h"
 #include "tests/program/fixture.h"
 #include "tests/validation.h"
 
@@ -153,7 +154,7 @@ TEST(ForeignRobot, APlanarBaseIsAFloatingOneInThePlane) {
 
 TEST(ForeignRobot, TheExampleInTheManualRuns) {
   // Text of the indented block in docs/modules.md that is a scenario.
-  std::istringstream page(read(std::string(GAITLAB_SOURCE_DIR) + "/docs/modules.md"));
+  std::istringstream page(read(std::string(gaitlab::test::source_folder()) + "/docs/modules.md"));
   std::string text;
   for (std::string line; std::getline(page, line);) {
     if (text.empty() && line != "    gaitlab: 1") continue;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/scenario/read_scenario.h"
+#include "tests/folders.h"
 #include "tests/program/fixture.h"
 #include "tests/validation.h"
 
@@ -20,7 +21,7 @@ Errors errors(const std::string& scene, const std::string& integrator, double st
   const double steps = std::ceil(10 / step - 1e-6);
   const double every = std::round(0.01 / step);
   const Scenario box =
-      read_scenario(std::string(GAITLAB_SOURCE_DIR) + "/tests/published/osrf_box_" + scene + ".yaml",
+      read_scenario(std::string(gaitlab::test::source_folder()) + "/tests/published/osrf_box_" + scene + ".yaml",
                     {"physics.integrator=" + integrator, fmt::format("physics.step={:.17g}", step),
                      fmt::format("trace.period={:.17g}", every * step), fmt::format("duration={:.17g}", steps * step)},
                     catalog());

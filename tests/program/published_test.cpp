@@ -6,13 +6,14 @@
 
 #include "core/dynamics/inverse_dynamics.h"
 #include "core/scenario/read_scenario.h"
+#include "tests/folders.h"
 #include "tests/program/fixture.h"
 #include "tests/validation.h"
 
 namespace gaitlab::test {
 namespace {
 
-const std::string kPublished = std::string(GAITLAB_SOURCE_DIR) + "/tests/published/";
+const std::string kPublished = std::string(gaitlab::test::source_folder()) + "/tests/published/";
 
 Scenario published(const std::string& name, const std::vector<std::string>& sets = {}) {
   return read_scenario(kPublished + name, sets, catalog());

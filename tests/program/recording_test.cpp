@@ -8,6 +8,7 @@
 #include "core/scenario/resolved.h"
 #include "core/simulation/probes.h"
 #include "tests/core/recording/tables.h"
+#include "tests/folders.h"
 #include "tests/messages.h"
 #include "tests/program/fixture.h"
 
@@ -153,7 +154,9 @@ TEST(Columns, KnownByNameAreThoseOfARun) {
 
 class OldFolder : public testing::Test {
  protected:
-  OldFolder() { std::filesystem::copy(std::string(GAITLAB_SOURCE_DIR) + "/tests/data/run-of-format-1", folder_ / "old"); }
+  OldFolder() {
+    std::filesystem::copy(std::string(gaitlab::test::source_folder()) + "/tests/data/run-of-format-1", folder_ / "old");
+  }
   const Folder folder_;
 };
 

@@ -8,13 +8,14 @@
 #include "core/model/robot.h"
 #include "core/robot_files/module_file.h"
 #include "core/scenario/scenario.h"
+#include "tests/folders.h"
 
 namespace gaitlab {
 namespace {
 
 const RobotInfo& hexapod() {
   static const RobotInfo robot = [] {
-    const std::string scenarios = std::string(GAITLAB_SOURCE_DIR) + "/scenarios/";
+    const std::string scenarios = std::string(gaitlab::test::source_folder()) + "/scenarios/";
     const ModuleType mtran = read_module_file(scenarios + "modules/mtran.yaml").type;
     std::vector<Dock> docks;
     const int rows[][5] = {{1, 1, 4, 0, 1}, {1, 2, 4, 1, 3}, {1, 3, 4, 2, 1}, {1, 4, 4, 3, 3}, {0, 5, 3, 0, 3},

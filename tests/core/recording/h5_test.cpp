@@ -15,6 +15,7 @@
 #include "core/errors.h"
 #include "tests/core/recording/damaged_trace.h"
 #include "tests/folder.h"
+#include "tests/folders.h"
 #include "tests/messages.h"
 
 // HDF5 leaves objects of a damaged file open at the end of the program, which LeakSanitizer must ignore.
@@ -220,7 +221,7 @@ TEST_F(H5, LeavesTheLoadingOfFiltersAsItWas) {
 
 // A recording of format 1 is read: a robot of two modules for 0.2 s, written by an older version of the program.
 TEST_F(H5, ReadsFormat1) {
-  const StoredTrace stored = read_h5(std::string(GAITLAB_SOURCE_DIR) + "/tests/data/run-of-format-1/trace.h5");
+  const StoredTrace stored = read_h5(std::string(gaitlab::test::source_folder()) + "/tests/data/run-of-format-1/trace.h5");
   ASSERT_EQ(stored.trace.rows(), 41U);
   EXPECT_EQ(stored.trace.columns.at(1).name, "joint.0.setpoint");
   EXPECT_EQ(stored.trace.columns.at(1).unit, "rad");

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "tests/core/scenario/fakes.h"
+#include "tests/folders.h"
 #include "tests/messages.h"
 
 namespace gaitlab {
@@ -43,7 +44,8 @@ TEST_F(ModuleFileTest, ReadsAModule) {
 }
 
 TEST_F(ModuleFileTest, ShippedTypesAreValid) {
-  for (const auto& file : std::filesystem::directory_iterator(GAITLAB_SOURCE_DIR "/scenarios/modules")) {
+  for (const auto& file :
+       std::filesystem::directory_iterator(std::string(gaitlab::test::source_folder()) + "/scenarios/modules")) {
     if (file.path().extension() != ".yaml") continue;
     EXPECT_NO_THROW(read_module_file(file.path().string())) << file.path();
   }
@@ -214,7 +216,7 @@ TEST_F(ShapeModuleTest, ContactsFollowFromShapes) {
 
 /// The module Y1 in format 3, from its masses and shapes, has the inertias and contact points of the shipped file.
 TEST_F(ShapeModuleTest, Y1HasItsNumbers) {
-  const ModuleFile shipped = read_module_file(GAITLAB_SOURCE_DIR "/scenarios/modules/y1.yaml");
+  const ModuleFile shipped = read_module_file(std::string(gaitlab::test::source_folder()) + "/scenarios/modules/y1.yaml");
   Node document = shipped.document;
   const auto drop = [](Node& map, const std::string& key) {
     for (std::size_t i = map.keys.size(); i-- > 0;) {

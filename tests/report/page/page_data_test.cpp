@@ -3,6 +3,7 @@
 
 #include "report/analysis/start_row.h"
 #include "report/page/robot_tree.h"
+#include "tests/folders.h"
 #include "tests/random_robots.h"
 #include "tests/report/page/opened_page.h"
 
@@ -283,13 +284,13 @@ TEST(PageData, ABodyWithoutJoints) {
 }
 
 TEST(PageData, NoFolderIsNamed) {
-  const std::string library = std::string(GAITLAB_BINARY_DIR) + "/plugins/wave.so";
+  const std::string library = std::string(gaitlab::test::build_folder()) + "/plugins/wave.so";
   Catalog with = app::standard_catalog();
   const Scenario s =
       read_scenario(kScenarios + "caterpillar.yaml", {"plugins=['" + library + "']", "duration=0.02", "cpg.type=wave"}, with);
   const report::PageData data = data_of(s, run(s));
-  EXPECT_FALSE(contains(data.meta, GAITLAB_BINARY_DIR));
-  EXPECT_FALSE(contains(data.meta, GAITLAB_SOURCE_DIR));
+  EXPECT_FALSE(contains(data.meta, gaitlab::test::build_folder()));
+  EXPECT_FALSE(contains(data.meta, gaitlab::test::source_folder()));
   EXPECT_TRUE(contains(json::parse(data.meta)["scenario"], "path: wave.so"));
 }
 

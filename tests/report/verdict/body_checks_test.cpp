@@ -8,6 +8,7 @@
 #include "report/analysis/states.h"
 #include "report/analysis/upright.h"
 #include "report/verdict/verdict.h"
+#include "tests/folders.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -326,7 +327,8 @@ struct Known {
   Verdict judged = verdict(scenario, record, summary, overlaps(scenario, record));
 
   explicit Known(const std::string& name)
-      : scenario(read_scenario(std::string(GAITLAB_SOURCE_DIR) + "/tests/data/verdict/" + name + ".yaml", {}, catalog())) {}
+      : scenario(read_scenario(std::string(gaitlab::test::source_folder()) + "/tests/data/verdict/" + name + ".yaml", {},
+                               catalog())) {}
   [[nodiscard]] const Check& check(const std::string& id) const { return *std::ranges::find(judged.checks, id, &Check::id); }
 };
 

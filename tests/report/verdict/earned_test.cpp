@@ -1,6 +1,7 @@
 // Runs for which the correct verdict is known, most of which earlier versions called `feasible` by mistake.
 #include "report/analysis/upright.h"
 #include "report/verdict/screen.h"
+#include "tests/folders.h"
 #include "tests/report/verdict/verdict_case.h"
 
 namespace gaitlab::test {
@@ -24,7 +25,7 @@ struct Told {
 };
 
 Scenario known_truth(const std::string& name) {
-  return read_scenario(std::string(GAITLAB_SOURCE_DIR) + "/tests/data/verdict/" + name + ".yaml", {}, catalog());
+  return read_scenario(std::string(gaitlab::test::source_folder()) + "/tests/data/verdict/" + name + ".yaml", {}, catalog());
 }
 
 /// V1: a dock opens at the landing, before the judged window. Docks are judged in the whole run.
@@ -111,8 +112,9 @@ TEST(Earned, SlidingDownASlope) {
 /// A robot that drops at its start and begins its gait slowly does not count as sliding.
 TEST(Earned, ADropAtTheStartIsNoSlide) {
   Catalog& known = catalog();
-  const Told dropped(read_scenario(std::string(GAITLAB_SOURCE_DIR) + "/tests/data/verdict/V11-starts-above-the-ground.yaml",
-                                   {"cpg.model.ramp=8", "duration=10"}, known));
+  const Told dropped(
+      read_scenario(std::string(gaitlab::test::source_folder()) + "/tests/data/verdict/V11-starts-above-the-ground.yaml",
+                    {"cpg.model.ramp=8", "duration=10"}, known));
   EXPECT_NE(dropped.check("progress").status, CheckStatus::fail) << dropped.check("progress").text;
 }
 

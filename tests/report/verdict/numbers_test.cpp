@@ -5,6 +5,7 @@
 #include <set>
 
 #include "report/verdict/summary_text.h"
+#include "tests/folders.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -34,7 +35,7 @@ std::string row(const SummaryNumber& number) {
 
 TEST(Numbers, EveryEntryIsInTheSummaryAndInTheDocs) {
   const Walk walk;
-  const std::string docs = read(std::string(GAITLAB_SOURCE_DIR) + "/docs/conventions.md");
+  const std::string docs = read(std::string(gaitlab::test::source_folder()) + "/docs/conventions.md");
   std::string table;
   for (const SummaryNumber& number : summary_numbers()) {
     EXPECT_TRUE(std::string(number.definition).ends_with('.')) << number.key << ": a definition is a sentence";

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "tests/folders.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -351,7 +352,7 @@ TEST(Plausibility, BodiesInOnePlace) {
 
 /// The texts of docs/modules.md name the rows of the list.
 TEST(Plausibility, EveryRowIsInTheManual) {
-  const std::string manual = read(std::string(GAITLAB_SOURCE_DIR) + "/docs/modules.md");
+  const std::string manual = read(std::string(gaitlab::test::source_folder()) + "/docs/modules.md");
   for (const PlausibleNumber& row : plausible_numbers())
     EXPECT_TRUE(contains(manual, fmt::format("| {} |", row.name))) << row.name;
 }

@@ -7,6 +7,7 @@
 #include "report/analysis/summary.h"
 #include "report/verdict/number_texts.h"
 #include "report/verdict/summary_text.h"
+#include "tests/folders.h"
 #include "tests/report/verdict/messages.h"
 
 namespace gaitlab::test {
@@ -282,7 +283,7 @@ TEST(Trust, AnActuatorThatAnImplicitStepCannotSolveIsNeverSilent) {
   const Folder folder;
   std::filesystem::create_directory_symlink(kScenarios + "modules", folder / "modules");
   folder.write("rises.yaml",
-               "gaitlab: 1\nplugins: [" + std::string(GAITLAB_BINARY_DIR) +
+               "gaitlab: 1\nplugins: [" + std::string(gaitlab::test::build_folder()) +
                    "/plugins/rises.so]\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]], base: fixed, on_ground: "
                    "false}\nground: {type: none}\ncontact: {on: none}\nphysics: {engine: articulated}\n"
                    "actuator: {type: rises}\ncontroller: {type: pid, unit: N m, Kp: 0.5, Ki: 0, Kd: 0}\n"
