@@ -70,9 +70,9 @@ struct RunArguments : ScenarioArguments {
   std::vector<std::string> by;      ///< settings that the remedy tries; empty for all
 };
 /// Reads and runs a scenario as the arguments say.
-int run(const RunArguments& arguments);
+[[nodiscard]] int run(const RunArguments& arguments);
 /// Runs a scenario and further `draws` of it, writes the run folder and prints the summary. Returns the exit code.
-int run(const Scenario& scenario, const RunArguments& arguments, std::span<const Scenario> draws = {});
+[[nodiscard]] int run(const Scenario& scenario, const RunArguments& arguments, std::span<const Scenario> draws = {});
 
 /// Result of take_remedy(): the lines to print, the text of remedy.json, and false if the search was interrupted or impossible,
 /// which was reported.
@@ -95,7 +95,7 @@ report::Verdict judged(const Scenario& scenario, const Recording& recording, con
                        const report::Overlaps& overlaps, const SummaryOptions& shown, bool quiet = false);
 /// Exit code of a run. If `shown.fail_infeasible`, it is 1 for a failed run, and 3 unless this run and every draw are feasible;
 /// otherwise it is 0, also for a run that was not judged.
-int exit_code(const report::Verdict& verdict, const SummaryOptions& shown);
+[[nodiscard]] int exit_code(const report::Verdict& verdict, const SummaryOptions& shown);
 
 /// Text `version, build id, Bullet version and precision` of --version.
 std::string version();

@@ -95,21 +95,33 @@ SearchEnd run_study(Plan& plan, Journal& journal, const studies::Executor& execu
   return runner.run(plan.points().runs(), stopped()) ? SearchEnd::budget : SearchEnd::stopped;
 }
 
-/// Writes the run folder of the best verified point and replaces an earlier one. If interrupted, the earlier one stays.
-void write_best(const Plan& plan, std::uint64_t run_number, const fs::path& folder, bool quiet) {
-  const fs::path before = folder.string() + ".before";
-  std::error_code none;
+/// Writes the run folder of the best verified point, and replaces an earlier one by it. Returns false if the run was
+/// interrupted or a file could not be written; the earlier folder then stays.
+[[nodiscard]] bool write_best(const Plan& plan, std::uint64_t run_number, const fs::path& folder, bool quiet) {
+  const fs::path next = folder.string() + ".next", before = folder.string() + ".before";
+  std::error_code none, error;
+  if (!fs::exists(folder, none)) fs::rename(before, folder, none);  // left by a process that was killed between two renames
   fs::remove_all(before, none);
-  fs::rename(folder, before, none);
+  fs::remove_all(next, none);
   RunArguments arguments;
-  arguments.out = folder.string();
+  arguments.out = next.string();
   arguments.quiet = quiet;
-  (void)run(plan.scenario(run_number), arguments);
-  if (stopped()) {
-    fs::remove_all(folder, none);
+  arguments.names_files = false;  // they are renamed
+  const int code = run(plan.scenario(run_number), arguments);
+  if (code != 0 || stopped()) {
+    fs::remove_all(next, none);
+    if (!stopped()) say(folder.string(), "error", "not written, because a file of the run is missing; an earlier folder stays");
+    return false;
+  }
+  fs::rename(folder, before, none);
+  fs::rename(next, folder, error);
+  if (error) {
     fs::rename(before, folder, none);
+    throw RunError(fmt::format("{}: cannot be written: {}", folder.string(), error.message()));
   }
   fs::remove_all(before, none);
+  if (!quiet) print_page(folder / kPageFile);
+  return true;
 }
 
 /// Runs points again, and those that stand also in worlds. Nothing if interrupted.
@@ -166,7 +178,7 @@ int finish_search(const Plan& plan, Journal& journal, const studies::Results& re
   }
   if (!stood.empty()) {
     if (!quiet) fmt::print("\nrun {}, the best verified point, with its trace and page:\n", stood.front());
-    write_best(plan, stood.front(), folder / "best", quiet);
+    if (!write_best(plan, stood.front(), folder / "best", quiet)) return 1;
     files.emplace_back("best");
   }
   if (!quiet) fmt::print("files in {}: {}, {}\n", folder.string(), studies::kJournalFile, fmt::join(files, ", "));

@@ -92,7 +92,7 @@ fs::path seeds_folder(const std::optional<std::string>& out, const std::string& 
 }
 
 int search_seeds(const SeedSearches& s) {
-  bool any = false;
+  bool any = false, failed = false;
   for (std::int64_t seed = s.first; seed < s.first + s.count; ++seed) {
     if (!s.quiet) say(fmt::format("seed {}, {} of {}\n", seed, seed - s.first + 1, s.count));
     const int code = stopped() ? 1 : s.search(seed, folder_of_seed(s.folder, seed));
@@ -102,9 +102,10 @@ int search_seeds(const SeedSearches& s) {
       return 1;
     }
     any = any || code == 0;
+    failed = failed || code == 1;
   }
   if (!s.quiet) print_seeds(s);
-  return any ? 0 : 3;
+  return failed ? 1 : any ? 0 : 3;
 }
 
 }  // namespace gaitlab::app

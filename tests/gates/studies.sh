@@ -130,6 +130,20 @@ done
 expect 2 "$program" sweep "$work/cma.yaml"
 said "use gaitlab optimize"
 
+# The folder of the best point is replaced as a whole: a disk that becomes full leaves the folder of before.
+best() { (cd -- "$work/nsga2/best" && find . -type f -exec sha256sum -- {} + | sort -k 2); }
+best >"$work/best"
+code=0
+(ulimit -f 500 && exec "$program" optimize "$work/nsga2.yaml" --quiet --out "$work/nsga2") >"$work/log" 2>&1 || code=$? # blocks of 1 kB
+((code == 1)) || bad "optimize on a full disk: exit code $code"
+said "report.html: cannot be written"
+said "nsga2/best: error: not written"
+cmp -- "$work/best" <(best) || bad "optimize on a full disk: another best/"
+expect 0 "$program" optimize "$work/nsga2.yaml" --quiet --out "$work/nsga2"
+diff <(best | grep -v summary.json) <(grep -v summary.json "$work/best") || bad "optimize again: another best/"
+[[ -z $(find "$work/nsga2" -name 'best.*') ]] || bad "optimize leaves $(ls "$work/nsga2")"
+ok "optimize on a full disk: the folder of the best point stays"
+
 # If the disk becomes full, rows of the journal are preserved, and the same command continues the study.
 (
   ulimit -f 150 # blocks of 1 kB
