@@ -40,11 +40,20 @@ struct WatchArguments : ScenarioArguments {
   SummaryOptions shown;
 };
 
+/// True for a file that only an unfinished `gaitlab watch` leaves: of a run that has not ended, or the part file of one of its
+/// own files.
+bool is_unfinished(const fs::path& file) {
+  const std::string name = file.filename().string();
+  const auto part_of = [&](const std::string& of) { return name.starts_with("." + of + ".") && name.ends_with(".part"); };
+  return name == kNext || name == kRead || part_of(kRead) || part_of(kPageFile) || part_of(kStamp);
+}
+
 /// Number of the run in a folder of `gaitlab watch`; 0 in a new folder, or if there is no page yet. Nothing for other folders.
 std::optional<int> run_in(const fs::path& folder) {
   constexpr std::uintmax_t kMostStamp = 4096;
-  std::error_code none;
-  if (fs::is_empty(folder, none)) return 0;
+  std::error_code none, error;
+  const fs::directory_iterator files(folder, error);
+  if (!error && std::ranges::all_of(files, is_unfinished)) return 0;
   if (!fs::is_regular_file(folder / kStamp, none)) return {};
   const std::optional<int> run = report::stamped(read_file(folder / kStamp, kMostStamp));
   return run && fs::exists(folder / kPageFile, none) ? run : run ? std::optional(0) : std::nullopt;
@@ -184,7 +193,9 @@ int watch(const WatchArguments& a) {
   if (!lock.take(folder)) throw InputError(SourceLocation{folder.string()}, "is being written by another process");
   const StopOnSignal stop(StopOnSignal::Second::is_ignored);
   std::vector<FileRead> files;
-  for (int shown = run_in(folder).value_or(0); !stopped();) {
+  int shown = run_in(folder).value_or(0);
+  if (shown == 0) write_file(folder / kStamp, report::stamp(shown, false));  // marks the folder before it has other files
+  while (!stopped()) {
     shown = renew(a, folder, shown);
     files = files_to_watch(a, folder / kRead, std::move(files));
     if (stopped()) break;

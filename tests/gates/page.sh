@@ -135,7 +135,7 @@ cp -- "$root/scenarios/pendulum.yaml" watched.yaml
 "$program" watch watched.yaml --quiet --out watched 2>"$work/log" &
 watcher=$!
 trap 'kill "$watcher" 2>/dev/null || true; rm -rf -- "$work"' EXIT
-until [[ -s watched/stamp.svg ]]; do
+until [[ -s watched/report.html ]]; do
   kill -0 "$watcher" 2>/dev/null || fail "gaitlab watch has ended"
   sleep 0.1
 done

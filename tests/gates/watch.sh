@@ -83,6 +83,32 @@ wait "$watcher" || code=$?
 sed -i 's/^duration:.*/duration: 0.2/' two.yaml
 ok "watch: begun again, and ended within a run"
 
+# A watch that is killed, with its run, at each call that changes a file of its first run can be started again in the same folder.
+sed 's/^duration:.*/duration: 0.01/' two.yaml >brief.yaml
+ended_or_waiting() { ! kill -0 "$watcher" 2>/dev/null || have_runs 1; }
+end_watch() {
+  code=0
+  kill -TERM "$watcher" 2>/dev/null || true
+  wait "$watcher" 2>/dev/null || code=$?
+}
+for ((calls = 1;; ++calls)); do
+  rm -rf -- seen
+  : >err # an earlier line would end the wait
+  LD_PRELOAD=$(plugin dies_at_call) GAITLAB_DIES_AT=$calls GAITLAB_DIES_TOGETHER=1 setsid "$program" watch brief.yaml --out seen >out 2>err &
+  watcher=$!
+  wait_for "$watcher" "a kill or a run" ended_or_waiting
+  end_watch
+  ((code == 128 + 9)) || break
+  : >err
+  begin brief.yaml
+  wait_for "$watcher" "a run after a kill at call $calls" have_runs 1
+  in_page && is_height 1 && [[ ! -e seen/.next && ! -e seen/.read ]] || bad "killed at call $calls: $(ls -A seen)"
+  end_watch
+  ((code == 0)) || bad "watch after a kill at call $calls: exit code $code, $(<err)"
+done
+((code == 0)) || bad "watch without a kill: exit code $code, $(<err)"
+ok "watch: killed at each of $((calls - 1)) calls of its first run, and begun again"
+
 mkdir other icons && touch other/thesis.txt && echo '<svg xmlns="http://www.w3.org/2000/svg" width="16" height="16"/>' >icons/stamp.svg
 code=0
 "$program" watch two.yaml --out icons >/dev/null 2>err || code=$?
