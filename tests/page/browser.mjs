@@ -9,9 +9,10 @@ const options = { timeout: patience, executablePath: process.env.CHROMIUM ?? "/u
 const browser = await chromium.launch(options), flat = await chromium.launch({ ...options, args: [...options.args, "--disable-3d-apis"] });
 export const close = () => Promise.all([browser.close(), flat.close()]);
 
-/** A page that is ready (it has the element `ready`), in a browser with or without WebGL; `complaints`: errors on the console, exceptions, requests. */
-export async function open(file, { link = "paused", ready = "html[data-ready]", width = 1440, height = 900, webgl = true, ...more } = {}) {
-  const context = await (webgl ? browser : flat).newContext({ viewport: { width, height }, offline: true, bypassCSP: false, ...more });
+/** A page that is ready (it has the element `ready`), from a file or, with `site`, from that server on this machine, in a browser with or without
+ * WebGL; `complaints`: errors on the console, exceptions, requests. */
+export async function open(file, { link = "paused", ready = "html[data-ready]", width = 1440, height = 900, webgl = true, site = "", ...more } = {}) {
+  const context = await (webgl ? browser : flat).newContext({ viewport: { width, height }, offline: !site, bypassCSP: false, ...more });
   context.setDefaultTimeout(patience);
   const page = await context.newPage(), complaints = [];
   page.on("console", (m) => { if (m.type() === "error") complaints.push(m.text()); });
@@ -20,8 +21,8 @@ export async function open(file, { link = "paused", ready = "html[data-ready]", 
     reject(e);
   }));
   broken.catch(() => {}); // once the page is ready, it is a complaint
-  page.on("request", (r) => { if (!/^(file|data|blob):/.test(r.url())) complaints.push(`a request: ${r.url()}`); });
-  await page.goto(`file://${resolve(file)}#${link}`);
+  page.on("request", (r) => { if (!/^(file|data|blob):/.test(r.url()) && !(site && r.url().startsWith(site))) complaints.push(`a request: ${r.url()}`); });
+  await page.goto(site ? `${site}/${file}#${link}` : `file://${resolve(file)}#${link}`);
   await Promise.race([page.waitForSelector(ready), broken]);
   return { page, complaints, close: () => context.close() };
 }

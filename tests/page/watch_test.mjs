@@ -2,16 +2,18 @@
 // usage: watch_test.mjs PAGE SCENARIO, while `gaitlab watch SCENARIO` runs
 import assert from "node:assert/strict";
 import { appendFileSync, readFileSync, writeFileSync } from "node:fs";
+import { createServer } from "node:http";
+import { basename, dirname, join } from "node:path";
 import { close, open } from "./browser.mjs";
 
 const [file, scenario] = process.argv.slice(2);
+const renewed = (page, former) => page.waitForFunction(
+  (n) => "ready" in document.documentElement.dataset && document.documentElement.dataset.watch !== n && window.gaitlab, former);
 const { page, complaints } = await open(file, { link: "t=0.2" });
 const run = () => page.evaluate(() => document.documentElement.dataset.watch);
 const look = () => page.evaluate(() => ({
   t: window.gaitlab.page.state.t, joint: window.gaitlab.page.state.joint, pose: window.gaitlab.page.stage.view.kept().flat(),
 }));
-const renewed = (former) => page.waitForFunction(
-  (n) => "ready" in document.documentElement.dataset && document.documentElement.dataset.watch !== n && window.gaitlab, former);
 
 // The reader turns the camera and goes to another time.
 await page.evaluate(() => {
@@ -20,7 +22,7 @@ await page.evaluate(() => {
 });
 const first = await run(), seen = await look();
 appendFileSync(scenario, "seed: 7\n");
-await renewed(first);
+await renewed(page, first);
 const then = await look();
 assert.equal(then.t, 0.75);
 assert.equal(then.joint, seen.joint);
@@ -32,7 +34,32 @@ writeFileSync(scenario, good.replace(/^duration:.*$/m, "duration: -1"));
 await page.waitForSelector(".watch-note:not([hidden])");
 assert.equal(await run(), second);
 writeFileSync(scenario, `${good}\n`);
-await renewed(second);
+await renewed(page, second);
 assert.equal(await page.locator(".watch-note").isVisible(), false);
 assert.deepEqual(complaints, []);
+
+// A page from a server follows, too, and states when it cannot.
+let there = true; // false: the server does not find the stamp
+const server = createServer((request, response) => {
+  const name = new URL(request.url, "http://127.0.0.1").pathname;
+  if (!there && name === "/stamp.svg") return response.writeHead(404).end();
+  response.writeHead(200, { "Content-Type": name.endsWith(".svg") ? "image/svg+xml" : "text/html; charset=utf-8" });
+  response.end(readFileSync(join(dirname(file), name)));
+});
+await new Promise((listening) => server.listen(0, "127.0.0.1", listening));
+const served = await open(basename(file), { site: `http://127.0.0.1:${server.address().port}` });
+const note = served.page.locator(".watch-note");
+const third = await served.page.evaluate(() => document.documentElement.dataset.watch);
+assert.equal(await note.isVisible(), false);
+appendFileSync(scenario, "\n");
+await renewed(served.page, third);
+assert.deepEqual(served.complaints, []);
+there = false;
+await note.filter({ hasText: "does not follow" }).waitFor();
+there = true;
+await note.waitFor({ state: "hidden" });
+assert.deepEqual(served.complaints.filter((text) => !text.includes("404")), []);
+await served.close();
+server.closeAllConnections();
+server.close();
 await close();

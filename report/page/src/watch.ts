@@ -13,6 +13,8 @@ interface Kept {
 }
 
 const often = 500; // ms between looks at the stamp
+const failed = "The scenario has an error, which the terminal shows. This is the run before it.";
+const lost = "This page does not follow the scenario: stamp.svg, beside it, cannot be loaded.";
 
 /** Looks for a newer run from now on, if the page is watched. Shows the view that the page had before. */
 export function watch(page: Page): void {
@@ -21,18 +23,25 @@ export function watch(page: Page): void {
   const kept = (history.state as { watched?: Kept } | null)?.watched;
   if (kept?.pose) page.stage.view?.pose(kept.pose);
   if (kept?.playing) page.play(true);
-  const note = make("p.watch-note", "The scenario has an error, which the terminal shows. This is the run before it.");
+  const note = make("p.watch-note");
   note.setAttribute("role", "status");
   note.hidden = true;
   document.body.prepend(note);
+  const say = (text: string) => {
+    if (note.textContent !== text) note.textContent = text;
+    note.hidden = !text;
+  };
   const look = () => {
     const stamp = new Image();
     stamp.onload = () => {
       if (![run, kept?.run].includes(stamp.naturalWidth)) return renew(page, stamp.naturalWidth);
-      note.hidden = stamp.naturalHeight < 2;
+      say(stamp.naturalHeight < 2 ? "" : failed);
       setTimeout(look, often);
     };
-    stamp.onerror = () => setTimeout(look, often); // being written, or the folder has gone
+    stamp.onerror = () => {
+      say(lost); // the folder or the server has gone, or the page was moved
+      setTimeout(look, often);
+    };
     stamp.src = `stamp.svg?${Date.now()}`;
   };
   look();
