@@ -26,14 +26,15 @@ namespace fs = std::filesystem;
 
 struct FigureArguments {
   std::string recipe;
-  std::optional<std::string> out;
+  std::optional<std::string> out, csv;
   std::vector<std::string> runs;  ///< texts NAME=FOLDER
   PluginArguments plugins;
 };
 
-/// Path of the data of a panel: FIG.csv, or for several panels FIG-a.csv, FIG-b.csv etc.
-fs::path data_file(const fs::path& figure, std::size_t panel, std::size_t panels) {
-  fs::path file = figure;
+/// Path of the data of a panel: FIG.csv, or for several panels FIG-a.csv, FIG-b.csv etc.; FIG is the name of the figure, or
+/// that of --csv.
+fs::path data_file(const fs::path& named, std::size_t panel, std::size_t panels) {
+  fs::path file = named;
   file.replace_extension();
   if (panels > 1) file += fmt::format("-{:c}", static_cast<char>('a' + panel));
   file += ".csv";
@@ -104,14 +105,22 @@ std::vector<report::PaperRun> read_runs(const report::Recipe& recipe, const std:
   return runs;
 }
 
-/// Throws InputError if a file beside the figure would be replaced, because it may belong to something else. The file may be
-/// replaced if the figure already exists, or if its content is equal.
-void check_free(const fs::path& figure, const fs::path& file, const std::string& bytes) {
-  if (kind_of(figure) != fs::file_type::not_found || kind_of(file) == fs::file_type::not_found) return;
-  if (kind_of(file) == fs::file_type::regular && read_file(file, kMostPage) == bytes) return;
+/// Throws InputError if the numbers would replace a file of something else: any whose first line is not that of the numbers.
+void check_free(const fs::path& file, const std::string& numbers) {
+  const fs::file_type kind = kind_of(file);
+  if (kind == fs::file_type::not_found) return;
+  const std::string head = numbers.substr(0, numbers.find('\n') + 1);
+  if (kind == fs::file_type::regular && read_start(file, head.size()) == head) return;
   throw InputError(SourceLocation{file.string()},
-                   fmt::format("exists with other numbers, but its figure {} does not exist; move it away. Nothing was written",
-                               figure.string()));
+                   "exists with other columns than this figure has; move it away, or name another file with --csv FILE.csv. "
+                   "Nothing was written");
+}
+
+/// Throws InputError if the folder of a file does not exist.
+void check_folder(const fs::path& file) {
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (kind_of(folder) != fs::file_type::directory)
+    throw InputError(SourceLocation{file.string()}, "cannot be written: its folder does not exist");
 }
 
 std::string picture(const report::PaperFigure& figure, const fs::path& file) {
@@ -137,15 +146,23 @@ fs::path target(const FigureArguments& arguments) {
   if (!arguments.out && kind_of(file) != fs::file_type::not_found)
     throw InputError(SourceLocation{file.string()}, "exists; name it with -o to replace it. Nothing was written");
   if (kind_of(file) == fs::file_type::directory) throw InputError(SourceLocation{file.string()}, "is a folder");
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  if (kind_of(folder) != fs::file_type::directory)
-    throw InputError(SourceLocation{file.string()}, "cannot be written: its folder does not exist");
+  check_folder(file);
+  return file;
+}
+
+/// Path from which the names of the numbers follow: --csv, or that of the figure.
+fs::path numbers_target(const FigureArguments& arguments, const fs::path& figure) {
+  if (!arguments.csv) return figure;
+  fs::path file = *arguments.csv;
+  if (file.extension() != ".csv") throw InputError(SourceLocation{"--csv " + file.string()}, "expected a file named .csv");
+  check_folder(file);
   return file;
 }
 
 int figure(const FigureArguments& arguments) {
   const report::Recipe recipe = report::read_recipe(arguments.recipe);
   const fs::path file = target(arguments);
+  const fs::path numbers = numbers_target(arguments, file);
   Catalog catalog = careful_catalog(arguments.plugins);
   const std::vector<report::PaperRun> runs = read_runs(recipe, arguments.runs, catalog);
   const report::PaperFigure figure(recipe, runs);
@@ -153,9 +170,9 @@ int figure(const FigureArguments& arguments) {
   std::vector<fs::path> files;
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < tables.size(); ++i) {
-    files.push_back(data_file(file, i, tables.size()));
+    files.push_back(data_file(numbers, i, tables.size()));
     texts.push_back(csv_text(tables[i], files.back()));
-    check_free(file, files.back(), texts.back());
+    check_free(files.back(), texts.back());
   }
   const std::string drawn = picture(figure, file);
   for (std::size_t i = 0; i < files.size(); ++i) write_file(files[i], texts[i]);
@@ -177,6 +194,7 @@ void add_figure(Commands& commands) {
         command.add_option("RECIPE", arguments.recipe, "recipe (YAML); its keys: gaitlab explain figure curves")->required();
         command.add_option("-o,--out", arguments.out,
                            "FIG.svg or FIG.pdf, replaced if it exists; the numbers go to FIG.csv (default: RECIPE.svg, new)");
+        command.add_option("--csv", arguments.csv, "FILE.csv for the numbers, instead of FIG.csv");
         add_trust(command, arguments.plugins);
         command.add_option("--run", arguments.runs, "NAME=FOLDER: another folder for a run of the recipe; may be repeated")
             ->expected(1)

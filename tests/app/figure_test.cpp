@@ -128,21 +128,6 @@ TEST_F(PaperFigure, SameBytesTwice) {
   EXPECT_EQ(read(folder / "a.csv"), read(folder / "b.csv"));
 }
 
-TEST_F(PaperFigure, WhatExistsIsReplacedOnlyWhereItIsAskedFor) {
-  const Result first = draw(kTwin, "");
-  EXPECT_EQ(first.code, 0) << first.err;
-  EXPECT_NE(first.out.find("figure.svg: 88.9 x "), std::string::npos) << first.out;
-  EXPECT_EQ(draw(kTwin, "").err, "figure.svg: error: exists; name it with -o to replace it. Nothing was written\n");
-  EXPECT_EQ(draw(kTwin, "-o figure.svg").code, 0);
-  EXPECT_EQ(draw(kTwin, "-o figure.pdf").code, 0);  // writes the same numbers to figure.csv
-  folder.write("mine.csv", "t,x\n0,1\n");
-  EXPECT_EQ(draw(kTwin, "-o mine.pdf").err,
-            "mine.csv: error: exists with other numbers, but its figure mine.pdf does not exist; move it away. Nothing was "
-            "written\n");
-  EXPECT_FALSE(fs::exists(folder / "mine.pdf"));
-  EXPECT_EQ(draw(kTwin, "-o f.png").err, "-o f.png: error: expected a file named .svg or .pdf\n");
-}
-
 TEST_F(PaperFigure, AnotherRunCanBeNamed) {
   const std::string recipe = "runs: {creep: nowhere}\npanels: [{left: {columns: [com.x]}}]\n";
   EXPECT_EQ(draw(recipe, "-o f.svg --run creep=run").code, 0);
