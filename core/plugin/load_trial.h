@@ -4,10 +4,10 @@
 
 namespace gaitlab {
 
-/// Loads the library in a child process, where its static objects may throw or crash without an end of this process. Returns
-/// the reason of the child's end, such as "a static object of this plugin threw an exception when it was loaded"; an empty text
-/// if the child came to its end, if dlopen refused the file, or without a child. Output of static objects in the child is
-/// dropped.
+/// Loads the library in a child process, where its static objects may throw, crash, exit or run without end without an end of
+/// this process. Returns the reason of the child's end, such as "a static object of this plugin threw an exception when it was
+/// loaded"; an empty text if dlopen returned, also if it refused the file, or without a child. The child has 10 s of CPU time,
+/// and ends with this process. Output of static objects in the child is dropped.
 std::string load_trial(const std::string& path);
 
 }  // namespace gaitlab

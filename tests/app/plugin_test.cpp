@@ -77,6 +77,25 @@ TEST_F(Plugins, AStaticObjectThatThrowsIsAnError) {
                 "throws_at_load.so' cannot be loaded: a static object of this plugin threw an exception when it was loaded\n");
 }
 
+TEST_F(Plugins, AStaticObjectThatEndsTheProcessIsAnError) {
+  EXPECT_EQ(error(with("exits_at_load.so", "sine")),
+            "s.yaml:2:11: error: plugin '" + kPlugins +
+                "exits_at_load.so' cannot be loaded: a static object of this plugin ended the process when it was loaded (exit "
+                "code 0)\n");
+}
+
+/// The program has 1 s of CPU time here, so that its child has no more.
+TEST_F(Plugins, AStaticObjectThatNeverReturnsIsAnError) {
+  folder.write("s.yaml", with("spins_at_load.so", "sine"));
+  const std::string command = "cd '" + (folder / "") + "' && ulimit -S -t 1 && '" + GAITLAB_BINARY_DIR +
+                              "/bin/gaitlab' check s.yaml --plugins-from-scenario 2>err";
+  const int status = std::system(command.c_str());
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 2) << status;
+  EXPECT_EQ(read(folder / "err"), "s.yaml:2:11: error: plugin '" + kPlugins +
+                                      "spins_at_load.so' cannot be loaded: its static objects take more than 1 s of CPU time "
+                                      "when it is loaded; a plugin should do its work when it is called\n");
+}
+
 /// The loader would return the old code for the path of a file that was built again.
 TEST_F(Plugins, AFileThatWasBuiltAgainIsRefused) {
   const std::string copy = folder / "copy.so";

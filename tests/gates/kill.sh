@@ -229,6 +229,22 @@ kill_small() {
   ok "run, rerun, swap, approve and test, killed in the middle of a run: nothing is left, and nothing changed"
 }
 
+# The child that tries a plugin ends with the program, also if the plugin never returns.
+kill_trial() {
+  local process child end=$((SECONDS + 600))
+  printf 'gaitlab: 1\nplugins: [%s]\nrobot: {modules: mtran}\nduration: 1\n' "$(plugin spins_at_load)" >"$work/spins.yaml"
+  GAITLAB_PAUSES=$work/child "$program" check "$work/spins.yaml" --plugins-from-scenario >"$work/log" 2>&1 &
+  process=$!
+  wait_for "$process" "the trial of a plugin" test -s "$work/child"
+  child=$(<"$work/child")
+  kill -9 "$process"
+  wait "$process" 2>/dev/null || true
+  while kill -0 "$child" 2>/dev/null && [[ $(ps -o stat= -p "$child") != Z* ]] && ((SECONDS < end)); do sleep 0.05; done
+  if ((SECONDS < end)); then ok "check, killed while it tries a plugin: the child ends"; else bad "check, killed while it tries a plugin: its child goes on"; fi
+  kill -9 "$child" 2>/dev/null || true
+}
+
+kill_trial
 kill_small
 kill_runs
 kill_writer rerun rerun "$work/whole-h5" --quiet --out OUT
