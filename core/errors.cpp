@@ -20,7 +20,8 @@ constexpr std::size_t kMostBytes =
     500;  // largest length of a problem; texts of users are clipped earlier, so that this limit is a second safeguard
 
 /// Number of bytes of the control character in UTF-8 that begins at `i`, or 0 if none does. Control characters are those of
-/// ASCII, the second set (U+0080 to U+009F), and bidirectional marks, which display a text in another order than its bytes.
+/// ASCII, the second set (U+0080 to U+009F), separators of lines (U+2028, U+2029), bidirectional marks, which display a text in
+/// another order than its bytes, and U+FFFE and U+FFFF, which no text may contain.
 std::size_t control_at(std::string_view text, std::size_t i) noexcept {
   const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
   const unsigned second = byte(i + 1);
@@ -28,9 +29,10 @@ std::size_t control_at(std::string_view text, std::size_t i) noexcept {
   if (byte(i) < 0x20 || byte(i) == 0x7F) return 1;
   if (byte(i) == 0xC2) return second >= 0x80 && second < 0xA0 ? 2 : 0;
   if (byte(i) == 0xD8) return second == 0x9C ? 2 : 0;  // U+061C
+  if (byte(i) == 0xEF) return second == 0xBF && (third == 0xBE || third == 0xBF) ? 3 : 0;
   if (byte(i) != 0xE2) return 0;
   const bool marks =
-      second == 0x80 && (third == 0x8E || third == 0x8F || (third >= 0xAA && third <= 0xAE));  // U+200E, 202A ...
+      second == 0x80 && (third == 0x8E || third == 0x8F || (third >= 0xA8 && third <= 0xAE));  // U+200E, 2028 ...
   const bool isolates = second == 0x81 && third >= 0xA6 && third <= 0xA9;                      // U+2066 ...
   return marks || isolates ? 3 : 0;
 }

@@ -111,7 +111,7 @@ ModuleText module_text(const UrdfBodies& parts, const std::string& name, const s
       "# Module {}, written by gaitlab new module --from. Units: m, kg, N m, rad, s. Every key: gaitlab explain module\n"
       "# Add faces, where modules dock; replace the motor by that of a data sheet.\n",
       name);
-  for (const std::string& note : parts.notes) text += "# Not carried over: " + note + "\n";
+  for (const std::string& note : parts.notes) text += one_line("# Not carried over: " + note) + "\n";
   ModuleText made{text + fmt::format("gaitlab_module: 3\nname: {}\nsource: {}\nbodies:\n", yaml_text(name), yaml_text(from))};
   for (std::size_t b = 0; b < parts.bodies.size(); ++b) {
     made.begin("link", parts.links[b]);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -40,6 +41,37 @@ void check_elements(const std::string& text, const std::string& file) {
     throw InputError(SourceLocation{file}, fmt::format("has {} elements; expected at most {}", number, kMost));
 }
 
+/// Offset behind the next `end` from `at` on, or the end of the text.
+std::size_t behind(const std::string& text, std::string_view end, std::size_t at) {
+  const std::size_t found = text.find(end, at);
+  return found == std::string::npos ? text.size() : found + end.size();
+}
+
+/// Offset of the first element with too many attributes, or npos. The XML parser of urdfdom compares each attribute of an
+/// element with all before it: 60 000 take 12 s. Every attribute has an equals sign outside quotes.
+std::size_t crowded_element(const std::string& text, std::size_t most) {
+  for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at)) {
+    const std::string_view from = std::string_view(text).substr(at);
+    if (from.starts_with("<!") || from.starts_with("<?")) {
+      at = behind(text, from.starts_with("<!--") ? "-->" : from.starts_with("<![CDATA[") ? "]]>" : ">", at);
+      continue;
+    }
+    const std::size_t start = at;
+    std::size_t number = 0;
+    for (char quote = 0; at < text.size() && (quote != 0 || text[at] != '>'); ++at) {
+      const char c = text[at];
+      if (quote == 0) number += c == '=' ? 1 : 0;
+      if (quote == c) {
+        quote = 0;
+      } else if (quote == 0 && (c == '"' || c == '\'')) {
+        quote = c;
+      }
+    }
+    if (number > most) return start;
+  }
+  return std::string::npos;
+}
+
 /// The text with blanks in the place of comments, so that elements keep their lines and columns.
 std::string without_comments(std::string text) {
   for (std::size_t at = text.find("<!--"); at != std::string::npos; at = text.find("<!--", at + 1)) {
@@ -65,8 +97,11 @@ std::string name_in(const std::string& message, const std::string& tag) {
 }  // namespace
 
 UrdfText::UrdfText(const std::string& file) : file_(file), text_(read_text(file)) {
+  constexpr std::size_t kMostAttributes = 100;
   check_text(text_, file);
   check_elements(text_, file);
+  if (const std::size_t crowded = crowded_element(text_, kMostAttributes); crowded != std::string::npos)
+    throw InputError(place_of(crowded), fmt::format("has more than {} attributes; no element of URDF has", kMostAttributes));
   const std::string whole = std::exchange(text_, without_comments(text_));
   if (const std::size_t macro = text_.find("<xacro:"); macro != std::string::npos) {
     throw InputError(place_of(macro), "has macros of xacro; expected URDF, which `xacro FILE > ROBOT.urdf` writes of them");

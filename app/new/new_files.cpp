@@ -123,8 +123,9 @@ std::string docks_text(const std::vector<Dock>& docks) {
   return text;
 }
 
-/// Description of a robot of modules of one type, connected by `docks`.
-std::string robot_text(const std::string& type, const std::vector<Dock>& docks) {
+/// Description of a robot of modules of one type, connected by `docks`, on one line.
+std::string robot_text(const std::string& name, const std::vector<Dock>& docks) {
+  const std::string type = one_line(name);
   return docks.empty() ? "one module " + type : fmt::format("{} modules {} in a row", docks.size() + 1, type);
 }
 
@@ -162,8 +163,8 @@ std::string scenario_text(const NewFileArguments& arguments, const NewRobot& rob
       {"@NAME@", arguments.name},
       {"@TEXT@", yaml_text(arguments.name)},
       {"@ROBOT@", robot_text(robot.type().name, robot.docks)},
-      {"@PROMISE@", promise},
-      {"@FILE@", shell_word(arguments.out.value_or(arguments.name + ".yaml"))},
+      {"@PROMISE@", one_line(promise)},
+      {"@FILE@", one_line(shell_word(arguments.out.value_or(arguments.name + ".yaml")))},
       {"@MODULE@", module_value(robot.module, arguments)},
       {"@DOCKS@", docks_text(robot.docks)},
       {"@BASE@", around.base},

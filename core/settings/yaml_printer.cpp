@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "core/settings/node.h"
 
@@ -10,6 +11,34 @@ namespace {
 
 bool is_null_text(const std::string& text) {
   return text.empty() || text == "~" || text == "null" || text == "Null" || text == "NULL";
+}
+
+/// Number in Unicode of the character of 1 to 3 bytes at the start of a UTF-8 text.
+unsigned code_of(std::string_view text, std::size_t bytes) {
+  constexpr unsigned kLead[] = {0x7F, 0x1F, 0xF};
+  unsigned code = static_cast<unsigned char>(text[0]) & kLead[bytes - 1];
+  for (std::size_t k = 1; k < bytes; ++k) code = code << 6U | (static_cast<unsigned char>(text[k]) & 0x3FU);
+  return code;
+}
+
+/// Length of the character at the start of a text if YAML texts may not contain it unescaped: control characters (also U+0080
+/// to U+009F), ends of lines for some readers (U+0085, U+2028, U+2029), the mark of an encoding (U+FEFF), and U+FFFE and
+/// U+FFFF. Otherwise 0.
+std::size_t unprintable(std::string_view text) {
+  const auto byte = static_cast<unsigned char>(text[0]);
+  if (byte < 0x20 || byte == 0x7F) return 1;
+  if (byte == 0xC2 && text.size() > 1) return code_of(text, 2) < 0xA0 ? 2 : 0;
+  if ((byte != 0xE2 && byte != 0xEF) || text.size() < 3) return 0;
+  const unsigned code = code_of(text, 3);
+  return code == 0x2028 || code == 0x2029 || code == 0xFEFF || code >= 0xFFFE ? 3 : 0;
+}
+
+/// True if the text has no such character, except `allowed`.
+bool is_printable(std::string_view text, std::string_view allowed = "") {
+  for (; !text.empty(); text.remove_prefix(1)) {
+    if (unprintable(text) != 0 && allowed.find(text[0]) == std::string_view::npos) return false;
+  }
+  return true;
 }
 
 /// True if a reader takes the text without quotes for this scalar. In a list or map on one line, more characters have a
@@ -21,26 +50,21 @@ bool plain_safe(const std::string& text, bool in_flow) {
   if (text.front() == '.' && text.starts_with("...")) return false;
   if (text.find(": ") != std::string::npos || text.find(" #") != std::string::npos) return false;
   if (in_flow && text.find_first_of(",[]{}?:") != std::string::npos) return false;
-  for (const char c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) return false;
-  }
-  return true;
+  return is_printable(text);
 }
 
-std::string double_quoted(const std::string& text) {
+std::string double_quoted(std::string_view text) {
   std::string out = "\"";
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (c == '\n') {
-      out += "\\n";
-    } else if (c == '\t') {
-      out += "\\t";
-    } else if (byte < 0x20 || byte == 0x7F) {
-      out += fmt::format("\\x{:02x}", byte);
+  for (std::size_t bytes = 0; !text.empty(); text.remove_prefix(std::max<std::size_t>(bytes, 1))) {
+    const char c = text[0];
+    bytes = unprintable(text);
+    if (c == '\n' || c == '\t') {
+      out += c == '\n' ? "\\n" : "\\t";
+    } else if (bytes > 0) {
+      const unsigned code = code_of(text, bytes);
+      out += code < 0x100 ? fmt::format("\\x{:02x}", code) : fmt::format("\\u{:04x}", code);
     } else {
+      if (c == '"' || c == '\\') out += '\\';
       out += c;
     }
   }
@@ -83,10 +107,7 @@ bool fits_block(const Node& node) {
   if (node.kind != Node::Kind::scalar || !node.quoted || text.find('\n') == std::string::npos) return false;
   if (text.front() == ' ' || text.front() == '\n' || text.ends_with("\n\n")) return false;
   if (text.find(" \n") != std::string::npos || text.back() == ' ') return false;
-  return std::all_of(text.begin(), text.end(), [](char c) {
-    const auto byte = static_cast<unsigned char>(c);
-    return c == '\n' || (byte >= 0x20 && byte != 0x7F);
-  });
+  return is_printable(text, "\n");
 }
 
 /// The lines of a block, to be printed below its key.

@@ -240,6 +240,34 @@ TEST_F(FromUrdf, NamesThatChangeAreNoted) {
   EXPECT_EQ(made_.notes, (std::vector<std::string>{"the name of link 'k\u00f6rper', which is k_rper here"}));
 }
 
+/// Readers of YAML such as PyYAML end a line, and with it a comment, at these characters, or refuse the file (U+FFFE).
+TEST_F(FromUrdf, NamesStayWithinTheirComments) {
+  for (const std::string mark : {"\u0085", "\u2028", "\u2029", "\ufffe"}) {
+    read_urdf(urdf_link("a" + mark + "mass: 3"));
+    ASSERT_EQ(made_.notes.size(), 1U);
+    EXPECT_EQ(made_.text.find(mark), std::string::npos) << made_.text;
+    EXPECT_NE(made_.text.find("# Not carried over: the name of link 'a\\x"), std::string::npos) << made_.text;
+  }
+}
+
+/// The parser of urdfdom compares every attribute of an element with all before it. No quote, comment or greater-than sign
+/// hides an attribute from the limit.
+TEST_F(FromUrdf, RefusesElementsWithManyAttributes) {
+  const auto attributes = [](int number) {
+    std::string text;
+    for (int k = 0; k < number; ++k) text += fmt::format(" a{}='>'", k);
+    return text;
+  };
+  const std::string kRefused = "r:2:1: error: has more than 100 attributes; no element of URDF has";
+  for (const std::string before : {"", "<!-- don't -->", "<![CDATA[']]>", "<?a '?>"}) {
+    const std::string text = refused(before + "<link name='a'" + attributes(100) + "/>\n");
+    EXPECT_EQ(text.substr(text.find(": error")), kRefused.substr(kRefused.find(": error"))) << before;
+    EXPECT_EQ(read_urdf(before + "<link name='a'" + attributes(99) + ">" + kInertial + "</link>\n").bodies.size(), 1U)
+        << before;
+  }
+  EXPECT_EQ(refused("<link name='a'" + attributes(60000) + "/>\n"), kRefused);
+}
+
 /// Elements nested so deep that the parser's stack would overflow.
 TEST_F(FromUrdf, RefusesADeepFile) {
   std::string deep;

@@ -165,6 +165,26 @@ TEST(PrintYaml, QuotesWhatIsNotSafe) {
   for (std::size_t i = 0; i < node.items.size(); ++i) EXPECT_EQ(back.items[i].text, node.items[i].text);
 }
 
+/// Characters that end a line for some readers of YAML, or that they refuse.
+TEST(PrintYaml, EscapesWhatIsNotPrintable) {
+  const std::pair<std::string, std::string> kEscapes[] = {
+      {"\u0001", "\\x01"},   {"\u007f", "\\x7f"},   {"\u0080", "\\x80"},   {"\u0085", "\\x85"},   {"\u009f", "\\x9f"},
+      {"\u2028", "\\u2028"}, {"\u2029", "\\u2029"}, {"\ufeff", "\\ufeff"}, {"\ufffe", "\\ufffe"}, {"\uffff", "\\uffff"}};
+  for (const auto& [mark, escape] : kEscapes) {
+    Node node{Node::Kind::map};
+    for (const std::string& text : {"a" + mark + "b: 1", "two\nli" + mark + "nes\n"}) {
+      node.keys.emplace_back(text, SourceLocation{});
+      node.items.push_back({Node::Kind::scalar, {}, text});
+      node.items.back().quoted = true;
+    }
+    const std::string printed = print_yaml(node);
+    EXPECT_EQ(printed, fmt::format("\"a{0}b: 1\": \"a{0}b: 1\"\n\"two\\nli{0}nes\\n\": \"two\\nli{0}nes\\n\"\n", escape));
+    expect_same(node, parse_yaml(printed, "f"));
+  }
+  const std::string others = "\u00a0\u00e9\u2027\u202f\uff5e\U0001f600";
+  EXPECT_EQ(print_yaml(Node{Node::Kind::scalar, {}, others}), others + "\n");
+}
+
 TEST(Node, HostileTextsEndSoon) {
   for (const std::string part : {"[",    "{", "- ", "? ",     ": ",      "!a ",  "&a ",     "*a ",  "'",   "\"",  "{a: ",
                                  "[a, ", ",", "\t", "a: 1\n", "- [a]\n", "a\n ", "--- a\n", "%a\n", "'' ", "b:\n"}) {
