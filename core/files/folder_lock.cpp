@@ -10,20 +10,41 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "core/files/unnamed_file.h"
 
 namespace gaitlab {
 
+namespace {
+
+/// Prints that a file system has no locks, once for each folder.
+void note_no_locks(const std::filesystem::path& folder, int error) {
+  static std::string noted;  // the last folder in a note; a study locks its folder first, then the file `lock` in it
+  if (std::exchange(noted, folder.string()) == folder.string()) return;
+  say(folder.string(), "note",
+      fmt::format("the file system has no locks ({}); let one process at a time write here",
+                  std::generic_category().message(error)));
+}
+
+}  // namespace
+
 bool take_lock(int descriptor, const std::filesystem::path& folder) {
   if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return true;
-  const int error = errno;
-  if (error == EWOULDBLOCK) return false;
-  static std::string noted;  // the last folder in a note; a study locks its folder first, then the file `lock` in it
-  if (std::exchange(noted, folder.string()) != folder.string()) {
-    say(folder.string(), "note",
-        fmt::format("the file system has no locks ({}); let one process at a time write here",
-                    std::generic_category().message(error)));
-  }
+  if (errno == EWOULDBLOCK) return false;
+  note_no_locks(folder, errno);
   return true;
+}
+
+bool has_record_locks(const std::filesystem::path& folder, bool noted) {
+  const int descriptor = unnamed_file(folder);
+  if (descriptor < 0) return true;
+  struct flock lock {};
+  lock.l_type = F_WRLCK;
+  lock.l_whence = SEEK_SET;
+  const bool locks = ::fcntl(descriptor, F_SETLK, &lock) == 0;
+  const int error = errno;
+  ::close(descriptor);
+  if (!locks && noted) note_no_locks(folder, error);
+  return locks;
 }
 
 FolderLock::~FolderLock() {

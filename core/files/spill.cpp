@@ -8,21 +8,12 @@
 #include <cstdlib>
 #include <limits>
 #include <new>
-#include <string>
+
+#include "core/files/unnamed_file.h"
 
 namespace gaitlab {
 
 namespace {
-
-/// Descriptor of a new file without a name, or -1.
-int unnamed_file(const std::filesystem::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-  if (descriptor >= 0) return descriptor;
-  std::string name = (folder / "gaitlab-XXXXXX").string();  // a file system without O_TMPFILE
-  const int named = ::mkostemp(name.data(), O_CLOEXEC);
-  if (named >= 0) ::unlink(name.c_str());
-  return named;
-}
 
 /// Reserves the space on the disk, since a full disk would be a signal (SIGBUS) at the first access to a page.
 bool reserve(int descriptor, off_t bytes) {

@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "core/errors.h"
+#include "core/files/folder_lock.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab::studies {
@@ -93,10 +94,19 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
   log += "-wal";
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   const bool fixed = !write && ::access(folder.c_str(), W_OK) != 0 && !std::filesystem::exists(log);
+  // Without locks, SQLite would refuse every access. One process then writes, as the note asks, and others only read. The layer
+  // unix-none locks nothing; the option nolock=1, which does the same, would also exclude the write-ahead log.
+  const bool locks = fixed || has_record_locks(folder, write);
+  // A reader of an empty file would take the rollback journal of the process that makes the database for a remnant, and delete
+  // it.
+  std::error_code none;
+  if (!locks && !write && std::filesystem::file_size(file, none) == 0)
+    throw InputError(SourceLocation{file.string()}, "is empty: no process has written a study here yet");
   sqlite3* opened = nullptr;
   const int code =
       sqlite3_open_v2(uri(file, fixed ? "?immutable=1" : "").c_str(), &opened,
-                      SQLITE_OPEN_URI | (write ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READONLY), nullptr);
+                      SQLITE_OPEN_URI | (write ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READONLY),
+                      locks ? nullptr : "unix-none");
   database_.reset(opened);
   if (code != SQLITE_OK) fail(code);
   for (const auto& [option, on] : {std::pair{SQLITE_DBCONFIG_DEFENSIVE, 1},
@@ -113,8 +123,10 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
   constexpr int kPatience = 5000;  // ms to wait for another writer, such as a merge beside a sweep
   sqlite3_busy_timeout(opened, kPatience);
   execute("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0");
+  // A reader without a lock would otherwise remove the log of the process that writes.
+  if (!locks && !write) sqlite3_db_config(opened, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
   // This must precede the first access to a write-ahead log, because that access otherwise uses shared memory.
-  if (write && on_network(file)) execute("PRAGMA locking_mode = EXCLUSIVE");
+  if (!locks || (write && on_network(file))) execute("PRAGMA locking_mode = EXCLUSIVE");
 }
 
 void Database::write_ahead() { execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL"); }

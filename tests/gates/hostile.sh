@@ -142,4 +142,27 @@ mkdir -p "$work/parts/shards"
 mkfifo "$work/parts/shards/0-of-4.db"
 bounded "FIFO of a shard" 2 "$program" study merge "$work/parts"
 ok "FIFOs in the folder of a study are refused"
+# On a file system without locks, whichever error it gives, a study is written by one process, and the note is printed once.
+noted_once() { (($(grep -c 'the file system has no locks' "$work/log") == 1)) || { show_log; bad "$1: not one note on locks"; }; }
+has_rows() { "${without_locks[@]}" study show "$work/now" 2>/dev/null | grep -qE ': [1-9][0-9]* of'; }
+for error in 37 38 95; do # ENOLCK, ENOSYS, EOPNOTSUPP
+  without_locks=(env "LD_PRELOAD=$(plugin no_locks)" "GAITLAB_LOCK_ERROR=$error" "$program")
+  rm -rf -- "$work/now"
+  # 100 000 runs cannot end before the signal. The reader must not take the log of the process that writes.
+  "${without_locks[@]}" sweep "$work/study.yaml" --quiet -j 1 --runs 100000 --out "$work/now" >"$work/log" 2>&1 &
+  process=$!
+  wait_for "$process" "a row without locks" has_rows
+  kill -TERM "$process"
+  wait "$process" || true
+  noted_once "error $error"
+  said ": interrupted: $(count "$work/now/study.db") of 100000 runs are in the journal"
+  [[ $(sqlite3 "$work/now/study.db" 'pragma integrity_check') == ok ]] || bad "error $error: the journal is damaged"
+  rm -rf -- "$work/now"
+  for _ in 1 2; do expect 0 "${without_locks[@]}" sweep "$work/study.yaml" --quiet -j 1 --out "$work/now"; done
+  noted_once "error $error, again"
+  expect 0 "${without_locks[@]}" study show "$work/now"
+  ! grep -q 'no locks' "$work/log" || bad "error $error: a reader prints the note"
+  cmp -- "$work/rows" <(rows "$work/now") || bad "error $error: other rows without locks"
+done
+ok "a study on a file system without locks"
 verdict
