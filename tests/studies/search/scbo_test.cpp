@@ -48,25 +48,24 @@ double best_of(Method method, Rate rate, std::size_t dimensions, std::size_t run
 
 double median_of(Method method, Rate rate, std::size_t dimensions, std::size_t runs) {
   std::vector<double> best;
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) best.push_back(best_of(method, rate, dimensions, runs, seed));
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) best.push_back(best_of(method, rate, dimensions, runs, seed));
   std::ranges::sort(best);
-  return best[2];
+  return best[1];
 }
 
-/// Medians of five seeds, measured: -0.9966 (least -0.970), and -0.9970 (least -0.9969).
-TEST(Scbo, FindsTheBestOfABoxUnderAConstraint) {
-  EXPECT_LT(median_of(Method::scbo, inside_a_circle, 2, 80), -0.99);
-  EXPECT_LT(median_of(Method::scbo, in_a_valley, 4, 240), -0.9);
-}
+/// Median of three seeds, measured: -0.9966.
+TEST(Scbo, FindsTheBestOfABoxUnderAConstraint) { EXPECT_LT(median_of(Method::scbo, inside_a_circle, 2, 80), -0.99); }
 
-/// Measured medians: -0.991 and -0.42; every seed of scbo is better than the best of cma.
+/// Measured medians: -0.969 and -0.437; every seed of scbo (worst -0.936) is better than the best of cma (-0.858).
 TEST(Scbo, IsBetterThanCmaWhereRunsAreFew) {
-  EXPECT_LT(median_of(Method::scbo, in_a_valley, 4, 160), median_of(Method::cma, in_a_valley, 4, 160));
+  const double found = median_of(Method::scbo, in_a_valley, 4, 128);
+  EXPECT_LT(found, -0.9);
+  EXPECT_LT(found, median_of(Method::cma, in_a_valley, 4, 128));
 }
 
-/// Measured medians: -0.77 and -0.62. The seeds overlap, so that this holds for these five.
+/// Measured medians: -0.708 and -0.487. The seeds overlap, so that this holds for these three.
 TEST(CmaGp, IsBetterThanCmaWhereRunsAreFew) {
-  EXPECT_LT(median_of(Method::cma_gp, in_a_valley, 4, 240), median_of(Method::cma, in_a_valley, 4, 240));
+  EXPECT_LT(median_of(Method::cma_gp, in_a_valley, 4, 160), median_of(Method::cma, in_a_valley, 4, 160));
 }
 
 /// Without a model (all points fail) the sieve is off, and CMA-ES alone must find the best of an ellipsoid with axes of 1 : 30.
