@@ -263,6 +263,7 @@ class StoredChunks {
 /// Reads the values past the filters of HDF5, whose version 1.10 reads beyond a chunk that is shorter than declared.
 void read_rows(hid_t data, hsize_t rows, const Image& file, Trace& trace) {
   trace.values.reserve(rows * trace.columns.size());
+  require_workspace();
   StoredChunks stored(data, file);
   const std::size_t length = chunk_rows(rows);
   const auto wrong = unpack_chunks(trace, rows, length, [&](std::size_t row, std::size_t column) {
@@ -305,15 +306,15 @@ Trace read_table(hid_t file, const std::string& name, const Image& bytes) {
 }  // namespace
 
 Image to_image(const Trace& trace, const Provenance& origin, std::span<const BesideOf> beside) {
+  Image image;
+  std::size_t values = trace.values.size();
+  for (const BesideOf& one : beside) values += one.table->values.size();
+  image.reserve(static_cast<std::size_t>(kFileShare * static_cast<double>(values * sizeof(double))));
   const Library library;
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "file creation");
   checked(H5Pset_userblock(creation, kUserBlock), "user block");
   plain(creation);
   const Handle access = file_access();
-  Image image;
-  std::size_t values = trace.values.size();
-  for (const BesideOf& one : beside) values += one.table->values.size();
-  image.reserve(static_cast<std::size_t>(kFileShare * static_cast<double>(values * sizeof(double))));
   H5FD_file_image_callbacks_t memory = memory_of(image);
   checked(H5Pset_file_image_callbacks(access, &memory), "memory of the file");
   Handle file(H5Fcreate(nowhere().c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose, "file");

@@ -1,5 +1,7 @@
 #include "core/recording/h5_library.h"
 
+#include <sys/mman.h>
+
 #include <cstring>
 #include <new>
 
@@ -13,6 +15,7 @@ H5Guard other_user;
 void* grow(std::size_t size, void* image) {
   try {
     Image& bytes = *static_cast<Image*>(image);
+    if (size > bytes.capacity()) require_workspace(2 * size);  // before, because HDF5 keeps the old address after a failure
     bytes.resize(size);
     return bytes.data();
   } catch (const std::bad_alloc&) {
@@ -21,6 +24,15 @@ void* grow(std::size_t size, void* image) {
 }
 
 }  // namespace
+
+void require_workspace(std::size_t more) {
+  // For its cache of structures, the texts of a table and the buffers of chunks.
+  constexpr std::size_t kWorkspace = std::size_t{1} << 24;  // bytes
+  // A mapping that is not touched is address space alone; the compiler may leave out an allocation that is freed at once.
+  void* const mapped = ::mmap(nullptr, kWorkspace + more, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (mapped == MAP_FAILED) throw std::bad_alloc();
+  ::munmap(mapped, kWorkspace + more);
+}
 
 void guard_h5(H5Guard guard) noexcept { other_user = guard; }
 

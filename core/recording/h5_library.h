@@ -21,11 +21,17 @@ Result checked(Result result, const char* what) {
   return result;
 }
 
+/// Throws std::bad_alloc if there is less free memory than HDF5 needs beside a file and its values, and `more` bytes. HDF5 1.10
+/// crashes where one of its own allocations fails, so this is called before HDF5 is, and at large allocations between its
+/// calls.
+void require_workspace(std::size_t more = 0);
+
 /// Lock of the HDF5 library for one thread at a time, because Debian builds HDF5 without locks. Until the end of the lock,
 /// HDF5 prints no messages on stderr and loads no filters. Both settings belong to the process, in which others may use HDF5.
 class Library {
  public:
   Library() : lock_(mutex()) {
+    require_workspace();
     // To be called before the first use. Otherwise objects left open after a damaged file make HDF5 complain at exit.
     static const herr_t kNeverAtExit = h5_guard().enter == nullptr ? H5dont_atexit() : 0;
     static_cast<void>(kNeverAtExit);
