@@ -107,9 +107,9 @@ code=0
 [[ ! -e $work/code && $(rows "$work/asks" | wc -l) == 1 ]] || bad "no reader of the questions: $(cat "$work/code" "$work/log"), $(rows "$work/asks" | wc -l) rows"
 ok "a search without a reader ends"
 # One signal ends a search that waits for room in the pipe of its questions.
-mkfifo "$work/unread"
-exec 6<>"$work/unread"
-"${asks[@]}" <"$work/results" >"$work/unread" 2>"$work/log" 7>&- 6>&- &
+mkfifo "$work/full"
+exec 6<>"$work/full"
+"${asks[@]}" <"$work/results" >"$work/full" 2>"$work/log" 7>&- 6>&- &
 search=$!
 read -r -t 1200 -u 6 || bad "a search asks nothing"
 kill -TERM "$search"
