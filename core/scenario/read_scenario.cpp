@@ -42,8 +42,9 @@ class ScenarioReader {
   }
 
   /// Reads the text of the file. Afterwards with() gives the scenarios of rollouts.
-  const Scenario& read(const std::string& text, const std::vector<std::string>& sets) {
-    std::optional<Node> root = parse_yaml(text, path_, problems_);
+  const Scenario& read(std::string text, const std::vector<std::string>& sets) {
+    text_ = std::move(text);
+    std::optional<Node> root = parse_yaml(text_, path_, problems_);
     if (!root) raise();
     root_ = std::move(*root);
     rename_old_names(root_, {}, problems_);
@@ -71,6 +72,7 @@ class ScenarioReader {
     return scenario_;
   }
 
+  [[nodiscard]] const std::string& text() const { return text_; }
   [[nodiscard]] bool driven() const { return scenario_.actuator.entry != nullptr; }
   [[nodiscard]] bool draws_robots() const { return scenario_.tolerances.any(); }
 
@@ -338,7 +340,7 @@ class ScenarioReader {
     });
   }
 
-  std::string path_, folder_;
+  std::string path_, folder_, text_;
   Catalog& catalog_;
   ReadAs as_;
   Problems problems_;
@@ -391,7 +393,7 @@ Scenario ScenarioTemplate::with(const std::vector<std::string>& own) const {
   if (!reader_->driven() || std::ranges::any_of(own, whole)) {
     std::vector<std::string> all = sets_;
     all.insert(all.end(), own.begin(), own.end());
-    return read_scenario(path_, all, catalog_);
+    return ScenarioReader(path_, catalog_).read(reader_->text(), all);  // a file that changes meanwhile is that of before
   }
   return reader_->with(own);
 }

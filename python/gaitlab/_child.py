@@ -7,6 +7,7 @@ from typing import IO, TYPE_CHECKING, NoReturn, Optional, Sequence, TypeVar, Uni
 
 from . import _native
 from ._native import InputError, RunError
+from ._settings import path_text
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -46,8 +47,8 @@ class Child:
         import subprocess  # here, because few sessions need it
         import tempfile
 
-        command = [program(), name, os.fspath(file), "--quiet", *options]
-        command += [] if folder is None else ["--out", os.fspath(folder)]
+        command = [program(), name, path_text(file), "--quiet", *options]
+        command += [] if folder is None else ["--out", path_text(folder)]
         self._name = name
         self._said: IO[bytes] = tempfile.TemporaryFile()
         self._child = subprocess.Popen(

@@ -29,7 +29,7 @@ def cpg(name: str, **settings: Union[float, tuple[Any, ...]]) -> Callable[[_Clas
     The class is made once per run with (joints, settings): a list of Joint, and a dict of the settings. It has
 
         output(t, x, setpoint)          fills setpoint, rad, a value per joint
-        states                          number of states; default 0
+        states                          number of states; default 0. They need derivative() or event()
         start(x)                        fills the initial states
         derivative(m, x, rate)          fills the time derivatives of the states
         event(m, x)                     changes states at a control tick, before output()
@@ -49,6 +49,9 @@ def cpg(name: str, **settings: Union[float, tuple[Any, ...]]) -> Callable[[_Clas
     def register(made: _Class) -> _Class:
         if not callable(getattr(made, "output", None)):
             raise TypeError(f"a CPG has a method output(t, x, setpoint); {made.__name__} has none")
+        states = getattr(made, "states", 0)
+        if isinstance(states, int) and states > 0 and not (hasattr(made, "derivative") or hasattr(made, "event")):
+            raise TypeError(f"{made.__name__} has states, but no derivative(m, x, rate) and no event(m, x), which change them")
         _native.add_cpg(name, made, numbers)
         return made
 

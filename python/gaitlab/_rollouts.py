@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Mapping, Na
 import numpy as np
 
 from . import _native
-from ._scenario import Scenario
+from ._scenario import Scenario, scenario_of
 from ._settings import records, texts
 from ._warnings import tell
 
@@ -62,7 +62,7 @@ class Rollouts(Mapping[str, "np.ndarray[Any, Any]"]):
 
 
 def rollouts(
-    scenario: Scenario,
+    scenario: Union[Scenario, str, "os.PathLike[str]"],
     overrides: Union[Iterable[Mapping[str, Any]], "pandas.DataFrame"],
     *,
     threads: Union[int, None] = None,
@@ -73,6 +73,7 @@ def rollouts(
 ) -> Rollouts:
     """Simulates the scenario under each of `overrides`, with the bits of `gaitlab sweep`, and writes nothing.
 
+    scenario: a Scenario, or the path or name of one.
     overrides: mappings from key to value, or a DataFrame with a column per key. A row that the scenario refuses is a row of the
         table with the outcome `refused`.
     threads: default: the processors that this process may use. lanes: largest number of rollouts side by side in a thread; 0: as
@@ -85,12 +86,14 @@ def rollouts(
 
     KeyboardInterrupt, and an exception of `progress`, stop the work; its attribute `rollouts` has the rows that ended.
     """
+    if isinstance(quantities, str):
+        raise TypeError(f"quantities are a list of names: quantities=[{quantities!r}]")
     rows, index = records(overrides)
     if threads is None:
         threads = len(os.sched_getaffinity(0))
     if threads < 1 or lanes < 0 or estimate_every < 0:
         raise ValueError("threads is at least 1, lanes and estimate_every are at least 0")
-    raw = _native.rollouts(scenario._native, [texts(one) for one in rows], list(quantities), threads, lanes, estimate_every, progress)
+    raw = _native.rollouts(scenario_of(scenario)._native, [texts(one) for one in rows], list(quantities), threads, lanes, estimate_every, progress)
     table = Rollouts(raw, rows, index)
     if raw["raised"] is not None:
         try:

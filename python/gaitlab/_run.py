@@ -6,7 +6,8 @@ import os
 from typing import Any, Callable, Union
 
 from . import _native
-from ._scenario import Plugins, Scenario, trusted
+from ._scenario import Plugins, Scenario, scenario_of, trusted
+from ._settings import path_text
 from ._table import Table
 from ._warnings import tell
 
@@ -56,7 +57,7 @@ class Run:
 
     def save(self, folder: Union[str, "os.PathLike[str]", None] = None) -> str:
         """Writes the files of `gaitlab run` into a new or empty folder (default runs/NAME, then NAME-2 ...). Returns its path."""
-        saved = self._native.save(None if folder is None else os.fspath(folder))
+        saved = self._native.save(None if folder is None else path_text(folder))
         tell()
         return saved
 
@@ -79,17 +80,21 @@ class Run:
 
 
 def run(
-    scenario: Scenario, *, progress: Union[Callable[[float], object], None] = None, loads: bool = True
+    scenario: Union[Scenario, str, "os.PathLike[str]"],
+    *,
+    progress: Union[Callable[[float], object], None] = None,
+    loads: bool = True,
 ) -> Run:
     """Simulates a scenario as `gaitlab run` does, and judges the run. Nothing is written.
 
+    scenario: a Scenario, or the path or name of one.
     progress: called with the share that is done, about twenty times a second and at the end. An exception stops the run.
     loads: False leaves out most loads of docks and feet, as rollouts do; checks of the verdict that need them are not judged.
 
     A run that diverges is a Run with its `.outcome`; InputError is raised for one that cannot begin. Ctrl-C ends the run and
     raises KeyboardInterrupt.
     """
-    made = Run(_native.simulate(scenario._native, progress, loads))
+    made = Run(_native.simulate(scenario_of(scenario)._native, progress, loads))
     tell(made.warnings)
     return made
 
@@ -99,6 +104,6 @@ def read(folder: Union[str, "os.PathLike[str]"], *, plugins: Plugins = "refuse")
 
     plugins: as in Scenario. By default a folder whose scenario names plugin libraries is refused, because it may come from others.
     """
-    made = Run(_native.read_run(os.fspath(folder), *trusted(plugins)))
+    made = Run(_native.read_run(path_text(folder), *trusted(plugins)))
     tell(made.warnings)
     return made

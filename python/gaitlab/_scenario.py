@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any, Mapping, Sequence, Union
 
 from . import _native
-from ._settings import texts
+from ._settings import mapping, path_text, texts
 from ._warnings import tell
 
 
@@ -17,7 +17,7 @@ def trusted(plugins: Plugins) -> tuple[bool, list[str]]:
     """The argument `plugins` as "all of them" and a list of files."""
     if isinstance(plugins, str) and plugins not in ("trust", "refuse"):
         raise ValueError(f"plugins is 'trust', 'refuse' or a list of files, not {plugins!r}")
-    return plugins == "trust", [] if isinstance(plugins, str) else [os.fspath(file) for file in plugins]
+    return plugins == "trust", [] if isinstance(plugins, str) else [path_text(file) for file in plugins]
 
 
 @dataclass(frozen=True)
@@ -62,8 +62,8 @@ class Scenario:
         *,
         plugins: Plugins = "trust",
     ) -> None:
-        self.path = os.fspath(path)
-        self.settings: dict[str, Any] = dict(settings or {})
+        self.path = path_text(path)
+        self.settings: dict[str, Any] = mapping(settings)
         all_plugins, files = trusted(plugins)
         self._plugins = plugins if isinstance(plugins, str) else files
         self._native = _native.read(self.path, texts(self.settings), all_plugins, files)
@@ -99,6 +99,7 @@ class Scenario:
 
     def with_(self, settings: Mapping[str, Any]) -> "Scenario":
         """The scenario with further settings. It shares the robot and what else the settings do not change."""
+        settings = mapping(settings)
         other = Scenario.__new__(Scenario)
         other.path, other._plugins = self.path, self._plugins
         # A key that is set again comes last, as on the command line.
@@ -113,6 +114,15 @@ class Scenario:
     def __reduce__(self) -> tuple[Any, ...]:
         path = os.path.abspath(self.path) if os.path.exists(self.path) else self.path
         return _again, (path, self.settings, self._plugins)
+
+
+def scenario_of(given: Union[Scenario, str, "os.PathLike[str]"]) -> Scenario:
+    """A scenario, also of its path or name."""
+    if isinstance(given, Scenario):
+        return given
+    if isinstance(given, (str, os.PathLike)):
+        return Scenario(given)
+    raise TypeError(f"a scenario is a gaitlab.Scenario, a path or the name of a shipped one, not {type(given).__name__}")
 
 
 def _again(path: str, settings: Mapping[str, Any], plugins: Any) -> Scenario:

@@ -43,6 +43,7 @@ class Search(Child):
         self._points: dict[int, Mapping[str, Any]] = {}  # of this batch, not asked yet
         self._open: set[int] = set()  # asked, but not told
         self._ended = False
+        self._read_batch()  # here, so that the errors of the file are raised at once
 
     def ask(self, n: Optional[int] = None) -> "pandas.DataFrame":
         """The next points, at most n: a column per parameter, and as index the number of the point. Without n all points that the

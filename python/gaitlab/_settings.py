@@ -40,10 +40,26 @@ def text(value: Any) -> str:
     raise TypeError(f"a setting is a number, a text, a list or a mapping, not {type(value).__name__}")
 
 
+def mapping(settings: Optional[Mapping[str, Any]]) -> dict[str, Any]:
+    """Settings as a dictionary."""
+    if settings is None:
+        return {}
+    if not isinstance(settings, Mapping):
+        raise TypeError(f'settings are a mapping from key to value, as in {{"duration": 2}}, not {type(settings).__name__}')
+    return dict(settings)
+
+
+def path_text(path: Any) -> str:
+    """A path as the program gets it. Raises ValueError for a null character, at which the path would end."""
+    text_of_path = os.fsdecode(path)
+    if "\0" in text_of_path:
+        raise ValueError(f"{text_of_path!r} has a null character; expected a path without")
+    return text_of_path
+
+
 def texts(settings: Mapping[str, Any]) -> list[str]:
     """Settings `key.path=value`, in the order of the mapping."""
-    if not isinstance(settings, Mapping):
-        raise TypeError(f"settings are a mapping from key to value, not {type(settings).__name__}")
+    settings = mapping(settings)
     return [f"{key}={text(value)}" for key, value in settings.items()]
 
 

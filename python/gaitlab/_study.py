@@ -4,6 +4,8 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Union
 
+from ._settings import path_text
+
 if TYPE_CHECKING:
     import pandas
 
@@ -12,7 +14,7 @@ class Study:
     """The journal of a study (`gaitlab sweep`, `optimize` or `evaluate`), also while it runs. Each table is read anew."""
 
     def __init__(self, folder: Union[str, "os.PathLike[str]"]) -> None:
-        folder = os.fspath(folder)
+        folder = path_text(folder)
         file = os.path.join(folder, "study.db") if os.path.isdir(folder) else folder
         if not os.path.isfile(file):
             raise FileNotFoundError(f"{file}: there is no journal of a study")

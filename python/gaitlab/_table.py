@@ -27,7 +27,24 @@ class Table(Mapping[str, "np.ndarray[Any, Any]"]):
         self._at = {name: k for k, name in enumerate(self.columns)}
 
     def __getitem__(self, name: str) -> "np.ndarray[Any, Any]":
-        return self.values[:, self._at[name]]
+        if (column := self._at.get(name)) is None:
+            raise KeyError(self._unknown(name))
+        return self.values[:, column]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._at
+
+    def _unknown(self, name: object) -> str:
+        """The message for an unknown column: those of the same quantity and joint, else the nearest names."""
+        import difflib  # here, because few sessions need it
+
+        text = str(name)
+        place, _, quantity = text.rpartition(".")
+        part = place.partition(".")[2]
+        near = [
+            one for one in self.columns if part and one.endswith("." + quantity) and self.definitions[one].endswith(" " + part)
+        ] or difflib.get_close_matches(text, self.columns, 3)
+        return f"no column {text}" + (f"; did you mean {' or '.join(near)}?" if near else "; Table.columns has the names")
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.columns)

@@ -1,6 +1,8 @@
 #include "python/native/apart.h"
 
+#include <pthread.h>
 #include <pybind11/pybind11.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cfenv>
@@ -8,6 +10,7 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <set>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -55,6 +58,67 @@ class Worker {
   std::exception_ptr thrown_;
   std::thread thread_;
 };
+
+/// Works under way, each by its flag, and the end of the interpreter. A thread that asks for the interpreter's lock after that
+/// end is unwound by Python, which C++ does not survive.
+struct Works {
+  std::mutex mutex;
+  std::condition_variable left;
+  std::set<std::atomic<bool>*> stops;
+  bool over = false;     ///< true from the beginning of that end
+  std::thread::id last;  ///< the thread that ends the interpreter
+};
+Works& works() {
+  static auto* const made = new Works;  // never destroyed: threads may be in it at exit
+  return *made;
+}
+
+/// A work under way. Beyond the end of the interpreter its thread waits for the end of the process. Without the interpreter's
+/// lock.
+class UnderWay {
+ public:
+  explicit UnderWay(std::atomic<bool>& stop) : stop_(&stop) {
+    std::unique_lock lock(works().mutex);
+    if (ended()) wait_for_ever(lock);
+    works().stops.insert(stop_);
+  }
+  ~UnderWay() {
+    std::unique_lock lock(works().mutex);
+    works().stops.erase(stop_);
+    works().left.notify_all();
+    if (ended()) wait_for_ever(lock);
+  }
+  UnderWay(const UnderWay&) = delete;
+  UnderWay& operator=(const UnderWay&) = delete;
+
+ private:
+  static bool ended() { return works().over && works().last != std::this_thread::get_id(); }
+  [[noreturn]] static void wait_for_ever(std::unique_lock<std::mutex>& lock) {
+    lock.unlock();
+    for (;;) ::pause();
+  }
+  std::atomic<bool>* stop_;
+};
+
+constexpr std::chrono::milliseconds kOften{50};  // between looks for Ctrl-C
+
+/// Ends all works: called with the interpreter's lock when its end begins.
+void end_works() {
+  const py::gil_scoped_release released;
+  Works& all = works();
+  std::unique_lock lock(all.mutex);
+  all.over = true;
+  all.last = std::this_thread::get_id();
+  for (std::atomic<bool>* stop : all.stops) *stop = true;
+  while (!all.left.wait_for(lock, kOften, [&] { return all.stops.empty(); })) {
+    lock.unlock();
+    {
+      const py::gil_scoped_acquire held;
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    }
+    lock.lock();
+  }
+}
 
 std::mutex said_mutex;
 std::vector<std::string>& said() {
@@ -110,11 +174,11 @@ void leave_h5(void* entered) {
 }  // namespace
 
 void apart(std::atomic<bool>& stop, const std::function<void()>& told, const std::function<void()>& work) {
-  constexpr std::chrono::milliseconds kOften{50};
   std::exception_ptr raised;
   std::exception_ptr thrown;
   {
     const py::gil_scoped_release released;
+    const UnderWay under_way(stop);
     Worker worker(work);
     while (!worker.ends_in(kOften)) {
       if (raised) continue;
@@ -136,6 +200,16 @@ void apart(std::atomic<bool>& stop, const std::function<void()>& told, const std
 void apart(const std::function<void()>& work) {
   std::atomic<bool> never = false;
   apart(never, {}, work);
+}
+
+void end_with_interpreter() {
+  py::module_::import("atexit").attr("register")(py::cpp_function(&end_works));
+  // The child of a fork has none of the other threads.
+  ::pthread_atfork([] { works().mutex.lock(); }, [] { works().mutex.unlock(); },
+                   [] {
+                     works().stops.clear();
+                     works().mutex.unlock();
+                   });
 }
 
 void gather_said() { say_to(&hear); }

@@ -11,10 +11,13 @@ namespace gaitlab::python {
 /// starts with, because some Python packages make the processor flush subnormal numbers to zero. To be called with the lock
 /// held. The calling thread looks for Ctrl-C about twenty times a second and calls `told`, which may be empty, with the lock
 /// held. If either raises an exception, `stop` is set and the exception is thrown when the work has ended; otherwise an
-/// exception of the work is thrown.
+/// exception of the work is thrown. At the end of the interpreter `stop` is set, and the call does not return.
 void apart(std::atomic<bool>& stop, const std::function<void()>& told, const std::function<void()>& work);
 /// The same for work that cannot be stopped.
 void apart(const std::function<void()>& work);
+
+/// Ends the works of daemon threads before the interpreter ends, from now on.
+void end_with_interpreter();
 
 /// Gathers what the program would print on stderr, from now on.
 void gather_said();

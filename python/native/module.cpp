@@ -114,6 +114,7 @@ void add_functions(py::module_& m) {
 PYBIND11_MODULE(_native, m) {
   namespace native = gaitlab::python;
   m.attr("build") = gaitlab::build_id();
+  native::end_with_interpreter();
   native::gather_said();
   native::share_h5();
   native::add_errors(m);

@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
@@ -91,6 +92,36 @@ class CopiedArray {
   py::array_t<double> array_{py::ssize_t{0}};
 };
 
+/// An attribute of an object, or None if it has none. An attribute whose computation raises AttributeError is not absent.
+py::object attribute(const py::object& self, const char* name) {
+  try {
+    return self.attr(name);
+  } catch (py::error_already_set& error) {
+    if (!error.matches(PyExc_AttributeError)) throw;
+    const py::object found = py::module_::import("inspect").attr("getattr_static")(self, name, py::none());
+    if (!found.is_none()) throw;
+    return py::none();
+  }
+}
+
+/// The number of states that a class gives; None is 0.
+std::size_t states_of(const py::object& given) {
+  if (given.is_none()) return 0;
+  constexpr Py_ssize_t kMost = 1000000;
+  const Py_ssize_t states = PyNumber_AsSsize_t(given.ptr(), nullptr);  // -1 where the number is not whole
+  if (PyErr_Occurred() != nullptr) PyErr_Clear();
+  if (states < 0 || states > kMost)
+    throw std::runtime_error("states is " + text_of(py::repr(given)) + "; expected a whole number from 0 to 1000000");
+  return static_cast<std::size_t>(states);
+}
+
+/// Throws if a method returned an array of its own instead of filling its argument.
+void expect_filled(const char* method, const py::object& returned, const py::object& argument, const char* name) {
+  if (returned.is(argument) || !(py::isinstance<py::array>(returned) || py::isinstance<py::list>(returned))) return;
+  throw std::runtime_error(std::string(method) + "() returned " + text_of(py::type::of(returned).attr("__name__")) +
+                           "; expected that it fills its argument, as in " + name + "[:] = ...");
+}
+
 /// The object, its methods (None if it lacks one) and the arrays that they get.
 struct BoundObject {
   py::object self, output, derivative, event, start, measured;
@@ -98,12 +129,13 @@ struct BoundObject {
   CopiedArray x, rate, setpoint, angle, speed, torque, touching, channels;
 
   explicit BoundObject(py::object made) : self(std::move(made)) {
-    const auto method = [&](const char* name) { return py::getattr(self, name, py::none()); };
-    output = method("output");
-    derivative = method("derivative");
-    event = method("event");
-    start = method("start");
-    states = py::getattr(self, "states", py::int_(0)).cast<std::size_t>();
+    output = attribute(self, "output");
+    derivative = attribute(self, "derivative");
+    event = attribute(self, "event");
+    start = attribute(self, "start");
+    states = states_of(attribute(self, "states"));
+    if (states > 0 && derivative.is_none() && event.is_none())
+      throw std::runtime_error("has states, but no derivative(m, x, rate) and no event(m, x), which change them");
     measured = py::module_::import("types").attr("SimpleNamespace")();
   }
   const py::object& of(const Measured& m) {
@@ -125,28 +157,35 @@ class PythonCpg final : public Cpg {
   void start(Out x) const override {
     if (bound_->start.is_none()) return;
     under_lock([&] {
-      bound_->start(bound_->x.of(x));
+      const py::array& states = bound_->x.of(x);
+      expect_filled("start", bound_->start(states), states, "x");
       bound_->x.take(x);
     });
   }
   void derivative(const Measured& m, In x, Out rate) const override {
     if (bound_->derivative.is_none()) return;
     under_lock([&] {
-      bound_->derivative(bound_->of(m), bound_->x.of(x), bound_->rate.of(rate));
+      const py::array& rates = bound_->rate.of(rate);
+      expect_filled("derivative", bound_->derivative(bound_->of(m), bound_->x.of(x), rates), rates, "rate");
       bound_->rate.take(rate);
     });
   }
   void event(const Measured& m, Out x) const override {
     if (bound_->event.is_none()) return;
     under_lock([&] {
-      bound_->event(bound_->of(m), bound_->x.of(x));
+      const py::array& states = bound_->x.of(x);
+      expect_filled("event", bound_->event(bound_->of(m), states), states, "x");
       bound_->x.take(x);
     });
   }
   void output(double t, In x, Out setpoint) const override {
     under_lock([&] {
-      bound_->output(t, bound_->x.of(x), bound_->setpoint.of(setpoint));
+      std::ranges::fill(setpoint, std::nan(""));
+      const py::array& setpoints = bound_->setpoint.of(setpoint);
+      expect_filled("output", bound_->output(t, bound_->x.of(x), setpoints), setpoints, "setpoint");
       bound_->setpoint.take(setpoint);
+      if (!setpoint.empty() && std::ranges::all_of(setpoint, [](double one) { return std::isnan(one); }))
+        throw std::runtime_error("output() filled no set point; expected that it fills its argument, as in setpoint[:] = ...");
     });
   }
 

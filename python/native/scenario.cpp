@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "core/scenario/resolved.h"
 #include "core/simulation/simulation.h"
 #include "core/simulation/start.h"
 #include "kit/catalog.h"
@@ -44,14 +45,32 @@ std::shared_ptr<PyScenario> read_python(const std::string& file, const Texts& se
   return made;
 }
 
+namespace {
+
+/// All of a scenario but its CPG, as text.
+std::string without_cpg(Scenario scenario) {
+  scenario.cpg = {};
+  return resolved(scenario);
+}
+
+/// The file read again, with the classes that were registered meanwhile. Throws InputError if it is another one now.
+std::shared_ptr<ReadFile> read_again(ReadFile& before) {
+  std::shared_ptr<ReadFile> read = read_python(before.path, before.sets, before.trusted)->file;
+  apart([&] {
+    if (without_cpg(read->with({})) != without_cpg(before.with({}))) {
+      throw InputError(SourceLocation{before.path},
+                       "has changed since the scenario was read, or a file that it names has; read it again: gaitlab.Scenario");
+    }
+  });
+  return read;
+}
+
+}  // namespace
+
 std::shared_ptr<PyScenario> with_sets(const PyScenario& scenario, const Texts& sets) {
   auto made = std::make_shared<PyScenario>(PyScenario{scenario.file, scenario.own, {}});
   made->own.insert(made->own.end(), sets.begin(), sets.end());
-  if (made->file->classes != classes_added()) {
-    Texts all = made->file->sets;
-    all.insert(all.end(), made->own.begin(), made->own.end());
-    return read_python(made->file->path, all, made->file->trusted);
-  }
+  if (made->file->classes != classes_added()) made->file = read_again(*scenario.file);
   apart([&] { made->scenario = made->file->with(made->own); });
   return made;
 }

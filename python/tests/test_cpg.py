@@ -1,18 +1,25 @@
 """Pattern generators written in Python."""
 import gc
 import math
+import os
+import shutil
+import tempfile
 import unittest
 
 import numpy as np
 
 import gaitlab
 
-from common import FAST, caterpillar, digest, of_class
+from common import FAST, ROOT, caterpillar, digest, of_class
 
 
 def register(name, **methods):
     """Registers a class with these methods, as gaitlab.cpg does."""
     return gaitlab.cpg(name)(type("Made", (), {"__init__": lambda self, joints, settings: None, "output": still, **methods}))
+
+
+def leave(self, m, x):
+    pass
 
 
 def still(self, t, x, setpoint):
@@ -101,7 +108,7 @@ class Exceptions(unittest.TestCase):
 
         for method in ("output", "derivative", "event"):
             with self.subTest(method):
-                outcome = self.outcome("test_fails_" + method, states=1, **{method: fails})
+                outcome = self.outcome("test_fails_" + method, states=1, **{"event": leave, method: fails})
                 self.assertRegex(outcome, f"cpg 'test_fails_{method}' \\(Python\\): {method} threw: ZeroDivisionError: oops "
                                           r"\(.*test_cpg.py:\d+\)")
 
@@ -111,18 +118,40 @@ class Exceptions(unittest.TestCase):
 
         for method in ("__init__", "start"):
             with self.subTest(method), self.assertRaisesRegex((gaitlab.InputError, gaitlab.RunError), "KeyError: 'lost'"):
-                register("test_fails" + method, states=1, **{method: fails})
+                register("test_fails" + method, states=1, event=leave, **{method: fails})
                 gaitlab.run(of_class("test_fails" + method))
 
     def test_wrong_use(self):
         outcome = self.outcome("test_resizes", output=lambda self, t, x, setpoint: setpoint.resize(3, refcheck=False))
         self.assertRegex(outcome, "the size of an array was changed")
+        for method, returned in (("output", "ndarray"), ("derivative", "list")):
+            outcome = self.outcome("test_returns_" + method, states=1, event=leave,
+                                   **{method: lambda self, *arguments: np.zeros(9) if returned == "ndarray" else [1]})
+            self.assertRegex(outcome, rf"{method}\(\) returned {returned}; expected that it fills its argument")
+        outcome = self.outcome("test_fills_none", output=lambda self, t, x, setpoint: None)
+        self.assertRegex(outcome, r"output\(\) filled no set point; expected that it fills its argument, as in setpoint\[:\]")
+        with self.assertRaisesRegex(TypeError, r"Made has states, but no derivative\(m, x, rate\) and no event\(m, x\)"):
+            register("test_states", states=1)
         with self.assertRaisesRegex(TypeError, "has none"):
             gaitlab.cpg("test_none")(type("None_", (), {}))
         with self.assertRaisesRegex(gaitlab.InputError, "registered twice"):
             register("hopf")
         with self.assertRaisesRegex(gaitlab.InputError, "invalid name"):
             register("two words")
+
+    def test_states(self):
+        """An exception in `states`, and a number of states that is not one, are errors, not 0 states."""
+        def broken(self):
+            raise AttributeError("lost")
+
+        for states, said in ((property(broken), "AttributeError: lost"), (-1, "states is -1; expected a whole number"),
+                             (1.5, "states is 1.5; expected a whole number"), (10**12, "states is 1000000000000; expected")):
+            with self.subTest(said), self.assertRaisesRegex((gaitlab.InputError, gaitlab.RunError), said):
+                register("test_states", states=states, event=leave)
+                gaitlab.run(of_class("test_states"))
+        with self.assertRaisesRegex((gaitlab.InputError, gaitlab.RunError), "has states, but no derivative"):
+            register("test_states", __init__=lambda self, joints, settings: setattr(self, "states", 1))
+            gaitlab.run(of_class("test_states"))
 
     def test_rows_of_rollouts(self):
         def fails(self, t, x, setpoint):
@@ -149,6 +178,24 @@ class Registration(unittest.TestCase):
         scenario = gaitlab.Scenario("caterpillar", FAST)
         register("test_later")
         self.assertEqual(gaitlab.run(scenario.with_({"cpg": {"type": "test_later"}})).outcome, "done")
+
+    def test_with_keeps_the_file_that_was_read(self):
+        """After a registration the file is read again: a comment may have changed, but nothing else."""
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "mine.yaml")
+            shutil.copyfile(os.path.join(ROOT, "scenarios/pendulum.yaml"), file)
+            with open(file) as text:
+                read = text.read()
+            scenario = gaitlab.Scenario(file, FAST)
+            register("test_meanwhile")
+            with open(file, "a") as text:
+                text.write("# a comment\n")
+            self.assertEqual(scenario.with_({"duration": 0.5}).settings["duration"], 0.5)
+            register("test_meanwhile")
+            with open(file, "w") as text:
+                text.write(read.replace("\nname: ", "\nname: other_", 1))
+            with self.assertRaisesRegex(gaitlab.InputError, "mine.yaml: error: has changed since the scenario was read"):
+                scenario.with_({"duration": 0.5})
 
     def test_class_ends_with_its_scenarios(self):
         import weakref

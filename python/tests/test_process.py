@@ -162,6 +162,29 @@ trace = run.trace["t"]
         self.assertEqual((ended.returncode, ended.stderr, ended.stdout), (0, "", ""))
 
 
+    def test_daemon_threads_end_with_the_interpreter(self):
+        """In a run, in a class of Python, and in rollouts."""
+        script = """
+import gaitlab, threading, warnings
+warnings.simplefilter("ignore")
+@gaitlab.cpg("goes")
+class Goes:
+    def __init__(self, joints, settings): pass
+    def output(self, t, x, setpoint):
+        setpoint[:] = 0
+        begun.release()
+begun = threading.Semaphore(0)
+scenario = gaitlab.Scenario("caterpillar", {"physics.engine": "articulated", "duration": 3600, "cpg": {"type": "goes"}})
+for work in (gaitlab.run, lambda one: gaitlab.rollouts(one, [{}, {}], threads=2)):
+    threading.Thread(target=work, args=[scenario], daemon=True).start()
+for _ in range(9):
+    begun.acquire()
+"""
+        for _ in range(5):  # the end meets the threads at different places
+            ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, env=os.environ)
+            self.assertEqual((ended.returncode, ended.stderr, ended.stdout), (0, "", ""))
+
+
 def float_modes(bits):
     """Sets bits of the processor's MXCSR in this thread. Returns the old environment."""
     libm = ctypes.CDLL("libm.so.6")

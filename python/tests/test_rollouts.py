@@ -116,6 +116,8 @@ class Rows(unittest.TestCase):
         self.assertEqual(list(table), names)
         self.assertEqual(table.units["torque.peak[m0/active]"], "N m")
         self.assertGreater(table["torque.peak[m0/active]"][0], 0)
+        with self.assertRaisesRegex(TypeError, r"quantities are a list of names: quantities=\['speed'\]"):
+            gaitlab.rollouts(caterpillar(), [{}], quantities="speed")
         with self.assertRaisesRegex(gaitlab.InputError, "did you mean 'speed'"):
             gaitlab.rollouts(caterpillar(), [{}], quantities=["sped"])
         self.assertIn("speed", [one.name for one in gaitlab.quantities()])

@@ -52,6 +52,9 @@ class Folders(InFolder):
 
     def test_names_of_folders(self):
         run = gaitlab.run(caterpillar(duration=0.1))
+        with self.assertRaisesRegex(ValueError, "has a null character"):
+            run.save("a\0b")
+        self.assertEqual(os.listdir("."), [])
         self.assertEqual([run.save(), run.save()], ["runs/caterpillar-8", "runs/caterpillar-8-2"])
         with self.assertRaisesRegex(gaitlab.InputError, "^save: runs/caterpillar-8: error: exists and is not empty"):
             run.save("runs/caterpillar-8")
@@ -88,6 +91,11 @@ class Tables(unittest.TestCase):
         self.assertEqual(list(trace)[:1], ["t"])
         with self.assertRaises(KeyError):
             trace["joint.99.torque"]
+        for name, near in (("joint.m0/active.torque", "joint.0.torque"), ("joint.0.torqe", "joint.0.torque")):
+            with self.assertRaisesRegex(KeyError, f"no column {name}; did you mean {near}"):
+                trace[name]
+        self.assertNotIn("joint.99.torque", trace)
+        self.assertIsNone(trace.get("joint.99.torque"))
         frame = trace.to_pandas()
         self.assertEqual(frame.index.name, "t")
         self.assertEqual(frame.attrs["units"]["joint.0.torque"], "N m")

@@ -42,7 +42,18 @@ class Errors(InFolder):
         with self.assertRaisesRegex(gaitlab.InputError, "nowhere.yaml"):
             gaitlab.Scenario("nowhere.yaml")
 
+    def test_a_path_or_name_is_a_scenario(self):
+        self.assertEqual(gaitlab.run("pendulum", loads=False).name, "pendulum")
+        self.assertEqual(gaitlab.rollouts("pendulum", [{"duration": 0.1}]).outcome, ["done"])
+        with self.assertRaisesRegex(TypeError, "a scenario is a gaitlab.Scenario, a path or the name of a shipped one, not int"):
+            gaitlab.run(3)
+
     def test_arguments_of_another_type(self):
+        for call in (lambda: gaitlab.Scenario("caterpillar", ["duration=2"]), lambda: caterpillar().with_(["duration=2"])):
+            with self.assertRaisesRegex(TypeError, r'settings are a mapping from key to value, as in {"duration": 2}, not list'):
+                call()
+        with self.assertRaisesRegex(ValueError, "has a null character"):
+            gaitlab.Scenario("caterpillar\0")
         with self.assertRaises(TypeError):
             gaitlab.Scenario("caterpillar", {"duration": object()})
         with self.assertRaises(ValueError):

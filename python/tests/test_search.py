@@ -190,6 +190,9 @@ class Search(InFolder):
             with gaitlab.Search("absent.yaml") as search:
                 search.ask()
         self.assertTrue(caught.exception.problems[0][0].endswith("nosuch.yaml"))
+        for file in ("nothing.yaml", "study.yaml\0"):
+            with self.assertRaisesRegex(ValueError, "nothing.yaml.*No such file|has a null character"):
+                gaitlab.Search(file)
         with self.assertRaisesRegex(gaitlab.InputError, "replicates"):
             with open("three.yaml", "w") as file:
                 file.write(STUDY + "replicates: {count: 3}\n")
