@@ -62,12 +62,13 @@ struct RunArguments : ScenarioArguments {
   bool no_page = false;     ///< do not write report.html
   bool names_files = true;  ///< true: print the names of the files
   SummaryOptions shown;
-  std::vector<std::string> joints;  ///< names of the joints in the figure; if empty, those that the scenario chooses
-  int draws = 1;                    ///< number of seeds, starting with the scenario's
-  int jobs = 1;                     ///< threads for the draws and the remedy
-  bool remedy = false;              ///< true: search the changes that make the gait feasible, or its reserves
-  bool map = false;                 ///< true: the remedy has a map of frequency and amplitude
-  std::vector<std::string> by;      ///< settings that the remedy tries; empty for all
+  std::vector<std::string> joints;          ///< names of the joints in the figure; if empty, those that the scenario chooses
+  int draws = 1;                            ///< number of seeds, starting with the scenario's
+  int jobs = 1;                             ///< threads for the draws and the remedy
+  std::vector<std::string> libraries = {};  ///< plugin libraries that are not beside the scenario that names them
+  bool remedy = false;                      ///< true: search the changes that make the gait feasible, or its reserves
+  bool map = false;                         ///< true: the remedy has a map of frequency and amplitude
+  std::vector<std::string> by;              ///< settings that the remedy tries; empty for all
 };
 /// Reads and runs a scenario as the arguments say.
 [[nodiscard]] int run(const RunArguments& arguments);

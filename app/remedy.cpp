@@ -93,7 +93,7 @@ int remedy(const RemedyArguments& arguments) {
 Remedied take_remedy(const Scenario& scenario, report::Verdict& verdict, const RunArguments& arguments) try {
   if (!arguments.remedy) return {};
   Catalog catalog = standard_catalog();  // the plugins of the run are already loaded
-  const StoredScenario same{"", scenario.file + " (its remedy)", resolved(scenario)};
+  const StoredScenario same{"", scenario.file + " (its remedy)", resolved(scenario, FilePaths::whole)};
   std::optional<report::Remedy> made;
   {
     Progress progress(arguments.quiet);

@@ -17,7 +17,6 @@
 #include "core/scenario/resolved.h"
 #include "core/settings/changed_settings.h"
 #include "kit/stored_scenario.h"
-#include "report/analysis/plugin_names.h"
 #include "report/analysis/summary.h"
 #include "report/figures/run/run_figure.h"
 #include "report/page/page.h"
@@ -76,9 +75,6 @@ int report_one(const ReportArguments& arguments) {
   return exit_code(run.verdict, arguments.shown);
 }
 
-/// Text of the resolved scenario without folders, for a page.
-std::string settings(const Scenario& scenario) { return report::without_folders(resolved(scenario), scenario); }
-
 int report_two(const ReportArguments& arguments) {
   const fs::path own = trace_file(arguments.runs[0]).parent_path() / kPairFile;
   const std::string file = arguments.page.value_or(own.string());
@@ -87,7 +83,7 @@ int report_two(const ReportArguments& arguments) {
   const JudgedRun a = judged_run(arguments.runs[0], catalogs[0], {}, arguments.shown);
   const JudgedRun b = judged_run(arguments.runs[1], catalogs[1], {}, arguments.shown);
   report::PageOverlay overlay;
-  overlay.differs = changed_settings(settings(a.read.scenario), settings(b.read.scenario), 6);
+  overlay.differs = changed_settings(resolved(a.read.scenario), resolved(b.read.scenario), 6);
   constexpr std::size_t kEach = report::kMostData / 2;
   write_file(file, report::page(report::overlaid(a.page_data(kEach), b.page_data(kEach), overlay)), existing);
   int code = 0;

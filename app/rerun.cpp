@@ -112,14 +112,15 @@ Again run_again(const Scenario& scenario, const Past& past, bool early) {
 }
 
 /// Sentences on the changes since the run was recorded.
-std::vector<std::string> changes(const StoredScenario& stored, const Past& past, const Scenario& scenario, const Again& again) {
+std::vector<std::string> changes(const StoredScenario& stored, const Past& past, const Scenario& scenario, const Again& again,
+                                 const Catalog& catalog) {
   std::vector<std::string> found;
   if (past.build.empty()) {
     found.push_back(fmt::format("build: not recorded; now {}", build_id()));
   } else if (past.build != build_id()) {
     found.push_back(fmt::format("build: then {}, now {}", past.build, build_id()));
   }
-  const std::vector<PluginChange> plugins = changed_plugins(stored);
+  const std::vector<PluginChange> plugins = changed_plugins(stored, catalog);
   for (const PluginChange& plugin : plugins) {
     found.push_back(fmt::format("plugin {}: the file has changed: hash then {}, now {}", plugin.path, plugin.then, plugin.now));
   }
@@ -199,7 +200,7 @@ int verify(const std::string& run, const PluginArguments& plugins) {
                past.ended ? past.ended->text() : "no summary contains the reason: the record is incomplete",
                last_time(past.trace));
   }
-  const std::vector<std::string> changed = changes(stored, past, scenario, again);
+  const std::vector<std::string> changed = changes(stored, past, scenario, again, catalog);
   for (const std::string& line : changed) fmt::print("  {}\n", line);
   if (!same && changed.empty()) {
     const bool vague = past.build.find(".dirty") != std::string::npos || past.build.find("unknown") != std::string::npos;

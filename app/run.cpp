@@ -138,7 +138,7 @@ void print_files(const RunArguments& arguments, const std::filesystem::path& fol
 }  // namespace
 
 int run(const RunArguments& arguments) {
-  Catalog catalog = standard_catalog();
+  Catalog catalog = careful_catalog({.from_scenario = true, .files = arguments.libraries});
   Scenario scenario = read(arguments, catalog);
   draw_joints(scenario, arguments.joints);
   return run(scenario, arguments, other_draws(scenario, arguments, catalog));
@@ -213,6 +213,10 @@ void add_run(Commands& commands) {
       [](CLI::App& command, RunArguments& arguments) {
         add_scenario(command, arguments);
         command.add_option("--out", arguments.out, "run folder (default runs/NAME, then NAME-2 ...); new or empty");
+        command.add_option("--plugin", arguments.libraries, "plugin library that is not beside the scenario; may be repeated")
+            ->expected(1)
+            ->allow_extra_args(false)
+            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
         command.add_option("--format", arguments.format, "format of the trace: h5 (default) or csv")
             ->check(CLI::IsMember({"h5", "csv"}));
         command.add_flag("--no-report", arguments.no_page, "write no report.html");

@@ -83,7 +83,7 @@ report::Verdict judged(const Scenario& scenario, const Recording& recording, con
     return verdict;
   }
   Catalog catalog = standard_catalog();  // the plugins of the run are already loaded
-  const StoredScenario same{"", scenario.file + " (its demand twin)", resolved(scenario)};
+  const StoredScenario same{"", scenario.file + " (its demand twin)", resolved(scenario, FilePaths::whole)};
   Scenario twin = read_stored(same, catalog, OtherPlugins::taken);
   if (!report::raise_limits(twin)) {
     verdict.demand_doubt = "the actuator declares no limits above 0 that could be raised";

@@ -3,6 +3,7 @@
 #include "core/build_id.h"
 #include "core/files/atomic_file.h"
 #include "core/recording/recording_file.h"
+#include "core/scenario/height_file.h"
 #include "core/scenario/resolved.h"
 #include "report/figures/run/run_figure.h"
 #include "report/page/page.h"
@@ -15,6 +16,9 @@ void RunWriter::write_text(const char* name, const std::function<std::string()>&
 }
 
 void RunWriter::write_run(const std::string& format, const Scenario& scenario, const Recording& recording) {
+  if (const Heightfield* relief = scenario.ground.relief(); needs_height_file(relief)) {
+    write(heights_name(*relief).c_str(), [&](const std::filesystem::path& file) { write_file(file, packed_heights(*relief)); });
+  }
   write(format == "csv" ? "trace.csv" : "trace.h5", [&](const std::filesystem::path& file) {
     write_recording(recording, {resolved(scenario), scenario.seed, build_id(), recording.outcome.text()}, format,
                     file.parent_path());

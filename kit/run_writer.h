@@ -33,7 +33,8 @@ class RunWriter {
     }
   }
   void write_text(const char* name, const std::function<std::string()>& text);
-  /// Writes trace.h5 or, if `format` is csv, trace.csv and recording.h5; and scenario.resolved.yaml.
+  /// Writes trace.h5 or, if `format` is csv, trace.csv and recording.h5; scenario.resolved.yaml; and the file of heights that
+  /// it names, if the ground has one.
   void write_run(const std::string& format, const Scenario& scenario, const Recording& recording);
   /// Writes figure.svg, verdict.json, with `page` report.html, and then summary.json, so that a folder with a summary is
   /// complete except for files that failed.

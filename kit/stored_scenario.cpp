@@ -51,17 +51,18 @@ StoredScenario stored_scenario(const std::string& run) {
                    "a CSV trace does not contain its scenario, and there is no file " + yaml.string());
 }
 
-std::vector<PluginChange> changed_plugins(const StoredScenario& stored) {
+std::vector<PluginChange> changed_plugins(const StoredScenario& stored, const Catalog& catalog) {
   std::vector<PluginChange> changed;
+  const std::string folder = fs::path(stored.shown).parent_path().string();
   for (const PluginFile& file : recorded_plugins(stored)) {
-    const std::string now = file_hash(file.path);
+    const std::string now = file_hash(plugin_path(file, folder, catalog));
     if (!now.empty() && now != file.hash) changed.push_back({file.path, file.hash, now});
   }
   return changed;
 }
 
 Scenario read_stored(const StoredScenario& stored, Catalog& catalog, OtherPlugins others, std::vector<std::string> sets) {
-  if (others == OtherPlugins::taken && !changed_plugins(stored).empty()) {
+  if (others == OtherPlugins::taken && !changed_plugins(stored, catalog).empty()) {
     nlohmann::json paths = nlohmann::json::array();  // JSON, which is valid YAML and quotes any character of a path
     for (const PluginFile& file : recorded_plugins(stored)) paths.push_back(file.path);
     sets.push_back("plugins=" + paths.dump());

@@ -22,7 +22,7 @@ StoredScenario stored_scenario(const std::string& run);
 struct PluginChange {
   std::string path, then, now;  ///< path, hash in the record, and present hash
 };
-std::vector<PluginChange> changed_plugins(const StoredScenario& stored);
+std::vector<PluginChange> changed_plugins(const StoredScenario& stored, const Catalog& catalog);
 
 /// Treatment of changed plugins: a rerun refuses them; a comparison accepts the present libraries.
 enum class OtherPlugins { refused, taken };

@@ -149,11 +149,12 @@ int evaluate_study(const EvaluateArguments& a) {
   // Installed before the folder is created, so that a signal cannot interrupt the creation.
   const StopOnSignal stop(StopOnSignal::Second::ends_the_process);
   const fs::path folder = studies::study_folder(a.out, "evaluate-" + plan.study().name, holds_study(head));
-  head.command = "gaitlab evaluate " + shell_word(a.file) + set_words(a.sets);
-  for (const std::string& other : a.answers) head.command += " --answers " + shell_word(other);
-  head.command += " --out " + shell_word(folder.string());
+  head.command = "gaitlab evaluate " + shell_word(told_path(a.file)) + set_words(a.sets);
+  for (const std::string& other : a.answers) head.command += " --answers " + shell_word(told_path(other));
+  head.command += " --out " + shell_word(told_path(folder.string()));
   const studies::Lock lock(folder / "lock");
   Journal journal(folder / studies::kJournalFile, head, a.accept_build ? Journal::Build::any : Journal::Build::same);
+  write_heights(plan, folder);
 
   const WatchReader reader;
   Replies replies(journal, plan.scorer().margins(), a.as_completed);

@@ -73,15 +73,15 @@ std::vector<std::string> known_methods() {
 }
 
 std::string search_goes_on(const OptimizeArguments& a, const fs::path& folder) {
-  std::string line = "gaitlab optimize " + shell_word(a.file);
+  std::string line = "gaitlab optimize " + shell_word(told_path(a.file));
   if (!a.method.empty()) line += " --method " + a.method;
   if (a.runs > 0) line += fmt::format(" --runs {}", a.runs);
   if (a.seed >= 0) line += fmt::format(" --seed {}", a.seed);
   if (a.ask) line += " --ask";
   if (a.seeds > 0) line += fmt::format(" --seeds {}", a.seeds);
   line += set_words(a.sets);
-  for (const std::string& answers : a.answers) line += " --answers " + shell_word(answers);
-  return line + " --out " + shell_word(folder.string());
+  for (const std::string& answers : a.answers) line += " --answers " + shell_word(told_path(answers));
+  return line + " --out " + shell_word(told_path(folder.string()));
 }
 
 /// Executes the runs of the study: those that the search requests or, if the method is not a search, those of all points.
@@ -259,6 +259,7 @@ int optimize_once(const OptimizeArguments& a) {
   std::error_code none;
   const bool begins = !std::filesystem::exists(folder / studies::kJournalFile, none);
   Journal journal(folder / studies::kJournalFile, head, taken_build(a));
+  write_heights(plan, folder);
   keep_runs(plan, journal, folder, a.quiet);
   if (begins && !a.ask) {
     note_engine(plan, a, a.quiet || a.noted);

@@ -10,7 +10,10 @@
 #include "app/study/study_text.h"
 #include "core/build_id.h"
 #include "core/errors.h"
+#include "core/files/atomic_file.h"
+#include "core/scenario/height_file.h"
 #include "core/settings/wording.h"
+#include "kit/shipped.h"
 #include "studies/plan/definition.h"
 
 namespace gaitlab::app {
@@ -60,6 +63,19 @@ std::string set_words(const std::vector<std::string>& sets) {
   return words;
 }
 
+std::string told_path(const std::string& path) {
+  const std::filesystem::path file = path;
+  for (const char* kind : {"study", "scenario"}) {
+    const std::map<std::string, std::string> shipped = kit::shipped_files(kind);
+    const auto named = shipped.find(file.stem().string());
+    if (named != shipped.end() && named->second == path) return named->first;
+  }
+  if (!file.is_absolute()) return path;
+  std::error_code failure;
+  const std::filesystem::path here = std::filesystem::proximate(file, failure);
+  return failure ? path : here.string();
+}
+
 Team& team() {
   static Team made;
   return made;
@@ -85,6 +101,16 @@ std::vector<studies::Answers> other_answers(const studies::Plan& plan, const Stu
   std::vector<studies::Answers> answers;
   for (const std::string& other : a.answers) answers.emplace_back(plan, other, build, taken_build(a));
   return answers;
+}
+
+void write_heights(const studies::Plan& plan, const std::filesystem::path& folder) {
+  for (const studies::StudyScenario& one : plan.scenarios()) {
+    const Heightfield* relief = one.nominal.ground.relief();
+    if (!needs_height_file(relief)) continue;
+    const std::filesystem::path file = folder / heights_name(*relief);
+    std::error_code none;
+    if (!std::filesystem::exists(file, none)) write_file(file, packed_heights(*relief));  // its name is that of its content
+  }
 }
 
 void keep_runs(studies::Plan& plan, studies::Journal& journal, const std::filesystem::path& folder, bool quiet) {

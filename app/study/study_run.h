@@ -28,6 +28,9 @@ void add_study_sets(CLI::App& command, std::vector<std::string>& sets);
 void add_sets(studies::Study& study, const std::vector<std::string>& sets);
 /// The options --set of a command line, with a space before each.
 std::string set_words(const std::vector<std::string>& sets);
+/// A path in a command line that a journal keeps, which tells no folder of this machine: the name of a shipped file, or the
+/// path relative to the current folder.
+std::string told_path(const std::string& path);
 
 /// Function that returns an executor for a team of processes.
 using Team =
@@ -63,6 +66,10 @@ void note_engine(const studies::Plan& plan, const StudyRunArguments& arguments, 
 
 /// Builds of the program whose journal rows are accepted.
 studies::Journal::Build taken_build(const StudyRunArguments& arguments);
+
+/// Writes the heights of the scenarios' ground into the folder of a study, from which `study rerun` reads them, unless the
+/// resolved scenario in its journal contains them.
+void write_heights(const studies::Plan& plan, const std::filesystem::path& folder);
 
 /// Raises the budget to the number of runs in the journal if the budget is smaller. Prints a note with the place `folder`
 /// unless `quiet`.

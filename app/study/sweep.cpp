@@ -117,6 +117,7 @@ int sweep_study(const SweepArguments& a) {
   // The trial runs are made only at the first start, so that a plugin that crashes in them does not prevent a continuation.
   const bool begins = !fs::exists(file, none);
   Journal journal(file, head, taken_build(a));
+  write_heights(plan, folder);
   keep_runs(plan, journal, folder, a.quiet);
   if (begins && shard.index == 0) {
     note_engine(plan, a, a.quiet);

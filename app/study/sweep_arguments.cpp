@@ -160,7 +160,7 @@ studies::Shard wanted_shard(const SweepArguments& a) {
 }
 
 std::string goes_on(const SweepArguments& a, const std::filesystem::path& folder) {
-  std::vector<std::string> words{"gaitlab", "sweep", a.file};
+  std::vector<std::string> words{"gaitlab", "sweep", told_path(a.file)};
   const auto add = [&](const char* option, const std::string& value) {
     words.emplace_back(option);
     words.push_back(value);
@@ -173,9 +173,9 @@ std::string goes_on(const SweepArguments& a, const std::filesystem::path& folder
   for (const std::string& set : a.sets) add("--set", set);
   for (const std::string& pattern : a.quantities) add("--show", pattern);
   if (a.seed) add("--seed", *a.seed);
-  for (const std::string& answers : a.answers) add("--answers", answers);
+  for (const std::string& answers : a.answers) add("--answers", told_path(answers));
   if (!a.shard.empty()) add("--shard", a.shard);
-  add("--out", folder.string());
+  add("--out", told_path(folder.string()));
   std::string line;
   for (const std::string& word : words) line += (line.empty() ? "" : " ") + shell_word(word);
   return line;

@@ -189,4 +189,16 @@ NumberTable read_npy(std::string_view bytes, std::size_t most) {
   return table;
 }
 
+std::string npy_head(std::size_t rows, std::size_t columns) {
+  constexpr std::size_t kStart = 10;  // size of magic text, version and length
+  constexpr std::size_t kUnit = 64;
+  std::string about = fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}", rows, columns);
+  about.append(kUnit - 1 - (kStart + about.size()) % kUnit, ' ');
+  about += '\n';
+  std::string head = std::string(kNpyMagic) + '\x01' + '\0';
+  head += static_cast<char>(about.size() % 256);
+  head += static_cast<char>(about.size() / 256);
+  return head + about;
+}
+
 }  // namespace gaitlab

@@ -34,12 +34,16 @@ struct HeightfieldFields {
     if (!writing || from_file) {  // finish_ground() reads the values
       f.text("file", field.source.file,
              "File with the heights: text, a row per line, numbers separated by commas or blanks; a matrix of numpy.save "
-             "(.npy: float32, float64 or integers, in C order); a PNG of 16 bit grey values. Up to 4096 x 4096; text, 1 MB. "
+             "(.npy: float32, float64 or integers, in C order), also compressed (.npy.gz); a PNG of 16 bit grey values. Up to "
+             "4096 x "
+             "4096; text, 1 MB. "
              "The first row has the least y.");
       f.number("scale", field.source.scale,
                {"m", 1e-12, 1e6, "Metres per unit of the numbers in `file`; a PNG needs it. Default: 1."});
-      f.text("hash", field.source.hash,
-             "Hash of `file`; a file with another hash is refused. Runs record it for more than 40000 heights.");
+      f.text(
+          "hash", field.source.hash,
+          "Hash of the heights; a file with others is refused. Runs record it for more than 40000 heights, which then are in a "
+          "file of the run folder.");
     }
     if (!writing || !from_file) {
       Rows rows;

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "core/files/atomic_file.h"
+#include "core/files/gzip.h"
 #include "core/files/hash.h"
 #include "core/files/number_table.h"
 #include "core/settings/grid.h"
@@ -21,12 +24,13 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kMostBytes = sizeof(double) * kMostHeights + (std::uintmax_t{1} << 20);
 
-enum class HeightFormat { text, npy, png };
+enum class HeightFormat { text, npy, npy_in_gzip, png };
 
 /// Format of a file, by its first bytes or its extension.
 HeightFormat format_of(const std::string& path, const std::string& start) {
   const fs::path extension = fs::path(path).extension();
   if (start.starts_with(kNpyMagic) || extension == ".npy") return HeightFormat::npy;
+  if (start.starts_with(kGzipMagic) || extension == ".gz") return HeightFormat::npy_in_gzip;
   if (start.starts_with(kPngMagic) || extension == ".png") return HeightFormat::png;
   return HeightFormat::text;
 }
@@ -39,7 +43,7 @@ class HeightFile {
 
   SourceLocation read(Heightfield& field) {
     std::optional<NumberTable> table = numbers();
-    if (!table || !is_of_record()) return place_;
+    if (!table) return place_;
     std::vector<double> heights = std::move(table->values);
     for (std::size_t i = 0; i < heights.size(); ++i) {
       heights[i] *= field.source.scale;
@@ -50,7 +54,8 @@ class HeightFile {
     }
     field.columns = table->columns;
     field.values = std::move(heights);
-    field.source.hash = hash_;
+    field.source.hash = heights_hash(field);
+    if (!is_of_record(field.source.hash)) return place_;
     field.source.file = fs::canonical(path_).string();
     if (field.values.size() <= kMostWritten) field.source = {};
     return place_;
@@ -66,10 +71,11 @@ class HeightFile {
                     fmt::format("file '{}' holds grey values from 0 to 65535; expected scale: metres of one", path_));
       return {};
     }
-    const std::string bytes = read_file(path_, kMostBytes);
-    hash_ = hash_words(bytes);
+    std::string bytes = read_file(path_, kMostBytes);
     place_ = {path_};
-    return format == HeightFormat::npy ? read_npy(bytes, kMostHeights) : read_grey_png(bytes, kMostHeights);
+    if (format == HeightFormat::npy_in_gzip) bytes = gunzip(bytes, kMostBytes);
+    hash_ = hash_words(bytes);
+    return format == HeightFormat::png ? read_grey_png(bytes, kMostHeights) : read_npy(bytes, kMostHeights);
   } catch (const TableError& error) {
     problems_.add({path_}, error.what());
     return {};
@@ -98,11 +104,12 @@ class HeightFile {
     return table;
   }
 
-  bool is_of_record() {
+  /// False, with a problem, if a hash is recorded that is neither that of the heights nor, as in older records, of the file.
+  bool is_of_record(const std::string& of_heights) {
     const Node* recorded = map_.find("hash");
-    if (recorded == nullptr || recorded->text == hash_) return true;
+    if (recorded == nullptr || recorded->text == of_heights || recorded->text == hash_) return true;
     problems_.add(recorded->place, fmt::format("file '{}' is not the recorded file: its hash is {}, but {} is recorded", path_,
-                                               hash_, clipped(recorded->text)));
+                                               of_heights, clipped(recorded->text)));
     return false;
   }
 
@@ -113,7 +120,32 @@ class HeightFile {
   SourceLocation place_ = file_.place;
 };
 
+/// The heights as bytes.
+std::string_view bytes_of(const Heightfield& field) {
+  static_assert(std::endian::native == std::endian::little);
+  const std::vector<double>& heights = field.values.list();
+  return {reinterpret_cast<const char*>(heights.data()), heights.size() * sizeof(double)};
+}
+
 }  // namespace
+
+std::string heights_hash(const Heightfield& field) {
+  const std::string head = npy_head(field.rows(), field.columns);
+  const std::string_view heights = bytes_of(field);
+  WordHash hash;
+  hash.add_length(head.size() + heights.size());
+  hash.add_words(head);
+  hash.add_words(heights);
+  return hash.text();
+}
+
+std::string heights_name(const Heightfield& field) { return fmt::format("heights-{}.npy.gz", field.source.hash); }
+
+std::string packed_heights(const Heightfield& field) {
+  std::string matrix = npy_head(field.rows(), field.columns);
+  matrix += bytes_of(field);
+  return gzip(matrix);
+}
 
 SourceLocation read_height_file(const Node& map, const std::string& folder, Heightfield& field, Problems& problems) {
   return HeightFile(map, folder, problems).read(field);

@@ -14,6 +14,15 @@ inline constexpr Spec kHeights{"m", -1e6, 1e6, "Heights, a row for each y, upwar
 inline constexpr std::size_t kMostWritten = 40000;
 inline constexpr std::size_t kMostHeights = 4096UL * 4096UL;  ///< most heights in a file
 
+/// Hash of the heights of a field, and with it the name of the file that holds them in a run folder.
+std::string heights_hash(const Heightfield& field);
+std::string heights_name(const Heightfield& field);
+
+/// True if there are more heights than a resolved scenario contains, which names a file of heights_name() instead.
+inline bool needs_height_file(const Heightfield* field) { return field != nullptr && !field->source.file.empty(); }
+/// The bytes of that file: a matrix of float64 as numpy.save writes it, compressed by gzip.
+std::string packed_heights(const Heightfield& field);
+
 /// Reads heights from a file and multiplies them by `field.source.scale`. `map` is the node of `ground.heightfield`, whose path
 /// is relative to `folder`. Sets `field.source` to the file if there are more heights than kMostWritten. Returns the place of
 /// the first height, for errors that concern all heights.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <vector>
@@ -45,15 +46,28 @@ bool read_entry(const Node& node, PluginEntry& entry, SourceLocation& place, Pro
   return problems.size() == before;
 }
 
+/// Paths of the libraries that the catalog has loaded or may load because the command line names them.
+std::vector<std::string> named_libraries(const Catalog& catalog) {
+  std::vector<std::string> paths(catalog.trust().files.begin(), catalog.trust().files.end());
+  for (const PluginKind& kind : kPluginKinds) {
+    for (const std::string& name : catalog.names(kind.kind)) {
+      const std::string path(catalog.find(kind.kind, name)->origin);
+      if (path != kBuiltIn && std::ranges::find(paths, path) == paths.end()) paths.push_back(path);
+    }
+  }
+  return paths;
+}
+
 void load(const PluginEntry& entry, const SourceLocation& place, const std::string& folder, Catalog& catalog,
           std::vector<PluginFile>& files, Problems& problems) {
-  const std::string path = path_from(folder, entry.path);
+  const std::string path = plugin_path({entry.path, entry.hash}, folder, catalog);
   std::error_code failure;
   const fs::path canonical = fs::canonical(path, failure);
   if (failure || !fs::is_regular_file(canonical, failure)) {
     const std::string why = failure ? failure.message() : "not a regular file";
-    problems.add(place, fmt::format("plugin '{}' cannot be loaded: {} (tried '{}')", clipped(entry.path), why,
-                                    fs::absolute(path).lexically_normal().string()));
+    problems.add(place, fmt::format("plugin '{}' cannot be loaded: {} (tried '{}'{})", clipped(entry.path), why,
+                                    fs::absolute(path).lexically_normal().string(),
+                                    entry.hash.empty() ? "" : "; a record has its name alone, so name the file with --plugin"));
     return;
   }
   if (const PluginTrust& trust = catalog.trust(); !trust.all && !trust.files.contains(canonical.string())) {
@@ -93,6 +107,19 @@ std::string file_hash(const std::string& path) {
   } catch (const InputError&) {
     return {};
   }
+}
+
+std::string plugin_path(const PluginFile& file, const std::string& folder, const Catalog& catalog) {
+  const std::string own = path_from(folder, file.path);
+  std::vector<std::string> paths;
+  for (std::string& path : named_libraries(catalog)) {
+    if (fs::path(path).filename() == fs::path(file.path).filename()) paths.push_back(std::move(path));
+  }
+  paths.push_back(own);
+  const auto same = std::ranges::find_if(paths, [&](const std::string& path) { return file_hash(path) == file.hash; });
+  if (!file.hash.empty() && same != paths.end()) return *same;
+  std::error_code none;
+  return fs::exists(own, none) ? own : paths.front();
 }
 
 std::vector<PluginFile> read_plugins(const Node& node, const std::string& folder, Catalog& catalog, Problems& problems) {

@@ -1,7 +1,11 @@
 #include "core/scenario/resolved.h"
 
+#include <filesystem>
+#include <variant>
+
 #include "core/scenario/change_section.h"
 #include "core/scenario/group_section.h"
+#include "core/scenario/height_file.h"
 #include "core/scenario/robot_section.h"
 #include "core/scenario/sections.h"
 #include "core/scenario/sensor_section.h"
@@ -10,12 +14,14 @@
 namespace gaitlab {
 namespace {
 
-Node plugins_node(const std::vector<PluginFile>& files) {
+Node plugins_node(const std::vector<PluginFile>& files, FilePaths paths) {
   Node node{Node::Kind::list};
   for (const PluginFile& file : files) {
     Node entry{Node::Kind::map};
     entry.keys = {{"path", {}}, {"hash", {}}};
-    entry.items = {text_node(file.path), scalar_node(file.hash, true)};
+    const std::string& path = file.path;
+    entry.items = {text_node(paths == FilePaths::whole ? path : std::filesystem::path(path).filename().string()),
+                   scalar_node(file.hash, true)};
     node.items.push_back(std::move(entry));
   }
   node.flow = node.items.empty();
@@ -30,15 +36,24 @@ Node robot_node(Scenario& scenario, const std::vector<std::string>& joints) {
   return writer.take();
 }
 
+/// Replaces the file of the heights by the one that a run folder contains, whose heights are in metres.
+void name_height_file(Ground& ground) {
+  auto* field = std::get_if<Heightfield>(&ground.shape);
+  if (!needs_height_file(field)) return;
+  field->source.file = heights_name(*field);
+  field->source.scale = 1;
+}
+
 }  // namespace
 
-std::string resolved(const Scenario& scenario) {
+std::string resolved(const Scenario& scenario, FilePaths paths) {
   Scenario copy = scenario;  // the visitor also reads scenarios, and therefore needs write access
+  if (paths == FilePaths::names) name_height_file(copy.ground);
   const std::vector<std::string> joints = joint_names(*scenario.robot);
   Writer writer(joints);
   writer.add("gaitlab", scalar_node("1"));
   writer.add("name", text_node(scenario.name));
-  writer.add("plugins", plugins_node(scenario.plugins));
+  writer.add("plugins", plugins_node(scenario.plugins, paths));
   writer.add("robot", robot_node(copy, joints));
   if (!scenario.groups.empty()) writer.add(kGroupsSection, groups_node(scenario.groups));  // older goldens do not contain it
   const Entry* actuator = scenario.actuator.entry;

@@ -315,6 +315,10 @@ class Plugins(InFolder):
         run = gaitlab.run(first)
         self.assertEqual(run.outcome, "done")
         folder = run.save()
+        with self.assertRaisesRegex(gaitlab.InputError, "a record has its name alone"):
+            gaitlab.read(folder, plugins="trust")
+        self.assertEqual(digest(gaitlab.read(folder, plugins=["wave.so"])), digest(run))
+        shutil.copy("wave.so", folder)
         with self.assertRaisesRegex(gaitlab.InputError, r'read\(..., plugins="trust"\)'):
             gaitlab.read(folder)
         self.assertEqual(digest(gaitlab.read(folder, plugins="trust")), digest(run))

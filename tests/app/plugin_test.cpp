@@ -31,7 +31,7 @@ class Plugins : public ::testing::Test {
 TEST_F(Plugins, ACpgOutOfTreeMovesTheRobotAndRunsAgainFromTheResolvedScenario) {
   folder.write("s.yaml", with("wave.so", "wave, coupling: 5"));
   ASSERT_EQ(gaitlab("run s.yaml --quiet --out a", folder / "").code, 0);
-  ASSERT_EQ(gaitlab("run a/scenario.resolved.yaml --quiet --out b", folder / "").code, 0);
+  ASSERT_EQ(gaitlab("run a/scenario.resolved.yaml --quiet --out b --plugin '" + kPlugins + "wave.so'", folder / "").code, 0);
   EXPECT_EQ(read(folder / "a/scenario.resolved.yaml"), read(folder / "b/scenario.resolved.yaml"));
   EXPECT_NE(read(folder / "a/scenario.resolved.yaml").find("coupling: 5"), std::string::npos);
   const auto hash = [&](const std::string& run) {

@@ -44,6 +44,13 @@ TEST_F(RefusedPlugins, WhatLooksAtAScenarioLoadsNone) {
 
 TEST_F(RefusedPlugins, WhatLooksAtARunLoadsNone) {
   ASSERT_EQ(call("run s.yaml --quiet --out a").code, 0);
+  const Result absent = call("report a --plugins-from-scenario");
+  EXPECT_EQ(absent.code, 2);
+  EXPECT_TRUE(contains(absent.err, "plugin 'wave.so' cannot be loaded: No such file or directory (tried '") &&
+              contains(absent.err, "; a record has its name alone, so name the file with --plugin)"))
+      << absent.err;
+  EXPECT_EQ(call("report a --plugin '" + library_ + "'").code, 0);
+  fs::copy_file(library_, folder_ / "a/wave.so");
   only_with_leave("export a --to gltf x.glb");
   only_with_leave("rerun a --quiet --out x");
   only_with_leave("rerun a --verify");
@@ -60,6 +67,7 @@ TEST_F(RefusedPlugins, WhatLooksAtARunLoadsNone) {
 TEST_F(RefusedPlugins, AStudyRunAgainLoadsNone) {
   ASSERT_EQ(call("sweep s.yaml --quiet --grid cpg.frequency=0.4:0.6:2 --out study").code, 0);
   EXPECT_EQ(call("study show study").code, 0);
+  fs::copy_file(library_, folder_ / "study/wave.so");
   only_with_leave("study rerun study 1 --out x");
 }
 

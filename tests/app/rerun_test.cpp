@@ -132,12 +132,12 @@ TEST_F(Rerun, AnotherPluginFileIsRefusedButComparedByVerify) {
   folder.write("p.yaml", "gaitlab: 1\nplugins: [" + library + "]\nrobot: {modules: mtran}\nduration: 0.1\ncpg: {type: wave}\n");
   ASSERT_EQ(gaitlab("run p.yaml --quiet --out p", folder / "").code, 0);
   std::ofstream(library, std::ios::binary | std::ios::app) << "one byte more";
-  const Result again = gaitlab("rerun p --quiet --out again --plugins-from-scenario", folder / "");
+  const Result again = gaitlab("rerun p --quiet --out again --plugin wave.so", folder / "");
   EXPECT_EQ(again.code, 2);
   EXPECT_TRUE(contains(again.err, "is not the recorded file: its hash is ")) << again.err;
-  const Result result = verify("p --plugins-from-scenario");
+  const Result result = verify("p --plugin '" + library + "'");
   EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_TRUE(contains(result.out, "plugin " + library + ": the file has changed: hash then ")) << result.out;
+  EXPECT_TRUE(contains(result.out, "plugin wave.so: the file has changed: hash then ")) << result.out;
 }
 
 /// Every command refuses a damaged trace with exit code 2 and a message with the file, and does not crash (also under

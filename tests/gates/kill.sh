@@ -207,14 +207,14 @@ kill_small() {
   in_the_middle run "$program" run s.yaml --out out
   at_every_call run 0 "$program" run s.yaml --quiet --out out
   mv out "$work/run"
-  in_the_middle rerun "$program" rerun "$work/run" --plugins-from-scenario --out out
-  at_every_call rerun 0 "$program" rerun "$work/run" --plugins-from-scenario --quiet --out out
+  in_the_middle rerun "$program" rerun "$work/run" --plugin "$(plugin waits)" --out out
+  at_every_call rerun 0 "$program" rerun "$work/run" --plugin "$(plugin waits)" --quiet --out out
   rm -r out
   in_the_middle swap "$program" swap s.yaml --cpg waits,sine --out out
   at_every_call swap 0 "$program" swap s.yaml --cpg waits,sine --out out
   rm -r out
-  at_every_call csv 0 "$program" export "$work/run" --plugins-from-scenario --to csv run.csv
-  at_every_call gltf 0 "$program" export "$work/run" --plugins-from-scenario --to gltf run.glb
+  at_every_call csv 0 "$program" export "$work/run" --plugin "$(plugin waits)" --to csv run.csv
+  at_every_call gltf 0 "$program" export "$work/run" --plugin "$(plugin waits)" --to gltf run.glb
   at_every_call mjcf 0 "$program" export s.yaml --plugins-from-scenario --to mjcf s.xml
   at_every_call "new plugin" 0 "$program" new plugin cpg mine --out new
   rm -r run.csv run.glb s.xml new

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "core/files/hash.h"
 #include "core/scenario/height_file.h"
 #include "core/scenario/resolved.h"
 #include "tests/core/scenario/fixture.h"
@@ -165,24 +166,41 @@ TEST_F(HeightFiles, OfMoreHeightsThanARecordHoldsAreNamedInIt) {
   EXPECT_EQ(s.ground.relief()->rows(), 250U);
   EXPECT_EQ(s.ground.relief()->values[976], 0.5 * 0.976);
   const std::string once = resolved(s);
-  EXPECT_NE(once.find(fmt::format("  heightfield:\n    file: {}\n    scale: 0.5\n    hash: {}\n    origin: [1, 2, 3]\n",
-                                  std::filesystem::canonical(file).string(), s.ground.relief()->source.hash)),
+  const std::string name = heights_name(*s.ground.relief());
+  EXPECT_NE(once.find(fmt::format("  heightfield:\n    file: {}\n    scale: 1\n    hash: {}\n    origin: [1, 2, 3]\n", name,
+                                  s.ground.relief()->source.hash)),
             std::string::npos)
       << once.substr(once.find("ground:"));
   EXPECT_EQ(once.find("values:"), std::string::npos);
   const Folder elsewhere;
   const std::string record = elsewhere.write("r.yaml", once);
+  elsewhere.write(name, packed_heights(*s.ground.relief()));
+  std::filesystem::remove(file);
   const Scenario again = read_scenario(record, {}, catalog_);
   EXPECT_EQ(resolved(again), once);
   EXPECT_EQ(again.ground.relief()->values.list(), s.ground.relief()->values.list());
-  numbers[0] = 7;
-  folder_.write("large.npy", matrix(250, 300, numbers));
-  const std::string other = test::message_of([&] { (void)read_scenario(record, {}, catalog_); });
-  EXPECT_NE(other.find("large.npy' is not the recorded file: its hash is "), std::string::npos) << other;
-  std::filesystem::remove(file);
-  EXPECT_NE(
-      test::message_of([&] { (void)read_scenario(record, {}, catalog_); }).find("cannot be read: No such file or directory"),
-      std::string::npos);
+  Heightfield other = *s.ground.relief();
+  other.values = std::vector<double>(other.values.size(), 7);
+  elsewhere.write(name, packed_heights(other));
+  const std::string refused = test::message_of([&] { (void)read_scenario(record, {}, catalog_); });
+  EXPECT_NE(refused.find(name + "' is not the recorded file: its hash is "), std::string::npos) << refused;
+  elsewhere.write(name, packed_heights(other).substr(0, 100));
+  const std::string cut = test::message_of([&] { (void)read_scenario(record, {}, catalog_); });
+  EXPECT_NE(cut.find(name + ": error: it"), std::string::npos) << cut;
+}
+
+// A text that this process reads again has the path of the file, and so have the records of older programs, with its own hash.
+TEST_F(HeightFiles, AreReadByTheirPathInTheSameProcessAndInOlderRecords) {
+  const std::string bytes = matrix(250, 300, std::vector<double>(250UL * 300UL, 3));
+  const std::string file = std::filesystem::canonical(folder_.write("large.npy", bytes)).string();
+  const Scenario s = read(ground("file: large.npy, scale: 0.5"));
+  const Folder elsewhere;
+  const std::string whole = resolved(s, FilePaths::whole);
+  EXPECT_NE(whole.find("file: " + file + "\n    scale: 0.5\n"), std::string::npos) << whole.substr(whole.find("ground:"));
+  EXPECT_EQ(resolved(read_scenario(elsewhere.write("r.yaml", whole), {}, catalog_)), resolved(s));
+  std::string older = whole;
+  older.replace(older.find(s.ground.relief()->source.hash), 16, hash_words(bytes));
+  EXPECT_EQ(resolved(read_scenario(elsewhere.write("older.yaml", older), {}, catalog_)), resolved(s));
 }
 
 TEST_F(HeightFiles, AreRefusedWithWhatTheyHold) {
