@@ -29,11 +29,11 @@ void add_names(const std::string& folder, std::vector<std::string>& names) {
   }
 }
 
-/// Name of the shipped type for its name with .yaml; "" for other texts.
-std::string shipped_name(const std::string& text) {
-  const std::string name = fs::path(text).stem().string();
+/// Name of the shipped type whose file has the name of this path; "" for other paths.
+std::string shipped_name(const std::string& path) {
+  const std::string name = fs::path(path).stem().string();
   std::error_code none;
-  const bool shipped = text == name + ".yaml" && fs::exists(data_folder() + "/modules/" + text, none);
+  const bool shipped = path.ends_with(name + ".yaml") && fs::exists(data_folder() + "/modules/" + name + ".yaml", none);
   return shipped ? name : "";
 }
 
@@ -85,7 +85,7 @@ std::optional<std::size_t> TypeLibrary::find(const Node& node) {
   const std::string path = path_from(folder_, node.text);
   if (const std::string name = shipped_name(node.text); !name.empty() && !fs::exists(path)) {
     if (seen_.emplace("no file " + path, Index{}).second)
-      problems_.add(node.place, fmt::format("there is no file '{}'; did you mean {}, without .yaml?", path, in_quotes(name)));
+      problems_.add(node.place, fmt::format("there is no file '{}'; modules: {} names the shipped one", path, name));
     return {};
   }
   return read_file(path, node.place);

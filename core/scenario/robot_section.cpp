@@ -55,9 +55,12 @@ std::vector<Dock> read_connections(Reader& reader, const std::string& folder, Pr
   const std::string path = build_path(folder, name.value);
   const std::string stem = std::filesystem::path(name.value).stem().string();
   std::error_code none;
-  if (name.value == stem + ".dat" && !std::filesystem::exists(path, none) && build_path(folder, stem).ends_with(".dat")) {
-    problems.add(build->place, fmt::format("there is no file '{}'; did you mean {}, without .dat?", path, in_quotes(stem)));
-    return {};
+  if (name.value.ends_with(".dat") && !std::filesystem::exists(path, none)) {
+    const bool shipped = std::filesystem::exists(fmt::format("{}/robots/{}.dat", data_folder(), stem), none);
+    if (shipped) {
+      problems.add(build->place, fmt::format("there is no file '{}'; build: {} names the shipped one", path, stem));
+      return {};
+    }
   }
   std::vector<Dock> rows;
   Problems found;

@@ -14,9 +14,9 @@ physics: {engine: articulated}
 cpg: {type: phase_oscillator, frequency: 1, amplitude: 0.6}
 duration: 0.2
 END
-# begin FILE: starts a watch. number, height: of stamp.svg.
+# begin FILE [OPTIONS]: starts a watch. number, height: of stamp.svg.
 begin() {
-  "$program" watch "$1" --out seen >out 2>err &
+  "$program" watch "$@" --out seen >out 2>err &
   watcher=$!
 }
 trap 'kill "$watcher" 2>/dev/null || true; rm -rf -- "$work"' EXIT
@@ -122,4 +122,13 @@ for file in absent.yaml modules/mtran.yaml; do
   ((code == 2)) && [[ ! -e fresh ]] || bad "watch $file: exit code $code, $(<err)"
 done
 ok "watch: other folders and files are refused"
+
+# A copy of a shipped scenario, alone in a folder.
+mkdir copy && cp -- "$root/scenarios/hexapod.yaml" copy/my.yaml && cd copy
+begin my.yaml --set duration=0.2 --set physics.engine=articulated
+wait_for "$watcher" "a run of a copy" have_runs 1
+is_height 1 && in_page || bad "a copy of scenarios/hexapod.yaml: $(<err)"
+kill -TERM "$watcher"
+wait "$watcher" || true
+ok "watch: a copy of a shipped scenario"
 verdict
