@@ -38,8 +38,8 @@ void add_new_files(Commands& commands, CLI::App& command);
 void add_joint(CLI::App& command, std::vector<std::string>& joints);
 void draw_joints(Scenario& scenario, const std::vector<std::string>& joints);
 
-/// Adds the arguments of every command that reads a scenario.
-void add_scenario(CLI::App& command, ScenarioArguments& arguments);
+/// Adds the arguments of every command that reads a scenario. `named` is the path of the file that a user names.
+void add_scenario(CLI::App& command, ScenarioArguments& arguments, std::string (*named)(const std::string&) = named_file);
 
 /// Adds `--plugins-from-scenario` and `--plugin`.
 void add_trust(CLI::App& command, PluginArguments& allowed);

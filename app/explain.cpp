@@ -179,10 +179,15 @@ std::string explain_named(const std::string& kind_name, const std::string& name,
     refuse_unknown("explain", "kind", kind_name, known);
   }
   const std::vector<std::string> names = kind->names(catalog);
-  if (std::ranges::find(names, name) != names.end()) return kind->manual(name, catalog);
+  const bool known = std::ranges::find(names, name) != names.end();
   const bool module = kind->name == "module";
   std::error_code none;
-  if (module && (name.ends_with(".yaml") || std::filesystem::exists(name, none))) return module_manual(name, catalog);
+  const bool file = std::filesystem::exists(name, none) && !std::filesystem::is_directory(name, none);
+  if (module && (name.ends_with(".yaml") || file)) {
+    if (known) say(name, "note", "is the file of that name, not the module type that comes with gaitlab");
+    return module_manual(name, catalog);
+  }
+  if (known) return kind->manual(name, catalog);
   const bool plugin = find_kind(kind->name) != nullptr && !plugins;
   refuse_unknown("explain", kind->name, name, names,
                  module   ? "; name a type that you wrote by its file"

@@ -131,7 +131,7 @@ void add_export(Commands& commands) {
                 "csv: run folder or trace file; gltf: the same, or a scenario file; mjcf, urdf: scenario file, or a name "
                 "of `gaitlab list scenarios`")
             ->required()
-            ->transform(named_file);
+            ->transform(named_file_or_run);
         command
             .add_option(
                 "--to", arguments.format,

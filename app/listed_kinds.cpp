@@ -9,6 +9,7 @@
 #include "app/module_table.h"
 #include "core/scenario/manual.h"
 #include "core/scenario/read_scenario.h"
+#include "core/settings/shipped_files.h"
 #include "core/settings/text_file.h"
 #include "core/settings/wording.h"
 #include "report/figures/paper/panel_kinds.h"

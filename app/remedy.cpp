@@ -132,7 +132,7 @@ void add_remedy(Commands& commands) {
       commands, "remedy",
       "Search the settings that would make a gait feasible, one at a time; of a feasible gait, its reserves.", remedy,
       [](CLI::App& command, RemedyArguments& arguments) {
-        add_scenario(command, arguments);
+        add_scenario(command, arguments, named_file_or_run);
         command.get_option("SCENARIO")->description("scenario file (YAML), or a run folder");
         command.add_option("--out", arguments.out, "run folder (default runs/NAME, then NAME-2 ...); new or empty");
         command.add_flag("--no-report", arguments.no_page, "write no report.html");

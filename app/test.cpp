@@ -308,7 +308,7 @@ void add_test(Commands& commands) {
             .add_option("SCENARIO", arguments.scenarios,
                         "scenario files, names of `gaitlab list scenarios`, or folders (default: scenarios)")
             ->check(not_empty)
-            ->transform(named_file);
+            ->transform(named_file_or_folder);
         command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
         command.add_option("--junit", arguments.junit, "also write the result as JUnit XML to this file")->check(not_empty);
         command.add_option("--engine", arguments.engine,

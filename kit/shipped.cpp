@@ -3,55 +3,46 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
+#include <vector>
 
 #include "core/errors.h"
-#include "core/settings/data_folder.h"
+#include "core/files/file_kind.h"
+#include "core/settings/shipped_files.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab::kit {
 
-namespace {
-
 namespace fs = std::filesystem;
 
-/// Folders of the data, and ending of the files in them, by kind.
-struct ShippedKind {
-  const char* kind;
-  std::array<const char*, 2> folders;
-  const char* ending;
-};
-constexpr ShippedKind kShipped[] = {{"module", {"modules", nullptr}, ".yaml"},
-                                    {"robot", {"robots", nullptr}, ".dat"},
-                                    {"scenario", {".", "library"}, ".yaml"},
-                                    {"study", {"studies", nullptr}, ".yaml"}};
+namespace {
 
-}  // namespace
+enum class Folders { none, runs, all };
 
-std::map<std::string, std::string> shipped_files(const std::string& kind) {
-  std::map<std::string, std::string> files;
-  const ShippedKind& shipped = *std::ranges::find(kShipped, kind, &ShippedKind::kind);
-  for (const char* folder : shipped.folders) {
-    if (folder == nullptr) continue;
-    std::error_code none;  // an installation without data has an empty list
-    for (const auto& file : fs::directory_iterator((fs::path(data_folder()) / folder).lexically_normal(), none)) {
-      if (file.path().extension() == shipped.ending)
-        files[file.path().stem().string()] = file.path().lexically_normal().string();
-    }
-  }
-  return files;
+/// Path that a word means if both a file or folder and a shipped scenario or study have this name. Prints a note on the choice.
+std::string one_of_two(const std::string& word, const std::string& shipped, Folders taken) {
+  std::error_code none;
+  const bool folder = fs::is_directory(word, none);
+  const bool own = !folder || taken == Folders::all || (taken == Folders::runs && kind_of_file(word) == FileKind::run);
+  say(word, "note",
+      own ? fmt::format("is the {} of that name, not the one that comes with gaitlab", folder ? "folder" : "file")
+          : "is the one that comes with gaitlab; the folder of that name is not a scenario");
+  return own ? word : shipped;
 }
 
-std::string named_file(const std::string& word) {
+std::string named(const std::string& word, Folders taken) {
   std::error_code none;
-  if (word.empty() || fs::exists(word, none) || word.find('/') != std::string::npos) return word;
+  if (word.empty() || word.find('/') != std::string::npos) return word;
   std::vector<std::string> known;
+  std::string shipped;
   for (const char* kind : {"scenario", "study"}) {
-    const std::map<std::string, std::string> files = shipped_files(kind);
-    if (const auto file = files.find(word); file != files.end()) return file->second;
-    for (const auto& [name, path] : files) known.push_back(name);
+    for (const auto& [name, path] : shipped_files(kind)) {
+      known.push_back(name);
+      if (name == word && shipped.empty()) shipped = path;
+    }
   }
+  if (fs::exists(word, none)) return shipped.empty() ? word : one_of_two(word, shipped, taken);
+  if (!shipped.empty()) return shipped;
   const std::string name = fs::path(word).stem().string();
   const bool bare = name == word || word == name + ".yaml";
   if (bare && shipped_files("module").contains(name)) {
@@ -69,5 +60,11 @@ std::string named_file(const std::string& word) {
   throw InputError(SourceLocation{word}, "there is no such file; did you mean " + in_quotes(near) +
                                              ", which comes with gaitlab (gaitlab list scenarios)?");
 }
+
+}  // namespace
+
+std::string named_file(const std::string& word) { return named(word, Folders::none); }
+std::string named_file_or_run(const std::string& word) { return named(word, Folders::runs); }
+std::string named_file_or_folder(const std::string& word) { return named(word, Folders::all); }
 
 }  // namespace gaitlab::kit

@@ -1,14 +1,15 @@
-// Files that are shipped with the program, and names of them.
+// Scenarios, studies and folders that the command line names.
 #pragma once
-#include <map>
 #include <string>
 
 namespace gaitlab::kit {
 
-/// Files that are shipped with the program, of `kind` module, robot, scenario or study, as a map from name to file.
-std::map<std::string, std::string> shipped_files(const std::string& kind);
-/// File that a user names: a path or, if there is no such file, the name of a shipped scenario or study. Throws
-/// InputError for a name that is similar to one of them; other names are returned.
+/// File that a user names: a path or, if there is no such file, the name of a shipped scenario or study. A folder is not a
+/// scenario. Prints a note if both exist. Throws InputError for a name that is similar to a shipped one; other names are
+/// returned.
 std::string named_file(const std::string& word);
+/// The same for commands that take a run folder, and for those that take any folder.
+std::string named_file_or_run(const std::string& word);
+std::string named_file_or_folder(const std::string& word);
 
 }  // namespace gaitlab::kit

@@ -12,7 +12,9 @@
 #include "app/run_time.h"
 #include "app/scenario_values.h"
 #include "app/study/study_text.h"
+#include "core/robot_files/type_library.h"
 #include "core/scenario/read_scenario.h"
+#include "core/settings/shipped_files.h"
 #include "core/settings/wording.h"
 #include "core/settings/writer.h"
 #include "core/simulation/simulation.h"
@@ -84,14 +86,32 @@ int new_module(const NewFileArguments& arguments) {
 /// A module type as the command line names it.
 struct NamedModule {
   std::string file;
-  bool shipped;
+  bool by_name;  ///< a scenario takes its name; else the path of the file
 };
 
-NamedModule named_module(const std::string& name) {
+/// Folder of the new scenario.
+fs::path folder_of(const NewFileArguments& arguments) {
+  const fs::path folder = fs::path(arguments.out.value_or(arguments.name)).parent_path();
+  return folder.empty() ? fs::path(".") : folder;
+}
+
+/// The module type by the order of every name: a file of that name, one that the scenario would find, the shipped one.
+NamedModule named_module(const NewFileArguments& arguments) {
+  const std::string& name = arguments.module;
   const std::map<std::string, std::string> shipped = shipped_files("module");
-  if (const auto known = shipped.find(name); known != shipped.end()) return {known->second, true};
+  const auto known = shipped.find(name);
   std::error_code none;
-  if (fs::exists(name, none)) return {name, false};
+  const bool file = fs::exists(name, none) && !fs::is_directory(name, none);
+  if (file && known != shipped.end())
+    say(name, "note", "is the file of that name, not the module type that comes with gaitlab");
+  if (file) return {name, false};
+  if (known != shipped.end()) {
+    Problems problems;
+    const TypeLibrary library(folder_of(arguments).string(), problems);
+    const FileOfName found = library.named_file(name).value_or(FileOfName{known->second});
+    if (const std::string hidden = note_of_hidden(name, found); !hidden.empty()) say("--module", "note", hidden);
+    return {found.path, true};
+  }
   std::vector<std::string> names;
   for (const auto& [one, path] : shipped) names.push_back(one);
   const std::string near = nearest(name, names);
@@ -103,10 +123,9 @@ NamedModule named_module(const std::string& name) {
 
 /// Value of `robot.modules`: the name of a shipped module, or the path of a file from the folder of the scenario.
 std::string module_value(const NamedModule& module, const NewFileArguments& arguments) {
-  if (module.shipped) return arguments.module;
-  const fs::path folder = fs::path(arguments.out.value_or(arguments.name)).parent_path();
+  if (module.by_name) return arguments.module;
   std::error_code none;
-  std::string path = fs::relative(module.file, folder.empty() ? fs::path(".") : folder, none).string();
+  std::string path = fs::relative(module.file, folder_of(arguments), none).string();
   if (none || path.empty()) path = fs::absolute(module.file).string();
   if (path.find('/') == std::string::npos) path = "./" + path;  // marks the text as a file
   return yaml_text(path);
@@ -147,7 +166,7 @@ struct NewRobot {
 
 NewRobot new_robot(const NewFileArguments& arguments, Catalog& catalog) {
   constexpr int kMost = 4;  // modules, if the user asks for no number
-  NewRobot robot{named_module(arguments.module), {}, {}};
+  NewRobot robot{named_module(arguments), {}, {}};
   robot.one = read_module(robot.module.file, catalog);
   check_driven(robot.type(), robot.module.file);
   robot.docks = chain(robot.one, arguments.count.value_or(modules_carried(robot.one, kMost)));

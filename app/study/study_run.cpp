@@ -12,8 +12,8 @@
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
 #include "core/scenario/height_file.h"
+#include "core/settings/shipped_files.h"
 #include "core/settings/wording.h"
-#include "kit/shipped.h"
 #include "studies/plan/definition.h"
 
 namespace gaitlab::app {
@@ -66,7 +66,7 @@ std::string set_words(const std::vector<std::string>& sets) {
 std::string told_path(const std::string& path) {
   const std::filesystem::path file = path;
   for (const char* kind : {"study", "scenario"}) {
-    const std::map<std::string, std::string> shipped = kit::shipped_files(kind);
+    const std::map<std::string, std::string> shipped = shipped_files(kind);
     const auto named = shipped.find(file.stem().string());
     if (named != shipped.end() && named->second == path) return named->first;
   }

@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include "core/files/file_kind.h"
-#include "core/files/files_read.h"
 #include "core/robot_files/module_file.h"
 #include "core/settings/data_folder.h"
 #include "core/settings/text_file.h"
@@ -97,17 +96,15 @@ std::optional<std::size_t> TypeLibrary::find_name(const Node& node) {
   if (const auto defined = defined_.find(node.text); defined != defined_.end()) {
     return seen->second = read(*defined->second, false, problems_);
   }
+  const bool is_file_name = is_name(node.text, "_-");
+  if (const auto file = is_file_name ? named_file(node.text) : std::nullopt) {
+    if (std::string hidden = note_of_hidden(node.text, *file); !hidden.empty())
+      notes.push_back({node.place, std::move(hidden)});
+    return seen->second = read_file(file->path, node.place);
+  }
   std::vector<std::string> known;
   for (const auto& [name, type] : defined_) known.push_back(name);
-  for (const std::string& folder : search_folders()) {
-    const std::string path = folder + "/" + node.text + ".yaml";
-    std::error_code failure;
-    if (is_name(node.text, "_-")) FilesRead::note(path);  // a file that is made there later changes the robot
-    if (is_name(node.text, "_-") && fs::exists(path, failure)) return seen->second = read_file(path, node.place);
-    add_names(folder, known);
-  }
-  const std::string beside = path_from(folder_, node.text + ".yaml");
-  if (is_name(node.text, "_-") && kind_of_file(beside) == FileKind::module) return seen->second = read_file(beside, node.place);
+  for (const std::string& folder : search_folders()) add_names(folder, known);
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());
   Problem& problem = problems_.add(node.place, "no module type " + in_quotes(node.text) + offer(node.text, known, "types"));
@@ -118,6 +115,16 @@ std::optional<std::size_t> TypeLibrary::find_name(const Node& node) {
         node.place, "the data of the program are missing; GAITLAB_DATA names another folder with modules/ and robots/");
   }
   return {};
+}
+
+std::optional<FileOfName> TypeLibrary::named_file(const std::string& name) const {
+  std::vector<std::string> own;
+  for (const std::string& folder : search_folders()) own.push_back(folder + "/" + name + ".yaml");
+  const std::string shipped = std::move(own.back());
+  own.pop_back();
+  const std::string beside = path_from(folder_, name + ".yaml");  // which may be the scenario itself
+  if (kind_of_file(beside) == FileKind::module) own.push_back(beside);
+  return file_of_name(own, shipped);
 }
 
 std::optional<std::size_t> TypeLibrary::read_file(const std::string& path, const SourceLocation& asked_at) {

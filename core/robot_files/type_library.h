@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/model/module_type.h"
+#include "core/settings/file_of_name.h"
 #include "core/settings/node.h"
 
 namespace gaitlab {
@@ -22,11 +23,15 @@ class TypeLibrary {
   /// reported once per type. The nodes must outlive the library.
   std::optional<std::size_t> find(const Node& node);
 
+  /// File of a type's name: the user's own or the shipped one.
+  [[nodiscard]] std::optional<FileOfName> named_file(const std::string& name) const;
+
   /// True if a map is an inline type, and false if it is a map of types by module number.
   static bool is_inline(const Node& map);
 
   std::vector<ModuleType> types;
   std::vector<Node> documents;
+  std::vector<Problem> notes;  ///< names that mean other files than the shipped ones
 
  private:
   using Index = std::optional<std::size_t>;
@@ -34,6 +39,7 @@ class TypeLibrary {
   Index find_name(const Node& node);
   Index read_file(const std::string& path, const SourceLocation& asked_at);
   Index read(const Node& document, bool versioned, Problems& problems);
+  /// Folders of module types; the last one is that of the shipped types.
   [[nodiscard]] std::vector<std::string> search_folders() const;
 
   std::string folder_;

@@ -127,6 +127,7 @@ class ScenarioReader {
     reader.elsewhere(&elsewhere, "robot");
     if (node->kind != Node::Kind::map) return;
     RobotParts parts = read_robot(reader, node->place, folder_, problems_);
+    for (const Problem& note : parts.notes) scenario_.notes.push_back({note.place, note.text});
     BaseFields base{scenario_};
     base.fields(reader);
     reader.finish();

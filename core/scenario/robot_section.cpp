@@ -12,6 +12,7 @@
 #include "core/robot_files/type_library.h"
 #include "core/scenario/plugin_files.h"
 #include "core/settings/data_folder.h"
+#include "core/settings/file_of_name.h"
 #include "core/settings/text_file.h"
 #include "core/settings/value.h"
 #include "core/settings/wording.h"
@@ -20,24 +21,21 @@
 namespace gaitlab {
 namespace {
 
-/// Path of a build file, or of a robot by its name as in `gaitlab list robot`. A named robot belongs to the program, or is
-/// beside the scenario or in a folder robots/ beside it.
-std::string build_path(const std::string& folder, const std::string& name) {
-  std::string path = path_from(folder, name);
-  std::error_code none;
-  if (std::filesystem::exists(path, none) || name.find_first_of("/.") != std::string::npos) return path;
-  for (const std::string& robots :
-       {path_from(folder, "."), path_from(folder, "robots"), path_from(folder, "../robots"), data_folder() + "/robots"}) {
-    std::string named = robots + "/" + name + ".dat";
-    if (std::filesystem::exists(named, none)) return named;
-  }
-  return path;
+/// A build file, or a robot by its name as in `gaitlab list robot`: a file of that name, beside the scenario or in a folder
+/// robots/ beside it, or else the shipped one.
+FileOfName build_file(const std::string& folder, const std::string& name) {
+  const std::string path = path_from(folder, name);
+  if (name.find_first_of("/.") != std::string::npos) return {path};
+  std::vector<std::string> own{path};
+  for (const char* robots : {".", "robots", "../robots"})
+    own.push_back(path_from(folder, fmt::format("{}/{}.dat", robots, name)));
+  return file_of_name(own, data_folder() + "/robots/" + name + ".dat").value_or(FileOfName{path});
 }
 
 /// Largest number of bodies of a robot. `gaitlab check` takes 55 kB and 1 ms for each body, thus 2 GB and 40 s for this number.
 constexpr std::size_t kMostBodies = 40000;
 
-std::vector<Dock> read_connections(Reader& reader, const std::string& folder, Problems& problems) {
+std::vector<Dock> read_connections(Reader& reader, const std::string& folder, std::vector<Problem>& notes, Problems& problems) {
   const Node* build = reader.take("build");
   const Node* docks = reader.take("docks");
   if (build != nullptr && docks != nullptr) {
@@ -52,7 +50,10 @@ std::vector<Dock> read_connections(Reader& reader, const std::string& folder, Pr
     problems.add(build->place, fmt::format("build is {}; expected a build file", found(*build)));
     return {};
   }
-  const std::string path = build_path(folder, name.value);
+  const FileOfName file = build_file(folder, name.value);
+  const std::string& path = file.path;
+  if (std::string hidden = note_of_hidden(name.value, file); !hidden.empty())
+    notes.push_back({build->place, std::move(hidden)});
   const std::string stem = std::filesystem::path(name.value).stem().string();
   std::error_code none;
   if (name.value.ends_with(".dat") && !std::filesystem::exists(path, none)) {
@@ -221,7 +222,7 @@ RobotParts read_robot(Reader& reader, const SourceLocation& place, const std::st
   RobotParts parts;
   TypeLibrary library(folder, problems);
   if (const Node* types = reader.take("types")) library.define(*types);
-  const std::vector<Dock> docks = read_connections(reader, folder, problems);
+  const std::vector<Dock> docks = read_connections(reader, folder, parts.notes, problems);
   // The rows determine the number of modules, so that after a wrong row every module number could seem wrong.
   const bool counted = problems.size() == before;
   Node reference{Node::Kind::scalar, place};
@@ -238,6 +239,7 @@ RobotParts read_robot(Reader& reader, const SourceLocation& place, const std::st
   try {
     parts.robot = std::make_shared<const Robot>(assemble(std::move(library.types), type_of_module, docks));
     parts.documents = std::move(library.documents);
+    parts.notes.insert(parts.notes.end(), library.notes.begin(), library.notes.end());
   } catch (const InputError& e) {
     add_all(e, problems);
   }

@@ -15,6 +15,7 @@ inline constexpr const char* kDefaultType = "mtran";  ///< default type of the m
 struct RobotParts {
   std::shared_ptr<const Robot> robot = {};
   std::vector<Node> documents = {};  ///< documents of the module types, one per entry of Robot::types
+  std::vector<Problem> notes = {};   ///< names of modules and robots that mean other files than the shipped ones
 };
 
 /// Reads a robot. `reader` is at the map `robot`, and `folder` is that of the scenario file.

@@ -87,7 +87,7 @@ TEST_F(NewFiles, TheGainOfTheExampleIsTheUsualOne) {
 }
 
 TEST_F(NewFiles, EveryModuleWithAMotorGetsAFeasibleGait) {
-  for (const auto& [name, file] : app::shipped_files("module")) {
+  for (const auto& [name, file] : shipped_files("module")) {
     const Result made = call("scenario s --module " + name);
     if (name == "revolve_brick" || name == "revolve_core") {
       EXPECT_EQ(made.err, file + ": error: module '" + name +

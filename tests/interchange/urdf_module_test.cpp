@@ -56,7 +56,7 @@ const BodyType& body_of(const ModuleType& type, const std::string& name) {
 
 /// Masses, centres of mass, inertias, hinges and motors of every shipped module come back to the last digit.
 TEST_F(FromUrdf, ShippedModulesComeBack) {
-  for (const auto& [name, file] : app::shipped_files("module")) {
+  for (const auto& [name, file] : shipped_files("module")) {
     const Scenario one = scenario("robot: {modules: " + name + "}\ncontact: {on: none}\nduration: 1\n");
     const ModuleType& type = one.robot->types[0];
     const ModuleType back = module_in(module_of_urdf(folder_.write("m.urdf", to_urdf(one)), name));

@@ -1,0 +1,42 @@
+#include "core/settings/shipped_files.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "core/settings/data_folder.h"
+
+namespace gaitlab {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Folders of the data, and ending of the files in them, by kind.
+struct ShippedKind {
+  const char* kind;
+  std::array<const char*, 2> folders;
+  const char* ending;
+};
+constexpr ShippedKind kShipped[] = {{"module", {"modules", nullptr}, ".yaml"},
+                                    {"robot", {"robots", nullptr}, ".dat"},
+                                    {"scenario", {".", "library"}, ".yaml"},
+                                    {"study", {"studies", nullptr}, ".yaml"}};
+
+}  // namespace
+
+std::map<std::string, std::string> shipped_files(const std::string& kind) {
+  std::map<std::string, std::string> files;
+  const ShippedKind& shipped = *std::ranges::find(kShipped, kind, &ShippedKind::kind);
+  for (const char* folder : shipped.folders) {
+    if (folder == nullptr) continue;
+    std::error_code none;  // an installation without data has an empty list
+    for (const auto& file : fs::directory_iterator((fs::path(data_folder()) / folder).lexically_normal(), none)) {
+      if (file.path().extension() == shipped.ending)
+        files[file.path().stem().string()] = file.path().lexically_normal().string();
+    }
+  }
+  return files;
+}
+
+}  // namespace gaitlab

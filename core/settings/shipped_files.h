@@ -1,0 +1,11 @@
+// Files that are shipped with the program, by kind and name.
+#pragma once
+#include <map>
+#include <string>
+
+namespace gaitlab {
+
+/// Files that are shipped with the program, of `kind` module, robot, scenario or study, as a map from name to file.
+std::map<std::string, std::string> shipped_files(const std::string& kind);
+
+}  // namespace gaitlab
