@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/files/atomic_file.h"
 #include "core/scenario/resolved.h"
+#include "core/settings/shipped_files.h"
 #include "core/settings/text_file.h"
 #include "core/settings/wording.h"
 
@@ -36,15 +38,32 @@ InputError without_quotes(const InputError& error, const std::filesystem::path& 
   return InputError(told.list());
 }
 
+/// True, with a problem at the place in the study, if a scenario that a study file names cannot be read.
+bool is_unreadable(const NamedScenario& named, Problems& problems) {
+  if (named.place.file.empty()) return false;
+  try {
+    static_cast<void>(read_start(named.file, 1));
+    return false;
+  } catch (const InputError& error) {
+    std::vector<std::string> names;
+    for (const auto& [name, path] : shipped_files("scenario")) names.push_back(name);
+    const std::string near = gaitlab::nearest(std::filesystem::path(named.file).stem().string(), names);
+    problems.add(named.place, fmt::format("file '{}' {}{}", named.file, error.problems().front().text,
+                                          near.empty() ? "" : fmt::format("; scenario: {} names a shipped one", near)));
+    return true;
+  }
+}
+
 }  // namespace
 
 std::vector<StudyScenario> read_scenarios(const Study& study, Catalog& catalog) {
   std::vector<NamedScenario> files = study.scenarios;
-  if (files.empty()) files.push_back({"", study.scenario});
+  if (files.empty()) files.push_back({"", study.scenario, study.scenario_place});
   std::vector<StudyScenario> scenarios;
   std::vector<Problems> found(files.size());
   for (std::size_t k = 0; k < files.size(); ++k) {
     StudyScenario& one = scenarios.emplace_back(StudyScenario{files[k].name});
+    if (is_unreadable(files[k], found[k])) continue;
     try {
       one.file = std::make_unique<ScenarioTemplate>(files[k].file, study.sets, catalog);
       one.nominal = one.file->with({});

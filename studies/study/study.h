@@ -128,11 +128,13 @@ struct Verify {
 /// One of several scenarios of a study. Every point runs in each of them.
 struct NamedScenario {
   std::string name, file;
+  SourceLocation place = {};  ///< at which the study names the file
 };
 
 struct Study {
   std::string name, file;  ///< name of the study, and path of its file; the path is empty for a study from the command line
   std::string scenario;    ///< file of the scenario, if there is only one
+  SourceLocation scenario_place = {};    ///< at which the study names it; empty for one from the command line
   std::vector<NamedScenario> scenarios;  ///< scenarios, if there are several
   std::vector<std::string> sets;
   std::vector<SourceLocation> set_places;  ///< places of settings that a study file contains

@@ -10,7 +10,10 @@
 #include "core/files/atomic_file.h"
 #include "core/files/file_kind.h"
 #include "core/settings/explainer.h"
+#include "core/settings/file_of_name.h"
 #include "core/settings/reader.h"
+#include "core/settings/shipped_files.h"
+#include "core/settings/text_file.h"
 #include "core/settings/value.h"
 #include "core/settings/wording.h"
 #include "studies/study/guards.h"
@@ -22,9 +25,20 @@ namespace gaitlab::studies {
 
 namespace {
 
-/// Reads named scenarios, as in {flat: a.yaml, rubble: b.yaml}. Their paths are relative to `folder`, which is that of the
-/// study.
-void read_named_scenarios(const Node& node, const std::filesystem::path& folder, Study& study, Problems& problems) {
+/// File of a scenario that a study names: a file relative to the study's folder, or a shipped scenario by its name.
+std::string scenario_file(const Node& node, Study& study) {
+  const std::string folder = std::filesystem::path(study.file).parent_path().string();
+  const std::map<std::string, std::string> shipped = shipped_files("scenario");
+  const auto known = shipped.find(node.text);
+  FileOfName file{path_from(folder, node.text)};
+  if (known != shipped.end()) file = file_of_name({file.path}, known->second).value_or(file);
+  if (std::string hidden = note_of_hidden(node.text, file); !hidden.empty())
+    study.notes.push_back({node.place, std::move(hidden)});
+  return file.path;
+}
+
+/// Reads named scenarios, as in {flat: a.yaml, rubble: b.yaml}. Their paths are relative to the study's folder.
+void read_named_scenarios(const Node& node, Study& study, Problems& problems) {
   constexpr std::size_t kMost = 1000;
   if (node.kind != Node::Kind::map || node.keys.empty() || node.keys.size() > kMost) {
     const std::string what = node.kind != Node::Kind::map ? found(node) : node.keys.empty() ? "empty" : "too long";
@@ -38,9 +52,11 @@ void read_named_scenarios(const Node& node, const std::filesystem::path& folder,
     const Node& file = node.items[k];
     if (!is_name(name, "_.-"))
       problems.add(place, "scenario name " + in_quotes(name) + " is not allowed; expected letters, digits, _ . and -");
-    if (file.kind != Node::Kind::scalar)
+    if (file.kind != Node::Kind::scalar) {
       problems.add(file.place, "scenario " + clipped(name) + " is " + found(file) + "; expected the name of a file");
-    study.scenarios.push_back({name, (folder / file.text).lexically_normal().string()});
+    } else {
+      study.scenarios.push_back({name, scenario_file(file, study), file.place});
+    }
   }
 }
 
@@ -223,12 +239,15 @@ Replicates in_worlds() {
 }
 
 /// Reads `scenario` and `scenarios`.
-void read_scenario_keys(Reader& reader, const std::string& scenario, Study& study, Problems& problems) {
-  const std::filesystem::path folder = std::filesystem::path(study.file).parent_path();
-  study.scenario = (folder / scenario).lexically_normal().string();
+void read_scenario_keys(Reader& reader, const Node& root, Study& study, Problems& problems) {
+  const Node* one = root.find("scenario");
+  if (one != nullptr && one->kind == Node::Kind::scalar && !one->text.empty()) {
+    study.scenario = scenario_file(*one, study);
+    study.scenario_place = one->place;
+  }
   const Node* node = reader.take("scenarios");
   if (node == nullptr) return;
-  read_named_scenarios(*node, folder, study, problems);
+  read_named_scenarios(*node, study, problems);
   if (reader.has("scenario")) problems.add(node->place, "the study has scenario and scenarios; expected one or the other");
 }
 
@@ -262,7 +281,7 @@ Study read_study(const std::string& file, Purpose purpose) {
   PlainKeys{study, scenario}.fields(reader);
   check_name(study, root, problems);
   take_places(root, study);
-  read_scenario_keys(reader, scenario, study, problems);
+  read_scenario_keys(reader, root, study, problems);
   MethodKeys method{study};
   const Node* chosen = root.find("method");
   const bool named = chosen != nullptr && chosen->find("type") != nullptr;

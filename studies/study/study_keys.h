@@ -14,7 +14,8 @@ struct PlainKeys {
   std::string& scenario;
   void fields(Fields& f) const {
     f.text("name", study.name, "Name of the study; default: the file's name.");
-    f.text("scenario", scenario, "Scenario file, relative to this file; or `scenarios`.");
+    f.text("scenario", scenario,
+           "Scenario file, relative to this file, or a name of `gaitlab list scenarios`; or `scenarios`.");
     f.texts("set", study.sets, "Settings of all runs, as for --set: physics.step=0.001.");
     f.integer("seed", study.seed, {"", 0, 9e15, "Seed of the random numbers: points and replicates."});
     f.flag("robust", study.robust,
