@@ -17,6 +17,7 @@
 #include "kit/run_writer.h"
 #include "python/native/apart.h"
 #include "python/native/python_cpg.h"
+#include "report/analysis/cpg_alone.h"
 #include "report/figures/run/run_figure.h"
 #include "report/page/page.h"
 #include "report/verdict/spread.h"
@@ -39,6 +40,7 @@ void add_spread(PyRun& run, std::atomic<bool>& stop) try {
 }
 
 void judge_run(PyRun& run, double wall, std::atomic<bool>& stop) {
+  const report::StopsCpgAlone stops(stop);  // a run that was stopped is not given
   try {
     run.all = thin_rows(run.recording);
   } catch (const std::bad_alloc&) {  // NOLINT(bugprone-empty-catch): the rows stay as they are

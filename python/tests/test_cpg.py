@@ -153,6 +153,20 @@ class Exceptions(unittest.TestCase):
             register("test_states", __init__=lambda self, joints, settings: setattr(self, "states", 1))
             gaitlab.run(of_class("test_states"))
 
+    def test_is_not_called_beyond_the_run(self):
+        """The period of the set points is that within the run: 1 s are 67 ticks of 15 ms, in the run and three that estimate its error."""
+        times = []
+        register("test_counted", output=lambda self, t, x, setpoint: (times.append(t), setpoint.fill(0.1 * math.sin(t)))[1])
+        scenario = of_class("test_counted")
+        times.clear()
+        gaitlab.run(scenario)
+        self.assertLess(max(times), 1)
+        self.assertLessEqual(len(times), 4 * 67)
+        times.clear()
+        gaitlab.rollouts(scenario, [{}], estimate_every=0)
+        self.assertLess(max(times), 1)
+        self.assertLessEqual(len(times), 67)
+
     def test_rows_of_rollouts(self):
         def fails(self, t, x, setpoint):
             raise ValueError("no")

@@ -18,7 +18,13 @@ constexpr double kTicksOfCpg = 2000;
 constexpr std::int64_t kTicksOfFeedback = 400;
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
+thread_local const std::atomic<bool>* stop_of_thread = nullptr;
+
 }  // namespace
+
+StopsCpgAlone::StopsCpgAlone(const std::atomic<bool>& stop) { stop_of_thread = &stop; }
+StopsCpgAlone::~StopsCpgAlone() { stop_of_thread = nullptr; }
+bool StopsCpgAlone::asked() { return stop_of_thread != nullptr && *stop_of_thread; }
 
 std::vector<double> frequencies(const Scenario& s, const PluginSelection& cpg) {
   std::vector<double> all;
@@ -49,7 +55,7 @@ std::vector<double> set_points_alone(const Scenario& s, std::int64_t ticks, cons
   cpg->start(state);
   std::vector<double> all;
   all.reserve(static_cast<std::size_t>(ticks) * joints);
-  for (std::int64_t k = 0; k < ticks; ++k) {
+  for (std::int64_t k = 0; k < ticks && !StopsCpgAlone::asked(); ++k) {
     const double t = static_cast<double>(k) * s.control_period;
     cpg->event(measured(t), state);
     cpg->output(t, state, setpoint);
@@ -71,7 +77,7 @@ std::vector<SetPointRange> set_point_ranges(const Scenario& s) {
   const auto ticks = static_cast<std::int64_t>(std::min(kTicksOfCpg, std::ceil(until / s.control_period)));
   const std::vector<double> rows = set_points_alone(s, ticks);
   const std::vector<double> moved = set_points_alone(s, std::min(ticks, kTicksOfFeedback), {0.1, 0.3, 0.5, 1});
-  if (!std::equal(moved.begin(), moved.end(), rows.begin())) return {};
+  if (StopsCpgAlone::asked() || !std::equal(moved.begin(), moved.end(), rows.begin())) return {};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     SetPointRange& one = all[i % all.size()];
     one.least = std::min(one.least, rows[i]);

@@ -1,5 +1,6 @@
 // The pattern generator of a scenario without its robot: set points and frequencies.
 #pragma once
+#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -17,7 +18,17 @@ struct Feedback {
   double speed = 0, torque = 0, touching = 0;
 };
 
-/// Set points of the driven joints at every control tick, rad, row-major. Throws PluginError.
+/// During its lifetime, `stop` ends set_points_alone() in this thread, because a CPG of a user may be slow.
+class StopsCpgAlone {
+ public:
+  explicit StopsCpgAlone(const std::atomic<bool>& stop);
+  ~StopsCpgAlone();
+  StopsCpgAlone(const StopsCpgAlone&) = delete;
+  StopsCpgAlone& operator=(const StopsCpgAlone&) = delete;
+  static bool asked();  ///< true if there is a `stop` and it is set
+};
+
+/// Set points of the driven joints at every control tick, rad, row-major; fewer if it was stopped. Throws PluginError.
 std::vector<double> set_points_alone(const Scenario& scenario, std::int64_t ticks, const Feedback& feedback = {});
 
 /// Extremes of the set points of a joint.

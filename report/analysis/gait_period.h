@@ -9,8 +9,8 @@ namespace gaitlab::report {
 inline constexpr double kPeriodsNeeded = 3;
 
 /// Period of the set points, s; 0 if they do not repeat. It is found in the recorded set points. If the run is too short, it is
-/// found by simulating the CPG alone for longer. If feedback changes the set points, it is the inverse of the least frequency
-/// (Hz) among the CPG's settings.
+/// found by simulating the CPG alone for longer, once per CPG. If feedback changes the set points, or the CPG is not a class of
+/// C++, it is the inverse of the least frequency (Hz) among the CPG's settings.
 double set_point_period(const Scenario& scenario, const Recording& record);
 
 }  // namespace gaitlab::report
