@@ -244,11 +244,7 @@ int approve(const ApproveArguments& arguments) {
     golden.bands = before->bands;
     golden.number_bands = before->number_bands;
   }
-  if (why.empty()) {
-    if (arguments.reason) throw no_reason(arguments);
-    fmt::print("nothing was written: gaitlab approve {} --reason TEXT records these numbers\n", arguments.file);
-    return 0;
-  }
+  if (why.empty()) throw no_reason(arguments);
   golden.history.push_back({static_cast<std::int64_t>(golden.history.size()) + 1, why, golden.origin.build});
   if (calibrates) {
     base.numbers = golden.numbers;

@@ -15,11 +15,9 @@ TEST_F(ApproveCommand, ApproveShowsTheChangeAndWantsAReason) {
   const std::string wanted =
       "; expected a sentence for the golden's history with the reason why these numbers are right. Nothing was written\n";
   Result result = call("approve good.yaml");
-  EXPECT_EQ(result.code, 0);
-  EXPECT_EQ(result.out,
-            "since approval 1 (first golden):\n  nothing has changed\n"
-            "nothing was written: gaitlab approve good.yaml --reason TEXT records these numbers\n");
-  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.out, "since approval 1 (first golden):\n  nothing has changed\n");
+  EXPECT_EQ(result.err, "--reason: error: is missing" + wanted);
   folder.write("good.yaml", kCaterpillar + "actuator: {Kt: 0.0039895}\n");
   result = call("approve good.yaml --reason ' '");
   EXPECT_EQ(result.code, 2);
