@@ -4,6 +4,7 @@
 
 #include "app/chain.h"
 #include "core/laws/data_sheet.h"
+#include "core/settings/shipped_files.h"
 #include "tests/folders.h"
 #include "tests/program/fixture.h"
 

@@ -2,6 +2,7 @@
 #include "interchange/urdf_module.h"
 
 #include "core/robot_files/module_file.h"
+#include "core/settings/shipped_files.h"
 #include "interchange/urdf.h"
 #include "tests/messages.h"
 #include "tests/program/random_scenario.h"
