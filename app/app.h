@@ -86,6 +86,8 @@ struct Remedied {
 Remedied take_remedy(const Scenario& scenario, report::Verdict& verdict, const RunArguments& arguments);
 /// Prints lines of a summary, in colour on a terminal.
 void print_lines(const std::vector<report::ScreenLine>& lines);
+/// Prints a text; on a terminal, lines that are longer than it is wide are wrapped().
+void print_fitted(const std::string& text);
 
 /// Prints the summary of a run; the verdict is its first line.
 void print_summary(const Scenario& scenario, const Recording& recording, const report::Summary& summary,

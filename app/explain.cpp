@@ -198,9 +198,14 @@ std::string explain_named(const std::string& kind_name, const std::string& name,
 int explain(const ManualArguments& arguments) {
   Catalog catalog = standard_catalog(arguments.plugins);
   const auto& [kind, name, plugins] = arguments;
-  fmt::print("{}", kind.empty()   ? explain_scenario(catalog)
-                   : name.empty() ? explain_word(kind, catalog)
-                                  : explain_named(kind, name, !plugins.empty(), catalog));
+  const std::string text = kind.empty()   ? explain_scenario(catalog)
+                           : name.empty() ? explain_word(kind, catalog)
+                                          : explain_named(kind, name, !plugins.empty(), catalog);
+  if (text.starts_with("#")) {  // a file, shown as it is
+    fmt::print("{}", text);
+  } else {
+    print_fitted(text);
+  }
   return 0;
 }
 

@@ -31,7 +31,7 @@ int list(const ManualArguments& arguments) {
   for (const ListedKind& kind : listed_kinds()) {
     if (only != nullptr && &kind != only) continue;
     fmt::print("{}\n", kind.name);
-    fmt::print("{}", name_rows(kind, catalog));
+    print_fitted(name_rows(kind, catalog));
   }
   return 0;
 }

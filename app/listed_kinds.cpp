@@ -1,12 +1,14 @@
 #include "app/listed_kinds.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <sstream>
 
 #include "app/app.h"
 #include "app/module_table.h"
+#include "app/progress.h"
 #include "core/scenario/manual.h"
 #include "core/scenario/read_scenario.h"
 #include "core/settings/shipped_files.h"
@@ -31,7 +33,9 @@ ListedKind of_plugins(const PluginKind& plugin) {
             const Entry& entry = *catalog.find(kind, name);
             return first_line(entry.manual) + (entry.origin == kBuiltIn ? "" : fmt::format(" ({})", entry.origin));
           },
-          [kind](const std::string& name, Catalog& catalog) { return explain_plugin(*catalog.find(kind, name)); }};
+          [kind](const std::string& name, Catalog& catalog) {
+            return explain_plugin(*catalog.find(kind, name), terminal_columns(STDOUT_FILENO));
+          }};
 }
 
 std::string engine_manual(const std::string& name, Catalog& catalog) {

@@ -115,18 +115,6 @@ std::optional<Outcome> simulate(Simulation& simulation, bool quiet) try {
   return error.outcome();
 }
 
-void note_rows(const Scenario& scenario, const Simulation& simulation) {
-  constexpr double kMuch = 1e8;  // bytes
-  const RowsNeeded needed = simulation.rows_needed(0);
-  if (!(needed.bytes() > kMuch)) return;
-  const bool in_file = needed.bytes() > static_cast<double>(kMostInMemory);
-  say(scenario.file, "note",
-      fmt::format(
-          "records {:.3g} rows of {:.0f} columns, {:.3g} MB in {}; a longer trace.period or fewer trace.columns need less",
-          needed.rows, needed.columns, needed.bytes() / 1e6,
-          in_file ? fmt::format("a temporary file in {} (TMPDIR)", spill_folder().string()) : "memory"));
-}
-
 void print_files(const RunArguments& arguments, const std::filesystem::path& folder) {
   if (!arguments.no_page) print_page(folder / kPageFile);
   if (!arguments.no_page && !arguments.shown.verbose) return;

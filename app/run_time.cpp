@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/errors.h"
+#include "core/files/spill.h"
 
 namespace gaitlab::app {
 
@@ -71,6 +72,18 @@ std::string faster_engine(const Scenario& scenario, double seconds, const RowsNe
         other.sets.insert(other.sets.end(), sets.begin(), sets.end());
         return std::vector{read(other, catalog)};
       });
+}
+
+void note_rows(const Scenario& scenario, const Simulation& simulation) {
+  constexpr double kMuch = 1e8;  // bytes
+  const RowsNeeded needed = simulation.rows_needed(0);
+  if (!(needed.bytes() > kMuch)) return;
+  const bool in_file = needed.bytes() > static_cast<double>(kMostInMemory);
+  say(scenario.file, "note",
+      fmt::format(
+          "records {:.3g} rows of {:.0f} columns, {:.3g} MB in {}; a longer trace.period or fewer trace.columns need less",
+          needed.rows, needed.columns, needed.bytes() / 1e6,
+          in_file ? fmt::format("a temporary file in {} (TMPDIR)", spill_folder().string()) : "memory"));
 }
 
 }  // namespace gaitlab::app

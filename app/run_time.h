@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/app.h"
+#include "core/simulation/simulation.h"
 #include "kit/run_time.h"
 
 namespace gaitlab::app {
@@ -35,5 +36,8 @@ void note_time(const std::string& place, const TimeOf& time_of, const ReadAgain&
 /// The advice for a run of one scenario, which `arguments` name, with a trace of this size.
 std::string faster_engine(const Scenario& scenario, double seconds, const RowsNeeded& rows, const ScenarioArguments& arguments,
                           Catalog& catalog);
+
+/// Prints on stderr the size of a trace that needs much memory.
+void note_rows(const Scenario& scenario, const Simulation& simulation);
 
 }  // namespace gaitlab::app

@@ -63,6 +63,10 @@ void print_lines(const std::vector<report::ScreenLine>& lines) {
   }
 }
 
+void print_fitted(const std::string& text) {
+  fmt::print("{}", isatty(STDOUT_FILENO) == 0 ? text : wrapped(text, 0, terminal_columns(STDOUT_FILENO)));
+}
+
 void print_summary(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
                    const report::Verdict& verdict, const SummaryOptions& shown) {
   const report::RunData run{scenario, recording, summary};

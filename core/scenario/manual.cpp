@@ -96,8 +96,8 @@ std::string fenced(const std::string& text) { return "```text\n" + text + (text.
 
 std::string explain_scenario(const Catalog& catalog) { return table(scenario_keys(catalog)); }
 
-std::string explain_plugin(const Entry& entry) {
-  const std::string text = wrapped(std::string(entry.manual));
+std::string explain_plugin(const Entry& entry, std::size_t width) {
+  const std::string text = wrapped(std::string(entry.manual), 0, width);
   const std::vector<KeyRow> keys = plugin_keys(entry);
   return keys.empty() ? text : text + "\n" + table(keys);
 }

@@ -16,7 +16,7 @@ std::vector<KeyRow> plugin_keys(const Entry& entry);
 /// Text with every key of a scenario file, with unit, default, range and sentence.
 std::string explain_scenario(const Catalog& catalog);
 /// Manual of a plugin: its text, followed by a table of its fields. Throws PluginError.
-std::string explain_plugin(const Entry& entry);
+std::string explain_plugin(const Entry& entry, std::size_t width = 80);
 
 /// Unit of the number at a path of keys in a scenario: `rad` of cpg.amplitude. Types of plugins are those of `scenario`. Empty
 /// if the number has none, or if the catalog does not have its plugin. Throws PluginError.

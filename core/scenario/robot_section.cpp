@@ -228,6 +228,7 @@ RobotParts read_robot(Reader& reader, const SourceLocation& place, const std::st
   Node reference{Node::Kind::scalar, place};
   reference.text = kDefaultType;
   const Node* modules = reader.take("modules");
+  if (modules == nullptr && reader.misspelt("modules")) return parts;  // the docks would be faulty for the default type
   if (modules == nullptr) modules = &reference;
   if (!counted) {
     if (modules->kind == Node::Kind::scalar) library.find(*modules);

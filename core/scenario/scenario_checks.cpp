@@ -132,12 +132,14 @@ void ScenarioChecks::parts_as_built() {
   for (std::size_t i = 0; section != nullptr && scenario_.robot && i < kBuiltNumbers.size(); ++i) {
     const Node* map = section->find(kBuiltNumbers[i].key);
     if (map == nullptr || map->kind != Node::Kind::map) continue;
+    const bool of_modules = kBuiltNumbers[i].of == BuiltNumber::Of::modules;
+    const std::vector<std::string> all = of_modules ? module_names(*scenario_.robot) : joint_names(*scenario_.robot);
     const std::vector<std::string> parts = parts_with(kBuiltNumbers[i], *scenario_.robot);
     for (const auto& [name, place] : map->keys) {
-      if (name == "default" || means_several(name, scenario_.groups) || std::ranges::find(parts, name) != parts.end()) continue;
+      // The reader has reported names of no part.
+      if (std::ranges::find(all, name) == all.end() || std::ranges::find(parts, name) != parts.end()) continue;
       problems_.add(place, fmt::format("{} has no {}: {}", name, kBuiltNumbers[i].key,
-                                       kBuiltNumbers[i].of == BuiltNumber::Of::modules ? "it is docked to no parent"
-                                                                                       : "its hinge has no motor"));
+                                       of_modules ? "it is docked to no parent" : "its hinge has no motor"));
     }
   }
 }

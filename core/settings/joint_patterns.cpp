@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <unordered_set>
 
 #include "core/errors.h"
@@ -67,11 +68,28 @@ std::vector<std::size_t> joints_of(const std::string& text, const std::vector<st
   return numbers;
 }
 
+namespace {
+
+/// Message for the name of a module in the place of a joint, or of a joint in the place of a module.
+std::string of_the_other_kind(const std::string& text, const std::vector<std::string>& names, const std::string& part) {
+  std::vector<std::string> within;
+  std::ranges::copy_if(names, std::back_inserter(within), [&](const auto& name) { return name.starts_with(text + "/"); });
+  if (part == "joint" && !text.empty() && !within.empty())
+    return fmt::format("{0} is a module; its joint{1} {2}", in_quotes(text), within.size() == 1 ? " is" : "s are",
+                       joined(within));
+  const std::string head = text.substr(0, text.find('/'));
+  if (part != "module" || head == text || std::ranges::find(names, head) == names.end()) return "";
+  return fmt::format("{} is not a module; expected its module, {}", in_quotes(text), head);
+}
+
+}  // namespace
+
 std::string no_joint(const std::string& text, const std::vector<std::string>& joints, const std::string& part,
                      const JointGroups& groups) {
   if (!joints_of(text, joints, groups).empty()) return "";
   if (group_named(text, groups) != nullptr) return "";  // the group has a fault, which is reported where it is given
   if (!is_pattern(text)) {
+    if (const std::string other = of_the_other_kind(text, joints, part); !other.empty()) return other;
     const std::string range = range_beside(text, joints);
     std::vector<std::string> known = joints;
     for (const JointGroup& group : groups) known.push_back(group.name);

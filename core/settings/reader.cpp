@@ -59,6 +59,11 @@ std::int64_t Reader::version(const char* key, std::int64_t newest) {
   return 0;
 }
 
+bool Reader::misspelt(const char* key) const {
+  const auto meant = [&](const auto& one) { return !nearest(one.first, std::vector<std::string>{key}).empty(); };
+  return !has(key) && std::ranges::any_of(map_->keys, meant);
+}
+
 void Reader::require(std::initializer_list<const char*> keys) {
   if (tolerant_) return;
   for (const char* key : keys) {
@@ -81,6 +86,8 @@ void Reader::finish() {
     // In YAML, {a:1} is a key without a value. The user probably meant a: 1.
     if (map_->items[i].kind == Node::Kind::null && colon != std::string::npos) {
       problems_.add(place, "unknown key " + in_quotes(key) + "; put a space after the colon");
+    } else if (const std::string comma = decimal_comma(*map_, i); !comma.empty()) {
+      problems_.add(place, comma);
     } else {
       unknown(key, map_->items[i], place);
     }

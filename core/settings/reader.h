@@ -42,6 +42,8 @@ class Reader final : public Fields {
   /// Value of a key, or null. The key then counts as known.
   const Node* take(const char* key);
   [[nodiscard]] bool has(const char* key) const { return map_->find(key) != nullptr; }
+  /// True if the map has no such key, but an unknown one that was probably meant to be it.
+  [[nodiscard]] bool misspelt(const char* key) const;
   /// Reads a format version. Returns false, and adds a problem, for any version except 1.
   bool version(const char* key) { return version(key, 1) != 0; }
   /// Reads a format version from 1 to `newest`. Returns 1 if no version is given, and 0 with a problem for an invalid version.

@@ -89,6 +89,10 @@ bool Reader::read_joint_map(const Node& node, const std::string& key, const Spec
   for (std::size_t i = 0; i < node.keys.size(); ++i) {
     const auto& [name, place] = node.keys[i];
     if (name == "default") continue;
+    if (const std::string comma = decimal_comma(node, i); !comma.empty()) {
+      problems_.add(place, comma);
+      continue;
+    }
     double number = 0;
     const bool good = read_one(node.items[i], fmt::format("{} of {}", key, in_quotes(name)), spec, number);
     if (means_several(name, of.groups)) {

@@ -17,6 +17,8 @@ std::string expected(const Node& node, const std::string& before, const std::str
   return fmt::format("is {}; expected a {}{}{}{}", found(node), before, kind, unit.empty() ? "" : " in " + unit, after);
 }
 
+bool is_digits(const std::string& text) { return !text.empty() && skip_digits(text, 0) == text.size(); }
+
 /// Reason to refuse a plain scalar that is not a decimal number.
 std::string refuse_number(const Node& node, const std::string& kind, const std::string& unit) {
   if (node.kind != Node::Kind::scalar) return expected(node, "", kind, unit);
@@ -26,6 +28,10 @@ std::string refuse_number(const Node& node, const std::string& kind, const std::
   if (is_other_base(text)) return expected(node, "decimal ", kind, unit);
   if (has_separator(text)) return expected(node, "", kind, unit, " without '_'");
   if (has_leading_zero(text)) return expected(node, "", kind, unit, " without a leading zero");
+  if (const std::size_t comma = text.find(','); is_digits(text.substr(0, comma)) && is_digits(text.substr(comma + 1)))
+    return expected(
+        node, "", kind, unit,
+        fmt::format("; a decimal point is a point: {}.{}", node.text.substr(0, node.text.find(',')), text.substr(comma + 1)));
   return expected(node, "", kind, unit);
 }
 
@@ -49,8 +55,7 @@ Reading<double> read_number(const Node& node, const std::string& unit) {
 
 Reading<std::int64_t> read_integer(const Node& node) {
   const std::string text = without_sign(node.text);
-  const bool whole = !text.empty() && skip_digits(text, 0) == text.size();
-  if (node.kind != Node::Kind::scalar || node.quoted || !whole || has_leading_zero(text)) {
+  if (node.kind != Node::Kind::scalar || node.quoted || !is_digits(text) || has_leading_zero(text)) {
     return {0, refuse_number(node, "whole number", "")};
   }
   std::int64_t value = 0;
@@ -69,6 +74,14 @@ Reading<bool> read_flag(const Node& node) {
 Reading<std::string> read_scalar(const Node& node) {
   if (node.kind == Node::Kind::scalar) return {node.text};
   return {{}, fmt::format("is {}; expected a text", found(node))};
+}
+
+std::string decimal_comma(const Node& map, std::size_t i) {
+  const std::string& rest = map.keys[i].first;
+  if (i == 0 || map.items[i].kind != Node::Kind::null || !is_digits(rest)) return "";
+  const Node& before = map.items[i - 1];
+  if (before.kind != Node::Kind::scalar || before.quoted || !is_digits(without_sign(before.text))) return "";
+  return fmt::format("{0}: {1},{2} is two entries; write {1}.{2}", clipped(map.keys[i - 1].first), before.text, clipped(rest));
 }
 
 }  // namespace gaitlab

@@ -24,4 +24,8 @@ Reading<bool> read_flag(const Node& node);
 /// Reads any scalar as text.
 Reading<std::string> read_scalar(const Node& node);
 
+/// Text such as `amplitude: 0,4 is two entries; write 0.4` for the second half of a number with a comma in a map on one line,
+/// the entry `i`; empty for other entries.
+std::string decimal_comma(const Node& map, std::size_t i);
+
 }  // namespace gaitlab

@@ -65,29 +65,58 @@ std::string joined(const std::vector<std::string>& names) {
   return out;
 }
 
+namespace {
+
+/// A line of a text: columns of its first word, and of its last cell, behind two or more blanks.
+struct Layout {
+  explicit Layout(const std::string& line) : own(std::min(line.find_first_not_of(' '), line.size())), cell(own) {
+    const std::size_t gap = line.rfind("  ");
+    if (gap != std::string::npos && gap >= own) cell = gap + 2;
+  }
+  [[nodiscard]] bool cells() const { return cell > own; }
+  std::size_t own, cell;
+};
+
+/// True if a line continues a line that is too long: that of a paragraph, or of a last cell that begins in the same column.
+bool continues(const std::string& line, const Layout& first) {
+  const Layout next(line);
+  if (line.empty() || next.cells()) return false;
+  return first.cells() ? next.own == first.cell : first.own < 4 && next.own == 0;
+}
+
+/// Position of the blank at which a line is broken.
+std::size_t break_of(const std::string& line, std::size_t room) {
+  const std::size_t first = line.find_first_not_of(' ');
+  const std::size_t at = line.rfind(' ', room);
+  return at == std::string::npos || at < first ? line.find(' ', first) : at;
+}
+
+}  // namespace
+
 std::string wrapped(const std::string& text, std::size_t indent, std::size_t width) {
+  constexpr std::size_t kLeastCell = 30;  // a narrower cell goes below the line
   std::string out;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const auto take = [&] {
-      const std::size_t end = std::min(text.find('\n', begin), text.size());
-      std::string line = text.substr(begin, end - begin);
-      begin = end + 1;
-      return line;
-    };
-    std::string line = take();
-    const bool code = line.starts_with("    ");
-    const std::size_t own = code ? line.find_first_not_of(' ') : 0;  // blanks before the first word
+  std::size_t begin = 0;
+  const auto next = [&] { return text.substr(begin, std::min(text.find('\n', begin), text.size()) - begin); };
+  while (begin < text.size()) {
+    std::string line = next();
+    begin += line.size() + 1;
+    const Layout layout(line);
+    const bool narrow = layout.cells() && indent + layout.cell + kLeastCell > width;
+    bool below = narrow && indent + layout.cell <= width;
+    const std::size_t rest_at = layout.cells() && !narrow ? layout.cell : layout.own >= 4 || narrow ? layout.own + 8 : 0;
     while (indent + line.size() > width) {
-      std::size_t at = line.rfind(' ', width - indent);
-      if (at == std::string::npos || at < line.find_first_not_of(' ')) at = line.find(' ', line.find_first_not_of(' '));
+      const std::size_t at = below ? layout.cell - 1 : break_of(line, width - indent);
       if (at == std::string::npos) break;
+      below = false;
       out += std::string(indent, ' ') + line.substr(0, line.find_last_not_of(' ', at) + 1) + "\n";
       line.erase(0, line.find_first_not_of(' ', at));
-      if (code) {
-        line.insert(0, own + 8, ' ');
-      } else if (begin < text.size() && text[begin] != ' ' && text[begin] != '\n') {
-        line += " " + take();  // the rest of the line continues the paragraph
+      if (begin < text.size() && continues(next(), layout)) {
+        const std::string more = next();
+        begin += more.size() + 1;
+        line += " " + more.substr(more.find_first_not_of(' '));
       }
+      line.insert(0, rest_at, ' ');
     }
     out += (line.empty() ? "" : std::string(indent, ' ')) + line + "\n";
   }

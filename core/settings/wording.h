@@ -31,7 +31,8 @@ std::string in_quotes(const std::string& text);
 /// List such as `a, b, c`, shortened if it is long.
 std::string joined(const std::vector<std::string>& names);
 /// The text in lines of at most `width` characters, broken at blanks, each after `indent` blanks. Lines that begin with four
-/// blanks (equations, YAML) are not joined. The rest of such a line that is too long is indented by eight more blanks.
+/// blanks (equations, YAML) are not joined. The rest of such a line that is too long is indented by eight more blanks; that of
+/// a line of cells, which two or more blanks separate, goes below its last cell, with the lines that begin there.
 std::string wrapped(const std::string& text, std::size_t indent = 0, std::size_t width = 80);
 /// Rows of cells as lines, each after `indent` blanks. The first cell is flush left, and the others are flush right. Every
 /// column is as wide as its widest cell. All rows have as many cells as the first row.

@@ -56,7 +56,8 @@ void read_followers_of(const Node& node, Parameter& parameter, Problems& problem
     problems.add(
         parameter.place,
         in_quotes(name) +
-            " cannot be a parameter of the study with `sets`; expected a name of letters, digits and _, a letter first");
+            " cannot be a parameter of the study with `sets`; expected a name of letters, digits and _, a letter first, as in "
+            "hip0: {low: 0.1, high: 0.2, sets: {cpg.offset.hips: hip0}}");
   }
   if (node.kind != Node::Kind::map || node.keys.empty()) {
     problems.add(node.place, name + ".sets is " + (node.kind == Node::Kind::map ? "empty" : found(node)) +
