@@ -215,7 +215,7 @@ void check_filters(hid_t properties) {
     if (at >= kFilters.size() || filter != kFilters[at])
       throw ImageError(fmt::format("is packed by filter {}; expected shuffle, then gzip", filter));
   }
-  if (filters != kFilters.size()) throw ImageError("is not packed by shuffle and gzip");
+  if (filters != static_cast<int>(kFilters.size())) throw ImageError("is not packed by shuffle and gzip");
 }
 
 /// Requires values that are stored in the file itself, in the chunks of this program. A virtual dataset or external storage

@@ -9,6 +9,7 @@
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
 #include "core/files/file_kind.h"
+#include "core/files/shallow_json.h"
 #include "core/recording/csv.h"
 #include "core/recording/h5.h"
 
@@ -52,7 +53,11 @@ nlohmann::json read_summary(const fs::path& folder) {
   const fs::path file = folder / "summary.json";
   const std::string text = read_file(file, kMostJson);
   try {
-    nlohmann::json summary = nlohmann::json::parse(text);
+    bool deep = false;  // copies of deeply nested data would overflow the stack
+    nlohmann::json summary = nlohmann::json::parse(text, [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
+      return !(deep = deep || depth > kDeepestJson);
+    });
+    if (deep) throw InputError(SourceLocation{file.string()}, "is nested deeper than any summary");
     if (!summary.is_object())
       throw InputError(SourceLocation{file.string(), 1, 1}, "holds no JSON object: it is not a summary");
     return summary;

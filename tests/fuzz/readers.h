@@ -2,9 +2,11 @@
 // and the test of the corpus call these functions.
 #pragma once
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -17,16 +19,19 @@
 #include "core/files/hash.h"
 #include "core/recording/csv.h"
 #include "core/recording/h5.h"
+#include "core/recording/run_files.h"
 #include "core/scenario/read_scenario.h"
 #include "core/scenario/resolved.h"
 #include "core/scenario/state_file.h"
 #include "interchange/urdf_module.h"
 #include "report/figures/paper/recipe.h"
+#include "report/remedy/remedy_text.h"
 #include "studies/journal/results.h"
 #include "studies/journal/study_folder.h"
 #include "studies/plan/definition.h"
 #include "studies/plan/plan.h"
 #include "studies/run/question.h"
+#include "studies/run/told.h"
 #include "studies/study/study_file.h"
 #include "tests/folder.h"
 #include "tests/golden/golden_sample.h"
@@ -162,6 +167,13 @@ inline void question_kinds(const std::string& line) {
   studies::JournalHead head;
   head.objectives.resize(1);
   (void)studies::answer(question, head, {}, {}, {});
+}
+
+/// Reads a line of results of another program, for `gaitlab optimize --ask` of a study with two objectives. Aborts if a number
+/// of the result is not known to be finite.
+inline void told(const std::string& line) {
+  const studies::Told result = studies::read_told(line, {"stdin", 1, 1}, 2);
+  if (!std::isfinite(result.score.violation) || !std::isfinite(result.simulated)) std::abort();
 }
 
 /// Bytes of the journal of a small completed study: four points with two replicates each. One run has failed.
@@ -338,6 +350,20 @@ inline void trace(const std::string& bytes) {
   (void)read_h5(folder().write("trace.h5", head + rest));
 }
 
+/// Reads the summary.json of a run folder.
+inline void summary(const std::string& text) {
+  folder().write("summary.json", text);
+  (void)read_summary(folder().path()).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// Reads a remedy.json for the page of the run that it belongs to. A remedy that is not shown counts as refused.
+inline void remedy(const std::string& text) {
+  const std::string shown = report::shown_remedy(text, "0123456789abcdef", report::Word::infeasible);
+  if (shown.empty()) throw InputError(SourceLocation{"remedy.json"}, "is not shown");
+  const nlohmann::json json = nlohmann::json::parse(shown);
+  if (json.at("text").size() != json.at("tones").size()) std::abort();
+}
+
 inline void csv(const std::string& text) { (void)read_csv(folder().write("trace.csv", text)); }
 
 /// Reads a state file of `gaitlab dynamics`.
@@ -360,6 +386,7 @@ inline constexpr std::array kReaders{Reader{"scenario", scenario},
                                      Reader{"study", study},
                                      Reader{"question", question},
                                      Reader{"question_kinds", question_kinds},
+                                     Reader{"told", told},
                                      Reader{"journal", journal},
                                      Reader{"journal_rows", journal_rows},
                                      Reader{"names", names},
@@ -367,6 +394,8 @@ inline constexpr std::array kReaders{Reader{"scenario", scenario},
                                      Reader{"golden", golden},
                                      Reader{"golden_trace", golden_trace},
                                      Reader{"trace", trace},
+                                     Reader{"summary", summary},
+                                     Reader{"remedy", remedy},
                                      Reader{"csv", csv},
                                      Reader{"state", state},
                                      Reader{"urdf", urdf}};
