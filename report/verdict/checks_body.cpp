@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -156,6 +157,22 @@ std::string beyond_text(const Check& made, const BeyondRange& worst, bool by_ang
                                  texts::percent(most), worst.worst));
 }
 
+/// Cause of a jump of the set point of a joint at t = 0, or the setting that is missing.
+std::string jump_remedy(const Scenario& s, std::size_t joint) {
+  const double angle = s.initial.angles[joint];
+  std::optional<double> ramp;
+  if (s.cpg.entry != nullptr) {
+    const SettingsNumbers settings(s.cpg);
+    if (const SettingsNumbers::Found* found = settings.find("model.ramp")) ramp = found->value[joint];
+  }
+  if (angle != 0 && ramp.value_or(0) > 0)
+    return fmt::format(
+        "its ramp begins elsewhere than initial.angles ({:.4g} rad): leave initial.angles out, or set cpg.model.ramp to 0",
+        angle);
+  if (angle != 0) return fmt::format("initial.angles has {:.4g} rad: state the first set point there", angle);
+  return std::string("set initial.angles") + (ramp == 0 ? ", or cpg.model.ramp" : "");
+}
+
 }  // namespace
 
 void stops(const CheckedRun& run, Check& made) {
@@ -223,9 +240,8 @@ void start(const CheckedRun& run, Check& made) {
   made.status = made.value > made.limit ? CheckStatus::warn : CheckStatus::pass;
   if (made.status == CheckStatus::pass) return;
   made.from = made.to = made.first = 0;
-  const bool ramps = s.cpg.entry != nullptr && SettingsNumbers(s.cpg).find("model.ramp") != nullptr;
   made.text += ", and its motor reacts at once: peaks of the whole run may result from this jump";
-  made.remedy = std::string("set initial.angles") + (ramps ? ", or cpg.model.ramp" : "");
+  made.remedy = jump_remedy(s, worst);
 }
 
 void collision(const CheckedRun& run, Check& made) {
