@@ -4,33 +4,17 @@
 # usage: page.sh PROGRAM_BUILD_DIR     (exit code 77 without node, npm, Chromium or packages, which is an error with CI=true)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
-program=$(readlink -f -- "$1")/bin/gaitlab
-
-# left_out WHY: ends the script as skipped, or as failed with CI=true.
-left_out() {
-  [[ ${CI:-} != true ]] || fail "the report page: not tested, though this is CI: $1"
-  skip "the report page" "$1"
-  exit 77
-}
-for tool in node npm; do
-  command -v "$tool" >/dev/null || left_out "no $tool (Debian: nodejs, npm)"
-done
-(($(node -p 'const [major, minor] = process.versions.node.split("."); 1000 * major + +minor') >= 18018)) ||
-  left_out "node $(node --version) is older than 18.18"
-export CHROMIUM=${CHROMIUM:-$(command -v chromium || true)}
-[[ -n $CHROMIUM ]] || left_out "no Chromium (Debian: chromium)"
+source "$root/tests/browser.sh"
+build=$(readlink -f -- "$1") program=$(readlink -f -- "$1")/bin/gaitlab
+needs_browser "$build" "the report page"
 
 # The page is built outside the sources, so that the committed bundle is not overwritten before the comparison.
 page=$work/page
 mkdir -p "$page"
 (cd -- "$root/report/page" && cp -r -- package.json package-lock.json tsconfig.json eslint.config.mjs .prettierrc.json .prettierignore build.mjs \
   src "$page")
+ln -s -- "$NODE_MODULES" "$page/node_modules"
 cd -- "$page"
-if ! npm ci --ignore-scripts --no-audit --no-fund >"$work/log" 2>&1; then
-  show_log
-  ! grep -qE 'ENOTFOUND|EAI_AGAIN|ECONNREFUSED|ECONNRESET|ENETUNREACH|ETIMEDOUT' "$work/log" || left_out "the package registry cannot be reached"
-  fail "npm ci"
-fi
 expect 0 npm run --silent check
 ok "report/page: types, eslint, prettier"
 expect 0 node build.mjs
@@ -42,8 +26,6 @@ size=$(stat --format=%s dist/page.html)
 ((size <= 800000)) || fail "the page without a run has $size bytes, more than 800000"
 ok "report/page/dist/page.html is what its sources give, $size bytes"
 
-mkdir test
-cp -- "$root"/tests/page/*.mjs test
 cd -- "$work"
 walk=("$root/scenarios/hexapod.yaml" --set duration=4 --set physics.engine=articulated --quiet)
 expect 0 "$program" run "${walk[@]}" --set duration=8 --set 'trace.columns=[joint.*, base.*, com.*, contact.*, body.*]' --out feasible
@@ -124,7 +106,7 @@ cmp infeasible/report.html again/report.html || fail "the same run gives another
 pages=(feasible=feasible/report.html infeasible=infeasible/report.html open=open/report.html built=built.html markup=markup/report.html
   failed=failed/report.html csv=csv/report.html old=old.html jointless=jointless/report.html built_ball=built_ball.html castor=castor/report.html motorless=motorless/report.html
   current=current/report.html cured=cured.html fall=fall/report.html torque=torque/report.html pair=pair.html pair_second=pair_second.html robots=robots.html ball=ball.html strayed=strayed/caterpillar-8.failure.html)
-if ! node "$page/test/page_test.mjs" "${pages[@]}" trace=trace.csv >"$work/log" 2>&1; then
+if ! node "$root/tests/page/page_test.mjs" "${pages[@]}" trace=trace.csv >"$work/log" 2>&1; then
   grep -A 30 '^not ok' "$work/log" | head -n 300 >&2 || show_log # show_log would mostly show passed tests
   fail "the page in $("$CHROMIUM" --version 2>/dev/null || printf %s "$CHROMIUM")"
 fi
@@ -139,6 +121,6 @@ until [[ -s watched/report.html ]]; do
   kill -0 "$watcher" 2>/dev/null || fail "gaitlab watch has ended"
   sleep 0.1
 done
-node "$page/test/watch_test.mjs" watched/report.html watched.yaml >"$work/log" 2>&1 || { show_log; fail "a watched page in a browser"; }
+node "$root/tests/page/watch_test.mjs" watched/report.html watched.yaml >"$work/log" 2>&1 || { show_log; fail "a watched page in a browser"; }
 ok "a watched page follows its scenario, with camera, time and joint"
 verdict

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Every sentence of the terminal, of verdict.json and of the page's headline, recomputed from trace.h5 alone.
-usage: sentences.py PROGRAM SCENARIOS_FOLDER [--keep FOLDER] [--seed N] [NAME...]
+usage: sentences.py PROGRAM SCENARIOS_FOLDER [--keep FOLDER] [--seed N] [NAME...]     (pages, too: sentences.sh)
 77 where python3-h5py, python3-numpy or python3-yaml is missing.
 
 For each run: the part, the time and the number of each sentence, the limit, the margin, the status and the word, by code in told/
@@ -61,6 +61,7 @@ class Gate:
     def __init__(self, program, scenarios, work):
         self.program, self.scenarios, self.work = program, scenarios, work
         self.wrong, self.said, self.met, self.words, self.lines = [], 0, collections.Counter(), collections.Counter(), set()
+        self.browser = page.Browser()
         self.pages, self.mutants, self.survivors, self.begins, self.reasons = 0, 0, [], collections.Counter(), []
 
     def hear(self, rng, name, scenario, settings, fixed=None):
@@ -131,7 +132,7 @@ class Gate:
         first = verdict["decided_by"] or verdict["tightest"]
         self.begins[verdict["verdict"], first] += 1
         some = self.begins[verdict["verdict"], first] == 1
-        shown = page.rendered((folder / "report.html").resolve(), self.work / "browser") if some else None
+        shown = self.browser.facts((folder / "report.html").resolve()) if some else None
         if shown is not None:
             self.pages += 1
             wrong += page.hear(shown, page.meta(folder / "report.html"), verdict, judged, known)
@@ -215,6 +216,7 @@ def main():
             for name in ("hexapod, fast", "caterpillar, little current", "hexapod, bullet"):
                 gate.any_rows(name)
             gate.studies()
+        gate.browser.close()
     open_, met = [], set()
     for name, text in gate.wrong:
         known = ((not where or name in where.split("|")) and re.search(what, text) for where, what, _ in KNOWN)

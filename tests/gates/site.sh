@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # The site of the documentation (docs/site) builds without warnings, without its gallery; its links have their targets, and no page loads
 # anything from elsewhere. In Chromium six pages load whatever they name, light and dark, wide and narrow; the search finds.
-# usage: site.sh     (exit code 77 without Sphinx and its packages)
+# usage: site.sh BUILD_DIR     (exit code 77 without Sphinx and its packages, or without a browser)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
+(($#)) || usage
 python=/usr/bin/python3 # Python of Debian
 for module in sphinx myst_parser furo sphinx_copybutton yaml; do
   "$python" -c "import $module" 2>/dev/null || {
@@ -50,27 +51,9 @@ said "is not a site"
 [[ -e $work/mine/file ]] || bad "the build removes a folder that is no site"
 
 # The look, the buttons and the search, in a browser.
-left_out() {
-  [[ ${CI:-} != true ]] || fail "the site in a browser: not tested, though this is CI: $1"
-  skip "the site in a browser" "$1"
-  verdict
-  exit
-}
-for tool in node npm; do
-  command -v "$tool" >/dev/null || left_out "no $tool (Debian: nodejs, npm)"
-done
-export CHROMIUM=${CHROMIUM:-$(command -v chromium || true)}
-[[ -n $CHROMIUM ]] || left_out "no Chromium (Debian: chromium)"
-mkdir "$work/page"
-cp -- "$root"/tests/page/browser.mjs "$root"/tests/site/site_test.mjs "$work/page"
-cd -- "$work/page"
-driver=$(node -p 'require(process.argv[1]).devDependencies["playwright-core"]' "$root/report/page/package.json")
-if ! npm install --no-save --ignore-scripts --no-audit --no-fund "playwright-core@$driver" >"$work/log" 2>&1; then
-  show_log
-  ! grep -qE 'ENOTFOUND|EAI_AGAIN|ECONNREFUSED|ECONNRESET|ENETUNREACH|ETIMEDOUT' "$work/log" || left_out "the package registry cannot be reached"
-  fail "npm install playwright-core"
-fi
-if ! node site_test.mjs "$site" >"$work/log" 2>&1; then
+source "$root/tests/browser.sh"
+needs_browser "$(readlink -f -- "$1")" "the site in a browser"
+if ! node "$root/tests/site/site_test.mjs" "$site" >"$work/log" 2>&1; then
   grep -A 30 '^not ok' "$work/log" | head -n 300 >&2 || show_log
   fail "the site in $("$CHROMIUM" --version 2>/dev/null || printf %s "$CHROMIUM")"
 fi

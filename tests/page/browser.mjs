@@ -1,18 +1,24 @@
 // A page in Debian's Chromium, as a reader opens it: no network, no GPU.
-import { chromium } from "playwright-core";
 import { readFileSync } from "node:fs";
-import { resolve } from "node:path";
+import { createRequire } from "node:module";
+import { join, resolve } from "node:path";
+
+/** The modules of report/page/package-lock.json, which the gate has installed (tests/browser.sh). */
+export const modules = createRequire(join(resolve(process.env.NODE_MODULES), "of.mjs"));
+const { chromium } = modules("playwright-core");
 
 // Every wait is for a state, and this, in ms, only ends what would wait for ever: a machine may be slow.
 const patience = 1_200_000;
 const options = { timeout: patience, executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader"] };
-const browser = await chromium.launch(options), flat = await chromium.launch({ ...options, args: [...options.args, "--disable-3d-apis"] });
-export const close = () => Promise.all([browser.close(), flat.close()]);
+const launched = {};
+/** The browser with or without WebGL, started when it is first needed. */
+const browser = (webgl) => launched[webgl] ??= chromium.launch(webgl ? options : { ...options, args: [...options.args, "--disable-3d-apis"] });
+export const close = async () => { for (const one of Object.values(launched)) await (await one).close(); };
 
 /** A page that is ready (it has the element `ready`), from a file or, with `site`, from that server on this machine, in a browser with or without
  * WebGL; `complaints`: errors on the console, exceptions, requests. */
 export async function open(file, { link = "paused", ready = "html[data-ready]", width = 1440, height = 900, webgl = true, site = "", ...more } = {}) {
-  const context = await (webgl ? browser : flat).newContext({ viewport: { width, height }, offline: !site, bypassCSP: false, ...more });
+  const context = await (await browser(webgl)).newContext({ viewport: { width, height }, offline: !site, bypassCSP: false, ...more });
   context.setDefaultTimeout(patience);
   const page = await context.newPage(), complaints = [];
   page.on("console", (m) => { if (m.type() === "error") complaints.push(m.text()); });

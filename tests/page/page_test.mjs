@@ -3,15 +3,14 @@
 // (a folder of format 1), jointless, built_ball: what there is little of; castor, motorless: joint 0 has no motor, none has; cured: a run with a remedy; fall, current: runs that fail in other ways; torque: of torque sources; pair, robots, ball, pair_second: two runs; strayed: of a golden.
 // trace: CSV of the feasible run with body.* columns.
 import assert from "node:assert/strict";
-import { createRequire } from "node:module";
 import { readFileSync } from "node:fs";
 import { resolve } from "node:path";
 import { after, test } from "node:test";
-import { close, columnsOf, frames, metaOf, open } from "./browser.mjs";
+import { close, columnsOf, frames, metaOf, modules, open } from "./browser.mjs";
 
 const files = Object.fromEntries(process.argv.slice(2).map((a) => a.split(/=(.*)/s)));
 const { trace, ...pages } = files;
-const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+const axe = readFileSync(modules.resolve("axe-core/axe.min.js"), "utf8");
 const said = { feasible: /^Feasible/, infeasible: /^Not feasible/, failed: /^The run ended early/, "not run": /^Built, not run$/, "not judged": /^Not judged$/ };
 const saidOf = (meta) => said[meta.outcome === "not run" ? "not run" : meta.verdict.verdict];
 const verdicts = { feasible: "feasible", infeasible: "infeasible", failed: "failed", open: "not judged" };

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { close, frames, open as opened } from "./browser.mjs";
+import { close, frames, open as opened } from "../page/browser.mjs";
 
 const site = process.argv[2];
 const pages = ["index.html", "docs/tutorials/feasible.html", "docs/equations.html", "docs/studies.html", "docs/reference/scenario.html", "search.html?q=verdict"];

@@ -1,9 +1,9 @@
 """The facts of report.html: its JSON, and the text that Chromium displays. Definitions: docs/report.md."""
-import html
 import json
 import math
+import os
+import pathlib
 import re
-import shutil
 import subprocess
 
 import numpy as np
@@ -12,6 +12,7 @@ from told.motors import grown
 from told.verdict import by_urgency
 
 SPACE = "\u00a0"
+FACTS = pathlib.Path(__file__).resolve().parents[2] / "page" / "facts.mjs"
 FLOORS = {"": 1e-6, "m": 1e-7, "rad": 1e-4, "rad/s": 1e-5, "N m": 1e-6, "N": 1e-5, "A": 1e-6, "J": 1e-7}
 
 
@@ -19,22 +20,30 @@ def meta(file):
     return json.loads(re.search(r'<script type="application/json" id="meta">(.*?)</script>', file.read_text(), re.S)[1])
 
 
-def rendered(file, home):
-    """Texts {headline, why, facts} of the page in a browser without a network; None if there is no browser."""
-    chromium = shutil.which("chromium")
-    if chromium is None:
-        return None
-    made = subprocess.run(
-        [chromium, "--headless", "--no-sandbox", "--disable-gpu", "--disable-3d-apis", "--virtual-time-budget=10000",
-         f"--user-data-dir={home}", "--dump-dom", f"file://{file}#paused"], capture_output=True, text=True, timeout=600, check=False)
-    text = lambda s: html.unescape(re.sub(r"<[^>]*>", "", s))
-    dom = made.stdout
-    facts = re.search(r'<dl id="facts".*?</dl>', dom, re.S)
-    if not facts or not re.search(r"<html[^>]* data-ready", dom):
-        raise RuntimeError(f"{file}: the browser shows no facts: {made.stderr[-500:]}")
-    rows = re.findall(r"<dt>(.*?)</dt><dd>(.*?)</dd>", facts[0], re.S)
-    return {"headline": text(re.search(r'id="said"[^>]*>(.*?)</h2>', dom, re.S)[1]),
-            "why": text(re.search(r'id="why"[^>]*>(.*?)</p>', dom, re.S)[1]), "facts": {name: text(value) for name, value in rows}}
+class Browser:
+    """Pages as Chromium shows them, without a network (tests/page/facts.mjs): one browser for all pages, started with the first."""
+
+    def __init__(self):
+        self.process = None
+
+    def facts(self, file):
+        """Texts {headline, why, facts} of a page; None where NODE_MODULES names no modules (tests/browser.sh)."""
+        if "NODE_MODULES" not in os.environ:
+            return None
+        if self.process is None:
+            self.process = subprocess.Popen(["node", FACTS], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        self.process.stdin.write(f"{file}\n")
+        self.process.stdin.flush()
+        line = self.process.stdout.readline()
+        if not line:
+            raise RuntimeError(f"{file}: the browser shows no facts")
+        shown = json.loads(line)
+        return shown | {"facts": dict(shown["facts"])}
+
+    def close(self):
+        if self.process is not None:
+            self.process.stdin.close()
+            self.process.wait()
 
 
 # ---- number formats of the page
