@@ -1,28 +1,29 @@
 // A label of tests, by which CTest and `lab` choose them.
 #pragma once
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gaitlab::test {
 
-/// Label of the tests that a filter of GoogleTest names. It stands in the file of its tests, with the reason:
-///     const Label kWalks{"Walk.*:WalkUnder.*-Walk.Ends", "long"};
-/// Labels in use: `long`, more than a second of CPU, left out of `./lab test --quick`; `unsanitized`, minutes under the
-/// sanitizers for lines that shorter tests reach. A test with a label is an entry of CTest; the others of its suite are one
-/// entry together, because a process for each would cost more than most of them.
+/// Labels of the tests that a filter of GoogleTest names. They stand in the file of these tests, with the reason:
+///     const Label kWalks("Walk.*:WalkUnder.*-Walk.Ends", "long;unsanitized");
+/// Labels in use: `long`, more than a second of CPU, left out of `./lab test --quick`; `unsanitized`, minutes under the sanitizers for
+/// lines that shorter tests reach, left out there. A test with a label is an entry of CTest; the others of its suite are one entry together,
+/// because a process for each would cost more than most of them.
 class Label {
  public:
-  Label(std::string tests, std::string label) : filter(std::move(tests)), name(std::move(label)) { all().push_back(this); }
+  Label(std::string tests, std::string labels) : filter(std::move(tests)), names(std::move(labels)) { all().push_back(this); }
   Label(const Label&) = delete;
   Label& operator=(const Label&) = delete;
 
   /// All labels of the program.
   static std::vector<const Label*>& all() {
-    static std::vector<const Label*> labels;
-    return labels;
+    static std::vector<const Label*> list;
+    return list;
   }
 
-  const std::string filter, name;
+  const std::string filter, names;
 };
 
 }  // namespace gaitlab::test

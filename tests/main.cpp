@@ -68,7 +68,7 @@ int print_entries(const char* program) {
       std::set<std::string> own;
       for (const Label* label : Label::all()) {
         if (!chosen(label->filter, name)) continue;
-        own.insert(label->name);
+        own.insert(label->names);
         unused.erase(label->filter);
       }
       if (own.empty()) {

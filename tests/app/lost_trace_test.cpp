@@ -1,9 +1,13 @@
 // If the trace of a run cannot be written, all other results are written, and the rows if possible.
 #include "tests/folders.h"
+#include "tests/labels.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
+
+// Runs until memory or a disk is full.
+const Label kLostTraces("LostTrace.*", "long");
 
 namespace fs = std::filesystem;
 

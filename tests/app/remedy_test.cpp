@@ -3,9 +3,13 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/study_fixture.h"
+#include "tests/labels.h"
 
 namespace gaitlab::test {
 namespace {
+
+// Searches of a remedy, of some fifty runs.
+const Label kLongRemedies("RemedyCommand.NeededCurrent*:RemedyCommand.AFeasible*", "long;unsanitized");
 
 using nlohmann::json;
 

@@ -1,12 +1,16 @@
 // Tests of engine `articulated`: comparison with engine `bullet`, orders of the integrators, motors at their limits.
 #include <cmath>
 
+#include "tests/labels.h"
 #include "tests/program/random_scenario.h"
 #include "tests/program/torques.h"
 #include "tests/validation.h"
 
 namespace gaitlab::test {
 namespace {
+
+// Whole walks of both engines.
+const Label kWalksOfTwo("Of/WalkOfTwoEngines.*", "long;unsanitized");
 
 Acceleration accelerate(const std::string& engine, const PlantSettings& settings, const RobotState& state, In tau,
                         std::span<const BodyWrench> wrenches) {

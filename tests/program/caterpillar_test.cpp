@@ -1,9 +1,13 @@
 // Tests of the paper's first robot: travel, torque, energy, statics. The expected numbers are those of section 8 of the model.
 // Three methods reproduced them: RK4 at 0.01 ms, Bullet's algorithm at 0.025 ms, and a linearly implicit method at 0.5 ms.
+#include "tests/labels.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
+
+// Whole walks of bullet.
+const Label kCaterpillarWalks("Walk.*", "long;unsanitized");
 
 /// Run of the caterpillar. It uses engine articulated, because bullet takes forty times as long; WalkOfTwoEngines compares the
 /// two engines.

@@ -3,10 +3,14 @@
 #include <numbers>
 
 #include "tests/folders.h"
+#include "tests/labels.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
+
+// Whole walks under every CPG.
+const Label kWalksUnder("Walk/WalkUnder.*", "long;unsanitized");
 
 struct Gait {
   double period = 0, lag = 0, travel = 0;

@@ -4,10 +4,14 @@
 
 #include <cmath>
 
+#include "tests/labels.h"
 #include "tests/program/torques.h"
 
 namespace gaitlab::test {
 namespace {
+
+// Whole walks of both engines.
+const Label kSlippingWalk("Slipping.*", "long;unsanitized");
 
 class Rolling : public EveryEngine {};
 INSTANTIATE_TEST_SUITE_P(Engines, Rolling, engines(), engine_name);

@@ -3,10 +3,14 @@
 #include <algorithm>
 
 #include "core/plugin/legs.h"
+#include "tests/labels.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
+
+// Whole walks of bullet.
+const Label kHexapodWalks("Walk.*", "long;unsanitized");
 
 constexpr double kGravity = 9.81;
 

@@ -1,9 +1,13 @@
 // Tests of the energy ledger: the energies of all steps balance except for the integration error.
+#include "tests/labels.h"
 #include "tests/program/engines.h"
 #include "tests/validation.h"
 
 namespace gaitlab::test {
 namespace {
+
+// Whole walks of bullet.
+const Label kLedgers("*LedgerOf.*:Ledger.Directional*", "long;unsanitized");
 
 const std::string kShort = "duration=1.5";  // long enough that motors drive and are driven, and feet stand and slip
 const std::string kColumns = "trace.columns=[energy.*]";

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "report/verdict/trust.h"
+#include "tests/labels.h"
 #include "tests/program/fixture.h"
 #include "tests/program/torque_error.h"
 #include "tests/report/verdict/messages.h"
@@ -10,6 +11,9 @@
 
 namespace gaitlab::test {
 namespace {
+
+// Fine runs of bullet.
+const Label kFineRuns("Motors/Limits.*", "long;unsanitized");
 
 double at_limit(const JointStatistics& joint) { return joint.saturated_voltage + joint.saturated_current; }
 

@@ -4,10 +4,14 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/labels.h"
 #include "tests/program/engines.h"
 
 namespace gaitlab::test {
 namespace {
+
+// Whole walks.
+const Label kRenumberedWalks("*RenumberedWalk.*", "long;unsanitized");
 
 /// Calls the program for a row of three modules, of which the middle has number `middle` and the last has number `last`.
 class ChainNumbered : public testing::Test {

@@ -3,10 +3,14 @@
 #include "core/laws/hinge_stop.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/simulation/plant.h"
+#include "tests/labels.h"
 #include "tests/program/random_scenario.h"
 
 namespace gaitlab::test {
 namespace {
+
+// Steps of hundreds of random robots.
+const Label kEveryMotor("RandomSteps.EndOnTheLawOfEveryMotor", "long;unsanitized");
 
 /// Random scenario with low motor limits, stiff ground and long steps.
 Scenario at_limits(RandomRobots& random) {

@@ -9,11 +9,15 @@
 #include "core/simulation/probes.h"
 #include "tests/core/recording/tables.h"
 #include "tests/folders.h"
+#include "tests/labels.h"
 #include "tests/messages.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
+
+// A whole walk.
+const Label kAllTicks("Ticks.AreOfAllSteps", "long;unsanitized");
 
 const std::string kRemedy = "; one of the two files belongs to another run: restore the right file, or simulate again\n";
 

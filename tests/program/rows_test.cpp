@@ -6,11 +6,15 @@
 
 #include "core/model/pattern.h"
 #include "core/simulation/batch.h"
+#include "tests/labels.h"
 #include "tests/program/bits.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
+
+// Whole walks of both engines.
+const Label kRowsOfWalks("Rows.ChangeNothing:Rows.AShortRun*:Rows.AreTheSame*", "long;unsanitized");
 
 namespace fs = std::filesystem;
 

@@ -14,10 +14,14 @@
 #include "report/verdict/demand.h"
 #include "report/verdict/verdict.h"
 #include "report/verdict/warnings.h"
+#include "tests/labels.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
+
+// Walks of both engines.
+const Label kServoWalk("Servo.IsADcMotorBitForBit", "long;unsanitized");
 
 /// Servos of the tests. AX-12 at 10 V: 16.5 kgf cm, 0.196 s per 60 degrees, 0.9 A (from its manual). SG92R at 4.8 V: 2.5 kgf
 /// cm, 0.12 s per 60 degrees.

@@ -3,11 +3,15 @@
 #include <limits>
 
 #include "core/model/kinematics.h"
+#include "tests/labels.h"
 #include "tests/messages.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
+
+// Whole walks of bullet.
+const Label kSolverWalks("Solver.Walks*", "long;unsanitized");
 
 const std::vector<std::string> kSolver{"contact.law=bullet"};
 

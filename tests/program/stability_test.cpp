@@ -4,10 +4,14 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "tests/labels.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
+
+// A whole walk of bullet.
+const Label kLateWarning("LambdaRule.Warns*", "long;unsanitized");
 
 /// Dense inverse mass matrix of a robot at zero angles, computed from the kinetic energies of unit velocities.
 class DenseMass final : public InverseMass {

@@ -8,10 +8,14 @@
 #include "bench/mujoco_plant.h"
 #include "bench/results.h"
 #include "core/scenario/read_scenario.h"
+#include "tests/labels.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
+
+// Runs of four engines.
+const Label kRace("Versus.ARace*", "long;unsanitized");
 
 Catalog& with_mujoco() {
   static Catalog all = [] {

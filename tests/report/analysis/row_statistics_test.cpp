@@ -4,10 +4,14 @@
 #include <nlohmann/json.hpp>
 
 #include "report/verdict/verdict.h"
+#include "tests/labels.h"
 #include "tests/program/cart.h"
 
 namespace gaitlab::test {
 namespace {
+
+// A whole walk of bullet.
+const Label kAllSteps("RowStatistics.OfEveryStep*", "long;unsanitized");
 
 using namespace report;
 

@@ -6,11 +6,15 @@
 #include "report/analysis/legs.h"
 #include "report/figures/run/run_figure.h"
 #include "report/plot/svg.h"
+#include "tests/labels.h"
 #include "tests/program/fixture.h"
 #include "tests/report/sample.h"
 
 namespace gaitlab::test {
 namespace {
+
+// Whole walks, at two seconds under the sanitizers each.
+const Label kFootfalls("Footfall.*", "unsanitized");
 
 using namespace report;
 

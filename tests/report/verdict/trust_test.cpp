@@ -8,10 +8,14 @@
 #include "report/verdict/number_texts.h"
 #include "report/verdict/summary_text.h"
 #include "tests/folders.h"
+#include "tests/labels.h"
 #include "tests/report/verdict/messages.h"
 
 namespace gaitlab::test {
 namespace {
+
+// Runs of every shipped scenario.
+const Label kShippedRuns("Trust.NothingIsSaidOfShippedScenarios", "long;unsanitized");
 
 using namespace report;
 

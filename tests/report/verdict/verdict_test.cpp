@@ -6,11 +6,15 @@
 
 #include "core/scenario/resolved.h"
 #include "report/verdict/summary_text.h"
+#include "tests/labels.h"
 #include "tests/program/cart.h"
 #include "tests/report/verdict/verdict_case.h"
 
 namespace gaitlab::test {
 namespace {
+
+// Whole walks.
+const Label kAnyPeriod("Verdict.IsTheSameForAnyTracePeriod", "long;unsanitized");
 
 TEST(Verdict, OfAGaitThatTheMotorsCanDo) {
   const Verdict made = gait().judged();
