@@ -26,6 +26,8 @@ const on = (name, file, options, body) => file && test(name, async (parts) => {
     await done();
   }
 });
+/** Options of tests that look at no picture of the robot: without a GPU, to draw it costs more than most of them. */
+const flat = { webgl: false };
 const factsOf = async (page) => Object.fromEntries(await page.$$eval("#facts > div", (all) => all.map((d) => [d.querySelector("dt").textContent, d.querySelector("dd").textContent])));
 const state = (page) => page.evaluate(() => ({ ...window.gaitlab.page.state }));
 const words = { pass: "pass", warn: "warning", fail: "fail", "too close": "too close", "not judged": "not judged" };
@@ -84,7 +86,7 @@ for (const [name, file] of Object.entries(pages)) {
   });
 }
 
-on("markup: text of a scenario stays text", pages.markup, {}, async (page, meta) => {
+on("markup: text of a scenario stays text", pages.markup, flat, async (page, meta) => {
   assert.match(meta.scenario, /<\/script><script>window.taken = 1/);
   assert.equal(await page.textContent("#scenario"), meta.scenario);
   assert.equal(await page.evaluate(() => window.taken), undefined);
@@ -121,7 +123,7 @@ for (const name of ["feasible", "infeasible"]) {
     assert.deepEqual((await state(page)).span, [0, await page.evaluate(() => window.gaitlab.page.recording.end)]);
   });
 
-  on(`${name}: the slider sets the time`, file, {}, async (page, meta) => {
+  on(`${name}: the slider sets the time`, file, flat, async (page, meta) => {
     const t = 0.7 * meta.duration;
     await page.$eval("#time", (e, x) => { e.value = String(x); e.dispatchEvent(new Event("input", { bubbles: true })); }, t);
     near((await state(page)).t, t, 1e-9, "time");
@@ -143,7 +145,7 @@ for (const name of ["feasible", "infeasible"]) {
     assert.equal(await page.inputValue("#joint"), String(hit.k));
   });
 
-  on(`${name}: a check goes to its part and time`, file, {}, async (page, meta) => {
+  on(`${name}: a check goes to its part and time`, file, flat, async (page, meta) => {
     const places = meta.verdict.checks.filter((c) => c.worst !== null && c.from !== null && c.status !== "not judged");
     assert.ok(places.length > 0);
     for (const check of places) {
@@ -159,7 +161,7 @@ for (const name of ["feasible", "infeasible"]) {
   });
 
   // A peak lies between two control ticks, and its number belongs to the row where it is largest: no other row in the stretch has more.
-  on(`${name}: a peak is shown at the row where it is largest`, file, {}, async (page, meta) => {
+  on(`${name}: a peak is shown at the row where it is largest`, file, flat, async (page, meta) => {
     const peaks = [["speed", "speed"], ["gear_peak", "torque"]].flatMap(([id, quantity]) => meta.verdict.checks.filter((c) => c.id === id && c.worst !== null && c.from !== null && c.status !== "not judged").map((c) => [c, quantity]));
     assert.ok(peaks.length > 0);
     for (const [check, quantity] of peaks) {
@@ -172,7 +174,7 @@ for (const name of ["feasible", "infeasible"]) {
     }
   });
 
-  on(`${name}: checks that were not judged are one line`, file, {}, async (page, meta) => {
+  on(`${name}: checks that were not judged are one line`, file, flat, async (page, meta) => {
     const open = meta.verdict.checks.filter((c) => c.status === "not judged"), line = page.locator("#checks .fold button");
     assert.ok(open.length > 1);
     assert.equal(await line.textContent(), `${open.length} checks not judged`);
@@ -203,13 +205,13 @@ for (const name of ["feasible", "infeasible"]) {
   });
 }
 
-on("feasible: a link leads to joint, time and theme", pages.feasible, { link: "joint=m3/passive&t=1.25&theme=dark" }, async (page, meta) => {
+on("feasible: a link leads to joint, time and theme", pages.feasible, { ...flat, link: "joint=m3/passive&t=1.25&theme=dark" }, async (page, meta) => {
   const { joint, t, playing } = await state(page);
   assert.deepEqual([meta.joints[joint].name, t, playing], ["m3/passive", 1.25, false]);
   assert.equal(await page.getAttribute("html", "data-theme"), "dark");
 });
 
-on("feasible: opens paused at what is tightest", pages.feasible, { link: "" }, async (page, meta) => {
+on("feasible: opens paused at what is tightest", pages.feasible, { ...flat, link: "" }, async (page, meta) => {
   const { playing, joint, t } = await state(page), { tightest, checks, rests_on } = meta.verdict, check = checks.find((c) => c.id === tightest);
   assert.equal(playing, false);
   if (check.part === "joint") assert.equal(meta.joints[joint].name, check.worst);
@@ -220,7 +222,7 @@ on("feasible: opens paused at what is tightest", pages.feasible, { link: "" }, a
   assert.ok(facts.Tightest.includes(check.worst === null ? check.title : nameOf(meta, check)), `${facts.Tightest}; ${JSON.stringify(check)}`);
 });
 
-on("infeasible: what was first over the limit, what is worst, when, how much is missing", pages.infeasible, {}, async (page, meta) => {
+on("infeasible: what was first over the limit, what is worst, when, how much is missing", pages.infeasible, flat, async (page, meta) => {
   const facts = await factsOf(page), check = failing(meta), { longest, why, demand } = meta.verdict;
   assert.ok((await page.textContent("#why")).toLowerCase().startsWith(why.toLowerCase().replace(/[.]$/, "")), "the terminal's sentence");
   assert.ok(facts["First over the limit"].startsWith(check.first_part) && Math.abs(/at ([\d.]+)/.exec(facts["First over the limit"])[1] - check.first) < 6e-3, `${facts["First over the limit"]}; ${check.first}`);
@@ -237,7 +239,7 @@ on("infeasible: what was first over the limit, what is worst, when, how much is 
 });
 
 // The joint of the row with the largest share of the time at a limit, by the rows that are drawn.
-on("infeasible: the joint that is longest at a limit is that of the rows, too", pages.infeasible, {}, async (page, meta) => {
+on("infeasible: the joint that is longest at a limit is that of the rows, too", pages.infeasible, flat, async (page, meta) => {
   const shares = await page.evaluate(() => {
     const { recording } = window.gaitlab.page;
     return recording.meta.joints.map((_, j) => recording.channel(`joint.${j}.saturation`).filter((v, i) => v > 0 && i >= recording.judged).length);
@@ -248,13 +250,13 @@ on("infeasible: the joint that is longest at a limit is that of the rows, too", 
 
 // A number in red is beyond the limit beside it.
 for (const name of ["infeasible", "fall", "current"]) {
-  on(`${name}: what fails is beyond the limit that it stands beside`, pages[name], {}, async (page, meta) => {
+  on(`${name}: what fails is beyond the limit that it stands beside`, pages[name], flat, async (page, meta) => {
     const failed = meta.verdict.checks.filter((c) => c.status === "fail");
     assert.ok(failed.length > 0);
     for (const c of failed) if (c.value !== null && c.limit !== null) assert.ok(c.least ? c.value < c.limit : c.value > c.limit, `${c.id}: ${c.value}, limit ${c.limit}`);
   });
 
-  on(`${name}: opens paused where it fails`, pages[name], { link: "" }, async (page, meta) => {
+  on(`${name}: opens paused where it fails`, pages[name], { ...flat, link: "" }, async (page, meta) => {
     const { playing, joint, t } = await state(page), check = failing(meta);
     assert.equal(playing, false);
     assert.ok(t > check.from - meta.period && t < check.to + meta.period, `${t}, ${check.from} to ${check.to}`);
@@ -270,7 +272,7 @@ for (const name of ["infeasible", "fall", "current"]) {
 }
 
 // Contrast of WCAG 2, 1.4.11, of what lies next to each other: body and rim, rim and the colour of the load.
-on("loads are readable on every body", Object.values(pages)[0], {}, async (page) => {
+on("loads are readable on every body", Object.values(pages)[0], flat, async (page) => {
   const { bodies, rim, colours, stops } = await page.evaluate(() => {
     const { bodyColours, rim: around, ringLoad, ringGradient } = window.gaitlab.colours, shares = Array.from({ length: 101 }, (_, k) => k / 100), themes = ["light", "dark"];
     return { bodies: bodyColours, rim: around, colours: themes.map((t) => shares.map((x) => ringLoad(t, x))), stops: themes.map(ringGradient) };
@@ -388,7 +390,7 @@ on("feasible: bodies and docks have the colours of their loads", pages.feasible,
   docks.forEach((share, n) => same(rings.slice(3 * n), share, meta.docks[n].name));
 });
 
-on("fall: it is when it fell", pages.fall, { link: "" }, async (page, meta) => {
+on("fall: it is when it fell", pages.fall, { ...flat, link: "" }, async (page, meta) => {
   // The height of the start pose lowered onto the ground, of which check.value is the share at the lowest point.
   const check = failing(meta), { t } = await state(page), [before, at] = await page.evaluate(({ from, to, value }) => {
     const { recording } = window.gaitlab.page, z = recording.channel("com.z"), share = (time) => recording.at(z, time) / (recording.at(z, to) / value);
@@ -399,14 +401,14 @@ on("fall: it is when it fell", pages.fall, { link: "" }, async (page, meta) => {
   assert.ok(before > check.limit && at < check.limit, `${before}, ${at} of the height at the start`);
 });
 
-on("pair_second: opens where the second run fails", pages.pair_second, { link: "" }, async (page, meta) => {
+on("pair_second: opens where the second run fails", pages.pair_second, { ...flat, link: "" }, async (page, meta) => {
   const check = failing(meta.overlay.run), { joint, t } = await state(page);
   assert.equal(failing(meta), undefined);
   assert.equal(meta.joints[joint].name, check.worst);
   assert.ok(t > check.from - meta.overlay.run.period && t < check.to + meta.overlay.run.period, `${t}, ${check.from} to ${check.to}`);
 });
 
-on("torque: the command of a torque source is drawn in N m", pages.torque, {}, async (page, meta) => {
+on("torque: the command of a torque source is drawn in N m", pages.torque, flat, async (page, meta) => {
   assert.equal(meta.motors[0].unit, "N m");
   assert.match(await page.textContent("#drive-key"), /torque asked for/);
   const drawn = await page.evaluate(() => {
@@ -416,13 +418,13 @@ on("torque: the command of a torque source is drawn in N m", pages.torque, {}, a
   assert.ok(drawn[0] > 0.01 && drawn[0] === drawn[1], String(drawn));
 });
 
-on("commands to paste have the folder of the page", pages.current, {}, async (page) => {
+on("commands to paste have the folder of the page", pages.current, flat, async (page) => {
   const folder = pages.current.replace(/\/report.html$/, "");
   assert.ok((await page.textContent("#foot-text")).endsWith(`gaitlab rerun ${resolve(folder)}`));
   assert.equal(await page.textContent("#aside code"), `gaitlab report --demand ${resolve(folder)}`);
 });
 
-on("numbers below a floor are 0, and large ones have a prefix", Object.values(pages)[0], {}, async (page) => {
+on("numbers below a floor are 0, and large ones have a prefix", Object.values(pages)[0], flat, async (page) => {
   const texts = await page.evaluate(() => {
     const { quantity, percent, decimalsOf, capital } = window.gaitlab.texts;
     return [quantity(3e-11, "N m"), percent(2.6e-10), quantity(1.17e6, "J"), quantity(-2.5e-9, "m"), quantity(0.0123, "m"), decimalsOf(1e-10, "N m"), decimalsOf(0.004, "N m"), capital("m3/active stalls"), capital("m5's dock is bent"), capital("the robot falls")];
@@ -452,7 +454,7 @@ on("feasible: hinges are drawn where the engine had them", trace && pages.feasib
 });
 
 // Equations 1 and 2 with the constants of scenarios/modules/mtran.yaml: T = K i, i = (u - Ke w) / R, |u| <= 7.4 V, |i| <= 1.2 A.
-on("feasible: the envelope is that of the motor", pages.feasible, {}, async (page, meta) => {
+on("feasible: the envelope is that of the motor", pages.feasible, flat, async (page, meta) => {
   const K = 0.7 * 0.00395 * 594, Ke = 0.00395 * 594, R = 4.3, clamp = (i) => Math.min(Math.max(i, -1.2), 1.2);
   const motor = meta.motors[meta.joints[0].motor], fastest = Math.max(...motor.speed);
   for (const w of [-0.9 * fastest, -2, -0.5, 0, 0.5, 1.5, 2.5, 0.9 * fastest]) {
@@ -468,7 +470,7 @@ on("feasible: the envelope is that of the motor", pages.feasible, {}, async (pag
   }
 });
 
-on("cured: what would make the gait feasible, and its map", pages.cured, {}, async (page) => {
+on("cured: what would make the gait feasible, and its map", pages.cured, flat, async (page) => {
   assert.equal(await page.textContent("#remedy-h"), "Changes that make it feasible");
   assert.deepEqual(await page.$$eval("#remedy li", (all) => all.map((l) => l.textContent)), ["Feasible with i_max ≥ 0.719 A", "Not by Kp <b>"]);
   assert.equal(await page.$$eval(".remedy-map rect.feasible", (all) => all.length), 36);
@@ -482,7 +484,7 @@ on("cured: what would make the gait feasible, and its map", pages.cured, {}, asy
   near(Math.hypot(ring[0] - cell[0], ring[1] - cell[1]), 0, 1, "ring on its cell, px");
 });
 
-on("feasible: no remedy was searched", pages.feasible, {}, async (page) => assert.equal(await page.isVisible(".remedy"), false));
+on("feasible: no remedy was searched", pages.feasible, flat, async (page) => assert.equal(await page.isVisible(".remedy"), false));
 
 on("built: shows hinges, faces and axes, and no time", pages.built, {}, async (page, meta) => {
   assert.deepEqual(await page.$$eval("[data-gender]:not([hidden])", (all) => all.map((e) => e.textContent)), ["active face", "passive face"]);
@@ -509,13 +511,13 @@ on("built: shows hinges, faces and axes, and no time", pages.built, {}, async (p
   near(off, 0, 1e-6, "a ring from the parent's face, m"); // poses are rounded to a micrometre
 });
 
-on("failed: why it ended, and what there is until then", pages.failed, {}, async (page, meta) => {
+on("failed: why it ended, and what there is until then", pages.failed, flat, async (page, meta) => {
   assert.ok((await page.textContent("#why")).toLowerCase().startsWith(meta.outcome.toLowerCase()), meta.outcome);
   near(await page.evaluate(() => window.gaitlab.page.recording.end), meta.duration, meta.period, "the last row");
   assert.ok(await page.isVisible("#motion"));
 });
 
-on("old: what a folder of format 1 lacks is said, and nothing is made up", pages.old, {}, async (page, meta) => {
+on("old: what a folder of format 1 lacks is said, and nothing is made up", pages.old, flat, async (page, meta) => {
   assert.ok(meta.missing.length > 0);
   assert.deepEqual(await page.$$eval("#missing li", (all) => all.map((l) => l.textContent.toLowerCase().replace(/[.]$/, ""))), meta.missing.map((m) => m.toLowerCase()));
   assert.ok(await page.isVisible("#motion"));
@@ -524,7 +526,7 @@ on("old: what a folder of format 1 lacks is said, and nothing is made up", pages
   assert.equal(await page.textContent('[data-check="dock_tension"] .value'), "not judged");
 });
 
-on("csv: a run whose trace is text", pages.csv, {}, async (page, meta) => {
+on("csv: a run whose trace is text", pages.csv, flat, async (page, meta) => {
   assert.equal(meta.period, 0.02);
   assert.ok(await page.isVisible("#motion"));
   assert.ok(await page.isVisible("#heat canvas"));
@@ -540,7 +542,7 @@ for (const name of ["jointless", "built_ball"]) {
   });
 }
 
-on("castor: what a joint without a motor does not have, the others do", pages.castor, {}, async (page, meta) => {
+on("castor: what a joint without a motor does not have, the others do", pages.castor, flat, async (page, meta) => {
   assert.deepEqual(meta.joints.map((j) => j.motor === null), [true, false]);
   for (const id of ["#envelope canvas", "#heat canvas", "#power canvas"]) assert.ok(await page.isVisible(id), id);
   assert.match(await page.textContent("#heat-note"), /of the torque available/);
@@ -550,14 +552,14 @@ on("castor: what a joint without a motor does not have, the others do", pages.ca
 });
 
 for (const name of ["castor", "motorless", "jointless"]) {
-  on(`${name}: nothing is undefined`, pages[name], {}, async (page) => {
+  on(`${name}: nothing is undefined`, pages[name], flat, async (page) => {
     assert.doesNotMatch(await page.evaluate(() => [...document.querySelectorAll("body *:not(script, style)")].flatMap((e) => [...e.childNodes].filter((n) => n.nodeType === 3).map((n) => n.data)).join(" ")), /undefined|NaN/);
     for (const id of name === "castor" ? [] : ["#heat", "#heat-ramp", "#envelope", "#power"]) assert.ok(await page.isHidden(id), id);
   });
 }
 
 for (const name of ["pair", "robots", "ball"]) {
-  on(`${name}: says what both runs found`, pages[name], {}, async (page, meta) => {
+  on(`${name}: says what both runs found`, pages[name], flat, async (page, meta) => {
     const runs = [meta, meta.overlay.run];
     for (const [n, id] of ["#said", "#said-second"].entries()) assert.match(await page.textContent(id), saidOf(runs[n]));
     const rows = await page.$$eval("#checks [data-check]", (all) => all.map((r) => [r.dataset.check, ...[...r.querySelectorAll(".value")].map((v) => v.querySelector(".sr")?.textContent ?? null)]));
@@ -597,7 +599,7 @@ on("pair: the second run by the clock of the first", pages.pair, {}, async (page
   assert.deepEqual([await visible(1), await visible(3.9)], [true, false], "it is gone when its run has ended");
 });
 
-on("pair: at the same phase", pages.pair, {}, async (page, meta) => {
+on("pair: at the same phase", pages.pair, flat, async (page, meta) => {
   const { run } = meta.overlay;
   assert.ok(meta.cycle && run.cycle);
   await page.keyboard.press("p");
@@ -615,7 +617,7 @@ on("pair: at the same phase", pages.pair, {}, async (page, meta) => {
   }
 });
 
-on("robots: a joint that one of them lacks", pages.robots, {}, async (page, meta) => {
+on("robots: a joint that one of them lacks", pages.robots, flat, async (page, meta) => {
   const theirs = meta.overlay.run.joints.map((j) => j.name), lone = meta.joints.findIndex((j) => !theirs.includes(j.name)), common = meta.joints.findIndex((j) => theirs.includes(j.name));
   await page.selectOption("#joint", String(lone));
   assert.match(await page.textContent("#motion-key"), /B has no such joint/);
@@ -623,7 +625,7 @@ on("robots: a joint that one of them lacks", pages.robots, {}, async (page, meta
   assert.match(await page.textContent("#motion-key"), /B: dashed/);
 });
 
-on("strayed: what left its band first, when, how far", pages.strayed, {}, async (page, meta) => {
+on("strayed: what left its band first, when, how far", pages.strayed, flat, async (page, meta) => {
   const { strays, strayed, labels } = meta.overlay, [first] = strays;
   assert.deepEqual(labels, ["golden", "now"]);
   assert.equal(await page.textContent("#said"), "The run left the bands of its golden");
@@ -648,7 +650,7 @@ on("strayed: what left its band first, when, how far", pages.strayed, {}, async 
 
 // The bytes that report/page/page_data.cpp writes for these values, by hand from the rule: differences, zigzag, LEB128.
 // 0 1 -1 64 -64 8191 -8192 1000000: differences 0 1 -2 65 -128 8255 -16383 1008192, zigzag 0 2 3 130 255 16510 32765 2016384.
-on("unpacks the bytes that C++ packs", Object.values(pages)[0], {}, async (page) => {
+on("unpacks the bytes that C++ packs", Object.values(pages)[0], flat, async (page) => {
   const bytes = [0x00, 0x02, 0x03, 0x82, 0x01, 0xff, 0x01, 0xfe, 0x80, 0x01, 0xfd, 0xff, 0x01, 0x80, 0x89, 0x7b];
   const unpacked = (channels, list) => page.evaluate(([c, b]) => [...window.gaitlab.unpack(c, Uint8Array.from(b))].map(([name, values]) => [name, [...values]]), [channels, list]);
   assert.deepEqual(await unpacked([["a", "m", 1, 8]], bytes), [["a", [0, 1, -1, 64, -64, 8191, -8192, 1000000]]]);
