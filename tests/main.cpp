@@ -1,17 +1,15 @@
 // The test programs: GoogleTest's, with entries for CTest and the CPU time of each test.
-//     core_tests --ctest            prints the entries, with labels (tests/labels.h), as a file that CTest includes
+//     core_tests --ctest FILE       writes the entries, with labels (tests/labels.h), as a file that CTest includes
 //     GAITLAB_CPU=FILE core_tests   appends `seconds name` of each test to FILE, with the children that it waited for
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
-#include <map>
+#include <iostream>
 #include <set>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "tests/labels.h"
 
@@ -46,44 +44,63 @@ std::string joined(const std::set<std::string>& names, const char* between) {
   return text;
 }
 
-void print_entry(const char* program, const std::string& name, const std::string& filter,
-                 const std::set<std::string>& labels_of_it) {
-  std::printf("add_test([[%s]] [[%s]] [[--gtest_filter=%s]])\n", name.c_str(), program, filter.c_str());
-  if (!labels_of_it.empty())
-    std::printf("set_tests_properties([[%s]] PROPERTIES LABELS [[%s]])\n", name.c_str(), joined(labels_of_it, ";").c_str());
-}
+/// The file of CTest: an entry per suite, and one for each test with a label.
+class Entries {
+ public:
+  Entries(const char* program, const char* file) : program_(std::filesystem::absolute(program)), out_(file) {
+    for (const Label* label : Label::all()) unused_.insert(label->filter);
+  }
 
-// Prints the entries of CTest. A label that chooses no test is an error.
-int print_entries(const char* program) {
-  const testing::UnitTest& all = *testing::UnitTest::GetInstance();
-  std::set<std::string> unused;
-  for (const Label* label : Label::all()) unused.insert(label->filter);
-  for (int s = 0; s < all.total_test_suite_count(); ++s) {
-    const testing::TestSuite& suite = *all.GetTestSuite(s);
-    std::set<std::string> alone;
-    int others = 0;
+  void add(const testing::TestSuite& suite) {
+    std::set<std::string> labelled;
+    bool others = false;
     for (int k = 0; k < suite.total_test_count(); ++k) {
       const std::string name = std::string(suite.name()) + "." + suite.GetTestInfo(k)->name();
-      if (std::string(suite.GetTestInfo(k)->name()).rfind("DISABLED_", 0) == 0) continue;
-      std::set<std::string> own;
-      for (const Label* label : Label::all()) {
-        if (!chosen(label->filter, name)) continue;
-        own.insert(label->names);
-        unused.erase(label->filter);
-      }
-      if (own.empty()) {
-        ++others;
+      const std::set<std::string> labels = labels_of(name);
+      if (labels.empty()) {
+        others = true;
       } else {
-        alone.insert(name);
-        print_entry(program, name, name, own);
+        labelled.insert(name);
+        write(name, name, labels);
       }
     }
-    if (others > 0)
-      print_entry(program, suite.name(), std::string(suite.name()) + ".*" + (alone.empty() ? "" : "-" + joined(alone, ":")),
-                  {});
+    const std::string all = std::string(suite.name()) + ".*";
+    if (others) write(suite.name(), labelled.empty() ? all : all + "-" + joined(labelled, ":"), {});
   }
-  for (const std::string& filter : unused) std::fprintf(stderr, "a label of no test: %s\n", filter.c_str());
-  return unused.empty() ? 0 : 1;
+
+  /// Labels that chose no test, a line each.
+  std::string unused() const { return joined(unused_, "\n"); }
+
+ private:
+  std::set<std::string> labels_of(const std::string& name) {
+    std::set<std::string> found;
+    for (const Label* label : Label::all()) {
+      if (!chosen(label->filter, name)) continue;
+      found.insert(label->names);
+      unused_.erase(label->filter);
+    }
+    return found;
+  }
+
+  void write(const std::string& name, const std::string& filter, const std::set<std::string>& labels) {
+    out_ << "add_test([[" << name << "]] [[" << program_ << "]] [[--gtest_filter=" << filter << "]])\n";
+    if (!labels.empty())
+      out_ << "set_tests_properties([[" << name << "]] PROPERTIES LABELS [[" << joined(labels, ";") << "]])\n";
+  }
+
+  std::string program_;
+  std::ofstream out_;
+  std::set<std::string> unused_;
+};
+
+// A label that chooses no test is an error.
+int write_entries(const char* program, const char* file) {
+  const testing::UnitTest& all = *testing::UnitTest::GetInstance();
+  Entries entries(program, file);
+  for (int s = 0; s < all.total_test_suite_count(); ++s) entries.add(*all.GetTestSuite(s));
+  if (entries.unused().empty()) return 0;
+  std::cerr << "labels of no test:\n" << entries.unused() << '\n';
+  return 1;
 }
 
 double cpu_seconds() {
@@ -116,7 +133,7 @@ class CpuOfTests : public testing::EmptyTestEventListener {
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
-  if (argc == 2 && std::string(argv[1]) == "--ctest") return gaitlab::test::print_entries(argv[0]);
+  if (argc == 3 && std::string(argv[1]) == "--ctest") return gaitlab::test::write_entries(argv[0], argv[2]);
   if (const char* file = std::getenv("GAITLAB_CPU"))
     testing::UnitTest::GetInstance()->listeners().Append(new gaitlab::test::CpuOfTests(file));
   return RUN_ALL_TESTS();

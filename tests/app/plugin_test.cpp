@@ -87,7 +87,7 @@ TEST_F(Plugins, AStaticObjectThatEndsTheProcessIsAnError) {
 /// The program has 1 s of CPU time here, so that its child has no more.
 TEST_F(Plugins, AStaticObjectThatNeverReturnsIsAnError) {
   folder.write("s.yaml", with("spins_at_load.so", "sine"));
-  const std::string command = "cd '" + (folder / "") + "' && ulimit -S -t 1 && '" + GAITLAB_BINARY_DIR +
+  const std::string command = "cd '" + (folder / "") + "' && ulimit -S -t 1 && '" + gaitlab::test::build_folder() +
                               "/bin/gaitlab' check s.yaml --plugins-from-scenario 2>err";
   const int status = std::system(command.c_str());
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 2) << status;

@@ -53,7 +53,7 @@ TEST(Value, WhatIsNoNumber) {
   EXPECT_EQ(wrong("--1"), "is '--1'; expected a number in s");
   EXPECT_EQ(wrong("1 s"), "is '1 s'; expected a number in s");
   EXPECT_EQ(wrong("."), "is '.'; expected a number in s");
-  EXPECT_EQ(wrong("1,5"), "is '1,5'; expected a number in s");
+  EXPECT_EQ(wrong("1,5"), "is '1,5'; expected a number in s; a decimal point is a point: 1.5");
   EXPECT_EQ(read_number({Node::Kind::list}, "").wrong, "is a list; expected a number");
   EXPECT_EQ(read_number({Node::Kind::map}, "m").wrong, "is a map; expected a number in m");
   EXPECT_EQ(read_number({Node::Kind::null}, "m").wrong, "is empty; expected a number in m");
@@ -107,13 +107,14 @@ TEST(Value, MessagesShowNoControlCharactersAndStayShort) {
   EXPECT_EQ(clipped(std::string(500, 'x')), std::string(60, 'x') + "...");
   EXPECT_EQ(clipped(std::string(60, 'x')), std::string(60, 'x'));
   EXPECT_EQ(clipped("\xc2\x9b!"), "\\xc2\\x9b!");
-  // The first and last bidirectional mark of each group is escaped, but not the characters before and after the group.
-  for (const char* mark : {"\u061c", "\u200e", "\u200f", "\u202a", "\u202e", "\u2066", "\u2069"}) {
+  // The first and last separator of lines and bidirectional mark of each group is escaped, but not the characters before and
+  // after the group.
+  for (const char* mark : {"\u061c", "\u200e", "\u200f", "\u2028", "\u2029", "\u202a", "\u202e", "\u2066", "\u2069"}) {
     EXPECT_TRUE(clipped(mark).starts_with("\\x")) << clipped(mark);
     EXPECT_EQ(clipped(mark), one_line(mark));
   }
   for (const char* letter :
-       {"\u061b", "\u061d", "\u200d", "\u2010", "\u2029", "\u202f", "\u2065", "\u206a", "\u00e9", "\u05d0"})
+       {"\u061b", "\u061d", "\u200d", "\u2010", "\u2027", "\u202f", "\u2065", "\u206a", "\u00e9", "\u05d0"})
     EXPECT_EQ(clipped(letter), letter);
   EXPECT_EQ(clipped("a\xe2\x80"), "a\xe2\x80");  // text that is cut within a mark
 }
