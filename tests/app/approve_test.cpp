@@ -1,10 +1,17 @@
 // Tests of `gaitlab approve`: displayed changes, preserved bands, refused runs.
 #include "tests/app/golden_command.h"
+#include "tests/labels.h"
 
 namespace gaitlab::test {
 
 using namespace golden;
 namespace {
+
+// More than a second of CPU.
+const Label kLongApprove(
+    "ApproveCommand.AQuantisedScenarioHasAGoldenOfMeans:ApproveCommand.WhatARefusalAdvisesHelps:ApproveCommand."
+    "ApproveKeepsTheBandsOfTheSameGaitAlone",
+    "long");
 
 namespace fs = std::filesystem;
 

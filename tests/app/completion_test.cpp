@@ -1,10 +1,14 @@
 // Tests of `gaitlab completion bash` and of the manual page: both know what the parser knows.
 #include <sstream>
 
+#include "tests/labels.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongCompletion("Completion.EveryCommandAndOptionOfTheHelpIsOfferedAndInTheManual", "long");
 
 /// Words that may take the place of the last one.
 std::string offered(const std::string& words) { return "\n" + gaitlab("completion bash -- " + words, "/").out; }

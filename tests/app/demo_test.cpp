@@ -1,8 +1,12 @@
 // Tests of `gaitlab demo`.
+#include "tests/labels.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongDemo("Demo.WritesThePageOfAFeasibleGait", "long");
 
 TEST(Demo, WritesThePageOfAFeasibleGait) {
   const Folder folder;

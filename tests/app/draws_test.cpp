@@ -2,9 +2,16 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/study_fixture.h"
+#include "tests/labels.h"
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongDraws(
+    "DrawnRobots.AreTheRunsOfTheirSeeds:DrawnRobots.NeedSomethingToDraw:DrawnRobots.ReplicatesOfAStudyAreRobots:DrawnRobots."
+    "DecideTheExitCode",
+    "long");
 
 class DrawnRobots : public StudyFixture {
  protected:

@@ -3,9 +3,13 @@
 
 #include "studies/journal/journal.h"
 #include "tests/app/study_fixture.h"
+#include "tests/labels.h"
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongEvaluate("Evaluate.RefusesLinesThatAreNoQuestionsAndLosesNothing", "long");
 
 class Evaluate : public StudyFixture {
  protected:

@@ -6,11 +6,15 @@
 #include "core/scenario/resolved.h"
 #include "tests/app/golden_command.h"
 #include "tests/folders.h"
+#include "tests/labels.h"
 
 namespace gaitlab::test {
 
 using namespace golden;
 namespace {
+
+// More than a second of CPU.
+const Label kLongGolden("GoldenCommand.FailsWhatIsInfeasible", "long");
 
 /// JUnit text without the times of the runs.
 std::string without_times(const std::string& junit) {

@@ -1,9 +1,13 @@
 // Robots and grounds that are far too large are refused quickly, with little memory, and without a signal.
 #include "tests/folders.h"
+#include "tests/labels.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongLargeRobot("LargeRobot.OnTwentyThousandBoxesInOnePlaceIsAnsweredAtOnce", "long");
 
 class LargeRobot : public ::testing::Test {
  protected:

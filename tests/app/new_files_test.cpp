@@ -6,10 +6,17 @@
 #include "core/laws/data_sheet.h"
 #include "core/settings/shipped_files.h"
 #include "tests/folders.h"
+#include "tests/labels.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongNewFiles(
+    "NewFiles.EveryModuleWithAMotorGetsAFeasibleGait:NewFiles.ThePrintedCommandsRun:NewFiles."
+    "AModuleAndItsScenarioAreFeasibleAsTheyStand",
+    "long");
 
 class NewFiles : public ::testing::Test {
  protected:

@@ -2,10 +2,16 @@
 #include "studies/journal/journal.h"
 #include "studies/search/verify.h"
 #include "studies/search/world_trials.h"
+#include "tests/labels.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongOptimize(
+    "Optimize.TakesAnswersOfOtherStudies:Optimize.WhatChangesWithTheStepIsNotVerified:Optimize.ABestThatStandsHasItsFolder",
+    "long");
 
 class Optimize : public ::testing::Test {
  protected:

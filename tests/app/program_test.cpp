@@ -2,10 +2,14 @@
 #include <regex>
 
 #include "core/recording/h5.h"
+#include "tests/labels.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongProgram("Program.ConvergeShowsErrorOrderAndTheStepThatIsGood", "long");
 
 class Program : public ::testing::Test {
  protected:

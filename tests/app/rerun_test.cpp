@@ -1,10 +1,14 @@
 // Tests of `gaitlab rerun`: a run is repeated from its run folder alone, --verify reports differences, damaged folders are
 // refused.
 #include "tests/folders.h"
+#include "tests/labels.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongRerun("Rerun.DamagedTracesAreRefusedByEveryCommand", "long");
 
 namespace fs = std::filesystem;
 

@@ -5,10 +5,17 @@
 
 #include "tests/cpu_time.h"
 #include "tests/folders.h"
+#include "tests/labels.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongRunTime(
+    "FasterEngine.OtherCommandsNameItOnce:RunTimes.EstimatesAgreeWithTheCpuTimeOfCommands:FasterEngine."
+    "RunAndSwapNameItBeforeTheRuns:RunTimes.EstimatesAgreeWithTheCpuTime",
+    "long");
 
 using app::estimated_seconds;
 

@@ -3,10 +3,15 @@
 
 #include "core/scenario/resolved.h"
 #include "core/settings/shipped_files.h"
+#include "tests/labels.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongShippedScenarios(
+    "ShippedScenarios.AreRunAndApprovedAsCopies:ShippedScenarios.AreTheSameAsCopiesInAnEmptyFolder", "long");
 
 namespace fs = std::filesystem;
 

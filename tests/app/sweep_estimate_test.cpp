@@ -1,8 +1,13 @@
 // Tests of the torque error of the points of `gaitlab sweep`, and of notes on the error of a fixed step.
 #include "tests/app/study_fixture.h"
+#include "tests/labels.h"
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongSweepEstimate("SweepEstimate.EstimatesSomePoints:SweepEstimate.IsOfAllPointsWhereSomeAreNotToBeTrusted",
+                               "long");
 
 class SweepEstimate : public StudyFixture {};
 

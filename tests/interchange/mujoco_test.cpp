@@ -4,6 +4,7 @@
 #include "core/plugin/robot_info.h"
 #include "core/simulation/start.h"
 #include "tests/interchange/in_mujoco.h"
+#include "tests/labels.h"
 #include "tests/program/random_scenario.h"
 #include "tests/validation.h"
 
@@ -12,6 +13,9 @@ namespace gaitlab::test {
 using namespace interchange;
 
 namespace {
+
+// More than a second of CPU.
+const Label kLongMujoco("Mujoco.MovesTheSameWithoutMotorsAndContacts", "long");
 
 constexpr std::array<Base, 3> kBases{Base::floating, Base::fixed, Base::planar};
 

@@ -5,6 +5,7 @@
 #include "core/scenario/built_robot.h"
 #include "interchange/mjcf_laws.h"
 #include "tests/interchange/in_mujoco.h"
+#include "tests/labels.h"
 #include "tests/program/random_scenario.h"
 
 namespace gaitlab::test {
@@ -12,6 +13,9 @@ namespace gaitlab::test {
 using namespace interchange;
 
 namespace {
+
+// More than a second of CPU.
+const Label kLongMujocoWalking("MujocoWalking.WalksWithTheRecordedSetPoints", "long");
 
 /// Largest relative difference of A_0 from MuJoCo's own estimate.
 double weight_error(const Scenario& s) {

@@ -11,6 +11,11 @@ namespace {
 
 // Whole walks of both engines.
 const Label kWalksOfTwo("Of/WalkOfTwoEngines.*", "long;unsanitized");
+// More than a second of CPU.
+const Label kLongArticulated(
+    "Engines.TraceTheSameModelUnderTheSameMethod:Engines.TraceRandomRobotsUnderTheSameMethod:Articulated."
+    "IsRightWhereManyMotorsAreLimited",
+    "long");
 
 Acceleration accelerate(const std::string& engine, const PlantSettings& settings, const RobotState& state, In tau,
                         std::span<const BodyWrench> wrenches) {

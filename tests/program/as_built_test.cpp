@@ -4,12 +4,16 @@
 
 #include "core/model/docking.h"
 #include "core/scenario/resolved.h"
+#include "tests/labels.h"
 #include "tests/messages.h"
 #include "tests/program/as_alone.h"
 #include "tests/program/engines.h"
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongAsBuilt("*AsBuiltOf.FactorsActAsOtherDrawings/*", "long");
 
 const std::string kEveryTolerance =
     "tolerances={mass: 0.03, inertia: 0.05, dock_angle: 0.01, foot_friction: 0.1, R: 0.07, Kt: 0.05, gear_friction: 0.1, "

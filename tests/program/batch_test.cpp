@@ -5,11 +5,15 @@
 #include <mutex>
 #include <optional>
 
+#include "tests/labels.h"
 #include "tests/program/bits.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongBatch("Batch.EndsEveryRolloutAsAlone", "long");
 
 const std::vector<std::string> kCommon{"physics.engine=articulated", "physics.integrator=extrapolated", "physics.step=5e-4",
                                        "duration=0.45"};

@@ -3,11 +3,15 @@
 
 #include "core/recording/trace.h"
 #include "core/scenario/resolved.h"
+#include "tests/labels.h"
 #include "tests/program/allocations.h"
 #include "tests/program/engines.h"
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongDeterminism("*DeterminismOf.AllocatesNothingInTheSteadyState/*", "long");
 
 TEST(Determinism, OtherFolderOtherTimeSameBytes) {
   const Folder one;

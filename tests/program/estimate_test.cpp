@@ -6,6 +6,7 @@
 #include "report/verdict/spread.h"
 #include "report/verdict/trust.h"
 #include "tests/folders.h"
+#include "tests/labels.h"
 #include "tests/program/bits.h"
 #include "tests/program/engines.h"
 #include "tests/program/torque_error.h"
@@ -13,6 +14,9 @@
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongEstimate("*WhatTheStepsMissed.IsTold/*", "long");
 
 class EstimateOf : public EveryEngine {};
 INSTANTIATE_TEST_SUITE_P(Engine, EstimateOf, engines(), engine_name);

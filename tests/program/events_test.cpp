@@ -1,12 +1,16 @@
 // Short events that the integrator `adaptive` once missed without a warning. The reference is engine articulated at a short
 // step.
 #include "tests/folders.h"
+#include "tests/labels.h"
 #include "tests/program/fixture.h"
 #include "tests/program/torque_error.h"
 #include "tests/validation.h"
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongEvents("*Events.AreMetByTheSteps/*", "long");
 
 struct Event {
   const char* name;

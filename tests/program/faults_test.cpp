@@ -3,6 +3,7 @@
 
 #include "core/scenario/resolved.h"
 #include "tests/folders.h"
+#include "tests/labels.h"
 #include "tests/messages.h"
 #include "tests/program/allocations.h"
 #include "tests/program/as_alone.h"
@@ -11,6 +12,11 @@
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongFaults(
+    "*FaultsOf.WithoutEffectLeaveTheSameBits/*:Faults.AStuckJointShortensExplicitSteps:*FaultsOf.ADeadJointIsOneWithoutGains/*",
+    "long");
 
 Scenario faulty_caterpillar(std::vector<std::string> sets, const std::string& engine = "articulated") {
   sets.push_back("physics.engine=" + engine);

@@ -6,11 +6,15 @@
 #include "core/scenario/resolved.h"
 #include "core/simulation/batch.h"
 #include "report/analysis/summary.h"
+#include "tests/labels.h"
 #include "tests/messages.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongTemplate("Stream.KeepsOrderAndBits", "long");
 
 using Sets = std::vector<std::string>;
 

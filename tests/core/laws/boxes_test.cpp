@@ -9,9 +9,13 @@
 #include <random>
 
 #include "core/laws/ground.h"
+#include "tests/labels.h"
 
 namespace gaitlab {
 namespace {
+
+// More than a second of CPU.
+const test::Label kLongBoxes("Boxes.AQueryHasTheBitsOfALookAtEveryBox", "long");
 
 class Draw {
  public:

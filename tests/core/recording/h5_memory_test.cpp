@@ -10,9 +10,13 @@
 #include <new>
 
 #include "tests/core/recording/damaged_trace.h"
+#include "tests/labels.h"
 
 namespace gaitlab {
 namespace {
+
+// More than a second of CPU.
+const test::Label kLongH5Memory("H5Memory.TooLittleForReadingIsAnError:H5Memory.TooLittleForWritingIsAnError", "long");
 
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)

@@ -8,10 +8,14 @@
 
 #include "tests/core/scenario/fakes.h"
 #include "tests/cpu_time.h"
+#include "tests/labels.h"
 #include "tests/messages.h"
 
 namespace gaitlab {
 namespace {
+
+// More than a second of CPU.
+const test::Label kLongNode("Node.HostileTextsEndSoon", "long");
 
 using test::message_of;
 

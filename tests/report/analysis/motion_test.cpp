@@ -9,10 +9,14 @@
 #include "report/verdict/numbers.h"
 #include "report/verdict/summary_text.h"
 #include "report/verdict/verdict.h"
+#include "tests/labels.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongMotion("*AnyRows.GiveTheSameNumbersAndVerdict/*", "long");
 
 using namespace report;
 using Json = nlohmann::ordered_json;

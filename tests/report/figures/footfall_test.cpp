@@ -14,7 +14,7 @@ namespace gaitlab::test {
 namespace {
 
 // Whole walks, at two seconds under the sanitizers each.
-const Label kFootfalls("Footfall.*", "unsanitized");
+const Label kFootfalls("Footfall.*", "long;unsanitized");
 
 using namespace report;
 

@@ -6,10 +6,14 @@
 #include <set>
 #include <tuple>
 
+#include "tests/labels.h"
 #include "tests/report/verdict/check_changes.h"
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongCheckTable("CheckTable.BelowAtAndBeyondEachLimit", "long");
 
 /// A check, and the change of a recorded walk that gives the check a value. The limits are numbers, not settings, so that the
 /// test detects a changed default.

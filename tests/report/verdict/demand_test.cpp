@@ -2,10 +2,14 @@
 #include "report/verdict/demand.h"
 
 #include "report/analysis/fall.h"
+#include "tests/labels.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongDemand("Demand.SaysWhatMakesItDoubtful", "long");
 
 using namespace report;
 

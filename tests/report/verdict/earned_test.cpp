@@ -2,10 +2,14 @@
 #include "report/analysis/upright.h"
 #include "report/verdict/screen.h"
 #include "tests/folders.h"
+#include "tests/labels.h"
 #include "tests/report/verdict/verdict_case.h"
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongEarned("Earned.NothingBearsTheRobot:Earned.ATorqueErrorOfAHundredPercent", "long");
 
 /// Run with its loads and its verdict, as `gaitlab run` computes it.
 struct Told {

@@ -16,6 +16,8 @@ namespace {
 
 // Runs of every shipped scenario.
 const Label kShippedRuns("Trust.NothingIsSaidOfShippedScenarios", "long;unsanitized");
+// More than a second of CPU.
+const Label kLongTrust("Trust.AnActuatorThatAnImplicitStepCannotSolveIsNeverSilent", "long");
 
 using namespace report;
 

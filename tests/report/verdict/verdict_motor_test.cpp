@@ -2,10 +2,14 @@
 
 #include "report/analysis/envelope.h"
 #include "report/analysis/motors.h"
+#include "tests/labels.h"
 #include "tests/report/verdict/verdict_case.h"
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongVerdictMotor("Verdict.JudgesRatings", "long");
 
 /// A torque near the envelope of a motor gives a warning, never a failure. Only the checks of voltage and current can fail.
 TEST(Verdict, WarnsOfATorqueNearWhatAMotorHas) {

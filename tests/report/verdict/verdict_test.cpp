@@ -15,6 +15,8 @@ namespace {
 
 // Whole walks.
 const Label kAnyPeriod("Verdict.IsTheSameForAnyTracePeriod", "long;unsanitized");
+// More than a second of CPU.
+const Label kLongVerdict("Verdict.IsAFileALineAndAnExitCode", "long");
 
 TEST(Verdict, OfAGaitThatTheMotorsCanDo) {
   const Verdict made = gait().judged();

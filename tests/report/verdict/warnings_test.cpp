@@ -2,10 +2,14 @@
 #include "report/verdict/warnings.h"
 
 #include "report/analysis/summary.h"
+#include "tests/labels.h"
 #include "tests/report/verdict/messages.h"
 
 namespace gaitlab::test {
 namespace {
+
+// More than a second of CPU.
+const Label kLongWarnings("RunWarnings.AreSilentOnShippedScenarios", "long");
 
 using namespace report;
 

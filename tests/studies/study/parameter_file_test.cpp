@@ -86,10 +86,10 @@ TEST(Parameters, ThatAreWrongSayWhere) {
   EXPECT_EQ(wrong("{a: {values: [x, y], sets: {k: 2*a}}}"),
             Texts{"1:40: a has words, which no expression can use; expected numbers beside sets"});
   for (const char* name : {"a.b", "2a", "_a", "pi", "and", "or", "not"}) {
-    EXPECT_EQ(
-        wrong(std::string("{") + name + ": {low: 0, high: 1, sets: {k: 1}}}"),
-        Texts{std::string("1:14: '") + name +
-              "' cannot be a parameter of the study with `sets`; expected a name of letters, digits and _, a letter first"});
+    EXPECT_EQ(wrong(std::string("{") + name + ": {low: 0, high: 1, sets: {k: 1}}}"),
+              Texts{std::string("1:14: '") + name +
+                    "' cannot be a parameter of the study with `sets`; expected a name of letters, digits and _, a letter "
+                    "first, as in hip0: {low: 0.1, high: 0.2, sets: {cpg.offset.hips: hip0}}"});
   }
 }
 
