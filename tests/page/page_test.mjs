@@ -542,7 +542,7 @@ for (const name of ["jointless", "built_ball"]) {
   });
 }
 
-on("castor: what a joint without a motor does not have, the others do", pages.castor, flat, async (page, meta) => {
+on("castor: what a joint without a motor does not have, the others do", pages.castor, {}, async (page, meta) => {
   assert.deepEqual(meta.joints.map((j) => j.motor === null), [true, false]);
   for (const id of ["#envelope canvas", "#heat canvas", "#power canvas"]) assert.ok(await page.isVisible(id), id);
   assert.match(await page.textContent("#heat-note"), /of the torque available/);
@@ -599,7 +599,7 @@ on("pair: the second run by the clock of the first", pages.pair, {}, async (page
   assert.deepEqual([await visible(1), await visible(3.9)], [true, false], "it is gone when its run has ended");
 });
 
-on("pair: at the same phase", pages.pair, flat, async (page, meta) => {
+on("pair: at the same phase", pages.pair, {}, async (page, meta) => {
   const { run } = meta.overlay;
   assert.ok(meta.cycle && run.cycle);
   await page.keyboard.press("p");
