@@ -189,7 +189,7 @@ class Search(InFolder):
                 file.write(STUDY.replace("pendulum.yaml", "nosuch.yaml"))
             with gaitlab.Search("absent.yaml") as search:
                 search.ask()
-        self.assertTrue(caught.exception.problems[0][0].endswith("nosuch.yaml"))
+        self.assertTrue(caught.exception.problems[0][0].endswith("absent.yaml"))
         for file in ("nothing.yaml", "study.yaml\0"):
             with self.assertRaisesRegex(ValueError, "nothing.yaml.*No such file|has a null character"):
                 gaitlab.Search(file)
