@@ -273,9 +273,10 @@ void read_rows(hid_t data, hsize_t rows, const Image& file, Trace& trace) {
     }
     return stored(row, column);
   });
-  if (wrong)
+  if (wrong) {
     throw ImageError(fmt::format("the chunk of column {} from row {} on does not unpack to {} bytes", wrong->column, wrong->row,
                                  length * sizeof(double)));
+  }
 }
 
 Trace read_dataset(hid_t owner, const char* name, const Image& bytes) {
