@@ -4,7 +4,7 @@
 # usage: page.sh PROGRAM_BUILD_DIR     (exit code 77 without node, npm, Chromium or packages, which is an error with CI=true)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
-source "$root/tests/browser.sh"
+source "$root/tests/node.sh"
 build=$(readlink -f -- "$1") program=$(readlink -f -- "$1")/bin/gaitlab
 needs_browser "$build" "the report page"
 

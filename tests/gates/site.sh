@@ -51,7 +51,7 @@ said "is not a site"
 [[ -e $work/mine/file ]] || bad "the build removes a folder that is no site"
 
 # The look, the buttons and the search, in a browser.
-source "$root/tests/browser.sh"
+source "$root/tests/node.sh"
 needs_browser "$(readlink -f -- "$1")" "the site in a browser"
 if ! node "$root/tests/site/site_test.mjs" "$site" >"$work/log" 2>&1; then
   grep -A 30 '^not ok' "$work/log" | head -n 300 >&2 || show_log

@@ -5,7 +5,7 @@
 # usage: unchanged.sh STATE_FOLDER NAME INPUT... -- COMMAND...
 set -euo pipefail
 tests=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd -P)
-state=$1/$2 name=$2 inputs=("$tests/prelude.sh" "$tests/browser.sh" "$tests/gates/unchanged.sh")
+state=$1/$2 name=$2 inputs=("$tests/prelude.sh" "$tests/node.sh" "$tests/gates/unchanged.sh")
 shift 2
 while [[ $1 != -- ]]; do
   [[ -e $1 ]] || { printf 'BAD      %s: no input %s\n' "$name" "$1" >&2 && exit 1; }

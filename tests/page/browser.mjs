@@ -3,7 +3,7 @@ import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
 
-/** The modules of report/page/package-lock.json, which the gate has installed (tests/browser.sh). */
+/** The modules of report/page/package-lock.json, which the gate has installed (tests/node.sh). */
 export const modules = createRequire(join(resolve(process.env.NODE_MODULES), "of.mjs"));
 const { chromium } = modules("playwright-core");
 

@@ -27,7 +27,7 @@ class Browser:
         self.process = None
 
     def facts(self, file):
-        """Texts {headline, why, facts} of a page; None where NODE_MODULES names no modules (tests/browser.sh)."""
+        """Texts {headline, why, facts} of a page; None where NODE_MODULES names no modules (tests/node.sh)."""
         if "NODE_MODULES" not in os.environ:
             return None
         if self.process is None:
