@@ -7,7 +7,6 @@ namespace gaitlab::test {
 using namespace golden;
 namespace {
 
-// More than a second of CPU.
 const Label kLongApprove(
     "ApproveCommand.AQuantisedScenarioHasAGoldenOfMeans:ApproveCommand.WhatARefusalAdvisesHelps:ApproveCommand."
     "ApproveKeepsTheBandsOfTheSameGaitAlone",

@@ -7,7 +7,6 @@
 namespace gaitlab::test {
 namespace {
 
-// More than a second of CPU.
 const Label kLongCompletion("Completion.EveryCommandAndOptionOfTheHelpIsOfferedAndInTheManual", "long");
 
 /// Words that may take the place of the last one.

@@ -5,7 +5,6 @@
 namespace gaitlab::test {
 namespace {
 
-// More than a second of CPU.
 const Label kLongDemo("Demo.WritesThePageOfAFeasibleGait", "long");
 
 TEST(Demo, WritesThePageOfAFeasibleGait) {

@@ -7,7 +7,6 @@
 namespace gaitlab::test {
 namespace {
 
-// More than a second of CPU.
 const Label kLongDraws(
     "DrawnRobots.AreTheRunsOfTheirSeeds:DrawnRobots.NeedSomethingToDraw:DrawnRobots.ReplicatesOfAStudyAreRobots:DrawnRobots."
     "DecideTheExitCode",

@@ -8,7 +8,6 @@
 namespace gaitlab::test {
 namespace {
 
-// More than a second of CPU.
 const Label kLongFigureMargins("FigureMargins.AreKeptAtAnyWidth", "long");
 
 /// Journals want columns of 84 or 85 mm. All texts keep a margin of 1 mm (4.6 px) at both edges; their widths are those of the

@@ -13,7 +13,6 @@ namespace gaitlab::test {
 using namespace golden;
 namespace {
 
-// More than a second of CPU.
 const Label kLongGolden("GoldenCommand.FailsWhatIsInfeasible", "long");
 
 /// JUnit text without the times of the runs.

@@ -6,7 +6,6 @@
 namespace gaitlab::test {
 namespace {
 
-// More than a second of CPU.
 const Label kLongLargeRobot("LargeRobot.OnTwentyThousandBoxesInOnePlaceIsAnsweredAtOnce", "long");
 
 class LargeRobot : public ::testing::Test {

@@ -12,7 +12,6 @@
 namespace gaitlab::test {
 namespace {
 
-// More than a second of CPU.
 const Label kLongNewFiles(
     "NewFiles.EveryModuleWithAMotorGetsAFeasibleGait:NewFiles.ThePrintedCommandsRun:NewFiles."
     "AModuleAndItsScenarioAreFeasibleAsTheyStand",

@@ -8,7 +8,6 @@
 namespace gaitlab::test {
 namespace {
 
-// More than a second of CPU.
 const Label kLongOptimize(
     "Optimize.TakesAnswersOfOtherStudies:Optimize.WhatChangesWithTheStepIsNotVerified:Optimize.ABestThatStandsHasItsFolder",
     "long");

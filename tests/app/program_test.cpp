@@ -8,7 +8,6 @@
 namespace gaitlab::test {
 namespace {
 
-// More than a second of CPU.
 const Label kLongProgram("Program.ConvergeShowsErrorOrderAndTheStepThatIsGood", "long");
 
 class Program : public ::testing::Test {

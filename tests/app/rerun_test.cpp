@@ -7,7 +7,6 @@
 namespace gaitlab::test {
 namespace {
 
-// More than a second of CPU.
 const Label kLongRerun("Rerun.DamagedTracesAreRefusedByEveryCommand", "long");
 
 namespace fs = std::filesystem;

@@ -11,7 +11,6 @@
 namespace gaitlab::test {
 namespace {
 
-// More than a second of CPU.
 const Label kLongRunTime(
     "FasterEngine.OtherCommandsNameItOnce:RunTimes.EstimatesAgreeWithTheCpuTimeOfCommands:FasterEngine."
     "RunAndSwapNameItBeforeTheRuns:RunTimes.EstimatesAgreeWithTheCpuTime",

@@ -9,7 +9,6 @@
 namespace gaitlab::test {
 namespace {
 
-// More than a second of CPU.
 const Label kLongShippedScenarios(
     "ShippedScenarios.AreRunAndApprovedAsCopies:ShippedScenarios.AreTheSameAsCopiesInAnEmptyFolder", "long");
 

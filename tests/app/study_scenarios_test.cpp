@@ -8,7 +8,6 @@
 namespace gaitlab::test {
 namespace {
 
-// More than a second of CPU.
 const Label kLongStudyScenarios("StudyScenarios.AreSearchedAndVerifiedTogether", "long");
 
 class StudyScenarios : public StudyFixture {

@@ -5,7 +5,6 @@
 namespace gaitlab::test {
 namespace {
 
-// More than a second of CPU.
 const Label kLongSweepEstimate("SweepEstimate.EstimatesSomePoints:SweepEstimate.IsOfAllPointsWhereSomeAreNotToBeTrusted",
                                "long");
 

@@ -14,7 +14,6 @@ using namespace interchange;
 
 namespace {
 
-// More than a second of CPU.
 const Label kLongMujoco("Mujoco.MovesTheSameWithoutMotorsAndContacts", "long");
 
 constexpr std::array<Base, 3> kBases{Base::floating, Base::fixed, Base::planar};

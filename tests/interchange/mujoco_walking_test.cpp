@@ -14,7 +14,6 @@ using namespace interchange;
 
 namespace {
 
-// More than a second of CPU.
 const Label kLongMujocoWalking("MujocoWalking.WalksWithTheRecordedSetPoints", "long");
 
 /// Largest relative difference of A_0 from MuJoCo's own estimate.

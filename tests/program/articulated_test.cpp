@@ -11,7 +11,7 @@ namespace {
 
 // Whole walks of both engines.
 const Label kWalksOfTwo("Of/WalkOfTwoEngines.*", "long;unsanitized");
-// More than a second of CPU.
+
 const Label kLongArticulated(
     "Engines.TraceTheSameModelUnderTheSameMethod:Engines.TraceRandomRobotsUnderTheSameMethod:Articulated."
     "IsRightWhereManyMotorsAreLimited",

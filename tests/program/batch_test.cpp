@@ -12,7 +12,6 @@
 namespace gaitlab::test {
 namespace {
 
-// More than a second of CPU.
 const Label kLongBatch("Batch.EndsEveryRolloutAsAlone", "long");
 
 const std::vector<std::string> kCommon{"physics.engine=articulated", "physics.integrator=extrapolated", "physics.step=5e-4",

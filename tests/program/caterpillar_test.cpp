@@ -8,7 +8,7 @@ namespace {
 
 // Whole walks of bullet.
 const Label kCaterpillarWalks("Walk.*", "long;unsanitized");
-// More than a second of CPU.
+
 const Label kLongCaterpillar("Standing.ContactForcesCarryTheWeightAndCurrentsTheStaticTorque", "long");
 
 /// Run of the caterpillar. It uses engine articulated, because bullet takes forty times as long; WalkOfTwoEngines compares the

@@ -10,7 +10,6 @@
 namespace gaitlab::test {
 namespace {
 
-// More than a second of CPU.
 const Label kLongDeterminism("*DeterminismOf.AllocatesNothingInTheSteadyState/*", "long");
 
 TEST(Determinism, OtherFolderOtherTimeSameBytes) {

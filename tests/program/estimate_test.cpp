@@ -15,7 +15,6 @@
 namespace gaitlab::test {
 namespace {
 
-// More than a second of CPU.
 const Label kLongEstimate("*WhatTheStepsMissed.IsTold/*", "long");
 
 class EstimateOf : public EveryEngine {};

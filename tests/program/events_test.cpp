@@ -9,7 +9,6 @@
 namespace gaitlab::test {
 namespace {
 
-// More than a second of CPU.
 const Label kLongEvents("*Events.AreMetByTheSteps/*", "long");
 
 struct Event {

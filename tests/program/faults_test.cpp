@@ -13,7 +13,6 @@
 namespace gaitlab::test {
 namespace {
 
-// More than a second of CPU.
 const Label kLongFaults(
     "*FaultsOf.WithoutEffectLeaveTheSameBits/*:Faults.AStuckJointShortensExplicitSteps:*FaultsOf.ADeadJointIsOneWithoutGains/*",
     "long");

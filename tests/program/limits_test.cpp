@@ -14,7 +14,7 @@ namespace {
 
 // Fine runs of bullet.
 const Label kFineRuns("Motors/Limits.*", "long;unsanitized");
-// More than a second of CPU.
+
 const Label kLongLimits("StiffGround.MakesNoEnergyAndTheRobotWalksAsFar", "long");
 
 double at_limit(const JointStatistics& joint) { return joint.saturated_voltage + joint.saturated_current; }

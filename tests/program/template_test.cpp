@@ -13,7 +13,6 @@
 namespace gaitlab::test {
 namespace {
 
-// More than a second of CPU.
 const Label kLongTemplate("Stream.KeepsOrderAndBits", "long");
 
 using Sets = std::vector<std::string>;

@@ -14,7 +14,6 @@
 namespace gaitlab {
 namespace {
 
-// More than a second of CPU.
 const test::Label kLongBoxes("Boxes.AQueryHasTheBitsOfALookAtEveryBox", "long");
 
 class Draw {

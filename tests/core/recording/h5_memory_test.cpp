@@ -15,7 +15,6 @@
 namespace gaitlab {
 namespace {
 
-// More than a second of CPU.
 const test::Label kLongH5Memory("H5Memory.TooLittleForReadingIsAnError:H5Memory.TooLittleForWritingIsAnError", "long");
 
 #if defined(__has_feature)

@@ -14,7 +14,6 @@
 namespace gaitlab {
 namespace {
 
-// More than a second of CPU.
 const test::Label kLongNode("Node.HostileTextsEndSoon", "long");
 
 using test::message_of;

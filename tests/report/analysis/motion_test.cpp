@@ -15,7 +15,6 @@
 namespace gaitlab::test {
 namespace {
 
-// More than a second of CPU.
 const Label kLongMotion("*AnyRows.GiveTheSameNumbersAndVerdict/*", "long");
 
 using namespace report;

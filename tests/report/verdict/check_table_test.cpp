@@ -12,7 +12,6 @@
 namespace gaitlab::test {
 namespace {
 
-// More than a second of CPU.
 const Label kLongCheckTable("CheckTable.BelowAtAndBeyondEachLimit", "long");
 
 /// A check, and the change of a recorded walk that gives the check a value. The limits are numbers, not settings, so that the

@@ -8,7 +8,6 @@
 namespace gaitlab::test {
 namespace {
 
-// More than a second of CPU.
 const Label kLongEarned("Earned.NothingBearsTheRobot:Earned.ATorqueErrorOfAHundredPercent", "long");
 
 /// Run with its loads and its verdict, as `gaitlab run` computes it.

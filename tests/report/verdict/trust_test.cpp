@@ -16,7 +16,7 @@ namespace {
 
 // Runs of every shipped scenario.
 const Label kShippedRuns("Trust.NothingIsSaidOfShippedScenarios", "long;unsanitized");
-// More than a second of CPU.
+
 const Label kLongTrust("Trust.AnActuatorThatAnImplicitStepCannotSolveIsNeverSilent", "long");
 
 using namespace report;

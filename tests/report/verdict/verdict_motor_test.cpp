@@ -8,7 +8,6 @@
 namespace gaitlab::test {
 namespace {
 
-// More than a second of CPU.
 const Label kLongVerdictMotor("Verdict.JudgesRatings", "long");
 
 /// A torque near the envelope of a motor gives a warning, never a failure. Only the checks of voltage and current can fail.

@@ -15,7 +15,7 @@ namespace {
 
 // Whole walks.
 const Label kAnyPeriod("Verdict.IsTheSameForAnyTracePeriod", "long;unsanitized");
-// More than a second of CPU.
+
 const Label kLongVerdict("Verdict.IsAFileALineAndAnExitCode", "long");
 
 TEST(Verdict, OfAGaitThatTheMotorsCanDo) {
