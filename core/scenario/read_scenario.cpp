@@ -24,6 +24,7 @@
 #include "core/scenario/section_places.h"
 #include "core/scenario/sections.h"
 #include "core/scenario/sensor_section.h"
+#include "core/scenario/touched_sections.h"
 #include "core/settings/joint_patterns.h"
 #include "core/settings/overlay.h"
 #include "core/settings/reader.h"
@@ -85,8 +86,8 @@ class ScenarioReader {
     rename_old_names(own.root_, sets, own.problems_);
     own.raise();
     own.tell_dropped_keys(sets);
-    for (const std::string& set : sets) own.touched_.push_back(set.substr(0, set.find_first_of(".=")));
-    own.follow_dependencies();
+    own.touched_ = TouchedSections(sections_of(sets));
+    own.touched_.restart(own.scenario_);
     own.read_sections();
     own.raise();
     own.read_changes();
@@ -147,44 +148,10 @@ class ScenarioReader {
       scenario_.groups = read_groups(*groups, *joints_, *modules_, problems_);
   }
 
-  [[nodiscard]] bool reads(const std::string& section) const {
-    return touched_.empty() || std::ranges::find(touched_, section) != touched_.end();
-  }
-
-  /// Adds sections whose defaults or checks depend on a touched section. Each starts again from its defaults.
-  void follow_dependencies() {
-    constexpr std::array<std::pair<const char*, const char*>, 5> kFollows{{{"contact", "physics"},
-                                                                           {"contact", "ground"},
-                                                                           {"actuator", "controller"},
-                                                                           {"controller", "cpg"},
-                                                                           {"controller", "sensors"}}};
-    for (const auto& [first, second] : kFollows) {
-      if (reads(first)) touched_.emplace_back(second);
-    }
-    const Scenario fresh;
-    if (reads("initial")) scenario_.initial = fresh.initial;
-    if (reads("physics")) scenario_.physics = fresh.physics;
-    if (reads("ground")) scenario_.ground = fresh.ground;
-    if (reads("contact")) scenario_.contact = fresh.contact;
-    if (reads("trace")) scenario_.trace = fresh.trace;
-    if (reads("figure")) scenario_.figure = fresh.figure;
-    if (reads("limits")) scenario_.limits = fresh.limits;
-    if (reads("actuator")) {
-      scenario_.actuator = fresh.actuator;
-      scenario_.actuator_source = fresh.actuator_source;
-    }
-    if (reads("controller")) {
-      scenario_.controller = fresh.controller;
-      scenario_.control_period = fresh.control_period;
-    }
-    if (reads("cpg")) {
-      scenario_.cpg = fresh.cpg;
-      scenario_.cpg_step = fresh.cpg_step;
-    }
-  }
+  [[nodiscard]] bool reads(const std::string& section) const { return touched_.has(section); }
 
   void prepare(Reader& reader) const {
-    if (!touched_.empty()) reader.only(touched_);
+    if (!touched_.all()) reader.only(touched_.names());
     reader.modules(modules_.get());
     reader.groups(scenario_.groups);
   }
@@ -212,10 +179,10 @@ class ScenarioReader {
     sections.actuator.presets = [&](const Entry& entry, void* settings) { motors.fill(entry, settings, joints, problems_); };
     sections.controller.presets = [&](const Entry& entry, void* settings) { gains.fill(entry, settings, joints, problems_); };
     sections.actuator.none = !reads("actuator") && scenario_.actuator.entry == nullptr;
-    if (touched_.empty()) scenario_.as_built = AsBuilt::unknown();
+    if (touched_.all()) scenario_.as_built = AsBuilt::unknown();
     sections.fields(reader);
     reader.finish();
-    if (touched_.empty() && scenario_.robot) add_note(build_robot(scenario_, given(root_, kAsBuiltSection).has_value()));
+    if (touched_.all() && scenario_.robot) add_note(build_robot(scenario_, given(root_, kAsBuiltSection).has_value()));
     if (reads("actuator") && sections.actuator.sound) attempt([&] { tell_replaced_motors(motors); });
     if (const Node* ground = root_.find("ground"); ground != nullptr && reads("ground"))
       finish_ground(*ground, folder_, scenario_, problems_);
@@ -234,9 +201,9 @@ class ScenarioReader {
       ScenarioReader own = *this;
       own.root_ = root;
       own.problems_ = {};
-      own.touched_ = sections;
+      own.touched_ = TouchedSections(sections);
       try {
-        own.follow_dependencies();
+        own.touched_.restart(own.scenario_);
         own.read_sections();
         own.raise();
       } catch (const InputError& error) {
@@ -350,7 +317,7 @@ class ScenarioReader {
   std::shared_ptr<const std::vector<std::string>> joints_, modules_;  ///< names; null if the robot could not be read
   Note cpg_note_, source_note_;
   std::vector<Note> motor_notes_;
-  std::vector<std::string> touched_;  ///< names of the sections to read; empty for all
+  TouchedSections touched_;
 };
 
 Scenario read_scenario(const std::string& path, const std::vector<std::string>& sets, Catalog& catalog, ReadAs as) {
