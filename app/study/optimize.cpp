@@ -53,11 +53,12 @@ Study searched_study(const OptimizeArguments& a) {
   if (!a.method.empty()) study.method = named<studies::Method>(a.method).value();
   if (!studies::is_search(study.method) && !a.method.empty()) study.starts.clear();  // for comparison with a search
   if (a.runs > 0) study.runs = a.runs;
+  if (a.runs > 0 || !a.method.empty()) study.place = SourceLocation{a.runs > 0 ? "--runs" : "--method"};
   if (a.seed >= 0) study.seed = a.seed;
   study.told = a.ask;
   add_sets(study, a.sets);
   Problems problems;
-  check_study(study, SourceLocation{a.runs > 0 ? "--runs" : a.method.empty() ? a.file : "--method"}, problems);
+  check_study(study, problems);
   problems.raise();
   return study;
 }

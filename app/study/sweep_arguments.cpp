@@ -34,6 +34,7 @@ void refuse_beside_a_study(const SweepArguments& a, Problems& problems) {
 Study typed_study(const SweepArguments& a, Problems& problems) {
   Study study;
   study.scenario = a.file;
+  study.place = SourceLocation{"gaitlab sweep"};
   study.sets = a.sets;
   study.replicates.count = a.replicates;
   for (const std::string& grid : a.grids) study.parameters.push_back(studies::read_parameter("--grid", grid, false, problems));
@@ -66,7 +67,7 @@ Study typed_study(const SweepArguments& a, Problems& problems) {
         problems.add(study.parameters[k].place, study.parameters[k].key + " is given twice");
     }
   }
-  if (problems.empty()) check_study(study, SourceLocation{"gaitlab sweep"}, problems);
+  if (problems.empty()) check_study(study, problems);
   return study;
 }
 
@@ -88,7 +89,7 @@ Study wanted_study(const SweepArguments& a) {
                    "has no effect on a grid, which runs every combination of its values; leave it out");
     }
     if (a.runs > 0) study.runs = a.runs;
-    if (problems.empty()) check_study(study, SourceLocation{"--runs"}, problems);
+    if (a.runs > 0) study.place = SourceLocation{"--runs"};
   } else {
     expect_kind(a.file, FileKind::scenario);
     study = typed_study(a, problems);

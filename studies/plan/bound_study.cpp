@@ -11,6 +11,7 @@
 #include "studies/plan/own_values.h"
 #include "studies/plan/worlds.h"
 #include "studies/study/number.h"
+#include "studies/study/study_file.h"
 
 namespace gaitlab::studies {
 
@@ -53,24 +54,31 @@ void check_same(const std::vector<Quantity>& first, const std::vector<Quantity>&
 }  // namespace
 
 BoundStudy::BoundStudy(Study study, const QuantityOffer& offer, Catalog& catalog)
-    : study_(std::move(study)), scenarios_(read_scenarios(study_, catalog)), scenario_text_(scenarios_text(scenarios_)) {
+    : study_(with_budget(std::move(study))),
+      scenarios_(read_scenarios(study_, problems_, catalog)),
+      scenario_text_(scenarios_text(scenarios_)) {
   find_worlds();
-  Problems problems;
-  followers_ = std::make_unique<Followers>(study_.parameters, problems);
-  problems.raise();
+  const std::size_t before = problems_.size();
+  followers_ = std::make_unique<Followers>(study_.parameters, problems_);
+  if (problems_.size() > before) problems_.raise();
   std::vector<Problems> found(scenarios_.size());
   for (std::size_t s = 0; s < scenarios_.size(); ++s) {
     check_own_names(s, found[s]);
     find_nominal(scenarios_[s], found[s]);
   }
-  add_of_each(scenarios_, found, problems);
-  find_starts(problems);
-  find_columns(offer, problems);
-  choose_shown(problems);
-  if (shown_.empty()) problems.raise();  // the default objective is the first shown quantity
+  add_of_each(scenarios_, found, problems_);
+  find_starts();
+  find_columns(offer);
+  choose_shown();
+  if (shown_.empty()) problems_.raise();  // the default objective is the first shown quantity
   if (Text& first = study_.objectives.front().expression; first.text.empty()) first.text = columns_[shown_.front()].name;
-  make_scorers(offer, catalog, problems);
-  problems.raise();
+  make_scorers(offer, catalog);
+}
+
+/// The study, with a possible budget if its own is not.
+Study BoundStudy::with_budget(Study study) {
+  check_budget(study, problems_);
+  return study;
 }
 
 void BoundStudy::find_worlds() {
@@ -117,7 +125,7 @@ void BoundStudy::find_nominal(StudyScenario& scenario, Problems& problems) const
 
 /// First points of a search. In the own point, a listed parameter has its first value if the scenario's is not among its
 /// values, because each value has a search that begins at the others.
-void BoundStudy::find_starts(Problems& problems) {
+void BoundStudy::find_starts() {
   if (!is_search(study_.method)) return;
   const std::vector<OwnValue> own = own_values(study_, scenarios_.front());
   std::vector<std::string> values;
@@ -135,25 +143,25 @@ void BoundStudy::find_starts(Problems& problems) {
     }
     if (const auto unknown = std::ranges::find(at, ""); unknown != at.end()) {
       const std::string& key = study_.parameters[static_cast<std::size_t>(unknown - at.begin())].key;
-      problems.add(start.place, fmt::format("this point has no {}, which {}; expected {}: VALUE", key,
-                                            own[static_cast<std::size_t>(unknown - at.begin())].missing, key));
+      problems_.add(start.place, fmt::format("this point has no {}, which {}; expected {}: VALUE", key,
+                                             own[static_cast<std::size_t>(unknown - at.begin())].missing, key));
     }
     starts_.push_back(std::move(at));
   }
 }
 
 /// Finds the columns of the first scenario; the other scenarios must have the same columns.
-void BoundStudy::find_columns(const QuantityOffer& offer, Problems& problems) {
+void BoundStudy::find_columns(const QuantityOffer& offer) {
   columns_ = columns_of(study_, offer, scenarios_.front().joints);
   constexpr std::size_t kMostColumns = 400;
   if (columns_.size() > kMostColumns) {
-    problems.add(study_.quantities_place,
-                 fmt::format("the journal would have {} columns of quantities; allowed are up to {}: name fewer joints",
-                             columns_.size(), kMostColumns));
+    problems_.add(study_.quantities_place,
+                  fmt::format("the journal would have {} columns of quantities; allowed are up to {}: name fewer joints",
+                              columns_.size(), kMostColumns));
   }
 }
 
-void BoundStudy::choose_shown(Problems& problems) {
+void BoundStudy::choose_shown() {
   const std::vector<std::string> patterns = study_.quantities.empty() ? std::vector<std::string>{"speed"} : study_.quantities;
   for (const std::string& pattern : patterns) {
     bool any = false;
@@ -165,14 +173,14 @@ void BoundStudy::choose_shown(Problems& problems) {
     if (any) continue;
     std::vector<std::string> known;
     for (const Quantity& column : columns_) known.push_back(column.name);
-    problems.add(study_.quantities_place,
-                 "no quantity is named " + in_quotes(pattern) + gaitlab::offer(pattern, known, "quantities"));
+    problems_.add(study_.quantities_place,
+                  "no quantity is named " + in_quotes(pattern) + gaitlab::offer(pattern, known, "quantities"));
   }
 }
 
 /// Refuses names in the study's expressions that a scenario lacks. The loop ends with the first scenario, whose scorer and
 /// rules remain.
-void BoundStudy::make_scorers(const QuantityOffer& offer, const Catalog& catalog, Problems& problems) {
+void BoundStudy::make_scorers(const QuantityOffer& offer, const Catalog& catalog) {
   std::vector<Problems> found(scenarios_.size());
   std::vector<std::vector<Quantity>> columns(scenarios_.size());
   for (std::size_t s = scenarios_.size(); s-- > 0;) {
@@ -182,16 +190,16 @@ void BoundStudy::make_scorers(const QuantityOffer& offer, const Catalog& catalog
     one.other_engine = other_engine_of(study_.verify, one.nominal, catalog, found[s]);
     stops_ = std::make_unique<StopRules>(study_, offer, one.joints, found[s]);
   }
-  check_stops(problems);
+  check_stops();
   if (std::ranges::all_of(found, &Problems::empty)) {
     for (std::size_t s = 1; s < scenarios_.size(); ++s) check_same(columns_, columns[s], study_.quantities_place, found[s]);
   }
   check_engines(catalog, found);
-  add_of_each(scenarios_, found, problems);
+  add_of_each(scenarios_, found, problems_);
 }
 
 /// Refuses a stop rule that begins after the end of every run, because the rule would stop none.
-void BoundStudy::check_stops(Problems& problems) const {
+void BoundStudy::check_stops() {
   const auto is_duration = [](const std::string& key) { return key == "duration"; };
   for (const Parameter& p : study_.parameters) {
     if (is_duration(p.key) || std::ranges::any_of(p.sets, is_duration, &Follower::key)) return;
@@ -199,9 +207,9 @@ void BoundStudy::check_stops(Problems& problems) const {
   if (std::ranges::any_of(study_.replicates.vary, is_duration, &Variation::key)) return;
   for (const StopText& stop : study_.stops) {
     if (stop.after < longest()) continue;
-    problems.add(stop.when.node.place,
-                 fmt::format("the rule begins at {} s, but the {} ends at {} s; expected a smaller number after `after`",
-                             number_text(stop.after), scenarios_.size() > 1 ? "longest run" : "run", number_text(longest())));
+    problems_.add(stop.when.node.place,
+                  fmt::format("the rule begins at {} s, but the {} ends at {} s; expected a smaller number after `after`",
+                              number_text(stop.after), scenarios_.size() > 1 ? "longest run" : "run", number_text(longest())));
   }
 }
 

@@ -15,11 +15,14 @@ namespace gaitlab::studies {
 
 class BoundStudy {
  public:
-  /// Reads the scenarios and checks the study against each. Throws InputError with every problem found.
+  /// Reads the scenarios and checks the study against each. Throws InputError with every problem found, if no other check is
+  /// possible with these; otherwise they are in problems().
   BoundStudy(Study study, const QuantityOffer& offer, Catalog& catalog);
   BoundStudy(const BoundStudy&) = delete;  // scorer and stop rules refer to the study
   BoundStudy& operator=(const BoundStudy&) = delete;
 
+  /// Problems that leave the settings of the runs known, so that Plan can add those of the settings.
+  [[nodiscard]] const Problems& problems() const { return problems_; }
   [[nodiscard]] const Study& study() const { return study_; }
   void set_runs(std::int64_t runs) { study_.runs = runs; }
   [[nodiscard]] const std::vector<StudyScenario>& scenarios() const { return scenarios_; }
@@ -50,16 +53,18 @@ class BoundStudy {
   }
 
  private:
+  Study with_budget(Study study);
   void check_own_names(std::size_t scenario, Problems& problems) const;
   void find_worlds();
   void find_nominal(StudyScenario& scenario, Problems& problems) const;
-  void find_starts(Problems& problems);
-  void find_columns(const QuantityOffer& offer, Problems& problems);
-  void choose_shown(Problems& problems);
-  void check_stops(Problems& problems) const;
+  void find_starts();
+  void find_columns(const QuantityOffer& offer);
+  void choose_shown();
+  void check_stops();
   void check_engines(const Catalog& catalog, std::vector<Problems>& found) const;
-  void make_scorers(const QuantityOffer& offer, const Catalog& catalog, Problems& problems);
+  void make_scorers(const QuantityOffer& offer, const Catalog& catalog);
 
+  Problems problems_;
   Study study_;
   std::vector<StudyScenario> scenarios_;
   std::vector<std::size_t> robust_worlds_;  ///< empty unless the study is robust

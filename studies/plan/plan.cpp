@@ -17,8 +17,9 @@ namespace gaitlab::studies {
 
 Plan::Plan(Study study, const QuantityOffer& offer, Catalog& catalog)
     : bound_(std::move(study), offer, catalog), scenario_digest_(hash128(bound_.scenario_text())), points_(bound_.study()) {
-  check_values(*this);
-  check_corners(*this);
+  Problems problems = bound_.problems();
+  check_settings(*this, problems);
+  problems.raise();
   all_estimated_ = draws_too_few();
 }
 

@@ -99,17 +99,15 @@ void check_corner(const Plan& plan, std::size_t scenario, Problems& problems) {
   add_as_written(*first, plan.study(), problems);
 }
 
-}  // namespace
-
-void check_corners(const Plan& plan) {
+Problems wrong_corners(const Plan& plan) {
   Problems problems;
   std::vector<Problems> refused(plan.scenarios().size());
   for (std::size_t s = 0; s < refused.size(); ++s) check_corner(plan, s, refused[s]);
   add_of_each(plan.scenarios(), refused, problems);
-  problems.raise();
+  return problems;
 }
 
-void check_values(const Plan& plan) {
+Problems wrong_values(const Plan& plan) {
   Problems problems;
   const std::vector<Parameter>& parameters = plan.study().parameters;
   std::vector<Problems> refused(plan.scenarios().size());
@@ -126,7 +124,19 @@ void check_values(const Plan& plan) {
     }
   }
   add_of_each(plan.scenarios(), refused, problems);
-  problems.raise();
+  return problems;
+}
+
+}  // namespace
+
+void check_settings(const Plan& plan, Problems& problems) {
+  Problems found = wrong_values(plan);
+  if (found.empty()) found = wrong_corners(plan);
+  const std::vector<Problem> before = problems.list();
+  for (const Problem& one : found.list()) {
+    const auto same = [&](const Problem& other) { return to_string(other.place) == to_string(one.place); };
+    if (std::ranges::none_of(before, same)) problems.add(one.place, one.text).notes = one.notes;
+  }
 }
 
 std::vector<Problem> refused_ends(const Plan& plan) {

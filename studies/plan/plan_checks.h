@@ -7,14 +7,12 @@
 
 namespace gaitlab::studies {
 
-/// Tries the settings of the first and the last run. Throws InputError with the problems common to both, such as a misspelt
-/// key.
-void check_corners(const Plan& plan);
-
 /// Tries each listed value of each parameter with the scenario's other keys and, if it is refused, with every combination of
-/// the other listed values, beside the low and then the high ends of the ranges. Throws InputError with the values that are
-/// refused in all of these, which no run could have. With more than 1000 combinations a value counts as possible.
-void check_values(const Plan& plan);
+/// the other listed values, beside the low and then the high ends of the ranges. Adds the values that are refused in all of
+/// these, which no run could have; with more than 1000 combinations a value counts as possible. If there is none, tries the
+/// settings of the first and the last run, and adds the problems common to both, such as a misspelt key, except at places that
+/// have a problem already.
+void check_settings(const Plan& plan, Problems& problems);
 
 /// Ends of parameter ranges that a scenario refuses while its other keys remain as they are.
 std::vector<Problem> refused_ends(const Plan& plan);

@@ -56,7 +56,7 @@ bool is_unreadable(const NamedScenario& named, Problems& problems) {
 
 }  // namespace
 
-std::vector<StudyScenario> read_scenarios(const Study& study, Catalog& catalog) {
+std::vector<StudyScenario> read_scenarios(const Study& study, const Problems& before, Catalog& catalog) {
   std::vector<NamedScenario> files = study.scenarios;
   if (files.empty()) files.push_back({"", study.scenario, study.scenario_place});
   std::vector<StudyScenario> scenarios;
@@ -73,9 +73,9 @@ std::vector<StudyScenario> read_scenarios(const Study& study, Catalog& catalog) 
       add_as_written(study.file.empty() ? error : without_quotes(error, study.file, files[k].file), study, found[k]);
     }
   }
-  Problems problems;
+  Problems problems = before;
   add_of_each(scenarios, found, problems);
-  problems.raise();
+  if (problems.size() > before.size()) problems.raise();
   return scenarios;
 }
 

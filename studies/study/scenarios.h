@@ -21,8 +21,8 @@ struct StudyScenario {
   std::vector<std::string> other_engine = {};         ///< settings that select the engine of `verify`, with its default step
 };
 
-/// Reads the scenarios with the study's settings. Throws InputError with every problem found.
-std::vector<StudyScenario> read_scenarios(const Study& study, Catalog& catalog);
+/// Reads the scenarios with the study's settings. Throws InputError with every problem found, after those `before`.
+std::vector<StudyScenario> read_scenarios(const Study& study, const Problems& before, Catalog& catalog);
 
 /// Reports an error in a setting as an error of the parameter or variation that defines the setting, at its place in the study.
 void add_as_written(const InputError& error, const Study& study, Problems& problems);

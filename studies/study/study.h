@@ -134,6 +134,7 @@ struct NamedScenario {
 struct Study {
   std::string name, file;  ///< name of the study, and path of its file; the path is empty for a study from the command line
   std::string scenario;    ///< file of the scenario, if there is only one
+  SourceLocation place;    ///< of problems of the whole study: its file, or the option that changes it
   SourceLocation scenario_place = {};    ///< at which the study names it; empty for one from the command line
   std::vector<NamedScenario> scenarios;  ///< scenarios, if there are several
   std::vector<std::string> sets;

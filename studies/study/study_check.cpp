@@ -10,7 +10,8 @@ namespace gaitlab::studies {
 
 namespace {
 
-void check_search(const Study& study, const SourceLocation& place, Problems& problems) {
+void check_search(const Study& study, Problems& problems) {
+  const SourceLocation& place = study.place;
   const std::string method = std::string("method ") + name_of(study.method);
   const std::int64_t population = study.search.population;
   if (std::ranges::none_of(study.parameters, [](const Parameter& p) { return p.values.empty(); }))
@@ -29,10 +30,6 @@ void check_search(const Study& study, const SourceLocation& place, Problems& pro
   } else if (population > row.most) {
     problems.add(place,
                  fmt::format("a population of {} is too large for {}; expected at most {}", population, method, row.most));
-  }
-  if (problems.empty() && study.runs > 0 && static_cast<std::uint64_t>(study.runs) < least_runs(study)) {
-    problems.add(place, fmt::format("a budget of {} runs is less than the {} of the searches' first generation", study.runs,
-                                    least_runs(study)));
   }
 }
 
@@ -93,23 +90,8 @@ void check_parameter(const Study& study, const Parameter& p, Problems& problems)
   }
 }
 
-void check_budget(const Study& study, const SourceLocation& place, Problems& problems) {
-  if (study.method == Method::grid && study.runs > 0)
-    problems.add(place, "method grid runs every combination; remove `budget: {runs: ...}`");
-  if (study.of_sensitivity() && study.runs > 0) {
-    problems.add(place, fmt::format("method {} takes no budget of runs; expected method: {{{}: N}}", name_of(study.method),
-                                    study.method == Method::morris ? "trajectories" : "samples"));
-  }
-  if (study.method != Method::grid && !study.of_sensitivity() && study.runs == 0)
-    problems.add(place, "missing budget: {runs: N}, which method " + std::string(name_of(study.method)) + " needs");
-  if (study.runs > 0 && study.runs < static_cast<std::int64_t>(study.runs_of_point())) {
-    problems.add(place, fmt::format("a budget of {} runs is less than the {} {} of one point", study.runs,
-                                    study.runs_of_point(), study.scenarios.empty() ? "replicates" : "runs"));
-  }
-}
-
 /// Checks the number of runs of methods that have no budget.
-void check_size(const Study& study, const SourceLocation& place, Problems& problems) {
+void check_size(const Study& study, Problems& problems) {
   constexpr double kMostRuns = 1e9;
   double runs = static_cast<double>(study.runs_of_point());
   for (const Parameter& p : study.parameters)
@@ -117,15 +99,40 @@ void check_size(const Study& study, const SourceLocation& place, Problems& probl
   const auto blocks = static_cast<double>(study.method == Method::morris ? study.trajectories : study.samples);
   const double runs_of_blocks = blocks * static_cast<double>((study.parameters.size() + 2) * study.runs_of_point());
   if (study.of_sensitivity() && runs_of_blocks > kMostRuns)
-    problems.add(place, fmt::format("the study has {:.3g} runs; allowed are up to {:g}", runs_of_blocks, kMostRuns));
+    problems.add(study.place, fmt::format("the study has {:.3g} runs; allowed are up to {:g}", runs_of_blocks, kMostRuns));
   if (study.method == Method::grid && runs > kMostRuns)
-    problems.add(place, fmt::format("the grid has {:.3g} runs; allowed are up to {:g}", runs, kMostRuns));
+    problems.add(study.place, fmt::format("the grid has {:.3g} runs; allowed are up to {:g}", runs, kMostRuns));
+}
+
+/// Reason why a study cannot have its number of runs; empty if it can.
+std::string wrong_budget(const Study& study) {
+  const std::string method = std::string("method ") + name_of(study.method);
+  const auto runs = static_cast<std::uint64_t>(study.runs);
+  if (study.method == Method::grid) return runs > 0 ? method + " runs every combination; remove `budget: {runs: ...}`" : "";
+  if (study.of_sensitivity()) {
+    if (runs == 0) return "";
+    return fmt::format("{} takes no budget of runs; expected method: {{{}: N}}", method,
+                       study.method == Method::morris ? "trajectories" : "samples");
+  }
+  if (runs == 0) return fmt::format("missing budget: {{runs: N}}, which {} needs", method);
+  if (is_search(study.method) && runs < least_runs(study)) {
+    return fmt::format("a budget of {} runs is less than the {} of the searches' first generation", runs, least_runs(study));
+  }
+  if (runs >= study.runs_of_point()) return "";
+  return fmt::format("a budget of {} runs is less than the {} {} of one point", runs, study.runs_of_point(),
+                     study.scenarios.empty() ? "replicates" : "runs");
+}
+
+/// Least number of runs that a study can have; 0 for a method without a budget.
+std::uint64_t least_budget(const Study& study) {
+  if (is_search(study.method)) return least_runs(study);
+  return study.method == Method::grid || study.of_sensitivity() ? 0 : study.runs_of_point();
 }
 
 }  // namespace
 
-void check_study(const Study& study, const SourceLocation& place, Problems& problems) {
-  if (is_search(study.method)) check_search(study, place, problems);
+void check_study(const Study& study, Problems& problems) {
+  if (is_search(study.method)) check_search(study, problems);
   check_followers(study, problems);
   check_seed(study, problems);
   for (const Parameter& p : study.parameters) check_parameter(study, p, problems);
@@ -134,8 +141,15 @@ void check_study(const Study& study, const SourceLocation& place, Problems& prob
     problems.add(study.starts.front().place,
                  fmt::format("start is for searches such as scbo; method {} does not search", name_of(study.method)));
   }
-  check_budget(study, place, problems);
-  check_size(study, place, problems);
+  check_size(study, problems);
+}
+
+void check_budget(Study& study, Problems& problems) {
+  if (study.asked) return;
+  const std::string wrong = wrong_budget(study);
+  if (wrong.empty()) return;
+  problems.add(study.place, wrong);
+  study.runs = static_cast<std::int64_t>(least_budget(study));
 }
 
 }  // namespace gaitlab::studies

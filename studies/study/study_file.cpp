@@ -278,6 +278,7 @@ Study read_study(const std::string& file, Purpose purpose) {
   if (!reader.version("gaitlab_study")) problems.raise();
   std::string scenario;
   study.name = std::filesystem::path(file).stem().string();
+  study.place = root.place;
   PlainKeys{study, scenario}.fields(reader);
   check_name(study, root, problems);
   take_places(root, study);
@@ -301,7 +302,7 @@ Study read_study(const std::string& file, Purpose purpose) {
   reader.require({"parameters"});
   reader.finish();
   choose_method(study, named, purpose);
-  if (problems.empty()) check_study(study, root.place, problems);
+  if (problems.empty()) check_study(study, problems);
   problems.raise();
   return study;
 }

@@ -58,7 +58,7 @@ TEST(BoundStudies, KnowTheirLongestScenario) {
   EXPECT_EQ(studies::scenario_texts(bound.scenario_text()).size(), 3U);
   studies::Study late = study;
   late.stops.push_back({{"fell", Node{Node::Kind::scalar, {"s.yaml", 1, 1}, "fell"}}, 0.75});
-  EXPECT_EQ(message_of([&] { const BoundStudy refused(late, app::quantity_offer(), catalog()); }),
+  EXPECT_EQ(message_of([&] { BoundStudy(late, app::quantity_offer(), catalog()).problems().raise(); }),
             "s.yaml:1:1: error: the rule begins at 0.75 s, but the longest run ends at 0.75 s; expected a smaller number after "
             "`after`");
 }

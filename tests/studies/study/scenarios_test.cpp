@@ -136,7 +136,7 @@ TEST(ReadScenarios, TakesTheSettingsOfTheStudyAndNamesJoints) {
   Study study;
   study.scenarios = {{"a", folder / "one.yaml"}, {"b", folder / "two.yaml"}};
   study.sets = {"seed=7"};
-  const std::vector<StudyScenario> read = studies::read_scenarios(study, catalog());
+  const std::vector<StudyScenario> read = studies::read_scenarios(study, {}, catalog());
   ASSERT_EQ(read.size(), 2U);
   for (std::size_t k = 0; k < 2; ++k) {
     EXPECT_EQ(read[k].name, study.scenarios[k].name);
@@ -147,7 +147,7 @@ TEST(ReadScenarios, TakesTheSettingsOfTheStudyAndNamesJoints) {
   }
   folder.write("two.yaml", text + "-1\n");
   study.sets.emplace_back("sed=7");
-  const std::string said = message_of([&] { (void)studies::read_scenarios(study, catalog()); });
+  const std::string said = message_of([&] { (void)studies::read_scenarios(study, {}, catalog()); });
   EXPECT_TRUE(contains(said, "unknown key 'sed'")) << said;
   EXPECT_TRUE(contains(said, "two.yaml:4:11: error: duration is -1 s")) << said;
   EXPECT_EQ(said.find("unknown key 'sed'"), said.rfind("unknown key 'sed'")) << "both scenarios have it: once";
