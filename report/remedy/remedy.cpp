@@ -224,6 +224,7 @@ class Search {
   bool extends(RemedyAnswer& answer, double factor, const RemedyRun& tried) {
     if (!tried.refused.empty()) {
       answer.refused = tried.refused;
+      answer.refused_at = factor;
       return false;
     }
     const bool other = tried.feasible() != feasible();

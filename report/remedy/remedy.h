@@ -38,6 +38,7 @@ struct RemedyAnswer {
   RemedyRun beyond = {};       ///< of a feasible gait: a run beyond the reserve, within 2 % of the change
   bool less_suffices = false;  ///< true if nine tenths of the change also make the gait feasible, so that `factor` is too large
   std::string refused = {};    ///< message of the reader about the first value beyond `until`; empty if it was simulated
+  double refused_at = 1;       ///< factor of that value
   std::vector<std::string> sets = {};  ///< settings of the answer, in the form of --set
 };
 

@@ -17,25 +17,40 @@ namespace {
 constexpr std::string_view kDock = "dock_";
 constexpr double kFirst = 0.201, kLast = 4.99;  // factors at the ends of the range, with a margin for rounding
 
-/// Value of a setting with its unit, or the factor if joints differ.
+/// Names of a setting's keys: `u_max`, or `u_max and i_max together`.
+std::string subject(const RemedyKey& key) {
+  if (key.paths.size() == 1) return key.name;
+  std::vector<std::string> names;
+  for (const std::string path : key.paths) names.push_back(path.substr(path.rfind('.') + 1));
+  return fmt::format("{} together", fmt::join(names, " and "));
+}
+
+/// True if the setting has one value, which lines state. If joints or keys differ, lines state the factor.
+bool has_value(const Remedy& remedy, const RemedyKey& key) { return !std::isnan(remedy.settings.value(key)); }
+
+/// `0.719 A`; `1.388 times the present value` if joints or keys differ.
 std::string value_text(const Remedy& remedy, const RemedyKey& key, double factor) {
-  const double now = remedy.settings.value(key);
-  if (std::isnan(now)) return fmt::format("{:.4g} times", factor);
-  return fmt::format("{:.4g}{}{}", now * factor, *key.unit == '\0' ? "" : " ", key.unit);
+  if (!has_value(remedy, key)) return fmt::format("{:.4g} times the present value", factor);
+  return fmt::format("{:.4g}{}{}", remedy.settings.value(key) * factor, *key.unit == '\0' ? "" : " ", key.unit);
 }
 
-/// Text such as ` (now 0.408 A)`; empty if joints differ.
+/// Text such as ` (now 0.408 A)`; empty if joints or keys differ.
 std::string before(const Remedy& remedy, const RemedyKey& key) {
-  return std::isnan(remedy.settings.value(key)) ? "" : fmt::format(" (now {})", value_text(remedy, key, 1));
+  return has_value(remedy, key) ? fmt::format(" (now {})", value_text(remedy, key, 1)) : "";
 }
 
-/// Text such as `i_max >= 0.719 A (now 0.408 A)`, or with both ends of the range.
+/// Text such as `i_max >= 0.719 A (now 0.408 A)` or `u_max and i_max together at least 1.388 times the present value`, or with
+/// both ends of the range.
 std::string change(const Remedy& remedy, const RemedyAnswer& answer) {
   const RemedyKey& key = *answer.key;
-  const std::string from = value_text(remedy, key, answer.factor);
-  if (answer.until >= kLast || answer.until <= kFirst)
-    return fmt::format("{} {} {}{}", key.name, answer.up ? ">=" : "<=", from, before(remedy, key));
-  return fmt::format("{} from {} to {}{}", key.name, from, value_text(remedy, key, answer.until), before(remedy, key));
+  const std::string name = subject(key), from = value_text(remedy, key, answer.factor);
+  const bool value = has_value(remedy, key);
+  if (answer.until >= kLast || answer.until <= kFirst) {
+    const char* const bound = answer.up ? (value ? ">=" : "at least") : (value ? "<=" : "at most");
+    return fmt::format("{} {} {}{}", name, bound, from, before(remedy, key));
+  }
+  const std::string first = value ? from : fmt::format("{:.4g}", answer.factor);
+  return fmt::format("{} from {} to {}{}", name, first, value_text(remedy, key, answer.until), before(remedy, key));
 }
 
 std::string speed_text(const RemedyRun& run) {
@@ -69,13 +84,13 @@ std::string alternatives(const std::vector<std::string>& names) {
 /// First clause of a text, for a line.
 std::string clause(const std::string& text) { return text.substr(0, text.find(';')); }
 
-/// Names of settings whose verdict changes in no direction, and that were simulated up to both ends of the range.
+/// Settings whose verdict changes in no direction, and that were simulated up to both ends of the range.
 std::vector<std::string> unmoved(const Remedy& remedy) {
   std::vector<std::string> names;
   for (const RemedyAnswer& answer : remedy.answers) {
     const auto moves = [&](const RemedyAnswer& a) { return a.key == answer.key && (a.crosses || !a.refused.empty()); };
-    if (std::ranges::none_of(remedy.answers, moves) && std::ranges::count(names, answer.key->name) == 0)
-      names.emplace_back(answer.key->name);
+    if (std::ranges::none_of(remedy.answers, moves) && std::ranges::count(names, subject(*answer.key)) == 0)
+      names.push_back(subject(*answer.key));
   }
   return names;
 }
@@ -88,24 +103,30 @@ class Lines {
   std::vector<ScreenLine> lines;
 };
 
+/// `frequency up to 0.34 Hz (now 0.25 Hz)`
+std::string reserve(const Remedy& remedy, const RemedyAnswer& answer) {
+  return fmt::format("{} {} {}{}", subject(*answer.key), answer.up ? "up to" : "down to",
+                     value_text(remedy, *answer.key, answer.factor), before(remedy, *answer.key));
+}
+
 void add_reserves(const Remedy& remedy, Lines& lines) {
   const auto lead = [&] { return lines.lines.empty() ? "stays feasible with" : "or with"; };
   for (const RemedyAnswer& answer : remedy.answers) {
     if (!answer.confirmed) continue;
     const std::string end = answer.beyond.simulated ? "; then " + clause(answer.beyond.weakest) : "";
-    lines.add(fmt::format("{} {} {} {}{}{}", lead(), answer.key->name, answer.up ? "up to" : "down to",
-                          value_text(remedy, *answer.key, answer.factor), before(remedy, *answer.key), end));
+    lines.add(fmt::format("{} {}{}", lead(), reserve(remedy, answer), end));
   }
   const std::vector<std::string> free = unmoved(remedy);
   if (free.empty()) return;
   const std::string by = remedy.engine == remedy.own_engine ? "" : fmt::format(" (engine {})", remedy.engine);
-  lines.add(fmt::format("{} any {} from a fifth to five times{}", lead(), alternatives(free), by));
+  lines.add(fmt::format("{} any {} from a fifth to five times the present value{}", lead(), alternatives(free), by));
 }
 
 std::string pair_text(const Remedy& remedy, const RemedyPair& pair) {
   const auto value = [&](const char* name, double factor) {
     const auto key = std::ranges::find_if(remedy_keys(), [&](const RemedyKey& k) { return std::string(name) == k.name; });
-    return fmt::format("{} {}{}", name, value_text(remedy, *key, factor), before(remedy, *key));
+    return fmt::format("{} {}{}{}", name, has_value(remedy, *key) ? "" : "of ", value_text(remedy, *key, factor),
+                       before(remedy, *key));
   };
   return fmt::format("feasible with {} and {} together{}", value("frequency", pair.frequency),
                      value("amplitude", pair.amplitude), speed_text(pair.run));
@@ -124,12 +145,30 @@ void add_cures(const Remedy& remedy, Lines& lines) {
   if (remedy.pair) lines.add(pair_text(remedy, *remedy.pair), Tone::good);
   if (const std::vector<std::string> names = unmoved(remedy); !names.empty()) {
     const std::string grid = remedy.map && !remedy.pair ? ", and no pair of frequency and amplitude does" : "";
-    lines.add(fmt::format("no {}, from a fifth to five times, makes it feasible alone{}", alternatives(names), grid),
-              lines.lines.empty() ? Tone::bad : Tone::plain);
+    lines.add(
+        fmt::format("no {} from a fifth to five times the present value makes it feasible alone{}", alternatives(names), grid),
+        lines.lines.empty() ? Tone::bad : Tone::plain);
   }
   if (remedy.ratings_suffice) return;
   for (const std::string& rating : ratings)
     lines.add("the present motion also needs " + rating + ", which alone does not suffice");
+}
+
+/// Reason of a refusal without the value that the line states: `allowed are 0 to 1.5 rad` of `amplitude is 2 rad; allowed are
+/// 0 to 1.5 rad`.
+std::string reason(const std::string& refused) {
+  for (const char* const expectation : {"; allowed ", "; expected "}) {
+    if (const std::size_t end = refused.find(expectation); end != std::string::npos) return refused.substr(end + 2);
+  }
+  return refused;
+}
+
+/// `amplitude is tried only up to 1.196 rad, because 1.894 rad is refused: allowed are 0 to 1.5 rad`
+std::string refusal(const Remedy& remedy, const RemedyAnswer& answer) {
+  const RemedyKey& key = *answer.key;
+  return fmt::format("{} {} tried only {} {}, because {} is refused: {}", subject(key), key.paths.size() > 1 ? "are" : "is",
+                     answer.up ? "up to" : "down to", value_text(remedy, key, answer.until),
+                     value_text(remedy, key, answer.refused_at), reason(answer.refused));
 }
 
 /// Lines on answers that are not confirmed, and on values that the scenario cannot have.
@@ -142,12 +181,10 @@ void add_open(const Remedy& remedy, Lines& lines) {
       lines.add(fmt::format("not confirmed by engine {}: {}: {}", remedy.own_engine, change(remedy, answer), why),
                 Tone::doubtful);
     }
-    if (answer.refused.empty()) continue;
-    lines.add(fmt::format("{} not tried {} {}: {}", answer.key->name, answer.up ? "above" : "below",
-                          value_text(remedy, *answer.key, answer.until), clause(answer.refused)));
+    if (!answer.refused.empty()) lines.add(refusal(remedy, answer));
   }
   std::vector<std::string> lacking;
-  for (const RemedyLack& lack : remedy.lacking) lacking.push_back(fmt::format("{} ({})", lack.key->name, lack.reason));
+  for (const RemedyLack& lack : remedy.lacking) lacking.push_back(fmt::format("{} ({})", subject(*lack.key), lack.reason));
   if (!lacking.empty()) lines.add("not tried: " + fmt::format("{}", fmt::join(lacking, ", ")));
 }
 

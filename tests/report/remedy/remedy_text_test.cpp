@@ -1,0 +1,82 @@
+// Lines of a remedy: settings with one value and with several, values that the scenario refuses, reserves.
+#include "report/remedy/remedy_text.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace gaitlab::test {
+namespace {
+
+using report::Remedy;
+using report::RemedyAnswer;
+using report::RemedyKey;
+using report::Word;
+using Lines = std::vector<std::string>;
+
+const RemedyKey* key_named(const std::string& name) {
+  return &*std::ranges::find_if(report::remedy_keys(), [&](const RemedyKey& key) { return key.name == name; });
+}
+
+Remedy remedy_with(Word word, std::vector<RemedyAnswer> answers) {
+  Remedy made{report::RemedySettings("cpg: {frequency: 1.2, amplitude: 0.6}\nactuator: {u_max: 7.4, i_max: 1.2}\n"
+                                     "controller: {Kp: {default: 60, m3/active: 40}}\nduration: 9\n"),
+              "0123456789abcdef", word};
+  made.answers = std::move(answers);
+  return made;
+}
+
+Lines lines_of(const Remedy& remedy) {
+  Lines lines;
+  for (const report::ScreenLine& line : report::remedy_lines(remedy)) lines.push_back(line.text);
+  return lines;
+}
+
+RemedyAnswer confirmed(const char* name, double factor, double until) {
+  RemedyAnswer answer{.key = key_named(name), .up = factor > 1, .crosses = true, .confirmed = true, .factor = factor};
+  answer.until = until;
+  answer.run.speed = answer.run.margin = std::numeric_limits<double>::quiet_NaN();
+  return answer;
+}
+
+TEST(RemedyText, StatesTheValueOrHowManyTimesThePresentOneItIs) {
+  EXPECT_EQ(lines_of(remedy_with(Word::infeasible, {confirmed("i_max", 1.5, 5)})),
+            Lines{"feasible with i_max >= 1.8 A (now 1.2 A)"});
+  EXPECT_EQ(lines_of(remedy_with(Word::infeasible, {confirmed("i_max", 1.5, 2.5)})),
+            Lines{"feasible with i_max from 1.8 A to 3 A (now 1.2 A)"});
+  EXPECT_EQ(lines_of(remedy_with(Word::infeasible, {confirmed("u_max with i_max", 1.388, 5)})),
+            Lines{"feasible with u_max and i_max together at least 1.388 times the present value"});
+  EXPECT_EQ(lines_of(remedy_with(Word::infeasible, {confirmed("u_max with i_max", 1.388, 2.32)})),
+            Lines{"feasible with u_max and i_max together from 1.388 to 2.32 times the present value"});
+  EXPECT_EQ(lines_of(remedy_with(Word::infeasible, {confirmed("Kp", 0.5, 0.2)})),
+            Lines{"feasible with Kp at most 0.5 times the present value"});
+  EXPECT_EQ(lines_of(remedy_with(Word::feasible, {confirmed("u_max with i_max", 0.62, 0.62)})),
+            Lines{"stays feasible with u_max and i_max together down to 0.62 times the present value"});
+}
+
+TEST(RemedyText, StatesWhyFurtherValuesWereNotTried) {
+  RemedyAnswer answer{.key = key_named("amplitude"), .up = true};
+  answer.until = 1.993;
+  answer.refused = "amplitude is 1.894155107 rad; allowed are 0 to 1.5 rad";
+  answer.refused_at = 3.157;
+  EXPECT_EQ(lines_of(remedy_with(Word::infeasible, {answer})),
+            Lines{"amplitude is tried only up to 1.196 rad, because 1.894 rad is refused: allowed are 0 to 1.5 rad"});
+  answer.key = key_named("Kp");
+  answer.refused = "the joint cannot settle; take 150 or less";
+  EXPECT_EQ(lines_of(remedy_with(Word::infeasible, {answer})),
+            Lines{"Kp is tried only up to 1.993 times the present value, because 3.157 times the present value is refused: the "
+                  "joint cannot settle; take 150 or less"});
+}
+
+TEST(RemedyText, NamesSettingsThatDoNotHelp) {
+  const auto without = [](const char* name) {
+    return std::vector<RemedyAnswer>{{.key = key_named(name)}, {.key = key_named(name), .up = true}};
+  };
+  std::vector<RemedyAnswer> answers = without("i_max");
+  for (const RemedyAnswer& one : without("u_max with i_max")) answers.push_back(one);
+  EXPECT_EQ(lines_of(remedy_with(Word::infeasible, answers)),
+            Lines{"no i_max or u_max and i_max together from a fifth to five times the present value makes it feasible alone"});
+}
+
+}  // namespace
+}  // namespace gaitlab::test
