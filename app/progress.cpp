@@ -62,11 +62,16 @@ void ProgressLine::clear() {
   written_ = 0;
 }
 
+std::string TimeLeft::text(Time now, double done, double left) const {
+  constexpr double kLeast = 0.01;
+  if (!(done > kLeast * (done + left))) return "";
+  return fmt::format("{:.0f} s left", std::chrono::duration<double>(now - start_).count() * left / done);
+}
+
 void Progress::operator()(double share) {
   if (!line_.due()) return;
-  const std::chrono::duration<double> since = std::chrono::steady_clock::now() - start_;
-  const std::string left = share > 0.01 ? fmt::format(", {:.0f} s left", since.count() * (1 - share) / share) : "";
-  line_.show(share, fmt::format("{:.0f} % done{}", 100 * share, left));
+  const std::string left = left_.text(std::chrono::steady_clock::now(), share, 1 - share);
+  line_.show(share, fmt::format("{:.0f} % done{}{}", 100 * share, left.empty() ? "" : ", ", left));
 }
 
 }  // namespace gaitlab::app

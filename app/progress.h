@@ -35,6 +35,18 @@ class ProgressLine {
   Clock::time_point next_;
 };
 
+/// Time left of work, at the pace of all of it that is done.
+class TimeLeft {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  explicit TimeLeft(Time start) : start_(start) {}
+  /// Text such as `12 s left`, `done` and `left` in any unit; empty before a hundredth of the work is done.
+  [[nodiscard]] std::string text(Time now, double done, double left) const;
+
+ private:
+  Time start_;
+};
+
 /// Progress of a command by the share that is done, with the remaining time.
 class Progress {
  public:
@@ -43,7 +55,7 @@ class Progress {
 
  private:
   ProgressLine line_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  TimeLeft left_{std::chrono::steady_clock::now()};
 };
 
 }  // namespace gaitlab::app

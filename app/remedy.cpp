@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <functional>
 #include <new>
-#include <optional>
 
 #include "app/commands.h"
 #include "app/judged_run.h"
@@ -53,8 +52,13 @@ int remedy_of_run(const RemedyArguments& arguments) {
   warn(run);
   const StopOnSignal stop(StopOnSignal::Second::is_ignored);
   const Remedied remedied = take_remedy(scenario, run.verdict, arguments);
-  if (!remedied.complete) return 1;
+  if (remedied.json.empty()) return 1;
   const fs::path folder = run.trace.parent_path();
+  if (!remedied.complete && fs::exists(folder / kRemedyFile)) {
+    say((folder / kRemedyFile).string(), "note", "an earlier remedy, which is kept");
+    print_lines(remedied.lines);
+    return 1;
+  }
   write_file(folder / kRemedyFile, remedied.json, Existing::replaced);
   if (!arguments.no_page) {
     const fs::path page = folder / kPageFile;
@@ -62,7 +66,7 @@ int remedy_of_run(const RemedyArguments& arguments) {
   }
   if (!arguments.quiet) print_lines(remedied.lines);
   if (!arguments.no_page && !arguments.quiet) print_page(folder / kPageFile);
-  return exit_code(run.verdict, arguments.shown);
+  return remedied.complete ? exit_code(run.verdict, arguments.shown) : 1;
 }
 
 /// Names of the settings of a remedy.
@@ -94,8 +98,7 @@ Remedied take_remedy(const Scenario& scenario, report::Verdict& verdict, const R
   if (!arguments.remedy) return {};
   Catalog catalog = standard_catalog();  // the plugins of the run are already loaded
   const StoredScenario same{"", scenario.file + " (its remedy)", resolved(scenario, FilePaths::whole)};
-  std::optional<report::Remedy> made;
-  {
+  const auto search = [&] {
     Progress progress(arguments.quiet);
     const report::RemedyTask task{
         scenario,
@@ -105,17 +108,17 @@ Remedied take_remedy(const Scenario& scenario, report::Verdict& verdict, const R
         arguments.by,
         {arguments.jobs, 0},
         std::ref(progress)};
-    made = report::remedy(task, stopped());
-  }
-  if (!made) {
-    say("gaitlab remedy", "error", "interrupted; the run is complete, but has no remedy");
-    return {.complete = false};
-  }
-  const std::string json = report::to_json(*made);
-  verdict.remedy = report::shown_remedy(json, made->scenario, verdict.word);
-  if (arguments.map && !made->map)
+    return report::remedy(task, stopped());
+  };
+  const report::Remedy made = search();
+  const std::string json = report::to_json(made);
+  verdict.remedy = report::shown_remedy(json, made.scenario, verdict.word);
+  if (made.interrupted) {
+    say("gaitlab remedy", "error", "interrupted; the run is complete, and its remedy is that of the runs so far");
+  } else if (arguments.map && !made.map) {
     say("--map", "note", "the map is left out, because frequency or amplitude cannot be changed in this scenario");
-  return {report::remedy_lines(*made), json, true};
+  }
+  return {report::remedy_lines(made), json, !made.interrupted};
 } catch (const InputError& error) {
   say(error.what());
   return {.complete = false};

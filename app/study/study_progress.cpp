@@ -55,10 +55,12 @@ double StudyProgress::rate(Time now, std::uint64_t ended) {
 }
 
 void StudyProgress::operator()(const studies::Standing& s) {
-  const double runs_per_s = rate(std::chrono::steady_clock::now(), s.ended);
+  const Time now = std::chrono::steady_clock::now();
+  const double runs_per_s = rate(now, s.ended);
   if (!line_.due()) return;
   std::string text = fmt::format("{}/{} runs", s.ended, s.wanted);
-  if (runs_per_s > 0) text += fmt::format("  {:.0f} s left", static_cast<double>(s.wanted - s.ended) / runs_per_s);
+  const std::string left = left_.text(now, static_cast<double>(s.ended - s.before), static_cast<double>(s.wanted - s.ended));
+  if (!left.empty()) text += "  " + left;
   text += place_;
   if (s.best) text += fmt::format("  best {:.4g}{} (run {})", s.best->objective(), unit_, s.best_run);
   text += fmt::format("  {} kept  {} feasible  {} failed", s.kept, s.feasible, s.failed);

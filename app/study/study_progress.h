@@ -21,11 +21,12 @@ class StudyProgress {
   void operator()(const studies::SearchPlace& place);
 
  private:
-  using Time = std::chrono::steady_clock::time_point;
+  using Time = TimeLeft::Time;
   /// Rate in runs per s over the last minute. 0 if not known yet.
   double rate(Time now, std::uint64_t ended);
 
   ProgressLine line_;
+  TimeLeft left_{std::chrono::steady_clock::now()};
   std::string unit_, place_;
   std::deque<std::pair<Time, std::uint64_t>> minute_;  ///< number of completed runs at these times
 };

@@ -1,25 +1,20 @@
 #include "report/remedy/remedy.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <chrono>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <string_view>
 #include <utility>
 
 #include "core/files/hash.h"
 #include "core/scenario/resolved.h"
-#include "report/analysis/collisions.h"
-#include "report/verdict/load_checks.h"
-#include "report/verdict/number_texts.h"
+#include "report/remedy/remedy_ratings.h"
+#include "report/remedy/remedy_work.h"
 
 namespace gaitlab::report {
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kFarthest = 5;        // largest factor; its inverse is the smallest
 constexpr int kPointsEachWay = 4;      // geometric points of a setting in a direction
 constexpr int kCuts = 3;               // interior points of a bracket that are tried at once
@@ -30,89 +25,45 @@ constexpr double kMore = 1.08;         // factor on the logarithm of a change th
 constexpr int kMostRounds = 8;         // attempts to confirm an answer
 constexpr int kMapEachWay = 6;         // cells of the map on either side of the run
 constexpr std::size_t kMostPairs = 5;  // pairs to confirm, the fastest first
-constexpr double kRunsPerAnswer = 8;   // for the estimate of the work only
+// For the estimate of the work only: rounds that confirm an answer, and computing time of a simulated second of these over one
+// of the search, with the scenario's own engine and its estimate or with the estimate alone.
+constexpr double kLikelyRounds = 1.5, kEngineRatio = 8, kEstimateRatio = 2;
+constexpr const char* kFastEngine = "articulated";
 
 /// Settings multiplied together, each by a factor.
 using Change = std::vector<std::pair<const RemedyKey*, double>>;
-
-std::string name(const Check& check) { return texts::spaced(check.id) + (check.worst.empty() ? "" : " of " + check.worst); }
-
-/// Deciding check of a verdict and its part; for a feasible run the check with the least margin.
-std::string weakest(const Verdict& verdict) {
-  const std::vector<const Check*> failures = verdict.failures();
-  if (verdict.word == Word::not_judged) {
-    const auto close = std::ranges::find(verdict.checks, CheckStatus::too_close, &Check::status);
-    const bool only = failures.empty() && close != verdict.checks.end() && verdict.reason == close->text;
-    return only ? name(*close) + " is too close to its limit" : verdict.reason;
-  }
-  const Check* const check = failures.empty() ? verdict.tightest() : failures.front();
-  return check == nullptr ? "" : name(*check);
-}
-
-RemedyRun judged(const Scenario& scenario, const Recording& recording) {
-  const Summary summary = summarise(scenario, recording, 0);
-  const Verdict made = verdict(scenario, recording, summary, overlaps(scenario, recording));
-  const Check* const tightest = made.tightest();
-  const auto progress = std::ranges::find(made.checks, "progress", &Check::id);
-  const bool still = progress != made.checks.end() && progress->status == CheckStatus::warn;
-  return {made.word, tightest == nullptr ? kNone : tightest->margin, summary.speed, weakest(made), still, true};
-}
-
-/// Rounds to a hundredth of the change or finer: up if `up`, else down.
-double rounded(double value, double now, bool up) {
-  const double change = std::abs(value - now);
-  if (!(change > 0)) return value;
-  const double unit = std::pow(10, std::floor(std::log10(change)) - 2);
-  const double count = value / unit;
-  constexpr double kSame = 1e-6;  // the value itself, in spite of rounding errors
-  return (up ? std::ceil(count - kSame) : std::floor(count + kSame)) * unit;
-}
-
-/// True if all parts with this check have the same rating.
-bool same_ratings(const Scenario& scenario, const RemedySettings& settings, const CheckKind& kind) {
-  constexpr std::pair<std::string_view, DockQuantity> kDocks[] = {{"dock_tension", DockQuantity::tension},
-                                                                  {"dock_shear", DockQuantity::shear},
-                                                                  {"dock_bending", DockQuantity::bending},
-                                                                  {"dock_torsion", DockQuantity::torsion}};
-  for (const auto& [id, quantity] : kDocks) {
-    if (id != kind.id) continue;
-    std::vector<double> limits = dock_limits(*scenario.robot, quantity);
-    std::erase_if(limits, [](double limit) { return std::isnan(limit); });
-    return std::ranges::adjacent_find(limits, std::ranges::not_equal_to()) == limits.end();
-  }
-  return settings.uniform(kind.key);
-}
 
 struct Stopped {};
 
 class Search {
  public:
   Search(const RemedyTask& task, std::atomic<bool>& stop)
-      : task_(task), stop_(stop), made_{RemedySettings(resolved(task.scenario)), hash(resolved(task.scenario))} {
+      : task_(task),
+        stop_(stop),
+        made_{RemedySettings(resolved(task.scenario)), hash(resolved(task.scenario))},
+        work_(task.scenario.physics.engine->name == kFastEngine ? kEstimateRatio : kEngineRatio) {
     made_.word = task.verdict.word;
     made_.engine = made_.own_engine = task.scenario.physics.engine->name;
   }
 
   Remedy made() {
-    add_ratings();
+    made_.ratings = ratings_needed(task_, made_.settings);
+    made_.ratings_suffice = made_.word == Word::infeasible && only_ratings(task_.verdict);
     for (const RemedyKey& key : remedy_keys()) {
       if (!task_.by.empty() && std::ranges::count(task_.by, key.name) == 0) continue;
       if (const std::string reason = made_.settings.missing(key); !reason.empty()) {
         made_.lacking.push_back({&key, reason});
       } else {
-        for (const bool up : {false, true}) made_.answers.push_back({.key = &key, .up = up});
+        for (const bool up : {false, true}) made_.answers.push_back({.key = &key, .up = up, .stopped = true});
       }
     }
-    expected_ = static_cast<double>(made_.answers.size()) * (kPointsEachWay + kRunsPerAnswer) + (task_.map ? cells() : 0);
-    choose_engine();
-    find_brackets();
-    narrow();
-    confirm();
-    const bool helps = std::ranges::any_of(made_.answers, &RemedyAnswer::confirmed);
-    const bool grid = made_.settings.missing(key("frequency")).empty() && made_.settings.missing(key("amplitude")).empty();
-    const bool pairs = grid && !feasible() && !helps && task_.by.empty() && !made_.ratings_suffice;
-    if (grid && (pairs || task_.map)) draw_map();
-    if (pairs) find_pair();
+    try {
+      search();
+    } catch (const Stopped&) {
+      made_.interrupted = true;
+      if (first_.empty()) (void)placed();
+      settle();
+    }
     return std::move(made_);
   }
 
@@ -122,11 +73,33 @@ class Search {
     RemedyAnswer* answer;
     double inner, outer;
     [[nodiscard]] bool wide() const { return std::abs(outer - inner) > std::max(kNarrowest, kTolerance * std::abs(outer - 1)); }
+    /// Number of rounds that a bracket takes to be narrow.
+    [[nodiscard]] double rounds() const {
+      const double narrow = std::max(kNarrowest, kTolerance * std::abs(outer - 1));
+      return std::max(0.0, std::ceil(std::log2(std::abs(outer - inner) / narrow) / std::log2(kCuts + 1)));
+    }
     [[nodiscard]] double at(int cut) const { return inner + (outer - inner) * cut / (kCuts + 1); }
   };
 
+  void search() {
+    choose_engine();
+    find_brackets();
+    narrow();
+    confirm();
+    settle();
+    const bool helps = std::ranges::any_of(made_.answers, &RemedyAnswer::confirmed);
+    const bool pairs = pairs_matter() && !helps;
+    if (grid() && (pairs || task_.map)) draw_map();
+    if (pairs) find_pair();
+  }
+
   [[nodiscard]] bool feasible() const { return made_.word == Word::feasible; }
-  static double cells() { return std::pow(2 * kMapEachWay + 1, 2); }
+  /// True if the scenario has both settings of the map.
+  [[nodiscard]] bool grid() const {
+    return made_.settings.missing(key("frequency")).empty() && made_.settings.missing(key("amplitude")).empty();
+  }
+  /// True if a pair of frequency and amplitude is searched where no setting alone helps.
+  [[nodiscard]] bool pairs_matter() const { return grid() && !feasible() && task_.by.empty() && !made_.ratings_suffice; }
   static const RemedyKey& key(const std::string& name) {
     return *std::ranges::find_if(remedy_keys(), [&](const RemedyKey& k) { return k.name == name; });
   }
@@ -139,68 +112,88 @@ class Search {
     return all;
   }
 
-  /// Runs with the changes. `confirming` runs have the engine, step and estimate of the scenario.
-  std::vector<RemedyRun> run(const std::vector<Change>& changes, bool confirming) {
+  /// Runs with the changes. `confirming` runs have the engine, step and estimate of the scenario. If the search is stopped,
+  /// only the runs that have ended are known. `after` is the simulated time that the search is expected to take afterwards.
+  std::vector<RemedyRun> run(const std::vector<Change>& changes, bool confirming, RemedyWork::Simulated after) {
     std::vector<RemedyRun> results(changes.size());
     std::vector<Scenario> scenarios;
     std::vector<std::size_t> numbers;
+    double& of_these = after[confirming ? 1 : 0];
     for (std::size_t i = 0; i < changes.size(); ++i) {
       std::vector<std::string> all = sets(changes[i]);
       if (!confirming) all.insert(all.begin(), faster_.begin(), faster_.end());
       try {
         scenarios.push_back(task_.with(all));
       } catch (const InputError& error) {
-        results[i] = refused(error.problems());
+        results[i] = refused_run(error.problems());
         continue;
       }
       if (!confirming) {
         scenarios.back().physics.estimate = Estimate::off;
         scenarios.back().physics.estimated_by_others = true;
       }
+      of_these += scenarios.back().duration;
       numbers.push_back(i);
     }
     const auto judge = [&](std::size_t k, RolloutEnd&& end) {
-      results[numbers[k]] = end.refused.empty() ? judged(scenarios[k], end.recording) : refused(end.refused);
-      const double done = done_.fetch_add(1) + 1;
-      if (task_.progress) task_.progress(std::min(0.99, done / expected_));
+      results[numbers[k]] = end.refused.empty() ? judged(scenarios[k], end.recording) : refused_run(end.refused);
+      const double share = work_.ended(scenarios[k].duration);
+      if (task_.progress) task_.progress(std::min(0.99, share));
     };
+    work_.begin(confirming ? RemedyRuns::confirming : RemedyRuns::search, after, std::chrono::steady_clock::now());
     run_all(scenarios, task_.batch, kVerdictReads, stop_, judge);
-    if (stop_) throw Stopped{};
-    made_.runs += scenarios.size();
+    work_.end(std::chrono::steady_clock::now());
+    for (const std::size_t i : numbers) made_.runs += results[i].known() ? 1 : 0;
     return results;
   }
 
-  static RemedyRun refused(const std::vector<Problem>& problems) {
-    return {.margin = kNone, .speed = kNone, .refused = problems.front().text};
+  void end_if_stopped() const {
+    if (stop_) throw Stopped{};
+  }
+
+  /// Expected simulated time of the search in the brackets after this round, and of what follows it. `half`: of brackets that
+  /// half of the answers will have.
+  [[nodiscard]] RemedyWork::Simulated of_brackets(bool half) const {
+    RemedyWork::Simulated time{};
+    const auto add = [&](const RemedyAnswer& answer, double share, double factor, double rounds) {
+      const double each = share * task_.scenario.duration / (answer.key->stretches ? std::min(1.0, factor) : 1);
+      time[0] += rounds * kCuts * each;
+      time[1] += kLikelyRounds * (feasible() ? 1 : 2) * each;
+    };
+    for (const Bracket& bracket : brackets_) add(*bracket.answer, 1, bracket.outer, bracket.rounds() - 1);
+    constexpr double kHalf = 0.5, kRounds = 3;  // three rounds divide a bracket by 64
+    if (!half) return time;
+    for (const RemedyAnswer& answer : made_.answers) add(answer, kHalf, answer.up ? 1 : kHalf, kRounds);
+    return time;
+  }
+
+  /// Expected simulated time of the map.
+  [[nodiscard]] double of_map(bool pairs) const {
+    if (!grid() || !(task_.map || (pairs && pairs_matter()))) return 0;
+    double time = 0;
+    for (const double frequency : map_factors()) time += task_.scenario.duration / std::min(1.0, frequency);
+    return time * static_cast<double>(map_factors().size());
+  }
+
+  static std::vector<double> map_factors() {
+    std::vector<double> factors;
+    for (int k = -kMapEachWay; k <= kMapEachWay; ++k) factors.push_back(std::pow(kFarthest, k / double{kMapEachWay}));
+    return factors;
   }
 
   /// Takes engine `articulated` for the search if it can run the scenario and has the same verdict on the run itself.
   void choose_engine() {
-    const char* const fast = "articulated";
-    if (made_.own_engine == fast) return;
-    faster_ = {std::string("physics.engine=") + fast, "physics.integrator=adaptive", "physics.step=auto",
+    if (made_.own_engine == kFastEngine) return;
+    faster_ = {std::string("physics.engine=") + kFastEngine, "physics.integrator=adaptive", "physics.step=auto",
                "physics.accuracy=0.01"};
-    const RemedyRun same = run({Change{}}, false).front();
+    RemedyWork::Simulated after = of_brackets(true);
+    after[0] += of_map(false) + kPointsEachWay * task_.scenario.duration * static_cast<double>(made_.answers.size());
+    const RemedyRun same = run({Change{}}, false, after).front();
+    end_if_stopped();
     if (same.refused.empty() && same.feasible() == feasible()) {
-      made_.engine = fast;
+      made_.engine = kFastEngine;
     } else {
       faster_.clear();
-    }
-  }
-
-  void add_ratings() {
-    made_.ratings_suffice = made_.word == Word::infeasible;
-    for (const Check& check : task_.verdict.checks) {
-      if (check.status != CheckStatus::fail && check.status != CheckStatus::too_close) continue;
-      const auto kind = std::ranges::find_if(check_kinds(), [&](const CheckKind& k) { return k.id == check.id; });
-      if (!kind->rating) {
-        made_.ratings_suffice = false;
-        continue;
-      }
-      const std::string path = kind->key;
-      made_.ratings.push_back({check.id, check.worst, path.substr(path.rfind('.') + 1),
-                               rounded(check.value * (1 + check.error), 0, true), check.limit, check.unit, check.parts,
-                               same_ratings(task_.scenario, made_.settings, *kind)});
     }
   }
 
@@ -212,12 +205,17 @@ class Search {
       for (int k = 0; k < kPointsEachWay; ++k)
         changes.push_back({{answer.key, std::pow(step, (answer.up ? 1 : -1) * (k + 0.5))}});
     }
-    const std::vector<RemedyRun> runs = run(changes, false);
+    RemedyWork::Simulated after = of_brackets(true);
+    after[0] += of_map(false);
+    const std::vector<RemedyRun> runs = run(changes, false, after);
     for (std::size_t a = 0; a < made_.answers.size(); ++a) {
-      for (std::size_t k = a * kPointsEachWay; k < (a + 1) * kPointsEachWay; ++k) {
-        if (!extends(made_.answers[a], changes[k].front().second, runs[k])) break;
-      }
+      RemedyAnswer& answer = made_.answers[a];
+      std::size_t k = a * kPointsEachWay;
+      const std::size_t end = k + kPointsEachWay;
+      while (k < end && runs[k].known() && extends(answer, changes[k].front().second, runs[k])) ++k;
+      answer.stopped = answer.crosses || (k < end && !runs[k].known());
     }
+    end_if_stopped();
   }
 
   /// Takes the next point outwards. Returns false if no further point matters.
@@ -251,15 +249,18 @@ class Search {
         for (int k = 1; k <= kCuts; ++k) changes.push_back({{bracket.answer->key, bracket.at(k)}});
       }
       if (wide.empty()) return;
-      const std::vector<RemedyRun> runs = run(changes, false);
+      RemedyWork::Simulated after = of_brackets(false);
+      after[0] += of_map(brackets_.empty());
+      const std::vector<RemedyRun> runs = run(changes, false, after);
       for (std::size_t b = 0; b < wide.size(); ++b) shrink(*wide[b], &runs[b * kCuts]);
+      end_if_stopped();
     }
   }
 
   /// Takes the runs of the interior points of a bracket, from inside to outside.
   void shrink(Bracket& bracket, const RemedyRun* runs) const {
     const Bracket old = bracket;
-    for (int k = 1; k <= kCuts; ++k, ++runs) {
+    for (int k = 1; k <= kCuts && runs->known(); ++k, ++runs) {
       if (runs->feasible() == feasible()) {
         bracket.inner = old.at(k);
         continue;
@@ -274,38 +275,52 @@ class Search {
   [[nodiscard]] double safe(const RemedyAnswer& answer, double factor) const {
     const double now = made_.settings.value(*answer.key);
     const bool up = answer.up != feasible();
-    return std::isnan(now) ? rounded(factor, 1, up) : rounded(now * factor, now, up) / now;
+    return std::isnan(now) ? rounded_setting(factor, 1, up) : rounded_setting(now * factor, now, up) / now;
   }
 
-  void confirm() {
+  /// Takes the factors of the brackets. Returns the answers that runs can confirm.
+  std::vector<RemedyAnswer*> placed() {
     std::vector<RemedyAnswer*> open;
     for (const Bracket& bracket : brackets_) {
       RemedyAnswer& answer = *bracket.answer;
       answer.factor = safe(answer, feasible() ? bracket.inner : bracket.outer);
       if (answer.factor != 1) open.push_back(&answer);
     }
-    std::map<const RemedyAnswer*, RemedyAnswer> first;  // answers after the first round
+    return open;
+  }
+
+  void confirm() {
+    std::vector<RemedyAnswer*> open = placed();
     for (int round = 0; round < kMostRounds && !open.empty(); ++round) {
       std::vector<Change> changes;
       for (const RemedyAnswer* answer : open) {
         changes.push_back({{answer->key, answer->factor}});
         if (!feasible()) changes.push_back({{answer->key, 1 + kLess * (answer->factor - 1)}});
       }
-      const std::vector<RemedyRun> runs = run(changes, true);
+      const std::vector<RemedyRun> runs = run(changes, true, {of_map(brackets_.empty()), 0});
       std::vector<RemedyAnswer*> still;
       for (std::size_t a = 0; a < open.size(); ++a) {
         const std::size_t at = feasible() ? a : 2 * a;
+        if (!runs[at].known() || (!feasible() && !runs[at + 1].known())) continue;
         const double next = next_factor(*open[a], runs[at], !feasible() && runs[at + 1].feasible());
-        first.try_emplace(open[a], *open[a]);
+        first_.try_emplace(open[a], *open[a]);
         if (next == open[a]->factor) continue;
         open[a]->factor = next;
         still.push_back(open[a]);
       }
       open = std::move(still);
+      end_if_stopped();
     }
+    for (RemedyAnswer& answer : made_.answers) answer.stopped = false;
+  }
+
+  /// Takes the result of the first round for answers that no round has confirmed, and finds the settings of all.
+  void settle() {
     for (RemedyAnswer& answer : made_.answers) {
       if (!answer.crosses) continue;
-      if (const auto tried = first.find(&answer); !answer.confirmed && tried != first.end()) answer = tried->second;
+      const bool stopped = answer.stopped && !answer.confirmed;
+      if (const auto tried = first_.find(&answer); !answer.confirmed && tried != first_.end()) answer = tried->second;
+      answer.stopped = stopped;
       answer.sets = made_.settings.scaled(*answer.key, answer.factor);
       if (feasible() || std::abs(answer.until - 1) < std::abs(answer.factor - 1)) answer.until = answer.factor;
     }
@@ -324,14 +339,14 @@ class Search {
   }
 
   void draw_map() {
-    RemedyMap map;
-    for (int k = -kMapEachWay; k <= kMapEachWay; ++k) map.factors.push_back(std::pow(kFarthest, k / double{kMapEachWay}));
+    RemedyMap map{map_factors(), {}};
     std::vector<Change> changes;
     for (const double amplitude : map.factors) {
       for (const double frequency : map.factors)
         changes.push_back({{&key("frequency"), frequency}, {&key("amplitude"), amplitude}});
     }
-    map.runs = run(changes, false);
+    map.runs = run(changes, false, {0, pairs_matter() ? task_.scenario.duration : 0});
+    end_if_stopped();
     made_.map = std::move(map);
   }
 
@@ -346,7 +361,8 @@ class Search {
     for (const std::size_t cell : cells) {
       RemedyPair pair{map.factors[cell % map.factors.size()], map.factors[cell / map.factors.size()]};
       const Change change{{&key("frequency"), pair.frequency}, {&key("amplitude"), pair.amplitude}};
-      pair.run = run({change}, true).front();
+      pair.run = run({change}, true, {}).front();
+      end_if_stopped();
       if (!pair.run.feasible()) continue;
       pair.sets = sets(change);
       made_.pair = std::move(pair);
@@ -358,23 +374,19 @@ class Search {
   std::atomic<bool>& stop_;
   std::vector<std::string> faster_;  ///< settings of the search
   std::vector<Bracket> brackets_;
-  std::atomic<double> done_ = 0;
-  double expected_ = 1;
+  std::map<const RemedyAnswer*, RemedyAnswer> first_;  ///< answers after the first round of confirming runs
   Remedy made_;
+  RemedyWork work_;
 };
 
 }  // namespace
 
-std::optional<Remedy> remedy(const RemedyTask& task, std::atomic<bool>& stop) {
+Remedy remedy(const RemedyTask& task, std::atomic<bool>& stop) {
   if (task.verdict.word == Word::not_judged) {
     throw InputError(SourceLocation{task.scenario.file},
                      "a remedy needs a verdict, but this run is not judged: " + task.verdict.reason);
   }
-  try {
-    return Search(task, stop).made();
-  } catch (const Stopped&) {
-    return {};
-  }
+  return Search(task, stop).made();
 }
 
 }  // namespace gaitlab::report

@@ -9,26 +9,16 @@
 #include "core/scenario/scenario.h"
 #include "core/simulation/batch.h"
 #include "report/remedy/remedy_keys.h"
+#include "report/remedy/remedy_run.h"
 #include "report/verdict/verdict.h"
 
 namespace gaitlab::report {
-
-/// Verdict on the gait with some settings multiplied by factors.
-struct RemedyRun {
-  Word word = Word::failed;
-  double margin = 0;         ///< least margin; NaN if not known
-  double speed = 0;          ///< m/s; NaN if not known
-  std::string weakest = {};  ///< the deciding check and its part: `voltage of m6/active`; the reason of `not judged`
-  bool still = false;        ///< true if the robot hardly moves (check `progress`)
-  bool simulated = false;    ///< false if no run was made
-  std::string refused = {};  ///< message of the reader, if the scenario cannot have these settings
-  [[nodiscard]] bool feasible() const { return simulated && word == Word::feasible; }
-};
 
 /// Result for a setting in one direction.
 struct RemedyAnswer {
   const RemedyKey* key = nullptr;
   bool up = false;         ///< true for larger values
+  bool stopped = false;    ///< the search was stopped before it had tried this direction to its end
   bool crosses = false;    ///< the verdict changes between a fifth and five times the value
   bool confirmed = false;  ///< by runs with the engine, step and duration of the scenario
   double factor = 1;       ///< of the answer: the nearest feasible value or, for a feasible gait, the farthest
@@ -83,6 +73,7 @@ struct Remedy {
   std::optional<RemedyMap> map = {};
   std::optional<RemedyPair> pair = {};  ///< searched if no setting alone helps
   std::size_t runs = 0;
+  bool interrupted = false;  ///< true if `stop` was set: only the complete parts of the search are here
 };
 
 struct RemedyTask {
@@ -101,8 +92,8 @@ struct RemedyTask {
 /// `articulated` without an estimate of their torque error, unless that engine has another verdict on the run itself. The
 /// answers are confirmed by the scenario's own engine, step and estimate: feasible with the change, and not with nine tenths of
 /// it. If no setting alone helps, the fastest feasible pair of frequency and amplitude on a grid of 13 x 13 is taken. Results
-/// do not depend on threads or lanes. Returns nothing if `stop` was set. Throws InputError if the verdict is `not judged`, and
-/// PluginError.
-std::optional<Remedy> remedy(const RemedyTask& task, std::atomic<bool>& stop);
+/// do not depend on threads or lanes. If `stop` is set, the search ends with the answers so far (Remedy::interrupted). Throws
+/// InputError if the verdict is `not judged`, and PluginError.
+Remedy remedy(const RemedyTask& task, std::atomic<bool>& stop);
 
 }  // namespace gaitlab::report

@@ -30,6 +30,7 @@ Json json_of(const RemedyAnswer& answer, const RemedySettings& settings) {
             {"now", number(now)},          {"changes_verdict", answer.crosses}};
   json["until"] = {{"factor", answer.until}, {"value", number(now * answer.until)}};
   if (!answer.refused.empty()) json["refused"] = answer.refused;
+  if (answer.stopped) json["interrupted"] = true;
   if (!answer.crosses) return json;
   json["confirmed"] = answer.confirmed;
   json["factor"] = answer.factor;
@@ -89,11 +90,8 @@ Json shown_map(const Json& map) {
 }  // namespace
 
 std::string to_json(const Remedy& remedy) {
-  Json json{{"format", kFormat},
-            {"scenario", remedy.scenario},
-            {"verdict", name_of(remedy.word)},
-            {"engine", remedy.engine},
-            {"runs", remedy.runs}};
+  Json json{{"format", kFormat},       {"scenario", remedy.scenario}, {"verdict", name_of(remedy.word)},
+            {"engine", remedy.engine}, {"runs", remedy.runs},         {"interrupted", remedy.interrupted}};
   json["text"] = Json::array();
   json["tones"] = Json::array();
   for (const ScreenLine& line : remedy_lines(remedy)) {

@@ -138,4 +138,13 @@ std::vector<std::string> RemedySettings::scaled(const RemedyKey& key, double fac
   return sets;
 }
 
+double rounded_setting(double value, double now, bool up) {
+  const double change = std::abs(value - now);
+  if (!(change > 0)) return value;
+  const double unit = std::pow(10, std::floor(std::log10(change)) - 2);
+  const double count = value / unit;
+  constexpr double kSame = 1e-6;  // the value itself, in spite of rounding errors
+  return (up ? std::ceil(count - kSame) : std::floor(count + kSame)) * unit;
+}
+
 }  // namespace gaitlab::report

@@ -47,4 +47,7 @@ class RemedySettings {
   Node root_;
 };
 
+/// Rounds the value of a setting to a hundredth of its change from `now` or finer: up if `up`, else down.
+double rounded_setting(double value, double now, bool up);
+
 }  // namespace gaitlab::report

@@ -88,7 +88,9 @@ std::string clause(const std::string& text) { return text.substr(0, text.find(';
 std::vector<std::string> unmoved(const Remedy& remedy) {
   std::vector<std::string> names;
   for (const RemedyAnswer& answer : remedy.answers) {
-    const auto moves = [&](const RemedyAnswer& a) { return a.key == answer.key && (a.crosses || !a.refused.empty()); };
+    const auto moves = [&](const RemedyAnswer& a) {
+      return a.key == answer.key && (a.crosses || a.stopped || !a.refused.empty());
+    };
     if (std::ranges::none_of(remedy.answers, moves) && std::ranges::count(names, subject(*answer.key)) == 0)
       names.push_back(subject(*answer.key));
   }
@@ -171,10 +173,28 @@ std::string refusal(const Remedy& remedy, const RemedyAnswer& answer) {
                      value_text(remedy, key, answer.refused_at), reason(answer.refused));
 }
 
+/// Lines on a search that was interrupted: the answers without a confirming run, and what was not tried to its end.
+void add_interruption(const Remedy& remedy, Lines& lines) {
+  std::vector<std::string> untried;
+  for (const RemedyAnswer& answer : remedy.answers) {
+    if (answer.stopped && !answer.crosses)
+      untried.push_back(fmt::format("{} {}", answer.up ? "larger" : "smaller", subject(*answer.key)));
+    if (!answer.stopped || !answer.crosses) continue;
+    lines.add(remedy.word == Word::feasible ? "probably stays feasible with " + reserve(remedy, answer)
+                                            : "probably feasible with " + change(remedy, answer),
+              Tone::doubtful);
+  }
+  if (std::ranges::none_of(remedy.answers, &RemedyAnswer::stopped)) untried.emplace_back("frequency and amplitude together");
+  const char* const shown = lines.lines.empty() ? "which show no answer yet" : "which show the above";
+  std::string text = fmt::format("interrupted after {}, {}", counted(remedy.runs, "run"), shown);
+  if (!untried.empty()) text += fmt::format("; not tried to the end: {}", fmt::join(untried, ", "));
+  lines.add(text, Tone::doubtful);
+}
+
 /// Lines on answers that are not confirmed, and on values that the scenario cannot have.
 void add_open(const Remedy& remedy, Lines& lines) {
   for (const RemedyAnswer& answer : remedy.answers) {
-    if (answer.crosses && !answer.confirmed) {
+    if (answer.crosses && !answer.confirmed && !answer.stopped) {
       const std::string why = answer.less_suffices   ? "a smaller change also makes it feasible"
                               : answer.run.simulated ? clause(answer.run.weakest)
                                                      : "next to no change";
@@ -197,6 +217,7 @@ std::vector<ScreenLine> remedy_lines(const Remedy& remedy) {
   } else {
     add_cures(remedy, lines);
   }
+  if (remedy.interrupted) add_interruption(remedy, lines);
   add_open(remedy, lines);
   return lines.lines;
 }

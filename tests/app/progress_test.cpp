@@ -28,6 +28,17 @@ TEST(ProgressLines, ALongTextTakesTheRoomOfTheBar) {
   EXPECT_EQ(progress_line(0.5, std::string(50, 'x'), 40), std::string(39, 'x'));
 }
 
+TEST(ProgressLines, TheTimeLeftIsAtThePaceOfAllThatIsDone) {
+  const app::TimeLeft::Time start;
+  const app::TimeLeft left(start);
+  using std::chrono::seconds;
+  EXPECT_EQ(left.text(start + seconds(5), 0, 20), "");
+  EXPECT_EQ(left.text(start + seconds(5), 0.1, 19.9), "");
+  EXPECT_EQ(left.text(start + seconds(10), 8, 24), "30 s left");
+  EXPECT_EQ(left.text(start + seconds(20), 24, 8), "7 s left");
+  EXPECT_EQ(left.text(start + seconds(30), 32, 0), "0 s left");
+}
+
 TEST(ProgressLines, NoTerminalHasTheWidthThatTheCallerNames) {
   EXPECT_EQ(app::terminal_columns(-1), 80U);
   EXPECT_EQ(app::terminal_columns(-1, 100), 100U);

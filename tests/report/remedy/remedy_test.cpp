@@ -114,10 +114,10 @@ std::string engine_of_search(const Sets& own, const Sets& other, report::Word wo
     return scenario(kTwoInBullet, all);
   };
   std::atomic<bool> stop = false;
-  const std::optional<report::Remedy> made = report::remedy({s, verdict, with, false, {"none"}, {}, {}}, stop);
-  EXPECT_EQ(made->runs, 1U);
-  EXPECT_EQ(made->own_engine, "bullet");
-  return made->engine;
+  const report::Remedy made = report::remedy({s, verdict, with, false, {"none"}, {}, {}}, stop);
+  EXPECT_EQ(made.runs, 1U);
+  EXPECT_EQ(made.own_engine, "bullet");
+  return made.engine;
 }
 
 TEST(RemedyEngine, IsTheFasterOneWhereTheVerdictsAgree) {

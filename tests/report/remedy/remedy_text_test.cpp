@@ -76,6 +76,13 @@ TEST(RemedyText, NamesSettingsThatDoNotHelp) {
   for (const RemedyAnswer& one : without("u_max with i_max")) answers.push_back(one);
   EXPECT_EQ(lines_of(remedy_with(Word::infeasible, answers)),
             Lines{"no i_max or u_max and i_max together from a fifth to five times the present value makes it feasible alone"});
+  answers.back().stopped = true;
+  Remedy interrupted = remedy_with(Word::infeasible, answers);
+  interrupted.interrupted = true;
+  interrupted.runs = 7;
+  EXPECT_EQ(lines_of(interrupted), (Lines{"no i_max from a fifth to five times the present value makes it feasible alone",
+                                          "interrupted after 7 runs, which show the above; not tried to the end: larger u_max "
+                                          "and i_max together"}));
 }
 
 }  // namespace

@@ -1,0 +1,55 @@
+#include "report/remedy/remedy_ratings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "report/verdict/load_checks.h"
+
+namespace gaitlab::report {
+
+namespace {
+
+/// True if all parts with this check have the same rating.
+bool same_ratings(const Scenario& scenario, const RemedySettings& settings, const CheckKind& kind) {
+  constexpr std::pair<std::string_view, DockQuantity> kDocks[] = {{"dock_tension", DockQuantity::tension},
+                                                                  {"dock_shear", DockQuantity::shear},
+                                                                  {"dock_bending", DockQuantity::bending},
+                                                                  {"dock_torsion", DockQuantity::torsion}};
+  for (const auto& [id, quantity] : kDocks) {
+    if (id != kind.id) continue;
+    std::vector<double> limits = dock_limits(*scenario.robot, quantity);
+    std::erase_if(limits, [](double limit) { return std::isnan(limit); });
+    return std::ranges::adjacent_find(limits, std::ranges::not_equal_to()) == limits.end();
+  }
+  return settings.uniform(kind.key);
+}
+
+bool exceeds(const Check& check) { return check.status == CheckStatus::fail || check.status == CheckStatus::too_close; }
+
+const CheckKind& kind_of(const Check& check) {
+  return *std::ranges::find_if(check_kinds(), [&](const CheckKind& kind) { return kind.id == check.id; });
+}
+
+}  // namespace
+
+bool only_ratings(const Verdict& verdict) {
+  return std::ranges::none_of(verdict.checks, [](const Check& check) { return exceeds(check) && !kind_of(check).rating; });
+}
+
+std::vector<RatingNeeded> ratings_needed(const RemedyTask& task, const RemedySettings& settings) {
+  std::vector<RatingNeeded> ratings;
+  for (const Check& check : task.verdict.checks) {
+    if (!exceeds(check)) continue;
+    const CheckKind& kind = kind_of(check);
+    if (!kind.rating) continue;
+    const std::string path = kind.key;
+    ratings.push_back({check.id, check.worst, path.substr(path.rfind('.') + 1),
+                       rounded_setting(check.value * (1 + check.error), 0, true), check.limit, check.unit, check.parts,
+                       same_ratings(task.scenario, settings, kind)});
+  }
+  return ratings;
+}
+
+}  // namespace gaitlab::report
