@@ -130,16 +130,10 @@ std::vector<std::string> Catalog::engines() const {
   return names;
 }
 
-void load_plugin(const std::string& path, const std::string& hash, Catalog& catalog) {
-  if (loaded_first(path, hash) != hash)
-    throw std::runtime_error("it was built again since this process loaded it; start the program again to run the new code");
-  if (catalog.loaded(path)) return;
-  const FloatingPointEnvironment restored;
-  const bool first = dlopen(path.c_str(), RTLD_LAZY | RTLD_NOLOAD) == nullptr;
-  if (const std::string fault = first ? load_trial(path) : ""; !fault.empty()) throw std::runtime_error(fault);
-  dlerror();
-  void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) throw std::runtime_error("cannot load " + path + ": " + last_dl_error());
+namespace {
+
+/// Calls the gaitlab_register of a library. Throws std::runtime_error.
+void enter_plugin(void* library, const std::string& path, Catalog& catalog) {
   const auto abi = reinterpret_cast<const char* (*)()>(dlsym(library, "gaitlab_abi"));
   const auto enter = reinterpret_cast<void (*)(Registry&)>(dlsym(library, "gaitlab_register"));
   if (abi == nullptr || enter == nullptr) {
@@ -149,7 +143,6 @@ void load_plugin(const std::string& path, const std::string& hash, Catalog& cata
   if (std::string_view(abi()) != GAITLAB_ABI) {
     throw std::runtime_error(path + " was built for '" + abi() + "', this program is '" GAITLAB_ABI "': build it again");
   }
-  // The library is never closed, because its settings and plugins live as long as the program.
   catalog.set_origin(path);
   try {
     enter(catalog);
@@ -161,6 +154,23 @@ void load_plugin(const std::string& path, const std::string& hash, Catalog& cata
     throw std::runtime_error(path + ": gaitlab_register threw something that is not derived from std::exception");
   }
   catalog.set_origin(std::string(kBuiltIn));
+}
+
+}  // namespace
+
+void load_plugin(const std::string& path, const std::string& hash, Catalog& catalog) {
+  if (loaded_first(path, hash) != hash)
+    throw std::runtime_error("it was built again since this process loaded it; start the program again to run the new code");
+  if (catalog.loaded(path)) return;
+  const FloatingPointEnvironment restored;
+  const bool first = dlopen(path.c_str(), RTLD_LAZY | RTLD_NOLOAD) == nullptr;
+  const auto enter = [&](void* library) { enter_plugin(library, path, catalog); };
+  if (const std::string fault = first ? load_trial(path, enter) : ""; !fault.empty()) throw std::runtime_error(fault);
+  dlerror();
+  void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) throw std::runtime_error("cannot load " + path + ": " + last_dl_error());
+  // The library is never closed, because its settings and plugins live as long as the program.
+  enter(library);
   catalog.set_loaded(path);
 }
 

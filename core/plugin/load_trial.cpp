@@ -3,8 +3,10 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,7 +15,10 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <exception>
+#include <fstream>
+#include <utility>
 
 #include "core/files/child_process.h"
 
@@ -24,20 +29,21 @@ namespace {
 constexpr int kThrew = 3;          // exit code of the child
 constexpr rlim_t kTrialTime = 10;  // s of CPU time
 
-/// A flag that the child sets when dlopen has returned. An exit code cannot state this, because a static object may call
-/// exit().
-class SharedFlag {
+enum class Stage : char { loading, registering, done };
+
+/// The stage that the child has reached. An exit code cannot state it, because the plugin may call exit().
+class SharedStage {
  public:
-  SharedFlag() : page_(::mmap(nullptr, sizeof(char), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)) {}
-  ~SharedFlag() {
+  SharedStage() : page_(::mmap(nullptr, sizeof(char), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)) {}
+  ~SharedStage() {
     if (made()) ::munmap(page_, sizeof(char));
   }
-  SharedFlag(const SharedFlag&) = delete;
-  SharedFlag& operator=(const SharedFlag&) = delete;
+  SharedStage(const SharedStage&) = delete;
+  SharedStage& operator=(const SharedStage&) = delete;
 
   [[nodiscard]] bool made() const { return page_ != MAP_FAILED; }
-  void set() { *static_cast<volatile char*>(page_) = 1; }
-  [[nodiscard]] bool is_set() const { return *static_cast<volatile char*>(page_) != 0; }
+  void reach(Stage stage) { *static_cast<volatile Stage*>(page_) = stage; }
+  [[nodiscard]] Stage reached() const { return *static_cast<volatile Stage*>(page_); }
 
  private:
   void* page_;
@@ -59,8 +65,8 @@ void limit_time() {
   (void)::setrlimit(RLIMIT_CPU, &limit);  // lowers the limits, which is always allowed
 }
 
-/// Loads the library and ends the process.
-[[noreturn]] void load_and_end(const std::string& path, SharedFlag& loaded) {
+/// Loads the library, enters it and ends the process.
+[[noreturn]] void load_and_end(const std::string& path, const std::function<void(void*)>& enter, SharedStage& stage) {
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, stream);
   limit_time();
@@ -68,16 +74,71 @@ void limit_time() {
   // dlopen is declared not to throw. Called by its name, it would let the compiler drop the handler, and the exception would
   // reach the frames of the program above.
   void* (*volatile const load)(const char*, int) = &dlopen;
+  void* library = nullptr;
   try {
-    load(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    library = load(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   } catch (...) {  // some versions of the C library let the exception pass
     std::_Exit(kThrew);
   }
-  loaded.set();
+  stage.reach(Stage::registering);
+  try {
+    if (library != nullptr) enter(library);
+  } catch (...) {  // NOLINT(bugprone-empty-catch): this process meets and reports it again
+  }
+  stage.reach(Stage::done);
   std::_Exit(0);
 }
 
-std::string fault_of(int status) {
+/// CPU time of a process, s; negative if it is not known.
+double cpu_time(pid_t process) {
+  clockid_t clock{};
+  timespec used{};
+  if (::clock_getcpuclockid(process, &clock) != 0 || ::clock_gettime(clock, &used) != 0) return -1;
+  constexpr double kNano = 1e-9;
+  return static_cast<double>(used.tv_sec) + kNano * static_cast<double>(used.tv_nsec);
+}
+
+/// True if a process waits, and neither for the processor nor for a disk.
+bool sleeps(pid_t process) {
+  std::ifstream file(fmt::format("/proc/{}/stat", process));
+  std::string line;
+  std::getline(file, line);
+  const std::size_t name = line.rfind(") ");  // the name before it may contain anything
+  return name != std::string::npos && line.compare(name + 2, 1, "S") == 0;
+}
+
+/// Waits for the end of the child. Kills it, and returns true, if it sleeps without using CPU time for that long.
+bool falls_asleep(pid_t child, std::chrono::seconds patience) {
+  using Clock = std::chrono::steady_clock;
+  constexpr int kLook = 250;  // ms
+  const auto handle = static_cast<int>(::syscall(SYS_pidfd_open, child, 0));
+  if (handle < 0) return false;  // the caller waits without a bound
+  Clock::time_point awake = Clock::now();
+  double used = -1;
+  bool asleep = false;
+  for (pollfd end{handle, POLLIN, 0}; !asleep && ::poll(&end, 1, kLook) <= 0;) {
+    const double now_used = cpu_time(child);
+    if (now_used != used || !sleeps(child)) awake = Clock::now();
+    used = now_used;
+    asleep = Clock::now() - awake > patience;
+  }
+  ::close(handle);
+  if (asleep) ::kill(child, SIGKILL);
+  return asleep;
+}
+
+std::string fault_of_entry(int status) {
+  constexpr const char* kEntry = "its gaitlab_register";
+  const bool killed = WIFSIGNALED(status);
+  if (killed && WTERMSIG(status) == SIGXCPU)
+    return fmt::format("{} takes more than {} s of CPU time; a plugin should do its work when it is called", kEntry,
+                       trial_time());
+  if (killed) return fmt::format("{} crashes ({})", kEntry, strsignal(WTERMSIG(status)));
+  if (WEXITSTATUS(status) == kThrew) return fmt::format("{} threw an exception out of a noexcept function", kEntry);
+  return fmt::format("{} ended the process (exit code {})", kEntry, WEXITSTATUS(status));
+}
+
+std::string fault_of_load(int status) {
   const bool killed = WIFSIGNALED(status);
   if (killed && WTERMSIG(status) == SIGXCPU) {
     return fmt::format(
@@ -92,16 +153,23 @@ std::string fault_of(int status) {
 
 }  // namespace
 
-std::string load_trial(const std::string& path) {
-  SharedFlag loaded;
-  if (!loaded.made()) return "";
-  const pid_t child = begin_child([&]() -> int { load_and_end(path, loaded); });
+std::string load_trial(const std::string& path, const std::function<void(void*)>& enter, std::chrono::seconds patience) {
+  SharedStage stage;
+  if (!stage.made()) return "";
+  const pid_t child = begin_child([&]() -> int { load_and_end(path, enter, stage); });
   if (child < 0) return "";
+  const bool asleep = falls_asleep(child, patience);
   int status = 0;
   while (waitpid(child, &status, 0) < 0) {
     if (errno != EINTR) return "";
   }
-  return loaded.is_set() ? "" : fault_of(status);
+  if (stage.reached() == Stage::done) return "";
+  const bool loading = stage.reached() == Stage::loading;
+  if (asleep) {
+    return fmt::format("{} and used no CPU time for {} s; a plugin should do its work when it is called",
+                       loading ? "a static object slept when it was loaded" : "its gaitlab_register slept", patience.count());
+  }
+  return loading ? fault_of_load(status) : fault_of_entry(status);
 }
 
 }  // namespace gaitlab
