@@ -130,9 +130,10 @@ bool falls_asleep(pid_t child, std::chrono::seconds patience) {
 std::string fault_of_entry(int status) {
   constexpr const char* kEntry = "its gaitlab_register";
   const bool killed = WIFSIGNALED(status);
-  if (killed && WTERMSIG(status) == SIGXCPU)
+  if (killed && WTERMSIG(status) == SIGXCPU) {
     return fmt::format("{} takes more than {} s of CPU time; a plugin should do its work when it is called", kEntry,
                        trial_time());
+  }
   if (killed) return fmt::format("{} crashes ({})", kEntry, strsignal(WTERMSIG(status)));
   if (WEXITSTATUS(status) == kThrew) return fmt::format("{} threw an exception out of a noexcept function", kEntry);
   return fmt::format("{} ended the process (exit code {})", kEntry, WEXITSTATUS(status));
