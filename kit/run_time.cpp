@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/errors.h"
+#include "core/laws/heap.h"
 
 namespace gaitlab::kit {
 
@@ -60,6 +61,16 @@ std::int64_t steps_in_trial(const Scenario& s) {
   return std::max<std::int64_t>(2, std::llround(kPeriods * s.control_period / s.physics.step));
 }
 
+/// Cost of the searches in a heap of boxes, us per step, if all contact elements are in it. Only for the length of trials,
+/// because few robots walk through a heap.
+double heap_us(const Scenario& s) {
+  constexpr double kSearch = 4;           // us per box of the heap and contact element
+  constexpr std::size_t kFewInPlace = 3;  // boxes whose searches take as long as those of one
+  const std::size_t boxes = most_in_one_place(s.ground.boxes());
+  if (boxes <= kFewInPlace) return 0;
+  return kSearch * static_cast<double>(boxes * contact_elements(*s.robot, s.contact.on).size());
+}
+
 constexpr double kCoarse = 0.1;  // accuracy of the trial, with which a hundred control periods take about 5 ms
 
 /// Solves per second of a walking robot with this accuracy: the geometric mean of the shipped scenarios, with solves of steps
@@ -92,7 +103,7 @@ std::optional<double> coarse_solves(const Scenario& s, double us) try {
 double steps_per_second(const Scenario& s, double us) {
   if (!s.physics.adapts()) return 1 / s.physics.step;
   const double step = s.physics.step, typical = typical_solves(s.physics.accuracy, step);
-  const std::optional<double> found = coarse_solves(s, us);
+  const std::optional<double> found = coarse_solves(s, us + heap_us(s));
   return found ? std::max(3 / step, typical * *found / typical_solves(kCoarse, step)) : typical;
 }
 
@@ -128,7 +139,7 @@ double estimated_seconds_in_study(const Scenario& scenario) {
 
 std::string early_failure(Simulation& simulation, const Scenario& scenario) try {
   const StepCost* const cost = cost_of(scenario);
-  const double us = companions(scenario) * (cost == nullptr ? kUnknown : step_us(*cost, scenario));
+  const double us = companions(scenario) * (cost == nullptr ? kUnknown : step_us(*cost, scenario)) + heap_us(scenario);
   const auto work = [&] { return us * std::max(static_cast<double>(simulation.step_number()), simulation.solves(0)); };
   while (!simulation.done() && simulation.step_number() < steps_in_trial(scenario) && work() < kFirstSteps) simulation.step();
   return "";

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 #include <variant>
 
+#include "core/laws/heap.h"
 #include "core/scenario/height_file.h"
 #include "core/settings/grid.h"
 #include "core/settings/wording.h"
@@ -98,6 +100,18 @@ struct GroundNodes {
 template <class Shape>
 void finish_shape(Shape&, const GroundNodes&) {}
 
+/// Adds a problem if a box lies in a heap. A query of an element there would look at all boxes of it, and a solver of moving
+/// boxes at all of their pairs.
+void check_heap(const Boxes& boxes, const std::vector<Node>& nodes, Problems& problems) {
+  const std::optional<std::size_t> i = first_in_heap(boxes);
+  if (!i || *i >= nodes.size()) return;
+  const Vec3& at = boxes[*i].center;
+  problems.add(
+      nodes[*i].place,
+      fmt::format("more than {} boxes contain the centre of boxes[{}], [{:g}, {:g}, {:g}]; leave out boxes within others",
+                  kMostInOnePlace, *i, at.x(), at.y(), at.z()));
+}
+
 void finish_shape(Boxes& ground, const GroundNodes& section) {
   const Scenario& scenario = section.scenario;
   Problems& problems = section.problems;
@@ -122,6 +136,7 @@ void finish_shape(Boxes& ground, const GroundNodes& section) {
     }
   }
   ground = std::move(boxes);
+  check_heap(ground, list->items, problems);
 }
 
 void finish_shape(Heightfield& field, const GroundNodes& section) {

@@ -86,6 +86,23 @@ TEST_F(GroundSection, RefusesBoxesAtTheirPlace) {
             "s.yaml:3:59: error: friction is -1; allowed are 0 to 100");
 }
 
+/// Text of a ground of `count` boxes, each `apart` behind the previous one, m.
+std::string row_of_boxes(int count, double apart) {
+  std::string text = "{type: boxes, boxes: [";
+  for (int i = 0; i < count; ++i)
+    text += fmt::format("{}{{center: [{:g}, 0, 0], size: [1, 1, 1]}}", i == 0 ? "" : ", ", apart * i);
+  return text + "]}";
+}
+
+TEST_F(GroundSection, RefusesMoreThanAHundredBoxesInOnePlace) {
+  EXPECT_EQ(read(kShort + "ground: " + row_of_boxes(100, 0)).ground.boxes().size(), 100U);
+  EXPECT_EQ(read(kShort + "ground: " + row_of_boxes(300, 0.02)).ground.boxes().size(), 300U);
+  EXPECT_EQ(wrong(row_of_boxes(101, 0)),
+            "s.yaml:3:31: error: more than 100 boxes contain the centre of boxes[0], [0, 0, 0]; leave out boxes within others");
+  EXPECT_NE(wrong(row_of_boxes(300, 0.006)).find("more than 100 boxes contain the centre of boxes[17], [0.102, 0, 0]"),
+            std::string::npos);
+}
+
 TEST_F(GroundSection, RefusesHeightfieldsAtTheirPlace) {
   const auto field = [this](const std::string& keys) { return wrong("{type: heightfield, heightfield: {" + keys + "}}"); };
   EXPECT_EQ(wrong("{type: heightfield}"),
