@@ -29,9 +29,17 @@ bool holds(std::span<const SupportElement> elements, const Vec3& com) {
 std::vector<SupportElement> support_elements(std::vector<SupportElement> elements, const Vec3& com) {
   std::stable_sort(elements.begin(), elements.end(),
                    [](const SupportElement& a, const SupportElement& b) { return a.gap < b.gap; });
-  std::size_t count = std::min<std::size_t>(1, elements.size());
-  while (count < elements.size() && !holds({elements.data(), count}, com)) ++count;
-  if (count == 0) return elements;
+  if (elements.empty()) return elements;
+  // Least number of elements that holds, by bisection: a further element only divides a gap between directions.
+  std::size_t count = 1;
+  for (std::size_t end = elements.size(); count < end;) {
+    const std::size_t middle = (count + end) / 2;
+    if (holds({elements.data(), middle}, com)) {
+      end = middle;
+    } else {
+      count = middle + 1;
+    }
+  }
   const double highest = (holds({elements.data(), count}, com) ? elements[count - 1].gap : elements.front().gap) + kBand;
   std::erase_if(elements, [&](const SupportElement& s) { return s.gap > highest; });
   return elements;

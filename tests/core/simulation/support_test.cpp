@@ -24,6 +24,24 @@ TEST(Support, GrowsUntilItHoldsTheCentreOfMass) {
   EXPECT_TRUE(support_elements({}, Vec3::Zero()).empty());
 }
 
+/// The result equals that of a search that adds one element after the other.
+TEST(Support, IsThatOfTheSearchFromTheLowest) {
+  std::mt19937 bits(3);
+  const auto uniform = [&] { return static_cast<double>(bits()) / 2147483648.0 - 1; };
+  for (int k = 0; k < 200; ++k) {
+    std::vector<SupportElement> elements;
+    std::vector<Vec3> points;
+    const Vec3 com(0.7 * uniform(), 0.7 * uniform(), 0);
+    std::size_t holding = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(1 + k % 40); ++i) {
+      points.emplace_back(uniform(), uniform(), 0);
+      elements.push_back({i, 0.002 * static_cast<double>(i), points.back()});
+      if (holding == 0 && support_margin(points, com) > 0) holding = points.size();
+    }
+    EXPECT_EQ(support_elements(elements, com).size(), std::max<std::size_t>(1, holding)) << k;
+  }
+}
+
 TEST(SupportMargin, OfFourFeetIsTheDistanceToTheNearestEdge) {
   const std::vector<Vec3> square = {{1, 1, 0}, {-1, 1, 5}, {1, -1, 0}, {-1, -1, 0}, {0, 0, 0}, {1, 0, 0}};
   EXPECT_DOUBLE_EQ(support_margin(square, Vec3(0, 0, 9)), 1);
