@@ -9,7 +9,7 @@
 namespace gaitlab::kit {
 
 /// CPU time of a run, s, to within a factor of two on one core of the machine of docs/benchmarks.md; 0 if the table lacks the
-/// engine. An integrator that chooses its steps is tried for at most a hundred control periods, with at most 10 ms of work,
+/// engine. An integrator that chooses its steps is tried for at most a hundred control periods, with about 30 ms of work,
 /// because the number of its steps depends on the gait. `rows` is the size of the trace.
 double estimated_seconds(const Scenario& scenario, const RowsNeeded& rows = {});
 

@@ -7,6 +7,7 @@
 #include "core/plugin/plugin_instance.h"
 #include "core/simulation/lane.h"
 #include "core/simulation/simulation.h"
+#include "core/simulation/twin_windows.h"
 
 namespace gaitlab {
 
@@ -34,6 +35,25 @@ std::vector<Scenario> companions(const Scenario& s) {
 
 }  // namespace
 
+TwinWindows twin_windows(const Scenario& s, bool limited) {
+  const Physics& physics = s.physics;
+  const double h = physics.step;
+  const std::int64_t control_every = math::steps_in(s.control_period, h);
+  TwinWindows how;
+  for (std::int64_t n = 1; n <= control_every; ++n) {
+    if (control_every % n == 0 && static_cast<double>(n) * h <= StepError::kApart * (1 + 1e-9)) how.compare = n;
+  }
+  if (physics.adapts()) return how;
+  const double ratio = 1 << physics.integrator->order;
+  const bool longer = control_every % 2 == 0 && !limited;
+  how.steps = longer ? 2 : -2;
+  how.factor = (longer ? 1 : ratio) * StepError::kSafety / (ratio - 1);
+  how.window = whole_periods(longer ? 0.18 : 0.09, h, control_every);
+  how.cycle = (longer ? 5 : 20) * how.window;
+  how.settle = whole_periods(StepError::kGrowth, h, control_every);
+  return how;
+}
+
 bool estimated_by_rollouts(const Scenario& s) {
   return s.physics.estimate == Estimate::full && s.physics.adapts() && s.actuator.entry != nullptr && !s.robot->joints.empty();
 }
@@ -47,26 +67,7 @@ std::vector<Scenario> Simulation::side_by_side(std::span<const Scenario> lanes, 
   return all;
 }
 
-/// Comparison times. If the integrator has an accuracy, they cover the whole run at intervals of at most kApart. If the step is
-/// fixed, they are in windows.
-TwinWindows Simulation::twin_windows() const {
-  const Physics& physics = scenarios_[0].physics;
-  const std::int64_t control_every = math::steps_in(scenarios_[0].control_period, h_);
-  TwinWindows how;
-  for (std::int64_t n = 1; n <= control_every; ++n) {
-    if (control_every % n == 0 && static_cast<double>(n) * h_ <= StepError::kApart * (1 + 1e-9)) how.compare = n;
-  }
-  if (physics.adapts()) return how;
-  const double ratio = 1 << physics.integrator->order;
-  // With an explicit method, a step of twice the length may be unstable.
-  const bool longer = control_every % 2 == 0 && !(standing_.rate > 0);
-  how.steps = longer ? 2 : -2;
-  how.factor = (longer ? 1 : ratio) * StepError::kSafety / (ratio - 1);
-  how.window = whole_periods(longer ? 0.18 : 0.09, h_, control_every);
-  how.cycle = (longer ? 5 : 20) * how.window;
-  how.settle = whole_periods(StepError::kGrowth, h_, control_every);
-  return how;
-}
+TwinWindows Simulation::twin_windows() const { return gaitlab::twin_windows(scenarios_[0], standing_.rate > 0); }
 
 /// Companions that are separate simulations. With a fixed step there is one twin, with as many lanes as the run, compared in
 /// windows. With an accuracy, the companions are lanes of the lane group of the run. On a processor without such lanes, they

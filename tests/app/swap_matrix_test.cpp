@@ -117,11 +117,11 @@ TEST_F(SwapMatrix, ASignalLeavesNoEmptyFolder) {
     const Result one = signalled("swap two.yaml" + options, "runs/swap-two", signal);
     EXPECT_EQ(one.code, 1) << signal;
     EXPECT_EQ(one.out, "");
-    EXPECT_EQ(one.err,
-              "two.yaml: note: takes about 12 min\ntwo.yaml: interrupted: nothing is written; run it again with\ngaitlab swap "
-              "two.yaml --cpg sine,hopf --set "
-              "duration=100000 --seed 3 -j 2\n")
-        << signal;
+    EXPECT_TRUE(one.err.starts_with("two.yaml: note: takes about ")) << one.err;
+    EXPECT_TRUE(one.err.ends_with(
+        "\ntwo.yaml: interrupted: nothing is written; run it again with\ngaitlab swap two.yaml --cpg sine,hopf --set "
+        "duration=100000 --seed 3 -j 2\n"))
+        << signal << one.err;
     EXPECT_FALSE(fs::exists(folder_ / "runs")) << signal;
   }
   const Result both = signalled("swap two.yaml soft.yaml --out m" + options, "m", "TERM");
