@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -121,13 +124,20 @@ void print_robot(const SizedRobot& robot, const test::Folder& folder, const std:
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int calls = argc == 3 && std::string(argv[1]) == "--calls" ? std::atoi(argv[2]) : 2;
-  const std::string program = (std::filesystem::canonical(argv[0]).parent_path() / "gaitlab").string();
-  const test::Folder folder;
-  folder.write("cart.yaml", fmt::format(kCart, ""));
-  folder.write("free.yaml", fmt::format(kCart, ", drive: none"));
-  Catalog catalog = app::standard_catalog();
-  fmt::print(
-      "| robot | engine | duration, s | estimated, CPU s | measured | measured / estimated |\n|---|---|--:|--:|--:|--:|\n");
-  for (const SizedRobot& robot : robots()) print_robot(robot, folder, program, calls, catalog);
+  try {
+    const std::span words(argv, static_cast<std::size_t>(argc));
+    const int calls = words.size() == 3 && std::string_view(words[1]) == "--calls" ? std::stoi(words[2]) : 2;
+    const std::string program = (std::filesystem::canonical(words[0]).parent_path() / "gaitlab").string();
+    const test::Folder folder;
+    folder.write("cart.yaml", fmt::format(kCart, ""));
+    folder.write("free.yaml", fmt::format(kCart, ", drive: none"));
+    Catalog catalog = app::standard_catalog();
+    fmt::print(
+        "| robot | engine | duration, s | estimated, CPU s | measured | measured / estimated |\n|---|---|--:|--:|--:|--:|\n");
+    for (const SizedRobot& robot : robots()) print_robot(robot, folder, program, calls, catalog);
+    return 0;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "estimates: {}\n", error.what());
+    return 2;
+  }
 }
