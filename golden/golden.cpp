@@ -197,15 +197,18 @@ void take_bands(const Json& columns, Golden& golden) {
   if (golden.bands.size() != in_trace.size()) throw std::runtime_error("its columns are not those of the trace");
 }
 
-/// Completes a write_golden() that was killed between its two renames, so that the trace of golden.json still has its temporary
-/// name.
-void finish_rename(const fs::path& folder) {
+/// True if golden.json contains the hash of the trace under its temporary name.
+bool next_belongs(const fs::path& folder) {
   std::error_code error;
-  if (!fs::exists(folder / kNextTraceFile, error) || !fs::exists(folder / kJsonFile, error)) return;
+  if (!fs::exists(folder / kNextTraceFile, error) || !fs::is_regular_file(folder / kJsonFile, error)) return false;
   const Json json = shallow_json(read_file(folder / kJsonFile, kMostJson));
-  if (!json.is_object() || !json.contains("trace") || json["trace"] != hash(read_file(folder / kNextTraceFile, kMostTrace)))
-    return;
+  return json.is_object() && json.contains("trace") && json["trace"] == hash(read_file(folder / kNextTraceFile, kMostTrace));
+}
+
+void rename_next(const fs::path& folder) {
+  std::error_code error;
   fs::rename(folder / kNextTraceFile, folder / kTraceFile, error);
+  if (error) throw RunError(fmt::format("{}: cannot be written: {}", (folder / kTraceFile).string(), error.message()));
 }
 
 }  // namespace
@@ -220,17 +223,17 @@ void write_golden(const Golden& golden, const fs::path& folder) {
   if (error) throw RunError(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
   FolderLock lock;
   if (!lock.take(folder)) throw wrong(folder, "is being written by another process; try again later");
-  finish_rename(folder);
+  if (next_belongs(folder)) rename_next(folder);  // a write_golden() has ended between its two renames
   const std::string bytes = pack(golden.run.trace);
   write_file(folder / kNextTraceFile, bytes);
   try {
     write_file(folder / kJsonFile, json_text(golden, bytes));  // from here on, the new golden is valid
   } catch (...) {
-    fs::remove(folder / kNextTraceFile, error);
+    // golden.json may have its name already, in a folder that cannot be synced: then the new trace belongs to it.
+    if (!next_belongs(folder)) fs::remove(folder / kNextTraceFile, error);
     throw;
   }
-  fs::rename(folder / kNextTraceFile, folder / kTraceFile, error);
-  if (error) throw RunError(fmt::format("{}: cannot be written: {}", (folder / kTraceFile).string(), error.message()));
+  rename_next(folder);
 }
 
 Golden read_golden(const fs::path& folder) {

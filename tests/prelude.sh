@@ -140,3 +140,10 @@ kill_at_call() {
   { env LD_PRELOAD="$(plugin dies_at_call)" GAITLAB_DIES_AT="$1" "${@:2}"; } >"$work/log" 2>&1 || code=$?
   ((code == 128 + 9))
 }
+# fail_at_call N once|on COMMAND...: runs COMMAND whose call N that changes a file fails (EIO), or all of them from N on (ENOSPC).
+fail_at_call() {
+  local on=()
+  code=0
+  [[ $2 == once ]] || on=(GAITLAB_FAILS_ON=1)
+  env LD_PRELOAD="$(plugin dies_at_call)" GAITLAB_FAILS_AT="$1" "${on[@]}" "${@:3}" >"$work/log" 2>&1 || code=$?
+}

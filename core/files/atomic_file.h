@@ -15,7 +15,7 @@ enum class Existing { replaced, refused };
 /// Writer of a file PATH. Its bytes are written to a separate file `.NAME.XXXXXXXX.part` in the folder of PATH, which commit()
 /// renames. The steps are write, fsync, close, rename, fsync of the folder, with every return value checked.
 /// - Without commit(), or after a failure, the destructor removes the part file, and PATH is unchanged. Only kill -9 leaves the
-///   part file.
+///   part file. If only the last step fails, PATH is the new file, which a power cut may take back.
 /// - If several writers have the same path, the complete bytes of the last writer remain. With Existing::refused those of the
 ///   first writer remain, and all other writers throw.
 /// - A device or a FIFO, also behind a link (/dev/stdout), is written into and never replaced. A FIFO needs a reader.

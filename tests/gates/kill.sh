@@ -159,6 +159,7 @@ duration: 0.3
 TEXT
 }
 restore() {
+  [[ $PWD == "$work"/* ]] || fail "$PWD is not in the temporary folder"
   find . -mindepth 1 -delete
   cp -r -- "$work/before/." .
 }
@@ -173,11 +174,24 @@ in_the_middle() {
   rm -rf -- "$work/before"
 }
 
-# at_every_call NAME CODE COMMAND...: a command that is killed at each call that changes files leaves every file unchanged or as an
-# undisturbed command leaves it. The command of `after`, if any, must still succeed.
+# at_every_call NAME CODE COMMAND...: a command that is killed at each call that changes files, or of which such a call, or all
+# from one on, fail, leaves every file unchanged or as an undisturbed command leaves it. The command of `after`, if any, must still
+# succeed.
 sums() { find . -type f -exec sha256sum -- {} +; }
+check_left() {
+  local file
+  while read -r _ file; do
+    case $file in
+      *.part | *.golden.next | ./.new.*) ;; # not a final name
+      */summary.json | */junit.xml) quietly read_it "$file" || bad "$1: it left half of $file" ;; # contain times
+      *) bad "$1: it left another $file" ;;
+    esac
+  done < <(sums | grep -vxFf "$work/sums")
+  for file in "${there[@]}"; do [[ -e $file ]] || bad "$1: it took $file away"; done
+  ((${#after[@]} == 0)) || quietly "${after[@]}" || bad "$1: ${after[*]}"
+}
 at_every_call() {
-  local calls file there
+  local calls call how there
   cp -r -- . "$work/before"
   mapfile -t -d '' there < <(find . -type f -print0)
   sums >"$work/sums"
@@ -186,18 +200,30 @@ at_every_call() {
   for ((calls = 1;; ++calls)); do
     restore
     kill_at_call "$calls" "${@:3}" || break
-    while read -r _ file; do
-      case $file in
-        *.part | *.golden.next | ./.new.*) ;; # not a final name
-        */summary.json | */junit.xml) quietly read_it "$file" || bad "$1, killed at call $calls, left half of $file" ;; # contain times
-        *) bad "$1, killed at call $calls, left another $file" ;;
-      esac
-    done < <(sums | grep -vxFf "$work/sums")
-    for file in "${there[@]}"; do [[ -e $file ]] || bad "$1, killed at call $calls, took $file away"; done
-    ((${#after[@]} == 0)) || quietly "${after[@]}" || bad "$1, killed at call $calls: ${after[*]}"
+    check_left "$1, killed at call $calls"
   done
+  ((code == $2)) || bad "$1: exit code $code at call $calls, expected $2"
+  for ((call = 1; call < calls; ++call)); do
+    for how in once on; do
+      restore
+      fail_at_call "$call" "$how" "${@:3}"
+      ((code == 1 || code == 2 || code == $2)) || bad "$1, call $call fails $how: exit code $code"
+      check_left "$1, call $call fails $how"
+    done
+  done
+  restore
+  expect "$2" "${@:3}"
   rm -rf -- "$work/before"
-  if ((code == $2)); then ok "$1, killed at each of $((calls - 1)) calls: files as they were, or whole"; else bad "$1: exit code $code at call $calls, expected $2"; fi
+  ok "$1, of which each of $((calls - 1)) calls ends or fails: files as they were, or whole"
+}
+
+passes_old_or_new() {
+  local scenario
+  for scenario in s old; do
+    rm -rf -- "$work/tested"
+    "$program" test "$scenario.yaml" --golden s.golden --out "$work/tested" && return
+  done
+  return 1
 }
 
 kill_small() {
@@ -219,12 +245,19 @@ kill_small() {
   at_every_call "new plugin" 0 "$program" new plugin cpg mine --out new
   rm -r run.csv run.glb s.xml new
   in_the_middle approve "$program" approve s.yaml --reason first
-  at_every_call approve 0 "$program" approve s.yaml --reason first
+  after=("$program" approve s.yaml --reason first)
+  at_every_call approve 0 "${after[@]}"
+  after=()
   in_the_middle "approve --calibrate" "$program" approve s.yaml --calibrate --reason second
   after=("$program" test s.yaml --out "$work/tested")
   at_every_call "approve --calibrate" 0 "$program" approve s.yaml --calibrate --reason second
+  cp s.yaml old.yaml
+  sed -i 's/amplitude: 0.6/amplitude: 0.62/' s.yaml
+  after=(passes_old_or_new)
+  at_every_call "approve of another gait" 0 "$program" approve s.yaml --reason third
+  after=()
   in_the_middle test "$program" test s.yaml --out out
-  at_every_call test 4 "$program" test t.yaml --golden s.golden --out out --junit junit.xml
+  at_every_call test 4 "$program" test old.yaml --golden s.golden --out out --junit junit.xml
   cd -- "$work"
   ok "run, rerun, swap, approve and test, killed in the middle of a run: nothing is left, and nothing changed"
 }
