@@ -21,6 +21,7 @@
 #include "core/files/file_kind.h"
 #include "core/files/files_read.h"
 #include "core/files/folder_lock.h"
+#include "core/files/part_file.h"
 #include "core/settings/wording.h"
 #include "report/page/page.h"
 
@@ -40,12 +41,10 @@ struct WatchArguments : ScenarioArguments {
   SummaryOptions shown;
 };
 
-/// True for a file that only an unfinished `gaitlab watch` leaves: of a run that has not ended, or the part file of one of its
-/// own files.
+/// True for a file of a run that has not ended.
 bool is_unfinished(const fs::path& file) {
-  const std::string name = file.filename().string();
-  const auto part_of = [&](const std::string& of) { return name.starts_with("." + of + ".") && name.ends_with(".part"); };
-  return name == kNext || name == kRead || part_of(kRead) || part_of(kPageFile) || part_of(kStamp);
+  const fs::path name = file.filename();
+  return name == kNext || name == kRead || is_part_file(file);
 }
 
 /// Number of the run in a folder of `gaitlab watch`; 0 in a new folder, or if there is no page yet. Nothing for other folders.

@@ -16,6 +16,7 @@
 
 #include "core/errors.h"
 #include "core/files/files_read.h"
+#include "core/files/part_file.h"
 
 namespace gaitlab {
 
@@ -134,12 +135,11 @@ void AtomicFile::open_stream() {
 }
 
 void AtomicFile::open_part() {
-  constexpr int kPatience = 100;      // number of names tried
-  constexpr std::size_t kName = 200;  // most bytes of the name, so that the suffix fits as well
+  constexpr int kPatience = 100;  // number of names tried
   for (int k = 0; descriptor_ < 0; ++k) {
     std::uint64_t random = 0;
     if (::getrandom(&random, sizeof random, 0) < 0) fail(errno);
-    part_ = path_.parent_path() / fmt::format(".{}.{:016x}.part", path_.filename().string().substr(0, kName), random);
+    part_ = path_.parent_path() / part_name(path_.filename().string(), random);
     descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (descriptor_ < 0 && (errno != EEXIST || k == kPatience)) fail(errno);
   }

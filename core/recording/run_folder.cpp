@@ -5,10 +5,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 
 #include "core/errors.h"
+#include "core/files/part_file.h"
 
 namespace gaitlab {
 
@@ -82,9 +84,9 @@ void RunFolder::use(const fs::path& out) {
     if (error == 0) made_.pop_back();  // the folder belongs to the other process now
     throw refuse("is being written by another process");
   }
-  const bool empty = fs::is_empty(path_, code);
+  const fs::directory_iterator files(path_, code);
   if (code) throw refuse("cannot be read: " + code.message());
-  if (!empty) throw refuse("exists and is not empty");
+  if (!std::ranges::all_of(files, is_part_file)) throw refuse("exists and is not empty");
   if (const int denied = cannot_write(path_); denied != 0) throw refuse("cannot be written: " + reason(denied));
 }
 

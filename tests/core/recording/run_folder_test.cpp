@@ -92,6 +92,29 @@ TEST_F(RunFolders, AFullFolderIsRefusedAndUntouched) {
   EXPECT_EQ(std::distance(fs::directory_iterator("full"), {}), 1);
 }
 
+/// A run that was killed leaves such files, which `ls` does not show; the same command can be given again.
+TEST_F(RunFolders, PartFilesAreNoContent) {
+  const std::string part = ".trace.h5.a9c7b9f8ca80226b.part";
+  fs::create_directory("killed");
+  std::ofstream("killed/" + part) << "half";
+  EXPECT_EQ(complaint("killed"), test::kNoError);
+  EXPECT_TRUE(fs::exists("killed/" + part));  // on a file system without locks another process could be writing it
+  std::ofstream("killed/trace.h5") << "whole";
+  EXPECT_EQ(complaint("killed"), "--out killed: error: exists and is not empty");
+  for (const std::string name : {"mine.part", ".mine.part", ".mine.a9c7b9f8ca80226.part", ".mine.A9C7B9F8CA80226B.part",
+                                 "..a9c7b9f8ca80226b.part", ".mine.a9c7b9f8ca80226b.part2"}) {
+    fs::create_directory("other");
+    std::ofstream("other/" + name) << "mine";
+    EXPECT_EQ(complaint("other"), "--out other: error: exists and is not empty") << name;
+    fs::remove_all("other");
+  }
+  fs::create_directories("folder/" + part);
+  EXPECT_EQ(complaint("folder"), "--out folder: error: exists and is not empty");
+  fs::create_directory("link");
+  fs::create_symlink("../killed/trace.h5", "link/" + part);
+  EXPECT_EQ(complaint("link"), "--out link: error: exists and is not empty");
+}
+
 TEST_F(RunFolders, AFileIsRefused) {
   std::ofstream("file") << "mine";
   EXPECT_EQ(complaint("file"), "--out file: error: exists and is not a folder");
