@@ -3,6 +3,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import breaks  # noqa: E402
 import equations  # noqa: E402
 import pages  # noqa: E402
 import search  # noqa: E402
@@ -43,6 +44,7 @@ def kinds_of_blocks(app, doctree):
 
 def setup(app):
     app.connect("doctree-read", kinds_of_blocks)
+    breaks.setup(app)
     equations.setup(app)
     search.setup(app)
     return {"parallel_read_safe": True, "parallel_write_safe": False}

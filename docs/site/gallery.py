@@ -1,6 +1,7 @@
 """The gallery of the site: every shipped scenario and every scenario of the library, run with engine articulated.
 
-Each run has its page, its figure as the picture, and the lines of the verdict and of the gait as the program prints them.
+Each run has its page, as the picture side views of its robot (`gaitlab figure`), and the lines of the verdict and of the gait as the
+program prints them.
 """
 import json
 import os
@@ -14,15 +15,23 @@ SETTINGS = ["--set", "physics.engine=articulated"]
 HEAD = (
     "Gallery of gaits\n"
     "================\n\n"
-    "Every shipped scenario and every scenario of the :doc:`library <docs/library>`, simulated with engine ``articulated``. A picture is the\n"
-    "figure of the run, and leads to its page: the moving robot, every check and every curve, a single file of about 1 MB.\n"
+    "Every shipped scenario and every scenario of the :doc:`library <docs/library>`, simulated with engine ``articulated``. A picture shows\n"
+    "the robot at instants of its last period, and leads to the page of the run: the moving robot, every check and every curve, a single file of\n"
+    "about 1 MB.\n"
     "``gaitlab run NAME --set physics.engine=articulated`` repeats a run.\n\n"
     ".. container:: gallery\n")
+WIDTH, HIGHEST = 84, 63  # mm of a picture: as wide as a card, with the font of a printed column, and not higher than 3/4 of it
+RECIPE = """gaitlab: 1
+size: {width}
+runs: {{run: {run}}}
+letters: false
+panels: [{{kind: views, legend: false, times: {times}}}]
+"""
 ENTRY = """
    .. container:: gait
 
       .. image:: pictures/{name}.svg
-         :alt: figure of {name}
+         :alt: side views of {name}
          :target: gallery/{name}.html
 
       .. rst-class:: name
@@ -64,6 +73,20 @@ def simulate(program, name, folder):
     return run.stdout
 
 
+def draw(program, folder, target):
+    """Side views at up to three instants of the last period of a run, or of its last two seconds: as many as one picture has room for."""
+    with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
+        summary = json.load(file)
+    end, span = summary["simulated"], summary["limit_cycle"].get("period") or 2
+    for views in (3, 2, 1):
+        recipe = folder + ".yaml"
+        with open(recipe, "w", encoding="utf-8") as file:
+            file.write(RECIPE.format(width=WIDTH, run=folder, times=[round(max(0, end - span * (1 - k / views)), 3) for k in range(views)]))
+        said = subprocess.run([program, "figure", recipe, "--out", target], check=True, capture_output=True, text=True).stdout
+        if float(re.search(r"x ([\d.]+) mm", said).group(1)) <= HIGHEST:
+            return
+
+
 def write(program, source, reports):
     """Writes the page gallery.rst and its pictures into `source`, and the pages of the runs into `reports`."""
     pictures = os.path.join(source, "pictures")
@@ -75,7 +98,7 @@ def write(program, source, reports):
             folder = os.path.join(work, name)
             summary = simulate(program, name, folder)
             shutil.copyfile(os.path.join(folder, "report.html"), os.path.join(reports, name + ".html"))
-            shutil.copyfile(os.path.join(folder, "figure.svg"), os.path.join(pictures, name + ".svg"))
+            draw(program, folder, os.path.join(pictures, name + ".svg"))
             with open(os.path.join(folder, "verdict.json"), encoding="utf-8") as file:
                 word = json.load(file)["verdict"].replace(" ", "-")
         text += ENTRY.format(name=name, about=escaped(about if about.endswith("?") else about + "."), word=word, verdict=lines_of(summary, "verdict"), gait=lines_of(summary, "gait"))

@@ -56,6 +56,25 @@ for (const path of pages) for (const width of [390, 1366]) for (const colorSchem
   await done();
 });
 
+// At this width a reader sees whole rows and lines: the scroll bar of a long table is far below.
+test("no table or block of a page for users is cut, 1366 px", async () => {
+  const read = ["index", "docs/tutorials/feasible", "docs/modules", "docs/library", "docs/benchmarks", "docs/validation", "docs/sensors", "docs/reference/scenario", "docs/reference/plugins", "docs/reference/verdict"];
+  for (const path of read) {
+    const { page, close: done } = await open(`${path}.html`, { width: 1366 });
+    const cut = await page.$$eval("article .table-wrapper, article pre", (all) => all.filter((e) => e.scrollWidth > e.clientWidth + 1).map((e) => e.textContent.slice(0, 60)));
+    assert.deepEqual(cut, [], path);
+    await done();
+  }
+});
+
+test("a button to copy is seen in the dark", async () => {
+  const { page, close: done } = await open("index.html", { width: 1366, colorScheme: "dark" });
+  const shade = (colour) => Math.max(...colour.match(/[\d.]+/g).slice(0, 3).map(Number));
+  const { icon, behind } = await page.$eval("button.copybtn", (button) => ({ icon: getComputedStyle(button).color, behind: getComputedStyle(button).backgroundColor }));
+  assert.ok(shade(icon) > 100 && shade(behind) < 60, `${icon} on ${behind}`);
+  await done();
+});
+
 for (const width of [390, 1366]) test(`the theme button, ${width} px`, async () => {
   const { page, complaints, close: done } = await open("index.html", { width, colorScheme: "light" });
   const button = page.locator(".theme-toggle:visible");
