@@ -29,6 +29,7 @@ panels: [{{kind: views, legend: false, times: {times}}}]
 """
 ENTRY = """
    .. container:: gait
+      :name: {name}
 
       .. image:: pictures/{name}.svg
          :alt: side views of {name}

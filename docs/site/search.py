@@ -7,9 +7,9 @@ import os
 
 import pages
 
-# Worth of a hit by the group of its page in pages.CONTENTS: chosen, so that ten words of a user lead to pages that explain them. Pages of
+# Worth of a hit by the group of its page in pages.CONTENTS: chosen; conventions count half as much as the reference, which users read. Pages of
 # worth 0, on the project's history, stand behind all others.
-WORTH = {"Start": 1.5, "First gaits": 1.5, "Help": 1.5, "More": 1.2, "Reference": 1.2, "Conventions": 0.7}
+WORTH = {"Start": 1.5, "First gaits": 1.5, "Help": 1.5, "More": 1.2, "Reference": 1.2, "Conventions": 0.6}
 
 
 def group_of(docname):
@@ -22,19 +22,27 @@ def group_of(docname):
     return "Decision" if docname.startswith("docs/decisions/") else "File"
 
 
+def terms(parts):
+    """Texts of the first cells of rows: the keys of a reference, the words of a glossary."""
+    rows = [row for part in parts for row in part.findall(lambda inner: inner.tagname == "row") if row.parent.tagname == "tbody"]
+    return " ".join(row[0].astext() for row in rows)
+
+
 def sections(node):
-    """[anchor, heading, text] of each section of a page, in their order; the text excludes that of sections within."""
+    """[anchor, heading, text, terms] of each section of a page, and of each gait of the gallery; the text excludes that of sections within."""
     for section in node.findall(lambda part: part.tagname == "section"):
         parts = [part for part in section.children if part.tagname not in ("section", "title", "toctree", "compound", "math_block")]
         title = next((part.astext() for part in section.children if part.tagname == "title"), "")
-        yield [section["ids"][0], title, " ".join(" ".join(part.astext() for part in parts).split())]
+        yield [section["ids"][0], title, " ".join(" ".join(part.astext() for part in parts).split()), terms(parts)]
+    for gait in node.findall(lambda part: part.tagname == "container" and "gait" in part["classes"]):
+        yield [gait["ids"][0], gait["ids"][0], " ".join(gait.astext().split()), ""]
 
 
 def collect(app, doctree, docname):
     found = list(sections(doctree))
     if found:
         group = group_of(docname)
-        texts = found if not docname.startswith("files/") else [found[0][:2] + [""]]  # files of the code by name only
+        texts = found if not docname.startswith("files/") else [found[0][:2] + ["", ""]]  # files of the code by name only
         app.site_texts[docname] = {"page": app.builder.get_target_uri(docname), "title": found[0][1], "group": group, "worth": WORTH.get(group, 0), "sections": texts}
 
 

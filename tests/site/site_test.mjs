@@ -134,6 +134,21 @@ test("the search: users' pages first, with excerpts", async () => {
   assert.ok(verdict.filter((f) => f.group !== "File").every((f) => f.excerpt), "every page has an excerpt");
 });
 
+// Words that a user types, and a page that must be among the first three; pages of developers are not. (The gate has no gallery.)
+const asked = {
+  torque: "docs/reference/plugins.html", servo: "docs/modules.html", friction: "docs/reference/scenario.html", infeasible: "docs/errors.html", "current limit": "docs/errors.html",
+  slope: "docs/glossary.html", python: "docs/python.html", install: "docs/overview.html", MuJoCo: "docs/mujoco.html", voltage: "docs/modules.html",
+  gear: "docs/reference/plugins.html", wheel: "docs/modules.html", heat: "docs/reference/verdict.html", slip: "docs/reference/scenario.html", approve: "docs/commands.html",
+  tolerance: "docs/as-built.html", sweep: "docs/studies.html", ramp: "docs/reference/plugins.html", keyframes: "docs/reference/plugins.html"
+};
+test("the search: words of a user", async () => {
+  for (const [query, page] of Object.entries(asked)) {
+    const first = (await searched(query)).slice(0, 3);
+    assert.ok(first.some((f) => f.href.startsWith(page)), `${query}: ${first.map((f) => f.href)}`);
+    assert.ok(!/^(Conventions|Project|Decision|File)$/.test(first[0].group), `${query}: ${first[0].href}`);
+  }
+});
+
 test("the search: what nobody wrote, and what is no text", async () => {
   assert.deepEqual(await searched("xyzzyqwerty", async (page) => assert.match(await page.textContent("#search-count"), /No page/)), []);
   assert.deepEqual(await searched("  "), []);

@@ -9,7 +9,8 @@ function wordsOf(query) {
   const words = all.filter((w) => !empty.has(w));
   return (words.length ? words : all).map((w) => (w.length > 3 ? w.replace(/s$/, "") : w));
 }
-const expressionOf = (word) => new RegExp(`(?<![\\p{L}\\d])${word.replace(/[.*+?^${}()|[\]\\/]/g, "\\$&")}`, "giu");
+/** A word where a text has it from its beginning; the words within an option (--fail-infeasible) are no words of the text. */
+const expressionOf = (word) => new RegExp(`(?<![\\p{L}\\d]|--[\\w-]*)${word.replace(/[.*+?^${}()|[\]\\/]/g, "\\$&")}`, "giu");
 
 /** The worth of a word in a text: begins a word of it; more often is worth more, but less and less. */
 const worth = (expression, text, weight) => {
@@ -18,10 +19,10 @@ const worth = (expression, text, weight) => {
 };
 
 /** A section's score; 0 if a word is neither in it nor in the title of its page. */
-function scoreOf(page, [, heading, text], expressions, index) {
+function scoreOf(page, [, heading, text, terms], expressions, index) {
   let sum = 0;
   for (const e of expressions) {
-    const score = worth(e, heading, 12) + worth(e, page.title, index ? 4 : 8) + worth(e, text, 2) / Math.sqrt(1 + text.length / 2000);
+    const score = worth(e, heading, 12) / Math.sqrt((heading.match(/[\p{L}\d]+/gu) ?? [""]).length) + worth(e, page.title, index ? 4 : 8) + worth(e, terms, 4) + worth(e, text, 2) / Math.sqrt(1 + text.length / 2000);
     if (!score) return 0;
     sum += score;
   }
