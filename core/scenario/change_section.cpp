@@ -56,11 +56,21 @@ void add_set(const std::string& section, const PluginSelection& before, const Pl
   }
 }
 
+/// The scenario without the section. Each entry copies it, which would take quadratic time with all entries.
+Node without_changes(Node root) {
+  for (std::size_t i = root.keys.size(); i-- > 0;) {
+    if (root.keys[i].first != kSection) continue;
+    root.keys.erase(root.keys.begin() + static_cast<std::ptrdiff_t>(i));
+    root.items.erase(root.items.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  return root;
+}
+
 /// Reads the entries of the section one after another.
 class ChangeReader {
  public:
   ChangeReader(const Node& root, const Scenario& scenario, JointNames joints, const ReadSegment& read, Problems& problems)
-      : root_(root), scenario_(scenario), joints_(joints), read_(read), problems_(problems) {
+      : root_(without_changes(root)), scenario_(scenario), joints_(joints), read_(read), problems_(problems) {
     last_.cpg = scenario.cpg;
     last_.controller = scenario.controller;
     last_.t = -1;
@@ -112,7 +122,8 @@ class ChangeReader {
       const auto& [key, place] = set.keys[i];
       const std::string wrong = refused(key);
       if (!wrong.empty()) problems_.add(place, wrong);
-      sections_.push_back(key.substr(0, key.find('.')));
+      const std::string section = key.substr(0, key.find('.'));
+      if (std::ranges::find(sections_, section) == sections_.end()) sections_.push_back(section);
     }
     if (problems_.size() > before) return;
     for (std::size_t i = 0; i < set.keys.size(); ++i) {
@@ -194,7 +205,7 @@ class ChangeReader {
     change.faults.push_back(std::move(fault));
   }
 
-  Node root_;                          ///< the scenario with the settings so far
+  Node root_;                          ///< the scenario with the settings so far, without this section
   std::vector<std::string> sections_;  ///< sections that have changed so far
   const Scenario& scenario_;
   JointNames joints_;

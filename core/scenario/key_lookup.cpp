@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
+#include <array>
 #include <optional>
 
 #include "core/plugin/plugin_instance.h"
@@ -28,12 +28,14 @@ void add_rows(const std::vector<KeyRow>& rows, const std::string& before, const 
 
 std::string name_of_key(const std::string& path) { return path.substr(path.rfind('.') + 1); }
 
-using TypeInForce = std::function<std::string(Kind)>;
+/// Types that a scenario selects, in the order of kPluginKinds; "" if it selects none yet.
+using TypesInForce = std::array<std::string, kPluginKinds.size()>;
 
 /// True for a key that the scenario may have as it is.
-bool applies(const ScenarioKey& key, const TypeInForce& type) {
+bool applies(const ScenarioKey& key, const TypesInForce& types) {
   if (key.plugin == nullptr) return key.path.find('[') == std::string::npos;
-  const std::string in_force = type(key.plugin->kind);
+  const auto* const kind = std::ranges::find(kPluginKinds, key.plugin->kind, &PluginKind::kind);
+  const std::string& in_force = types[static_cast<std::size_t>(kind - kPluginKinds.begin())];
   return in_force.empty() || in_force == key.plugin->name;
 }
 
@@ -83,13 +85,13 @@ bool repeats(const std::string& path) {
   return path.starts_with(std::string(kTolerancesSection) + ".") || path.starts_with(std::string(kAsBuiltSection) + ".");
 }
 
-std::string elsewhere(const Catalog& catalog, const TypeInForce& type, const UnknownKey& unknown) {
+std::string elsewhere(const Catalog& catalog, const TypesInForce& types, const UnknownKey& unknown) {
   const std::string own = unknown.section + (unknown.section.empty() ? "" : ".") + unknown.key;
   const std::vector<ScenarioKey> all = all_keys(catalog);
   std::vector<ScenarioKey> usable;
   // The path of the unknown key itself is a key of its section under other settings.
   std::ranges::copy_if(all, std::back_inserter(usable),
-                       [&](const ScenarioKey& one) { return one.path != own && applies(one, type); });
+                       [&](const ScenarioKey& one) { return one.path != own && applies(one, types); });
   const std::vector<std::string> exact = paths_of(usable, unknown.key);
   std::vector<std::string> first = exact;
   std::erase_if(first, repeats);
@@ -127,8 +129,10 @@ std::vector<ScenarioKey> module_keys() {
 Elsewhere key_search(const Catalog& catalog, const Node& root, const Scenario& scenario) {
   return [&](const UnknownKey& unknown) {
     try {
-      return elsewhere(
-          catalog, [&](Kind kind) { return type_in_force(kind, root, scenario); }, unknown);
+      TypesInForce types;
+      std::ranges::transform(kPluginKinds, types.begin(),
+                             [&](const PluginKind& one) { return type_in_force(one.kind, root, scenario); });
+      return elsewhere(catalog, types, unknown);
     } catch (const PluginError&) {  // the error of a plugin that the scenario does not use
       return std::string();
     }

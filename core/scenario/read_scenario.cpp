@@ -197,10 +197,13 @@ class ScenarioReader {
   }
 
   void read_changes() {
-    const auto read = [this](const Node& root, const std::vector<std::string>& sections, Problems& problems) {
-      ScenarioReader own = *this;
+    ScenarioReader before = *this;  // copied for each entry, so that it lacks the large members
+    before.root_ = {};
+    before.text_.clear();
+    before.problems_ = {};
+    const auto read = [&before](const Node& root, const std::vector<std::string>& sections, Problems& problems) {
+      ScenarioReader own = before;
       own.root_ = root;
-      own.problems_ = {};
       own.touched_ = TouchedSections(sections);
       try {
         own.touched_.restart(own.scenario_);

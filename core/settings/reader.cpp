@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/settings/node_places.h"
+#include "core/settings/offers.h"
 #include "core/settings/text_file.h"
 #include "core/settings/value.h"
 #include "core/settings/wording.h"
@@ -96,9 +97,12 @@ void Reader::finish() {
 
 void Reader::unknown(const std::string& key, const Node& value, const SourceLocation& place) {
   const bool of_a_list = key.find('[') != std::string::npos;
-  const std::string text = "unknown key " + in_quotes(key) +
-                           (of_a_list ? "; an item of a list is addressed by its number: " + dotted(key) : meant(key, value));
-  const auto misspelt = std::ranges::find(missing_, nearest(key, known_), [](const auto& one) { return one.first; });
+  const std::string remedy = of_a_list                        ? "; an item of a list is addressed by its number: " + dotted(key)
+                             : problems_.size() < kMostOffers ? meant(key, value)
+                                                              : "";
+  const std::string text = "unknown key " + in_quotes(key) + remedy;
+  const std::string near = missing_.empty() ? "" : nearest(key, known_);
+  const auto misspelt = std::ranges::find(missing_, near, [](const auto& one) { return one.first; });
   if (misspelt == missing_.end() || of_a_list) {
     problems_.add(place, text);
   } else {

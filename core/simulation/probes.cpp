@@ -10,6 +10,7 @@
 #include "core/scenario/sections.h"
 #include "core/scenario/sensor_section.h"
 #include "core/settings/joint_patterns.h"
+#include "core/settings/offers.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab {
@@ -270,7 +271,6 @@ std::vector<bool> matched(const Scenario& scenario, const std::vector<Column>& c
     // The default patterns include joint.*, and segment in a scenario with changes.
     const bool of_default = pattern == "segment" || (scenario.robot->joints.empty() && pattern.starts_with("joint."));
     if (found || of_default) continue;
-    constexpr std::size_t kMostOffers = 200;  // largest number of names shown
     const std::string near = problems.size() < kMostOffers ? nearest(pattern, names) : "";
     problems.add(
         scenario.place("trace.columns"),

@@ -4,6 +4,7 @@
 #include "core/scenario/change_section.h"
 #include "core/scenario/schema.h"
 #include "tests/core/scenario/fixture.h"
+#include "tests/cpu_time.h"
 
 namespace gaitlab {
 namespace {
@@ -106,6 +107,17 @@ TEST_F(ChangesTest, WrongTimesAndForms) {
     const std::string text = error(with(one.at));
     EXPECT_EQ(text.substr(0, text.find('\n')), std::string("DIR/s.yaml:6:") + one.column_and_text) << one.at;
   }
+}
+
+/// The cost grows with the number of entries, not with its square: 16 times instead of 256. That is also so for entries with
+/// equal times, which are errors.
+TEST_F(ChangesTest, TheCostGrowsWithTheNumberOfEntries) {
+  const auto cost = [&](int entries) {
+    std::string at;
+    for (int k = 0; k < entries; ++k) at += "{t: 0.5, set: {cpg.amplitude: 0.5}}, ";
+    return test::cost_of([&] { (void)error(with("[" + at + "]")); });
+  };
+  EXPECT_LT(cost(2048) / cost(128), 64);
 }
 
 TEST_F(ChangesTest, WrongSettings) {

@@ -61,6 +61,20 @@ TEST_F(ScenarioTest, AllErrorsAtOnceInTheFilesOrder) {
             "DIR/s.yaml:8:1: error: unknown key 'phyics'; did you mean 'physics'?");
 }
 
+/// A message prints 200 problems. The search for a name, which costs most, ends there.
+TEST_F(ScenarioTest, UnknownKeysBeyondThoseThatArePrintedGetNoOffer) {
+  std::string text = kShort;
+  for (int k = 0; k < 300; ++k) text += "durations" + std::to_string(k) + ": 1\n";
+  try {
+    read(text);
+    FAIL();
+  } catch (const InputError& e) {
+    ASSERT_EQ(e.problems().size(), 300U);
+    EXPECT_EQ(e.problems()[199].text, "unknown key 'durations199'; did you mean 'duration'?");
+    EXPECT_EQ(e.problems()[200].text, "unknown key 'durations200'");
+  }
+}
+
 TEST_F(ScenarioTest, VersionAndName) {
   EXPECT_EQ(error("gaitlab: 2\nfuture: 1\n"), "DIR/s.yaml:1:10: error: gaitlab is 2; this program reads format version 1");
   EXPECT_EQ(error(kShort + "name: a/b\n"),
