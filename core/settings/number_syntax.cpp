@@ -1,5 +1,9 @@
 #include "core/settings/number_syntax.h"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 namespace gaitlab {
 namespace {
 
@@ -55,6 +59,12 @@ bool has_separator(const std::string& text) {
   std::string digits = text;
   std::erase(digits, '_');
   return digits.size() < text.size() && is_decimal(digits);
+}
+
+bool is_no_text_elsewhere(const std::string& text) {
+  static constexpr std::array<std::string_view, 9> kWords{"null", "true", "false", "yes", "no", "on", "off", "y", "n"};
+  const bool digits = !text.empty() && is_digit(text[0]) && text.find_first_not_of("0123456789_.:-") == std::string::npos;
+  return digits || looks_like_a_number(text) || std::ranges::find(kWords, lower(text)) != kWords.end();
 }
 
 bool looks_like_a_number(const std::string& text) {

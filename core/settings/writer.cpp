@@ -1,6 +1,6 @@
 #include "core/settings/writer.h"
 
-#include "core/settings/value.h"
+#include "core/settings/number_syntax.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab {
@@ -13,8 +13,8 @@ Node scalar_node(std::string text, bool quoted) {
 }
 
 Node text_node(const std::string& text) {
-  const bool plain = is_name(text, "_./*-") && !read_number(scalar_node(text), "").ok() && text[0] != '*' && text[0] != '-';
-  return scalar_node(text, !plain || text == "null" || text == "true" || text == "false");
+  const bool plain = is_name(text, "_./*-") && !is_no_text_elsewhere(text) && text[0] != '*' && text[0] != '-';
+  return scalar_node(text, !plain);
 }
 
 std::string yaml_text(const std::string& text) {

@@ -99,6 +99,19 @@ TEST_F(ResolvedTest, SaysEverythingAndIsItself) {
             "sensors: []\n");
 }
 
+/// A reader of YAML 1.1, as PyYAML, takes more texts for numbers, dates and flags than this one.
+TEST_F(ResolvedTest, TextsThatOtherReadersTakeForSomethingElseAreQuoted) {
+  for (const std::string name : {"0x10", "0o7", "0b1", "010", "1_000", "1e400", "5", "1.5", "2026-01-02", "1.2.3", "inf", "NaN",
+                                 "yes", "No", "ON", "off", "True", "null", "y"}) {
+    const Scenario s = read(fakes::kShort + "name: '" + name + "'\n");
+    EXPECT_NE(resolved(s).find("\nname: \"" + name + "\"\n"), std::string::npos) << name;
+    expect_stable(s);
+  }
+  for (const std::string name : {"walk", "x10", "m0", "a-1", "e5", "none", "yesterday", "2-steps"})
+    EXPECT_NE(resolved(read(fakes::kShort + "name: '" + name + "'\n")).find("\nname: " + name + "\n"), std::string::npos)
+        << name;
+}
+
 TEST_F(ResolvedTest, ExplainNamesEveryKey) {
   const std::string text = explain_scenario(catalog_);
   for (const char* key : {"gaitlab:", "\nrobot:\n", "\n    modules:", "\n    on_ground:", "\n    gravity (m/s^2):",
