@@ -29,6 +29,7 @@ class Keyframes final : public Cpg {
   /// whose last angles differ from the first (the message names the joint).
   Keyframes(const RobotInfo& robot, const Settings& settings);
   void output(double t, In, Out setpoint) const override;
+  [[nodiscard]] SetPointTimes times() const override { return {repeat_ ? time_.back() : 0, ramp_}; }
 
  private:
   void check_closed(const RobotInfo& robot);

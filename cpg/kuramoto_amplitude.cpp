@@ -59,6 +59,12 @@ void KuramotoAmplitude::derivative(const Measured&, In state, Out rate) const {
   }
 }
 
+SetPointTimes KuramotoAmplitude::times() const {
+  constexpr double kSecondOrder = 5.8339;  // z with (1 + z) exp(-z) = 0.02
+  const double a = s_.model.amplitude_rate;
+  return {0, a > 0 ? 2 * kSecondOrder / a : 0};
+}
+
 void KuramotoAmplitude::output(double, In state, Out setpoint) const {
   for (std::size_t i = 0; i < joints_; ++i) {
     setpoint[i] = state[3 * joints_ + i] + state[joints_ + i] * math::sin(state[i]);

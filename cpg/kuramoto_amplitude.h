@@ -19,6 +19,7 @@ class KuramotoAmplitude final : public OscillatorCpg<KuramotoAmplitudeModel> {
   void start(Out state) const override;
   void derivative(const Measured&, In state, Out rate) const override;
   void output(double t, In state, Out setpoint) const override;
+  [[nodiscard]] SetPointTimes times() const override;
 };
 
 }  // namespace gaitlab::cpg

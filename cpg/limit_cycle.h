@@ -56,6 +56,7 @@ class CycleNetwork : public Cpg {
   void start(Out state) const override;
   void derivative(const Measured&, In state, Out rate) const override;
   void output(double t, In state, Out setpoint) const override;
+  [[nodiscard]] SetPointTimes times() const override { return {0, rise_time(model_.amplitude_rate)}; }
   [[nodiscard]] std::string note() const override { return network_.note(); }
   [[nodiscard]] const LimitCycle& limit_cycle() const { return cycle_; }
 

@@ -20,6 +20,7 @@ class PhaseOscillator final : public OscillatorCpg<PhaseOscillatorModel> {
   void start(Out state) const override;
   void derivative(const Measured&, In state, Out rate) const override;
   void output(double t, In state, Out setpoint) const override;
+  [[nodiscard]] SetPointTimes times() const override { return {0, rise_time(s_.model.amplitude_rate)}; }
 };
 
 }  // namespace gaitlab::cpg

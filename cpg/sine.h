@@ -40,6 +40,8 @@ Source: Chariot, Filippi, Verlinden 2012, eq. 10 on the limit cycle of eq. 7.
     }
   }
 
+  [[nodiscard]] SetPointTimes times() const override { return {0, s_.model.ramp}; }
+
  private:
   std::size_t joints_;
   Settings s_;

@@ -26,6 +26,7 @@ class Table final : public Cpg {
   /// Keyframes.
   Table(const RobotInfo& robot, const Settings& settings);
   void output(double t, In state, Out setpoint) const override { frames_.output(t, state, setpoint); }
+  [[nodiscard]] SetPointTimes times() const override { return frames_.times(); }
 
  private:
   Keyframes frames_;

@@ -25,6 +25,7 @@ class Tripod final : public Cpg {
   Tripod(const RobotInfo& robot, const Settings& settings);
   void output(double t, In, Out setpoint) const override;
   [[nodiscard]] std::string note() const override;
+  [[nodiscard]] SetPointTimes times() const override { return {0, s_.model.ramp}; }
 
  private:
   /// A leg with its phase in the cycle.

@@ -15,6 +15,12 @@ struct Measured {
   In channels = {};
 };
 
+/// Times that a model states about its set points, s. 0 stands for a time that it does not state.
+struct SetPointTimes {
+  double period = 0;     ///< after which they repeat
+  double full_size = 0;  ///< from which on they keep their size, as after a ramp; infinite if they grow for ever
+};
+
 /// A model with a state given by ODEs, whose output is the joint set points (rad). The model has no memory: the caller owns the
 /// state x. At each control tick the caller calls event() and output(), and then integrates x' to the next tick (RK4, sub-step
 /// `cpg.step`, inputs held). No member may allocate after construction. A gait is a Cpg without states.
@@ -30,6 +36,7 @@ class Cpg {
   virtual void event(const Measured&, Out) const {}              ///< resets phases; called once per tick, before output()
   virtual void output(double t, In x, Out setpoint) const = 0;   ///< x is the state at time t
   [[nodiscard]] virtual std::string note() const { return {}; }  ///< one line for the user about the set-up of the model
+  [[nodiscard]] virtual SetPointTimes times() const { return {}; }
 };
 
 }  // namespace gaitlab

@@ -77,6 +77,12 @@ struct OscillatorNetwork {
   }
 };
 
+/// Time in which r' = rate (R - r) comes from 0 to 98 % of R, s; 0 without a rate, where r stays as it is.
+inline double rise_time(double rate) {
+  constexpr double kFirstOrder = 3.912;  // ln 50
+  return rate > 0 ? kFirstOrder / rate : 0;
+}
+
 /// A CPG with one oscillator per joint. Its states are blocks of one number per joint. A derived class defines start(),
 /// derivative() and output(). The couplings of a rule have the weight `coupling` of the model.
 template <class Model>

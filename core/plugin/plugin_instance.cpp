@@ -56,6 +56,9 @@ class GuardedCpg final : public Cpg {
   [[nodiscard]] std::string note() const override {
     return guarded(entry_, "note", [&] { return cpg_->note(); });
   }
+  [[nodiscard]] SetPointTimes times() const override {
+    return guarded(entry_, "times", [&] { return cpg_->times(); });
+  }
 
  private:
   const Entry& entry_;

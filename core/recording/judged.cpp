@@ -15,14 +15,19 @@ constexpr double kShareOfStart = 0.2;  // share of the run, without a limit cycl
 constexpr double kWholePeriod = 1e-3;  // tolerance of a whole period, as a share of a period
 constexpr double kSameInstant = 1e-9;  // s
 
-void window(Judged& judged, double end, const MotionCycle& cycle, bool repeats, double since) {
+void window(Judged& judged, double end, const MotionCycle& cycle, double period, double start) {
   judged.to = end;
-  judged.from = since + (cycle.found ? std::min(cycle.from - since, cycle.period) : repeats ? left_out_start(end - since) : 0);
-  if (!cycle.found) return;
-  judged.periods = static_cast<std::size_t>((end - judged.from) / cycle.period + kWholePeriod);
-  const auto start = [&] { return end - static_cast<double>(judged.periods) * cycle.period; };
-  if (start() - since > (1 + kWholePeriod) * cycle.period) ++judged.periods;
-  judged.from = std::max(since, start());
+  const double left = std::max(0.0, end - start);
+  const double length = cycle.found ? cycle.period : period;
+  if (!(length > 0)) return;
+  const double whole = std::floor(left / length + kWholePeriod);
+  if (whole < 1) {
+    judged.from = end - left + left_out_start(left);
+    return;
+  }
+  const double held = std::max(1.0, whole - 1);
+  judged.from = std::max(0.0, end - held * length);
+  if (cycle.found) judged.periods = static_cast<std::size_t>(held);
 }
 
 /// Last row whose time is at most `time` + `within`.
@@ -112,16 +117,15 @@ std::size_t Judged::first(const std::vector<JudgedJoint>& joints) {
 
 double left_out_start(double end) { return std::min(kLongestStart, kShareOfStart * end); }
 
-Judged judge(const Recording& r, const MotionCycle& cycle, bool repeats, double since) {
+Judged judge(const Recording& r, const MotionCycle& cycle, double period, double start) {
   Judged judged;
-  window(judged, r.simulated, cycle, repeats, since);
+  window(judged, r.simulated, cycle, period, start);
   judged.joints.resize(r.ticked());
   judged.whole.resize(r.ticked());
   const bool known = r.ticked() > 0 && !r.tick(0, kCurrentLimited).empty();
   // The estimated period must not decide whether a row at the start of the window belongs to it.
-  const double period = judged.periods > 0 ? cycle.period : 0;
-  if (r.ticks.rows() > 0)
-    judged.first_row = row_at(Series(r.ticks, 0), judged.from, std::max(kSameInstant, kWholePeriod * period));
+  const double within = judged.periods > 0 ? kWholePeriod * cycle.period : 0;
+  if (r.ticks.rows() > 0) judged.first_row = row_at(Series(r.ticks, 0), judged.from, std::max(kSameInstant, within));
   for (std::size_t j = 0; known && j < r.ticked(); ++j) {
     judged.joints[j] = from_ticks(r, j, judged.first_row);
     judged.whole[j] = from_ticks(r, j, 0);

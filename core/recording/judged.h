@@ -52,12 +52,12 @@ struct Judged {
 /// Length of the start that is omitted from a run without a limit cycle, s: 2 s, or a fifth of a run shorter than 10 s.
 double left_out_start(double end);
 
-/// Chooses the judged window and computes its statistics. The window consists of whole periods up to the end of the run. It
-/// begins at the limit cycle, or earlier if more than one period would be omitted. Otherwise motors at their limits before a
-/// late limit cycle would not count. Without a limit cycle, the window begins at 2 s or a fifth of the run, whichever is
-/// earlier. If the set points do not repeat (`repeats` is false), the window begins at 0. The start is rounded down to a row of
-/// Recording::ticks. These cover all steps, so that the result does not depend on trace.period. `since` is the time of the last
-/// change of the run, s, the start of the window and of these times.
-Judged judge(const Recording& recording, const MotionCycle& cycle, bool repeats, double since = 0);
+/// Chooses the judged window and computes its statistics. The window consists of whole periods up to the end of the run,
+/// without the first after `start`, s, the start of the gait. The period is that of the limit cycle or, without one, `period`
+/// of the set points, s. If not two periods follow the start, the window has one; if not even one does, it begins 2 s after the
+/// start or after a fifth of the time that is left, whichever is earlier. If the set points do not repeat (`period` is 0), the
+/// window begins at 0. Its start is rounded down to a row of Recording::ticks. These cover all steps, so that the result does
+/// not depend on trace.period.
+Judged judge(const Recording& recording, const MotionCycle& cycle, double period, double start = 0);
 
 }  // namespace gaitlab

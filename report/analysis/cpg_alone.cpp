@@ -20,7 +20,21 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 thread_local const std::atomic<bool>* stop_of_thread = nullptr;
 
+const PluginSelection& last_cpg(const Scenario& s) { return s.changes.empty() ? s.cpg : s.changes.back().cpg; }
+
+SetPointTimes times(const Scenario& s) {
+  return s.cpg.entry == nullptr ? SetPointTimes() : make_cpg(last_cpg(s), plugin_info(s))->times();
+}
+
 }  // namespace
+
+double stated_period(const Scenario& s) {
+  if (const double period = times(s).period; period > 0 || s.cpg.entry == nullptr) return period;
+  const std::vector<double> all = frequencies(s, last_cpg(s));
+  return all.empty() ? 0 : 1 / *std::ranges::min_element(all);
+}
+
+double stated_full_size(const Scenario& s) { return times(s).full_size; }
 
 StopsCpgAlone::StopsCpgAlone(const std::atomic<bool>& stop) { stop_of_thread = &stop; }
 StopsCpgAlone::~StopsCpgAlone() { stop_of_thread = nullptr; }

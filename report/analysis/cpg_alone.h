@@ -9,6 +9,15 @@
 
 namespace gaitlab::report {
 
+/// Number of set-point periods that show a gait whose motion does not settle to a limit cycle.
+inline constexpr double kPeriodsNeeded = 3;
+
+/// Period that the last CPG of a run states or, without it, 1 / least frequency (Hz) of a driven joint among its settings, s; 0
+/// if there is neither.
+double stated_period(const Scenario& scenario);
+/// Time from which on it states that the set points keep their full size, s.
+double stated_full_size(const Scenario& scenario);
+
 /// Frequencies above 0 of the driven joints among the settings of a CPG, Hz.
 std::vector<double> frequencies(const Scenario& scenario, const PluginSelection& cpg);
 

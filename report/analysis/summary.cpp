@@ -7,11 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/build_id.h"
-#include "core/scenario/change_section.h"
 #include "core/settings/wording.h"
 #include "core/simulation/start.h"
 #include "core/simulation/step_advice.h"
-#include "report/analysis/gait_period.h"
 #include "report/analysis/motion.h"
 
 namespace gaitlab::report {
@@ -62,13 +60,13 @@ Summary summarise(const Scenario& scenario, const Recording& r, double wall_time
   travel(r, s);
   transport(scenario, r, s);
   s.limit_cycle = limit_cycle(scenario, r);
-  s.set_point_period = set_point_period(scenario, r);
+  s.gait = gait(scenario, r);
   s.stability_max = scenario.physics.step * r.worst.rate;
   s.stability_share =
       r.control_ticks > 0 ? static_cast<double>(r.control_ticks_above_1) / static_cast<double>(r.control_ticks) : 0;
   const auto contacts = contact_elements(*scenario.robot, scenario.contact.on);
   if (r.worst.rate > 0) s.stability_source = source_of(r.worst, *scenario.robot, contacts);
-  s.judged = judge(r, s.limit_cycle, s.set_point_period > 0, last_change(scenario, r.simulated));
+  s.judged = judge(r, s.limit_cycle, s.gait.period, s.gait.start);
   s.posture = posture(scenario, r, s.judged);
   s.fall = fall(scenario, r);
   return s;

@@ -8,6 +8,7 @@
 #include "core/scenario/scenario.h"
 #include "core/simulation/simulation.h"
 #include "report/analysis/fall.h"
+#include "report/analysis/gait.h"
 #include "report/analysis/posture.h"
 
 namespace gaitlab::report {
@@ -23,7 +24,7 @@ struct Summary {
   double heading_change = 0;                        ///< rad, turn of the base's x axis about world z
   double cost_electrical = 0, cost_mechanical = 0;  ///< J / (N m); 0 if the robot has not moved or has no weight
   MotionCycle limit_cycle;
-  double set_point_period = 0;                    ///< s (gait_period.h); 0 if the set points do not repeat
+  Gait gait;                                      ///< period, start and growth of the set points
   double stability_max = 0, stability_share = 0;  ///< largest h lambda; share of control ticks with h lambda above 1
   std::string stability_source;
   Judged judged;

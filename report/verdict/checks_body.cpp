@@ -11,6 +11,7 @@
 
 #include "core/settings/settings_numbers.h"
 #include "core/settings/wording.h"
+#include "report/analysis/cpg_alone.h"
 #include "report/analysis/motors.h"
 #include "report/analysis/row_statistics.h"
 #include "report/analysis/upright.h"
@@ -86,7 +87,7 @@ void upright(const CheckedRun& run, Check& made) {
   std::optional<Upright> found = report::upright(run.scenario, run.record, judged, 0);
   if (!found) return;
   if (found->over && judged.periods == 0) {
-    const double period = run.summary.set_point_period;
+    const double period = run.summary.gait.period;
     found = report::upright(run.scenario, run.record, judged, period);
     made.text =
         fmt::format("the robot turns over at {:.2f} s, and the run is too short to show whether it rolls", *found->over);

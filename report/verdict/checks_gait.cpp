@@ -20,7 +20,7 @@ namespace {
 // Least travel, as a share of the robot's extent, and least turn, rad. Both are per period; without a period they are ten times
 // as large.
 constexpr double kLeastTravel = 0.01, kLeastTurn = 0.01;
-constexpr const char* kTooShort = "the run is too short";
+constexpr const char* kTooShort = "the run does not show the gait";
 constexpr double kMostCycleError = 0.02;  // equal to that in core/recording/limit_cycle.h
 constexpr const char* kTimes = "times";   // unit of a ratio of speeds
 constexpr double kSpeedsUp = 1.2;         // ratio of speeds of second and first half above which gravity drives the robot
@@ -67,7 +67,7 @@ Halves halves(const CheckedRun& run) {
   const Judged& judged = run.summary.judged;
   const double start = judged.periods > 0 ? judged.from : std::max(judged.from, left_out_start(judged.to));
   const double window = judged.to - start;
-  const double period = judged.periods > 0 ? window / static_cast<double>(judged.periods) : run.summary.set_point_period;
+  const double period = judged.periods > 0 ? window / static_cast<double>(judged.periods) : run.summary.gait.period;
   const double unit = period > 0 ? period : window / 2;
   const double held = std::max(2.0, std::floor(window / unit + kMissing));
   const double from = judged.to - held * unit;
@@ -147,7 +147,7 @@ void progress(const CheckedRun& run, Check& made) {
   const bool goes = made.value >= made.limit || (asked == 0 && turn >= factor * kLeastTurn);
   made.status = goes                             ? CheckStatus::pass
                 : asked > 0                      ? CheckStatus::fail
-                : run.evidence.too_short.empty() ? CheckStatus::warn
+                : run.evidence.not_shown.empty() ? CheckStatus::warn
                                                  : CheckStatus::not_judged;
   made.text = fmt::format("the robot goes {:.3g} m {}{}", made.value, each,
                           goes ? "" : fmt::format(", less than {:.3g} m", made.limit));
@@ -197,7 +197,7 @@ void periodic(const CheckedRun& run, Check& made) {
   made.text = "the set points do not repeat";
   if (!cycle.found && !run.evidence.repeats) return;
   made.text = kTooShort;
-  if (!cycle.found && !run.evidence.too_short.empty()) return;
+  if (!cycle.found && !run.evidence.not_shown.empty()) return;
   made.value = cycle.error;
   made.limit = kMostCycleError;
   made.source = "chosen";

@@ -95,7 +95,7 @@ Demand demand(const Scenario& twin, const Recording& record, const Summary& summ
     made.doubt = fmt::format("without motor limits the run breaks off: {}", error.what());
     return made;
   }
-  made.joints = judge(free, summary.limit_cycle, summary.set_point_period > 0, last_change(twin, free.simulated)).joints;
+  made.joints = judge(free, summary.limit_cycle, summary.gait.period, summary.gait.start).joints;
   made.known = made.joints.size() == summary.judged.joints.size();
   const bool limited = Judged::limited(made.joints) > 0;
   if (thrown_up(twin, free, record)) {

@@ -10,6 +10,7 @@
 #include "core/scenario/built_robot.h"
 #include "core/scenario/change_section.h"
 #include "core/settings/wording.h"
+#include "report/analysis/cpg_alone.h"
 #include "report/analysis/motion.h"
 #include "report/analysis/motors.h"
 #include "report/verdict/number_texts.h"
@@ -22,49 +23,67 @@ namespace {
 constexpr double kRelative = 1e-9;  // tolerance for rounding
 constexpr double kEstimate = 1e-3;  // share of a period, tolerance of an estimated period
 
-bool moves(const std::vector<Series>& set_points) {
+/// True if a set point changes after `start`, s, by more than what a ramp leaves (SetPointTimes::full_size).
+bool moves(const std::vector<Series>& set_points, const Series& time, double start) {
+  constexpr double kLeft = 0.025;  // of a range, a little more than 2 %
   for (const Series& one : set_points) {
-    for (std::size_t k = 1; k < one.size(); ++k) {
-      if (one[k] != one[0]) return true;
+    double low = one[0];
+    double high = low;
+    double later_low = one.back();
+    double later_high = later_low;
+    for (std::size_t k = 0; k < one.size(); ++k) {
+      low = std::min(low, one[k]);
+      high = std::max(high, one[k]);
+      if (time[k] < start) continue;
+      later_low = std::min(later_low, one[k]);
+      later_high = std::max(later_high, one[k]);
     }
+    if (later_high - later_low > kLeft * (high - low)) return true;
   }
   return false;
 }
 
-void judge_length(const Scenario& s, const Recording& r, const Summary& summary, Evidence& made) {
+std::string after(double start) { return start > 0 ? fmt::format(" after {:.3g} s", start) : ""; }
+
+/// Judges the length of the judged window in periods.
+void judge_length(const Recording& r, const Summary& summary, Evidence& made) {
   const MotionCycle& cycle = summary.limit_cycle;
-  const double period = summary.set_point_period;
+  const double period = summary.gait.period;
+  const double start = summary.gait.start;
   made.repeats = period > 0;
-  if (const double since = last_change(s, r.simulated); since > 0 && period > 0) {
-    const double left = r.simulated - since;
-    const double needed = kPeriodsNeeded * period;
-    if (left < needed * (1 - kEstimate)) {
-      made.rests_on = fmt::format("{:.3g} s after the last change", left);
-      made.too_short = {fmt::format("{:.3g} s after the last change (t = {:.3g} s), needs {:.4g}: a gait's {:g} periods of "
-                                    "{:.4g} s; take duration: {:.4g}",
-                                    left, since, needed, kPeriodsNeeded, period, since + needed),
-                        "duration"};
-      return;
-    }
-  }
   if (cycle.found && cycle.error <= kSettled && summary.judged.periods > 0) {
     made.rests_on = fmt::format("{} of {:.4g} s", counted(summary.judged.periods, "period"), cycle.period);
     return;
   }
-  if (period > 0) {
-    const double held = (r.simulated - last_change(s, r.simulated)) / period;
-    made.rests_on = fmt::format("{:.3g} periods of {:.4g} s; the motion does not settle", held, period);
-    if (held < kPeriodsNeeded * (1 - kEstimate)) {
-      made.too_short = {fmt::format("{:.3g} s are {:.2g} of a gait's {:g} periods of {:.4g} s; take duration: {:.4g}",
-                                    r.simulated, held, kPeriodsNeeded, period, kPeriodsNeeded * period),
+  if (!(period > 0)) {
+    made.rests_on = fmt::format("these {:.3g} s; the set points do not repeat", r.simulated);
+    if (r.simulated < kLeastTime * (1 - kRelative)) {
+      made.not_shown = {fmt::format("{:.3g} s are less than {:g} s; take a longer duration", r.simulated, kLeastTime),
                         "duration"};
     }
     return;
   }
-  made.rests_on = fmt::format("these {:.3g} s; the set points do not repeat", r.simulated);
-  if (r.simulated < kLeastTime * (1 - kRelative)) {
-    made.too_short = {fmt::format("{:.3g} s are less than {:g} s; take a longer duration", r.simulated, kLeastTime),
-                      "duration"};
+  const double left = r.simulated - start;
+  const double held = left / period;
+  made.rests_on = fmt::format("{:.3g} periods of {:.4g} s{}; the motion does not settle",
+                              (summary.judged.to - summary.judged.from) / period, period, after(start));
+  if (held >= kPeriodsNeeded * (1 - kEstimate)) return;
+  made.not_shown = {fmt::format("{:.3g} s{} are {:.2g} of a gait's {:g} periods of {:.4g} s; take duration: {:.4g}", left,
+                                after(start), held, kPeriodsNeeded, period, start + kPeriodsNeeded * period),
+                    "duration"};
+}
+
+/// Judges the motion that the set points show.
+void judge_gait(const Scenario& s, const Recording& r, const Summary& summary, Evidence& made) {
+  const std::vector<Series> asked = set_points(s, r);
+  const bool driven = s.actuator.entry != nullptr && driven_joints(*s.robot) > 0;
+  if (std::string growing = growth(s, r, summary.judged, summary.gait); !growing.empty() && made.not_shown.empty()) {
+    made.not_shown = {std::move(growing), "cpg"};
+  } else if (driven && !asked.empty() && !moves(asked, motion(r).t, summary.gait.start)) {
+    made.not_shown = {
+        fmt::format("no set point changes{}: {}", after(summary.gait.start),
+                    s.cpg.entry == nullptr ? "there is no cpg" : fmt::format("cpg {} moves no joint", s.cpg.entry->name)),
+        "cpg", "check its frequency, amplitudes, frames or equations"};
   }
 }
 
@@ -111,14 +130,10 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made, std::vec
   const double residual = r.joints.empty() ? 0 : std::abs(r.ledger.residual()) / energy_scale(s, r);
   const double coarse = s.physics.adapts() && r.simulated > 0 ? r.tally.coarse / r.simulated : 0;
   const bool driven = s.actuator.entry != nullptr && driven_joints(*s.robot) > 0;
-  const std::vector<Series> asked = set_points(s, r);
   const bool chaotic = predictability(s, r) == Predictability::chaotic;
   if (made.not_trusted = {makes_energy(s), "actuator.Kt"}; !made.not_trusted.empty()) return;
   const char* const steps = s.physics.adapts() ? "physics.accuracy" : "physics.step";
-  if (driven && made.too_short.empty() && s.cpg.entry != nullptr && !asked.empty() && !moves(asked)) {
-    made.not_trusted = {fmt::format("no set point changes: cpg {} moves no joint", s.cpg.entry->name), "cpg",
-                        "check its amplitudes, frames or equations"};
-  } else if (chaotic && r.spread.rows() == 0) {
+  if (chaotic && r.spread.rows() == 0) {
     made.not_trusted = {predictability_text(s, r) + "; `gaitlab run` computes the spread of its numbers", "physics"};
   } else if (error.estimated && !std::isfinite(error.share)) {
     made.not_trusted = {fmt::format("the error of the torque of joint {} is not a number", s.robot->joints[error.joint].name),
@@ -155,7 +170,8 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made, std::vec
 Evidence evidence(const Scenario& s, const Recording& r, const Summary& summary) {
   Evidence made;
   std::vector<std::string> unknown;
-  judge_length(s, r, summary, made);
+  judge_length(r, summary, made);
+  judge_gait(s, r, summary, made);
   judge_support(s, summary, made, unknown);
   judge_trust(s, r, made, unknown);
   if (!unknown.empty()) made.rests_on += fmt::format("; not known: {}", fmt::join(unknown, " and "));

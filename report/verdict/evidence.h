@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/scenario/scenario.h"
-#include "report/analysis/gait_period.h"
+#include "report/analysis/gait.h"
 #include "report/analysis/summary.h"
 
 namespace gaitlab::report {
@@ -15,7 +15,7 @@ inline constexpr double kTrustedResidual = 0.05, kTrustedCoarse = 0.1;
 /// Least share of the weight that the ground must carry on average, for a robot with a floating base.
 inline constexpr double kBorne = 0.5;
 /// Largest error of a limit cycle for which one period is enough. With a larger error, kPeriodsNeeded periods of the set points
-/// are required (gait_period.h).
+/// are required after the start of the gait (cpg_alone.h); the judged window leaves out the first of them.
 inline constexpr double kSettled = 0.01;
 inline constexpr double kLeastTime = 2;  ///< s, least duration if the set points do not repeat
 
@@ -30,16 +30,18 @@ struct Lack {
 };
 
 struct Evidence {
-  Lack too_short;             ///< the run is shorter than a period of its limit cycle, three periods of its set points, or 2 s
+  /// The run does not show the gait: it has less than a period of its limit cycle, three periods of its set points after
+  /// the start of the gait, or 2 s; the set points grow, drift or do not change.
+  Lack not_shown;
   Lack not_borne;             ///< the ground carries less than half of the weight
-  Lack not_trusted;           ///< an error exceeds one of the constants above, a motor creates energy, or no set point changes
+  Lack not_trusted;           ///< an error exceeds one of the constants above, or a motor creates energy
   bool falls_freely = false;  ///< true if nothing can carry the robot: no ground, no gravity, or no contact elements
   bool repeats = false;       ///< true if the set points repeat
   std::string rests_on;       ///< extent of the run: `3 periods of 4 s`, or `these 18 s; the set points do not repeat`
-  [[nodiscard]] bool complete() const { return too_short.empty() && not_borne.empty() && not_trusted.empty(); }
+  [[nodiscard]] bool complete() const { return not_shown.empty() && not_borne.empty() && not_trusted.empty(); }
   /// The most important missing piece of evidence.
   [[nodiscard]] const Lack& first() const {
-    return falls_freely ? not_borne : !not_trusted.empty() ? not_trusted : !too_short.empty() ? too_short : not_borne;
+    return falls_freely ? not_borne : !not_trusted.empty() ? not_trusted : !not_shown.empty() ? not_shown : not_borne;
   }
 };
 

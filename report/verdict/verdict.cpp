@@ -71,7 +71,7 @@ void take_spread(const Trace& spread, Check& made) {
 std::string not_judged(const CheckedRun& run, const std::vector<Check>& checks) {
   const Evidence& found = run.evidence;
   if (!found.not_trusted.empty()) return found.first().sentence();
-  if (!found.too_short.empty()) {
+  if (!found.not_shown.empty()) {
     const Check* const failing = worst_of(checks, fails);
     return found.first().sentence() + (failing == nullptr ? "" : "; so far: " + failing->sentence());
   }
@@ -101,7 +101,7 @@ void decide(const CheckedRun& run, Verdict& made) {
     made.word = std::ranges::any_of(made.checks, fails) ? Word::infeasible : Word::feasible;
   }
   if (made.word != Word::failed && made.word != Word::infeasible) return;
-  const bool short_run = made.word == Word::infeasible && !run.evidence.too_short.empty();
+  const bool short_run = made.word == Word::infeasible && !run.evidence.not_shown.empty();
   made.decided_by = worst_of(made.checks, short_run ? undone_by_no_time : fails)->id;
 }
 

@@ -53,8 +53,9 @@ def run(program, *arguments):
 
 
 def known_to(window):
-    """Uncertainty of the start of the window, s. The window starts whole periods before the end, and each period is uncertain."""
-    return window.cycle.doubt() * window.periods * window.cycle.period + 1e-9
+    """Uncertainty of the start of the window, s. The window starts whole periods before the end, and each period is uncertain; that of
+    the set points, which are samples, by up to 1e-4."""
+    return (window.cycle.doubt() * window.periods * window.cycle.period if window.periods else 1e-4 * (window.end - window.start)) + 1e-9
 
 
 class Gate:

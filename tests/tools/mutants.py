@@ -24,7 +24,7 @@ from changes import generate  # noqa: E402
 ROOT = HERE.parents[1]
 OUT = ROOT / "build/mutants"
 # Sources that create scenarios or print their limits, and sources that use the constants of HEADERS.
-WITH_DEFAULTS = ["core/scenario/read_scenario.cpp", "report/analysis/gait_period.cpp"]
+WITH_DEFAULTS = ["core/scenario/read_scenario.cpp", "report/analysis/gait.cpp"]
 # Tests of tables and of changed recordings run first. Surviving mutants are then tested by tests that simulate.
 QUICK = ["report/verdict/check_table", "report/verdict/check_cases", "report/verdict/motion_cases", "report/verdict/check_evidence",
          "report/verdict/load_checks", "report/verdict/body_checks", "report/verdict/verdict_motor", "studies/study/guards",

@@ -7,7 +7,8 @@
 namespace gaitlab {
 namespace {
 
-constexpr double kTick = 0.1;  // time between rows of ticks, s
+constexpr double kTick = 0.1;         // time between rows of ticks, s
+constexpr double kLongPeriod = 1000;  // s, longer than any of the runs
 
 /// Recording of two joints with a row of ticks every 0.1 s for 10 s. Joint 0 has 1 N m and joint 1 has 2 N m; individual
 /// tests change other values.
@@ -40,7 +41,7 @@ TEST(Judged, KnowsWhatAMotorGaveAndTook) {
   cell(r, 30, 1, kEnvelopePeak) = 0.9;
   cell(r, 40, 1, kSpeedPeak) = 7;
   cell(r, 2, 1, kSpeedPeak) = 9;  // before the window
-  const JudgedJoint j = judge(r, cycle(1, 2.5), true).joints[1];
+  const JudgedJoint j = judge(r, cycle(1, 2.5), kLongPeriod).joints[1];
   EXPECT_EQ(j.envelope_peak, 0.9);
   EXPECT_DOUBLE_EQ(j.envelope_peak_time, 3);
   EXPECT_EQ(j.speed_peak, 7);
@@ -63,7 +64,7 @@ TEST(Judged, ReadsOlderTicks) {
   for (std::size_t i = 0; i < now.ticks.values.size(); ++i) {
     if (kept(i % now.ticks.columns.size())) old.ticks.values.push_back(now.ticks.values[i]);
   }
-  const JudgedJoint j = judge(old, cycle(1, 2.5), true).joints[1];
+  const JudgedJoint j = judge(old, cycle(1, 2.5), kLongPeriod).joints[1];
   EXPECT_EQ(j.torque_peak, 2);
   EXPECT_NEAR(j.torque_rms, 2, 1e-12);
   EXPECT_EQ(j.error_peak, 0.02);
@@ -71,29 +72,42 @@ TEST(Judged, ReadsOlderTicks) {
     EXPECT_TRUE(std::isnan(value));
 }
 
-TEST(Judged, ForgivesAtMostOnePeriodOfAStart) {
+TEST(Judged, LeavesOutTheFirstPeriod) {
   const Recording r = ticks_of_ten_seconds();
-  const Judged early = judge(r, cycle(1, 2.5), true);  // 9 s contain three whole periods
+  const Judged early = judge(r, cycle(1, 2.5), kLongPeriod);  // 9 s contain three whole periods
   EXPECT_DOUBLE_EQ(early.from, 2.5);
   EXPECT_DOUBLE_EQ(early.to, 10);
   EXPECT_EQ(early.periods, 3U);
-  const Judged late = judge(r, cycle(7, 2.5), true);  // a late start of the limit cycle does not delay the window
+  const Judged late = judge(r, cycle(7, 2.5), kLongPeriod);  // a late start of the limit cycle does not delay the window
   EXPECT_DOUBLE_EQ(late.from, 2.5);
   EXPECT_EQ(late.periods, 3U);
-  const Judged whole = judge(r, cycle(0, 2.5), true);
-  EXPECT_DOUBLE_EQ(whole.from, 0);
-  EXPECT_EQ(whole.periods, 4U);
+  const Judged whole = judge(r, cycle(0, 2.5), kLongPeriod);
+  EXPECT_DOUBLE_EQ(whole.from, 2.5);
+  EXPECT_EQ(whole.periods, 3U);
+  const Judged later = judge(r, cycle(0, 2.5), 0, 1.1);  // 8.9 s are three whole periods and a piece
+  EXPECT_DOUBLE_EQ(later.from, 5);
+  EXPECT_EQ(later.periods, 2U);
 }
 
-/// The window omits at most one period of the start.
-TEST(Judged, NeverLeavesOutMoreThanOnePeriod) {
+/// The set points' period has the place of that of a limit cycle, and a single period is not left out.
+TEST(Judged, HoldsWholePeriodsOfTheSetPoints) {
+  const Recording r = ticks_of_ten_seconds();
+  EXPECT_DOUBLE_EQ(judge(r, {}, 3).from, 4);
+  EXPECT_EQ(judge(r, {}, 3).periods, 0U);
+  EXPECT_DOUBLE_EQ(judge(r, {}, 6).from, 4);
+  EXPECT_DOUBLE_EQ(judge(r, {}, 10).from, 0);
+}
+
+/// The end of a run decides only how much more than one period is left out.
+TEST(Judged, LeavesOutOneToTwoPeriods) {
   Recording r = ticks_of_ten_seconds();
   for (int tenth = 50; tenth < 100; ++tenth) {
     const double end = 0.1 * tenth;
     for (const double from : {0.0, 0.3, 0.89, 1.9, 4.0}) {
       r.simulated = end;
-      const Judged j = judge(r, cycle(from, 2), true);
-      EXPECT_LE(j.from, 2 * 1.01) << end << " " << from;
+      const Judged j = judge(r, cycle(from, 2), kLongPeriod);
+      EXPECT_GE(j.from, 2 * 0.999) << end << " " << from;
+      EXPECT_LE(j.from, 4) << end << " " << from;
       EXPECT_NEAR(j.to - j.from, 2.0 * static_cast<double>(j.periods), 1e-9) << end << " " << from;
     }
   }
@@ -104,25 +118,25 @@ TEST(Judged, RoundingIsNoPeak) {
   Recording r = ticks_of_ten_seconds();
   for (int k = 0; k <= 100; ++k) cell(r, k, 0, kTorquePeak) = 3 * (1 + 1e-16 * k);
   for (int k = 0; k <= 100; ++k) cell(r, k, 1, kTorquePeak) = 3 * (1 + 4e-16);
-  const Judged j = judge(r, {}, true);
+  const Judged j = judge(r, {}, kLongPeriod);
   EXPECT_EQ(Judged::strongest(j.joints), 0U);
   EXPECT_NEAR(j.joints[0].torque_peak_time, 2.1, 1e-9);
 }
 
 TEST(Judged, WithoutALimitCycleTheStartIsAFifthOrTwoSeconds) {
   Recording r = ticks_of_ten_seconds();
-  EXPECT_DOUBLE_EQ(judge(r, {}, true).from, 2);
-  EXPECT_EQ(judge(r, {}, true).periods, 0U);
+  EXPECT_DOUBLE_EQ(judge(r, {}, kLongPeriod).from, 2);
+  EXPECT_EQ(judge(r, {}, kLongPeriod).periods, 0U);
   r.simulated = 5;
-  EXPECT_DOUBLE_EQ(judge(r, {}, true).from, 1);
+  EXPECT_DOUBLE_EQ(judge(r, {}, kLongPeriod).from, 1);
   r.simulated = 100;
-  EXPECT_DOUBLE_EQ(judge(r, {}, true).from, 2);
+  EXPECT_DOUBLE_EQ(judge(r, {}, kLongPeriod).from, 2);
 }
 
 /// If the set points do not repeat (keyframes that are played once), the whole run is judged.
 TEST(Judged, WithoutSetPointsThatRepeatTheWholeRunCounts) {
   const Recording r = ticks_of_ten_seconds();
-  const Judged whole = judge(r, {}, false);
+  const Judged whole = judge(r, {}, 0);
   EXPECT_DOUBLE_EQ(whole.from, 0);
   EXPECT_EQ(whole.first_row, 0U);
   EXPECT_EQ(whole.periods, 0U);
@@ -133,17 +147,17 @@ TEST(Judged, WithoutSetPointsThatRepeatTheWholeRunCounts) {
 TEST(Judged, TheJointThatIsLongestAtALimitComesFirst) {
   Recording r = ticks_of_ten_seconds();
   for (int k = 0; k <= 100; ++k) cell(r, k, 0, 0) = cell(r, k, 1, kTorquePeak) = 2;
-  EXPECT_EQ(judge(r, {}, true).order.front(), 1U) << "without limits: by RMS";
-  EXPECT_EQ(Judged::limited(judge(r, {}, true).joints), 0U);
+  EXPECT_EQ(judge(r, {}, kLongPeriod).order.front(), 1U) << "without limits: by RMS";
+  EXPECT_EQ(Judged::limited(judge(r, {}, kLongPeriod).joints), 0U);
   limit(r, 0, kCurrentLimited, 50, 60);  // current limit for 1 s of 8 s
-  const Judged j = judge(r, {}, true);
+  const Judged j = judge(r, {}, kLongPeriod);
   EXPECT_EQ(j.order.front(), 0U);
   EXPECT_EQ(Judged::limited(j.joints), 1U);
   EXPECT_NEAR(j.joints[0].current_limited, 1.0 / 8, 1e-12);
   EXPECT_EQ(j.joints[0].voltage_limited, 0);
   limit(r, 1, kVoltageLimited, 20, 100);  // voltage limit in the whole window
-  EXPECT_EQ(judge(r, {}, true).order.front(), 1U);
-  EXPECT_NEAR(judge(r, {}, true).joints[1].limited(), 1, 1e-12);
+  EXPECT_EQ(judge(r, {}, kLongPeriod).order.front(), 1U);
+  EXPECT_NEAR(judge(r, {}, kLongPeriod).joints[1].limited(), 1, 1e-12);
 }
 
 TEST(Judged, NothingOfTheStartCounts) {
@@ -151,7 +165,7 @@ TEST(Judged, NothingOfTheStartCounts) {
   cell(r, 3, 0, 0) = 50;
   cell(r, 3, 0, 1) = 5;
   limit(r, 0, kVoltageLimited, 1, 15);
-  const Judged j = judge(r, {}, true);
+  const Judged j = judge(r, {}, kLongPeriod);
   EXPECT_DOUBLE_EQ(j.joints[0].torque_peak, 1);
   EXPECT_DOUBLE_EQ(j.joints[0].error_peak, 0.01);
   EXPECT_EQ(Judged::limited(j.joints), 0U);
@@ -165,10 +179,10 @@ TEST(Judged, PeaksHaveTheirTimesAndSayWhetherTheyAreTheLimit) {
   Recording r = ticks_of_ten_seconds();
   cell(r, 40, 0, 0) = 3;
   cell(r, 70, 0, 1) = 0.5;
-  EXPECT_EQ(judge(r, {}, true).joints[0].peak_limit, MotorLimit::none);
+  EXPECT_EQ(judge(r, {}, kLongPeriod).joints[0].peak_limit, MotorLimit::none);
   cell(r, 40, 0, kPeakLimit) = 2;  // at the limit for an instant without a duration
-  EXPECT_EQ(Judged::limited(judge(r, {}, true).joints), 1U);
-  const Judged j = judge(r, {}, true);
+  EXPECT_EQ(Judged::limited(judge(r, {}, kLongPeriod).joints), 1U);
+  const Judged j = judge(r, {}, kLongPeriod);
   EXPECT_DOUBLE_EQ(j.joints[0].torque_peak, 3);
   EXPECT_NEAR(j.joints[0].torque_peak_time, 4, 1e-12);
   EXPECT_EQ(j.joints[0].peak_limit, MotorLimit::current);
@@ -184,10 +198,10 @@ TEST(Judged, PeaksHaveTheirTimesAndSayWhetherTheyAreTheLimit) {
 TEST(Judged, WithoutTicksThereAreJointsAllTheSame) {
   Recording r;
   r.joints.resize(3);
-  const Judged j = judge(r, {}, true);
+  const Judged j = judge(r, {}, kLongPeriod);
   EXPECT_EQ(j.joints.size(), 3U);
   EXPECT_EQ(j.order.size(), 3U);
-  EXPECT_EQ(judge({}, {}, true).order.size(), 0U);
+  EXPECT_EQ(judge({}, {}, kLongPeriod).order.size(), 0U);
 }
 
 }  // namespace

@@ -143,8 +143,8 @@ JUDGED = {
     "field": r"the robot stays on its heightfield|the robot leaves its heightfield at t = {t:.2f} s, x {x:.3g} m, y {y:.3g} m: "
              r"beyond it the heights of the border continue",
     "periodic": r"the motion repeats every {period:.4g} s|the set points repeat, and the motion does not settle to a period",
-    "evidence": r"judged over (?:{periods:d} periods? of {period:.4g} s|{held:.3g} periods of {period:.4g} s; the motion does not "
-                r"settle|these {simulated:.3g} s; the set points do not repeat)(?:; not known: {unknown:words})?",
+    "evidence": r"judged over (?:{periods:d} periods? of {period:.4g} s|{inside:.3g} periods of {period:.4g} s(?: after {start:.3g} s)?; the motion does "
+                r"not settle|these {simulated:.3g} s; the set points do not repeat)(?:; not known: {unknown:words})?",
     "torque_error": r"the torque of joint {worst} is off by about {value:rough} of its peak, estimated from other steps(?: in windows; "
                     r"`gaitlab converge` compares whole runs)?",
     "predictable": r"(?:from t = {from:.4g} s on \(joint {worst}\) the motion is (?:not predictable|ill-conditioned): )?gravity times "
@@ -164,14 +164,16 @@ JUDGED = {
            r"stop: the torques there are wrong",
 }
 # Sentences on missing evidence: of the check `evidence`, and of a verdict that is not judged.
-MISSING = (r"{simulated:.3g} s are {held:.2g} of a gait's 3 periods of {period:.4g} s; take duration: {take:.4g}"
+MISSING = (r"{left:.3g} s(?: after {start:.3g} s)? are {held:.2g} of a gait's 3 periods of {period:.4g} s; take duration: {take:.4g}"
+           r"|the set points still grow: .*|the set points (?:drift|grow|shrink): .*"
            r"|{simulated:.3g} s are less than {least:g} s; take a longer duration"
            r"|the ground carries {borne:pct} of the weight on average, less than {half:pct}: the robot is not on it"
            r"|there is no gravity, so that no ground bears the robot(?:; take physics\.gravity, or base: fixed)?"
            r"|the robot falls freely: (?:there is no ground(?:; take base: fixed, or a ground)?"
            r"|no part of it touches the ground(?:; take base: fixed, or contact\.on: all)?)"
            r"|the motor of joint {creator} makes energy: efficiency x Kt {x:.4g} N m/A exceeds Ks {y:.4g} V s/rad; take Kt = Ks"
-           r"|no set point changes: cpg {cpg} moves no joint(?:; check its amplitudes, frames or equations)?"
+           r"|no set point changes(?: after {start:.3g} s)?: (?:cpg {cpg} moves no joint|there is no cpg)"
+           r"(?:; check its frequency, amplitudes, frames or equations)?"
            r"|the torque of joint {inaccurate} is off by about {off:rough} of its peak, more than {most:pct}; take .*"
            r"|from t = {parted:.4g} s on \(joint {unpredictable}\) the motion is not predictable: gravity times {times:words} changes the "
            r"torques by {change:rough} of their peak; .*"
@@ -195,7 +197,7 @@ NOT_JUDGED = (
     r"|not available with contact\.law: bullet, which yields impulses that do not all act at contact elements"
     r"|the robot goes {way:length}: less than {least_way:length} is not walking"
     r"|the robot goes {value:.3g} m (?:per period|in the judged time), less than {limit:.3g} m"
-    r"|the set points do not repeat|the run is too short|the error of the torques was not estimated in this run"
+    r"|the set points do not repeat|the run does not show the gait|the error of the torques was not estimated in this run"
     r"|not tested: (?:no rollout under a disturbed gravity was made|a disturbed gravity changes no torque of this robot)"
     r"|the integrator does not choose its steps by an accuracy|no damping rate \(lambda\) was recorded"
     r"|loads were not recorded: .*|statistics of all steps were not recorded: .*|the robot has no size, or the run has no control "

@@ -56,8 +56,54 @@ def set_point_period(record):
     return common_period(f) if f else 0.0
 
 
+def full_size(record):
+    """Time from which on the set points have their full size, s: the end of a ramp, or 98 % of the amplitude."""
+    cpg = record.scenario.get("cpg") or {}
+    model, kind = cpg.get("model") or {}, cpg.get("type")
+    rate = model.get("amplitude_rate", 0)
+    if kind in ("phase_oscillator", "hopf", "van_der_pol", "matsuoka") and rate > 0:
+        return 3.912 / rate  # ln 50, to the digits of the program
+    if kind == "kuramoto_amplitude" and rate > 0:
+        return 11.6678 / rate  # (1 + z) exp(-z) = 0.02 at z = rate t / 2
+    return model.get("ramp", 0.0) if kind in ("sine", "tripod", "keyframes", "table") else 0.0
+
+
+def begin(record, period):
+    """Start of the gait, s: full size of the set points, and the ground has carried half of the weight in the mean of each period since."""
+    full = full_size(record)
+    full = full if full < record.end else 0.0
+    if not period > 0 or not record.floating or not record.weight > 0 or not elements(record) or record.ground == "none":
+        return full
+    t, load = record.poses["t"], record.poses["load"]
+    impulse = np.concatenate([[0.0], np.cumsum(load[1:] * np.diff(t))])
+    last = np.searchsorted(t, t + period * (1 + 1e-9), "right") - 1
+    rows = np.flatnonzero(t[-1] - t >= period)
+    light = rows[impulse[last[rows]] - impulse[rows] < BORNE * record.weight * (t[last[rows]] - t[rows])]
+    return max(full, t[light[-1] + 1]) if len(light) and light[-1] != rows[-1] else full  # never carried at the end: not at all
+
+
+def drift(record, window, period):
+    """Largest change of mean or RMS of a joint's set points between first and last period of the window, as a share of its range."""
+    if not period > 0 or not record.driven.any():
+        return 0.0
+    t, x = record.poses["t"], record.pose("setpoint")[:, record.driven]
+    unit = math.ceil(20 * (t[1] - t[0]) / period) * period
+    between = math.floor((window.end - window.start) / unit - 1 + 1e-3) * unit
+    if not between > 0:
+        return 0.0
+    def level(a, b):
+        grid_ = np.linspace(a, b, 20001)
+        y = np.stack([np.interp(grid_, t, one) for one in x.T])
+        return y.mean(axis=1), np.sqrt((y ** 2).mean(axis=1))
+    (m0, r0), (m1, r1) = level(window.end - unit - between, window.end - between), level(window.end - unit, window.end)
+    inside = x[t >= window.start]
+    jump = np.abs(np.diff(inside, axis=0)).max(axis=0) * (t[1] - t[0]) / unit
+    share = (np.maximum(np.abs(m1 - m0), np.abs(r1 - r0)) - jump) / np.maximum(np.ptp(inside, axis=0), 2e-3)
+    return float(share.max(initial=0))
+
+
 class Evidence:
-    def __init__(self, record, window, period):
+    def __init__(self, record, window, period, start):
         found = window.cycle
         self.period = period
         self.repeats, self.also = self.period > 0, {}
@@ -67,12 +113,25 @@ class Evidence:
             self.kind, self.long_enough = "cycle", True
             self.also |= {"periods": window.periods, "period": found.period}
         elif self.period:
-            self.kind, held = "set points", record.end / self.period
+            self.kind, held = "set points", (record.end - start) / self.period
             self.long_enough = held >= PERIODS * (1 - ESTIMATE)
-            self.also |= {"held": held, "period": self.period, "take": PERIODS * self.period}
+            self.also |= {"left": record.end - start, "held": held, "period": self.period, "take": start + PERIODS * self.period,
+                          "inside": (window.end - window.start) / self.period, "start": start}
+        self.also["start"] = start
+        self.short = not self.long_enough
+        self.grows = full_size(record) > record.end or drift(record, window, period) > 0.01
+        self.still = not self.moves(record, start)
+        self.long_enough = self.long_enough and not self.grows and not self.still
         self.untrusted, self.unborne = self.distrust(record), self.support(record, window)
         self.borne = not self.unborne
         self.unknown = self.nobody_knows(record)
+
+    def moves(self, record, start):
+        """True if a set point changes after the start by more than a ramp leaves to do."""
+        if not record.driven.any():
+            return True
+        x = record.pose("setpoint")[:, record.driven]
+        return bool((np.ptp(x[record.poses["t"] >= start], axis=0) > 0.025 * np.ptp(x, axis=0)).any())
 
     def support(self, record, window):
         """Reason for which no ground carries a robot with a floating base; empty if a ground does, or if this is unknown."""
@@ -97,10 +156,6 @@ class Evidence:
         """Name of the missing accuracy; empty if the run is accurate."""
         if record.driven.any() and record.makes_energy.any():
             return "makes energy"
-        asked = record.pose("setpoint")[:, record.driven] if record.driven.any() else np.zeros((1, 0))
-        cpg = record.scenario.get("cpg")
-        if record.driven.any() and self.long_enough and cpg and not (asked != asked[0]).any():
-            return "moves nothing"
         error = record.torque_errors()
         if record.chaotic():
             if record.spread is None:

@@ -17,7 +17,7 @@ CAN_FAIL = {"outcome", "fall", "progress", "upright", "voltage", "current", "spe
             "tracking", "stops", "collision", "dock_tension", "dock_shear", "dock_bending", "dock_torsion", "in_ground"}
 
 # Kinds of missing evidence, and words of their sentences.
-LACK = {"makes energy": ["makes energy"], "moves nothing": ["moves no joint"], "torque error": ["the torque of joint"],
+LACK = {"makes energy": ["makes energy"], "moves nothing": ["moves no joint", "there is no cpg"], "grows": ["the set points "], "torque error": ["the torque of joint"],
         "energy": ["the energy is unaccounted"], "coarse": ["the shortest steps"], "short": ["a gait's", "are less than"],
         "not on it": ["the robot is not on it"], "no gravity": ["there is no gravity"], "falls freely": ["falls freely"]}
 INSTANT = 0.1  # an interval shorter than this is reported by its start, s
@@ -87,11 +87,12 @@ class Judged:
     def __init__(self, record, start=None, whole=True):
         self.record = r = record
         period = trust.set_point_period(r)
-        self.window = w = Window(record, limit_cycle(record), period > 0)
+        begin = trust.begin(r, period)
+        self.window = w = Window(record, limit_cycle(record), period, begin)
         self.own_start = w.start
         if start is not None:
             w.set(record, start)
-        self.evidence = e = trust.Evidence(record, w, period)
+        self.evidence = e = trust.Evidence(record, w, period, begin)
         self.checks = {
             "outcome": outcome(r), "fall": bodies.fall(r, w), "progress": bodies.progress(r, w, e.borne, e.long_enough, period),
             "upright": bodies.upright(r, w, e.period), "voltage": motors.at_limit(r, w, "voltage"),
@@ -271,7 +272,7 @@ def hear_evidence(judged, verdict):
 
     def numbers(found, text):
         for name, kind, said in found:
-            loose = judged.window.cycle.doubt() * lacks[name] if name in ("period", "held", "take") and name in lacks else 0
+            loose = judged.window.cycle.doubt() * lacks[name] if name in ("period", "held", "take", "inside", "left", "start") and name in lacks else 0
             if name not in lacks or not (same(kind, said, lacks[name], loose) if kind else said == lacks[name]):
                 wrong.append(f"evidence: {name} is {said} in {text!r}, recomputed {lacks.get(name)}")
 
@@ -293,7 +294,7 @@ def hear_evidence(judged, verdict):
     if so_far != first:
         wrong.append(f"reason: so far {so_far!r}, recomputed {first!r}")
     e = judged.evidence
-    lack = e.untrusted or "" if e.long_enough else e.untrusted or "short"
+    lack = e.untrusted or ("short" if e.short else "grows" if e.grows else "moves nothing" if e.still else "")
     lack = lack or e.unborne if not fails else lack
     lack = e.unborne if lack and e.unborne in ("no gravity", "falls freely") else lack  # what no accuracy and no time mends
     if lack and not any(words in reason for words in LACK[lack]):

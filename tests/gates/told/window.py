@@ -102,16 +102,14 @@ def set_point_cycle(record):
 class Window:
     """Judged window: start and end, s; number of periods; `first` is the last row of ticks before the window."""
 
-    def __init__(self, record, found, repeats):
-        self.cycle, self.end, self.periods = found, record.end, 0
-        if found.found:
-            eps = 1e-3  # share of a period that may be missing from a whole period
-            held = self.end / found.period
-            least = int(np.ceil(held - 1 - eps))  # at most one period is omitted
-            self.periods = max(int(np.floor((self.end - found.start) / found.period + eps)), least)
-            self.periods = min(self.periods, int(np.floor(held + eps)))
-        left_out = START if repeats else 0.0  # set points that do not repeat count from the start
-        self.start = max(0.0, self.end - self.periods * found.period) if self.periods else min(left_out, 0.2 * self.end)
+    def __init__(self, record, found, period, begin):
+        self.cycle, self.end, self.periods, self.start = found, record.end, 0, 0.0
+        left, length = max(0.0, self.end - begin), found.period if found.found else period
+        if length > 0:  # set points that do not repeat count from the start
+            whole = int(np.floor(left / length + 1e-3))  # a thousandth of a period may be missing from a whole period
+            held = max(whole - 1, min(whole, 1))  # all whole periods but the first
+            self.periods = held if found.found else 0
+            self.start = max(0.0, self.end - held * length) if held else self.end - left + min(START, 0.2 * left)
         self.set(record, self.start)
 
     def set(self, record, start):

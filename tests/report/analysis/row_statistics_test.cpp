@@ -75,8 +75,8 @@ TEST(RowStatistics, SeeThePeakWhereACommandBegins) {
   const Scenario s = shipped("caterpillar.yaml", {"duration=4", "physics.engine=articulated", "trace.period=0.015"});
   const Recording whole = run(s);
   const Recording bare = rows_only(s, whole);
-  const Judged steps = judge(whole, {}, true);
-  const Judged rows = judge(bare, {}, true);
+  const Judged steps = judge(whole, {}, 1000);
+  const Judged rows = judge(bare, {}, 1000);
   double least = 1;
   for (std::size_t j = 0; j < steps.whole.size(); ++j) {
     const double peak = steps.whole[j].torque_peak;

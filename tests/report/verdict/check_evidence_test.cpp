@@ -29,7 +29,8 @@ TEST(CheckEvidence, PeriodicIsWhatRepeats) {
     return changed("periodic", with_summary([=](Summary& summary) {
                      summary.limit_cycle.found = found;
                      summary.limit_cycle.error = error;
-                     summary.set_point_period = set_points;
+                     summary.gait.period = set_points;
+                     summary.gait.start = 0;
                    }));
   };
   EXPECT_EQ(with(true, 4, 0.019).status, CheckStatus::pass);
@@ -40,13 +41,14 @@ TEST(CheckEvidence, PeriodicIsWhatRepeats) {
   EXPECT_EQ(with(false, 5).status, CheckStatus::not_judged) << "too short";
 }
 
-/// Sufficient evidence is three periods, of which a thousandth may be missing, or one settled period, or 2 s without a period.
-/// The ground must carry half of the weight.
+/// Sufficient evidence is three periods, of which a thousandth may be missing, or one settled period, or 2 s
+/// without a period. The ground must carry half of the weight.
 TEST(CheckEvidence, EvidenceIsComplete) {
   const auto periods = [](double held) {
     return after("evidence", with_summary([=](Summary& summary) {
                    summary.limit_cycle.found = false;
-                   summary.set_point_period = 12 / held;
+                   summary.gait.period = 12 / held;
+                   summary.gait.start = 0;
                  }));
   };
   EXPECT_EQ(periods(3), CheckStatus::pass);
@@ -57,7 +59,7 @@ TEST(CheckEvidence, EvidenceIsComplete) {
                    summary.limit_cycle.found = true;
                    summary.limit_cycle.error = error;
                    summary.judged.periods = whole;
-                   summary.set_point_period = 8;
+                   summary.gait.period = 8;
                  }));
   };
   EXPECT_EQ(settled(0.0099, 1), CheckStatus::pass);
@@ -68,7 +70,8 @@ TEST(CheckEvidence, EvidenceIsComplete) {
       made.record.simulated = seconds;
       made.also = [](Summary& summary, Overlaps&) {
         summary.limit_cycle.found = false;
-        summary.set_point_period = 0;
+        summary.gait.period = 0;
+        summary.gait.ahead = nullptr;
       };
     });
   };
@@ -171,7 +174,7 @@ TEST(CheckEvidence, TheBarOfAStretch) {
     off(0.03)(made);
     made.scenario.limits.saturated_share = 1;
     for (std::size_t k = made.last_tick() + 1 - near; k <= made.last_tick(); ++k) made.tick(k, kJoint, kEnvelopePeak) = 0.98;
-    grow(made, kVoltageLimited, 1, 6, 6 + periods * 0.015);
+    grow(made, kVoltageLimited, 1, 9, 9 + periods * 0.015);
     return made.status("voltage");
   };
   EXPECT_EQ(with(3, 0), CheckStatus::pass);
@@ -252,7 +255,7 @@ TEST(CheckEvidence, WhatNothingBears) {
     }
   }
   EXPECT_EQ(walk().check("evidence").place.line, walk().scenario.nearest_place("duration").line);
-  EXPECT_TRUE(contains(walk().judged().why(), "take duration: 12")) << walk().judged().why();
+  EXPECT_TRUE(contains(walk().judged().why(), "take duration: 13.96")) << walk().judged().why();
   Case wrong = rated_gait();
   off(0.051)(wrong);
   wrong.scenario.own_places["physics.accuracy"] = SourceLocation{"accuracy"};

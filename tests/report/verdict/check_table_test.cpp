@@ -192,7 +192,7 @@ TEST(CheckTable, SpansDecideOfARunThatIsTooShort) {
     made.also = [before](Summary& summary, Overlaps& there) {
       if (before) before(summary, there);
       summary.limit_cycle.found = false;
-      summary.set_point_period = 5;
+      summary.gait.period = 5;
     };
     const Check check = made.check(row.id);
     if (check.status != CheckStatus::fail) continue;

@@ -65,8 +65,7 @@ TEST(FaultVerdict, TheOtherJointsDecide) {
 TEST(FaultVerdict, NeedsThreePeriodsAfterTheLastChange) {
   const JudgedRun short_run({"duration=18", "at=[{t: 10, fault: {joint: m3/active, kind: dead}}]"});
   EXPECT_EQ(short_run.judged.word, Word::not_judged);
-  EXPECT_EQ(short_run.judged.reason,
-            "8 s after the last change (t = 10 s), needs 12: a gait's 3 periods of 4 s; take duration: 22");
+  EXPECT_EQ(short_run.judged.reason, "8 s after 10 s are 2 of a gait's 3 periods of 4 s; take duration: 22");
   const JudgedRun changed({"duration=18", "at=[{t: 10, set: {cpg.frequency: 0.5}}]"});
   EXPECT_EQ(changed.judged.word, Word::feasible) << changed.judged.why();
   EXPECT_NEAR(changed.summary.limit_cycle.period, 2, 0.01);
@@ -131,7 +130,8 @@ TEST(FaultVerdict, TheRunWithoutMotorLimitsHasTheFaults) {
   free[1] = "actuator.i_max=7";
   free.emplace_back("actuator.u_max=148");
   const JudgedRun by_hand(free);
-  const std::vector<JudgedJoint> joints = judge(by_hand.record, weak.summary.limit_cycle, true, 1).joints;
+  const std::vector<JudgedJoint> joints =
+      judge(by_hand.record, weak.summary.limit_cycle, weak.summary.gait.period, weak.summary.gait.start).joints;
   ASSERT_EQ(made.joints.size(), joints.size());
   for (std::size_t j = 0; j < joints.size(); ++j) EXPECT_EQ(made.joints[j].torque_peak, joints[j].torque_peak) << j;
   EXPECT_EQ(made.joints[6].torque_peak, 0);

@@ -89,7 +89,7 @@ TEST(Verdict, EnvelopeIsTheLawsAtEveryStep) {
   const Scenario scenario =
       shipped("caterpillar.yaml", {"duration=2", "physics.engine=articulated", "physics.step=0.0005", "trace.period=0.0005"});
   const Recording record = run(scenario);
-  const Judged judged = judge(record, {}, true);
+  const Judged judged = judge(record, {}, 1000);
   for (std::size_t j = 0; j < judged.whole.size(); ++j) {
     const Series command = record.joint(j, "voltage_command");
     const Series speed = record.joint(j, "speed");

@@ -8,7 +8,7 @@ VERDICT = [f"report/verdict/{name}.cpp" for name in (
     "check_kinds", "checks_body", "checks_gait", "checks_motor", "checks_trust", "error_bar", "evidence", "load_checks", "trust",
     "verdict", "warnings")]
 ANALYSIS = [f"report/analysis/{name}.cpp" for name in ("collisions", "fall", "motion", "posture", "upright")]
-HEADERS = ["report/verdict/error_bar.h", "report/verdict/evidence.h", "report/analysis/posture.h", "report/analysis/gait_period.h"]
+HEADERS = ["report/verdict/error_bar.h", "report/verdict/evidence.h", "report/analysis/posture.h", "report/analysis/gait.h"]
 GUARDS = "studies/study/guards.cpp"
 DEFAULTS = "core/scenario/scenario.h"
 

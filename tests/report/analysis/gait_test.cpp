@@ -1,6 +1,6 @@
 // Tests of the look-ahead for the period of the set points: once per CPG, stopped by a flag, never with another language's
 // code.
-#include "report/analysis/gait_period.h"
+#include "report/analysis/gait.h"
 
 #include <cmath>
 
@@ -42,7 +42,7 @@ class LookAhead : public ::testing::Test {
   /// Outputs of the CPG alone, beside the period.
   static int calls(const Scenario& s, const Recording& r, double period) {
     Counted::calls = 0;
-    EXPECT_NEAR(set_point_period(s, r), period, 1e-3);  // the tick is 15 ms; the vertex of a parabola is far nearer
+    EXPECT_NEAR(gait(s, r).period, period, 1e-3);  // the tick is 15 ms; the vertex of a parabola is far nearer
     return Counted::calls;
   }
 

@@ -1,0 +1,244 @@
+#include "report/analysis/gait.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "core/scenario/change_section.h"
+#include "report/analysis/cpg_alone.h"
+#include "report/analysis/motion.h"
+
+namespace gaitlab::report {
+
+namespace {
+
+constexpr double kMostGrowth = 0.02;  // of a range after the run
+constexpr double kMostDrift = 0.01;   // of mean and RMS within the window, as a share of the range
+constexpr double kStill = 2e-3;       // rad or rad/s: a smaller range is none (core/recording/limit_cycle.h)
+constexpr double kRepeats = 0.02;     // RMS difference after a period / half a range (core/recording/limit_cycle.h)
+constexpr double kCarried = 0.5;      // share of the weight
+constexpr double kTwoPeriods = 2.25;  // length in which a period is found
+constexpr double kLeastSamples = 20;  // in the stretches whose means are compared
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+/// True if the set points of the run's last period are those of the period before it, or if less than two periods follow
+/// `full_size`, s. A chirp may seem to repeat after the run.
+bool repeats_in_run(const LookAhead& ahead, double period, double full_size, double spacing) {
+  const std::size_t columns = ahead.after_run.size();
+  const std::size_t rows = ahead.in_run.size() / columns;
+  const auto lag = static_cast<std::size_t>(std::lround(period / spacing));
+  if (static_cast<double>(rows) < full_size / spacing + 2 * static_cast<double>(lag)) return true;
+  double largest = 0;
+  std::vector<double> misfit;
+  for (std::size_t c = 0; c < columns; ++c) {
+    double squares = 0;
+    double low = kFar;
+    double high = -kFar;
+    for (std::size_t k = rows - lag; k < rows; ++k) {
+      const double now = ahead.in_run[k * columns + c];
+      const double before = ahead.in_run[(k - lag) * columns + c];
+      squares += (now - before) * (now - before);
+      low = std::min({low, now, before});
+      high = std::max({high, now, before});
+    }
+    largest = std::max(largest, (high - low) / 2);
+    misfit.push_back(std::sqrt(squares / static_cast<double>(lag)));
+  }
+  // A period of a fraction of a tick more shifts the samples.
+  const double shift = std::numbers::pi * spacing / period;
+  return *std::ranges::max_element(misfit) <= (kRepeats + shift) * std::max(largest, kStill);
+}
+
+/// Time from which on the mean of the ground's normal force over `span` s is at least half of the weight, s; 0 if the forces
+/// are not known, or if they never are.
+double carried_from(const Scenario& s, const Recording& r, double span) {
+  const std::vector<Series> loads = ground_loads(s, r);
+  const Series t = motion(r).t;
+  const double least = kCarried * s.robot->mass * s.physics.gravity.norm();
+  if (loads.empty() || t.size() < 2 || !(least > 0)) return 0;
+  std::vector<double> impulse{0};  // N s, from the start on
+  for (std::size_t k = 1; k < t.size(); ++k) {
+    double load = 0;
+    for (const Series& one : loads) load += one[k];
+    impulse.push_back(impulse.back() + load * (t[k] - t[k - 1]));
+  }
+  std::size_t last = t.size() - 1;
+  bool ever = false;
+  for (std::size_t k = last; k-- > 0;) {
+    while (last > k && t[last] - t[k] > span * (1 + 1e-9)) --last;
+    if (t.back() - t[k] < span) continue;
+    const bool carried = impulse[last] - impulse[k] >= least * (t[last] - t[k]);
+    if (!carried) return ever ? t[k + 1] : 0;
+    ever = true;
+  }
+  return 0;
+}
+
+double period_of(const Scenario& s, const Recording& r, Gait& made) {
+  const MotionCycle seen = set_point_cycle(s, r);
+  made.ahead = look_ahead(s, r, seen.found ? seen.period : 0);
+  if (seen.found) return seen.period;
+  const double stated = stated_period(s);
+  if (const LookAhead* const ahead = made.ahead.get(); ahead != nullptr && ahead->cycle.found) {
+    const double found = ahead->cycle.period;
+    return repeats_in_run(*ahead, found, made.full_size, s.control_period) ? found : 0;
+  }
+  if (made.ahead != nullptr) return made.ahead->until < kTwoPeriods * stated ? stated : 0;
+  // In a run of several periods the recorded set points would have shown a period that is only stated.
+  return r.simulated - last_change(s, r.simulated) < kPeriodsNeeded * stated ? stated : 0;
+}
+
+/// Mean and RMS of a joint from one time to another.
+struct Level {
+  double mean = 0, rms = 0;
+};
+
+/// Values of the recorded set points, or of their speeds, joined by straight lines.
+class Values {
+ public:
+  Values(const Series& time, const Series& points, bool rates) : t_(time) {
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const std::size_t before = k == 0 ? 0 : k - 1;
+      const double span = std::max(time[k] - time[before], kShortest);
+      values_.push_back(rates ? (points[k] - points[before]) / span : points[k]);
+    }
+  }
+  /// Range in the rows from `from` on, and the largest difference of two rows.
+  [[nodiscard]] std::pair<double, double> range(double from) const {
+    double low = kFar;
+    double high = -kFar;
+    double jump = 0;
+    for (std::size_t k = 0; k < values_.size(); ++k) {
+      if (t_[k] < from) continue;
+      low = std::min(low, values_[k]);
+      high = std::max(high, values_[k]);
+      if (k > 0) jump = std::max(jump, std::abs(values_[k] - values_[k - 1]));
+    }
+    return {std::max(0.0, high - low), jump};
+  }
+  [[nodiscard]] Level level(double from, double to) const {
+    Level sum;
+    for (std::size_t k = 1; k < values_.size(); ++k) {
+      const double a = std::max(from, t_[k - 1]);
+      const double b = std::min(to, t_[k]);
+      if (!(b > a)) continue;
+      const double x = at(k, a);
+      const double y = at(k, b);
+      sum.mean += (b - a) * (x + y) / 2;
+      sum.rms += (b - a) * (x * x + x * y + y * y) / 3;
+    }
+    return {sum.mean / (to - from), std::sqrt(sum.rms / (to - from))};
+  }
+
+ private:
+  static constexpr double kShortest = 1e-12;  // s
+  [[nodiscard]] double at(std::size_t k, double t) const {
+    const double share = (t - t_[k - 1]) / (t_[k] - t_[k - 1]);
+    return values_[k - 1] + share * (values_[k] - values_[k - 1]);
+  }
+
+  const Series& t_;
+  std::vector<double> values_ = {};
+};
+
+std::vector<std::string> driven_names(const Robot& robot) {
+  std::vector<std::string> all;
+  for (const Joint& joint : robot.joints) {
+    if (joint.driven()) all.push_back(joint.name);
+  }
+  return all;
+}
+
+/// Growth after the run of the joint whose range grows most.
+std::string grows(const Scenario& s, const Judged& judged, const Gait& gait) {
+  const LookAhead& ahead = *gait.ahead;
+  const std::size_t columns = ahead.after_run.size();
+  const std::vector<bool> free = turning_freely(*s.robot);
+  // The samples of three periods come nearer to a peak than those of one.
+  const double sampled =
+      gait.period > 0 ? (1 - std::cos(std::min(std::numbers::pi, std::numbers::pi * s.control_period / gait.period))) / 2 : 0;
+  const auto first = static_cast<std::size_t>(std::ceil(judged.from / s.control_period - 1e-6));
+  double most = 0;
+  std::string text;
+  for (std::size_t c = 0; c < columns; ++c) {
+    const auto [low, high] =
+        extremes(ahead.in_run, columns, c, first, ahead.in_run.size() / columns, free[c], s.control_period);
+    const double range = high - low;
+    const double more = std::max(ahead.after_run[c].second, high) - std::min(ahead.after_run[c].first, low) - range;
+    const double share = more / std::max(range, kStill);
+    if (!(more > kStill / 2) || !(share > kMostGrowth + sampled) || !(share > most)) continue;
+    most = share;
+    text = fmt::format(
+        "the set points still grow: those of joint {} range over {:.3g} {} in the judged time and over {:.3g} later; "
+        "take a longer duration",
+        driven_names(*s.robot)[c], range, free[c] ? "rad/s" : "rad", range + more);
+  }
+  return text;
+}
+
+/// Difference between the first and the last period of the window, of the joint that changes most.
+std::string drifts(const Scenario& s, const Recording& r, const Judged& judged, double period) {
+  const std::vector<Series> recorded = set_points(s, r);
+  const std::vector<bool> free = turning_freely(*s.robot);
+  const Series t = motion(r).t;
+  if (!(period > 0) || t.size() < 2) return "";
+  const double spacing = t[1] - t[0];
+  const double unit = std::ceil(kLeastSamples * spacing / period) * period;
+  const double between = std::floor((judged.to - judged.from) / unit - 1 + 1e-3) * unit;
+  if (!(between > 0)) return "";
+  double most = 1;
+  std::string text;
+  for (std::size_t c = 0; c < recorded.size(); ++c) {
+    const Values values(t, recorded[c], free[c]);
+    const auto [range, jump] = values.range(judged.from);
+    const Level last = values.level(judged.to - unit, judged.to);
+    const Level early = values.level(judged.to - unit - between, judged.to - between);
+    // A jump counts in one period for a row more than in another.
+    const double allowed = kMostDrift * std::max(range, kStill) + jump * spacing / unit;
+    const double mean = last.mean - early.mean;
+    const double rms = last.rms - early.rms;
+    const double change = std::max(std::abs(mean), std::abs(rms)) / allowed;
+    if (!(change > most)) continue;
+    most = change;
+    const bool moves = std::abs(mean) >= std::abs(rms);
+    text = fmt::format("the set points {}: {} of joint {} changes by {:.2g} {} per period of {:.3g} s, of a range of {:.3g}",
+                       moves     ? "drift"
+                       : rms > 0 ? "grow"
+                                 : "shrink",
+                       moves ? "the mean" : "the RMS", driven_names(*s.robot)[c], (moves ? mean : rms) * period / between,
+                       free[c] ? "rad/s" : "rad", period, range);
+  }
+  return text;
+}
+
+}  // namespace
+
+Gait gait(const Scenario& s, const Recording& r) {
+  Gait made;
+  if (s.cpg.entry != nullptr) {
+    made.full_size = stated_full_size(s);
+    made.period = period_of(s, r, made);
+  }
+  const double full = made.full_size < r.simulated ? made.full_size : 0;
+  const double carried = made.period > 0 ? carried_from(s, r, made.period) : 0;
+  made.start = std::max({last_change(s, r.simulated), full, carried});
+  return made;
+}
+
+std::string growth(const Scenario& s, const Recording& r, const Judged& judged, const Gait& gait) {
+  if (gait.full_size > r.simulated) {
+    const double needed = gait.full_size + kPeriodsNeeded * gait.period;
+    return fmt::format("the set points still grow: they have their full size at {:.4g} s of {:.4g}; take {}", gait.full_size,
+                       r.simulated, std::isfinite(needed) ? fmt::format("duration: {:.4g}", needed) : "another rate");
+  }
+  if (gait.ahead != nullptr) {
+    if (std::string text = grows(s, judged, gait); !text.empty()) return text;
+  }
+  return drifts(s, r, judged, gait.period);
+}
+
+}  // namespace gaitlab::report

@@ -1,0 +1,32 @@
+// Set points of a gait: their period, the time from which on they have their full size, and their growth.
+#pragma once
+#include <memory>
+#include <string>
+
+#include "core/recording/judged.h"
+#include "core/recording/recording.h"
+#include "core/scenario/scenario.h"
+#include "report/analysis/look_ahead.h"
+
+namespace gaitlab::report {
+
+struct Gait {
+  /// s; 0 if the set points do not repeat, or by no known period. That of the recorded set points; of the CPG alone, if the run
+  /// is too short for it; or the stated one.
+  double period = 0;
+  /// s, time from which on the set points keep their full size by the statement of the CPG (SetPointTimes::full_size).
+  double full_size = 0;
+  /// s, start of the gait: the latest of `full_size`, the last change of the run (section `at`), and the time from which on the
+  /// ground carries half of the robot's weight in the mean of a period.
+  double start = 0;
+  std::shared_ptr<const LookAhead> ahead = {};  ///< null if it is not known (look_ahead.h)
+};
+
+Gait gait(const Scenario& scenario, const Recording& record);
+
+/// Sentence on set points that do not yet have, or do not keep, the size that they have in the judged window; empty if they do.
+/// A range after the run (LookAhead) is at most 2 % larger than in the window, and mean and RMS of the window's first and last
+/// period differ by at most 1 % of the range. The speed of the set point takes its place for a hinge without range.
+std::string growth(const Scenario& scenario, const Recording& record, const Judged& judged, const Gait& gait);
+
+}  // namespace gaitlab::report
