@@ -178,6 +178,8 @@ for (const name of ["feasible", "infeasible"]) {
     const open = meta.verdict.checks.filter((c) => c.status === "not judged"), line = page.locator("#checks .fold button");
     assert.ok(open.length > 1);
     assert.equal(await line.textContent(), `${open.length} checks not judged`);
+    const told = /(\d+) checks were not judged/.exec(await page.innerText("body"));
+    if (told) assert.equal(Number(told[1]), open.length, "the banner counts as the list does");
     for (const { id } of open) assert.ok(await page.isHidden(`[data-check="${id}"]`), id);
     await line.click();
     assert.equal(await line.getAttribute("aria-expanded"), "true");

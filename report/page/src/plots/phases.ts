@@ -7,6 +7,15 @@ import type { Desk, Panel } from "../panel";
 const low = -Math.PI / 2 - 0.25; // lower end of the axis of the lag, rad; the frequent lag pi is far from the ends
 const wrap = (a: number): number => a - 2 * Math.PI * Math.floor((a - low) / (2 * Math.PI));
 
+/** A lag moved by whole turns to the side of another, so that two that differ little never lie at opposite borders. */
+const beside = (lag: number, other: number): number => lag - 2 * Math.PI * Math.round((lag - other) / (2 * Math.PI));
+
+/** Lags of set point and angle beside each other, with the middle of both within the axis. */
+function pair(setpoint: number, angle: number): [number, number] {
+  const middle = (setpoint + beside(angle, setpoint)) / 2;
+  return [beside(setpoint, wrap(middle)), beside(angle, wrap(middle))];
+}
+
 /** Horizontal position of a joint, vertical position of a lag, and radius of the largest disc, px. */
 interface Place extends Scale {
   most: number;
@@ -94,7 +103,7 @@ export class Phases implements Panel {
     const zero = phases[this.reference].setpoint[1];
     const disc = (j: number, lag: number, amplitude: number) => {
       pen.beginPath();
-      pen.arc(X(j), Y(wrap(lag)), Math.max(2.2, most * Math.sqrt(amplitude / this.widest)), 0, 2 * Math.PI);
+      pen.arc(X(j), Y(lag), Math.max(2.2, most * Math.sqrt(amplitude / this.widest)), 0, 2 * Math.PI);
     };
     phases.forEach(({ setpoint: [A, a], angle: [B, b] }, j) => {
       const chosen = j === state.joint;
@@ -105,12 +114,13 @@ export class Phases implements Panel {
       }
       pen.fillStyle = chosen ? ink.blue : ink.sky;
       pen.globalAlpha = chosen ? 1 : 0.75;
-      disc(j, zero - a, A);
+      const [commanded, reached] = pair(zero - a, zero - b);
+      disc(j, commanded, A);
       pen.fill();
       pen.globalAlpha = 1;
       pen.strokeStyle = ink.vermillion;
       pen.lineWidth = 1.5;
-      disc(j, zero - b, Math.min(B, 1.5 * this.widest));
+      disc(j, reached, Math.min(B, 1.5 * this.widest));
       pen.stroke();
     });
   }
