@@ -1,4 +1,5 @@
 // `gaitlab demo`, a first run without a file: the shipped hexapod on the fast engine.
+#include <errno.h>  // program_invocation_name of glibc
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -13,7 +14,7 @@ namespace gaitlab::app {
 
 namespace {
 
-constexpr const char* kScenario = "hexapod.yaml";
+constexpr const char* kName = "hexapod";
 constexpr const char* kEngine = "physics.engine=articulated";
 
 struct DemoArguments {
@@ -22,10 +23,11 @@ struct DemoArguments {
 
 int demo(const DemoArguments& demo) {
   RunArguments arguments;
-  arguments.file = (std::filesystem::path(data_folder()) / kScenario).string();
+  arguments.file = (std::filesystem::path(data_folder()) / kName).string() + ".yaml";
   arguments.sets = {kEngine};
   arguments.out = demo.out;
-  const std::string again = fmt::format("gaitlab run {} --set {}", shell_word(arguments.file), kEngine);
+  // The name by which this program was called works again, also where PATH does not have it (./lab demo).
+  const std::string again = fmt::format("{} run {} --set {}", shell_word(program_invocation_name), kName, kEngine);
   fmt::print("{}\n", again);
   const int code = run(arguments);
   if (code == 0) {
