@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <optional>
 
 #include "app/commands.h"
@@ -11,6 +12,7 @@
 #include "core/recording/csv.h"
 #include "core/recording/recording_file.h"
 #include "core/recording/run_files.h"
+#include "core/settings/shipped_files.h"
 #include "core/settings/text_file.h"
 #include "core/settings/wording.h"
 #include "kit/stored_scenario.h"
@@ -159,8 +161,25 @@ fs::path numbers_target(const FigureArguments& arguments, const fs::path& figure
   return file;
 }
 
+/// File of a recipe: the one of that path, or else the shipped one of that name. Throws InputError if there is neither.
+std::string recipe_file(const std::string& named) {
+  const fs::file_type kind = kind_of(named);
+  if (kind == fs::file_type::directory && kind_of(trace_file(named)) == fs::file_type::regular) {
+    throw InputError(SourceLocation{named},
+                     fmt::format("this is a run folder, not a recipe for figures; its own figure is {}, and a "
+                                 "recipe draws it with --run NAME={}",
+                                 (fs::path(named) / "figure.svg").string(), named));
+  }
+  if (kind != fs::file_type::not_found) return named;
+  const std::map<std::string, std::string> shipped = shipped_files("recipe");
+  if (const auto found = shipped.find(named); found != shipped.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [name, file] : shipped) names.push_back(name);
+  throw InputError(SourceLocation{named}, "does not exist" + offer(named, names, "recipes"));
+}
+
 int figure(const FigureArguments& arguments) {
-  const report::Recipe recipe = report::read_recipe(arguments.recipe);
+  const report::Recipe recipe = report::read_recipe(recipe_file(arguments.recipe));
   const fs::path file = target(arguments);
   const fs::path numbers = numbers_target(arguments, file);
   Catalog catalog = careful_catalog(arguments.plugins);

@@ -21,7 +21,8 @@ struct ShippedKind {
 constexpr ShippedKind kShipped[] = {{"module", {"modules", nullptr}, ".yaml"},
                                     {"robot", {"robots", nullptr}, ".dat"},
                                     {"scenario", {".", "library"}, ".yaml"},
-                                    {"study", {"studies", nullptr}, ".yaml"}};
+                                    {"study", {"studies", nullptr}, ".yaml"},
+                                    {"recipe", {"figures", nullptr}, ".yaml"}};
 
 }  // namespace
 
