@@ -77,7 +77,9 @@ std::string explain_check(const CheckKind& kind) {
 }
 
 std::string verdict_page() {
-  std::string text = fmt::format("# Verdict\n\nMade by `gaitlab reference verdict`.\n\n{}\n", wrapped(kAbout, 0, kPage));
+  std::string text = fmt::format(
+      "# Verdict\n\n<!-- Written by `tests/gates/reference.sh build/release --renew`; CI fails where it is stale. -->\n\n{}\n",
+      wrapped(kAbout, 0, kPage));
   for (const Meaning& one : kWords) text += hanging("- ", fmt::format("`{}`: {}", name_of(one.word), one.meaning), kPage);
   text += fmt::format("\n{}\n{}\n", wrapped(kEvidence, 0, kPage), wrapped(kMargin, 0, kPage));
   text += "| check | group | value | over | fails | warns | setting | remedy |\n|---|---|---|---|---|---|---|---|\n";
