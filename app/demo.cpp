@@ -1,7 +1,7 @@
 // `gaitlab demo`, a first run without a file: the shipped hexapod on the fast engine.
-#include <errno.h>  // program_invocation_name of glibc
 #include <fmt/format.h>
 
+#include <cerrno>  // program_invocation_name of glibc
 #include <filesystem>
 #include <optional>
 #include <string>
