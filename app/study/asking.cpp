@@ -64,7 +64,7 @@ class Batch {
     while (const std::optional<studies::Job> job = stop ? std::nullopt : work_.next()) {
       asked = true;
       open_.emplace(job->row.run, job->row);
-      if (!print_line(question_text(job->row.run, plan_.study().parameters, job->row.values), kKept, stop)) return;
+      if (!print_line(question_text(job->row.run, plan_.study(), job->row.values), kKept, stop)) return;
       while (const std::optional<std::string> line = stop ? std::nullopt : lines_.arrived()) take(*line);
     }
     if (asked) (void)print_line("", kKept, stop);  // if it fails, wait() ends

@@ -42,6 +42,7 @@ class Search(Child):
         super().__init__("optimize", file, folder, options)
         self._points: dict[int, Mapping[str, Any]] = {}  # of this batch, not asked yet
         self._open: set[int] = set()  # asked, but not told
+        self._objectives = 1
         self._ended = False
         self._read_batch()  # here, so that the errors of the file are raised at once
 
@@ -90,7 +91,7 @@ class Search(Child):
             if number not in self._open or number in seen:
                 raise ValueError(f"point {number} is not open; expected points of ask() without a result, by the index of the table")
             seen.add(number)
-            if (result := _result(int(number), row)) is not None:
+            if (result := _result(int(number), row, self._objectives)) is not None:
                 results.append(result)
         if len(results) > 1 and all("outcome" not in one and set(one["objective"]) <= {None} for one in results):
             raise ValueError("no row has an objective; a column assigned from a table with another index is NaN")
@@ -109,6 +110,7 @@ class Search(Child):
                 return
             question = json.loads(line)
             self._points[question["id"]] = question["parameters"]
+            self._objectives = question.get("objectives", 1)
         self._ended = True
         if self._child.wait():
             self._fail()
@@ -118,10 +120,10 @@ def _number(value: Any, what: str, number: int) -> Optional[float]:
     """A number for JSON; None for NaN."""
     try:
         found = math.nan if not isinstance(value, str) and is_empty(value) else float(value)
-    except (TypeError, ValueError):
+    except (OverflowError, TypeError, ValueError):
         found = math.inf
     if math.isinf(found):
-        raise ValueError(f"{what} of point {number} is {value!r}; expected a number, or NaN if it is not known")
+        raise ValueError(f"{what} of point {number} is {value!r:.100}; expected a number, or NaN if it is not known")
     return None if math.isnan(found) else found
 
 
@@ -157,7 +159,30 @@ def _violation(row: Mapping[str, Any], number: int) -> Optional[float]:
     return 0.0 if verdict == "feasible" else max(0.5, -margin if isinstance(margin, float) and math.isfinite(margin) else 0.5)
 
 
-def _result(number: int, row: Mapping[str, Any]) -> Optional[dict[str, Any]]:
+def _objective_names(row: Mapping[str, Any], count: int) -> list[str]:
+    """Names of the columns with the objectives of a study. Raises ValueError if one is missing, or there are more than objectives."""
+    numbered = [f"objective.{k}" for k in range(1, count + 1)]
+    expected = "objective, or objective.1" if count == 1 else f"objective.1 to {numbered[-1]}"
+    for key in row:
+        number = str(key).removeprefix("objective.")
+        if number != key and number.isdecimal() and key not in numbered:
+            raise ValueError(f"the table has a column {key}; expected {expected}, as the study has {count}")
+    names = ["objective"] if count == 1 and "objective" in row else numbered
+    for name in names:
+        if name not in row:
+            raise ValueError(f"the table has no column {'objective' if count == 1 else name}; expected {expected}")
+    return names
+
+
+def _is_finite(value: Any) -> bool:
+    """True for a number that JSON and a double can have."""
+    try:
+        return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+    except OverflowError:  # a whole number above 1.8e308
+        return False
+
+
+def _result(number: int, row: Mapping[str, Any], objectives: int) -> Optional[dict[str, Any]]:
     """A result as `gaitlab optimize --ask` reads it. None for a point that was not run."""
     outcome = _word(row, "outcome", number) or "done"
     if outcome == "not run":
@@ -165,14 +190,8 @@ def _result(number: int, row: Mapping[str, Any]) -> Optional[dict[str, Any]]:
     if outcome != "done":
         failed = {"id": number, "outcome": outcome, "message": _word(row, "message", number)[:2000]}
         return failed | {"simulated": _number(row.get("simulated", math.nan), "simulated", number)}
-    names = ["objective"] if "objective" in row else [f"objective.{k}" for k in range(1, 10) if f"objective.{k}" in row]
-    if not names:
-        raise ValueError("the table has neither a column objective nor objective.1")
-    figures = {
-        key: float(value)
-        for key, value in row.items()
-        if key not in (*names, "violation") and isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
-    }
+    names = _objective_names(row, objectives)
+    figures = {key: float(value) for key, value in row.items() if key not in (*names, "violation") and _is_finite(value)}
     result: dict[str, Any] = {"id": number, "objective": [_number(row[name], name, number) for name in names], "figures": figures}
     violation = _violation(row, number)
     if violation is not None:

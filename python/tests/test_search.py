@@ -160,6 +160,21 @@ class Search(InFolder):
             search.tell(points.assign(objective=1.0, verdict=verdicts, margin=[0.1, -0.7, 0.2, -0.1] * 4))
         self.assertEqual(list(gaitlab.study("judged").points["violation"][:4]), [0, 0.7, 0.5, 0.5])
 
+    def test_several_objectives(self):
+        with open("two.yaml", "w") as file:
+            file.write(STUDY.replace("objective: {minimize: speed}", "objective: [{minimize: speed}, {maximize: distance}]").replace(
+                "cma", "nsga2, population: 8"))
+        both = {"objective.1": 1.0, "objective.2": 2.0}
+        with gaitlab.Search("two.yaml", "two", runs=16) as search:
+            points = search.ask()
+            for told, said in (({"objective": 1.0}, "no column objective.1; expected objective.1 to objective.2$"),
+                               ({"objective.1": 1.0}, "no column objective.2; expected objective.1 to objective.2$"),
+                               ({**both, "objective.3": 3.0}, "a column objective.3; expected objective.1 to objective.2, as the study has 2")):
+                with self.assertRaisesRegex(ValueError, said):
+                    search.tell(points.assign(**told))
+            search.tell(points.assign(**both, huge=10**400))
+        self.assertEqual(list(gaitlab.study("two").points["objective.2"][:2]), [2, 2])
+
     def test_errors(self):
         with gaitlab.Search("study.yaml", "errors", runs=16) as search:
             points = search.ask()
@@ -169,6 +184,8 @@ class Search(InFolder):
                 search.tell(points.assign(objective=float("nan")))
             for column, value, said in (
                 ("objective", float("inf"), "objective of point 0 is inf; expected a number"),
+                ("objective", 10**400, "objective of point 0 is 1000000.*; expected a number"),
+                ("violation", 10**400, "violation of point 0 is 1000000.*; expected a number"),
                 ("objective", "high", "objective of point 0 is 'high'; expected a number"),
                 ("violation", -1.0, "violation of point 0 is -1.0; expected 0 or more"),
             ):
@@ -178,8 +195,15 @@ class Search(InFolder):
                 search.tell(pandas.concat([points[:1], points[:1]]).assign(objective=1.0))
             with self.assertRaisesRegex(TypeError, "rows is a DataFrame"):
                 search.tell([{"objective": 1}])
-            with self.assertRaisesRegex(ValueError, "neither a column objective nor objective.1"):
+            with self.assertRaisesRegex(ValueError, "the table has no column objective; expected objective, or objective.1$"):
                 search.tell(points)
+            for columns, said in (
+                (["objective.2"], "has a column objective.2; expected objective, or objective.1, as the study has 1"),
+                (["objective.1", "objective.2"], "has a column objective.2; expected objective, or objective.1, as the study has 1"),
+                (["objective", "objective.3"], "has a column objective.3; expected objective"),
+            ):
+                with self.assertRaisesRegex(ValueError, said):
+                    search.tell(points.assign(**dict.fromkeys(columns, 1.0)))
             with self.assertRaisesRegex(ValueError, "point 99 is not open"):
                 search.tell(points.assign(objective=1.0).set_index(points.index + 99))
         with self.assertRaisesRegex(gaitlab.RunError, "the search is closed"):

@@ -53,7 +53,8 @@ Question read_question(const std::string& line, const SourceLocation& place, con
   Problems problems;
   Question question;
   for (const auto& [key, value] : root.items()) {
-    if (key != "id" && key != "parameters") problems.add(place, "unknown key " + in_quotes(key) + kExpected);
+    if (key != "id" && key != "parameters" && key != "objectives")
+      problems.add(place, "unknown key " + in_quotes(key) + kExpected);
   }
   const auto id = root.find("id");
   if (id == root.end() || !(id->is_number_integer() || id->is_string())) {
@@ -84,8 +85,11 @@ Question read_question(const std::string& line, const SourceLocation& place, con
   return question;
 }
 
-std::string question_text(std::uint64_t id, const std::vector<Parameter>& parameters, std::span<const std::string> values) {
-  std::string text = fmt::format(R"({{"id":{},"parameters":{{)", id);
+std::string question_text(std::uint64_t id, const Study& study, std::span<const std::string> values) {
+  const std::vector<Parameter>& parameters = study.parameters;
+  const std::size_t objectives = study.objectives.size();
+  const std::string count = objectives > 1 ? fmt::format(R"("objectives":{},)", objectives) : "";
+  std::string text = fmt::format(R"({{"id":{},{}"parameters":{{)", id, count);
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     text += (k == 0 ? "" : ",") + json_text(parameters[k].key) + ":";
     text += parameters[k].words ? json_text(values[k]) : json_number(number_of(values[k]));
