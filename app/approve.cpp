@@ -17,6 +17,7 @@
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
 #include "core/recording/column_names.h"
+#include "core/simulation/batch_limits.h"
 #include "golden/advice.h"
 #include "golden/cases.h"
 #include "golden/compare.h"
@@ -281,7 +282,7 @@ void add_approve(Commands& commands) {
                          "compute new bands from further runs, even if this run is within the old bands");
         command.add_flag("--replace", arguments.replace,
                          "replace a golden that cannot be read or belongs to another scenario; the old history is lost");
-        command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
+        command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, kMostThreads));
       });
 }
 

@@ -10,6 +10,7 @@
 #include "core/parallel.h"
 #include "core/recording/convergence.h"
 #include "core/scenario/sensor_section.h"
+#include "core/simulation/batch_limits.h"
 #include "core/simulation/simulation.h"
 
 namespace gaitlab::app {
@@ -197,7 +198,7 @@ void add_converge(Commands& commands) {
             ->expected(1)
             ->allow_extra_args(false)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-        command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
+        command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, kMostThreads));
       });
 }
 

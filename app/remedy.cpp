@@ -17,6 +17,7 @@
 #include "core/files/atomic_file.h"
 #include "core/scenario/resolved.h"
 #include "core/settings/wording.h"
+#include "core/simulation/batch_limits.h"
 #include "kit/stored_scenario.h"
 #include "report/page/page.h"
 #include "report/remedy/remedy_text.h"
@@ -144,7 +145,7 @@ void add_remedy(Commands& commands) {
             .add_option("--by", arguments.by,
                         fmt::format("only this setting, once per setting: {}", fmt::join(setting_names(), ", ")))
             ->allow_extra_args(false);
-        command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
+        command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, kMostThreads));
         add_trust(command, arguments.plugins);
         add_shown(command, arguments.shown);
       });

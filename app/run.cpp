@@ -15,6 +15,7 @@
 #include "core/scenario/resolved.h"
 #include "core/scenario/sensor_section.h"
 #include "core/simulation/batch.h"
+#include "core/simulation/batch_limits.h"
 #include "core/simulation/simulation.h"
 #include "kit/run_warnings.h"
 #include "kit/run_writer.h"
@@ -215,7 +216,7 @@ void add_run(Commands& commands) {
                         "within its tolerances, other noise of its sensors")
             ->check(CLI::Range(1, 10000));
         command.add_option("-j,--jobs", arguments.jobs, "threads for the draws and the remedy (default 1)")
-            ->check(CLI::Range(1, 1024));
+            ->check(CLI::Range(1, kMostThreads));
         command.add_flag("--remedy", arguments.remedy,
                          "also search the settings that would make the gait feasible (gaitlab remedy)");
         add_shown(command, arguments.shown);

@@ -17,6 +17,7 @@
 #include "core/files/atomic_file.h"
 #include "core/recording/run_folder.h"
 #include "core/scenario/resolved.h"
+#include "core/simulation/batch_limits.h"
 #include "golden/advice.h"
 #include "golden/cases.h"
 #include "golden/report.h"
@@ -309,7 +310,7 @@ void add_test(Commands& commands) {
                         "scenario files, names of `gaitlab list scenarios`, or folders (default: scenarios)")
             ->check(not_empty)
             ->transform(named_file_or_folder);
-        command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
+        command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, kMostThreads));
         command.add_option("--junit", arguments.junit, "also write the result as JUnit XML to this file")->check(not_empty);
         command.add_option("--engine", arguments.engine,
                            "run with this engine, at the golden's step (articulated: extrapolated); torque peaks, which depend "

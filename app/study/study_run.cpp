@@ -14,6 +14,7 @@
 #include "core/scenario/height_file.h"
 #include "core/settings/shipped_files.h"
 #include "core/settings/wording.h"
+#include "core/simulation/batch_limits.h"
 #include "studies/plan/definition.h"
 
 namespace gaitlab::app {
@@ -25,9 +26,9 @@ void add_study_run(CLI::App& command, StudyRunArguments& a, const char* folder) 
       ->expected(1)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command.add_option("-j,--jobs", a.jobs, "threads (default: one per processor)")->check(CLI::Range(1, 1024));
+  command.add_option("-j,--jobs", a.jobs, "threads (default: one per processor)")->check(CLI::Range(1, kMostThreads));
   command.add_option("--lanes", a.lanes, "runs side by side in a thread (default: what engine and processor allow)")
-      ->check(CLI::Range(1, 64));
+      ->check(CLI::Range(1, kMostLanesAsked));
   command.add_flag("--accept-build", a.accept_build, "continue a study that another build of the program began");
 }
 

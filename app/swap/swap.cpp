@@ -13,6 +13,7 @@
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
 #include "core/recording/run_folder.h"
+#include "core/simulation/batch_limits.h"
 #include "golden/report.h"
 #include "report/figures/run/coincide.h"
 #include "report/figures/run/figure.h"
@@ -243,7 +244,7 @@ void add_swap(Commands& commands) {
             "folder of figure and numbers (default runs/swap-NAME, for several scenarios runs/swap-matrix); new or empty");
         command.add_flag("--report", arguments.report,
                          "also write a page per CPG, and swap.html, which shows them side by side");
-        command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
+        command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, kMostThreads));
       });
 }
 

@@ -43,10 +43,16 @@ def cpg(name: str, **settings: Union[float, tuple[Any, ...]]) -> Callable[[_Clas
     """
     numbers = []
     for key, given in settings.items():
-        default, unit, low, high, about = given if isinstance(given, tuple) else (given, "", -1e9, 1e9, f"Setting {key}.")
-        numbers.append((key, float(default), str(unit), float(low), float(high), str(about)))
+        row = given if isinstance(given, tuple) else (given, "", -1e9, 1e9, f"Setting {key}.")
+        try:
+            default, unit, low, high, about = row
+            numbers.append((key, float(default), str(unit), float(low), float(high), str(about)))
+        except (OverflowError, TypeError, ValueError):
+            raise ValueError(f"setting {key} is {given!r:.100}; expected a number, or (default, unit, low, high, sentence)") from None
 
     def register(made: _Class) -> _Class:
+        if not isinstance(made, type):
+            raise TypeError(f'gaitlab.cpg("{name}") decorates a class, not {type(made).__name__}; its instances are made by the run')
         if not callable(getattr(made, "output", None)):
             raise TypeError(f"a CPG has a method output(t, x, setpoint); {made.__name__} has none")
         states = getattr(made, "states", 0)

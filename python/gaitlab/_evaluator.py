@@ -3,11 +3,10 @@ from __future__ import annotations
 
 import json
 import math
-import os
 from typing import TYPE_CHECKING, Any, Iterable, Mapping, Optional, Union
 
 from ._child import Child, Path
-from ._settings import is_empty, records, set_options
+from ._settings import is_empty, records, set_options, thread_count
 
 if TYPE_CHECKING:
     import pandas
@@ -31,8 +30,7 @@ class Evaluator(Child):
         settings: Union[Mapping[str, Any], None] = None,
         threads: Optional[int] = None,
     ) -> None:
-        jobs = str(threads or len(os.sched_getaffinity(0)))
-        super().__init__("evaluate", file, folder, ["-j", jobs, *set_options(settings)])
+        super().__init__("evaluate", file, folder, ["-j", str(thread_count(threads)), *set_options(settings)])
 
     def evaluate(self, points: Union[Iterable[Mapping[str, Any]], "pandas.DataFrame"]) -> "pandas.DataFrame":
         """Simulates the points side by side. A row per point, in their order: the parameters, outcome, objective.1 ..., violation,

@@ -1,6 +1,8 @@
 from typing import Any, Callable, Optional, Sequence
 
 build: str
+most_threads: int
+most_lanes: int
 
 class InputError(ValueError): ...
 class RunError(RuntimeError): ...

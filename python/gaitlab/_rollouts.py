@@ -1,17 +1,19 @@
 """Many runs of one scenario as a table."""
 from __future__ import annotations
 
-import os
+import sys
 from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Mapping, NamedTuple, Sequence, Union
 
 import numpy as np
 
 from . import _native
 from ._scenario import Scenario, scenario_of
-from ._settings import records, texts
+from ._settings import check_range, records, texts, thread_count
 from ._warnings import tell
 
 if TYPE_CHECKING:
+    import os
+
     import pandas
 
 
@@ -89,11 +91,10 @@ def rollouts(
     if isinstance(quantities, str):
         raise TypeError(f"quantities are a list of names: quantities=[{quantities!r}]")
     rows, index = records(overrides)
-    if threads is None:
-        threads = len(os.sched_getaffinity(0))
-    if threads < 1 or lanes < 0 or estimate_every < 0:
-        raise ValueError("threads is at least 1, lanes and estimate_every are at least 0")
-    raw = _native.rollouts(scenario_of(scenario)._native, [texts(one) for one in rows], list(quantities), threads, lanes, estimate_every, progress)
+    count = thread_count(threads)
+    check_range("lanes", lanes, 0, _native.most_lanes)
+    check_range("estimate_every", estimate_every, 0, sys.maxsize)
+    raw = _native.rollouts(scenario_of(scenario)._native, [texts(one) for one in rows], list(quantities), count, lanes, estimate_every, progress)
     table = Rollouts(raw, rows, index)
     if raw["raised"] is not None:
         try:

@@ -7,6 +7,8 @@ from typing import Any, Iterable, Mapping, Optional
 
 import numpy as np
 
+from . import _native
+
 
 def is_empty(value: Any) -> bool:
     """True for a cell of a table without a value: NaN, NaT and NA of pandas, None, and an empty text."""
@@ -47,6 +49,22 @@ def mapping(settings: Optional[Mapping[str, Any]]) -> dict[str, Any]:
     if not isinstance(settings, Mapping):
         raise TypeError(f'settings are a mapping from key to value, as in {{"duration": 2}}, not {type(settings).__name__}')
     return dict(settings)
+
+
+def check_range(name: str, value: Any, low: int, high: int) -> None:
+    """Raises TypeError for another value than a whole number, and ValueError for one outside the range."""
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)):
+        raise TypeError(f"{name} is a whole number from {low} to {high}, not {type(value).__name__}")
+    if not low <= value <= high:
+        raise ValueError(f"{name} is {value}; expected {low} to {high}")
+
+
+def thread_count(threads: Optional[int]) -> int:
+    """The number of threads; without one, the processors that this process may use."""
+    if threads is None:
+        return min(len(os.sched_getaffinity(0)), _native.most_threads)
+    check_range("threads", threads, 1, _native.most_threads)
+    return int(threads)
 
 
 def path_text(path: Any) -> str:

@@ -8,6 +8,7 @@
 #include "core/build_id.h"
 #include "core/errors.h"
 #include "core/scenario/resolved.h"
+#include "core/simulation/batch_limits.h"
 #include "python/native/apart.h"
 #include "python/native/python_cpg.h"
 #include "python/native/rollouts.h"
@@ -114,6 +115,8 @@ void add_functions(py::module_& m) {
 PYBIND11_MODULE(_native, m) {
   namespace native = gaitlab::python;
   m.attr("build") = gaitlab::build_id();
+  m.attr("most_threads") = gaitlab::kMostThreads;
+  m.attr("most_lanes") = gaitlab::kMostLanesAsked;
   native::end_with_interpreter();
   native::gather_said();
   native::share_h5();

@@ -164,7 +164,8 @@ py::dict roll_out(const PyScenario& scenario, const std::vector<Texts>& override
   if (!progress.is_none()) told = [&] { progress(rows.ended(), n); };
   py::object raised = py::none();
   try {
-    apart(stop, told, [&] { rows.run({settings.threads, settings.lanes}, stop); });
+    const int threads = static_cast<int>(std::min(static_cast<std::size_t>(settings.threads), std::max<std::size_t>(n, 1)));
+    apart(stop, told, [&] { rows.run({threads, settings.lanes}, stop); });
     rows.doubt();
     if (told) told();
   } catch (py::error_already_set& error) {

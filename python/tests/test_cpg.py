@@ -132,6 +132,11 @@ class Exceptions(unittest.TestCase):
         self.assertRegex(outcome, r"output\(\) filled no set point; expected that it fills its argument, as in setpoint\[:\]")
         with self.assertRaisesRegex(TypeError, r"Made has states, but no derivative\(m, x, rate\) and no event\(m, x\)"):
             register("test_states", states=1)
+        with self.assertRaisesRegex(TypeError, r'gaitlab.cpg\("test_none"\) decorates a class, not int'):
+            gaitlab.cpg("test_none")(3)
+        for value in (10**400, "high", None, (1, 2), (1, "", "low", 3, "Wrong.")):
+            with self.subTest(value=str(value)[:20]), self.assertRaisesRegex(ValueError, "^setting gain is .*; expected a number, or "):
+                gaitlab.cpg("test_none", gain=value)
         with self.assertRaisesRegex(TypeError, "has none"):
             gaitlab.cpg("test_none")(type("None_", (), {}))
         with self.assertRaisesRegex(gaitlab.InputError, "registered twice"):

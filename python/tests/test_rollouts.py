@@ -1,5 +1,6 @@
 """Tables of rollouts: the bits of `gaitlab sweep`, refused rows, interrupts by an exception."""
 import itertools
+import sys
 import unittest
 
 import numpy as np
@@ -122,6 +123,15 @@ class Rows(unittest.TestCase):
             gaitlab.rollouts(caterpillar(), [{}], quantities=["sped"])
         self.assertIn("speed", [one.name for one in gaitlab.quantities()])
         self.assertIn("torque.peak", [one.name for one in gaitlab.quantities(of_joints=True)])
+
+    def test_ranges(self):
+        for name, value, low, high in (("threads", 10**9, 1, 1024), ("threads", 0, 1, 1024), ("threads", 10**30, 1, 1024),
+                                       ("lanes", 10**6, 0, 64), ("lanes", -1, 0, 64), ("estimate_every", -1, 0, sys.maxsize)):
+            with self.subTest(name), self.assertRaisesRegex(ValueError, f"^{name} is {value}; expected {low} to {high}$"):
+                gaitlab.rollouts(caterpillar(), [{}], **{name: value})
+        for value in (1.5, "2", True):
+            with self.subTest(value), self.assertRaisesRegex(TypeError, "^threads is a whole number from 1 to 1024, not "):
+                gaitlab.rollouts(caterpillar(), [{}], threads=value)
 
     def test_progress_and_its_exception(self):
         seen = []
