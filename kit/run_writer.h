@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <new>
+#include <set>
 #include <string>
 
 #include "core/errors.h"
@@ -17,7 +18,8 @@ inline constexpr const char* kPageFile = "report.html";  ///< name of the page i
 /// simulation.
 class RunWriter {
  public:
-  /// `lost` is called at once for each file that cannot be written, with the reason.
+  /// `lost` is called at once for each file that cannot be written, with the reason; once if it fails again for the same
+  /// reason.
   RunWriter(std::filesystem::path folder, std::function<void(const std::string& why)> lost)
       : folder_(std::move(folder)), lost_(std::move(lost)) {}
 
@@ -40,18 +42,18 @@ class RunWriter {
   /// complete except for files that failed.
   void write_report(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
                     const report::Verdict& verdict, bool page);
-  [[nodiscard]] bool lost_any() const { return losses_ > 0; }
+  [[nodiscard]] bool lost_any() const { return !losses_.empty(); }
   [[nodiscard]] bool wrote_any() const { return written_ > 0; }
 
  private:
   void lose(const std::string& why) {
-    ++losses_;
-    lost_(why);
+    if (losses_.insert(why).second) lost_(why);
   }
 
   std::filesystem::path folder_;
   std::function<void(const std::string&)> lost_;
-  int written_ = 0, losses_ = 0;
+  int written_ = 0;
+  std::set<std::string> losses_;
 };
 
 }  // namespace gaitlab::kit

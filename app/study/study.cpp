@@ -251,9 +251,21 @@ std::vector<std::string> settings_of_row(const Journal& journal, const std::vect
   return sets;
 }
 
+/// Places the errors of a run's settings in the journal, because they come from its row, and --set was not given.
+InputError in_journal(const InputError& error, const StudyArguments& a) {
+  std::vector<Problem> problems = error.problems();
+  for (Problem& problem : problems) {
+    constexpr std::string_view kSet = "--set ";
+    if (!problem.place.file.starts_with(kSet)) continue;
+    problem.text = fmt::format("run {} has {}: {}", a.run, problem.place.file.substr(kSet.size()), problem.text);
+    problem.place = {(fs::path(a.folder) / studies::kJournalFile).string()};
+  }
+  return InputError(std::move(problems));
+}
+
 /// The scenario of a row, with its seed or, in a robust study, in its world.
 Scenario scenario_in_row(const Journal& journal, const std::vector<std::string>& row, const StudyArguments& a,
-                         Catalog& catalog) {
+                         Catalog& catalog) try {
   const std::vector<std::string> names = journal.columns().all();
   const studies::JournalHead& head = journal.head();
   std::vector<std::string> sets = settings_of_row(journal, names, row);
@@ -271,6 +283,8 @@ Scenario scenario_in_row(const Journal& journal, const std::vector<std::string>&
     }
   }
   return read();
+} catch (const InputError& error) {
+  throw in_journal(error, a);
 }
 
 int rerun_study(const StudyArguments& a) {
@@ -278,8 +292,8 @@ int rerun_study(const StudyArguments& a) {
   const studies::JournalHead& head = journal.head();
   const std::vector<std::string> row = journal.row(static_cast<std::uint64_t>(a.run));
   if (row.empty()) {
-    throw InputError(SourceLocation{"RUN"},
-                     fmt::format("{} is not in the journal; it has {} of {} runs", a.run, journal.rows(), head.runs));
+    throw InputError(SourceLocation{"RUN"}, fmt::format("{} is not in the journal of {}; it has {} of {} runs", a.run, a.folder,
+                                                        journal.rows(), head.runs));
   }
   const std::vector<std::string> names = journal.columns().all();
   Catalog catalog = careful_catalog(a.plugins);

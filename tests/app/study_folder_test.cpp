@@ -227,11 +227,26 @@ TEST_F(StudyFolder, AnInfiniteNumberIsNoneOfAJournal) {
   }
 }
 
+TEST_F(StudyFolder, ErrorsOfARerunNameTheFolder) {
+  made(kInto + "s");
+  ends("study rerun s 9", 2, "RUN: error: 9 is not in the journal of s; it has 4 of 4 runs\n");
+  studies::Database(folder_ / "s/study.db", studies::Database::Mode::write).execute("UPDATE run SET seed = -1 WHERE run = 1");
+  ends("study rerun s 1 --out x", 2, "s/study.db: error: run 1 has seed=-1: seed is -1; allowed are 0 to 9e+18\n");
+}
+
 // A rerun whose files cannot be written counts as failed, not as bad input. A limit of 50 kB per file (of the shell, in blocks
 // of 512 bytes), which is less than the trace, acts like a full disk.
 TEST_F(StudyFolder, ARerunThatCannotBeWrittenFails) {
   made(kInto + "s");
   ends("study rerun s 1 --out again", 1, "gaitlab: error: again/trace.h5: cannot be written: ", "ulimit -f 100;");
+  // summary.json is tried twice, the second time with the files that were lost meanwhile.
+  const std::string run = "cd '" + folder_.path().string() + "' && { ulimit -f 0; '" +
+                          std::string(gaitlab::test::build_folder()) +
+                          "/bin/gaitlab' run two.yaml --quiet --no-report --out full; } 2>&1 | cat >said";
+  ASSERT_EQ(std::system(run.c_str()), 0);
+  const std::string said = read(folder_ / "said"), lost = "gaitlab: error: full/summary.json: cannot be written: ";
+  EXPECT_TRUE(contains(said, lost)) << said;
+  EXPECT_EQ(said.find(lost), said.rfind(lost)) << said;
   EXPECT_EQ(call("study rerun s 1 --out third").code, 0);
 }
 
