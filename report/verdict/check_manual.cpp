@@ -35,7 +35,8 @@ constexpr const char* kEvidence =
     "points after the start of the gait; where set points do not repeat, 2 s. At full size: a ramp or rate of the cpg ends "
     "within the run; the range of a set point grows by at most 2 % in three periods after the run, in which the cpg goes on "
     "alone; its mean and RMS in the first and the last period of the window differ by at most 1 % of the range; a set point "
-    "changes. Borne, for a floating base: the ground carries at least half of the weight on average. Accurate: torque error at most limits.torque_error, at most 5 % of the energy unaccounted for, at most 10 "
+    "changes. Borne, for a floating base: the ground carries at least half of the weight on average. Accurate: torque error at "
+    "most limits.torque_error, at most 5 % of the energy unaccounted for, at most 10 "
     "% of the time coarser than physics.accuracy, and no motor whose efficiency x Kt exceeds Ks.";
 
 constexpr const char* kMargin =

@@ -150,8 +150,9 @@ TEST(Earned, NothingBearsTheRobot) {
   EXPECT_TRUE(contains(falling.why(), "falls freely: there is no ground")) << falling.why();
   const Verdict through = with({"contact.on=none"});
   EXPECT_NE(through.word, Word::feasible) << through.why();
-  EXPECT_EQ(with({"ground.type=none", "robot.base=fixed", "physics.gravity=[0, 0, 0]", "cpg.amplitude=0.1", "duration=14"}).word,
-            Word::feasible)
+  EXPECT_EQ(
+      with({"ground.type=none", "robot.base=fixed", "physics.gravity=[0, 0, 0]", "cpg.amplitude=0.1", "duration=14"}).word,
+      Word::feasible)
       << "of a fixed base nothing is asked";
 }
 
