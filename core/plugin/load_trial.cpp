@@ -26,8 +26,9 @@ namespace gaitlab {
 
 namespace {
 
-constexpr int kThrew = 3;          // exit code of the child
-constexpr rlim_t kTrialTime = 10;  // s of CPU time
+constexpr int kThrew = 3;                          // exit code of the child
+constexpr rlim_t kTrialTime = 10;                  // s of CPU time
+constexpr rlim_t kTrialMemory = rlim_t{1} << 32U;  // bytes that a plugin may allocate, more than tables of any plugin need
 
 enum class Stage : char { loading, registering, done };
 
@@ -65,11 +66,23 @@ void limit_time() {
   (void)::setrlimit(RLIMIT_CPU, &limit);  // lowers the limits, which is always allowed
 }
 
+/// Limits what this process may allocate from now on. Its present data are read, because under a sanitizer they are terabytes.
+void limit_memory() {
+  rlimit limit{};
+  std::ifstream file("/proc/self/statm");
+  rlim_t pages[6] = {};  // total, resident, shared, code, 0, data
+  for (rlim_t& one : pages) file >> one;
+  if (!file || ::getrlimit(RLIMIT_DATA, &limit) != 0) return;
+  limit.rlim_cur = std::min(pages[5] * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + kTrialMemory, limit.rlim_cur);
+  (void)::setrlimit(RLIMIT_DATA, &limit);  // lowers the limit, which is always allowed
+}
+
 /// Loads the library, enters it and ends the process.
 [[noreturn]] void load_and_end(const std::string& path, const std::function<void(void*)>& enter, SharedStage& stage) {
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, stream);
   limit_time();
+  limit_memory();
   std::set_terminate([] { std::_Exit(kThrew); });
   // dlopen is declared not to throw. Called by its name, it would let the compiler drop the handler, and the exception would
   // reach the frames of the program above.
@@ -107,20 +120,24 @@ bool sleeps(pid_t process) {
   return name != std::string::npos && line.compare(name + 2, 1, "S") == 0;
 }
 
-/// Waits for the end of the child. Kills it, and returns true, if it sleeps without using CPU time for that long.
+/// Waits for the end of the child. Kills it, and returns true, if it sleeps that long and uses hardly any CPU time, as a child
+/// that wakes every second.
 bool falls_asleep(pid_t child, std::chrono::seconds patience) {
-  using Clock = std::chrono::steady_clock;
-  constexpr int kLook = 250;  // ms
+  constexpr std::chrono::milliseconds kLook{250};
+  constexpr double kHardly = 0.1;  // s of CPU time
   const auto handle = static_cast<int>(::syscall(SYS_pidfd_open, child, 0));
   if (handle < 0) return false;  // the caller waits without a bound
-  Clock::time_point awake = Clock::now();
-  double used = -1;
+  std::chrono::milliseconds slept{0};
+  double used = cpu_time(child);
   bool asleep = false;
-  for (pollfd end{handle, POLLIN, 0}; !asleep && ::poll(&end, 1, kLook) <= 0;) {
-    const double now_used = cpu_time(child);
-    if (now_used != used || !sleeps(child)) awake = Clock::now();
-    used = now_used;
-    asleep = Clock::now() - awake > patience;
+  for (pollfd end{handle, POLLIN, 0}; !asleep && ::poll(&end, 1, static_cast<int>(kLook.count())) <= 0;) {
+    if (const double now = cpu_time(child); now - used > kHardly) {
+      used = now;
+      slept = {};
+    } else if (sleeps(child)) {
+      slept += kLook;
+    }
+    asleep = slept > patience;
   }
   ::close(handle);
   if (asleep) ::kill(child, SIGKILL);
@@ -167,7 +184,7 @@ std::string load_trial(const std::string& path, const std::function<void(void*)>
   if (stage.reached() == Stage::done) return "";
   const bool loading = stage.reached() == Stage::loading;
   if (asleep) {
-    return fmt::format("{} and used no CPU time for {} s; a plugin should do its work when it is called",
+    return fmt::format("{} and used hardly any CPU time for {} s; a plugin should do its work when it is called",
                        loading ? "a static object slept when it was loaded" : "its gaitlab_register slept", patience.count());
   }
   return loading ? fault_of_load(status) : fault_of_entry(status);

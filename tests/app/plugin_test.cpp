@@ -7,11 +7,15 @@
 #include "core/plugin/load_trial.h"
 #include "core/scenario/plugin_files.h"
 #include "tests/folders.h"
+#include "tests/labels.h"
 #include "tests/messages.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
+
+// Under the address sanitizer a failed allocation ends the process.
+const Label kHoarding("Plugins.AStaticObjectThatAllocatesWithoutABoundIsAnError", "unsanitized");
 
 const std::string kPlugins = std::string(gaitlab::test::build_folder()) + "/plugins/";
 
@@ -81,6 +85,14 @@ TEST_F(Plugins, AStaticObjectThatThrowsIsAnError) {
                 "throws_at_load.so' cannot be loaded: a static object of this plugin threw an exception when it was loaded\n");
 }
 
+/// The child of the trial may allocate 4 GB, so that a plugin without a bound takes not all memory of the machine.
+TEST_F(Plugins, AStaticObjectThatAllocatesWithoutABoundIsAnError) {
+  EXPECT_EQ(
+      error(with("allocates_at_load.so", "sine")),
+      "s.yaml:2:11: error: plugin '" + kPlugins +
+          "allocates_at_load.so' cannot be loaded: a static object of this plugin threw an exception when it was loaded\n");
+}
+
 TEST_F(Plugins, AStaticObjectThatEndsTheProcessIsAnError) {
   EXPECT_EQ(error(with("exits_at_load.so", "sine")),
             "s.yaml:2:11: error: plugin '" + kPlugins +
@@ -119,11 +131,11 @@ TEST_F(Plugins, AStaticObjectOrRegistrationThatSleepsIsAnError) {
     };
     return load_trial(kPlugins + library, enter, std::chrono::seconds(1));
   };
-  EXPECT_EQ(
-      trial("spins_at_load.so"),
-      "a static object slept when it was loaded and used no CPU time for 1 s; a plugin should do its work when it is called");
+  EXPECT_EQ(trial("spins_at_load.so"),
+            "a static object slept when it was loaded and used hardly any CPU time for 1 s; a plugin should do its work when "
+            "it is called");
   EXPECT_EQ(trial("spins_at_register.so"),
-            "its gaitlab_register slept and used no CPU time for 1 s; a plugin should do its work when it is called");
+            "its gaitlab_register slept and used hardly any CPU time for 1 s; a plugin should do its work when it is called");
   ::unsetenv("GAITLAB_PAUSES");
 }
 
