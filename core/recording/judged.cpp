@@ -21,11 +21,11 @@ void window(Judged& judged, double end, const MotionCycle& cycle, double period,
   const double length = cycle.found ? cycle.period : period;
   if (!(length > 0)) return;
   const double whole = std::floor(left / length + kWholePeriod);
-  if (whole < 1) {
+  if (whole < 2) {
     judged.from = end - left + left_out_start(left);
     return;
   }
-  const double held = std::max(1.0, whole - 1);
+  const double held = whole - 1;
   judged.from = std::max(0.0, end - held * length);
   if (cycle.found) judged.periods = static_cast<std::size_t>(held);
 }

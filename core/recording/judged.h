@@ -53,11 +53,11 @@ struct Judged {
 double left_out_start(double end);
 
 /// Chooses the judged window and computes its statistics. The window consists of whole periods up to the end of the run,
-/// without the first after `start`, s, the start of the gait. The period is that of the limit cycle or, without one, `period`
-/// of the set points, s. If not two periods follow the start, the window has one; if not even one does, it begins 2 s after the
-/// start or after a fifth of the time that is left, whichever is earlier. If the set points do not repeat (`period` is 0), the
-/// window begins at 0. Its start is rounded down to a row of Recording::ticks. These cover all steps, so that the result does
-/// not depend on trace.period.
+/// without the first after `start`, s, the start of the gait. The period is that of the limit cycle or, without one,
+/// `period` of the set points, s. If not two periods follow the start, the window begins 2 s after it or after a fifth of
+/// the time that is left, whichever is earlier. If the set points do not repeat (`period` is 0), it begins at 0. Its start
+/// is rounded down to a row of Recording::ticks. These cover all steps, so that the result does not depend on
+/// trace.period.
 Judged judge(const Recording& recording, const MotionCycle& cycle, double period, double start = 0);
 
 }  // namespace gaitlab

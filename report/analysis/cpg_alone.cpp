@@ -36,6 +36,11 @@ double stated_period(const Scenario& s) {
 
 double stated_full_size(const Scenario& s) { return times(s).full_size; }
 
+double stated_ramp(const Scenario& s) {
+  const bool ramps = s.cpg.entry != nullptr && make_cpg(last_cpg(s), plugin_info(s))->states() == 0;
+  return ramps ? stated_full_size(s) : 0;
+}
+
 StopsCpgAlone::StopsCpgAlone(const std::atomic<bool>& stop) { stop_of_thread = &stop; }
 StopsCpgAlone::~StopsCpgAlone() { stop_of_thread = nullptr; }
 bool StopsCpgAlone::asked() { return stop_of_thread != nullptr && *stop_of_thread; }

@@ -181,22 +181,22 @@ std::string grows(const Scenario& s, const Judged& judged, const Gait& gait) {
 }
 
 /// Difference between the first and the last period of the window, of the joint that changes most.
-std::string drifts(const Scenario& s, const Recording& r, const Judged& judged, double period) {
+std::string drifts(const Scenario& s, const Recording& r, double from, double to, double period) {
   const std::vector<Series> recorded = set_points(s, r);
   const std::vector<bool> free = turning_freely(*s.robot);
   const Series t = motion(r).t;
   if (!(period > 0) || t.size() < 2) return "";
   const double spacing = t[1] - t[0];
   const double unit = std::ceil(kLeastSamples * spacing / period) * period;
-  const double between = std::floor((judged.to - judged.from) / unit - 1 + 1e-3) * unit;
+  const double between = std::floor((to - from) / unit - 1 + 1e-3) * unit;
   if (!(between > 0)) return "";
   double most = 1;
   std::string text;
   for (std::size_t c = 0; c < recorded.size(); ++c) {
     const Values values(t, recorded[c], free[c]);
-    const auto [range, jump] = values.range(judged.from);
-    const Level last = values.level(judged.to - unit, judged.to);
-    const Level early = values.level(judged.to - unit - between, judged.to - between);
+    const auto [range, jump] = values.range(from);
+    const Level last = values.level(to - unit, to);
+    const Level early = values.level(to - unit - between, to - between);
     // A jump counts in one period for a row more than in another.
     const double allowed = kMostDrift * std::max(range, kStill) + jump * spacing / unit;
     const double mean = last.mean - early.mean;
@@ -223,9 +223,9 @@ Gait gait(const Scenario& s, const Recording& r) {
     made.full_size = stated_full_size(s);
     made.period = period_of(s, r, made);
   }
-  const double full = made.full_size < r.simulated ? made.full_size : 0;
+  const double ramp = stated_ramp(s);
   const double carried = made.period > 0 ? carried_from(s, r, made.period) : 0;
-  made.start = std::max({last_change(s, r.simulated), full, carried});
+  made.start = std::max({last_change(s, r.simulated), ramp < r.simulated ? ramp : 0, carried});
   return made;
 }
 
@@ -235,10 +235,10 @@ std::string growth(const Scenario& s, const Recording& r, const Judged& judged, 
     return fmt::format("the set points still grow: they have their full size at {:.4g} s of {:.4g}; take {}", gait.full_size,
                        r.simulated, std::isfinite(needed) ? fmt::format("duration: {:.4g}", needed) : "another rate");
   }
-  if (gait.ahead != nullptr) {
+  if (gait.ahead != nullptr && !(gait.full_size > 0)) {
     if (std::string text = grows(s, judged, gait); !text.empty()) return text;
   }
-  return drifts(s, r, judged, gait.period);
+  return drifts(s, r, std::max(judged.from, gait.full_size), judged.to, gait.period);
 }
 
 }  // namespace gaitlab::report

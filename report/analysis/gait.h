@@ -16,8 +16,8 @@ struct Gait {
   double period = 0;
   /// s, time from which on the set points keep their full size by the statement of the CPG (SetPointTimes::full_size).
   double full_size = 0;
-  /// s, start of the gait: the latest of `full_size`, the last change of the run (section `at`), and the time from which on the
-  /// ground carries half of the robot's weight in the mean of a period.
+  /// s, start of the gait: the latest of the end of a ramp, the last change of the run (section `at`), and the time from which
+  /// on the ground carries half of the robot's weight in the mean of a period.
   double start = 0;
   std::shared_ptr<const LookAhead> ahead = {};  ///< null if it is not known (look_ahead.h)
 };
@@ -26,7 +26,8 @@ Gait gait(const Scenario& scenario, const Recording& record);
 
 /// Sentence on set points that do not yet have, or do not keep, the size that they have in the judged window; empty if they do.
 /// A range after the run (LookAhead) is at most 2 % larger than in the window, and mean and RMS of the window's first and last
-/// period differ by at most 1 % of the range. The speed of the set point takes its place for a hinge without range.
+/// period differ by at most 1 % of the range. A stated full size has the place of the former, and the latter begins there. The
+/// speed of the set point takes its place for a hinge without range.
 std::string growth(const Scenario& scenario, const Recording& record, const Judged& judged, const Gait& gait);
 
 }  // namespace gaitlab::report

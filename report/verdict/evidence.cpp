@@ -77,13 +77,18 @@ void judge_length(const Recording& r, const Summary& summary, Evidence& made) {
 void judge_gait(const Scenario& s, const Recording& r, const Summary& summary, Evidence& made) {
   const std::vector<Series> asked = set_points(s, r);
   const bool driven = s.actuator.entry != nullptr && driven_joints(*s.robot) > 0;
-  if (std::string growing = growth(s, r, summary.judged, summary.gait); !growing.empty() && made.not_shown.empty()) {
+  const double full = std::max(summary.gait.full_size, summary.gait.start);
+  if (!made.not_shown.empty()) return;
+  if (std::string growing = growth(s, r, summary.judged, summary.gait); !growing.empty()) {
     made.not_shown = {std::move(growing), "cpg"};
-  } else if (driven && !asked.empty() && !moves(asked, motion(r).t, summary.gait.start)) {
+  } else if (driven && !asked.empty() && !moves(asked, motion(r).t, full)) {
     made.not_shown = {
-        fmt::format("no set point changes{}: {}", after(summary.gait.start),
-                    s.cpg.entry == nullptr ? "there is no cpg" : fmt::format("cpg {} moves no joint", s.cpg.entry->name)),
-        "cpg", "check its frequency, amplitudes, frames or equations"};
+        fmt::format("no set point changes{}: {}", after(full),
+                    s.cpg.entry == nullptr ? "there is no cpg"
+                                           : fmt::format("cpg {} moves no joint; check its frequency, amplitudes, "
+                                                         "frames or equations",
+                                                         s.cpg.entry->name)),
+        "cpg"};
   }
 }
 

@@ -89,13 +89,14 @@ TEST(Judged, LeavesOutTheFirstPeriod) {
   EXPECT_EQ(later.periods, 2U);
 }
 
-/// The set points' period has the place of that of a limit cycle, and a single period is not left out.
+/// The set points' period has the place of that of a limit cycle. A single period shows nothing.
 TEST(Judged, HoldsWholePeriodsOfTheSetPoints) {
   const Recording r = ticks_of_ten_seconds();
   EXPECT_DOUBLE_EQ(judge(r, {}, 3).from, 4);
   EXPECT_EQ(judge(r, {}, 3).periods, 0U);
-  EXPECT_DOUBLE_EQ(judge(r, {}, 6).from, 4);
-  EXPECT_DOUBLE_EQ(judge(r, {}, 10).from, 0);
+  EXPECT_DOUBLE_EQ(judge(r, {}, 5).from, 5);
+  EXPECT_DOUBLE_EQ(judge(r, {}, 6).from, 2);
+  EXPECT_DOUBLE_EQ(judge(r, {}, 2, 5).from, 8);
 }
 
 /// The end of a run decides only how much more than one period is left out.

@@ -172,7 +172,7 @@ MISSING = (r"{left:.3g} s(?: after {start:.3g} s)? are {held:.2g} of a gait's 3 
            r"|the robot falls freely: (?:there is no ground(?:; take base: fixed, or a ground)?"
            r"|no part of it touches the ground(?:; take base: fixed, or contact\.on: all)?)"
            r"|the motor of joint {creator} makes energy: efficiency x Kt {x:.4g} N m/A exceeds Ks {y:.4g} V s/rad; take Kt = Ks"
-           r"|no set point changes(?: after {start:.3g} s)?: (?:cpg {cpg} moves no joint|there is no cpg)"
+           r"|no set point changes(?: after {full:.3g} s)?: (?:cpg {cpg} moves no joint|there is no cpg)"
            r"(?:; check its frequency, amplitudes, frames or equations)?"
            r"|the torque of joint {inaccurate} is off by about {off:rough} of its peak, more than {most:pct}; take .*"
            r"|from t = {parted:.4g} s on \(joint {unpredictable}\) the motion is not predictable: gravity times {times:words} changes the "

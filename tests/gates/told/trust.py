@@ -56,6 +56,9 @@ def set_point_period(record):
     return common_period(f) if f else 0.0
 
 
+RAMPS = ("sine", "tripod", "keyframes", "table")
+
+
 def full_size(record):
     """Time from which on the set points have their full size, s: the end of a ramp, or 98 % of the amplitude."""
     cpg = record.scenario.get("cpg") or {}
@@ -65,13 +68,13 @@ def full_size(record):
         return 3.912 / rate  # ln 50, to the digits of the program
     if kind == "kuramoto_amplitude" and rate > 0:
         return 11.6678 / rate  # (1 + z) exp(-z) = 0.02 at z = rate t / 2
-    return model.get("ramp", 0.0) if kind in ("sine", "tripod", "keyframes", "table") else 0.0
+    return model.get("ramp", 0.0) if kind in RAMPS else 0.0
 
 
 def begin(record, period):
     """Start of the gait, s: full size of the set points, and the ground has carried half of the weight in the mean of each period since."""
-    full = full_size(record)
-    full = full if full < record.end else 0.0
+    ramp = full_size(record) if (record.scenario.get("cpg") or {}).get("type") in RAMPS else 0.0
+    full = ramp if ramp < record.end else 0.0
     if not period > 0 or not record.floating or not record.weight > 0 or not elements(record) or record.ground == "none":
         return full
     t, load = record.poses["t"], record.poses["load"]
@@ -82,13 +85,14 @@ def begin(record, period):
     return max(full, t[light[-1] + 1]) if len(light) and light[-1] != rows[-1] else full  # never carried at the end: not at all
 
 
-def drift(record, window, period):
+def drift(record, window, period, full):
     """Largest change of mean or RMS of a joint's set points between first and last period of the window, as a share of its range."""
     if not period > 0 or not record.driven.any():
         return 0.0
     t, x = record.poses["t"], record.pose("setpoint")[:, record.driven]
     unit = math.ceil(20 * (t[1] - t[0]) / period) * period
-    between = math.floor((window.end - window.start) / unit - 1 + 1e-3) * unit
+    begin_ = max(window.start, full)
+    between = math.floor((window.end - begin_) / unit - 1 + 1e-3) * unit
     if not between > 0:
         return 0.0
     def level(a, b):
@@ -96,7 +100,7 @@ def drift(record, window, period):
         y = np.stack([np.interp(grid_, t, one) for one in x.T])
         return y.mean(axis=1), np.sqrt((y ** 2).mean(axis=1))
     (m0, r0), (m1, r1) = level(window.end - unit - between, window.end - between), level(window.end - unit, window.end)
-    inside = x[t >= window.start]
+    inside = x[t >= begin_]
     jump = np.abs(np.diff(inside, axis=0)).max(axis=0) * (t[1] - t[0]) / unit
     share = (np.maximum(np.abs(m1 - m0), np.abs(r1 - r0)) - jump) / np.maximum(np.ptp(inside, axis=0), 2e-3)
     return float(share.max(initial=0))
@@ -119,8 +123,9 @@ class Evidence:
                           "inside": (window.end - window.start) / self.period, "start": start}
         self.also["start"] = start
         self.short = not self.long_enough
-        self.grows = full_size(record) > record.end or drift(record, window, period) > 0.01
-        self.still = not self.moves(record, start)
+        self.grows = full_size(record) > record.end or drift(record, window, period, full_size(record)) > 0.01
+        self.also["full"] = max(start, full_size(record))
+        self.still = not self.moves(record, self.also["full"])
         self.long_enough = self.long_enough and not self.grows and not self.still
         self.untrusted, self.unborne = self.distrust(record), self.support(record, window)
         self.borne = not self.unborne

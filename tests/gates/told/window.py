@@ -107,7 +107,7 @@ class Window:
         left, length = max(0.0, self.end - begin), found.period if found.found else period
         if length > 0:  # set points that do not repeat count from the start
             whole = int(np.floor(left / length + 1e-3))  # a thousandth of a period may be missing from a whole period
-            held = max(whole - 1, min(whole, 1))  # all whole periods but the first
+            held = max(whole - 1, 0)  # all whole periods but the first
             self.periods = held if found.found else 0
             self.start = max(0.0, self.end - held * length) if held else self.end - left + min(START, 0.2 * left)
         self.set(record, self.start)
