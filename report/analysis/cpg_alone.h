@@ -17,8 +17,8 @@ inline constexpr double kPeriodsNeeded = 3;
 double stated_period(const Scenario& scenario);
 /// Time from which on it states that the set points keep their full size, s.
 double stated_full_size(const Scenario& scenario);
-/// The same for a CPG without states, whose ramp has an end; 0 for others, whose states approach their size for ever, most of it
-/// in the first period.
+/// The same for a CPG without states, whose ramp has an end; 0 for others, whose states approach their size for ever, most of
+/// it in the first period.
 double stated_ramp(const Scenario& scenario);
 
 /// Frequencies above 0 of the driven joints among the settings of a CPG, Hz.
