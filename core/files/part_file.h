@@ -20,7 +20,8 @@ inline std::string part_name(const std::string& name, std::uint64_t number) {
   return fmt::format(".{}.{:0{}x}{}", name.substr(0, kName), number, kPartDigits, kPartEnd);
 }
 
-/// True for a regular file with such a name, which a process that was killed has left. A folder with such files alone is empty to a user.
+/// True for a regular file with such a name, which a process that was killed has left. A folder with such files alone is empty
+/// to a user.
 inline bool is_part_file(const std::filesystem::path& file) {
   const std::string name = file.filename().string();
   constexpr std::size_t kBehind = 1 + kPartDigits + kPartEnd.size();  // bytes behind NAME
