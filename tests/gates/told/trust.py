@@ -135,8 +135,8 @@ class Evidence:
         """True if a set point changes after the start by more than a ramp leaves to do."""
         if not record.driven.any():
             return True
-        x = record.pose("setpoint")[:, record.driven]
-        return bool((np.ptp(x[record.poses["t"] >= start], axis=0) > 0.025 * np.ptp(x, axis=0)).any())
+        x, later = record.pose("setpoint")[:, record.driven], record.poses["t"] >= start
+        return not later.any() or bool((np.ptp(x[later], axis=0) > 0.025 * np.ptp(x, axis=0)).any())
 
     def support(self, record, window):
         """Reason for which no ground carries a robot with a floating base; empty if a ground does, or if this is unknown."""
