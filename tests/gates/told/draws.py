@@ -53,7 +53,6 @@ RUNS = {
     "y1, two": ("library/y1-pp", ["duration=6"]),
     "y1, rolling": ("library/y1-rolling", ["duration=6"]),
     "y1, sidewinding": ("library/y1-sidewinding", ["duration=6"]),
-    "y1, at its limit": ("library/y1-sidewinding", ["duration=6", "physics.accuracy=0.03", "actuator.i_continuous=0.1884"]),
     "y1, snake": ("library/y1-snake", ["duration=6"]),
     "revolve": ("library/revolve-spider", ["duration=6"]),
     "rofi": ("library/rofi-snake", ["duration=6"]),
