@@ -20,25 +20,17 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 thread_local const std::atomic<bool>* stop_of_thread = nullptr;
 
-const PluginSelection& last_cpg(const Scenario& s) { return s.changes.empty() ? s.cpg : s.changes.back().cpg; }
-
-SetPointTimes times(const Scenario& s) {
-  return s.cpg.entry == nullptr ? SetPointTimes() : make_cpg(last_cpg(s), plugin_info(s))->times();
-}
-
 }  // namespace
 
-double stated_period(const Scenario& s) {
-  if (const double period = times(s).period; period > 0 || s.cpg.entry == nullptr) return period;
-  const std::vector<double> all = frequencies(s, last_cpg(s));
-  return all.empty() ? 0 : 1 / *std::ranges::min_element(all);
-}
-
-double stated_full_size(const Scenario& s) { return times(s).full_size; }
-
-double stated_ramp(const Scenario& s) {
-  const bool ramps = s.cpg.entry != nullptr && make_cpg(last_cpg(s), plugin_info(s))->states() == 0;
-  return ramps ? stated_full_size(s) : 0;
+StatedTimes stated_times(const Scenario& s) {
+  if (s.cpg.entry == nullptr) return {};
+  const PluginSelection& last = s.changes.empty() ? s.cpg : s.changes.back().cpg;
+  const std::unique_ptr<Cpg> cpg = make_cpg(last, plugin_info(s));
+  const auto [period, full_size] = cpg->times();
+  StatedTimes made{period, full_size, cpg->states() == 0 ? full_size : 0};
+  if (const std::vector<double> all = frequencies(s, last); !(period > 0) && !all.empty())
+    made.period = 1 / *std::ranges::min_element(all);
+  return made;
 }
 
 StopsCpgAlone::StopsCpgAlone(const std::atomic<bool>& stop) { stop_of_thread = &stop; }

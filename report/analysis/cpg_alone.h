@@ -12,14 +12,15 @@ namespace gaitlab::report {
 /// Number of set-point periods that show a gait whose motion does not settle to a limit cycle.
 inline constexpr double kPeriodsNeeded = 3;
 
-/// Period that the last CPG of a run states or, without it, 1 / least frequency (Hz) of a driven joint among its settings, s; 0
-/// if there is neither.
-double stated_period(const Scenario& scenario);
-/// Time from which on it states that the set points keep their full size, s.
-double stated_full_size(const Scenario& scenario);
-/// The same for a CPG without states, whose ramp has an end; 0 for others, whose states approach their size for ever, most of
-/// it in the first period.
-double stated_ramp(const Scenario& scenario);
+/// Times of the set points that the last CPG of a run states; all 0 without a CPG.
+struct StatedTimes {
+  double period = 0;     ///< s; if it states none, 1 / least frequency (Hz) of a driven joint among its settings, or 0
+  double full_size = 0;  ///< s, SetPointTimes::full_size
+  /// s, the same for a CPG without states, whose ramp has an end; 0 for others, whose states approach their size for ever, most
+  /// of it in the first period.
+  double ramp = 0;
+};
+StatedTimes stated_times(const Scenario& scenario);
 
 /// Frequencies above 0 of the driven joints among the settings of a CPG, Hz.
 std::vector<double> frequencies(const Scenario& scenario, const PluginSelection& cpg);

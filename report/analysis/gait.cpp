@@ -20,7 +20,6 @@ constexpr double kMostGrowth = 0.02;  // of a range after the run
 constexpr double kMostDrift = 0.01;   // of mean and RMS within the window, as a share of the range
 constexpr double kStill = 2e-3;       // rad or rad/s: a smaller range is none (core/recording/limit_cycle.h)
 constexpr double kRepeats = 0.02;     // RMS difference after a period / half a range (core/recording/limit_cycle.h)
-constexpr double kCarried = 0.5;      // share of the weight
 constexpr double kTwoPeriods = 2.25;  // length in which a period is found
 constexpr double kLeastSamples = 20;  // in the stretches whose means are compared
 constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -58,7 +57,7 @@ bool repeats_in_run(const LookAhead& ahead, double period, double full_size, dou
 double carried_from(const Scenario& s, const Recording& r, double span) {
   const std::vector<Series> loads = ground_loads(s, r);
   const Series t = motion(r).t;
-  const double least = kCarried * s.robot->mass * s.physics.gravity.norm();
+  const double least = kBorne * s.robot->mass * s.physics.gravity.norm();
   if (loads.empty() || t.size() < 2 || !(least > 0)) return 0;
   std::vector<double> impulse{0};  // N s, from the start on
   for (std::size_t k = 1; k < t.size(); ++k) {
@@ -78,11 +77,10 @@ double carried_from(const Scenario& s, const Recording& r, double span) {
   return 0;
 }
 
-double period_of(const Scenario& s, const Recording& r, Gait& made) {
+double period_of(const Scenario& s, const Recording& r, double stated, Gait& made) {
   const MotionCycle seen = set_point_cycle(s, r);
-  made.ahead = look_ahead(s, r, seen.found ? seen.period : 0);
+  made.ahead = look_ahead(s, r, seen.found ? seen.period : 0, stated);
   if (seen.found) return seen.period;
-  const double stated = stated_period(s);
   if (const LookAhead* const ahead = made.ahead.get(); ahead != nullptr && ahead->cycle.found) {
     const double found = ahead->cycle.period;
     return repeats_in_run(*ahead, found, made.full_size, s.control_period) ? found : 0;
@@ -219,11 +217,9 @@ std::string drifts(const Scenario& s, const Recording& r, double from, double to
 
 Gait gait(const Scenario& s, const Recording& r) {
   Gait made;
-  if (s.cpg.entry != nullptr) {
-    made.full_size = stated_full_size(s);
-    made.period = period_of(s, r, made);
-  }
-  const double ramp = stated_ramp(s);
+  const auto [stated, full_size, ramp] = stated_times(s);
+  made.full_size = full_size;
+  if (s.cpg.entry != nullptr) made.period = period_of(s, r, stated, made);
   const double carried = made.period > 0 ? carried_from(s, r, made.period) : 0;
   made.start = std::max({last_change(s, r.simulated), ramp < r.simulated ? ramp : 0, carried});
   return made;

@@ -10,6 +10,9 @@
 
 namespace gaitlab::report {
 
+/// Least share of the weight that the ground must carry on average, for a robot with a floating base.
+inline constexpr double kBorne = 0.5;
+
 struct Gait {
   /// s; 0 if the set points do not repeat, or by no known period. That of the recorded set points; of the CPG alone, if the run
   /// is too short for it; or the stated one.
@@ -22,6 +25,7 @@ struct Gait {
   std::shared_ptr<const LookAhead> ahead = {};  ///< null if it is not known (look_ahead.h)
 };
 
+/// Throws PluginError.
 Gait gait(const Scenario& scenario, const Recording& record);
 
 /// Sentence on set points that do not yet have, or do not keep, the size that they have in the judged window; empty if they do.

@@ -29,7 +29,6 @@ constexpr std::int64_t kMostTicks = 20000;   // after the run, or in the search 
 constexpr std::int64_t kMostOfRun = 200000;  // ticks of a run
 constexpr std::int64_t kMostRows = 4000;     // largest number of rows in the search for a period
 constexpr double kSameSetPoint = 1e-5;       // rad; recorded set points are single precision
-
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
 using Ahead = std::shared_ptr<const LookAhead>;
@@ -118,9 +117,9 @@ std::int64_t ticks_of(double seconds, const Scenario& s) {
   return static_cast<std::int64_t>(std::min(std::ceil(seconds / s.control_period), static_cast<double>(kMostTicks)));
 }
 
-Lengths lengths(const Scenario& s, double simulated, double period) {
+Lengths lengths(const Scenario& s, double simulated, double period, double stated) {
   Lengths of{static_cast<std::int64_t>(std::ceil(simulated / s.control_period)) + 1};
-  const double known = period > 0 ? period : stated_period(s);
+  const double known = period > 0 ? period : stated;
   of.after = ticks_of(known > 0 ? kPeriodsNeeded * known : simulated, s);
   of.most = std::max(of.run + of.after, ticks_of(std::max(kFarEnough, kLongerThanTheRun * simulated), s));
   return of;
@@ -158,10 +157,10 @@ std::pair<double, double> extremes(const std::vector<double>& rows, std::size_t 
   return found;
 }
 
-std::shared_ptr<const LookAhead> look_ahead(const Scenario& s, const Recording& r, double period) try {
+std::shared_ptr<const LookAhead> look_ahead(const Scenario& s, const Recording& r, double period, double stated) try {
   const std::vector<Series> recorded = set_points(s, r);
   if (recorded.empty() || s.cpg.entry->context != nullptr || last_change(s, r.simulated) > 0) return {};
-  const Lengths of = lengths(s, r.simulated, period);
+  const Lengths of = lengths(s, r.simulated, period, stated);
   if (of.run > kMostOfRun) return {};
   const std::string key = key_of(s, r);
   if (const std::optional<Ahead> before = kept(key, s)) {

@@ -22,11 +22,12 @@ struct LookAhead {
 };
 
 /// Simulates the CPG alone, once per CPG and length of the run: the last ones are kept, because many runs of a table, and the
-/// judgements of one run, have the same CPG. `period`, s, is that of the recorded set points; 0 if they have none. Then a
-/// period is searched, for up to 120 s or five times the run. Null if feedback changed a recorded set point, after a change of
-/// the run (section `at`), for a CPG of another language, which takes long and may wait for a user, for a CPG that fails after
-/// the end of the run, for a run of more than 200 000 ticks, and if it was stopped (cpg_alone.h).
-std::shared_ptr<const LookAhead> look_ahead(const Scenario& scenario, const Recording& record, double period);
+/// judgements of one run, have the same CPG. `period`, s, is that of the recorded set points; 0 if they have none. Then
+/// three periods of the length `stated` are simulated, and a period is searched, for up to 120 s or five times the run.
+/// Null if feedback changed a recorded set point, after a change of the run (section `at`), for a CPG of another language,
+/// which takes long and may wait for a user, for a CPG that fails after the end of the run, for a run of more than 200 000
+/// ticks, and if it was stopped (cpg_alone.h).
+std::shared_ptr<const LookAhead> look_ahead(const Scenario& scenario, const Recording& record, double period, double stated);
 
 /// For each driven joint, true if its hinge has no range.
 std::vector<bool> turning_freely(const Robot& robot);

@@ -12,8 +12,6 @@ namespace gaitlab::report {
 /// Largest errors of a trusted run, in addition to limits.torque_error: energy residual / energy drawn, and share of the time
 /// in which even the shortest steps miss the accuracy.
 inline constexpr double kTrustedResidual = 0.05, kTrustedCoarse = 0.1;
-/// Least share of the weight that the ground must carry on average, for a robot with a floating base.
-inline constexpr double kBorne = 0.5;
 /// Largest error of a limit cycle for which one period is enough. With a larger error, kPeriodsNeeded periods of the set points
 /// are required after the start of the gait (cpg_alone.h); the judged window leaves out the first of them.
 inline constexpr double kSettled = 0.01;
