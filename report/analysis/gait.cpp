@@ -20,11 +20,11 @@ constexpr double kMostGrowth = 0.02;  // of a range after the run
 constexpr double kMostDrift = 0.01;   // of mean and RMS within the window, as a share of the range
 constexpr double kStill = 2e-3;       // rad or rad/s: a smaller range is none (core/recording/limit_cycle.h)
 constexpr double kRepeats = 0.02;     // RMS difference after a period / half a range (core/recording/limit_cycle.h)
-constexpr double kTwoPeriods = 2.25;  // length in which a period is found
+constexpr double kTwoPeriods = 2.25;  // least length that shows a period
 constexpr double kLeastSamples = 20;  // in the stretches whose means are compared
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// True if the set points of the run's last period are those of the period before it, or if less than two periods follow
+/// True if the set points of the run's last period equal the period before it, or if less than two periods follow
 /// `full_size`, s. A chirp may seem to repeat after the run.
 bool repeats_in_run(const LookAhead& ahead, double period, double full_size, double spacing) {
   const std::size_t columns = ahead.after_run.size();
@@ -52,8 +52,8 @@ bool repeats_in_run(const LookAhead& ahead, double period, double full_size, dou
   return *std::ranges::max_element(misfit) <= (kRepeats + shift) * std::max(largest, kStill);
 }
 
-/// Time from which on the mean of the ground's normal force over `span` s is at least half of the weight, s; 0 if the forces
-/// are not known, or if they never are.
+/// Time of the landing, s: after it the mean of the ground's normal force over any `span` s is at least half of the weight. 0
+/// if the forces are not known, or too small at the end of the run.
 double carried_from(const Scenario& s, const Recording& r, double span) {
   const std::vector<Series> loads = ground_loads(s, r);
   const Series t = motion(r).t;
@@ -86,7 +86,7 @@ double period_of(const Scenario& s, const Recording& r, double stated, Gait& mad
     return repeats_in_run(*ahead, found, made.full_size, s.control_period) ? found : 0;
   }
   if (made.ahead != nullptr) return made.ahead->until < kTwoPeriods * stated ? stated : 0;
-  // In a run of several periods the recorded set points would have shown a period that is only stated.
+  // The recorded set points of a run of several periods would have shown the stated period.
   return r.simulated - last_change(s, r.simulated) < kPeriodsNeeded * stated ? stated : 0;
 }
 
@@ -156,7 +156,7 @@ std::string grows(const Scenario& s, const Judged& judged, const Gait& gait) {
   const LookAhead& ahead = *gait.ahead;
   const std::size_t columns = ahead.after_run.size();
   const std::vector<bool> free = turning_freely(*s.robot);
-  // The samples of three periods come nearer to a peak than those of one.
+  // Samples of three periods are nearer to a peak than samples of one.
   const double sampled =
       gait.period > 0 ? (1 - std::cos(std::min(std::numbers::pi, std::numbers::pi * s.control_period / gait.period))) / 2 : 0;
   const auto first = static_cast<std::size_t>(std::ceil(judged.from / s.control_period - 1e-6));

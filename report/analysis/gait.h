@@ -1,4 +1,4 @@
-// Set points of a gait: their period, the time from which on they have their full size, and their growth.
+// Set points of a gait: their period, their growth, and the start of their full size.
 #pragma once
 #include <memory>
 #include <string>
@@ -17,10 +17,10 @@ struct Gait {
   /// s; 0 if the set points do not repeat, or by no known period. That of the recorded set points; of the CPG alone, if the run
   /// is too short for it; or the stated one.
   double period = 0;
-  /// s, time from which on the set points keep their full size by the statement of the CPG (SetPointTimes::full_size).
+  /// s, start of the full size of the set points by the statement of the CPG (SetPointTimes::full_size).
   double full_size = 0;
-  /// s, start of the gait: the latest of the end of a ramp, the last change of the run (section `at`), and the time from which
-  /// on the ground carries half of the robot's weight in the mean of a period.
+  /// s, start of the gait: the latest of the end of a ramp, the last change of the run (section `at`), and the landing, after
+  /// which the ground carries half of the robot's weight in the mean of each period.
   double start = 0;
   std::shared_ptr<const LookAhead> ahead = {};  ///< null if it is not known (look_ahead.h)
 };

@@ -76,8 +76,8 @@ void keep(Kept one) {
   if (all.last.size() > kMost) all.last.pop_back();
 }
 
-/// True if feedback changed no recorded set point: all are equal to those of the CPG `alone`. The set point in a row was in
-/// force just before the time of the row.
+/// True if feedback changed no recorded set point: all are equal to the set points of the CPG `alone`. The set point in a row
+/// was in force just before the time of the row.
 bool recorded_so(const Scenario& s, const Recording& r, const std::vector<double>& alone, const std::vector<Series>& recorded) {
   const Series t = motion(r).t;
   for (std::size_t row = 1; row < t.size(); ++row) {

@@ -23,7 +23,7 @@ namespace {
 constexpr double kRelative = 1e-9;  // tolerance for rounding
 constexpr double kEstimate = 1e-3;  // share of a period, tolerance of an estimated period
 
-/// True if a set point changes after `start`, s, by more than what a ramp leaves (SetPointTimes::full_size).
+/// True if a set point changes after `start`, s, by more than the rest of a rise (SetPointTimes::full_size).
 bool moves(const std::vector<Series>& set_points, const Series& time, double start) {
   constexpr double kLeft = 0.025;  // of a range, a little more than 2 %
   for (const Series& one : set_points) {

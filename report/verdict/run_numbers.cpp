@@ -190,10 +190,10 @@ std::vector<SummaryNumber> run_numbers() {
        .compare = {.place = 60, .if_different = true}},
       {.key = "judged.from",
        .unit = "s",
-       .definition = "Start of the judged window, which consists of whole periods up to the end, without the first after "
+       .definition = "Start of the judged window: whole periods up to the end, without the first after "
                      "the start of the gait. The gait starts when a ramp of the cpg has ended, after the last change of "
                      "the run, and when the ground carries half of the weight in the mean of each period from then on. "
-                     "The period is that of the limit cycle, else of the set points. If not two periods are left, the "
+                     "The period belongs to the limit cycle, else to the set points. If not two periods are left, the "
                      "window starts 2 s after that, or after a fifth of the rest, whichever is earlier; if the set "
                      "points do not repeat, at 0.",
        .value = [](R r) { return r.summary.judged.from; },

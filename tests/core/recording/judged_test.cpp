@@ -89,7 +89,7 @@ TEST(Judged, LeavesOutTheFirstPeriod) {
   EXPECT_EQ(later.periods, 2U);
 }
 
-/// The set points' period has the place of that of a limit cycle. A single period shows nothing.
+/// The set points' period replaces the period of a limit cycle. A single period shows nothing.
 TEST(Judged, HoldsWholePeriodsOfTheSetPoints) {
   const Recording r = ticks_of_ten_seconds();
   EXPECT_DOUBLE_EQ(judge(r, {}, 3).from, 4);

@@ -37,7 +37,7 @@ void expect_not_judged(const Verdict& made, const std::string& reason) {
   EXPECT_TRUE(contains(made.why(), reason)) << made.why();
 }
 
-/// A ramp or rate that is a key tells how long the set points grow.
+/// The duration of the growth follows from a key: the ramp or the rate.
 TEST(Shown, SetPointsThatGrow) {
   expect_not_judged(verdict_of(shipped("hexapod.yaml", {"physics.engine=articulated", "duration=6", "cpg.frequency=1",
                                                         "cpg.amplitude=0.8", "cpg.model.ramp=60"})),
@@ -49,7 +49,7 @@ TEST(Shown, SetPointsThatGrow) {
   expect_not_judged(caterpillar({"cpg={type: van_der_pol, frequency: 1, model: {amplitude_rate: 0.2}}"}), "at 19.56 s of 16;");
 }
 
-/// Equations state nothing: the CPG alone goes on for three periods after the run.
+/// Equations state nothing: the CPG alone is simulated for three periods after the run.
 TEST(Shown, EquationsThatGrow) {
   expect_not_judged(equation("0.2*(1 + 0.02*u)*sin(2*pi*u + index)", "8"), "the set points still grow: those of joint ");
   expect_not_judged(equation("0.2*(1 + exp(u - 11))*sin(2*pi*u + index)", "8"), "the set points still grow: those of joint ");
