@@ -181,7 +181,7 @@ std::shared_ptr<const LookAhead> look_ahead(const Scenario& s, const Recording& 
     made.until = static_cast<double>(ticks) * s.control_period;
     alone.resize(static_cast<std::size_t>(of.run) * recorded.size());
     made.in_run = std::move(alone);
-    const auto found = std::make_shared<const LookAhead>(std::move(made));
+    std::shared_ptr<const LookAhead> found = std::make_shared<const LookAhead>(std::move(made));
     keep({key, s.robot, found});
     return found;
   }
