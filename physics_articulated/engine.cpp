@@ -96,9 +96,9 @@ class ArticulatedPlant final : public Plant {
   bool state_within(std::size_t lane, std::size_t eighth, Out state) const override {
     return kernel_->state_within(lane, eighth, state);
   }
-  void change_joints(In hold) override {
-    kernel_->change(hold);
-    for (const auto& solo : own_solos_) solo->change(hold);
+  void change_joints(In hold, In since) override {
+    kernel_->change(hold, since);
+    for (const auto& solo : own_solos_) solo->change(hold, since);
     for (const auto& model : models_) model->change(hold);
   }
   void tally(std::size_t lane, StepTally& out) const override {

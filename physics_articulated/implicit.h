@@ -2,6 +2,7 @@
 #pragma once
 #include "core/laws/hinge_stop.h"
 #include "physics_articulated/contacts.h"
+#include "physics_articulated/holds.h"
 #include "physics_articulated/motion.h"
 #include "physics_articulated/motors.h"
 #include "physics_articulated/solo.h"
@@ -39,6 +40,7 @@ class Implicit {
       : body(tree, environment.gravity),
         contacts(tree, environment),
         motors(actuator, tree.lo.size(), tree.passive, lanes),
+        holds(tree.lo.size()),
         rotor(tree.lo.size(), T(0.0)),
         done(tree.lo.size()),
         tree_(tree),
@@ -47,8 +49,7 @@ class Implicit {
         now_(joints_),
         next_(joints_) {
     passive_.assign(tree.passive.size(), T(0.0));
-    for (auto* values : {&stop_, &stop_slope_, &force_, &diagonal_, &end_, &hold_}) values->assign(joints_, T(0.0));
-    held_.assign(joints_, math::Mask<T>{});
+    for (auto* values : {&stop_, &stop_slope_, &force_, &diagonal_, &end_}) values->assign(joints_, T(0.0));
     const In inertia = actuator == nullptr ? In() : actuator->reflected_inertia();
     if (inertia.empty()) return;
     for (std::size_t j = 0; j < joints_; ++j) {
@@ -88,20 +89,9 @@ class Implicit {
   }
 
   /// Takes changed motors and stuck hinges: Plant::change_joints for these lanes.
-  void change(In hold, const LaneRange& lanes) {
+  void change(In hold, In since, const LaneRange& lanes) {
     motors.take(tree_.passive, lanes);
-    holds_ = false;
-    for (std::size_t j = 0; j < joints_; ++j) {
-      T held = 0.0;
-      for (std::size_t l = 0; l < math::kLanes<T>; ++l) {
-        const double angle = hold[j * lanes.all + lanes.first + l];
-        const bool stuck = angle == angle;  // false for NaN
-        holds_ = holds_ || stuck;
-        math::lane(held, l) = stuck ? 1 : 0;
-        math::lane(hold_[j], l) = stuck ? angle : 0;
-      }
-      held_[j] = held > T(0.0);
-    }
+    holds.change(hold, since, lanes);
   }
 
   /// Takes the results of a step of the lane `l` alone; `which` contains this lane only.
@@ -172,6 +162,7 @@ class Implicit {
   Body<T> body;
   Contacts<T> contacts;
   Motors<T> motors;
+  Holds<T> holds;              ///< their time is set before step() and evaluate()
   std::vector<T> rotor;        ///< reflected inertia of each joint, kg m^2
   StepResult<T> done;          ///< result of the last step
   T solves = 0.0;              ///< number of solves of the last step
@@ -184,9 +175,7 @@ class Implicit {
     explicit Iterate(std::size_t joints) : a(6 + joints), torque(joints), stop(joints) {}
     std::vector<T> a, torque, stop;
   };
-  struct Stop {
-    T torque, slope;
-  };
+  using Stop = StopTorque<T>;
 
   /// Sets the tangents at the speeds at the end of the last step, so that every law begins on the branch of that step.
   void start(std::span<const T> x, In command, double h) {
@@ -333,18 +322,15 @@ class Implicit {
     const T end = excess + h * qd;
     const T torque = -k * end - c * select(within, (1 / h) * end, qd);
     const auto acts = math::mask_or(math::mask_and(up, torque < zero), math::fresh(torque > zero, up));
-    Stop own{select(acts, torque, zero), select(acts, T(c + h * k), zero)};
-    if (!holds_) return own;
-    using Hold = BasicHingeHold<T>;
-    return {select(held_[j], Hold::torque(q + h * qd, qd, hold_[j]), own.torque),
-            select(held_[j], T(Hold::kDamping + h * Hold::kStiffness), own.slope)};
+    const Stop own{select(acts, torque, zero), select(acts, T(c + h * k), zero)};
+    return holds.any() ? holds.instead_of(own, j, q, qd, h) : own;
   }
 
   /// Torque of a stop or of a stuck hinge.
   [[nodiscard]] T stop_law(std::span<const T> x, std::size_t j) const {
     const T &q = x[StateLayout::kAngles + j], &qd = speeds(x)[j];
     const T own = BasicHingeStop<T>::at(q, qd, tree_.lo[j], tree_.hi[j]).torque;
-    return holds_ ? math::select(held_[j], BasicHingeHold<T>::torque(q, qd, hold_[j]), own) : own;
+    return holds.any() ? holds.instead_of({own, T(0.0)}, j, q, qd, 0).torque : own;
   }
 
   /// Writes the iterate into the state. Works use the mean of the velocities at start and end of the step.
@@ -388,9 +374,6 @@ class Implicit {
   std::size_t joints_;
   std::vector<T> passive_;  ///< torques of passive hinges, set by evaluate()
   std::vector<T> place_, stop_, stop_slope_, force_, diagonal_, end_;
-  bool holds_ = false;               ///< true if a hinge is stuck
-  std::vector<math::Mask<T>> held_;  ///< lanes that hold a stuck joint, by joint
-  std::vector<T> hold_;              ///< angle of a stuck joint, rad, by joint
   Iterate now_, next_;
   T missed_ = 0.0;
 };

@@ -18,7 +18,8 @@ class ScalarSolo final : public Solo {
     slope = implicit_.motors.slope;
   }
 
-  void step(Out x, In command, double h) override {
+  void step(Out x, In command, double h, double end) override {
+    implicit_.holds.at(end);
     implicit_.step(x, command, h, true);
     contact = implicit_.done.contact;
     friction = implicit_.done.friction;
@@ -30,7 +31,7 @@ class ScalarSolo final : public Solo {
     slides = implicit_.contacts.mostly_slide();
   }
 
-  void change(In hold) override { implicit_.change(hold, lanes_); }
+  void change(In hold, In since) override { implicit_.change(hold, since, lanes_); }
 
  private:
   Tree<double> tree_;

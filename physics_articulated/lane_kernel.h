@@ -30,7 +30,7 @@ class LaneKernel final : public Kernel {
   bool state_within(std::size_t lane, std::size_t eighth, Out state) const override {
     return stepper_.eighths().state(lane, eighth, state);
   }
-  void change(In hold) override { stepper_.implicit.change(hold, {0, math::kLanes<T>}); }
+  void change(In hold, In since) override { stepper_.implicit.change(hold, since, {0, math::kLanes<T>}); }
   [[nodiscard]] History history() const override { return stepper_.layout; }
 
   [[nodiscard]] StepEffort applied() const override {

@@ -13,10 +13,11 @@ class Solo {
   Solo& operator=(const Solo&) = delete;
   virtual ~Solo() = default;
 
-  /// Advances x (StateLayout, SI) by a step h (s) and sets the results. `command` has an entry per joint.
-  virtual void step(Out x, In command, double h) = 0;
+  /// Advances x (StateLayout, SI) by a step h (s) and sets the results. `command` has an entry per joint. The step ends `end`
+  /// seconds after the start of the whole step of the kernel.
+  virtual void step(Out x, In command, double h, double end) = 0;
 
-  virtual void change(In hold) = 0;  ///< see Plant::change_joints; `hold` has all lanes of the kernel
+  virtual void change(In hold, In since) = 0;  ///< see Plant::change_joints; with all lanes of the kernel
 
   In torque, speed, angle;  ///< by joint at the end of the step: N m, rad/s, rad
   In slope;                 ///< by joint: slope of the motor's tangent in the last solve, N m s/rad

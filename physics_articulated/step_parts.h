@@ -48,6 +48,7 @@ struct Limits {
 template <class T>
 struct Level {
   std::vector<T> start;
+  double at = 0;  ///< s, time of the start after that of the whole step
   Way<T> whole, halves, quarters, half, quarter, early;
   Limits<T> limits;  ///< after the first two quarters
 };

@@ -42,7 +42,7 @@ class Stepper {
     const std::vector<T> zero(StateLayout::kAngles + 2 * joints_, T(0.0));
     for (auto* state : {&sum_, &stage_, &rate_}) *state = zero;
     const Way<T> way{zero, 0, 0};
-    levels_.assign(kLevels, {zero, way, way, way, way, way, way, {std::vector<math::Mask<T>>(joints_), {}}});
+    levels_.assign(kLevels, {zero, 0, way, way, way, way, way, way, {std::vector<math::Mask<T>>(joints_), {}}});
     limits_ = levels_[0].limits;
     halved_.assign(kHalvings, zero);
     parts_.assign(method == Method::adaptive ? std::clamp<std::size_t>(kRoom / size_of_part(), 8, kMostParts) : 4,
@@ -125,25 +125,26 @@ class Stepper {
     return found;
   }
 
-  /// Takes an implicit step of the lane `l` in scalar code. `which` contains this lane only.
-  void step_alone(std::size_t l, std::span<T> x, In command, double h, const math::Mask<T>& which) {
+  /// Takes an implicit step of the lane `l` in scalar code, which ends at `end`. `which` contains this lane only.
+  void step_alone(std::size_t l, std::span<T> x, In command, double h, double end, const math::Mask<T>& which) {
     Solo& solo = *solos_[l].get;
     for (std::size_t e = 0; e < x.size(); ++e) of_solo_[e] = math::lane(x[e], l);
     for (std::size_t j = 0; j < joints_; ++j) command_of_solo_[j] = command[j * math::kLanes<T> + l];
-    solo.step(of_solo_, command_of_solo_, h);
+    solo.step(of_solo_, command_of_solo_, h, end);
     for (std::size_t e = 0; e < x.size(); ++e) math::lane(x[e], l) = of_solo_[e];
     implicit.take(solo, l, which);
     apart_ = math::mask_or(apart_, which);
     slide_ = solo.slides ? math::mask_or(slide_, which) : math::fresh(slide_, which);
   }
 
-  /// Takes one implicit step of the lanes `which` and adds its parts.
-  void settle(std::span<T> x, In command, double h, const math::Mask<T>& which, std::size_t halvings = 0) {
+  /// Takes one implicit step of the lanes `which`, which begins `at` seconds after the whole step, and adds its parts.
+  void settle(std::span<T> x, In command, double h, const math::Mask<T>& which, double at, std::size_t halvings = 0) {
     if (halvings < kHalvings) std::copy(x.begin(), x.end(), halved_[halvings].begin());
     const std::size_t alone = solos_.empty() ? math::kLanes<T> : only_lane(which);
     if (alone < math::kLanes<T>) {
-      step_alone(alone, x, command, h, which);
+      step_alone(alone, x, command, h, at + h, which);
     } else {
+      implicit.holds.at(at + h);
       implicit.step(x, command, h, which);
       apart_ = math::fresh(apart_, which);
     }
@@ -157,7 +158,7 @@ class Stepper {
     if (!halve) return;
     const math::Mask<T> again = implicit.unfinished;
     for (std::size_t e = 0; e < x.size(); ++e) x[e] = math::select(again, halved_[halvings][e], x[e]);
-    for (int half = 0; half < 2; ++half) settle(x, command, h / 2, again, halvings + 1);
+    for (int half = 0; half < 2; ++half) settle(x, command, h / 2, again, at + half * h / 2, halvings + 1);
   }
 
   /// Sets the weights of Richardson's extrapolation for the parts of a way in the lanes `which`. If `finest`, these parts
@@ -172,7 +173,7 @@ class Stepper {
   }
 
   void single(std::span<T> x, In command, double h, const math::Mask<T>& which) {
-    settle(x, command, h, which);
+    settle(x, command, h, which, 0);
     weigh({{}, 1, used_}, which, 1, true);
   }
 
@@ -218,14 +219,14 @@ class Stepper {
   }
 
   /// Takes an implicit step from `start` to way.x. If `start` is itself a way, the parts of both belong to the new one.
-  void go(Way<T>& way, const std::vector<T>& start, In command, double h, const math::Mask<T>& which) {
+  void go(Way<T>& way, const std::vector<T>& start, In command, double h, const math::Mask<T>& which, double at) {
     std::copy(start.begin(), start.end(), way.x.begin());
     way.from = used_;
-    settle(way.x, command, h, which);
+    settle(way.x, command, h, which, at);
     way.to = used_;
   }
-  void go(Way<T>& way, const Way<T>& before, In command, double h, const math::Mask<T>& which) {
-    go(way, before.x, command, h, which);
+  void go(Way<T>& way, const Way<T>& before, In command, double h, const math::Mask<T>& which, double at) {
+    go(way, before.x, command, h, which, at);
     way.from = before.from;
   }
 
@@ -238,18 +239,18 @@ class Stepper {
       own.halves = before->early;
       return before->limits;
     }
-    go(own.whole, own.start, command, h, which);
-    go(own.half, own.start, command, h / 2, which);
-    go(own.halves, own.half, command, h / 2, which);
+    go(own.whole, own.start, command, h, which, own.at);
+    go(own.half, own.start, command, h / 2, which, own.at);
+    go(own.halves, own.half, command, h / 2, which, own.at + h / 2);
     look(limits_);
     return limits_;
   }
   void four(Level<T>& own, In command, double h, const math::Mask<T>& which) {
-    go(own.quarter, own.start, command, h / 4, which);
-    go(own.early, own.quarter, command, h / 4, which);
+    go(own.quarter, own.start, command, h / 4, which, own.at);
+    go(own.early, own.quarter, command, h / 4, which, own.at + h / 4);
     look(own.limits);
-    go(own.quarters, own.early, command, h / 4, which);
-    settle(own.quarters.x, command, h / 4, which);
+    go(own.quarters, own.early, command, h / 4, which, own.at + h / 2);
+    settle(own.quarters.x, command, h / 4, which, own.at + 3 * h / 4);
     own.quarters.to = used_;
     look(limits_);
   }
@@ -277,6 +278,7 @@ class Stepper {
     const bool fixed = level == kLevels;
     Level<T>& own = levels_[fixed ? 0 : level];
     std::copy(x.begin(), x.end(), own.start.begin());
+    own.at = fixed ? 0 : h * static_cast<double>(end) / static_cast<double>(kShortest >> level) - h;
     const std::size_t first = used_;
     const Limits<T>& limits = one_and_two(own, command, h, which, before);
     const auto &one = own.whole.x, &two = own.halves.x, &four = own.quarters.x;
@@ -358,6 +360,7 @@ class Stepper {
     std::ranges::copy(implicit.speeds(x), part.speed.begin());
     std::copy_n(x.begin() + StateLayout::kAngles, joints_, part.angle.begin());
     for (std::size_t i = 0; i < 4; ++i) {
+      implicit.holds.at(i == 0 ? 0 : kReach[i - 1] * h);
       derive(stage_, command, rate_);
       const auto [normal, along, on_stops, on_hinges] = implicit.powers(stage_);
       part.contact = part.contact + kWeight[i] * h * normal;

@@ -51,6 +51,8 @@ class BulletPlant final : public Plant, private InverseMass {
     at_rest_.resize(n);
     start_speed_.resize(n);
     start_angle_.resize(n);
+    since_.resize(n);
+    grip_.resize(n);
     for (std::size_t j = 0; j < n; ++j) {
       if (!robot_.joints[j].driven()) passive_.push_back(j);
     }
@@ -66,6 +68,7 @@ class BulletPlant final : public Plant, private InverseMass {
     start_angle_ = state_.q;
     std::fill(applied_.begin(), applied_.end(), 0.0);
     work_ = {};
+    for (std::size_t j = 0; j < grip_.size(); ++j) grip_[j] = HingeHold::grip(since_[j] + h / 2);
     integrator_.step(state_, h, [&](const RobotState& state, double weight, Acceleration& out) {
       evaluate(state, command);
       for (std::size_t j = 0; j < torque_.size(); ++j) {
@@ -104,7 +107,10 @@ class BulletPlant final : public Plant, private InverseMass {
     for_each_contact([&](const Contact& c) { out[c.element] = {c.world(), c.force.fn, c.touch.penetration, c.touch.point}; });
   }
 
-  void change_joints(In hold) override { std::ranges::copy(hold, monitor_.hold.begin()); }
+  void change_joints(In hold, In since) override {
+    std::ranges::copy(hold, monitor_.hold.begin());
+    std::ranges::copy(since, since_.begin());
+  }
 
   [[nodiscard]] Stability stability(std::size_t, In command, bool standing) override {
     layout_.read(numbers_, 0, state_);
@@ -141,7 +147,7 @@ class BulletPlant final : public Plant, private InverseMass {
   /// Torque of a stop or of a stuck hinge.
   [[nodiscard]] double stop_at(const RobotState& state, std::size_t j) const {
     const double hold = monitor_.hold[j];
-    if (!std::isnan(hold)) return HingeHold::torque(state.q[j], state.qd[j], hold);
+    if (!std::isnan(hold)) return HingeHold::torque(state.q[j], state.qd[j], hold, grip_[j]);
     return HingeStop::at(state.q[j], state.qd[j], robot_.joints[j].lo, robot_.joints[j].hi).torque;
   }
 
@@ -197,6 +203,7 @@ class BulletPlant final : public Plant, private InverseMass {
   ExplicitIntegrator integrator_;
   Acceleration acceleration_;
   std::vector<double> torque_, slope_, applied_, at_rest_, start_speed_, start_angle_;
+  std::vector<double> since_, grip_;  ///< by joint: time that it has been stuck at the start of the step, s; grip in its middle
   OnePart part_;
   std::array<double, 2> power_ = {};  ///< power given to the ground along its normal and along its surface, W
   std::array<double, 4> work_ = {};   ///< works of the last step, J: contact, friction, stops, hinges

@@ -34,6 +34,7 @@ class SolverPlant final : public Plant {
     state_.qd.resize(n);
     for (auto* values : {&torque_, &slope_, &limited_, &limited_slope_, &applied_, &start_speed_}) values->resize(n);
     hold_.assign(n, NAN);
+    since_.assign(n, 0.0);
     for (auto* values : {&least_, &most_, &off_, &fast_}) values->resize(n);
     find_limits();
     elements_of_body_.resize(robot_.bodies.size());
@@ -72,8 +73,9 @@ class SolverPlant final : public Plant {
 
   void boxes(std::span<BoxMotion> out) const override { world_.boxes(out); }
 
-  void change_joints(In hold) override {
+  void change_joints(In hold, In since) override {
     std::ranges::copy(hold, hold_.begin());
+    std::ranges::copy(since, since_.begin());
     find_limits();
   }
 
@@ -148,7 +150,7 @@ class SolverPlant final : public Plant {
     if (!std::isnan(hold_[j])) {
       const double slope = HingeHold::kDamping + h * HingeHold::kStiffness;
       const double target = -HingeHold::kStiffness * (state_.q[j] - hold_[j]) / slope;
-      world_.stop(j).set(slope, target, -kUnlimited, kUnlimited);
+      world_.stop(j).set(HingeHold::grip(since_[j] + h) * slope, target, -kUnlimited, kUnlimited);
       return;
     }
     const Joint& joint = robot_.joints[j];
@@ -221,6 +223,7 @@ class SolverPlant final : public Plant {
   RobotState state_;
   std::vector<double> torque_, slope_, limited_, limited_slope_, applied_, start_speed_, least_, most_;
   std::vector<double> hold_;        ///< angles of stuck hinges, rad; NaN for the others
+  std::vector<double> since_;       ///< time that each has been stuck, s
   std::vector<double> off_, fast_;  ///< commands 0, and speeds of find_limits()
   std::vector<ContactSample> samples_;
   std::vector<std::vector<std::size_t>> elements_of_body_;

@@ -27,14 +27,25 @@ struct BasicHingeStop {
 
 using HingeStop = BasicHingeStop<double>;
 
-/// Hinge that is stuck at an angle: torque = -kh (q - q_hold) - ch qd, in both directions, instead of the stop. (chosen: a
-/// hundred times the constants of the stop, so that motors of 2 N m turn the hinge by less than 1e-3 rad; docs/faults.md)
+/// Hinge that is stuck at an angle: torque = grip (-kh (q - q_hold) - ch qd), in both directions, instead of the stop. (chosen:
+/// a hundred times the constants of the stop, so that motors of 2 N m turn the hinge by less than 1e-3 rad; docs/faults.md) The
+/// grip rises from 0 to 1 in kRamp: with ch at once, a joint that jams in motion stops within 20 us, by a torque that depends
+/// on ch alone.
 template <class T>
 struct BasicHingeHold {
+  static constexpr double kRamp = 0.02;                                      ///< s
   static constexpr double kStiffness = 100 * BasicHingeStop<T>::kStiffness;  ///< kh, N m/rad
   static constexpr double kDamping = 100 * BasicHingeStop<T>::kDamping;      ///< ch, N m s/rad
 
-  static T torque(const T& q, const T& qd, const T& hold) { return -kStiffness * (q - hold) - kDamping * qd; }
+  /// `since`: time since the hinge got stuck, s.
+  static T grip(const T& since) {
+    const T share = since * (1 / kRamp);
+    const T one = 1.0;
+    return math::select(share < one, share, one);
+  }
+  static T torque(const T& q, const T& qd, const T& hold, const T& grip) {
+    return grip * (-kStiffness * (q - hold) - kDamping * qd);
+  }
 };
 
 using HingeHold = BasicHingeHold<double>;

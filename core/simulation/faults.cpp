@@ -22,10 +22,11 @@ void Simulation::prepare_faults() {
   faulty_ = wrap(actuator_, lanes_.size());
   if (own_actuator_) own_faulty_ = wrap(own_actuator_, recorded_);
   hold_.assign(layout_.joints * lanes_.size(), std::numeric_limits<double>::quiet_NaN());
+  stuck_for_.assign(hold_.size(), 0.0);
 }
 
 /// Gives actuators and plant the faults in force if these have changed, by a change of the scenario or by a snapshot that was
-/// copied back. A lane that has ended has none.
+/// copied back, or if the hold of a stuck hinge still grows. A lane that has ended has none.
 void Simulation::apply_faults() {
   if (faulty_ == nullptr) return;
   constexpr double kFree = std::numeric_limits<double>::quiet_NaN();
@@ -35,14 +36,16 @@ void Simulation::apply_faults() {
       const std::size_t i = j * lanes_.size() + lane->index;
       const FaultInForce own = lane->closed ? FaultInForce() : lane->changes.fault(j);
       const double hold = lane->closed ? kFree : lane->changes.hold(j);
-      const bool same = hold == hold_[i] || (std::isnan(hold) && std::isnan(hold_[i]));
+      const double since = lane->closed ? 0 : lane->changes.stuck_for(j, time());
+      const bool same = since == stuck_for_[i] && (hold == hold_[i] || (std::isnan(hold) && std::isnan(hold_[i])));
       hold_[i] = hold;
+      stuck_for_[i] = since;
       const FaultyActuator::Fault fault{own.kind == FaultKind::open, own.kind == FaultKind::weak ? own.share : 1};
       changed = faulty_->set(i, fault) || changed || !same;
       if (own_faulty_ != nullptr && lane->index < recorded_) own_faulty_->set(j * recorded_ + lane->index, fault);
     }
   }
-  if (changed) plant_->change_joints(hold_);
+  if (changed) plant_->change_joints(hold_, stuck_for_);
 }
 
 }  // namespace gaitlab

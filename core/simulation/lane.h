@@ -61,13 +61,14 @@ struct Simulation::Lane {
     controller = changes.controller();
   }
 
-  /// Writes segment and faults into a sample.
+  /// Writes segment and faults into a sample, whose time is set.
   void read_changes(Sample& to) const {
     if (scenario.changes.empty()) return;
     to.segment = static_cast<double>(changes.segment());
     for (std::size_t j = 0; j < to.fault.size(); ++j) {
       to.fault[j] = static_cast<double>(changes.fault(j).kind);
       to.hold[j] = changes.hold(j);
+      to.stuck_for[j] = changes.stuck_for(j, to.t);
     }
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/laws/hinge_stop.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/scenario/change_section.h"
 
@@ -15,7 +16,8 @@ constexpr std::uint32_t kDraw = 16;  // of lost set points; sensors have the dra
 
 }  // namespace
 
-LaneChanges::LaneChanges(const Scenario& scenario, const RobotInfo& robot) : joints_(robot.joints.size()) {
+LaneChanges::LaneChanges(const Scenario& scenario, const RobotInfo& robot)
+    : joints_(robot.joints.size()), period_(scenario.control_period) {
   segments_.reserve(1 + scenario.changes.size());
   segments_.push_back({0, make_cpg(scenario.cpg, robot), make_controller(scenario.controller, robot), {}});
   segments_[0].faults.resize(joints_);
@@ -46,7 +48,7 @@ void LaneChanges::add(const Change& change, const Scenario& scenario, const Robo
 
 std::size_t LaneChanges::states() const {
   if (segments_.size() == 1) return 0;
-  return 1 + (stuck_ ? joints_ : 0) + (longest_ > 0 ? joints_ * static_cast<std::size_t>(longest_ + 1) : 0);
+  return 1 + (stuck_ ? 2 * joints_ : 0) + (longest_ > 0 ? joints_ * static_cast<std::size_t>(longest_ + 1) : 0);
 }
 
 void LaneChanges::begin(std::int64_t tick, In angle) {
@@ -54,7 +56,9 @@ void LaneChanges::begin(std::int64_t tick, In angle) {
     const std::vector<FaultInForce>& before = segments_[next - 1].faults;
     const std::vector<FaultInForce>& now = segments_[next].faults;
     for (std::size_t j = 0; stuck_ && j < joints_; ++j) {
-      if (now[j].kind == FaultKind::stuck && before[j].kind != FaultKind::stuck) held()[j] = angle[j];
+      if (now[j].kind != FaultKind::stuck || before[j].kind == FaultKind::stuck) continue;
+      held()[j] = angle[j];
+      jammed()[j] = static_cast<double>(tick);
     }
     numbers_[0] = static_cast<double>(next);
   }
@@ -62,6 +66,11 @@ void LaneChanges::begin(std::int64_t tick, In angle) {
 
 double LaneChanges::hold(std::size_t joint) const {
   return fault(joint).kind == FaultKind::stuck ? held()[joint] : std::numeric_limits<double>::quiet_NaN();
+}
+
+double LaneChanges::stuck_for(std::size_t joint, double t) const {
+  if (fault(joint).kind != FaultKind::stuck) return 0;
+  return std::clamp(t - jammed()[joint] * period_, 0.0, HingeHold::kRamp);
 }
 
 void LaneChanges::lose(std::int64_t tick, In before, std::size_t lane, Out setpoint) {

@@ -22,7 +22,8 @@ struct FaultInForce {
 
 /// CPG, controller and faults of a lane by segment. Segment k begins with the k-th entry of `at`, at the first control tick at
 /// or after its time; segment 0 is the start. All numbers that change are in the array of bind(): the present segment, the
-/// angles of stuck joints, and the set points of the last ticks. Allocates at construction only.
+/// angles of stuck joints and the ticks at which they got stuck, and the set points of the last ticks. Allocates at
+/// construction only.
 class LaneChanges {
  public:
   LaneChanges(const Scenario& scenario, const RobotInfo& robot);
@@ -39,6 +40,8 @@ class LaneChanges {
   [[nodiscard]] const FaultInForce& fault(std::size_t joint) const { return segments_[segment()].faults[joint]; }
   /// Angle of a stuck joint, rad; NaN for a joint that is not stuck.
   [[nodiscard]] double hold(std::size_t joint) const;
+  /// Time that a joint has been stuck at time t, s, at most HingeHold::kRamp; 0 for a joint that is not stuck.
+  [[nodiscard]] double stuck_for(std::size_t joint, double t) const;
   /// True if a fault of the scenario changes motors or hinges.
   [[nodiscard]] bool change_joints() const { return change_joints_; }
 
@@ -57,9 +60,11 @@ class LaneChanges {
   };
   void add(const Change& change, const Scenario& scenario, const RobotInfo& robot);
   [[nodiscard]] Out held() const { return numbers_.subspan(1, stuck_ ? joints_ : 0); }
-  [[nodiscard]] Out ring() const { return numbers_.subspan(1 + (stuck_ ? joints_ : 0)); }
+  [[nodiscard]] Out jammed() const { return numbers_.subspan(1 + (stuck_ ? joints_ : 0), stuck_ ? joints_ : 0); }
+  [[nodiscard]] Out ring() const { return numbers_.subspan(1 + (stuck_ ? 2 * joints_ : 0)); }
 
   std::size_t joints_;
+  double period_;  ///< s, of control
   std::vector<Segment> segments_;
   bool stuck_ = false, change_joints_ = false;
   std::int64_t longest_ = 0;                 ///< longest delay of set points, in control ticks; 0 without a ring

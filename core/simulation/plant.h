@@ -93,9 +93,12 @@ class Plant {
   virtual bool state_within(std::size_t /*lane*/, std::size_t /*eighth*/, Out /*state*/) const { return false; }
   /// Writes all members except the estimate of the torque error.
   virtual void tally(std::size_t /*lane*/, StepTally& /*out*/) const {}
-  /// Takes the motors of the actuator anew, whose constants have changed, and the angles of stuck hinges: index joint
-  /// * lanes + lane, rad, NaN for a hinge that is not stuck. Called between steps. The default refuses this.
-  virtual void change_joints(In /*hold*/) { throw std::logic_error("this engine takes no faults of motors and hinges"); }
+  /// Takes the motors of the actuator anew, whose constants have changed, and the stuck hinges: their angles, rad, NaN for a
+  /// hinge that is not stuck, and the time that each has been stuck, s, at most HingeHold::kRamp, after which its hold no
+  /// longer grows. Index joint * lanes + lane. Called between steps. The default refuses this.
+  virtual void change_joints(In /*hold*/, In /*since*/) {
+    throw std::logic_error("this engine takes no faults of motors and hinges");
+  }
   /// nullptr if the actuator evaluates its laws itself.
   [[nodiscard]] virtual MotorLaws* motor_laws() { return nullptr; }
 

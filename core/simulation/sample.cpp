@@ -14,8 +14,9 @@ Sample::Sample(const Robot& robot, std::size_t contacts_count, std::size_t cpg_s
       contacts(contacts_count),
       cpg(cpg_states),
       reactions(robot) {
-  for (auto* values : {&state.q, &state.qd, &setpoint, &command, &voltage, &current, &saturation, &torque, &stop_torque,
-                       &passive_torque, &fault, &acceleration_.joints, &applied_, &tally.torque_error, &tally.torque_peak}) {
+  for (auto* values :
+       {&state.q, &state.qd, &setpoint, &command, &voltage, &current, &saturation, &torque, &stop_torque, &passive_torque,
+        &fault, &stuck_for, &acceleration_.joints, &applied_, &tally.torque_error, &tally.torque_peak}) {
     values->assign(robot.joints.size(), 0.0);
   }
   hold.assign(robot.joints.size(), NAN);
@@ -35,7 +36,7 @@ void Sample::forward_kinematics(const Robot& robot) {
 void Sample::compute_hinges(const Robot& robot, const std::vector<std::size_t>& passive) {
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     stop_torque[j] = std::isnan(hold[j]) ? HingeStop::at(state.q[j], state.qd[j], robot.joints[j].lo, robot.joints[j].hi).torque
-                                         : HingeHold::torque(state.q[j], state.qd[j], hold[j]);
+                                         : HingeHold::torque(state.q[j], state.qd[j], hold[j], HingeHold::grip(stuck_for[j]));
   }
   for (const std::size_t j : passive) {
     const PassiveHinge hinge = law(*robot.joints[j].passive);

@@ -37,6 +37,7 @@ struct Sample {
   Vec3 gravity = Vec3::Zero();
   std::vector<double> setpoint, command, voltage, current, saturation, torque, stop_torque, passive_torque;
   std::vector<double> fault, hold;  ///< number of the fault of each joint; its angle if it is stuck, rad, else NaN
+  std::vector<double> stuck_for;    ///< time that each joint has been stuck, s, as in Plant::change_joints
   double segment = 0;
   std::vector<ContactSample> contacts;
   std::vector<BoxMotion> boxes;  ///< one per box of the ground; empty if none can move

@@ -181,6 +181,7 @@ void Simulation::watch_docks() {
   };
   if (std::ranges::none_of(lanes_, [&](const auto& lane) { return watches(*lane); })) return;
   const auto every = static_cast<std::int64_t>(std::ceil(kWatchEvery / h_ - 1e-9));
+  within_ = h_;
   if (step_number() % every == every - 1)
     watch_docks([&](const Lane& lane) { return watches(lane) && !lane.clock.commands(step_number() + 1); });
   end_.assign(plant_state_.begin(), plant_state_.end());
@@ -191,9 +192,11 @@ void Simulation::watch_docks() {
       any = any || lane->divided;
     }
     if (!any) continue;
+    within_ = static_cast<double>(eighth) / kEighths * h_;
     watch_docks([](const Lane& lane) { return lane.divided; });
     std::ranges::copy(end_, plant_state_.begin());
   }
+  within_ = 0;
 }
 
 void Simulation::watch_docks(const std::function<bool(const Lane&)>& wanted) {

@@ -144,7 +144,8 @@ class Simulation {
   std::unique_ptr<Actuator> actuator_;
   /// The actuators with their faults; nullptr if no fault of the scenarios changes motors or hinges.
   FaultyActuator *faulty_ = nullptr, *own_faulty_ = nullptr;
-  std::vector<double> hold_;  ///< angles of stuck hinges of plant_, rad; NaN for others; empty like faulty_
+  std::vector<double> hold_;       ///< angles of stuck hinges of plant_, rad; NaN for others; empty like faulty_
+  std::vector<double> stuck_for_;  ///< time that these have been stuck, s, as in Plant::change_joints
   std::unique_ptr<Plant> plant_;
   std::vector<std::unique_ptr<Lane>> lanes_;
   StateLayout layout_;
