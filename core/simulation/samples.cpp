@@ -174,21 +174,17 @@ constexpr double kWatchEvery = 1e-3;  // s; least interval between loads of dock
 
 /// Measures the loads of docks between control ticks: at the ends of steps at least kWatchEvery apart and, where the integrator
 /// divided a step, at those eighths of the step at which a part ended. An impact divides steps, and can be over at the end of
-/// its step.
+/// its step. saved_ has the state at the start of the step.
 void Simulation::watch_docks() {
-  const auto watches = [&](const Lane& lane) {
-    return lane.recorder != nullptr && !lane.closed && lane.recorder->watches_docks();
-  };
-  if (std::ranges::none_of(lanes_, [&](const auto& lane) { return watches(*lane); })) return;
   const auto every = static_cast<std::int64_t>(std::ceil(kWatchEvery / h_ - 1e-9));
   within_ = h_;
   if (step_number() % every == every - 1)
-    watch_docks([&](const Lane& lane) { return watches(lane) && !lane.clock.commands(step_number() + 1); });
+    watch_docks([&](const Lane& lane) { return watches_docks(lane) && !lane.clock.commands(step_number() + 1); });
   end_.assign(plant_state_.begin(), plant_state_.end());
   for (std::size_t eighth = 1; eighth < kEighths; ++eighth) {
     bool any = false;
     for (const auto& lane : lanes_) {
-      lane->divided = watches(*lane) && plant_->state_within(lane->index, eighth, plant_state_);
+      lane->divided = watches_docks(*lane) && plant_->state_within(lane->index, eighth, plant_state_);
       any = any || lane->divided;
     }
     if (!any) continue;
@@ -197,6 +193,11 @@ void Simulation::watch_docks() {
     std::ranges::copy(end_, plant_state_.begin());
   }
   within_ = 0;
+  watch_stops();
+}
+
+bool Simulation::watches_docks(const Lane& lane) const {
+  return lane.recorder != nullptr && !lane.closed && lane.recorder->watches_docks();
 }
 
 void Simulation::watch_docks(const std::function<bool(const Lane&)>& wanted) {

@@ -40,8 +40,10 @@ void Simulation::step() try {
     command();
   }
   record_within_step();
+  const bool watches = std::ranges::any_of(lanes_, [&](const auto& lane) { return watches_docks(*lane); });
+  if (watches) std::ranges::copy(state_, saved_.begin());
   advance(h_, [](const Lane&) { return true; });
-  watch_docks();
+  if (watches) watch_docks();
   if (step_error_) estimate();
   state_[0] += 1;
   check();

@@ -132,6 +132,10 @@ class Simulation {
   void fill_loads(Lane& lane);
   void watch_docks();
   void watch_docks(const std::function<bool(const Lane&)>& wanted);
+  [[nodiscard]] bool watches_docks(const Lane& lane) const;
+  [[nodiscard]] int met_stop(const Lane& lane, std::size_t joint, In from) const;
+  void watch_stops();
+  void watch_stop(const Lane& lane, std::size_t joint, int side);
   [[nodiscard]] SimulationError stopped(const PluginError& error) const;
   [[nodiscard]] SimulationError diverged(const Lane& lane) const;
 
@@ -158,13 +162,13 @@ class Simulation {
   std::unique_ptr<StepError> step_error_;           ///< nullptr without an estimate
   Out plant_state_, plant_history_, setpoint_, command_;  ///< parts of state_; the last two by joint * lanes + lane
   std::vector<double> voltage_, current_, saturation_, power_in_, copper_, gear_, torque_, slope_, available_,
-      largest_;                   ///< scratch by joint * lanes + lane; largest_ has the recorded lanes only
-  FirstLanes first_;              ///< entries of the recorded lanes
-  std::vector<double> saved_;     ///< scratch: copy of state_ while a row within a step is recorded
-  std::vector<double> end_;       ///< scratch: plant at the end of a step while the loads within it are measured
-  std::vector<double> measured_;  ///< scratch: 1 for a lane whose statistics include a step, else 0
-  std::vector<Lane*> ended_;      ///< scratch: lanes that end at the present row
-  double within_ = 0;             ///< s: time of the present row after the start of the step
+      largest_;                               ///< scratch by joint * lanes + lane; largest_ has the recorded lanes only
+  FirstLanes first_;                          ///< entries of the recorded lanes
+  std::vector<double> saved_;                 ///< scratch: copy of state_ while a row or loads within a step are recorded
+  std::vector<double> end_, history_at_end_;  ///< scratch: plant at the end of a step while the loads within it are measured
+  std::vector<double> measured_;              ///< scratch: 1 for a lane whose statistics include a step, else 0
+  std::vector<Lane*> ended_;                  ///< scratch: lanes that end at the present row
+  double within_ = 0;                         ///< s: time of the present row after the start of the step
   Meter meter_;
   Stability standing_;
   std::function<std::string(std::size_t, const Recording&)> watch_;
