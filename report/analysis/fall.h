@@ -10,14 +10,15 @@ namespace gaitlab::report {
 
 /// Heights of a robot on a ground, and its fall. A height is that of the centre of mass above the mean height of the surfaces
 /// below the contact elements of contact.on (Ground::surface_below). Without contact elements it is measured from the surface
-/// below the centre of mass.
+/// below the centre of mass. The height at each tick is compared with the lower of two: that of the start pose, and that of the
+/// pose of its set points (within the ranges of the hinges) upright, on its lowest contact elements: a
+/// robot that lowers itself as it is told does not fall.
 struct Fall {
-  double standing = 0;              ///< m, height of the start pose, lowered onto the ground
-  double lowest = 0;                ///< m, least height of all ticks
-  double lowest_time = 0;           ///< s, time of the least height
-  std::optional<double> time = {};  ///< s, first tick with a height below Limits::height * standing; empty if the robot did not
-                                    ///< fall
-  [[nodiscard]] double share() const { return lowest / standing; }
+  double lowest = 0;                ///< m, height at the tick with the least share
+  double lowest_time = 0;           ///< s, time of that tick
+  double share = 0;                 ///< lowest over the height it is compared with
+  bool told = false;                ///< true if that is the height of the set points' pose
+  std::optional<double> time = {};  ///< s, first tick with a share below Limits::height; empty if the robot did not fall
 };
 
 /// Heights at control ticks (States::at_ticks), m. Empty if the folder has no poses.
@@ -25,6 +26,9 @@ std::vector<double> heights(const Scenario& scenario, const Recording& record);
 
 /// Height of the centre of mass in the start pose, lowered onto the ground, m.
 double standing_height(const Scenario& scenario);
+
+/// Mean height of the surfaces below the contact elements in a state, m.
+double surface_height(const Scenario& scenario, const RobotState& state);
 
 /// Heights and fall of a robot with a floating base on a ground. Empty for other robots, for a run without poses, and if the
 /// centre of mass of the start pose is not above the ground.

@@ -32,11 +32,15 @@ constexpr CheckKind kChecks[] = {
     {"outcome", Group::run, "s", "Run finished", "simulated time against the duration", "the run ended early", "", kWhole,
      "duration", "the message of the run names the remedy", checks::outcome, true},
     {"fall", Group::run, "", "Does not fall",
-     "least height of the centre of mass above the ground over that at the start, at control ticks", "below limits.height", "",
-     kWhole, "limits.height", "a gait with more support, or limits.height", checks::height, true},
+     "least height of the centre of mass above the ground over the lower of two: that at the start, and that of the pose of "
+     "its set "
+     "points at that time, upright (mean orientation of all links as at the start) on its lowest contact elements, at control "
+     "ticks",
+     "below limits.height", "", kWhole, "limits.height", "a gait with more support, or limits.height", checks::height, true},
     {"progress", Group::run, "m", "Goes somewhere", "travel of the centre of mass per period (without periods: in the window)",
      "below limits.progress of the robot's extent (diagonal of the box around links and contact elements at the start) where "
-     "that is set; or the robot slides down faster and faster",
+     "that is set; or the robot slides down its ground faster and faster: gravity does more work along the ground than the "
+     "motors",
      "below a hundredth of the robot's extent (without periods: a tenth), with as little turning", kWindow, "limits.progress",
      "limits.progress, if standing still must be a failure", checks::progress, true},
     {"upright", Group::run, "rad", "Stays upright",
@@ -73,8 +77,9 @@ constexpr CheckKind kChecks[] = {
      "above limits.tracking_error", kWindow, "controller", "larger gains, or a slower gait", checks::tracking},
     {"stops", Group::motion, "rad", "Joints keep their ranges",
      "largest excess over the range of the hinge, of the whole run, over all steps",
-     "above limits.beyond_range, or for more than limits.beyond_range_share of the time", "any", kWhole, "cpg", kSmaller,
-     checks::stops},
+     "above limits.beyond_range, or for more than limits.beyond_range_share of the time; of a hinge without a motor, which is "
+     "meant to touch its stop, above 0.05 rad (2.5 N m of the stop), or limits.beyond_range if that is more",
+     "any, of joints with a motor", kWhole, "cpg", kSmaller, checks::stops},
     {"setpoints", Group::motion, "", "Set points keep the ranges",
      "largest share of the time that a set point is beyond the range of its hinge, over all steps", "", "any", kWhole, "cpg",
      kSmaller, checks::setpoints},

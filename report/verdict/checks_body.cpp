@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/laws/hinge_stop.h"
 #include "core/settings/settings_numbers.h"
 #include "core/settings/wording.h"
 #include "report/analysis/cpg_alone.h"
@@ -67,11 +68,12 @@ void height(const CheckedRun& run, Check& made) {
     return;
   }
   judge(made, "height", &Limits::height, run);
-  made.value = run.fall->share();
+  made.value = run.fall->share;
   made.from = run.fall->time.value_or(run.fall->lowest_time);
   made.to = run.fall->lowest_time;
   made.status = run.fall->time ? CheckStatus::fail : CheckStatus::pass;
-  const std::string share = texts::percent(made.value) + " of its height above the ground at the start";
+  const std::string share = texts::percent(made.value) + (run.fall->told ? " of the height of its set points' pose"
+                                                                         : " of its height above the ground at the start");
   made.text = "the centre of mass keeps at least " + share;
   if (made.status == CheckStatus::pass) return;
   made.text =
@@ -158,6 +160,42 @@ std::string beyond_text(const Check& made, const BeyondRange& worst, bool by_ang
                                  texts::percent(most), worst.worst));
 }
 
+// A hinge without a motor is meant to touch its stop.
+constexpr double kRestsBeyond = 0.05;  // rad, 2.5 N m of the stop
+
+/// Judges hinges without a motor, by their angle beyond the stop alone, after the joints with a motor: they decide if they fail
+/// by more than these, or if none of these is beyond its range.
+void judge_rests(const CheckedRun& run, const std::vector<BeyondRange>& joints, Check& made) {
+  const auto beyond = [&](std::size_t j) { return run.scenario.robot->joints[j].driven() ? 0 : joints[j].worst; };
+  const Criterion most{0, std::max(kRestsBeyond, run.limits().beyond_range), "rad"};
+  std::size_t worst = 0;
+  std::size_t rest = 0;
+  std::size_t fail = 0;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (beyond(j) > beyond(worst)) worst = j;
+    rest += beyond(j) > 0 ? 1 : 0;
+    fail += beyond(j) > most.limit ? 1 : 0;
+  }
+  const Criterion own{joints.empty() ? 0 : beyond(worst), most.limit, most.unit};
+  if (rest == 0 || (fail > 0 ? !(own.margin() < made.margin) : made.parts > 0)) return;
+  made.criteria = {own};
+  made.value = own.value;
+  made.limit = own.limit;
+  made.unit = own.unit;
+  made.source = own.limit > kRestsBeyond ? threshold("beyond_range", own.limit, kRestsBeyond) : "chosen";
+  made.margin = own.margin();
+  name_joint(made, run, worst);
+  made.parts = fail;
+  made.status = fail > 0 ? CheckStatus::fail : CheckStatus::pass;
+  const std::string by =
+      fmt::format("{:.3g} rad beyond its stop, which gives {:.3g} N m", own.value, HingeStop::kStiffness * own.value);
+  made.text = fmt::format("no joint with a motor leaves its range; {} without a motor is up to {}", made.worst, by);
+  if (fail == 0) return;
+  made.text = fmt::format("{} without a motor {} pressed far beyond the stop; worst {}: {}", counted(fail, "hinge"),
+                          fail == 1 ? "is" : "are", made.worst, by);
+  made.remedy = "take a wider range, a stiffer hinge spring, or a gentler gait";
+}
+
 /// Cause of a jump of the set point of a joint at t = 0, or the setting that is missing.
 std::string jump_remedy(const Scenario& s, std::size_t joint) {
   const double angle = s.initial.angles[joint];
@@ -176,16 +214,10 @@ std::string jump_remedy(const Scenario& s, std::size_t joint) {
 
 }  // namespace
 
-void stops(const CheckedRun& run, Check& made) {
-  std::vector<BeyondRange> joints = beyond_range(*run.scenario.robot, run.record);
-  made.text = kAllFaulty;
-  if (leave_faulty_out(run, joints)) return;
-  made.text = "neither statistics of all steps were recorded nor the angle of every joint";
-  if (joints.empty() && !run.scenario.robot->joints.empty()) return;
-  made.value = 0;
-  judge(made, "beyond_range", &Limits::beyond_range, run);
-  made.status = CheckStatus::pass;
-  made.text = "no joint leaves its range";
+namespace {
+
+/// Judges joints with a motor; the others have no excess.
+void judge_driven(const CheckedRun& run, const std::vector<BeyondRange>& joints, Check& made) {
   const double most = run.limits().beyond_range_share;
   const auto criteria = [&](const BeyondRange& joint) {
     return std::vector<Criterion>{{joint.worst, made.limit, made.unit}, {joint.share, most}};
@@ -213,6 +245,26 @@ void stops(const CheckedRun& run, Check& made) {
   made.text = beyond_text(made, joints[worst], by_angle, most);
   if (made.status == CheckStatus::fail)
     made.remedy = "take a smaller amplitude or offset: the motor works against the hinge stop";
+}
+
+}  // namespace
+
+void stops(const CheckedRun& run, Check& made) {
+  std::vector<BeyondRange> joints = beyond_range(*run.scenario.robot, run.record);
+  made.text = kAllFaulty;
+  if (leave_faulty_out(run, joints)) return;
+  made.text = "neither statistics of all steps were recorded nor the angle of every joint";
+  if (joints.empty() && !run.scenario.robot->joints.empty()) return;
+  made.value = 0;
+  judge(made, "beyond_range", &Limits::beyond_range, run);
+  made.status = CheckStatus::pass;
+  made.text = "no joint leaves its range";
+  std::vector<BeyondRange> driven = joints;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (!run.scenario.robot->joints[j].driven()) driven[j] = {};
+  }
+  judge_driven(run, driven, made);
+  judge_rests(run, joints, made);
 }
 
 void setpoints(const CheckedRun& run, Check& made) {

@@ -74,12 +74,17 @@ Halves halves(const CheckedRun& run) {
   return from >= -kMissing * unit ? Halves{from, std::ceil(held / 2) * unit} : Halves{};
 }
 
-/// Work of gravity from the start of the first half on, J.
-double gravity_work(const Scenario& s, const Motion& m, const Halves& of) {
+/// Work of gravity along the ground from the start of the first half on, J: the heights are those of the ground below the
+/// robot. A robot that comes down onto the ground, as after a drop at the start, does not slide.
+double gravity_work(const Scenario& s, const Recording& r, const Motion& m, const Halves& of) {
   std::size_t first = 0;
   while (first + 1 < m.t.size() && m.t[first] < of.from) ++first;
   const auto way = [&](const Series& one) { return one.back() - one[first]; };
-  return s.robot->mass * s.physics.gravity.dot(Vec3(way(m.x), way(m.y), way(m.z)));
+  Vec3 all(way(m.x), way(m.y), 0);
+  const States states = States::at_ticks(r, *s.robot);
+  if (!s.ground.is_plane() && states.size() == m.t.size())
+    all.z() = surface_height(s, states(states.size() - 1)) - surface_height(s, states(first));
+  return s.robot->mass * s.physics.gravity.dot(all);
 }
 
 /// Path speed in the second half / path speed in the first half.
@@ -95,11 +100,11 @@ double speed_up(const Motion& m, const Halves& of, double end) {
   return before > 0 ? way(end - of.length, end) / before : 1;
 }
 
-/// Makes the check fail if gravity pulls the robot down a slope.
+/// Makes the check fail if gravity pulls the robot down a slope of its ground.
 void judge_slide(const CheckedRun& run, const Motion& m, Check& made) {
   const Scenario& s = run.scenario;
   const Halves two = halves(run);
-  const double fallen = gravity_work(s, m, two);
+  const double fallen = gravity_work(s, run.record, m, two);
   double driven = 0;
   for (const JointStatistics& joint : run.record.joints) driven += joint.shaft;
   if (!run.evidence.not_borne.empty()) return;  // a falling robot does not slide

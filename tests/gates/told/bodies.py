@@ -79,6 +79,31 @@ def standing(record):
     return height - min((motion[body][0] + motion[body][1] @ centre)[0, 2] - radius for body, centre, radius in elements(record).values())
 
 
+def stance(record):
+    """Heights of the centre of mass above the lowest point of the contact elements, in the poses of the set points (within the ranges of
+    the hinges), with the mean orientation of all bodies, by mass, of the start. NaN without contact elements."""
+    rows, count, robot = len(record.poses), record.count, record.robot
+    found = elements(record)
+    if not found:
+        return np.full(rows, np.nan)
+    asked = record.pose("setpoint") if count else np.zeros((rows, 0))
+    for j, (low, high) in enumerate(robot.ranges):
+        asked[:, j] = np.clip(asked[:, j], low, high)
+    still = np.zeros((rows, 3))
+    first, level = record.motion(), np.broadcast_to(np.eye(3), (rows, 3, 3))
+    pose = robot.move(still, level, still, still, asked, 0 * asked)
+    # The rotation that brings all bodies nearest to their first orientations, by least squares.
+    u, _, v = np.linalg.svd(sum(body.mass * first[body][1][0] @ np.swapaxes(pose[body][1], -1, -2) for body in robot.bodies))
+    u[:, :, 2] *= np.linalg.det(u @ v)[:, None]
+    pose = robot.move(still, u @ v, still, still, asked, 0 * asked)
+    com = sum(body.mass * pose.com(body)[0][:, 2] for body in robot.bodies) / sum(body.mass for body in robot.bodies)
+    low = np.min([(pose[body][0] + pose[body][1] @ centre)[:, 2] - radius for body, centre, radius in found.values()], axis=0)
+    return com - low
+
+
+LEAST_STANCE = 0.01  # share of the standing height: a pose whose feet are above its centre of mass
+
+
 def fall(record, window):
     if not record.floating or record.ground == "none":
         return Told()
@@ -87,10 +112,13 @@ def fall(record, window):
         return None
     if not above > 0:
         return Told()
-    low = int(np.argmin(height))
-    value = height[low] / above
+    # The lower of two heights: that of the start, and that of the pose that the robot is told to have.
+    lower = np.fmin(above, np.maximum(stance(record), LEAST_STANCE * above))
+    share = height / lower
+    low = int(np.argmin(share))
+    value = share[low]
     told = Told("fail" if value < limit else "pass", value, limit, least=True, margin=margin(value, limit, True))
-    below = np.flatnonzero(height < limit * above)
+    below = np.flatnonzero(share < limit)
     told.start, told.end = t[below[0]] if len(below) else t[low], t[low]
     told.first = told.start if len(below) else np.nan
     told.also = {"below": -height[low]}
@@ -212,7 +240,10 @@ def progress(record, window, borne, long_enough, period):
     told = Told(status, value, limit, least=True, start=t[a], end=t[b], can_fail=asked > 0)
     told.margin = margin(value, limit, True) if asked else np.nan
     begin, half = halves(window, period)
-    fallen = record.mass * (record.gravity @ (com[b] - com[min(int(np.searchsorted(t, begin)), b)]))
+    k = min(int(np.searchsorted(t, begin)), b)
+    # Along the ground: coming down onto it is not sliding.
+    ground = com[:, 2] - heights(record)
+    fallen = record.mass * (record.gravity @ [*(com[b] - com[k])[:2], ground[b] - ground[k]])
     driven = record.joints["shaft"].sum() if record.count else 0.0
     if borne and fallen > max(driven, record.least_energy()):
         step = np.linalg.norm(np.diff(com[:, :2], axis=0), axis=1)

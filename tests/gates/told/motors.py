@@ -230,10 +230,26 @@ def tracking(record, window):
                 start=record.t[rows[j] - 1], end=record.t[rows[j]])
 
 
+RESTS_BEYOND, STOP = 0.05, 50  # rad: a hinge without a motor may touch its stop; N m/rad (docs/equations.md, 2)
+
+
 def stops(record, window):
     if not record.count:
         return Told("pass", 0.0, record.limits["beyond_range"], margin=1.0)
-    angle, share = record.joints["range_worst"], record.joints["range_share"]
+    angle, share = record.joints["range_worst"].copy(), record.joints["range_share"].copy()
+    rests, harmless = np.where(record.driven, 0, angle), max(RESTS_BEYOND, record.limits["beyond_range"])
+    angle[~record.driven] = share[~record.driven] = 0
+    told = stops_of_motors(record, angle, share)
+    pressed = int((rests > harmless).sum())
+    worst = margin(rests.max(), harmless)
+    if not rests.max() > 0 or (not worst < told.margin if pressed else told.parts):
+        return told
+    j, near = worst_of(rests)
+    return Told("fail" if pressed else "pass", rests[j], harmless, margin=worst, worst=record.names[j],
+                ties=[record.names[k] for k in near], parts=pressed, unit="rad", also={"torque": STOP * rests[j]})
+
+
+def stops_of_motors(record, angle, share):
     most, longest = record.limits["beyond_range"], record.limits["beyond_range_share"]
     by_angle, by_share = [margin(a, most) for a in angle], [margin(s, longest) for s in share]
     both = np.minimum(by_angle, by_share)

@@ -101,11 +101,13 @@ def dock_sentence(does, unit):
             r"(?:; {open:d} of {docks:d} docks are not judged: what they hold is not stated)?)" + WITHIN)
 
 
+HEIGHT = r"(?:its height above the ground at the start|the height of its set points' pose)"
+RESTS = r"{value:.3g} rad beyond its stop, which gives {torque:.3g} N m"
 JUDGED = {
     "outcome": r"the run came to its end|(?s:.+)",
-    "fall": r"the centre of mass keeps at least {value:pct} of its height above the ground at the start"
-            r"|the robot falls at {from:.2f} s: the centre of mass comes (?:down to {value:pct} of its height above the ground at the "
-            r"start|{below:.3g} m below the ground)",
+    "fall": r"the centre of mass keeps at least {value:pct} of " + HEIGHT +
+            r"|the robot falls at {from:.2f} s: the centre of mass comes (?:down to {value:pct} of " + HEIGHT +
+            r"|{below:.3g} m below the ground)",
     "progress": r"the robot goes {value:.3g} m (?:per period|in the judged time)(?:, less than {limit:.3g} m)?"
                 r"|the robot slides down: gravity does {fallen:.3g} J of work, the motors {driven:.3g} J, and its speed grows "
                 r"{value:.3g} times from the first half of the judged time to the second",
@@ -120,7 +122,10 @@ JUDGED = {
     "gear_peak": r"the gear of joint {worst} passes on up to {value:.3g} N m of {limit:.3g} N m" + WITHIN,
     "gear_continuous": r"the gear of joint {worst} takes {value:.3g} N m RMS of {limit:.3g} N m" + WITHIN,
     "tracking": r"joint {worst} is up to {value:th} rad from its set point",
-    "stops": r"no joint leaves its range|{parts:d} joints? leaves? the range of the hinge; worst {worst}: (?:by {angle:.3g} rad, "
+    "stops": r"no joint leaves its range"
+             r"|no joint with a motor leaves its range; {worst} without a motor is up to " + RESTS +
+             r"|{parts:d} hinges? without a motor (?:is|are) pressed far beyond the stop; worst {worst}: " + RESTS +
+             r"|{parts:d} joints? leaves? the range of the hinge; worst {worst}: (?:by {angle:.3g} rad, "
              r"for {share:pct} of the run|for {share:pct} of the run \(at most {most:pct}\), by up to {angle:.3g} rad)",
     "setpoints": r"no set point leaves the range of its hinge|the set point of joint {worst} is beyond the range of its hinge for "
                  r"{value:pct} of the run",

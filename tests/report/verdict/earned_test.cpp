@@ -1,4 +1,5 @@
 // Runs for which the correct verdict is known, most of which earlier versions called `feasible` by mistake.
+#include "report/analysis/fall.h"
 #include "report/analysis/upright.h"
 #include "report/verdict/screen.h"
 #include "tests/folders.h"
@@ -119,6 +120,96 @@ TEST(Earned, ADropAtTheStartIsNoSlide) {
       read_scenario(std::string(gaitlab::test::source_folder()) + "/tests/data/verdict/V11-starts-above-the-ground.yaml",
                     {"cpg.model.ramp=8", "duration=10"}, known));
   EXPECT_NE(dropped.check("progress").status, CheckStatus::fail) << dropped.check("progress").text;
+}
+
+/// Robots that come down onto a flat plane, in the judged time too, and go faster then.
+TEST(Earned, ADropOntoAPlaneIsNoSlide) {
+  const auto text = [](const std::string& robot, std::vector<std::string> sets) {
+    const Told dropped(shipped(robot, sets));
+    EXPECT_NE(dropped.check("progress").status, CheckStatus::fail);
+    return dropped.check("progress").text;
+  };
+  EXPECT_TRUE(text("library/y1-snake.yaml", {"cpg.frequency=0.933", "robot.position=[0, 0, 0.26]", "duration=4.29"})
+                  .starts_with("the robot goes "));
+  EXPECT_TRUE(text("hexapod.yaml", {"physics.engine=articulated", "contact.on=all", "robot.position=[0, 0, 0.35]",
+                                    "cpg.frequency=1", "duration=4.2"})
+                  .starts_with("the robot goes "));
+}
+
+/// Arches that stand high at the start and lower themselves to a snake on the ground have not fallen. (A robot that topples
+/// with the set points of its start has: FallCheck.IsOfTheHeightAboveTheGround.)
+TEST(Earned, ARobotThatLowersItselfAsItIsTold) {
+  const auto arch = [](const std::string& docks, const std::string& angles, const std::string& gait, int duration) {
+    return Told(scenario(fmt::format(R"(
+gaitlab: 1
+robot: {{modules: mtran, docks: {0}}}
+physics: {{engine: articulated}}
+contact: {{on: all}}
+initial: {{angles: {{default: 0, {1}}}}}
+cpg:
+  type: equations
+  model:
+    states: {{u: "1"}}
+    initial: {{u: "0"}}
+    parameters: {{h: {{default: 0, {1}}}}}
+    output: h*max(0,1-u/4) + {2}
+duration: {3}
+)",
+                                     docks, angles, gait, duration)));
+  };
+  const std::string six = "[[1, 1, 4, 0, 0], [1, 2, 4, 1, 0], [1, 3, 4, 2, 0], [1, 4, 4, 3, 0], [1, 5, 4, 4, 0]]";
+  const std::string of_six = "m0/passive: -0.8, m2/passive: 0.8, m3/active: 0.8, m5/active: -0.8";
+  const std::string four = "[[1, 1, 4, 0, 0], [1, 2, 4, 1, 0], [1, 3, 4, 2, 0]]";
+  const std::string of_four = "m0/passive: -1, m1/passive: 1, m2/active: 1, m3/active: -1";
+  for (const Told& told : {arch(six, of_six, "0.4*clamp((u-4)/2,0,1)*sin(3.14159265*u+1.2*index)", 8),
+                           arch(six, of_six, "0.2*clamp((u-4)/2,0,1)*sin(2*u+1.2*index)", 8), arch(four, of_four, "0", 5)}) {
+    const Check& fall = told.check("fall");
+    EXPECT_EQ(fall.status, CheckStatus::pass) << fall.text;
+    const std::vector<double> height = heights(told.scenario, told.record);
+    EXPECT_LT(*std::ranges::min_element(height), 0.5 * height.front()) << "lower than half of its start";
+  }
+}
+
+/// A hinge without a motor is meant to touch its stop, and fails where it is pressed against it.
+TEST(Earned, AHingeThatRestsOnItsStop) {
+  const auto leg = [](double mass, double frequency) {
+    return Told(scenario(fmt::format(R"(
+gaitlab: 1
+robot:
+  base: fixed
+  position: [0, 0, 1]
+  modules:
+    gaitlab_module: 3
+    name: leg
+    bodies:
+      base: {{mass: 1, inertia: [1e-3, 1e-3, 1e-3, 0, 0, 0]}}
+      horn: {{mass: 0.01, inertia: [1e-6, 1e-6, 1e-6, 0, 0, 0]}}
+      calf: {{mass: {0}, com: [0.1, 0, 0], inertia: [7e-4, 7e-4, 7e-4, 0, 0, 0]}}
+    hinges:
+      - {{name: motor, parent: base, child: horn, axis: [0, 1, 0], range: [-2, 2]}}
+      - {{name: lash, parent: horn, child: calf, axis: [0, 1, 0], range: [-0.02, 0.02], drive: none, damping: 1e-4}}
+    actuator: {{type: servo, voltage: 24, stall_torque: 23, no_load_speed: 30, rotor_inertia: 0.01}}
+    controller: {{type: pid, Kp: 40}}
+physics: {{engine: articulated}}
+ground: {{type: none}}
+contact: {{on: none}}
+cpg: {{type: sine, frequency: {1}, amplitude: 0.1}}
+duration: 1
+)",
+                                     mass, frequency)));
+  };
+  for (const double frequency : {1.0, 2.0}) {
+    const Told rests = leg(0.2, frequency);
+    EXPECT_GT(rests.record.joints[1].range_share, 0.1);
+    EXPECT_EQ(rests.check("stops").status, CheckStatus::pass) << rests.check("stops").text;
+    EXPECT_TRUE(
+        contains(rests.check("stops").text, "no joint with a motor leaves its range; m0/lash without a motor is up to "));
+    EXPECT_EQ(rests.check("stops").limit, 0.05);
+    const Told pressed = leg(3, frequency);
+    const Check& stops = pressed.check("stops");
+    EXPECT_EQ(stops.status, CheckStatus::fail) << stops.text;
+    EXPECT_TRUE(contains(stops.text, fmt::format("which gives {:.3g} N m", 50 * stops.value))) << stops.text;
+  }
 }
 
 /// Sliding is detected also in short runs of 2, 2.5 and 3.5 periods.
