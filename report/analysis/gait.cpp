@@ -178,39 +178,81 @@ std::string grows(const Scenario& s, const Judged& judged, const Gait& gait) {
   return text;
 }
 
+/// Recorded set points of the joints (speeds, for hinges without range) whose periods are compared.
+class Periods {
+ public:
+  Periods(const Scenario& s, const Recording& r, double period) : t_(motion(r).t), free_(turning_freely(*s.robot)) {
+    const std::vector<Series> recorded = set_points(s, r);
+    if (!(period > 0) || t_.size() < 2) return;
+    spacing_ = t_[1] - t_[0];
+    unit_ = std::ceil(kLeastSamples * spacing_ / period) * period;
+    for (std::size_t c = 0; c < recorded.size(); ++c) joints_.emplace_back(t_, recorded[c], free_[c]);
+  }
+  /// Whole periods with kLeastSamples rows at least, s; 0 if nothing is known.
+  [[nodiscard]] double unit() const { return unit_; }
+
+  struct Change {
+    std::size_t column = 0;  ///< of the joint that changes most
+    double mean = 0, rms = 0, range = 0;
+    double over = 0;  ///< largest change over that allowed
+  };
+  /// Change from the stretch that ends `back` s earlier to that which ends at `to`. `share` of the range from `from` on is
+  /// allowed; a jump counts in one period for a row more than in another.
+  [[nodiscard]] Change change(double back, double from, double to, double share) const {
+    Change most;
+    for (std::size_t c = 0; c < joints_.size(); ++c) {
+      const auto [range, jump] = joints_[c].range(from);
+      const Level last = joints_[c].level(to - unit_, to);
+      const Level early = joints_[c].level(to - unit_ - back, to - back);
+      const double allowed = share * std::max(range, kStill) + jump * spacing_ / unit_;
+      const Change own{c, last.mean - early.mean, last.rms - early.rms, range,
+                       std::max(std::abs(last.mean - early.mean), std::abs(last.rms - early.rms)) / allowed};
+      if (own.over > most.over) most = own;
+    }
+    return most;
+  }
+  [[nodiscard]] bool free(std::size_t column) const { return free_[column]; }
+
+ private:
+  Series t_;
+  std::vector<bool> free_;
+  std::vector<Values> joints_ = {};
+  double spacing_ = 0, unit_ = 0;
+};
+
 /// Difference between the first and the last period of the window, of the joint that changes most.
 std::string drifts(const Scenario& s, const Recording& r, double from, double to, double period) {
-  const std::vector<Series> recorded = set_points(s, r);
-  const std::vector<bool> free = turning_freely(*s.robot);
-  const Series t = motion(r).t;
-  if (!(period > 0) || t.size() < 2) return "";
-  const double spacing = t[1] - t[0];
-  const double unit = std::ceil(kLeastSamples * spacing / period) * period;
-  const double between = std::floor((to - from) / unit - 1 + 1e-3) * unit;
+  const Periods periods(s, r, period);
+  const double unit = periods.unit();
+  const double between = unit > 0 ? std::floor((to - from) / unit - 1 + 1e-3) * unit : 0;
   if (!(between > 0)) return "";
-  double most = 1;
-  std::string text;
-  for (std::size_t c = 0; c < recorded.size(); ++c) {
-    const Values values(t, recorded[c], free[c]);
-    const auto [range, jump] = values.range(from);
-    const Level last = values.level(to - unit, to);
-    const Level early = values.level(to - unit - between, to - between);
-    // A jump counts in one period for a row more than in another.
-    const double allowed = kMostDrift * std::max(range, kStill) + jump * spacing / unit;
-    const double mean = last.mean - early.mean;
-    const double rms = last.rms - early.rms;
-    const double change = std::max(std::abs(mean), std::abs(rms)) / allowed;
-    if (!(change > most)) continue;
-    most = change;
-    const bool moves = std::abs(mean) >= std::abs(rms);
-    text = fmt::format("the set points {}: {} of joint {} changes by {:.2g} {} per period of {:.3g} s, of a range of {:.3g}",
-                       moves     ? "drift"
-                       : rms > 0 ? "grow"
-                                 : "shrink",
-                       moves ? "the mean" : "the RMS", driven_names(*s.robot)[c], (moves ? mean : rms) * period / between,
-                       free[c] ? "rad/s" : "rad", period, range);
-  }
-  return text;
+  const Periods::Change most = periods.change(between, from, to, kMostDrift);
+  if (!(most.over > 1)) return "";
+  const bool moves = std::abs(most.mean) >= std::abs(most.rms);
+  return fmt::format("the set points {}: {} of joint {} changes by {:.2g} {} per period of {:.3g} s, of a range of {:.3g}",
+                     moves          ? "drift"
+                     : most.rms > 0 ? "grow"
+                                    : "shrink",
+                     moves ? "the mean" : "the RMS", driven_names(*s.robot)[most.column],
+                     (moves ? most.mean : most.rms) * period / between, periods.free(most.column) ? "rad/s" : "rad", period,
+                     most.range);
+}
+
+/// Time from which on the recorded set points keep the size of their last period, s, for a CPG that states none: equations that
+/// rise or lower the robot, then repeat. 0 if they keep it from `start` on, or change until the end. A slow drift has no such
+/// time: within it periods are equal by a tenth of what is allowed, and one of the two before it differs by more than is.
+double settled_from(const Scenario& s, const Recording& r, double start, double period) {
+  const Periods periods(s, r, period);
+  const double unit = periods.unit();
+  const double to = r.simulated;
+  const double held = unit > 0 ? std::floor((to - start) / unit + 1e-3) : 0;
+  if (held < 3) return 0;
+  const auto differs = [&](double back, double share) { return periods.change(back * unit, to - unit, to, share).over > 1; };
+  if (!differs(held - 2, kMostDrift)) return 0;
+  double equal = 1;
+  while (equal < held - 1 && !differs(equal, kMostDrift / 10)) ++equal;
+  const bool apart = differs(equal, kMostDrift) || differs(std::min(equal + 1, held - 1), kMostDrift);
+  return equal >= 2 && apart ? to - equal * unit : 0;
 }
 
 }  // namespace
@@ -222,6 +264,7 @@ Gait gait(const Scenario& s, const Recording& r) {
   if (s.cpg.entry != nullptr) made.period = period_of(s, r, stated, made);
   const double carried = made.period > 0 ? carried_from(s, r, made.period) : 0;
   made.start = std::max({last_change(s, r.simulated), ramp < r.simulated ? ramp : 0, carried});
+  if (!(full_size > 0)) made.start = std::max(made.start, settled_from(s, r, made.start, made.period));
   return made;
 }
 

@@ -64,6 +64,17 @@ TEST(Shown, SetPointsThatDrift) {
   EXPECT_NE(equation("0.2*(1 + 0.0001*u)*sin(2*pi*u + index) + 0.00001*u").word, Word::not_judged);
 }
 
+/// A pose that equations leave, or a size that they reach, within the run: the window begins where the set points repeat.
+TEST(Shown, EquationsThatReachTheirSize) {
+  for (const char* const output : {"0.2*clamp(u/3, 0, 1)*sin(2*pi*u + index)", "0.3*max(0, 1 - u/3) + 0.2*sin(2*pi*u + index)",
+                                   "0.1*clamp(u - 2, 0, 1)*sin(4*pi*u + index)"}) {
+    const Verdict made = equation(output, "8.3");
+    EXPECT_NE(made.word, Word::not_judged) << output << ": " << made.why();
+    EXPECT_GE(made.from, 3) << output;
+    EXPECT_LE(made.from, 5.301) << output;
+  }
+}
+
 /// Steps of a set point are samples: a period may have a tick more of one level than another.
 TEST(Shown, StepsDoNotDrift) { EXPECT_NE(equation("0.2*sign(sin(2*pi*u/0.97 + index))").word, Word::not_judged); }
 
