@@ -33,7 +33,7 @@ struct Simulation::Lane {
         integrator(sample.cpg.size()),
         sensors(s) {
     const std::size_t n = info.joints.size();
-    for (auto* values : {&angle, &speed, &torque, &setpoint, &command, &limit, &angle_now}) values->assign(n, 0.0);
+    for (auto* values : {&angle, &speed, &torque, &setpoint, &command, &limit, &angle_now, &fastest}) values->assign(n, 0.0);
     for (std::size_t j = 0; j < n; ++j) {
       if (!robot.joints[j].driven()) passive.push_back(j);
     }
@@ -61,6 +61,12 @@ struct Simulation::Lane {
     controller = changes.controller();
   }
 
+  /// True if a joint may meet a stop in a step h, s, from this state of the plant on.
+  [[nodiscard]] bool near_stop(const StateLayout& layout, In plant_state, std::size_t lanes, double h) const;
+
+  /// See met_stops.cpp.
+  bool counts(std::size_t joint, double speed, std::int64_t step);
+
   /// Writes segment and faults into a sample, whose time is set.
   void read_changes(Sample& to) const {
     if (scenario.changes.empty()) return;
@@ -87,6 +93,8 @@ struct Simulation::Lane {
   Out cpg_state, controller_state, ledger;                                       // parts of Simulation::state_
   double energy_at_start = 0;                                                    // J
   std::vector<double> angle, speed, torque, touching, setpoint, command, limit;  // by joint (touching: by module), for plugins
+  std::vector<double> fastest;                                                   // rad/s, at which joints met their stops
+  std::int64_t meetings = 0;                                                     // whose loads were measured
   std::vector<double> angle_now;                                                 // scratch: true angles, rad
   std::vector<double> channels;                                                  // values of sensors, for plugins
   Sample sample;

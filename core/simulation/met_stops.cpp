@@ -12,7 +12,15 @@ namespace {
 // A stop acts at once with its damping, and a light hinge is at rest after 0.5 ms.
 constexpr double kMeets = 2e-5;   // s; largest time from the start of a stop to the loads that are measured
 constexpr double kStride = 5e-4;  // s; a stop that acts for longer is not missed
-constexpr int kMostTries = 40;
+constexpr int kMostTries = 20;
+// rad: a joint that is farther from its stops than this and twice its way in the step does not meet them in the step, or it
+// gains 40 rad/s in 5 ms.
+constexpr double kNearStop = 0.1;
+// Joints that rattle between their stops would make a run 20 times as long. The loads at a stop grow with the speed, so that
+// slower meetings than this share of the joint's fastest are left out; and so are those beyond one per joint and one in this
+// many steps.
+constexpr double kSlower = 0.5;
+constexpr std::int64_t kStepsPerMeeting = 500;
 
 /// Angle beyond a stop, rad, negative within the range, and its rate, rad/s.
 struct Beyond {
@@ -20,6 +28,24 @@ struct Beyond {
 };
 
 }  // namespace
+
+bool Simulation::Lane::near_stop(const StateLayout& layout, In plant_state, std::size_t lanes, double h) const {
+  const In angles = plant_state.subspan(layout.angles());
+  const In speeds = plant_state.subspan(layout.speeds());
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    const double q = angles[j * lanes + index];
+    const double reach = kNearStop + 2 * h * std::abs(speeds[j * lanes + index]);
+    if (q - reach < robot.joints[j].lo || q + reach > robot.joints[j].hi) return true;
+  }
+  return false;
+}
+
+/// True if the loads of a joint that meets its stop at this speed, rad/s, are to be measured.
+bool Simulation::Lane::counts(std::size_t joint, double speed, std::int64_t step) {
+  if (speed < kSlower * fastest[joint]) return false;
+  fastest[joint] = std::max(fastest[joint], speed);
+  return meetings++ < static_cast<std::int64_t>(fastest.size()) + step / kStepsPerMeeting;
+}
 
 /// Side of a joint's range whose stop it may have met in the last step: 1, -1, or 0. It is then beyond the stop at the end of
 /// the step, or has turned back near it. `from` is the plant's state at the start of the step.
@@ -43,18 +69,21 @@ int Simulation::met_stop(const Lane& lane, std::size_t joint, In from) const {
 }
 
 /// Measures the loads of docks where a hinge meets its stop within the step that has ended: at the first state beyond the stop.
-/// Separate shorter steps from the start of the step lead there, as to a row within a step.
+/// Separate shorter steps from the start of the step lead there, as to a row within a step. saved_ begins with NaN if no joint
+/// was near a stop at the start of the step.
 void Simulation::watch_stops() {
+  if (std::isnan(saved_[0])) return;
   bool any = false;
   const In from = In(saved_).subspan(static_cast<std::size_t>(plant_state_.data() - state_.data()), plant_state_.size());
   end_.assign(plant_state_.begin(), plant_state_.end());
   std::vector<double>& history = history_at_end_;
   history.assign(plant_history_.begin(), plant_history_.end());
   for (const auto& lane : lanes_) {
-    if (!watches_docks(*lane)) continue;
+    if (!watches_docks(*lane) || !lane->near_stop(layout_, from, lanes_.size(), h_)) continue;
     for (std::size_t j = 0; j < layout_.joints; ++j) {
       const int side = met_stop(*lane, j, from);
-      if (side == 0) continue;
+      const std::size_t at = layout_.speeds() + j * lanes_.size() + lane->index;
+      if (side == 0 || !lane->counts(j, std::max(side * from[at], -side * plant_state_[at]), step_number())) continue;
       any = true;
       watch_stop(*lane, j, side);
       std::ranges::copy(end_, plant_state_.begin());

@@ -41,7 +41,13 @@ void Simulation::step() try {
   }
   record_within_step();
   const bool watches = std::ranges::any_of(lanes_, [&](const auto& lane) { return watches_docks(*lane); });
-  if (watches) std::ranges::copy(state_, saved_.begin());
+  if (watches) {
+    const bool near = std::ranges::any_of(lanes_, [&](const auto& lane) {
+      return watches_docks(*lane) && lane->near_stop(layout_, plant_state_, lanes_.size(), h_);
+    });
+    if (near) std::ranges::copy(state_, saved_.begin());
+    if (!near) saved_[0] = std::numeric_limits<double>::quiet_NaN();
+  }
   advance(h_, [](const Lane&) { return true; });
   if (watches) watch_docks();
   if (step_error_) estimate();
