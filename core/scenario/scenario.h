@@ -99,6 +99,9 @@ struct Limits {
   void fields(Fields& f);
 };
 
+/// Rows of the list of plausible numbers (report/verdict/plausible_number.h) with numbers that no robot can have.
+inline constexpr const char* kAcceptable[] = {"density", "moments", "stall torque", "power"};
+
 /// A message for stderr that is not a problem, such as settings that --set dropped, or the set-up of the CPG.
 struct Note {
   SourceLocation place;
@@ -171,6 +174,7 @@ struct Scenario {
   TraceSettings trace;
   FigureSettings figure;
   Limits limits;
+  std::vector<std::string> accept;  ///< rows of the list of plausible numbers (kAcceptable) whose numbers the user has checked
   std::vector<SensorSelection> sensors;
   std::vector<Change> changes;  ///< section `at`, by rising times
   std::int64_t seed = 1;

@@ -302,6 +302,10 @@ void SectionFields::fields(Fields& f) {
   f.group("trace", scenario.trace, "The recorded trace.");
   if (!writing || scenario.limits != Limits()) f.group("limits", scenario.limits, "Limits of the verdict.");
   if (!writing || !scenario.figure.joints.empty()) f.group("figure", scenario.figure, "Content of figure.svg.");
+  if (!writing || !scenario.accept.empty()) {
+    f.words("accept", scenario.accept, kAcceptable,
+            "Implausible numbers that are right: without their rows here, a run with impossible ones is not judged.");
+  }
   f.integer("seed", scenario.seed,
             {"", 0, 9e18,
              "Seed of all draws: of the robot within its tolerances, of the noise, zeros, delays and losses of its sensors, "

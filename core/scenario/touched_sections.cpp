@@ -37,6 +37,7 @@ void TouchedSections::restart(Scenario& scenario) const {
   if (has("trace")) scenario.trace = fresh.trace;
   if (has("figure")) scenario.figure = fresh.figure;
   if (has("limits")) scenario.limits = fresh.limits;
+  if (has("accept")) scenario.accept = fresh.accept;
   if (has("actuator")) {
     scenario.actuator = fresh.actuator;
     scenario.actuator_source = fresh.actuator_source;

@@ -1,4 +1,4 @@
-// List of all numbers among the settings of a plugin.
+// List of all numbers among the settings of a plugin or in a section.
 #pragma once
 #include <string>
 #include <vector>
@@ -15,6 +15,13 @@ class SettingsNumbers final : public Fields {
     PerJoint value;
   };
   explicit SettingsNumbers(const PluginSelection& plugin);
+  /// Numbers of a section.
+  template <class Section>
+  static SettingsNumbers of(Section section) {
+    SettingsNumbers made;
+    section.fields(made);
+    return made;
+  }
   void visit(const Field& field) override;
   void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
 
@@ -23,6 +30,7 @@ class SettingsNumbers final : public Fields {
   [[nodiscard]] const Found* find(const std::string& key) const;
 
  private:
+  SettingsNumbers() = default;
   std::vector<Found> found_;
   std::string prefix_;
 };

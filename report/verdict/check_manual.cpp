@@ -36,8 +36,11 @@ constexpr const char* kEvidence =
     "within the run; the range of a set point grows by at most 2 % in three periods after the run, in which the cpg goes on "
     "alone; its mean and RMS in the first and the last period of the window differ by at most 1 % of the range; a set point "
     "changes. Borne, for a floating base: the ground carries at least half of the weight on average. Accurate: torque error at "
-    "most limits.torque_error, at most 5 % of the energy unaccounted for, at most 10 "
-    "% of the time coarser than physics.accuracy, and no motor whose efficiency x Kt exceeds Ks.";
+    "most limits.torque_error (and 10 %, whatever that limit), at most 5 % of the energy unaccounted for, at most 10 % of the "
+    "time coarser than physics.accuracy, and no motor whose efficiency x Kt exceeds Ks. Possible: no mass, moment of inertia, "
+    "stall torque or power that no robot has (docs/modules.md), unless `accept` of the scenario names it; this comes before "
+    "all "
+    "checks. Limits that the scenario changes, and numbers that it accepts, are named beside the word.";
 
 constexpr const char* kMargin =
     "Margin of a check: (limit - value) / limit, where limit is the one at which the check fails; with the opposite sign for a "

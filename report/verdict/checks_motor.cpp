@@ -183,7 +183,7 @@ Saturated saturated(const CheckedRun& run, MotorLimit limit) {
     if (one.share > 0) ++made.joints;
     if (worse(one, made.worst)) made.worst = one;
     const double error = error_of(run, j);
-    const bool known = error > 0 && error <= run.limits().torque_error;  // a larger error does not show anything
+    const bool known = error > 0 && error <= most_torque_error(run.limits());  // a larger error does not show anything
     const AtLimit wide = known ? at_limit(run, j, error, limit) : one;
     made.bars.push_back(bar_of(one, error, wide));
     if (known && wide.margin() < 0 && worse(wide, made.widest)) made.widest = wide;
@@ -240,7 +240,7 @@ void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn
       "; joint {} is within the error of its torque, {}, of that limit for up to {} of the judged time, {:.3g} s on end",
       run.joint(found.widest->joint), texts::rough_percent(made.error), texts::percent(found.widest->share),
       found.widest->longest.length());
-  made.remedy = "take " + torque_remedy(run.scenario, std::max(made.error, run.limits().torque_error));
+  made.remedy = "take " + torque_remedy(run.scenario, std::max(made.error, most_torque_error(run.limits())));
 }
 
 /// Value of a joint, its limit, and the time of the value in s. NaN if not known; an infinite or 0 limit is not stated.

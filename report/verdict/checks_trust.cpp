@@ -41,8 +41,8 @@ void torque_error(const CheckedRun& run, Check& made) {
   made.text = "the error of the torques was not estimated in this run";
   if (!error.estimated) return;
   made.value = error.share;
-  made.limit = run.limits().torque_error;
-  made.source = threshold("torque_error", made.limit, Limits().torque_error);
+  made.limit = most_torque_error(run.limits());
+  made.source = threshold("torque_error", run.limits().torque_error, Limits().torque_error);
   warn_above(std::min(torque_error_limit(run.scenario), made.limit), made);
   made.part = Part::joint;
   made.worst = run.joint(error.joint);

@@ -9,11 +9,13 @@
 #include "core/plugin/robot_info.h"
 #include "core/scenario/built_robot.h"
 #include "core/scenario/change_section.h"
+#include "core/settings/settings_numbers.h"
 #include "core/settings/wording.h"
 #include "report/analysis/cpg_alone.h"
 #include "report/analysis/motion.h"
 #include "report/analysis/motors.h"
 #include "report/verdict/number_texts.h"
+#include "report/verdict/plausibility.h"
 #include "report/verdict/trust.h"
 
 namespace gaitlab::report {
@@ -113,6 +115,21 @@ void judge_support(const Scenario& s, const Summary& summary, Evidence& made, st
                     "contact"};
 }
 
+/// Limits that the scenario changes, as `limits: torque_error 1 of the scenario, 0.05 by default`; empty if it changes none.
+std::string changed_limits(const Limits& limits) {
+  const SettingsNumbers given = SettingsNumbers::of(limits);
+  const SettingsNumbers preset = SettingsNumbers::of(Limits());
+  std::vector<std::string> changed;
+  for (std::size_t k = 0; k < given.all().size(); ++k) {
+    const SettingsNumbers::Found& one = given.all()[k];
+    const double by_default = preset.all()[k].value.common;
+    if (one.value.common == by_default) continue;
+    changed.push_back(fmt::format("{} {} of the scenario, {:.4g} by default", one.key,
+                                  with_unit(one.value.common, one.unit.c_str()), by_default));
+  }
+  return changed.empty() ? "" : fmt::format("limits: {}", fmt::join(changed, "; "));
+}
+
 /// Sentence on a motor that creates energy; empty if there is none.
 std::string makes_energy(const Scenario& s) {
   if (s.actuator.entry == nullptr || s.robot->joints.empty()) return "";
@@ -134,6 +151,7 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made, std::vec
   const double coarse = s.physics.adapts() && r.simulated > 0 ? r.tally.coarse / r.simulated : 0;
   const bool driven = s.actuator.entry != nullptr && driven_joints(*s.robot) > 0;
   const bool chaotic = predictability(s, r) == Predictability::chaotic;
+  const double most_error = most_torque_error(s.limits);
   if (made.not_trusted = {makes_energy(s), "actuator.Kt"}; !made.not_trusted.empty()) return;
   const char* const steps = s.physics.adapts() ? "physics.accuracy" : "physics.step";
   if (chaotic && r.spread.rows() == 0) {
@@ -141,11 +159,10 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made, std::vec
   } else if (error.estimated && !std::isfinite(error.share)) {
     made.not_trusted = {fmt::format("the error of the torque of joint {} is not a number", s.robot->joints[error.joint].name),
                         steps};
-  } else if (!chaotic && error.estimated &&
-             error.share > s.limits.torque_error) {  // in a chaotic motion the spread is decisive
+  } else if (!chaotic && error.estimated && error.share > most_error) {  // in a chaotic motion the spread is decisive
     made.not_trusted = {fmt::format("the torque of joint {} is off by about {} of its peak, more than {}; take {}",
                                     s.robot->joints[error.joint].name, texts::rough_percent(error.share),
-                                    texts::percent(s.limits.torque_error), torque_remedy(s, error.share)),
+                                    texts::percent(most_error), torque_remedy(s, error.share)),
                         steps};
   } else if (driven && !(residual <= kTrustedResidual)) {  // true also for NaN
     made.not_trusted = {fmt::format("{} of the energy is unaccounted for, more than {}; take a smaller {}",
@@ -178,6 +195,10 @@ Evidence evidence(const Scenario& s, const Recording& r, const Summary& summary)
   judge_support(s, summary, made, unknown);
   judge_trust(s, r, made, unknown);
   if (!unknown.empty()) made.rests_on += fmt::format("; not known: {}", fmt::join(unknown, " and "));
+  const Doubts stated = doubts(s);
+  made.not_possible = {stated.refused, "robot"};
+  made.conditions = changed_limits(s.limits);
+  if (!stated.accepted.empty()) made.conditions += (made.conditions.empty() ? "" : "; ") + stated.accepted;
   return made;
 }
 

@@ -9,7 +9,7 @@
 
 namespace gaitlab::report {
 
-/// Largest errors of a trusted run, in addition to limits.torque_error: energy residual / energy drawn, and share of the time
+/// Largest errors of a trusted run, in addition to most_torque_error(): energy residual / energy drawn, and share of the time
 /// in which even the shortest steps miss the accuracy.
 inline constexpr double kTrustedResidual = 0.05, kTrustedCoarse = 0.1;
 /// Largest error of a limit cycle for which one period is enough. With a larger error, kPeriodsNeeded periods of the set points
@@ -31,14 +31,18 @@ struct Evidence {
   /// The run does not show the gait: it has less than a period of its limit cycle, three periods of its set points after
   /// the start of the gait, or 2 s; the set points grow, drift or do not change.
   Lack not_shown;
+  Lack not_possible;          ///< a number of the scenario is impossible and not accepted (plausibility.h)
   Lack not_borne;             ///< the ground carries less than half of the weight
   Lack not_trusted;           ///< an error exceeds one of the constants above, or a motor creates energy
   bool falls_freely = false;  ///< true if nothing can carry the robot: no ground, no gravity, or no contact elements
   bool repeats = false;       ///< true if the set points repeat
   std::string rests_on;       ///< extent of the run: `3 periods of 4 s`, or `these 18 s; the set points do not repeat`
-  [[nodiscard]] bool complete() const { return not_shown.empty() && not_borne.empty() && not_trusted.empty(); }
+  /// Limits that the scenario changes, and implausible numbers that it accepts: `limits: torque_error 1 of the scenario, 0.05
+  /// by default`. Empty without them.
+  std::string conditions;
   /// The most important missing piece of evidence.
   [[nodiscard]] const Lack& first() const {
+    if (!not_possible.empty()) return not_possible;
     return falls_freely ? not_borne : !not_trusted.empty() ? not_trusted : !not_shown.empty() ? not_shown : not_borne;
   }
 };

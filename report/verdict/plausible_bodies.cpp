@@ -249,6 +249,80 @@ std::vector<Finding> faces(const Subject& subject) {
   return found;
 }
 
+/// Calls `use` with each type and body of the robot that has a mass.
+template <class Use>
+void each_heavy_body(const Scenario& s, Use use) {
+  for (const ModuleType& type : s.robot->types) {
+    for (std::size_t b = 0; b < type.bodies.size(); ++b) {
+      if (type.bodies[b].mass > 0) use(type, b);
+    }
+  }
+}
+
+/// Diagonal of the box about the shapes, contact elements, faces, hinges and centre of mass of a body, m.
+double body_extent(const ModuleType& type, std::size_t b) {
+  const BodyType& body = type.bodies[b];
+  auto [low, high] = box_of_points(type, b);
+  if (!body.shapes.empty()) {
+    const auto [least, most] = bounds(body.shapes);
+    low = low.cwiseMin(least);
+    high = high.cwiseMax(most);
+  }
+  return (high.cwiseMax(body.com) - low.cwiseMin(body.com)).norm();
+}
+
+/// Moments above those of the whole mass at twice the body's extent from its centre.
+std::vector<Impossible> impossible_moments(const Scenario& s) {
+  constexpr double kAway = 2;
+  std::vector<Impossible> found;
+  each_heavy_body(s, [&](const ModuleType& type, std::size_t b) {
+    const BodyType& body = type.bodies[b];
+    if (body.volume > 0) return;  // the inertia is that of the shapes
+    const double size = body_extent(type, b);
+    const double largest = sorted_moments(body.inertia)[2];
+    const double times = largest / (body.mass * kAway * size * kAway * size);
+    if (!(size > 0) || !(times > 1)) return;
+    found.push_back({times, fmt::format("{:.3g} kg m^2 of body {} of {} of {} kg: that of a ring of radius {:.2g} m, and the "
+                                        "body's extent is {:.2g} m",
+                                        largest, in_quotes(body.name), clipped(type.name), number_text(body.mass),
+                                        std::sqrt(largest / body.mass), size)});
+  });
+  return found;
+}
+
+/// True if the shapes are all of a body: its contact elements, faces, hinges and centre of mass are within the box about them.
+bool shapes_are_all(const ModuleType& type, std::size_t b) {
+  const BodyType& body = type.bodies[b];
+  if (body.shapes.empty() || body.shapes.size() > kMostShapes) return false;
+  const auto [least, most] = bounds(body.shapes);
+  auto [low, high] = box_of_points(type, b);
+  low = low.cwiseMin(body.com);
+  high = high.cwiseMax(body.com);
+  const double room = kLeastShare * (most - least).norm();
+  return ((low - least).array() >= -room).all() && ((most - high).array() >= -room).all();
+}
+
+/// Densities above that of any metal.
+std::vector<Impossible> impossible_densities(const Scenario& s) {
+  constexpr double kMost = 23000;  // kg/m^3; osmium: 22590
+  std::vector<Impossible> found;
+  each_heavy_body(s, [&](const ModuleType& type, std::size_t b) {
+    const BodyType& body = type.bodies[b];
+    if (!shapes_are_all(type, b)) return;
+    double least = body.volume;  // of the union, which takes time
+    for (const Shape& shape : body.shapes) least = std::max(least, solid(shape).volume);
+    if (!(body.mass > kMost * least)) return;
+    const double volume = body.volume > 0 ? body.volume : united(body.shapes).volume;
+    const double density = body.mass / volume;
+    if (!(density > kMost)) return;
+    found.push_back({density / kMost, fmt::format("{} kg of body {} of {} in {:.3g} cm^3: {:.3g} kg/m^3, and no metal has more "
+                                                  "than {:g}",
+                                                  number_text(body.mass), in_quotes(body.name), clipped(type.name),
+                                                  volume * 1e6, density, kMost)});
+  });
+  return found;
+}
+
 }  // namespace
 
 std::vector<PlausibleNumber> plausible_bodies() {
@@ -261,7 +335,8 @@ std::vector<PlausibleNumber> plausible_bodies() {
        {},
        densities,
        false,
-       50},
+       50,
+       impossible_densities},
       {"hinge",
        0,
        4,
@@ -286,7 +361,10 @@ std::vector<PlausibleNumber> plausible_bodies() {
         {"is it in g mm^2", gram_square_mm},
         {"is it in g m^2", of_milli}},
        {"density"},
-       moments},
+       moments,
+       false,
+       0,
+       impossible_moments},
       {"face",
        0,
        0.25,

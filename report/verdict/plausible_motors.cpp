@@ -12,14 +12,13 @@
 #include "core/scenario/built_robot.h"
 #include "core/settings/settings_numbers.h"
 #include "core/settings/wording.h"
+#include "report/analysis/envelope.h"
 #include "report/verdict/plausible_number.h"
 #include "report/verdict/warnings.h"
 
 namespace gaitlab::report {
 
 namespace {
-
-constexpr double kGravity = 9.81;  // m/s^2, of the rule of thumb
 
 double of_kgf_cm(double value) { return value * kKgfCm; }
 double of_rev_per_min(double value) { return value * kRevPerMin; }
@@ -128,13 +127,17 @@ double power_of(const std::vector<MotorData>& motors, const Slip* slip) {
   return sum;
 }
 
+std::map<std::size_t, std::vector<MotorData>> motors_of_modules(const Scenario& s) {
+  std::map<std::size_t, std::vector<MotorData>> modules;
+  for (const MotorData& motor : motor_data(s)) modules[s.robot->joints[motor.joint].module].push_back(motor);
+  return modules;
+}
+
 /// Powers per mass of every module with motors.
 std::vector<Finding> powers(const Subject& subject) {
   const Scenario& s = subject.scenario;
-  std::map<std::size_t, std::vector<MotorData>> modules;
-  for (const MotorData& motor : motor_data(s)) modules[s.robot->joints[motor.joint].module].push_back(motor);
   std::vector<Finding> found;
-  for (const auto& [module, motors] : modules) {
+  for (const auto& [module, motors] : motors_of_modules(s)) {
     const double mass = mass_of_module(s, motors.front().joint);
     if (!(mass > 0)) continue;
     const auto weaker = [](const MotorData& a, const MotorData& b) { return a.torque * a.speed < b.torque * b.speed; };
@@ -155,6 +158,45 @@ std::vector<Finding> powers(const Subject& subject) {
                      [motors = motors, mass](const Slip& slip) { return power_of(motors, &slip) / mass; },
                      {},
                      {{strongest.torque, "N m"}, {strongest.speed, "rad/s"}}});
+  }
+  return found;
+}
+
+/// Torques at rest above a hundred times m g L of the robot.
+std::vector<Impossible> impossible_torques(const Scenario& s) {
+  constexpr double kMost = 100;
+  const double edge = outline_edges(*s.robot).norm();
+  const double held = s.robot->mass * kGravity * edge;  // N m
+  std::vector<Impossible> found;
+  if (s.actuator.entry == nullptr || !(held > 0)) return found;
+  const AvailableTorque available(s);
+  const std::size_t joints = s.robot->joints.size();
+  std::vector<double> most(joints);
+  std::vector<double> least(joints);
+  available.at(std::vector<double>(joints, 0.0), most, least);
+  for (std::size_t j = 0; j < joints; ++j) {
+    const double times = most[j] / (kMost * held);
+    if (!s.robot->joints[j].driven() || !available.known(j) || !(times > 1)) continue;
+    found.push_back(
+        {times, fmt::format("{:.4g} N m of the motor of {} at rest: {:.3g} times the weight of the whole robot ({:.4g} "
+                            "kg) at a distance of its extent ({:.3g} m), and at most {:g} can be",
+                            most[j], s.robot->joints[j].name, kMost * times, s.robot->mass, edge, kMost)});
+  }
+  return found;
+}
+
+/// Modules whose motors have more power than any motor of their mass.
+std::vector<Impossible> impossible_powers(const Scenario& s) {
+  constexpr double kMost = 1500;  // W/kg
+  std::vector<Impossible> found;
+  for (const auto& [module, motors] : motors_of_modules(s)) {
+    const double mass = mass_of_module(s, motors.front().joint);
+    const double power = power_of(motors, nullptr) / mass;
+    if (!(mass > 0) || !(power > kMost)) continue;
+    found.push_back(
+        {power / kMost, fmt::format("{:.3g} W of the motors of module m{} of {:.4g} kg: {:.3g} W/kg, and no motor has "
+                                    "more than {:g}",
+                                    power * mass, module, mass, power, kMost)});
   }
   return found;
 }
@@ -255,7 +297,8 @@ std::vector<PlausibleNumber> plausible_motors() {
        {},
        stall_torques,
        false,
-       0.3},
+       0.3,
+       impossible_torques},
       {"power",
        0,
        100,
@@ -267,7 +310,8 @@ std::vector<PlausibleNumber> plausible_motors() {
        {"no-load speed", "wheel speed", "stall torque"},
        powers,
        false,
-       1},
+       1,
+       impossible_powers},
       {"voltage", 0.5, 1000, "expected 0.5 to 1000 V", {{"is it in mV", of_milli}}, {}, voltages},
       {"supply", 0.3, 3, "expected 0.3 to 3 times that", {}, {"voltage"}, supplies},
       {"rotor inertia",

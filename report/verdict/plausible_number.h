@@ -5,8 +5,10 @@
 #include <initializer_list>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/model/solid.h"
@@ -28,7 +30,11 @@ struct Subject {
     [[nodiscard]] double largest_edge() const;
   };
   std::vector<std::vector<Size>> sizes;  ///< by type and body
-  std::vector<SetPointRange> set_points;
+  /// Set points of the CPG alone, computed at the first call.
+  [[nodiscard]] const std::vector<SetPointRange>& set_points() const;
+
+ private:
+  mutable std::optional<std::vector<SetPointRange>> set_points_ = {};
 };
 
 /// A mistake that may explain a number, such as a unit.
@@ -59,6 +65,12 @@ struct Finding {
   std::string remedy = {};  ///< text in the place of the questions
 };
 
+/// A number that no robot can have.
+struct Impossible {
+  double times;      ///< the number over the largest possible one, above 1
+  std::string text;  ///< `body 'a' of link has 1 kg m^2 and 0.1 kg: that of a ring of radius 3.16 m`
+};
+
 /// A row of the list of plausible numbers.
 struct PlausibleNumber {
   const char* name;      ///< for `unless`
@@ -70,6 +82,9 @@ struct PlausibleNumber {
   std::vector<Finding> (*measure)(const Subject&);
   bool of_gait = false;  ///< a number of the scenario's own gait, which a study varies
   double likely = 0;     ///< least number that a correction may give: a number below is as odd as the given one
+  /// Numbers beyond the second, wider range; a verdict waits until they are corrected or accepted (kAcceptable). Null for a row
+  /// with one range.
+  std::vector<Impossible> (*impossible)(const Scenario&) = nullptr;
 };
 
 /// Numbers that were given in thousandths, hundredths, with the other sign, and so on.
@@ -82,8 +97,17 @@ inline double of_degrees(double value) { return value * std::numbers::pi / 180; 
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
+inline constexpr double kGravity = 9.81;  ///< m/s^2, of ratios to a weight, for any physics.gravity
+
 /// Least length of a correction, relative to a body's largest edge: shorter ones are as odd as the given one.
 inline constexpr double kLeastShare = 0.02;
+
+/// Least and largest coordinates of the contact elements, faces and hinges of a body, body frame, m. Least above largest if it
+/// has none.
+std::pair<Vec3, Vec3> box_of_points(const ModuleType& type, std::size_t body);
+
+/// True if the robot can fall onto a ground that its contact elements touch.
+bool stands(const Scenario& s);
 
 /// The map of the joint's hinge in the text of its module type; nullptr if the text is not known.
 const Node* hinge_map(const Scenario& s, std::size_t joint);

@@ -77,9 +77,6 @@ std::vector<Finding> control_periods(const Subject& subject) {
            {{s.control_period, "s"}}}};
 }
 
-/// True if the robot can fall onto a ground that its contact elements touch.
-bool stands(const Scenario& s) { return s.base != Base::fixed && s.ground.exists() && s.contact.on != ContactSet::none; }
-
 std::vector<Finding> contacts(const Subject& subject) {
   const Scenario& s = subject.scenario;
   if (!stands(s)) return {};
@@ -180,7 +177,7 @@ SourceLocation gait_place(const Scenario& s) { return s.nearest_place("cpg.ampli
 std::vector<Finding> set_points_beyond(const Subject& subject) {
   const Scenario& s = subject.scenario;
   std::vector<Finding> found;
-  for (const SetPointRange& one : subject.set_points) {
+  for (const SetPointRange& one : subject.set_points()) {
     const Joint& joint = s.robot->joints[one.joint];
     if (joint.turns_freely()) continue;
     const double beyond = std::max(joint.lo - one.least, one.most - joint.hi);
@@ -207,7 +204,7 @@ std::vector<Finding> set_point_speeds(const Subject& subject) {
   std::vector<Finding> found;
   if (s.actuator.entry == nullptr) return found;
   const Motors known = motors(s, 0);
-  for (const SetPointRange& one : subject.set_points) {
+  for (const SetPointRange& one : subject.set_points()) {
     if (known.of_joint.empty() || !known.joint(one.joint).no_load) continue;
     const double most = *known.joint(one.joint).no_load;
     found.push_back({gait_place(s),
@@ -220,6 +217,8 @@ std::vector<Finding> set_point_speeds(const Subject& subject) {
 }
 
 }  // namespace
+
+bool stands(const Scenario& s) { return s.base != Base::fixed && s.ground.exists() && s.contact.on != ContactSet::none; }
 
 std::vector<PlausibleNumber> plausible_scenario() {
   return {

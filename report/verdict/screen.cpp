@@ -136,7 +136,10 @@ std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict,
   for (const std::string& rows : {verdict.of_rows, verdict.window_of_rows}) {
     if (!rows.empty()) screen.add("rows", rows, Tone::doubtful);
   }
-  if (!verdict.figures.empty()) screen.add("rests on", verdict.figures);
+  std::vector<std::string> grounds{verdict.figures};
+  if (verdict.word != Word::feasible) grounds.push_back(verdict.conditions);  // else they are printed beside the word
+  std::erase(grounds, "");
+  if (!grounds.empty()) screen.add("rests on", fmt::format("{}", fmt::join(grounds, "; ")));
   return screen.lines;
 }
 

@@ -129,6 +129,11 @@ double energy_scale(const Scenario& s, const Recording& r) {
   return std::max({std::abs(r.ledger.electrical), std::abs(r.ledger.stored), least_energy(s)});
 }
 
+double most_torque_error(const Limits& limits) {
+  constexpr double kMost = 0.1;
+  return std::min(limits.torque_error, kMost);
+}
+
 double torque_error_limit(const Scenario& s) { return s.physics.adapts() ? s.physics.accuracy : kGood; }
 double predictability_limit(const Scenario& s) { return s.physics.adapts() ? std::max(kGood, s.physics.accuracy) : kGood; }
 

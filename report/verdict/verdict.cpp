@@ -90,9 +90,13 @@ std::string not_judged(const CheckedRun& run, const std::vector<Check>& checks) 
 }
 
 void decide(const CheckedRun& run, Verdict& made) {
-  made.rests_on = run.evidence.rests_on;
+  made.conditions = run.evidence.conditions;
+  made.rests_on = run.evidence.rests_on + (made.conditions.empty() ? "" : "; " + made.conditions);
   if (made.checks.front().status == CheckStatus::fail) {
     made.word = Word::failed;
+  } else if (!run.evidence.not_possible.empty()) {
+    made.word = Word::not_judged;
+    made.reason = run.evidence.not_possible.sentence();
   } else if (run.evidence.not_trusted.empty() && std::ranges::any_of(made.checks, undone_by_no_time)) {
     made.word = Word::infeasible;
   } else if (made.reason = not_judged(run, made.checks); !made.reason.empty()) {

@@ -51,14 +51,15 @@ struct Draw {
 
 struct Verdict {
   /// failed: the run ended early.
-  /// infeasible: a check fails.
+  /// infeasible: a check fails, and no number of the scenario is impossible (plausibility.h).
   /// feasible: no check fails or is too close to its limit, at least one motor limit was judged, for a robot on a ground also
   /// `fall` and `in_ground`, and the evidence is complete (evidence.h).
   /// not judged: none of these, or the run is too short and each failing check could pass in a longer run.
   Word word = Word::not_judged;
-  std::string reason = {};    ///< why the verdict is `not judged`: the missing evidence, and the setting to change
-  std::string rests_on = {};  ///< extent of the run that was judged: `3 periods of 4 s`
-  double from = 0, to = 0;    ///< s, the judged window
+  std::string reason = {};      ///< why the verdict is `not judged`: the missing evidence, and the setting to change
+  std::string rests_on = {};    ///< extent of the run that was judged, and conditions: `3 periods of 4 s`
+  std::string conditions = {};  ///< Evidence::conditions
+  double from = 0, to = 0;      ///< s, the judged window
   std::vector<Check> checks;
   /// True if a judged check uses motor values that were chosen, or that have no source, instead of values of a maker.
   bool chosen_motors = false;

@@ -110,6 +110,7 @@ void check_motors(const Scenario& s, bool with_gain, std::vector<Warning>& out) 
 std::vector<Warning> setup_warnings(const Scenario& s) {
   std::vector<Warning> out;
   try {
+    check_accepted(s);
     const Implausible odd = implausible(s);
     out = odd.warnings;
     const auto reported = [&](const char* row) { return std::ranges::find(odd.rows, row) != odd.rows.end(); };

@@ -29,6 +29,8 @@ struct Warning {
 /// - A number outside its usual range (plausibility.h), with the unit in which it may have been given. Without a position loop
 /// that cannot settle if the control period or the speed of a motor is such a number.
 /// - A robot that starts beside its heightfield.
+///
+/// Refuses rows of Scenario::accept without an unusual number (InputError).
 std::vector<Warning> setup_warnings(const Scenario& scenario);
 
 }  // namespace gaitlab::report

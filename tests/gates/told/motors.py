@@ -79,7 +79,7 @@ def at_limit(record, window, kind):
     peak, amperes = record.tick("envelope_peak"), record.tick("current_peak")
     busy = (np.diff(record.tick("voltage_limited"), axis=0) > 0) | (np.diff(record.tick("current_limited"), axis=0) > 0)
     wide = []
-    for k in np.flatnonzero(record.driven & (errors > 0) & (errors <= limits["torque_error"])):
+    for k in np.flatnonzero(record.driven & (errors > 0) & (errors <= record.most_error())):
         rows = (peak[1:, k] >= 1 - errors[k]) & ~busy[:, k]
         by_current = np.full(len(rows), True) if not record.voltages else amperes[1:, k] >= (1 - errors[k]) * record.i_max[k]
         rows &= by_current == (kind == "current")

@@ -140,6 +140,10 @@ class Record:
         largest = max(peak.max(), 0)
         return error / np.maximum(peak, 0.02 * largest) if largest > 0 else np.zeros(self.count)
 
+    def most_error(self):
+        """Largest torque error of a judged run."""
+        return min(self.limits["torque_error"], 0.1)
+
     def chaotic(self):
         """True if a factor of 1 + 1e-9 on gravity changes the torques by more than their permitted error."""
         accuracy = self.scenario["physics"].get("accuracy", 0) if self.adaptive else 0

@@ -214,7 +214,9 @@ def first_screen(text, verdict, judged, known):
         must("tightest", f"{c['id'].replace('_', ' ')}{part}, margin {printed('pct', c['margin'])}")
     else:
         must("tightest", None)
-    must("rests on", verdict["figures"] or None)
+    _, limits, changed = verdict["rests_on"].partition("limits: ")
+    conditions = limits + changed if verdict["verdict"] != "feasible" else ""
+    must("rests on", "; ".join(one for one in (verdict["figures"], conditions) if one) or None)
     if "gait" in said:
         wrong += hear(GAIT, said["gait"], known, "terminal: gait")
     return wrong

@@ -149,7 +149,8 @@ JUDGED = {
              r"beyond it the heights of the border continue",
     "periodic": r"the motion repeats every {period:.4g} s|the set points repeat, and the motion does not settle to a period",
     "evidence": r"judged over (?:{periods:d} periods? of {period:.4g} s|{inside:.3g} periods of {period:.4g} s(?: after {start:.3g} s)?; the motion does "
-                r"not settle|these {simulated:.3g} s; the set points do not repeat)(?:; not known: {unknown:words})?",
+                r"not settle|these {simulated:.3g} s; the set points do not repeat)(?:; not known: {unknown:words})?"
+                r"(?:; limits: {limits:words})?(?:; accepted: {accepted:words})?",
     "torque_error": r"the torque of joint {worst} is off by about {value:rough} of its peak, estimated from other steps(?: in windows; "
                     r"`gaitlab converge` compares whole runs)?",
     "predictable": r"(?:from t = {from:.4g} s on \(joint {worst}\) the motion is (?:not predictable|ill-conditioned): )?gravity times "

@@ -7,6 +7,7 @@ import numpy as np
 
 from told.bodies import borne, elements
 from told.check import Told, graded, margin
+from told.record import LIMITS
 from told.window import set_point_cycle
 
 SETTLED, PERIODS, LEAST_TIME, BORNE, RESIDUAL, COARSE = 0.01, 3, 2.0, 0.5, 0.05, 0.10
@@ -165,7 +166,7 @@ class Evidence:
         if record.chaotic():
             if record.spread is None:
                 return "not predictable"
-        elif len(error) and error.max() > record.limits["torque_error"]:
+        elif len(error) and error.max() > record.most_error():
             return "torque error"
         if record.driven.any() and not abs(record.residual()) / record.energy_scale() <= RESIDUAL:
             return "energy"
@@ -174,6 +175,17 @@ class Evidence:
         if record.driven.any() and not record.torque_errors().max(initial=0) > 0 and record.scenario["physics"].get("estimate") == "off":
             return "no estimate"
         return ""
+
+
+UNITS = {"tracking_error": " rad", "tilt": " rad", "beyond_range": " rad", "start_jump": " rad", "touch": " m", "collision": " m", "sink": " m"}
+
+
+def changed_limits(record):
+    """Limits that are not the defaults, in words."""
+    def number(value):
+        return repr(float(value)).removesuffix(".0") if abs(value) < 1e15 else repr(value)
+    return "; ".join(f"{key} {number(record.limits[key])}{UNITS.get(key, '')} of the scenario, {'%.4g' % preset} by default"
+                     for key, preset in LIMITS.items() if record.limits[key] != preset)
 
 
 def periodic(record, window, evidence):
@@ -193,7 +205,7 @@ def torque_error(record):
         return Told()
     j = int(np.argmax(error))
     accuracy = record.scenario["physics"].get("accuracy", 0.01) if record.adaptive else 0.01
-    limit = record.limits["torque_error"]
+    limit = record.most_error()
     told = Told(graded(error[j], min(accuracy, limit), np.inf), error[j], limit, margin=margin(error[j], limit),
                 worst=record.names[j], ties=[record.names[j]])
     if told.status == "warn" and record.run["parting.twin.time"] >= 0:

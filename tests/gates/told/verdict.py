@@ -139,7 +139,7 @@ class Judged:
         return e.also | {
             "borne": e.share, "unknown": " and ".join(e.unknown), "half": 0.5, "off": errors[j] if len(errors) else np.nan,
             "inaccurate": r.names[j] if r.count else None,
-            "most": r.limits["torque_error"], "residual": abs(r.residual()) / r.energy_scale(), "kept": 0.05,
+            "most": r.most_error(), "limits": trust.changed_limits(r), "residual": abs(r.residual()) / r.energy_scale(), "kept": 0.05,
             "coarse": r.run["coarse_time"] / r.end if r.end else np.nan, "accuracy": r.scenario["physics"].get("accuracy", np.nan),
             "parted": r.run.get("parting.chaotic.time", np.nan), "times": "1 + 1e-9",
             "change": r.run.get("parting.chaotic.share", np.nan),
@@ -283,6 +283,8 @@ def hear_evidence(judged, verdict):
     says = "time" if "do not repeat" in verdict["rests_on"] else "set points" if "does not settle" in verdict["rests_on"] else "cycle"
     if ("; not known: " in verdict["rests_on"]) != bool(judged.evidence.unknown):
         wrong.append(f"rests_on is {verdict['rests_on']!r}, recomputed that nobody knows {judged.evidence.unknown}")
+    if ("; limits: " in verdict["rests_on"]) != bool(lacks["limits"]):
+        wrong.append(f"rests_on is {verdict['rests_on']!r}, recomputed limits {lacks['limits']!r}")
     if says != judged.evidence.kind:
         wrong.append(f"rests_on is of the {says}, {verdict['rests_on']!r}, recomputed the {judged.evidence.kind}")
     if verdict["verdict"] != "not judged":
