@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "core/laws/dc_motor.h"
 #include "core/plugin/robot_info.h"
 #include "core/recording/motor_limit.h"
 #include "core/scenario/built_robot.h"
+#include "core/settings/settings_numbers.h"
 
 namespace gaitlab::report {
 
@@ -124,6 +126,9 @@ Motors motors(const Scenario& scenario, double fastest) try {
   std::vector<Envelope> of_joint(joints);
   const std::vector<double> rest = most_at(available, std::vector<double>(joints, 0.0));
   const std::span<const DriveRatings> ratings = available.actuator().ratings();
+  const DcMotor* const dc = available.actuator().dc_motors();
+  const SettingsNumbers settings(scenario.actuator);
+  const SettingsNumbers::Found* const sheet = settings.find("stall_torque");
   for (std::size_t j = 0; j < joints; ++j) {
     of_joint[j].unit = available.actuator().command_unit();
     if (!ratings.empty()) {
@@ -131,6 +136,10 @@ Motors motors(const Scenario& scenario, double fastest) try {
       of_joint[j].gear_peak = stated(ratings[j].torque_peak);
       of_joint[j].gear_continuous = stated(ratings[j].torque_continuous);
       of_joint[j].speed_max = stated(ratings[j].speed);
+    }
+    if (dc != nullptr && dc[j].R > 0) {
+      const double stall = dc[j].efficiency * dc[j].Kt * dc[j].gear * dc[j].u_max / dc[j].R;
+      of_joint[j].stall = finite(sheet == nullptr ? stall : std::min(stall, sheet->value[j]));
     }
     if (!available.known(j)) continue;
     of_joint[j].command = available.commands()[j];

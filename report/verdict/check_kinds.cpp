@@ -61,6 +61,12 @@ constexpr CheckKind kChecks[] = {
      "largest speed, over all steps: in the window against the speed at which the actuator has no torque left, in the whole "
      "run against the rated one",
      "above that speed", "above limits.warn_share of it", kWindow, "actuator.speed_max", kGentler, checks::speed},
+    {"stall", Group::motor, "N m", "Motors hold at rest",
+     "torque of a joint while it turns at less than 5 % of its no-load speed, RMS over all this time and over any 0.1 s on "
+     "end, "
+     "against the stall torque at the supply",
+     "above that stall torque", "RMS over all this time above half of it", kWindow, "actuator.stall_torque",
+     "a pose with less load, or a stronger motor; efficiency_model: paper shows what the motor holds", checks::stall},
     {"heat", Group::motor, "A", "Motors stay cool", "RMS current in the window against the continuous rating, over all steps",
      "above actuator.i_continuous", "above limits.warn_share of it", kWindow, "actuator.i_continuous", kGentler, checks::heat,
      false, false, true},

@@ -69,6 +69,7 @@ void voltage(const CheckedRun& run, Check& made);
 void current(const CheckedRun& run, Check& made);
 void envelope(const CheckedRun& run, Check& made);
 void speed(const CheckedRun& run, Check& made);
+void stall(const CheckedRun& run, Check& made);
 void heat(const CheckedRun& run, Check& made);
 void gear_peak(const CheckedRun& run, Check& made);
 void gear_continuous(const CheckedRun& run, Check& made);

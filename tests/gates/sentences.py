@@ -36,7 +36,7 @@ SEED = 20
 KNOWN = []
 # Statuses of each check that must occur in some run. Otherwise its sentences would not be tested.
 MUST = {check: ("pass", "warn", "fail") for check in (
-    "voltage", "current", "speed", "heat", "gear_peak", "gear_continuous", "tracking", "stops", "dock_tension", "dock_shear",
+    "voltage", "current", "speed", "stall", "heat", "gear_peak", "gear_continuous", "tracking", "stops", "dock_tension", "dock_shear",
     "dock_bending", "dock_torsion", "upright", "collision")}
 MUST |= {check: ("pass", "warn") for check in ("envelope", "setpoints", "start", "slip", "airborne", "field", "periodic",
                                                "torque_error", "ledger", "created")}

@@ -92,6 +92,9 @@ RUNS = {
     "stands": ("caterpillar", FAST + ["duration=3", "cpg.amplitude=0"]),
     "back-driven": ("caterpillar", FAST + ["duration=3.2", "cpg.frequency=1", "actuator.efficiency=0.35",
         "actuator.efficiency_model=directional"]),
+    "holds more than its stall torque": ("library/ckbot-worm", ["duration=12", "actuator.stall_torque=0.5",
+        "actuator.efficiency_model=directional"]),
+    "a supply above the sheet's": ("library/yamor-worm", ["duration=8", "actuator.u_max=8", "cpg.amplitude={default: 0, m2/hinge: 0.4}"]),
 }
 # Robots that no ground carries.
 SLOW = ["cpg.frequency=0.5", "cpg.amplitude=0.2", "duration=6"]

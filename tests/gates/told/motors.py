@@ -196,6 +196,66 @@ def rms(record, what, window):
     return np.sqrt(np.maximum(grown(record, what, window), 0) / window.length)
 
 
+def stall(record, window):
+    """Torque of joints at less than 5 % of their no-load speed: RMS of all rows, and of any 0.1 s on end, against the stall torque."""
+    judged = record.driven & (record.stall > 0) & np.isfinite(record.no_load)
+    if not judged.any():
+        return Told()
+    t, first, found = record.t, window.first, {}
+    slow = record.tick("speed_peak") < 0.05 * record.no_load
+    square = record.tick("torque_square")
+    for j in np.flatnonzero(judged):
+        rows = np.flatnonzero(slow[first + 1:, j]) + first + 1
+        time = (t[rows] - t[rows - 1]).sum()
+        whole = np.sqrt((square[rows, j] - square[rows - 1, j]).sum() / time) if time >= 0.1 * (1 - 1e-9) else 0.0
+        most, span, begun = 0.0, (np.nan, np.nan), np.nan
+        for k in rows:
+            a = np.searchsorted(t, t[k] - 0.1 * (1 - 1e-9), "right") - 1  # the last row that is 0.1 s before
+            if a < first or not slow[a + 1:k + 1, j].all():
+                continue
+            value = np.sqrt(max(square[k, j] - square[a, j], 0) / (t[k] - t[a]))
+            begun = t[k] if np.isnan(begun) and value > record.stall[j] else begun
+            if value > most:
+                most, span = value, (t[a], t[k])
+        found[j] = whole, most, span, begun
+    errors, free = record.torque_errors(), record.holds_more  # the law of other motors holds no more than the stall torque
+    for j, (whole, most, span, begun) in found.items():
+        if not free[j]:
+            found[j] = min(whole, record.stall[j]), min(most, record.stall[j]), span, np.nan
+    shares = {j: max(one[0], one[1]) / record.stall[j] for j, one in found.items()}
+    warm = {j: one[0] / record.stall[j] for j, one in found.items()}
+    j, warmest = max(shares, key=shares.get), max(warm, key=warm.get)
+    if shares[j] <= 1 and warm[warmest] > 0.5:
+        j = warmest
+    whole, most, span, _ = found[j]
+    limit, share = record.stall[j], shares[j]
+    status = "fail" if share > 1 else graded(warm[j], 0.5, 1)
+    all_time = whole > limit or status == "warn" or whole >= most
+    told = Told(status, (whole if all_time else most) if share > 0 else 0.0, limit, margin=1 - share, parts=sum(s > 1 for s in shares.values()))
+    if not share > 0:
+        return told
+    compared = warm if status == "warn" else shares
+    told.worst, told.ties = record.names[j], [record.names[k] for k, s in compared.items() if s > compared[j] * (1 - SAME)]
+    if not all_time:
+        told.start, told.end = span
+        told.also |= {"from": span[0]}
+    begun = {record.names[k]: one[3] for k, one in found.items() if not np.isnan(one[3])}
+    if begun:
+        told.first = min(begun.values())
+        told.first_parts = [name for name, time in begun.items() if time == told.first]
+        told.first_part = told.first_parts[0]
+    bars = {k: (s * (1 - errors[k] * free[k]), s * (1 + errors[k] * free[k])) for k, s in shares.items()}
+    told.error = errors[j] * free[j]
+    told.also |= {"low": bars[j][0], "high": bars[j][1]}
+    across = [k for k in bars if bars[k][0] <= 1 < bars[k][1]]
+    if across and not any(low > 1 for low, _ in bars.values()):
+        told.status = "too close"
+        if j not in across:
+            k = max(across, key=lambda one: bars[one][1])
+            told.also |= {"other": record.names[k], "other_low": bars[k][0], "other_high": bars[k][1]}
+    return told
+
+
 def heat(record, window):
     return of_rating(record, rms(record, "current_square", window), "i_continuous") if record.driven.any() else Told()
 

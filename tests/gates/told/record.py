@@ -103,11 +103,16 @@ class Record:
         nothing = np.full(self.count, np.nan)
         self.torque_constant = self.speed_constant = nothing  # efficiency Kt, and Ks, of motors that could create energy
         self.no_load, self.at_rest, self.limited, self.i_max = nothing, nothing, np.zeros(self.count, bool), nothing
+        self.stall = nothing  # stall torque at the supply, of any model of the efficiency
+        held = nothing  # torque at rest of the simulated motor
+        directional = a.get("efficiency_model") == "directional"
         with np.errstate(divide="ignore", invalid="ignore"):
             if kind == "dc_motor":
                 self.no_load = of("u_max") / (of("Ks") * of("gear"))
                 current = np.minimum(of("u_max") / of("R"), of("i_max"))
                 self.at_rest = of("gear") * of("efficiency") * of("Kt") * current
+                self.stall = of("gear") * of("efficiency") * of("Kt") * of("u_max") / of("R")
+                held = self.at_rest / (of("efficiency") if directional else 1)
                 self.limited, self.i_max = self.driven.copy(), of("i_max")
                 self.torque_constant, self.speed_constant = of("efficiency") * of("Kt"), of("Ks")
                 self.makes_energy = self.driven & (self.torque_constant > self.speed_constant * (1 + 1e-9))
@@ -123,11 +128,14 @@ class Record:
                 self.no_load = w0 * u / v
                 self.at_rest = k * eta * np.minimum(stall * u / v, self.i_max)
                 self.limited = self.driven.copy()
+                self.stall = t0 * np.minimum(1, u / v)
+                held = self.at_rest / (eta if directional else 1)
                 self.makes_energy = self.driven & (eta > 1 + 1e-9)
             else:
                 limit = np.nan_to_num(of("limit")) if kind == "torque" else np.zeros(self.count)
                 self.at_rest, self.limited = np.where(limit > 0, limit, np.nan), limit > 0
                 self.makes_energy = np.zeros(self.count, bool)
+            self.holds_more = held > self.stall * (1 + 1e-9)
         self.no_load[~np.isfinite(self.no_load)] = np.nan
         self.ratings = {key: of(key) for key in ("i_continuous", "gear_torque_peak", "gear_torque_continuous", "speed_max")}
         self.all_limited = bool(np.all(self.limited[self.driven]))

@@ -118,6 +118,8 @@ JUDGED = {
     "envelope": r"the torque of joint {worst} is {value:pct} of its (?:motor|actuator)'s limit at that speed",
     "speed": r"joint {worst} turns at up to {value:.3g} rad/s of {limit:.3g} rad/s(?:, more than it is rated for|, faster than its "
              r"motor can drive it: the load does)?",
+    "stall": r"no driven joint rests|joint {worst} at rest: stall {limit:.3g} N m, held {value:.3g} N m(?: for 0\.1 s from "
+             r"{from:.2f} s)?" + WITHIN,
     "heat": r"the motor of joint {worst} takes {value:.3g} A RMS, {share:pct} of its continuous rating" + WITHIN,
     "gear_peak": r"the gear of joint {worst} passes on up to {value:.3g} N m of {limit:.3g} N m" + WITHIN,
     "gear_continuous": r"the gear of joint {worst} takes {value:.3g} N m RMS of {limit:.3g} N m" + WITHIN,
@@ -193,7 +195,7 @@ NOT_JUDGED = (
     r"|the base rolls: it makes a whole turn in every period"
     r"|the robot turns over at {over:.2f} s, and the run is too short to show whether it rolls"
     r"|nothing drives the joints(?:, or statistics of all steps were not recorded)?"
-    r"|the actuator (?:is not made of DC motors, and has no voltage|states no limit|has torque at any speed, and states no "
+    r"|the actuator (?:is not made of DC motors, and has no (?:voltage|stall torque)|states no limit|has torque at any speed, and states no "
     r"largest speed)"
     r"|no (?:continuous current of the motors|(?:largest|continuous) torque of the gears) is stated \(actuator\.\w+\)"
     r"|the solver of contact\.law bullet keeps bodies apart and above the ground|no body has a shape, or the run has no poses"

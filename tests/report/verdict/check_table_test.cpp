@@ -44,6 +44,17 @@ Expected of_dock(const char* id, const char* column, double limit) {
   return {id, [=](double v) { return load(column, v); }, limit, 0.8 * limit, [=](double v) { return load(column, v, kEarly); }};
 }
 
+/// Torque at rest of a motor that may hold more than its stall torque.
+Change at_rest(double torque, bool early = false) {
+  return [=](Case& made) {
+    static const Scenario kFree = shipped(
+        "caterpillar.yaml", {"physics.engine=articulated", "actuator.i_max=10", "actuator.efficiency_model=directional"});
+    made.scenario.actuator = kFree.actuator;
+    for (std::size_t k = 0; k <= made.last_tick(); ++k) made.tick(k, kJoint, kSpeedPeak) = 0;
+    (early ? early_rate(kTorqueSquare, torque * torque) : rate(kTorqueSquare, torque * torque))(made);
+  };
+}
+
 /// Rows for a check of saturation: a share of the window in so many pieces that each is short, and one long interval at the
 /// end.
 std::vector<Expected> of_saturation(const char* id, TickColumn column) {
@@ -65,13 +76,15 @@ std::vector<Expected> of_saturation(const char* id, TickColumn column) {
 }
 
 std::vector<Expected> table() {
-  const double no_load = 7.4 / (0.00395 * 594);  // speed without load u_max / (Ks n), rad/s
+  const double no_load = 7.4 / (0.00395 * 594);          // speed without load u_max / (Ks n), rad/s
+  const double stall = 0.7 * 0.00395 * 594 * 7.4 / 4.3;  // eta Kt n u_max / R, N m
   std::vector<Expected> rows{
       {"fall", sinks, 0.5, 0.5, sinks},
       {"progress", [](double v) { return goes(v); }, 0.5, 0.5},
       {"upright", tilts, std::numbers::pi / 2, std::numbers::pi / 3, tilts},
       of_tick("envelope", kEnvelopePeak, 0.8, 0.8),
       of_tick("speed", kSpeedPeak, no_load, 0.8 * no_load),
+      {"stall", [](double v) { return at_rest(v); }, stall, stall / 2, [](double v) { return at_rest(v, true); }},
       of_square("heat", kCurrentSquare, 1),
       of_tick("gear_peak", kTorquePeak, 5, 4),
       of_square("gear_continuous", kTorqueSquare, 3),
@@ -202,8 +215,9 @@ TEST(CheckTable, SpansDecideOfARunThatIsTooShort) {
 
 /// Checks have the documented spans. The span of `speed` depends on the limit that decides.
 TEST(CheckTable, HasItsSpans) {
-  const std::set<std::string> window{"progress", "voltage", "current", "envelope", "speed",     "heat",     "gear_continuous",
-                                     "tracking", "battery", "slip",    "airborne", "stability", "periodic", "evidence"};
+  const std::set<std::string> window{"progress", "voltage",  "current",         "envelope", "speed",
+                                     "stall",    "heat",     "gear_continuous", "tracking", "battery",
+                                     "slip",     "airborne", "stability",       "periodic", "evidence"};
   for (const CheckKind& kind : check_kinds())
     EXPECT_EQ(kind.span, window.contains(kind.id) ? CheckSpan::window : CheckSpan::whole_run) << kind.id;
 }
@@ -221,7 +235,7 @@ TEST(CheckTable, NotJudged) {
   const auto no_ground = [](Case& made) { made.scenario.ground.shape = NoGround{}; };
   const std::vector<std::pair<std::vector<const char*>, Change>> ways{
       {{"fall", "progress", "upright", "slip", "stability", "airborne"}, fixed},
-      {{"voltage", "current", "envelope", "speed", "heat", "gear_peak", "gear_continuous", "tracking"}, no_ticks},
+      {{"voltage", "current", "envelope", "speed", "stall", "heat", "gear_peak", "gear_continuous", "tracking"}, no_ticks},
       {{"stops", "setpoints", "start", "ledger", "created", "supply"}, no_statistics},
       {{"dock_tension", "dock_shear", "dock_bending", "dock_torsion", "slip", "stability"}, no_loads},
       {{"law", "voltage", "setpoints", "start", "ledger", "created", "supply"}, no_motors},
