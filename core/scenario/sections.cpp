@@ -126,8 +126,9 @@ void ContactSettings::fields(Fields& f) {
   f.choice("on", on, enum_names<ContactSet>(),
            "Contact elements that touch the ground: feet of the free blocks, all, or none.");
   if (!model().penalty_settings) return;
-  f.number("stiffness", penalty.kn,
-           {"N/m^k", 0, 1e12, "Kn of the spring. On stiffer ground the robot sinks in less, and steps must be shorter."});
+  f.number(
+      "stiffness", penalty.kn,
+      {"N/m^k", kPositive, 1e12, "Kn of the spring. On stiffer ground the robot sinks in less, and steps must be shorter."});
   f.number("exponent", penalty.k, {"", 1, 10, "k: exponent of the depth in the spring's force."});
   f.number("damping", penalty.cd, {"N s/m^(d+1)", 0, 1e12, "Cd of the damper."});
   f.number("damping_exponent", penalty.d, {"", 0, 10, "d: exponent of the depth in the damper's force."});
@@ -301,11 +302,11 @@ void SectionFields::fields(Fields& f) {
   f.number("duration", scenario.duration, {"s", kPositive, 1e6, "Simulated time; required."});
   f.group("trace", scenario.trace, "The recorded trace.");
   if (!writing || scenario.limits != Limits()) f.group("limits", scenario.limits, "Limits of the verdict.");
-  if (!writing || !scenario.figure.joints.empty()) f.group("figure", scenario.figure, "Content of figure.svg.");
   if (!writing || !scenario.accept.empty()) {
     f.words("accept", scenario.accept, kAcceptable,
             "Implausible numbers that are right: without their rows here, a run with impossible ones is not judged.");
   }
+  if (!writing || !scenario.figure.joints.empty()) f.group("figure", scenario.figure, "Content of figure.svg.");
   f.integer("seed", scenario.seed,
             {"", 0, 9e18,
              "Seed of all draws: of the robot within its tolerances, of the noise, zeros, delays and losses of its sensors, "

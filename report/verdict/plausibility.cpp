@@ -173,7 +173,7 @@ const Node* hinge_map(const Scenario& s, std::size_t joint) {
 const std::vector<PlausibleNumber>& plausible_numbers() {
   static const std::vector<PlausibleNumber> kAll = [] {
     std::vector<PlausibleNumber> all;
-    for (const auto& rows : {plausible_bodies(), plausible_motors(), plausible_scenario()}) {
+    for (const auto& rows : {plausible_bodies(), plausible_motors(), plausible_contacts(), plausible_scenario()}) {
       all.insert(all.end(), rows.begin(), rows.end());
     }
     return all;

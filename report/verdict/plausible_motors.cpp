@@ -202,10 +202,10 @@ std::vector<Impossible> impossible_powers(const Scenario& s) {
 }
 
 /// Finding on a number of each driven joint, `key` of a section: its text, and the number that is judged. Empty if the section
-/// lacks the key.
+/// lacks the key. Without a unit, a corrected number is not shown.
 template <class Text, class Judged>
 std::vector<Finding> each_setting(const Scenario& s, const PluginSelection& plugin, const char* section, const char* key,
-                                  Text text, Judged judged) {
+                                  Text text, Judged judged, const char* unit = nullptr) {
   if (plugin.entry == nullptr) return {};
   const SettingsNumbers numbers(plugin);
   const SettingsNumbers::Found* const values = numbers.find(key);
@@ -214,7 +214,7 @@ std::vector<Finding> each_setting(const Scenario& s, const PluginSelection& plug
     if (!s.robot->joints[j].driven()) continue;
     const std::string& name = s.robot->joints[j].name;
     const double value = values->value[j];
-    found.push_back({motor_place(s, j, key, section), {name}, text(name, value, j), judged(value, j)});
+    found.push_back({motor_place(s, j, key, section), {name}, text(name, value, j), judged(value, j), {}, {}, {{value, unit}}});
   }
   return found;
 }
@@ -242,6 +242,25 @@ std::vector<Finding> supplies(const Subject& subject) {
       },
       [&](double value, std::size_t j) { return value > 0 ? value / data->value[j] : 1; });
 }
+
+/// Currents `key` of DC motors, relative to the current at rest under the supply.
+std::vector<Finding> currents(const Scenario& s, const char* key) {
+  if (s.actuator.entry == nullptr || s.robot->joints.empty()) return {};
+  const std::unique_ptr<Actuator> actuator = make_motors(s);
+  const DcMotor* const motors = actuator == nullptr ? nullptr : actuator->dc_motors();
+  if (motors == nullptr) return {};
+  const auto stall = [motors](std::size_t j) { return motors[j].u_max / motors[j].R; };
+  return each_setting(
+      s, s.actuator, "actuator", key,
+      [&](const std::string& name, double value, std::size_t j) {
+        return fmt::format("{} of {} is {} A, {:.3g} times the current that its motor draws at rest under {:.4g} V, {:.3g} A",
+                           key, name, number_text(value), value / stall(j), motors[j].u_max, stall(j));
+      },
+      [&](double value, std::size_t j) { return stall(j) > 0 ? value / stall(j) : 0; }, "A");
+}
+
+std::vector<Finding> continuous_currents(const Subject& subject) { return currents(subject.scenario, "i_continuous"); }
+std::vector<Finding> largest_currents(const Subject& subject) { return currents(subject.scenario, "i_max"); }
 
 std::vector<Finding> rotors(const Subject& subject) {
   const Scenario& s = subject.scenario;
@@ -314,6 +333,24 @@ std::vector<PlausibleNumber> plausible_motors() {
        impossible_powers},
       {"voltage", 0.5, 1000, "expected 0.5 to 1000 V", {{"is it in mV", of_milli}}, {}, voltages},
       {"supply", 0.3, 3, "expected 0.3 to 3 times that", {}, {"voltage"}, supplies},
+      {"continuous current",
+       0,
+       1,
+       "expected less than that",
+       {{"is it in mA", of_milli}},
+       {"voltage", "supply", "stall torque"},
+       continuous_currents,
+       false,
+       kLeastShare},
+      {"largest current",
+       0,
+       30,
+       "expected at most 30 times that",
+       {{"is it in mA", of_milli}},
+       {"voltage", "supply", "stall torque"},
+       largest_currents,
+       false,
+       kLeastShare},
       {"rotor inertia",
        0,
        1,

@@ -118,6 +118,8 @@ const Node* entry_map(const Node& document, const char* key, const char* by, con
 std::vector<PlausibleNumber> plausible_bodies();
 /// Rows on motors and their modules.
 std::vector<PlausibleNumber> plausible_motors();
+/// Rows on docks and contacts with the ground.
+std::vector<PlausibleNumber> plausible_contacts();
 /// Rows on the sections of the scenario.
 std::vector<PlausibleNumber> plausible_scenario();
 

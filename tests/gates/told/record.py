@@ -140,6 +140,10 @@ class Record:
         self.ratings = {key: of(key) for key in ("i_continuous", "gear_torque_peak", "gear_torque_continuous", "speed_max")}
         self.all_limited = bool(np.all(self.limited[self.driven]))
 
+    def most_error(self):
+        """Largest torque error of a judged run."""
+        return min(self.limits["torque_error"], 0.1)
+
     def torque_errors(self):
         """Torque error of every joint relative to its peak (at least 2 % of the largest of all peaks); 0 without an estimate."""
         if not self.run["torque_error.estimated"] or not self.count:
@@ -147,10 +151,6 @@ class Record:
         peak, error = self.joints["torque_error_peak"], self.joints["torque_error"]
         largest = max(peak.max(), 0)
         return error / np.maximum(peak, 0.02 * largest) if largest > 0 else np.zeros(self.count)
-
-    def most_error(self):
-        """Largest torque error of a judged run."""
-        return min(self.limits["torque_error"], 0.1)
 
     def chaotic(self):
         """True if a factor of 1 + 1e-9 on gravity changes the torques by more than their permitted error."""

@@ -175,5 +175,66 @@ TEST(ChangedLimits, NoRunIsFeasibleAboveTenPercent) {
       << beyond.why();
 }
 
+TEST(Units, ZeroStiffnessIsAnError) {
+  try {
+    const Scenario s = scenario(Links{.more = ""}.text(), {"contact.stiffness=0"});
+    ADD_FAILURE() << s.name;
+  } catch (const InputError& error) {
+    EXPECT_TRUE(contains(error.what(), "stiffness is 0 N/m^k; allowed are more than 0")) << error.what();
+  }
+}
+
+/// Each unit that is likely, and numbers near it that are right.
+TEST(Units, CurrentsDocksAndContacts) {
+  const auto warned = [](const Links& of, const Sets& sets = {}) {
+    std::string all;
+    for (const Warning& one : setup_warnings(scenario(of.text(), sets))) all += one.text + "\n";
+    return all;
+  };
+  EXPECT_EQ(warned({}), "");
+  // k = 1.2 V s/rad, I0 = 1 / (0.7 x 1.2) = 1.19 A.
+  const std::string motor = "stall_torque: 1, no_load_speed: 10, ";
+  EXPECT_EQ(
+      warned({.motor = motor + "i_continuous: 200"}),
+      "i_continuous of m0/h is 200 A, 168 times the current that its motor draws at rest under 12 V, 1.19 A; expected less "
+      "than that: is it in mA (0.2 A)?\n");
+  EXPECT_EQ(warned({.motor = motor + "i_continuous: 0.5, i_max: 20"}), "");
+  EXPECT_TRUE(contains(warned({.motor = motor + "i_max: 300"}), "expected at most 30 times that: is it in mA (0.3 A)?"));
+  EXPECT_TRUE(contains(warned({}, {"contact.stiffness=10"}), "expected at most a tenth of that: is it in N/mm (10000 N/m)?"));
+  EXPECT_EQ(warned({}, {"contact.stiffness=1000"}), "");
+  EXPECT_TRUE(contains(warned({}, {"contact.slip_speed=10"}), "expected less than that: is it in mm/s (0.01 m/s)?"));
+  EXPECT_EQ(warned({}, {"contact.slip_speed=0.1"}), "");
+}
+
+TEST(Units, LoadsOfDocksAndContactElements) {
+  const auto warned = [](const std::string& from, const std::string& to) {
+    std::string text = Links{}.text();
+    const std::string faces =
+        "    faces: [{id: 0, body: b, connector: latch, gender: none, origin: [0.1, 0, 0], normal: [1, 0, 0], reference: [0, "
+        "1, "
+        "0]}]\n    connectors: {latch: {tension: 50, shear: 50, bending: 5, torsion: 5, source: sheet}}\n";
+    text.insert(text.find("    contacts:"), faces);
+    text.replace(text.find(from), from.size(), to);
+    std::string all;
+    for (const Warning& one : setup_warnings(scenario(text)))
+      all += to_string(one.place).substr(to_string(one.place).find(':')) + one.text + "\n";
+    return all;
+  };
+  EXPECT_EQ(warned("tension: 50", "tension: 60"), "");
+  // 0.2 kg x 9.81 m/s^2 = 1.96 N; at 0.212 m: 0.416 N m.
+  EXPECT_TRUE(
+      contains(warned("tension: 50", "tension: 50000"),
+               "tension of connector 'latch' of link is 50000 N, 2.55e+04 times the weight of the robot (0.2 kg); expected "
+               "at most 1000 times that: is it in mN (50 N)?"));
+  EXPECT_TRUE(contains(warned("bending: 5", "bending: 5000"),
+                       "at a distance of its extent (0.212 m); expected at most 1000 times "
+                       "that: is it in mN m (5 N m)?"));
+  EXPECT_TRUE(
+      contains(warned("all: shapes", "all: [{body: b, sphere: [0.1, 0, 0], radius: 0.06}]"),
+               "the contact element m0/b/s0 of radius 0.06 m is 0.035 m below the lowest shape of the robot at the start; "
+               "the largest edge of its body is 0.1 m; expected at most a quarter of that: is it the diameter (0.03 m)?"));
+  EXPECT_EQ(warned("all: shapes", "all: [{body: b, sphere: [0.1, 0, 0], radius: 0.04}]"), "");
+}
+
 }  // namespace
 }  // namespace gaitlab::test
