@@ -10,7 +10,7 @@ const char* const Keyframes::kManual =
     R"(Joint angles at given times (frames), joined by splines or straight lines. Joints a frame does not name are at its default.
 
     theta(t) = a y_k + b y_k+1 + ((a^3 - a) M_k + (b^3 - b) M_k+1) h^2 / 6      t_k <= t <= t_k+1
-    h = t_k+1 - t_k,  b = (t - t_k) / h,  a = 1 - b;  everything times min(1, t / ramp)
+    h = t_k+1 - t_k,  b = (t - t_k) / h,  a = 1 - b;  for t < ramp: y_0 + (t / ramp) (theta(t) - y_0)
 
 y: angles of the frames. M: second derivatives there. Linear: 0. Spline: such that the speed is continuous, a cubic spline,
 
@@ -131,7 +131,10 @@ void Keyframes::Model::fields(Fields& f) {
   if (const std::string wrong = wrong_times(frames); !wrong.empty()) f.problem("frames", wrong);
   f.choice("interpolation", interpolation, kInterpolations, "Interpolation between frames.");
   f.flag("repeat", repeat, "Start again after the last frame, which must equal the first; otherwise hold the last frame.");
-  f.number("ramp", ramp, {"s", 0, 1e6, "Duration of the start, in which all angles grow linearly from 0."});
+  f.number("ramp", ramp,
+           {"s", 0, 1e6,
+            "Duration of the start, in which the motion about the first frame grows linearly from 0; without "
+            "initial.angles the robot starts at the first frame."});
 }
 
 void Keyframes::Settings::fields(Fields& f) { f.group("model", model, "Keys that only this type has."); }
@@ -182,13 +185,14 @@ void Keyframes::output(double t, In, Out setpoint) const {
   const double h = time_[k + 1] - time_[k];
   const double b = (at - time_[k]) / h;
   const double a = 1 - b;
-  const double grown = t < ramp_ ? t / ramp_ : 1;
   const double* y = angle_.data() + k * joints_;
   const double* m = curvature_.data() + k * joints_;
   for (std::size_t j = 0; j < joints_; ++j) {
     const double bend = (a * a * a - a) * m[j] + (b * b * b - b) * m[joints_ + j];
-    setpoint[j] = grown * (a * y[j] + b * y[joints_ + j] + bend * h * h / 6);
+    setpoint[j] = a * y[j] + b * y[joints_ + j] + bend * h * h / 6;
   }
+  if (!(t < ramp_)) return;
+  for (std::size_t j = 0; j < joints_; ++j) setpoint[j] = angle_[j] + t / ramp_ * (setpoint[j] - angle_[j]);
 }
 
 }  // namespace gaitlab::cpg

@@ -14,13 +14,15 @@ class Sine final : public Cpg {
     double ramp = 0;
     void fields(Fields& f) {
       f.number("ramp", ramp,
-               {"s", 0, 1e6, "Duration of the start, in which all angles, offsets included, grow linearly from 0."});
+               {"s", 0, 1e6,
+                "Duration of the start, in which the amplitudes grow linearly from 0; without initial.angles the robot starts "
+                "at the offsets."});
     }
   };
   using Settings = OscillatorSettings<Model>;
   static constexpr const char* kManual = R"(Prescribed sines: the limit cycle of a network of oscillators, without its states.
 
-    theta_i = min(1, t / ramp) (X_i + R_i sin(2 pi f_i t + phi_i))
+    theta_i = X_i + min(1, t / ramp) R_i sin(2 pi f_i t + phi_i)
 
 phi_i: sum of the lags along the couplings; couplings that contradict one another around a cycle are an error.
 Source: Chariot, Filippi, Verlinden 2012, eq. 10 on the limit cycle of eq. 7.
@@ -36,7 +38,7 @@ Source: Chariot, Filippi, Verlinden 2012, eq. 10 on the limit cycle of eq. 7.
     const double grown = t < s_.model.ramp ? t / s_.model.ramp : 1;
     for (std::size_t i = 0; i < joints_; ++i) {
       setpoint[i] =
-          grown * (s_.offset[i] + s_.amplitude[i] * math::sin(2 * std::numbers::pi * s_.frequency[i] * t + network_.phases[i]));
+          s_.offset[i] + grown * (s_.amplitude[i] * math::sin(2 * std::numbers::pi * s_.frequency[i] * t + network_.phases[i]));
     }
   }
 

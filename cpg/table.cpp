@@ -12,7 +12,7 @@ const char* const Table::kManual =
     R"(Set points from a CSV text: one row per time, one column per joint. Joints without a column stay at 0.
 
     theta(t) = a y_k + b y_k+1 + ((a^3 - a) M_k + (b^3 - b) M_k+1) h^2 / 6      t_k <= t <= t_k+1
-    h = t_k+1 - t_k,  b = (t - t_k) / h,  a = 1 - b;  everything times min(1, t / ramp)
+    h = t_k+1 - t_k,  b = (t - t_k) / h,  a = 1 - b;  for t < ramp: y_0 + (t / ramp) (theta(t) - y_0)
 
 y: the rows; M, interpolation, repeat and ramp: as in gait keyframes (gaitlab explain cpg keyframes). The first line names the
 columns: `time` (or `t`; s, rising from 0) first, then joints by name or number (rad). Lines that begin with # and empty lines
@@ -148,7 +148,10 @@ void Table::Model::fields(Fields& f) {
   f.file("file", file, "The CSV: time and joints.");
   f.choice("interpolation", interpolation, kInterpolations, "Interpolation between rows.");
   f.flag("repeat", repeat, "Start again after the last row, which must equal the first; otherwise hold the last row.");
-  f.number("ramp", ramp, {"s", 0, 1e6, "Duration of the start, in which all angles grow linearly from 0."});
+  f.number("ramp", ramp,
+           {"s", 0, 1e6,
+            "Duration of the start, in which the motion about the first row grows linearly from 0; without "
+            "initial.angles the robot starts at the first row."});
 }
 
 Table::Table(const RobotInfo& robot, const Settings& settings) : frames_(robot, keyframes_of(robot, settings.model)) {}

@@ -17,8 +17,10 @@ struct Measured {
 
 /// Times that a model states about its set points, s. 0 stands for a time that it does not state.
 struct SetPointTimes {
-  double period = 0;     ///< after which they repeat
-  double full_size = 0;  ///< from which on they keep their size, as after a ramp; infinite if they grow for ever
+  double period = 0;  ///< after which they repeat
+  /// From which on they keep their size, as after a ramp; infinite if they grow for ever. If a model without states states this
+  /// time, its ramp scales the motion about the set points at t = 0, where a robot without initial.angles starts.
+  double full_size = 0;
 };
 
 /// A model with a state given by ODEs, whose output is the joint set points (rad). The model has no memory: the caller owns the

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 
 #include "core/files/file_kind.h"
@@ -284,6 +285,23 @@ class ScenarioReader {
     }
   }
 
+  /// Angles at the start if the scenario states none: 0, or the set points about which the ramp of a CPG scales its motion,
+  /// within the ranges of the hinges.
+  [[nodiscard]] PerJoint start_of(const Cpg* cpg) const {
+    constexpr double kRounding = 1e-12;  // rad
+    if (cpg == nullptr || cpg->states() > 0) return {};
+    const double ramp = cpg->times().full_size;
+    if (!(ramp > 0) || !std::isfinite(ramp)) return {};
+    const std::vector<Joint>& joints = scenario_.robot->joints;
+    PerJoint angles{0, std::vector<double>(joints.size())};
+    cpg->output(0, {}, angles.each);
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      double& angle = angles.each[j];
+      angle = joints[j].driven() && std::abs(angle) > kRounding ? std::clamp(angle, joints[j].lo, joints[j].hi) : 0;
+    }
+    return angles.each == std::vector<double>(joints.size()) ? PerJoint{} : angles;
+  }
+
   void make_plugins(const SectionFields& sections) {
     if (!scenario_.robot) return;
     if (!cpg_note_.text.empty()) std::erase(scenario_.notes, cpg_note_);  // removes the note of the template's CPG
@@ -299,6 +317,7 @@ class ScenarioReader {
     attempt([&] {
       if (!sections.has_cpg || !sections.cpg.sound) return;
       const auto cpg = make_cpg(scenario_.cpg, robot);
+      if (!given(root_, "initial", "angles")) scenario_.initial.angles = start_of(cpg.get());
       if (!cpg || cpg->note().empty()) return;
       cpg_note_ = {{path_}, "cpg: " + cpg->note()};
       scenario_.notes.push_back(cpg_note_);

@@ -13,9 +13,10 @@ std::vector<std::string> sections_of(const std::vector<std::string>& sets) {
 }
 
 TouchedSections::TouchedSections(std::vector<std::string> names) : names_(std::move(names)) {
-  constexpr std::array<std::pair<const char*, const char*>, 5> kFollows{{{"contact", "physics"},
+  constexpr std::array<std::pair<const char*, const char*>, 6> kFollows{{{"contact", "physics"},
                                                                          {"contact", "ground"},
                                                                          {"actuator", "controller"},
+                                                                         {"initial", "cpg"},
                                                                          {"controller", "cpg"},
                                                                          {"controller", "sensors"}}};
   if (all()) return;

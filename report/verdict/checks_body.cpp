@@ -196,20 +196,32 @@ void judge_rests(const CheckedRun& run, const std::vector<BeyondRange>& joints, 
   made.remedy = "take a wider range, a stiffer hinge spring, or a gentler gait";
 }
 
-/// Cause of a jump of the set point of a joint at t = 0, or the setting that is missing.
-std::string jump_remedy(const Scenario& s, std::size_t joint) {
-  const double angle = s.initial.angles[joint];
-  std::optional<double> ramp;
-  if (s.cpg.entry != nullptr) {
-    const SettingsNumbers settings(s.cpg);
-    if (const SettingsNumbers::Found* found = settings.find("model.ramp")) ramp = found->value[joint];
+/// First set points of all joints, within the ranges of the hinges, as text for `initial.angles`: a number if they are equal,
+/// else a list. Joints without motor keep their angles. Empty for a CPG of another language, which is called in the run alone.
+std::string first_angles(const Scenario& s) try {
+  if (s.cpg.entry->context != nullptr) return "";
+  const std::vector<double> first = set_points_alone(s, 1);
+  std::vector<std::string> all;
+  std::size_t driven = 0;
+  for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
+    const Joint& joint = s.robot->joints[j];
+    const double angle = joint.driven() ? std::clamp(first.at(driven++), joint.lo, joint.hi) : s.initial.angles[j];
+    const double rounded = std::round(1e4 * angle) / 1e4 + 0.0;  // + 0.0: no negative zero
+    all.push_back(number_text(std::clamp(rounded, joint.lo, joint.hi)));
   }
-  if (angle != 0 && ramp.value_or(0) > 0)
-    return fmt::format(
-        "its ramp begins elsewhere than initial.angles ({:.4g} rad): leave initial.angles out, or set cpg.model.ramp to 0",
-        angle);
-  if (angle != 0) return fmt::format("initial.angles has {:.4g} rad: state the first set point there", angle);
-  return std::string("set initial.angles") + (ramp == 0 ? ", or cpg.model.ramp" : "");
+  return std::ranges::count(all, all.front()) == std::ssize(all) ? all.front() : fmt::format("[{}]", fmt::join(all, ", "));
+} catch (const PluginError&) {
+  return "";
+}
+
+/// Settings that avoid a jump of the set points at t = 0.
+std::string jump_remedy(const Scenario& s) {
+  const std::string list = s.cpg.entry == nullptr ? "" : first_angles(s);
+  std::string text = list.empty() ? "set initial.angles" : "set initial.angles: " + list;
+  if (s.cpg.entry == nullptr || s.place("initial.angles") != SourceLocation{s.file}) return text;
+  const SettingsNumbers settings(s.cpg);
+  const SettingsNumbers::Found* ramp = settings.find("model.ramp");
+  return text + (ramp != nullptr && ramp->value[0] == 0 ? ", or cpg.model.ramp" : "");
 }
 
 }  // namespace
@@ -294,7 +306,7 @@ void start(const CheckedRun& run, Check& made) {
   if (made.status == CheckStatus::pass) return;
   made.from = made.to = made.first = 0;
   made.text += ", and its motor reacts at once: peaks of the whole run may result from this jump";
-  made.remedy = jump_remedy(s, worst);
+  made.remedy = jump_remedy(s);
 }
 
 void collision(const CheckedRun& run, Check& made) {

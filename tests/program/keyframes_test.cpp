@@ -142,8 +142,8 @@ TEST(Keyframes, LinearAndRamp) {
   s.model.interpolation = Keyframes::Interpolation::linear;
   s.model.ramp = 4;
   const Keyframes gait(joints(2), s);
-  EXPECT_NEAR(at(gait, 0.15, 0, 2), 0.3 * 0.15 / 4, 1e-15);
-  EXPECT_NEAR(at(gait, 2.5 + 1.2, 1, 2), 0.5 * 3.7 / 4, 1e-14);
+  EXPECT_NEAR(at(gait, 0.15, 0, 2), 0.1 + (0.3 - 0.1) * 0.15 / 4, 1e-15);
+  EXPECT_NEAR(at(gait, 2.5 + 1.2, 1, 2), -0.2 + (0.5 + 0.2) * 3.7 / 4, 1e-14);
   EXPECT_NEAR(at(gait, 5 + 1.2, 1, 2), 0.5, 1e-14);
 }
 

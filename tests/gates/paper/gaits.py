@@ -147,7 +147,7 @@ def sine(run, t):
     """Set points of the CPG `sine`, which prescribes the limit cycle."""
     net, cpg = Network(run), run.scenario["cpg"]
     t = t[:, None]
-    return ramp(t, cpg["model"]["ramp"]) * (net.X + net.R * np.sin(net.omega * t + net.start))
+    return net.X + ramp(t, cpg["model"]["ramp"]) * net.R * np.sin(net.omega * t + net.start)
 
 
 def tripod(run, t):
@@ -216,4 +216,4 @@ def keyframes(run, t):
     B = ((local - times[k]) / h[k])[:, None]
     A, H = 1 - B, (h[k] ** 2)[:, None]
     out = A * y[k] + B * y[k + 1] + ((A**3 - A) * M[k] + (B**3 - B) * M[k + 1]) * H / 6
-    return out * ramp(t, model["ramp"])[:, None]
+    return y[0] + ramp(t, model["ramp"])[:, None] * (out - y[0])
