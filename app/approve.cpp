@@ -36,8 +36,10 @@ struct ApproveArguments {
   std::string file;
   std::optional<std::string> reason;
   bool calibrate = false;  ///< true: make new bands; this is also done without a golden, and for a run outside its bands
-  bool replace = false;    ///< true: begin a new history and ignore an existing golden
-  int jobs = 1;            ///< threads
+  std::vector<std::string> columns =
+      {};                ///< patterns of the columns that the golden holds; empty: as before, or the usual ones
+  bool replace = false;  ///< true: begin a new history and ignore an existing golden
+  int jobs = 1;          ///< threads
 };
 
 namespace fs = std::filesystem;
@@ -159,9 +161,10 @@ void check_widest(const Calibration& made, const Scenario& scenario, int jobs) {
   Progress progress(false);
   const std::string remedy = narrower_columns(bands, scenario, made.halved, jobs, std::ref(progress));
   throw InputError(SourceLocation{scenario.file},
-                   fmt::format("the band of {} would be {} of its range, more than {}: {}; {}. Nothing was written",
+                   fmt::format("the band of {} would be {} of its {}, more than {}: {}; {}. Nothing was written",
                                label(made.halved, made.halved.trace.columns[widest].name), percent(bands[widest].width()),
-                               percent(kWidestColumn), parts(bands[widest]), remedy));
+                               bands[widest].constant > 0 ? "natural scale" : "range", percent(kWidestColumn),
+                               parts(bands[widest]), remedy));
 }
 
 /// Prints the changes that the user should see before the run becomes the reference.
@@ -211,6 +214,12 @@ void check_law(const Scenario& scenario) {
                                contact.text));
 }
 
+/// A golden of means over starts holds no columns, which may be too many to miss.
+void check_columns(const GoldenRun& base, const ApproveArguments& arguments) {
+  if (base.starts == 1 || arguments.columns.empty()) return;
+  throw InputError(SourceLocation{"--columns"}, "a sensor has a resolution, so that this golden holds numbers and no columns");
+}
+
 /// Golden of this run, still without bands and history.
 Golden golden_of(const GoldenRun& base, const Scenario& scenario, const fs::path& folder) {
   Golden golden;
@@ -233,8 +242,12 @@ int approve(const ApproveArguments& arguments) {
   check_law(scenario);
   const std::optional<Golden> before = golden_before(folder, arguments.replace);
   if (why.empty() && !before) throw no_reason(arguments);
-  GoldenRun base = simulate({scenario}, {scenario.file}, arguments.jobs, true).front();
+  const std::vector<std::string> selected = arguments.columns.empty() && before ? before->selected : arguments.columns;
+  const Scenario traced = with_golden_columns(scenario, selected);
+  GoldenRun base = simulate({traced}, {scenario.file}, arguments.jobs, true).front();
+  check_columns(base, arguments);
   Golden golden = golden_of(base, scenario, folder);
+  golden.selected = selected;
   bool calibrates = arguments.calibrate || !before;
   if (before) {
     const GoldenDifference change = compare(*before, base);
@@ -249,8 +262,8 @@ int approve(const ApproveArguments& arguments) {
   golden.history.push_back({static_cast<std::int64_t>(golden.history.size()) + 1, why, golden.origin.build});
   if (calibrates) {
     base.numbers = golden.numbers;
-    Calibration made = bands_around(base, scenario, arguments.jobs);
-    check_widest(made, scenario, arguments.jobs);
+    Calibration made = bands_around(base, traced, arguments.jobs);
+    check_widest(made, traced, arguments.jobs);
     golden.bands = std::move(made.bands.columns);
     golden.number_bands = std::move(made.bands.numbers);
   }
@@ -280,6 +293,15 @@ void add_approve(Commands& commands) {
         command.add_option("--reason", arguments.reason, "why these numbers are right; kept in the golden");
         command.add_flag("--calibrate", arguments.calibrate,
                          "compute new bands from further runs, even if this run is within the old bands");
+        command
+            .add_option(
+                "--columns", arguments.columns,
+                "columns of the trace that the golden holds, by names or patterns such as 'joint.*.torque'; default: as "
+                "before, or torque, current and angle of the joints and the pose of the base, as far as trace.columns "
+                "has them")
+            ->expected(1)
+            ->allow_extra_args(false)
+            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
         command.add_flag("--replace", arguments.replace,
                          "replace a golden that cannot be read or belongs to another scenario; the old history is lost");
         command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, kMostThreads));

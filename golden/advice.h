@@ -9,9 +9,6 @@
 
 namespace gaitlab::golden {
 
-/// Widest band of a column that `gaitlab approve` accepts, as a share of the column's scale. Deliberate errors of the code that
-/// the goldens must detect change a torque by 0.4 %.
-inline constexpr double kWidestColumn = 0.002;
 /// Band of a number, as a share of its scale, above which the width is explained.
 inline constexpr double kWideNumber = 0.05;
 

@@ -45,6 +45,14 @@ double range_of(const Trace& trace, std::size_t column) {
 /// kStandardErrors of the difference of two means over kStarts runs, whose numbers have the given deviation.
 double band_of_means(double deviation) { return kStandardErrors * deviation * std::sqrt(2.0 / kStarts); }
 
+/// Band of a column that has the differences of `band` relative to `scale`, in the column's unit.
+Band column_band(Band band, double scale, double range, double natural) {
+  band.floor = kLeastOfRange;
+  const bool varies = range >= kConstantRange * natural;
+  if (varies && !(band.width() > kWidestColumn && band.width() * scale <= kNarrowBand * natural)) return band;
+  return {band.ensemble * scale / natural, band.halving * scale / natural, kConstantBand, natural};
+}
+
 const Number& number(const GoldenRun& run, const std::string& name) {
   const auto named = [&](const Number& n) { return n.name == name; };
   const auto found = std::find_if(run.numbers.begin(), run.numbers.end(), named);
@@ -58,6 +66,14 @@ std::vector<double> scales(const Trace& trace) {
   std::vector<Extent> extents;
   for (std::size_t i = 0; i < trace.columns.size(); ++i) extents.push_back({trace.columns[i].unit, range_of(trace, i)});
   return scales_of(extents);
+}
+
+std::vector<double> scales(const Trace& trace, const std::vector<Band>& bands) {
+  std::vector<double> found = scales(trace);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (bands[i].constant > 0) found[i] = bands[i].constant;
+  }
+  return found;
 }
 
 std::vector<double> scales(const std::vector<Number>& numbers) {
@@ -91,8 +107,8 @@ Bands calibrate(const GoldenRun& base, std::span<const GoldenRun> ensemble, cons
     for (const GoldenRun& run : ensemble)
       band.ensemble = std::max(band.ensemble, kEnsembleFactor * std::sqrt(mean_square(base.trace, run.trace, i)) / scale[i]);
     band.halving = kHalvingFactor * std::sqrt(mean_square(base.trace, halved.trace, i)) / scale[i];
-    band.floor = kLeastOfRange;
-    bands.columns.push_back(band);
+    const double natural = base.natural.empty() ? 0 : base.natural[i];
+    bands.columns.push_back(column_band(band, scale[i], range_of(base.trace, i), natural));
   }
   const std::vector<double> size = scales(base.numbers);
   for (std::size_t i = 0; i < base.numbers.size(); ++i) {

@@ -13,15 +13,18 @@ struct GoldenRun {
   Trace trace;
   std::vector<Number> numbers;
   std::vector<std::string> joints = {};  ///< joint names, by their numbers in the columns
-  std::string verdict = {};              ///< word such as `feasible`; empty if not judged
-  std::string why = {};                  ///< sentence that follows a word other than `feasible` (report/verdict/verdict.h)
-  int starts = 1;                        ///< number of runs of which the numbers are means (starts.h)
+  std::vector<double> natural = {};  ///< natural scale of each column, in its unit; 0 if its unit has none (natural_scales.h)
+  std::string verdict = {};          ///< word such as `feasible`; empty if not judged
+  std::string why = {};              ///< sentence that follows a word other than `feasible` (report/verdict/verdict.h)
+  int starts = 1;                    ///< number of runs of which the numbers are means (starts.h)
 };
 
 /// Scales of differences, one per column, in the unit of the column. A scale is the range of the column, but at least 1e-3 of
 /// the largest range among columns of the same unit (base.y of a planar walk is noise), and at least 1e-6 of the unit (a
 /// coordinate at rest).
 std::vector<double> scales(const Trace& trace);
+/// The same for the trace of a golden with these bands: the scale of a constant column is its natural scale.
+std::vector<double> scales(const Trace& trace, const std::vector<Band>& bands);
 
 /// Scales of single numbers, computed as those of columns, but from the absolute value of the number instead of the range.
 std::vector<double> scales(const std::vector<Number>& numbers);
@@ -34,6 +37,15 @@ double mean_square(const Trace& a, const Trace& b, std::size_t column);
 std::vector<double> mean_squares(const Trace& a, const Trace& b);
 
 inline constexpr double kEnsembleFactor = 10, kHalvingFactor = 3;  ///< factors from the measured differences to the bands
+/// Widest band of a column that `gaitlab approve` accepts, as a share of the column's scale. Deliberate errors of the code that
+/// the goldens must detect change a torque by 0.4 %.
+inline constexpr double kWidestColumn = 0.002;
+/// Range below which a column is constant, and least band of a constant column, as shares of its natural scale. The band is
+/// above the effect of rounding on a robot at rest, and a torque of 1e-5 of the motor's is negligible.
+inline constexpr double kConstantRange = 1e-6, kConstantBand = 1e-5;
+/// Share of the natural scale below which a band is narrow enough for any range: a robot that stands on several faces bears its
+/// weight with small torques, which a start that differs by rounding changes by 6e-6 of those of its motors, for good.
+inline constexpr double kNarrowBand = 1e-4;
 /// Band of a mean over starts, in standard errors of the difference of two such means. Student's t with 15 degrees of freedom
 /// exceeds 6 once in 40 000 numbers.
 inline constexpr double kStandardErrors = 6;
@@ -46,8 +58,10 @@ struct Bands {
 /// the ensemble, kHalvingFactor x the RMS difference of the run with half the step, and 1e-6 of the range. For a number the
 /// band follows likewise from its differences; if `base` has means over starts, the ensemble is not needed, and that part of
 /// the band is kStandardErrors of the difference of two means. A band may be narrower than the precision of the stored golden,
-/// because its rounding error is known exactly (Golden::rounding) and is subtracted. All runs must have at least the columns,
-/// rows and numbers of `base`, with finite values. Throws std::invalid_argument if a run lacks a number.
+/// because its rounding error is known exactly (Golden::rounding) and is subtracted. A column is constant if its range is below
+/// kConstantRange of its natural scale, or if its band is wider than kWidestColumn of its range, but at most kNarrowBand of
+/// that scale: its band is a share of the natural scale, at least kConstantBand. All runs must have at least the columns, rows
+/// and numbers of `base`, with finite values. Throws std::invalid_argument if a run lacks a number.
 Bands calibrate(const GoldenRun& base, std::span<const GoldenRun> ensemble, const GoldenRun& halved);
 
 }  // namespace gaitlab::golden

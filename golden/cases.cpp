@@ -224,8 +224,11 @@ std::vector<GoldenCase> golden_cases(const TestArguments& arguments, Catalog& ca
 void run_cases(std::vector<GoldenCase>& cases, const TestArguments& arguments, const std::function<void(double)>& progress) {
   std::vector<Scenario> scenarios;
   for (const GoldenCase& c : cases) {
-    if (c.scenario) scenarios.push_back(*c.scenario);
-    if (c.halved) scenarios.push_back(*c.halved);
+    const auto add = [&](const Scenario& s) {
+      scenarios.push_back(with_golden_columns(s, c.golden->selected, &c.golden->run.trace));
+    };
+    if (c.scenario) add(*c.scenario);
+    if (c.halved) add(*c.halved);
   }
   const bool judged = arguments.fail_infeasible ||
                       std::ranges::any_of(cases, [](const GoldenCase& c) { return c.scenario && !c.golden->verdict.empty(); });

@@ -39,7 +39,7 @@ class Comparison {
     match_starts();
     if (found_.findings.empty()) match_columns();
     match_rows();
-    const std::vector<double> scale = scales(a_);
+    const std::vector<double> scale = scales(a_, golden_.bands);
     for (std::size_t i = 1; i < a_.columns.size(); ++i) {
       const std::size_t j = b_.find(a_.columns[i].name);
       if (j < b_.columns.size() && finite(j)) compare_column(i, j, scale[i]);
@@ -103,6 +103,7 @@ class Comparison {
     check.band =
         golden_.bands[i].width() + (halved_ ? kHalvingFactor * std::sqrt(mean_square(b_, halved_->trace, j)) / scale : 0);
     check.scale = scale;
+    check.constant = golden_.bands[i].constant > 0;
     std::vector<double> golden;
     std::vector<double> now;
     double sum = 0;

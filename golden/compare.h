@@ -18,6 +18,7 @@ struct ColumnCheck {
   double rms = 0, maximum = 0;         ///< RMS and maximum of the difference, shares of the scale
   double band = 0;                     ///< share of the scale; the check passes if rms <= band
   double scale = 0;                    ///< scale, in the unit of the column
+  bool constant = false;               ///< true if the scale is the natural one, not the range
   double time_shift = 0;               ///< s; positive if the run is late (best_shift); 0 if no shift explains the difference
   double rms_after_shift = 0;          ///< share of the scale; equal to rms if time_shift is 0
   std::optional<double> outside = {};  ///< first time at which the difference exceeds kOutside bands, s

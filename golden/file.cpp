@@ -189,6 +189,7 @@ std::string complaint(std::string_view bytes, std::string_view& body) {
   const std::string_view version = bytes.substr(kName.size(), bytes.find('\n') - kName.size());
   if (version != kVersion) {
     if (bytes.size() < expected) return truncated;
+    if (version.ends_with('\r')) return kLineEnds;
     const bool number = !version.empty() && version.find_first_not_of("0123456789") == std::string_view::npos;
     if (!number) return "is corrupt: its first line is damaged";
     return fmt::format("has format {}{}; this gaitlab reads {}{}: make it anew with gaitlab approve", kName, version, kName,

@@ -9,6 +9,10 @@
 
 namespace gaitlab::golden {
 
+/// Message about a file whose line ends another program has changed.
+inline constexpr const char* kLineEnds =
+    "has other line ends than it was written with; `*.golden/** -text` in .gitattributes keeps them";
+
 /// A trace with values rounded to a separate grid for each column: value = lowest value + integer * precision.
 struct RoundedTrace {
   Trace trace;  ///< trace with `t` as the first column, and with names and units, but without definitions

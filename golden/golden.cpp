@@ -37,7 +37,9 @@ std::string checksum_line(std::string_view content) { return fmt::format("{}{}\"
 std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 Json to_json(const Band& band) {
-  return {{"band", band.width()}, {"ensemble", band.ensemble}, {"halving", band.halving}, {"floor", band.floor}};
+  Json json = {{"band", band.width()}, {"ensemble", band.ensemble}, {"halving", band.halving}, {"floor", band.floor}};
+  if (band.constant > 0) json["constant"] = band.constant;
+  return json;
 }
 
 std::string lines_of(const std::vector<std::pair<std::string, Json>>& entries) {
@@ -104,6 +106,7 @@ std::string json_text(const Golden& golden, std::string_view trace_bytes) {
   add("history", history_text(golden));
   if (!golden.verdict.empty()) add("verdict", text_of(golden.verdict));
   if (golden.starts > 1) add("starts", text_of(golden.starts));
+  if (!golden.selected.empty()) add("selected", text_of(golden.selected));
   add("rows", text_of(trace.rows()));
   add("trace", text_of(hash(trace_bytes)));
   add("columns", columns_text(golden));
@@ -136,14 +139,15 @@ Json checked(const fs::path& file, const std::string& text) {
   }
   const std::size_t end = text.rfind(kChecksum);
   const std::string_view content = std::string_view(text).substr(0, end);
-  if (text.find('\r') != std::string::npos)
-    throw wrong(file, "has other line ends than it was written with; `*.golden/** -text` in .gitattributes keeps them");
+  if (text.find('\r') != std::string::npos) throw wrong(file, kLineEnds);
   if (end == std::string::npos || text.substr(end) != checksum_line(content))
     throw wrong(file, "is corrupt or was changed by hand: its checksum does not match; only gaitlab approve changes goldens");
   return json;
 }
 
-Band band_of(const Json& json) { return {json.at("ensemble"), json.at("halving"), json.at("floor")}; }
+Band band_of(const Json& json) {
+  return {json.at("ensemble"), json.at("halving"), json.at("floor"), json.value("constant", 0.0)};
+}
 
 std::string resolved_of(const Json& lines, const std::string& hash_then) {
   std::string text;
@@ -159,6 +163,7 @@ Golden from_json(const Json& json) {
   if (json.contains("resolved")) golden.origin.resolved = resolved_of(json["resolved"], golden.origin.scenario);
   if (json.contains("verdict")) golden.verdict = json["verdict"].get<std::string>();
   if (json.contains("starts")) golden.starts = json["starts"].get<int>();
+  if (json.contains("selected")) golden.selected = json["selected"].get<std::vector<std::string>>();
   for (const Json& entry : json.at("history"))
     golden.history.push_back({entry.at("number"), entry.at("reason"), entry.at("build")});
   if (golden.history.empty()) throw std::runtime_error("its history is empty");

@@ -15,8 +15,9 @@ namespace gaitlab::golden {
 struct Band {
   /// 10 x the difference between runs whose starts differ by rounding. For means over starts (starts.h): 6 standard errors.
   double ensemble = 0;
-  double halving = 0;  ///< 3 x the change caused by halving the step
-  double floor = 0;    ///< lower limit, above the effect of rounding by other builds
+  double halving = 0;   ///< 3 x the change caused by halving the step
+  double floor = 0;     ///< lower limit, above the effect of rounding by other builds
+  double constant = 0;  ///< natural scale of a constant column, in its unit, of which the parts are shares; else 0 (bands.h)
   [[nodiscard]] double width() const;
 };
 
@@ -50,8 +51,9 @@ struct Golden {
   std::vector<double> rounding;
   std::vector<Band> bands;  ///< one band per column of the trace; the band of `t` is empty
   std::vector<Number> numbers;
-  std::vector<Band> number_bands;  ///< one band per element of `numbers`
-  std::string verdict = {};        ///< word of the verdict, such as `feasible`; empty in an older golden
+  std::vector<Band> number_bands;          ///< one band per element of `numbers`
+  std::string verdict = {};                ///< word of the verdict, such as `feasible`; empty in an older golden
+  std::vector<std::string> selected = {};  ///< patterns of the columns that the user has chosen; empty for the usual ones
   /// Number of runs whose mean the numbers are (starts.h); the trace then has the column `t` only.
   int starts = 1;
 };

@@ -62,8 +62,9 @@ std::string table(const Checks<ColumnCheck>& columns) {
   std::vector<std::vector<std::string>> rows{
       {"column", "RMS off by", "of its range", "band", "in bands", "outside from", "late by"}};
   for (const ColumnCheck* c : columns) {
-    rows.push_back({c->label, with_its_unit(c->rms * c->scale, 3, c->unit), percent(c->rms), percent(c->band),
-                    bands(c->ratio()), c->outside ? fmt::format("{:.4g} s", *c->outside) : "never",
+    const std::string share = percent(c->rms) + (c->constant ? " of " + with_its_unit(c->scale, 3, c->unit) : "");
+    rows.push_back({c->label, with_its_unit(c->rms * c->scale, 3, c->unit), share, percent(c->band), bands(c->ratio()),
+                    c->outside ? fmt::format("{:.4g} s", *c->outside) : "never",
                     c->time_shift == 0 ? "-" : fmt::format("{:+.3g} s", c->time_shift)});
   }
   return aligned(rows, 2);

@@ -1,5 +1,7 @@
 #include "golden/runs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -9,9 +11,14 @@
 #include <span>
 
 #include "core/build_id.h"
+#include "core/errors.h"
 #include "core/parallel.h"
 #include "core/scenario/resolved.h"
+#include "core/scenario/sections.h"
+#include "core/settings/joint_patterns.h"
+#include "core/simulation/probes.h"
 #include "core/simulation/simulation.h"
+#include "golden/natural_scales.h"
 #include "golden/starts.h"
 #include "report/verdict/numbers.h"
 #include "report/verdict/verdict.h"
@@ -23,7 +30,7 @@ namespace {
 constexpr double kRowEvery = 0.02;     // s; a gait has about 0.5 Hz, and spikes of contacts do not drift
 constexpr double kLeastTravel = 0.01;  // m; for a robot that travels less, the cost of transport is noise
 
-std::vector<std::string> columns(const Scenario& scenario) {
+std::vector<std::string> usual_columns(const Scenario& scenario) {
   std::vector<std::string> names;
   if (report::has_motors(scenario)) names = {"joint.*.torque", "joint.*.current"};
   if (!scenario.robot->joints.empty()) names.emplace_back("joint.*.angle");
@@ -73,12 +80,11 @@ std::vector<Number> numbers(const Scenario& scenario, const Recording& record) {
 }
 
 GoldenRun golden_run(const Scenario& scenario, const std::function<void(double)>& progress, bool judged) {
-  Scenario ours = scenario;
-  ours.trace.columns = columns(scenario);
-  Simulation simulation({&ours, 1}, judged ? Loads::recorded : Loads::left_out);
+  Simulation simulation({&scenario, 1}, judged ? Loads::recorded : Loads::left_out);
   simulation.run(progress);
   const Recording record = simulation.take_recording(0);
   GoldenRun run{thinned(record.trace, scenario.trace.period), numbers(scenario, record)};
+  run.natural = natural_scales(scenario, run.trace.columns);
   for (const Joint& joint : scenario.robot->joints) run.joints.push_back(joint.name);
   if (!judged) return run;
   const report::Verdict verdict =
@@ -146,7 +152,53 @@ Attempt mean_of_attempts(std::span<const Attempt> attempts) {
   return mean;
 }
 
+/// True for each column that one of the patterns matches.
+std::vector<bool> matching(const std::vector<std::string>& patterns, const std::vector<Column>& columns,
+                           const Scenario& scenario) {
+  std::vector<bool> found(columns.size());
+  const std::vector<std::string> joints = joint_names(*scenario.robot);
+  for (const std::string& pattern : patterns) {
+    const ColumnChoice choice(pattern, joints, scenario.groups);
+    for (std::size_t i = 0; i < columns.size(); ++i) found[i] = found[i] || choice.has(columns[i].name);
+  }
+  return found;
+}
+
+/// The usual columns that the scenario's `trace.columns` match: patterns if these match all of them, else names.
+std::vector<std::string> usual_and_traced(const Scenario& scenario, const std::vector<Column>& columns) {
+  const std::vector<bool> traced = matching(scenario.trace.columns, columns, scenario);
+  std::vector<std::string> found;
+  for (const std::string& pattern : usual_columns(scenario)) {
+    const std::vector<bool> usual = matching({pattern}, columns, scenario);
+    std::vector<std::string> names;
+    bool all = true;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (usual[i] && traced[i]) names.push_back(columns[i].name);
+      all = all && (traced[i] || !usual[i]);
+    }
+    if (all) names = {pattern};
+    found.insert(found.end(), names.begin(), names.end());
+  }
+  if (!found.empty()) return found;
+  throw InputError(scenario.place("trace.columns"),
+                   fmt::format("matches no column that a golden holds: {}; add one of them, or choose others with gaitlab "
+                               "approve --columns",
+                               fmt::join(usual_columns(scenario), ", ")));
+}
+
 }  // namespace
+
+Scenario with_golden_columns(const Scenario& scenario, const std::vector<std::string>& selected, const Trace* before) {
+  Scenario made = scenario;
+  const std::vector<Column> columns = Probes::known(scenario);
+  made.trace.columns = selected.empty() ? usual_and_traced(scenario, columns) : selected;
+  if (!selected.empty()) made.own_places["trace.columns"] = {"--columns"};
+  const std::vector<bool> found = matching(made.trace.columns, columns, scenario);
+  for (std::size_t i = 1; before != nullptr && i < columns.size(); ++i) {
+    if (!found[i] && before->find(columns[i].name) < before->columns.size()) made.trace.columns.push_back(columns[i].name);
+  }
+  return made;
+}
 
 std::vector<Attempt> golden_runs(const std::vector<Scenario>& scenarios, int jobs, const std::function<void(double)>& progress,
                                  bool judged) {

@@ -10,19 +10,24 @@
 
 namespace gaitlab::golden {
 
+/// The scenario with the columns of a golden as its `trace.columns`: those that a pattern of `selected` matches or, if it is
+/// empty, those of the usual columns that the scenario's own `trace.columns` match; and those that `before` has, if the run can
+/// have them. Usual are torque, current and angle of every joint (only the angle without motors) and the pose of the base.
+/// Throws InputError for a pattern that matches no column, and for a `trace.columns` that matches no usual column.
+Scenario with_golden_columns(const Scenario& scenario, const std::vector<std::string>& selected, const Trace* before = nullptr);
+
 /// Result of one of the runs of golden_runs().
 struct Attempt {
-  /// Trace, numbers and, on request, the verdict. The trace has torque, current and angle of every joint (only the angle for a
-  /// joint without a motor) and the pose of the base, for any `trace.columns`. It has a row every 20 ms, or at the largest
-  /// multiple of the trace period below that, at least one period. If a sensor has a resolution: the mean over starts
-  /// (starts.h).
+  /// Trace, numbers and, on request, the verdict. The trace has a row every 20 ms, or at the largest multiple of the trace
+  /// period below that, at least one period. If a sensor has a resolution: the mean over starts (starts.h).
   GoldenRun run;
   double seconds = 0;        ///< duration of the run, for reports only, s
   std::exception_ptr error;  ///< InputError if the step is too long, RunError if the run diverged
 };
 
-/// Runs the scenarios, up to `jobs` at once, and returns results in the order of the scenarios. `progress(share)` is called
-/// often; calls do not overlap. Results are equal bit for bit for any `jobs`. If `judged`, each run has a verdict.
+/// Runs the scenarios, which have the columns of goldens (with_golden_columns), up to `jobs` at once, and returns results in
+/// the order of the scenarios. `progress(share)` is called often; calls do not overlap. Results are equal bit for bit for any
+/// `jobs`. If `judged`, each run has a verdict.
 std::vector<Attempt> golden_runs(const std::vector<Scenario>& scenarios, int jobs,
                                  const std::function<void(double)>& progress = {}, bool judged = false);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/model/extent.h"
 #include "core/settings/wording.h"
 #include "report/analysis/motion.h"
 #include "report/analysis/states.h"
@@ -39,19 +40,7 @@ Rows window(const CheckedRun& run, const Series& time) {
 /// Diagonal of the box around all links and contact elements at the start, m; 0 if not known.
 double extent(const Scenario& s, const Recording& r) {
   const States states = States::at_ticks(r, *s.robot);
-  if (states.size() == 0) return 0;
-  Kinematics k(*s.robot);
-  k.update(*s.robot, states(0));
-  Vec3 least = Vec3::Constant(1e300);
-  Vec3 most = -least;
-  const auto take = [&](const Vec3& at) {
-    least = least.cwiseMin(at);
-    most = most.cwiseMax(at);
-  };
-  for (const Vec3& origin : k.p) take(origin);
-  for (const ContactElement& element : contact_elements(*s.robot, ContactSet::all))
-    take(k.p[element.link] + k.R[element.link] * element.centre);
-  return (most - least).norm();
+  return states.size() == 0 ? 0 : gaitlab::extent(*s.robot, states(0));
 }
 
 /// Two intervals of equal length, each of whole periods. The second one ends at the end of the run.

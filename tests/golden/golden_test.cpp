@@ -350,6 +350,48 @@ TEST(GoldenBands, TheLargestPartIsTheBand) {
   EXPECT_EQ(bands.numbers[0].floor, 1e-6);
 }
 
+/// Below a millionth of its natural scale a column is constant; so is one whose band is wide for its small range only.
+TEST(GoldenBands, AConstantColumnHasABandOfItsNaturalScale) {
+  Trace trace = walk();
+  trace.columns = {{"t", "s", {}}, {"a", "N m", {}}, {"b", "A", {}}, {"c", "rad", {}}, {"base.z", "m", {}}};
+  GoldenRun base{trace, {}};
+  base.natural = {0, 0.4, 0.4, 1, 0.5};  // the ranges are 2.6, 2e-7, 1.2 and 0
+  GoldenRun other = base;
+  const auto shift = [&](std::size_t column, double by) {
+    for (std::size_t k = 0; k < trace.rows(); ++k) other.trace.values[k * trace.columns.size() + column] += by;
+  };
+  shift(2, 1e-8);
+  shift(3, 1e-3);
+  shift(4, 1e-5);
+  const std::vector<Band> bands = calibrate(base, std::span(&other, 1), base).columns;
+  EXPECT_EQ(bands[1].constant, 0);
+  EXPECT_EQ(bands[1].floor, 1e-6);
+  EXPECT_EQ(bands[2].constant, 0.4);
+  EXPECT_EQ(bands[2].width(), 1e-5);
+  EXPECT_NEAR(bands[2].ensemble, 10 * 1e-8 / 0.4, 1e-12);
+  EXPECT_EQ(bands[3].constant, 0) << "10 mrad are more than 1e-5 of the scale";
+  EXPECT_EQ(bands[4].constant, 0.5);
+  EXPECT_NEAR(bands[4].width(), 10 * 1e-5 / 0.5, 1e-12) << "a constant column that another start moves";
+  EXPECT_EQ(scales(trace, bands), (std::vector<double>{scales(trace)[0], scales(trace)[1], 0.4, scales(trace)[3], 0.5}));
+
+  base.natural = {0, 0.4, 0.05, 1, 0.5};  // b varies by 4e-6 of its scale, and its band would be half its range
+  const std::vector<Band> wide = calibrate(base, std::span(&other, 1), base).columns;
+  EXPECT_EQ(wide[2].constant, 0.05);
+  EXPECT_EQ(wide[2].width(), 1e-5);
+}
+
+TEST_F(GoldenFolder, KeepsConstantColumnsAndTheSelection) {
+  Golden written = sample_golden(walk());
+  written.bands[4] = {0, 1e-7, 1e-5, 0.25};
+  written.selected = {"joint.*.torque", "base.z"};
+  write_golden(written, folder_.path());
+  const Golden read = read_golden(folder_.path());
+  EXPECT_EQ(read.bands[4].constant, 0.25);
+  EXPECT_EQ(read.bands[4].width(), 1e-5);
+  EXPECT_EQ(read.bands[1].constant, 0);
+  EXPECT_EQ(read.selected, written.selected);
+}
+
 TEST(GoldenBands, NumbersAreFoundByName) {
   const Trace trace = walk();
   const GoldenRun base{trace, {{"distance", "m", 2}}};
