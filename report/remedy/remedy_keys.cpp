@@ -20,6 +20,7 @@ const std::vector<RemedyKey> kKeys{
     {"i_max", {"actuator.i_max"}, "A"},
     {"u_max with i_max", {"actuator.u_max", "actuator.i_max"}, ""},
     {"stall_torque", {"actuator.stall_torque"}, "N m"},
+    {"no_load_speed", {"actuator.no_load_speed"}, "rad/s", {"actuator.stall_current"}},
     {"Kp", {"controller.Kp"}, ""},
     {"friction", {"ground.friction"}, "", {"ground.boxes.friction"}},
 };
@@ -36,6 +37,14 @@ std::optional<double> number(const Node& node) {
 void add_numbers(const Node& node, std::vector<double>& all) {
   if (const std::optional<double> value = number(node)) all.push_back(*value);
   for (const Node& item : node.items) add_numbers(item, all);
+}
+
+bool is_zero(const Node& node) { return number(node) == 0.0; }
+
+/// The value of a key in a map, or nullptr.
+Node* child(Node& map, const std::string& key) {
+  const auto at = std::ranges::find(map.keys, key, [](const auto& one) { return one.first; });
+  return at == map.keys.end() ? nullptr : &map.items[static_cast<std::size_t>(at - map.keys.begin())];
 }
 
 std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
@@ -66,7 +75,28 @@ std::pair<std::string, std::string> split(const std::string& path) {
 
 std::span<const RemedyKey> remedy_keys() { return kKeys; }
 
-RemedySettings::RemedySettings(const std::string& resolved) : root_(parse_yaml(resolved, "the resolved scenario")) {}
+RemedySettings::RemedySettings(const std::string& resolved) : root_(parse_yaml(resolved, "the resolved scenario")) {
+  take_supply();
+}
+
+/// Replaces the numbers 0 of `u_max` by those of `voltage`.
+void RemedySettings::take_supply() {
+  Node* const actuator = child(root_, "actuator");
+  const Node* const voltage = actuator == nullptr ? nullptr : actuator->find("voltage");
+  if (voltage == nullptr) return;
+  const Node supply = *voltage;
+  Node* const limit = child(*actuator, "u_max");
+  if (limit == nullptr) {
+    actuator->keys.emplace_back("u_max", SourceLocation{});
+    actuator->items.push_back(supply);
+  } else if (is_zero(*limit)) {
+    *limit = supply;
+  }
+  const bool each = supply.kind == Node::Kind::list;  // a resolved scenario has a number, or a list with one per joint
+  for (std::size_t i = 0; limit != nullptr && i < limit->items.size() && (!each || i < supply.items.size()); ++i) {
+    if (is_zero(limit->items[i])) limit->items[i] = each ? supply.items[i] : supply;
+  }
+}
 
 const Node* RemedySettings::find(const std::string& path) const {
   const Node* node = &root_;
@@ -98,7 +128,9 @@ bool RemedySettings::changes_in_time(const std::string& path) const {
 
 std::string RemedySettings::missing(const RemedyKey& key) const {
   for (const char* path : key.paths) {
-    if (std::ranges::none_of(numbers(path), [](double value) { return value != 0; })) return "missing or 0";
+    if (std::ranges::none_of(numbers(path), [](double value) { return value != 0; }))
+      return find("actuator.voltage") != nullptr && std::string_view(path) == "actuator.i_max" ? "0: the stall current at u_max"
+                                                                                               : "missing or 0";
     if (changes_in_time(path)) return "set by `at`";
   }
   return "";

@@ -20,8 +20,9 @@ struct RemedyKey {
 /// All settings, in the order in which they are printed.
 std::span<const RemedyKey> remedy_keys();
 
-/// Numbers of a resolved scenario, by key. Values of single joints and entries of lists count as numbers of their key. A path
-/// `ground.boxes.friction` means this key in every entry of a list.
+/// Numbers of a resolved scenario, by key. The `u_max` of a servo is its `voltage` if it is 0 or not stated. Values of
+/// single joints and entries of lists count as numbers of their key. A path `ground.boxes.friction` means this key in every
+/// entry of a list.
 class RemedySettings {
  public:
   /// Throws InputError if the text is not a scenario.
@@ -39,6 +40,7 @@ class RemedySettings {
   [[nodiscard]] std::vector<std::string> scaled(const RemedyKey& key, double factor) const;
 
  private:
+  void take_supply();
   [[nodiscard]] const Node* find(const std::string& path) const;
   [[nodiscard]] std::vector<double> numbers(const std::string& path) const;
   [[nodiscard]] bool changes_in_time(const std::string& path) const;

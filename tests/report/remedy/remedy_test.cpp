@@ -51,6 +51,27 @@ TEST(RemedySettings, AKeyWithoutNumbersIsMissing) {
   EXPECT_EQ(settings.missing(remedy_key("i_max")), "");
 }
 
+/// A servo takes 0 of u_max as its voltage, per joint.
+TEST(RemedySettings, ASupplyOfZeroIsTheVoltageOfTheServo) {
+  const auto tripled = [](const std::string& actuator) {
+    const RemedySettings settings("actuator: {" + actuator + "}\n");
+    EXPECT_EQ(settings.missing(remedy_key("u_max")), "") << actuator;
+    return settings.scaled(remedy_key("u_max"), 3);
+  };
+  EXPECT_EQ(tripled("voltage: 6, u_max: 0"), Sets{"actuator.u_max=18"});
+  EXPECT_EQ(tripled("voltage: 6"), Sets{"actuator.u_max=18"});
+  EXPECT_EQ(tripled("voltage: 6, u_max: 5"), Sets{"actuator.u_max=15"});
+  EXPECT_EQ(tripled("voltage: [6, 7.4], u_max: 0"), Sets{"actuator.u_max=[18, 22.2]"});
+  EXPECT_EQ(tripled("voltage: [6, 7.4], u_max: [5, 0]"), Sets{"actuator.u_max=[15, 22.2]"});
+  EXPECT_EQ(tripled("voltage: 6, u_max: [0, 8]"), Sets{"actuator.u_max=[18, 24]"});
+  const RemedySettings settings(
+      "actuator: {voltage: 6, stall_torque: 1, no_load_speed: 5, stall_current: 2, u_max: 0, i_max: 0}\n");
+  EXPECT_EQ(settings.value(remedy_key("u_max")), 6);
+  EXPECT_EQ(settings.missing(remedy_key("i_max")), "0: the stall current at u_max");
+  EXPECT_EQ(settings.scaled(remedy_key("no_load_speed"), 2), (Sets{"actuator.no_load_speed=10", "actuator.stall_current=4"}))
+      << "a motor of this torque that is twice as fast draws twice the current";
+}
+
 TEST(RemedySettings, AKeyThatChangesDuringTheRunIsLeftOut) {
   const RemedySettings settings(
       "cpg: {frequency: 1, amplitude: 0.5}\ncontroller: {Kp: 100}\nduration: 9\n"
@@ -87,6 +108,39 @@ TEST(RemedySettings, MeanTheSameForTheFileAndTheResolvedScenario) {
       EXPECT_EQ(resolved(shipped(file, sets)), of_record) << file << " " << key.name;
     }
   }
+}
+
+/// An arm of one servo without u_max, whose gait needs more speed than it has: a higher supply and a faster motor suffice.
+TEST(RemedyOfServos, HasASupplyAndAFasterMotor) {
+  const std::string text =
+      "gaitlab: 1\nrobot:\n  base: fixed\n  position: [0, 0, 1]\n  modules:\n    gaitlab_module: 3\n    name: lever\n    "
+      "bodies:\n"
+      "      base: {mass: 0.2, shape: [{box: [0.05, 0.05, 0.05]}]}\n"
+      "      rod: {mass: 0.05, com: [0, 0, -0.08], inertia: [1e-4, 1e-4, 1e-5, 0, 0, 0]}\n"
+      "    hinges: [{name: j, parent: base, child: rod, axis: [0, 1, 0], range: [-1.5, 1.5]}]\n"
+      "    actuator: {type: servo, voltage: 5, stall_torque: 0.4, no_load_speed: 4, source: \"data sheet\"}\n"
+      "    controller: {type: pid, Kp: 60, Kd: 0}\n"
+      "physics: {engine: articulated}\nground: {type: none}\ncontact: {on: none}\n"
+      "cpg: {type: sine, frequency: 0.95, amplitude: 0.8}\nduration: 4\n";
+  const Scenario s = scenario(text);
+  const Recording record = run(s);
+  const report::Verdict verdict = report::verdict(s, record, report::summarise(s, record, 0), report::overlaps(s, record));
+  ASSERT_EQ(verdict.word, report::Word::infeasible) << verdict.why();
+  std::atomic<bool> stop = false;
+  const report::Remedy made = report::remedy(
+      {s, verdict, [&](const Sets& sets) { return scenario(text, sets); }, false, {"u_max", "no_load_speed"}, {}, {}}, stop);
+  EXPECT_TRUE(made.lacking.empty());
+  std::vector<std::string> helps;
+  for (const report::RemedyAnswer& answer : made.answers) {
+    if (!answer.confirmed) continue;
+    helps.push_back(answer.sets.front());
+    EXPECT_TRUE(answer.up) << answer.key->name;
+    // The set point's peak speed is 0.95 * 0.8 * 2 pi = 4.78 rad/s, of a servo that has 4 rad/s without load; the rod lags.
+    EXPECT_NEAR(answer.factor, 4.78 / 4, 0.05) << answer.key->name;
+  }
+  ASSERT_EQ(helps.size(), 2U);
+  EXPECT_TRUE(helps[0].starts_with("actuator.u_max=")) << helps[0];
+  EXPECT_TRUE(helps[1].starts_with("actuator.no_load_speed=")) << helps[1];
 }
 
 /// Two modules in engine bullet, whose heating currents are far below their rating of 1 A.
