@@ -66,6 +66,7 @@ struct RunArguments : ScenarioArguments {
   int draws = 1;                            ///< number of seeds, starting with the scenario's
   int jobs = 1;                             ///< threads for the draws and the remedy
   std::vector<std::string> libraries = {};  ///< plugin libraries that are not beside the scenario that names them
+  bool no_retry = false;                    ///< true: keep a run that is not judged only for its accuracy
   bool remedy = false;                      ///< true: search the changes that make the gait feasible, or its reserves
   bool map = false;                         ///< true: the remedy has a map of frequency and amplitude
   std::vector<std::string> by;              ///< settings that the remedy tries; empty for all
@@ -92,6 +93,9 @@ void print_fitted(const std::string& text);
 /// Prints the summary of a run; the verdict is its first line.
 void print_summary(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
                    const report::Verdict& verdict, const SummaryOptions& shown);
+/// Prints the command whose run is expected to have a verdict, if there is one (Verdict::retry). `arguments` name the scenario
+/// of this run.
+void print_retry(const ScenarioArguments& arguments, const report::Verdict& verdict);
 /// Verdict on a run. With `shown.demand` the demand twin is simulated too, with its progress unless `quiet`, and its results
 /// are added.
 report::Verdict judged(const Scenario& scenario, const Recording& recording, const report::Summary& summary,

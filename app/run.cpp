@@ -57,10 +57,6 @@ void take_spread(const Scenario& scenario, Recording& recording, const report::S
 } catch (const PluginError&) {     // NOLINT(bugprone-empty-catch)
 }
 
-}  // namespace
-
-namespace {
-
 /// Scenarios with the next seeds after the seed of `scenario`.
 std::vector<Scenario> other_draws(const Scenario& scenario, const RunArguments& arguments, Catalog& catalog) {
   constexpr std::int64_t kMostSeed = 9'000'000'000'000'000'000;
@@ -124,22 +120,35 @@ void print_files(const RunArguments& arguments, const std::filesystem::path& fol
                {"", "scenario.resolved.yaml, figure.svg"}});
 }
 
-}  // namespace
-
-int run(const RunArguments& arguments) {
-  Catalog catalog = careful_catalog({.from_scenario = true, .files = arguments.libraries});
-  Scenario scenario = read(arguments, catalog);
-  draw_joints(scenario, arguments.joints);
-  return run(scenario, arguments, other_draws(scenario, arguments, catalog));
+/// Arguments of the more accurate run that replaces a run without a verdict, if it is cheap. Its arguments name a file, unlike
+/// those of a run of a study.
+std::optional<RunArguments> more_accurate(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
+                                          const RowsNeeded& rows, const RunArguments& arguments) {
+  if (arguments.no_retry || arguments.file.empty() || !recording.outcome.done()) return {};
+  const report::Verdict own = report::verdict(scenario, recording, summary, report::overlaps(scenario, recording));
+  if (!own.retry_is_finer) return {};
+  RunArguments again = arguments;
+  again.no_retry = true;
+  again.sets.insert(again.sets.end(), own.retry.begin(), own.retry.end());
+  Catalog catalog = standard_catalog();  // the plugins of the run are already loaded
+  if (estimated_seconds(read(again, catalog), rows) >= kLongRun) return {};
+  if (!arguments.quiet) {
+    say(scenario.file, "note",
+        fmt::format("not judged: {}; simulated again with {} (--no-retry keeps the first run)", own.reason,
+                    fmt::join(own.retry, " ")));
+  }
+  return again;
 }
 
-int run(const Scenario& scenario, const RunArguments& arguments, std::span<const Scenario> draws) {
-  constexpr std::size_t kMostDraws = 40;     // rows of the table of draws
-  warn_of_start(scenario, arguments.quiet);  // printed first, because wrong units may be the reason why a step is refused
+int run_into(RunFolder& folder, const RunArguments& arguments);
+
+/// Runs a scenario and its draws, and writes the folder. Returns the exit code.
+int run_into(RunFolder& folder, const Scenario& scenario, const RunArguments& arguments, std::span<const Scenario> draws) {
+  constexpr std::size_t kMostDraws = 40;  // rows of the table of draws
   Simulation simulation({&scenario, 1}, Loads::recorded);
-  RunFolder folder(arguments.out, scenario.name);
   if (!arguments.quiet) note_rows(scenario, simulation);
-  note_time(scenario, arguments, simulation.rows_needed(0));
+  const RowsNeeded rows = simulation.rows_needed(0);
+  note_time(scenario, arguments, rows);
 
   const StopOnSignal stop(StopOnSignal::Second::is_ignored);
   const auto start = std::chrono::steady_clock::now();
@@ -162,6 +171,11 @@ int run(const Scenario& scenario, const RunArguments& arguments, std::span<const
     made = summarised();
   } catch (const std::bad_alloc&) {  // the trace is written first, then the summary is computed again
   }
+  if (const auto again = made ? more_accurate(seen, recording, *made, rows, arguments) : std::nullopt) {
+    recording = {};
+    all.reset();
+    return run_into(folder, *again);
+  }
   if (made) take_spread(scenario, recording, *made, arguments.quiet);
   const bool complete = made ? take_draws(scenario, draws, arguments, recording, *made) : draws.empty();
   if (all) all->swap(recording);
@@ -175,6 +189,7 @@ int run(const Scenario& scenario, const RunArguments& arguments, std::span<const
   files.write_report(seen, recording, summary, verdict, !arguments.no_page);
   if (files.wrote_any()) folder.keep();
   if (!arguments.quiet) print_summary(scenario, recording, summary, verdict, arguments.shown);
+  if (!arguments.quiet && !arguments.file.empty()) print_retry(arguments, verdict);
   if (!arguments.quiet && !verdict.draws.empty()) {
     fmt::print("{}", report::texts::without_nan(
                          report::draws_table(verdict.draws, arguments.shown.verbose ? verdict.draws.size() : kMostDraws)));
@@ -194,6 +209,28 @@ int run(const Scenario& scenario, const RunArguments& arguments, std::span<const
   say(scenario.file, "error",
       fmt::format("{}; the rows up to that time are in {}", recording.outcome.message, folder.path().string()));
   return 1;
+}
+
+int run_into(RunFolder& folder, const RunArguments& arguments) {
+  Catalog catalog = careful_catalog({.from_scenario = true, .files = arguments.libraries});
+  Scenario scenario = read(arguments, catalog);
+  draw_joints(scenario, arguments.joints);
+  return run_into(folder, scenario, arguments, other_draws(scenario, arguments, catalog));
+}
+
+}  // namespace
+
+int run(const RunArguments& arguments) {
+  Catalog catalog = careful_catalog({.from_scenario = true, .files = arguments.libraries});
+  Scenario scenario = read(arguments, catalog);
+  draw_joints(scenario, arguments.joints);
+  return run(scenario, arguments, other_draws(scenario, arguments, catalog));
+}
+
+int run(const Scenario& scenario, const RunArguments& arguments, std::span<const Scenario> draws) {
+  warn_of_start(scenario, arguments.quiet);  // printed first, because wrong units may be the reason why a step is refused
+  RunFolder folder(arguments.out, scenario.name);
+  return run_into(folder, scenario, arguments, draws);
 }
 
 void add_run(Commands& commands) {
@@ -217,6 +254,9 @@ void add_run(Commands& commands) {
             ->check(CLI::Range(1, 10000));
         command.add_option("-j,--jobs", arguments.jobs, "threads for the draws and the remedy (default 1)")
             ->check(CLI::Range(1, kMostThreads));
+        command.add_flag("--no-retry", arguments.no_retry,
+                         "keep a run whose verdict is not judged only for its accuracy; else it is simulated again, more "
+                         "accurately, if that takes less than 10 s");
         command.add_flag("--remedy", arguments.remedy,
                          "also search the settings that would make the gait feasible (gaitlab remedy)");
         add_shown(command, arguments.shown);

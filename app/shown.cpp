@@ -12,6 +12,7 @@
 
 #include "app/commands.h"
 #include "app/progress.h"
+#include "app/study/study_text.h"
 #include "core/errors.h"
 #include "core/scenario/resolved.h"
 #include "core/scenario/sections.h"
@@ -76,6 +77,19 @@ void print_summary(const Scenario& scenario, const Recording& recording, const r
                                    terminal_columns(STDOUT_FILENO, report::kColumns)));
   if (shown.verbose) fmt::print("{}", printed_table(report::to_text(summary, scenario, recording)));
   if (shown.joints) fmt::print("{}", printed_table(report::joint_table(summary, scenario)));
+}
+
+void print_retry(const ScenarioArguments& arguments, const report::Verdict& verdict) {
+  if (verdict.retry.empty()) return;
+  std::string command = "gaitlab run " + shell_word(arguments.file);
+  if (arguments.seed) command += " --seed " + shell_word(*arguments.seed);
+  const auto replaced = [&](const std::string& set) {
+    const auto key = [](const std::string& one) { return one.substr(0, one.find('=')); };
+    return std::ranges::any_of(verdict.retry, [&](const std::string& other) { return key(other) == key(set); });
+  };
+  for (const std::string& set : arguments.sets) command += replaced(set) ? "" : " --set " + shell_word(set);
+  for (const std::string& set : verdict.retry) command += " --set " + shell_word(set);
+  fmt::print("  {:<9} {}\n", "judge by", printed(command));  // in one line, to be copied
 }
 
 report::Verdict judged(const Scenario& scenario, const Recording& recording, const report::Summary& summary,

@@ -67,7 +67,8 @@ JudgedJoint from_ticks(const Recording& record, std::size_t joint, std::size_t f
     if (voltage[k] > voltage[k - 1]) j.first_limit = MotorLimit::voltage;
     if (current[k] > current[k - 1]) j.first_limit = MotorLimit::current;
     if (!j.reaches_limit()) j.first_limit = motor_limit(limit[k]);
-    j.first_limit_time = t[k];
+    // Within a row, the time at the limit is taken to be at its end.
+    j.first_limit_time = t[k] - std::max(voltage[k] - voltage[k - 1], current[k] - current[k - 1]);
   }
   if (torque.empty() || std::isnan(torque.back())) j.torque_peak = j.torque_peak_time = kNotKnown;
   std::tie(j.error_peak, j.error_peak_time) = peak_of(t, column(kErrorPeak), first);

@@ -22,7 +22,8 @@ struct JudgedJoint {
   double speed_peak = 0, speed_peak_time = 0;        ///< rad/s, largest magnitude; s
   double current_rms = 0;                            ///< A
   double voltage_peak = 0, current_peak = 0;         ///< V, A, largest magnitudes
-  /// First limit that the motor reached, either for some time or at the largest torque of a tick; s.
+  /// First limit that the motor reached, for some time or at the largest torque of a tick; s, the tick less the time at the
+  /// limit.
   MotorLimit first_limit = MotorLimit::none;
   double first_limit_time = 0;
   [[nodiscard]] bool reaches_limit() const { return first_limit != MotorLimit::none; }

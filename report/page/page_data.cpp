@@ -19,6 +19,7 @@
 #include "report/page/page_ground.h"
 #include "report/page/robot_tree.h"
 #include "report/page/signals.h"
+#include "report/verdict/number_texts.h"
 #include "report/verdict/numbers.h"
 
 namespace gaitlab::report {
@@ -278,6 +279,7 @@ PageData page_data(const Scenario& scenario, const Recording& r, const Summary& 
   meta["motors"] = motors_json(motors);
   meta["verdict"] = verdict_json(verdict, robot, summary.judged);
   meta["summary"] = summary_json({scenario, r, summary});
+  if (texts::lossless({scenario, r, summary})) meta["summary"].erase("cost_of_transport");
   const MotionCycle& cycle = summary.limit_cycle;
   meta["cycle"] = cycle.found ? Json{{"from", cycle.from}, {"period", cycle.period}} : Json();
   meta["phases"] = phases_json(r, cycle, robot.joints.size());

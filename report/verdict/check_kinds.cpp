@@ -110,8 +110,6 @@ constexpr CheckKind kChecks[] = {
      "largest torsion moment of a dock against its rating, of the whole run, at control ticks", "above what the dock holds",
      "above limits.warn_share of it", kWhole, "robot", "fewer modules in the air at a time, or stronger connectors",
      dock<DockQuantity::torsion>, false, true, true},
-    {"battery", Group::structure, "A", "Batteries suffice", "current of each module against the rating of its battery", "", "",
-     kWindow, "robot", "module types state no battery yet", checks::battery},
     {"in_ground", Group::ground, "m", "Bodies stay above the ground",
      "depth of a body in the ground, of the whole run, at control ticks", "above limits.sink", "", kWhole, "contact.on",
      "contact.on: all, or a larger contact.stiffness", checks::in_ground},

@@ -25,8 +25,12 @@ constexpr Meaning kWords[] = {
     {Word::infeasible,
      "A check fails, in a run that is accurate. In one that is too short only a check of the whole run counts (docks, gears, "
      "collision, stops, fall "
-     "...), because more time cannot undo it."},
-    {Word::not_judged, "Anything else. The sentence names the missing evidence and the setting that gives it."},
+     "...), because more time cannot undo it. In one whose torque error is above limits.torque_error but at most 50 %, only a "
+     "check of motors, gears or docks counts that fails even with its value reduced by that error."},
+    {Word::not_judged,
+     "Anything else. The sentence names all missing evidence, the settings that give it, and the failing check so far; a line "
+     "`judge by` has the command with these settings. `run` simulates again by itself if only the accuracy is missing and the "
+     "run takes less than 10 s (not with --no-retry)."},
     {Word::failed, "The run ended early."},
 };
 

@@ -76,7 +76,6 @@ void gear_continuous(const CheckedRun& run, Check& made);
 void tracking(const CheckedRun& run, Check& made);
 void stops(const CheckedRun& run, Check& made);
 void collision(const CheckedRun& run, Check& made);
-void battery(const CheckedRun& run, Check& made);
 void in_ground(const CheckedRun& run, Check& made);
 void progress(const CheckedRun& run, Check& made);
 void setpoints(const CheckedRun& run, Check& made);

@@ -330,8 +330,6 @@ void collision(const CheckedRun& run, Check& made) {
   made.text += fmt::format(", by {}", texts::length(found->depth));
 }
 
-void battery(const CheckedRun&, Check& made) { made.text = "the module types state no battery"; }
-
 void in_ground(const CheckedRun& run, Check& made) {
   const std::optional<Sunk>& found = run.overlaps.sunk;
   const bool grounded = run.scenario.ground.exists();

@@ -204,11 +204,16 @@ void evidence(const CheckedRun& run, Check& made) {
   const Evidence& found = run.evidence;
   made.value = run.summary.judged.to - run.summary.judged.from;
   made.source = "chosen";
-  const Lack& lack = found.first();
-  made.text = lack.empty() ? "judged over " + found.rests_on : lack.text;
-  made.remedy = lack.remedy;
-  if (lack.empty()) made.status = CheckStatus::pass;
-  if (!lack.empty()) made.place = run.scenario.nearest_place(lack.key);
+  const std::vector<const Lack*> lacks = found.lacks();
+  if (lacks.empty()) {
+    made.status = CheckStatus::pass;
+    made.text = "judged over " + found.rests_on;
+    return;
+  }
+  made.text = lacks.front()->text;
+  for (std::size_t k = 1; k < lacks.size(); ++k) made.text += "; and " + lacks[k]->text;
+  made.remedy = lacks.front()->remedy;
+  made.place = run.scenario.nearest_place(lacks.front()->key);
 }
 
 }  // namespace checks

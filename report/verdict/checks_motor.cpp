@@ -46,6 +46,8 @@ CheckStatus graded(double value, double pass, double warn) {
 
 namespace {
 
+constexpr double kLeastTold = 1e-3;  // s; a shorter time is a few steps
+
 struct Span {
   double from = 0, to = 0;
   [[nodiscard]] double length() const { return to - from; }
@@ -191,23 +193,42 @@ Saturated saturated(const CheckedRun& run, MotorLimit limit) {
   return made;
 }
 
+/// Sets Check::first and Check::first_part to the joint that is first at this limit in the judged window.
+void find_first_at_limit(const CheckedRun& run, MotorLimit limit, Check& made) {
+  const Series t(run.record.ticks, 0);
+  for (std::size_t j = 0; j < run.summary.judged.joints.size(); ++j) {
+    if (!run.judges(j, made.span)) continue;
+    const std::vector<double> parts = parts_at_limit(run, j, 0, limit);
+    const auto from = parts.begin() + static_cast<std::ptrdiff_t>(run.summary.judged.first_row) + 1;
+    const auto row = std::find_if(from, parts.end(), [](double part) { return part > 0; });
+    if (row == parts.end()) continue;
+    const double begins = t[static_cast<std::size_t>(row - parts.begin())] - *row;
+    if (begins >= made.first) continue;
+    made.first = begins;
+    made.first_part = run.joint(j);
+  }
+}
+
+/// Text of a time at a limit, which consists of steps: `0.837 s`.
+std::string time_on_end(double seconds) { return seconds < kLeastTold ? "less than 1 ms" : fmt::format("{:.3g} s", seconds); }
+
 /// Fills in joint, time and sentence of the worst joint at a limit. `name` is the quantity that is limited, for example
 /// `voltage`.
-void describe(const CheckedRun& run, const AtLimit& worst, TickColumn column, const char* name, Check& made) {
+void describe(const CheckedRun& run, const AtLimit& worst, MotorLimit limit, const char* name, Check& made) {
   made.part = Part::joint;
   made.worst = run.joint(worst.joint);
   made.from = worst.longest.from;
   made.to = worst.longest.to;
-  find_first(
-      run, run.summary.judged.first_row, column, [](std::size_t, double now, double before) { return now > before; }, made);
-  const std::string on_end = fmt::format("{:.3g} s on end from {:.2f} s", worst.longest.length(), made.from);
-  made.text = fmt::format("{} of {} reach{} the limit of {} {}; worst {}: ", made.parts,
-                          counted(driven_joints(*run.scenario.robot), "joint"), made.parts == 1 ? "es" : "",
-                          made.parts == 1 ? "its" : "their", name, made.worst);
-  made.text += made.unit.empty() ? fmt::format("{} of the judged time, up to {}", texts::percent(worst.share), on_end)
+  find_first_at_limit(run, limit, made);
+  const std::string on_end = fmt::format("{} on end from {:.2f} s", time_on_end(worst.longest.length()), made.from);
+  const bool one = made.parts == 1;
+  made.text = fmt::format("{} of {} reach{} the limit of {} {}: first {}, at {:.2f} s; {}{}", made.parts,
+                          counted(driven_joints(*run.scenario.robot), "joint"), one ? "es" : "", one ? "its" : "their", name,
+                          made.first_part, made.first, one ? "" : "worst ", one ? "" : made.worst + ", ");
+  made.text += made.unit.empty() ? fmt::format("{} of the judged time, up to {}", texts::share_of_time(worst.share), on_end)
                                  : fmt::format("{}, {}{:g} control periods ({:.3g} s), in all {} of the judged time", on_end,
                                                made.margin < 0 ? "more than " : "of at most ", run.limits().saturated_periods,
-                                               made.limit, texts::percent(worst.share));
+                                               made.limit, texts::share_of_time(worst.share));
 }
 
 void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn column) {
@@ -232,15 +253,18 @@ void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn
       of_motors(run);
   const char* const name = !run.has_dc_motors ? "actuator" : limit == MotorLimit::voltage ? "voltage" : "current";
   made.text = fmt::format("no joint is at the limit of its {}", name);
-  if (made.parts > 0) describe(run, *found.worst, column, name, made);
+  if (made.parts > 0) describe(run, *found.worst, limit, name, made);
+  made.certain = certain(found.bars);
   if (!found.widest || !too_close(found.bars)) return;
   made.error = error_of(run, found.widest->joint);
   made.status = CheckStatus::too_close;
-  made.text += fmt::format(
-      "; joint {} is within the error of its torque, {}, of that limit for up to {} of the judged time, {:.3g} s on end",
-      run.joint(found.widest->joint), texts::rough_percent(made.error), texts::percent(found.widest->share),
-      found.widest->longest.length());
-  made.remedy = "take " + torque_remedy(run.scenario, std::max(made.error, most_torque_error(run.limits())));
+  made.text +=
+      fmt::format("; joint {} is within the error of its torque, {}, of that limit for up to {} of the judged time, {} on end",
+                  run.joint(found.widest->joint), texts::rough_percent(made.error), texts::share_of_time(found.widest->share),
+                  time_on_end(found.widest->longest.length()));
+  const double error = std::max(made.error, most_torque_error(run.limits()));
+  made.remedy = "take " + torque_remedy(run.scenario, error);
+  made.retry = finer_setting(run.scenario, error);
 }
 
 /// Value of a joint, its limit, and the time of the value in s. NaN if not known; an infinite or 0 limit is not stated.

@@ -14,6 +14,7 @@ void widen(const Scenario& scenario, std::span<const ErrorBar> bars, Check& made
   for (const ErrorBar& bar : bars) {
     if (bar.part == made.worst) made.error = bar.error;
   }
+  made.certain = certain(bars);
   if (!too_close(bars)) return;
   const auto reach = [&](const ErrorBar& bar) { return std::tuple(bar.across(), bar.part == made.worst, bar.most); };
   const ErrorBar& named = *std::ranges::max_element(bars, {}, reach);
@@ -22,7 +23,9 @@ void widen(const Scenario& scenario, std::span<const ErrorBar> bars, Check& made
   made.text += named.part == made.worst
                    ? fmt::format("; with the error of the torques {} of the limit", range)
                    : fmt::format("; joint {} takes, with the error of its torque, {} of its limit", named.part, range);
-  made.remedy = "take " + torque_remedy(scenario, std::max(named.error, most_torque_error(scenario.limits)));
+  const double error = std::max(named.error, most_torque_error(scenario.limits));
+  made.remedy = "take " + torque_remedy(scenario, error);
+  made.retry = finer_setting(scenario, error);
 }
 
 }  // namespace gaitlab::report

@@ -61,7 +61,7 @@ void judge_length(const Recording& r, const Summary& summary, Evidence& made) {
     made.rests_on = fmt::format("these {:.3g} s; the set points do not repeat", r.simulated);
     if (r.simulated < kLeastTime * (1 - kRelative)) {
       made.not_shown = {fmt::format("{:.3g} s are less than {:g} s; take a longer duration", r.simulated, kLeastTime),
-                        "duration"};
+                        "duration", "", fmt::format("duration={:g}", kLeastTime)};
     }
     return;
   }
@@ -70,9 +70,10 @@ void judge_length(const Recording& r, const Summary& summary, Evidence& made) {
   made.rests_on = fmt::format("{:.3g} periods of {:.4g} s{}; the motion does not settle",
                               (summary.judged.to - summary.judged.from) / period, period, after(start));
   if (held >= kPeriodsNeeded * (1 - kEstimate)) return;
-  made.not_shown = {fmt::format("{:.3g} s{} are {:.2g} of a gait's {:g} periods of {:.4g} s; take duration: {:.4g}", left,
-                                after(start), held, kPeriodsNeeded, period, start + kPeriodsNeeded * period),
-                    "duration"};
+  const std::string needed = fmt::format("{:.4g}", start + kPeriodsNeeded * period);
+  made.not_shown = {fmt::format("{:.3g} s{} are {:.2g} of a gait's {:g} periods of {:.4g} s; take duration: {}", left,
+                                after(start), held, kPeriodsNeeded, period, needed),
+                    "duration", "", "duration=" + needed};
 }
 
 /// Judges the motion that the set points show.
@@ -80,9 +81,12 @@ void judge_gait(const Scenario& s, const Recording& r, const Summary& summary, E
   const std::vector<Series> asked = set_points(s, r);
   const bool driven = s.actuator.entry != nullptr && driven_joints(*s.robot) > 0;
   const double full = std::max(summary.gait.full_size, summary.gait.start);
+  const double period = summary.gait.period;
   if (!made.not_shown.empty()) return;
   if (std::string growing = growth(s, r, summary.judged, summary.gait); !growing.empty()) {
-    made.not_shown = {std::move(growing), "cpg"};
+    const double needed = summary.gait.full_size + kPeriodsNeeded * period;
+    const bool later = summary.gait.full_size > r.simulated && std::isfinite(needed);
+    made.not_shown = {std::move(growing), "cpg", "", later ? fmt::format("duration={:.4g}", needed) : ""};
   } else if (driven && !asked.empty() && !moves(asked, motion(r).t, full)) {
     const std::string cause =
         s.cpg.entry == nullptr ? "there is no cpg" : fmt::format("cpg {} moves no joint", s.cpg.entry->name);
@@ -163,7 +167,8 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made, std::vec
     made.not_trusted = {fmt::format("the torque of joint {} is off by about {} of its peak, more than {}; take {}",
                                     s.robot->joints[error.joint].name, texts::rough_percent(error.share),
                                     texts::percent(most_error), torque_remedy(s, error.share)),
-                        steps};
+                        steps, "", finer_setting(s, error.share)};
+    made.inexact = error.share <= kMostError && residual <= kTrustedResidual && coarse <= kTrustedCoarse;
   } else if (driven && !(residual <= kTrustedResidual)) {  // true also for NaN
     made.not_trusted = {fmt::format("{} of the energy is unaccounted for, more than {}; take a smaller {}",
                                     texts::percent(residual), texts::percent(kTrustedResidual), steps),
@@ -179,7 +184,8 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made, std::vec
     unknown.emplace_back("the error of the torques, which the study estimates at other points");
   } else if (s.physics.estimate == Estimate::off) {
     if (made.not_trusted.empty())
-      made.not_trusted = {"the error of the torques is not estimated; take physics.estimate: full", "physics.estimate"};
+      made.not_trusted = {"the error of the torques is not estimated; take physics.estimate: full", "physics.estimate", "",
+                          "physics.estimate=full"};
   } else {
     unknown.emplace_back("the error of the torques");
   }

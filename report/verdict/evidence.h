@@ -2,6 +2,7 @@
 // accurate.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "core/scenario/scenario.h"
 #include "report/analysis/gait.h"
@@ -16,6 +17,8 @@ inline constexpr double kTrustedResidual = 0.05, kTrustedCoarse = 0.1;
 /// are required after the start of the gait (cpg_alone.h); the judged window leaves out the first of them.
 inline constexpr double kSettled = 0.01;
 inline constexpr double kLeastTime = 2;  ///< s, least duration if the set points do not repeat
+/// Largest torque error with which a failure beyond its error bar (Check::certain) still decides.
+inline constexpr double kMostError = 0.5;
 
 /// A missing piece of evidence.
 struct Lack {
@@ -23,6 +26,7 @@ struct Lack {
                             ///< is empty
   std::string key = {};     ///< key of the setting at which messages are placed
   std::string remedy = {};  ///< advice; set only if no other message is printed at the same setting
+  std::string set = {};     ///< setting that supplies it, in the form of --set; empty if none is known
   [[nodiscard]] bool empty() const { return text.empty(); }
   [[nodiscard]] std::string sentence() const { return text + (remedy.empty() ? "" : "; " + remedy); }
 };
@@ -34,16 +38,21 @@ struct Evidence {
   Lack not_possible;          ///< a number of the scenario is impossible and not accepted (plausibility.h)
   Lack not_borne;             ///< the ground carries less than half of the weight
   Lack not_trusted;           ///< an error exceeds one of the constants above, or a motor creates energy
+  bool inexact = false;       ///< true if all of not_trusted is a torque error of at most kMostError
   bool falls_freely = false;  ///< true if nothing can carry the robot: no ground, no gravity, or no contact elements
   bool repeats = false;       ///< true if the set points repeat
   std::string rests_on;       ///< extent of the run: `3 periods of 4 s`, or `these 18 s; the set points do not repeat`
   /// Limits that the scenario changes, and implausible numbers that it accepts: `limits: torque_error 1 of the scenario, 0.05
   /// by default`. Empty without them.
   std::string conditions;
-  /// The most important missing piece of evidence.
-  [[nodiscard]] const Lack& first() const {
-    if (!not_possible.empty()) return not_possible;
-    return falls_freely ? not_borne : !not_trusted.empty() ? not_trusted : !not_shown.empty() ? not_shown : not_borne;
+  /// The missing pieces of evidence, the most important one first. No accuracy and no time helps a robot that falls freely.
+  [[nodiscard]] std::vector<const Lack*> lacks() const {
+    if (!not_possible.empty()) return {&not_possible};
+    std::vector<const Lack*> all;
+    for (const Lack* one : {&not_trusted, &not_shown, &not_borne}) {
+      if (!one->empty() && (!falls_freely || one == &not_borne)) all.push_back(one);
+    }
+    return all;
   }
 };
 

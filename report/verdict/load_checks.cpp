@@ -231,8 +231,9 @@ void judge_slip(const Scenario& scenario, const Recording& record, const Summary
   made.from = window.time(window.start);
   made.to = window.loads.at(window.loads.rows() - 1, 0);
   made.text = made.worst.empty() ? "no foot slides under load"
-                                 : fmt::format("feet slide {} of the way under load, farthest {}, by {:.3g} of {:.3g} m",
-                                               texts::percent(made.value), foot_names(scenario, feet)[worst], farthest, way);
+                                 : fmt::format("under load the weight slides {}, {} of the way of {}; farthest foot {}, {}",
+                                               texts::length(slip), texts::percent(made.value), texts::length(way),
+                                               foot_names(scenario, feet)[worst], texts::length(farthest));
 }
 
 void judge_stability(const Scenario& scenario, const Recording& record, const Summary& summary, Check& made) {

@@ -35,6 +35,11 @@ std::string rough_percent(double share) {
   return share >= 1 ? fmt::format("{:.0f} %", 100 * share) : fmt::format("{:.{}g} %", 100 * share, share < 0.1 ? 2 : 3);
 }
 
+std::string share_of_time(double share) {
+  constexpr double kLeastTold = 1e-4;
+  return share > 0 && share < kLeastTold ? "less than 0.01 %" : percent(share);
+}
+
 std::string spaced(std::string id) {
   std::ranges::replace(id, '_', ' ');
   return id;
@@ -126,10 +131,17 @@ Lines transport(const RunData& run) {
   if (!has_motors(run)) return {};
   if (!(run.scenario.robot->mass * run.scenario.physics.gravity.norm() > 0)) return {"cost of transport undefined: no weight"};
   if (s.distance < kNoTravel) return {"cost of transport undefined: travelled less than 1 mm"};
+  if (lossless(run)) return {"cost of transport not meaningful: these motors lose next to nothing"};
   Lines lines{
       fmt::format("cost {:.3g} electrical, {:.3g} mechanical (J per N of weight and m)", s.cost_electrical, s.cost_mechanical)};
   if (const std::string much = much_created(run); !much.empty()) lines.push_back(much);
   return lines;
+}
+
+bool lossless(const RunData& run) {
+  constexpr double kLeastLoss = 0.01, kRails = 0.001;
+  const Ledger& e = run.record.ledger;
+  return e.copper + e.gear + e.hinges < kLeastLoss * e.electrical || std::abs(run.summary.cost_electrical) < kRails;
 }
 
 // Without the energy that gears create by eq. 2, the energy drawn would be larger by this share.

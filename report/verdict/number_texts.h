@@ -14,6 +14,9 @@ std::string percent(double share);
 /// Percentage of an estimate, with two digits, or three from 10 % on. Above 1000 % it is `1000 % and more`.
 std::string rough_percent(double share);
 
+/// Percentage of a time, which consists of steps: with three digits, or `less than 0.01 %`.
+std::string share_of_time(double share);
+
 /// Id of a check in a sentence: `gear_peak` becomes `gear peak`.
 std::string spaced(std::string id);
 
@@ -48,6 +51,9 @@ Lines tracking(const RunData& run);
 Lines drawn(const RunData& run);
 Lines ledger(const RunData& run);
 Lines created_energy(const RunData& run);
+/// True if the cost of transport is that of motors that do not exist: they lose less than 1 % of the energy drawn, in windings,
+/// gears and friction, or the cost is below that of steel wheels on rails, whose rolling resistance is 0.001 of the weight.
+bool lossless(const RunData& run);
 /// Text `the gears create 17 % of the energy drawn (eq. 2)`, printed beside a cost of transport. Empty up to 5 %.
 std::string much_created(const RunData& run);
 Lines range(const RunData& run);

@@ -85,6 +85,7 @@ std::string gait(const RunData& run) {
   // A gait that turns travels less far in a longer run.
   if (std::abs(s.heading_change) > kTurns) text += fmt::format(", turns by {:+.2f} rad", s.heading_change);
   if (s.cost_electrical == 0 || !has_motors(run)) return text;
+  if (texts::lossless(run)) return text + ", cost of transport not meaningful: these motors lose next to nothing";
   text += fmt::format(", cost of transport {:.3g}", s.cost_electrical);
   if (const std::string much = texts::much_created(run); !much.empty()) text += ": " + much;
   return text;

@@ -31,18 +31,25 @@ double one_digit(double value) {
 
 }  // namespace
 
+std::string finer_setting(const Scenario& s, double share) {
+  if (quantised(s)) return "";
+  const Physics& physics = s.physics;
+  const double ratio = std::min(kGood, torque_error_limit(s)) / share / kMargin;
+  if (physics.adapts())
+    return fmt::format("physics.accuracy={:.1g}", std::max(one_digit(physics.accuracy * ratio), kLeastAccuracy));
+  const int order = std::max(1, physics.integrator->order);
+  const double step = usable_step(s, physics.step * std::pow(ratio, 1.0 / order));
+  return step > 0 ? fmt::format("physics.step={:.4g}", step) : "";
+}
+
 std::string torque_remedy(const Scenario& s, double share) {
   if (quantised(s))
     return "noise of the deviation resolution/sqrt(12) in place of the resolution of sensors, which amplifies rounding errors";
-  const Physics& physics = s.physics;
-  const double ratio = std::min(kGood, torque_error_limit(s)) / share / kMargin;
-  if (physics.adapts()) {
-    return fmt::format("physics.accuracy: {:.1g}", std::max(one_digit(physics.accuracy * ratio), kLeastAccuracy));
-  }
-  const int order = std::max(1, physics.integrator->order);
-  const double step = usable_step(s, physics.step * std::pow(ratio, 1.0 / order));
-  std::string text = step > 0 ? fmt::format("physics.step: {:.4g}", step) : "a smaller physics.step";
-  if (const Integrator* adaptive = physics.engine->adaptive(); adaptive != nullptr) {
+  std::string text = finer_setting(s, share);
+  if (const std::size_t sign = text.find('='); sign != std::string::npos) text.replace(sign, 1, ": ");
+  if (s.physics.adapts()) return text;
+  if (text.empty()) text = "a smaller physics.step";
+  if (const Integrator* adaptive = s.physics.engine->adaptive(); adaptive != nullptr) {
     text += fmt::format(", or physics.integrator: {} without a step", adaptive->name);
   }
   return text;

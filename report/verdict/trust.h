@@ -39,7 +39,10 @@ double torque_error_limit(const Scenario& scenario);
 /// Largest change of the torques for which a motion is predictable: torque_error_limit, but at least 1 %.
 double predictability_limit(const Scenario& scenario);
 
-/// Setting that reduces the torque error from `share` to torque_error_limit, but at most 1 %: `physics.accuracy: 0.003`.
+/// Setting that reduces the torque error from `share` to torque_error_limit, but at most 1 %, in the form of --set:
+/// `physics.accuracy=0.003`. Empty if no setting does.
+std::string finer_setting(const Scenario& scenario, double share);
+/// The same as advice: `physics.accuracy: 0.003`.
 std::string torque_remedy(const Scenario& scenario, double share);
 
 /// Text `step auto (at most 0.005 s), accuracy 1 %`, or `step 2.5e-05 s`.

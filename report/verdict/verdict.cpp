@@ -48,7 +48,6 @@ const Check* worst_of(const std::vector<Check>& checks, const Counts& counts) {
 
 bool fails(const Check& check) { return check.status == CheckStatus::fail; }
 bool too_close(const Check& check) { return check.status == CheckStatus::too_close; }
-bool undone_by_no_time(const Check& check) { return fails(check) && check.span == CheckSpan::whole_run; }
 
 /// Changes the status to `too close` if the motion is unpredictable and the check fails in some of the equally valid rollouts
 /// but not in all, or cannot be judged in one (which diverged or fell).
@@ -70,13 +69,12 @@ void take_spread(const Trace& spread, Check& made) {
 /// Reason why the verdict is `not judged`, with or without failing checks. Empty if there is none.
 std::string not_judged(const CheckedRun& run, const std::vector<Check>& checks) {
   const Evidence& found = run.evidence;
-  if (!found.not_trusted.empty()) return found.first().sentence();
-  if (!found.not_shown.empty()) {
-    const Check* const failing = worst_of(checks, fails);
-    return found.first().sentence() + (failing == nullptr ? "" : "; so far: " + failing->sentence());
+  const Check* const failing = worst_of(checks, fails);
+  if (const std::vector<const Lack*> lacks = found.lacks(); !lacks.empty()) {
+    std::string text = lacks.front()->sentence();
+    for (std::size_t k = 1; k < lacks.size(); ++k) text += "; and " + lacks[k]->sentence();
+    return text + (failing == nullptr ? "" : "; so far: " + failing->sentence());
   }
-  if (std::ranges::any_of(checks, fails)) return "";
-  if (!found.not_borne.empty()) return found.not_borne.sentence();
   if (const Check* const close = worst_of(checks, too_close)) return close->text;
   const auto judged = [](const Check& c) { return c.status != CheckStatus::not_judged; };
   if (std::ranges::none_of(checks, [&](const Check& c) { return c.group == CheckGroup::motor && judged(c); }))
@@ -89,24 +87,43 @@ std::string not_judged(const CheckedRun& run, const std::vector<Check>& checks) 
   return "";
 }
 
+/// Sets Verdict::retry to the settings that supply all missing evidence, or decide the check that is too close.
+void take_retry(const Evidence& evidence, Verdict& made) {
+  const std::vector<const Lack*> lacks = evidence.lacks();
+  if (std::ranges::any_of(lacks, [](const Lack* lack) { return lack->set.empty(); })) return;
+  for (const Lack* const lack : lacks) made.retry.push_back(lack->set);
+  const Check* const close = lacks.empty() ? worst_of(made.checks, too_close) : nullptr;
+  if (close != nullptr && !close->retry.empty()) made.retry.push_back(close->retry);
+  made.retry_is_finer = !made.retry.empty() && evidence.not_shown.empty() && evidence.not_borne.empty();
+}
+
 void decide(const CheckedRun& run, Verdict& made) {
-  made.conditions = run.evidence.conditions;
-  made.rests_on = run.evidence.rests_on + (made.conditions.empty() ? "" : "; " + made.conditions);
+  const Evidence& found = run.evidence;
+  made.conditions = found.conditions;
+  made.rests_on = found.rests_on + (made.conditions.empty() ? "" : "; " + made.conditions);
+  const auto decides = [&](const Check& check) {
+    return fails(check) && (found.not_shown.empty() || check.span == CheckSpan::whole_run) &&
+           (found.not_trusted.empty() || (found.inexact && check.certain));
+  };
   if (made.checks.front().status == CheckStatus::fail) {
     made.word = Word::failed;
-  } else if (!run.evidence.not_possible.empty()) {
+    made.decided_by = worst_of(made.checks, fails)->id;
+  } else if (!found.not_possible.empty()) {
     made.word = Word::not_judged;
-    made.reason = run.evidence.not_possible.sentence();
-  } else if (run.evidence.not_trusted.empty() && std::ranges::any_of(made.checks, undone_by_no_time)) {
+    made.reason = found.not_possible.sentence();
+  } else if (const Check* const deciding = worst_of(made.checks, decides); deciding != nullptr) {
     made.word = Word::infeasible;
+    made.decided_by = deciding->id;
+    if (found.inexact) {
+      made.checks[static_cast<std::size_t>(deciding - made.checks.data())].text += fmt::format(
+          "; certain, though torques are off by up to about {}", texts::rough_percent(torque_error(run.record).share));
+    }
   } else if (made.reason = not_judged(run, made.checks); !made.reason.empty()) {
     made.word = Word::not_judged;
+    take_retry(found, made);
   } else {
-    made.word = std::ranges::any_of(made.checks, fails) ? Word::infeasible : Word::feasible;
+    made.word = Word::feasible;
   }
-  if (made.word != Word::failed && made.word != Word::infeasible) return;
-  const bool short_run = made.word == Word::infeasible && !run.evidence.not_shown.empty();
-  made.decided_by = worst_of(made.checks, short_run ? undone_by_no_time : fails)->id;
 }
 
 }  // namespace

@@ -62,6 +62,21 @@ Json draws_of(const Verdict& verdict) {
   return draws;
 }
 
+/// The failing checks in the order in which their limits were first exceeded.
+Json events_of(const Verdict& verdict) {
+  std::vector<const Check*> order;
+  for (const Check* const check : verdict.failures()) {
+    if (std::isfinite(check->first)) order.push_back(check);
+  }
+  std::ranges::stable_sort(order, {}, &Check::first);
+  Json events = Json::array();
+  for (const Check* const check : order) {
+    const std::string& part = check->first_part.empty() ? check->worst : check->first_part;
+    events.push_back({{"time", check->first}, {"check", check->id}, {"part", part.empty() ? Json() : Json(part)}});
+  }
+  return events;
+}
+
 Json demand_of(const Verdict& verdict) {
   Json demand;
   demand["doubt"] = verdict.demand_doubt;
@@ -83,6 +98,7 @@ std::string to_json(const Verdict& verdict) {
   json["format"] = 2;
   json["verdict"] = name_of(verdict.word);
   json["reason"] = verdict.reason;
+  if (!verdict.retry.empty()) json["retry"] = verdict.retry;
   const Check* const tightest = verdict.tightest();
   json["decided_by"] = verdict.decided_by.empty() ? Json() : Json(verdict.decided_by);
   json["tightest"] = tightest == nullptr ? Json() : Json(tightest->id);
@@ -95,6 +111,7 @@ std::string to_json(const Verdict& verdict) {
   json["window"] = {{"from", verdict.from}, {"to", verdict.to}};
   if (!verdict.window_of_rows.empty()) json["window"]["text"] = verdict.window_of_rows;
   json["first"] = verdict.first_joint.empty() ? Json() : Json{{"joint", verdict.first_joint}, {"time", verdict.first_time}};
+  json["events"] = events_of(verdict);
   Json counts;
   for (const CheckStatus status :
        {CheckStatus::pass, CheckStatus::warn, CheckStatus::fail, CheckStatus::too_close, CheckStatus::not_judged})

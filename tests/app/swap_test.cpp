@@ -146,7 +146,7 @@ TEST_F(Swap, PagesAreWrittenWhereTheyAreAskedFor) {
   const Result result = call("--cpg phase_oscillator,sine --report --out one");
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_NE(result.out.find("\npages: one/swap.html, and one per CPG\n"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("; so far: 3 of 4 joints reach the limit of their voltage; worst "), std::string::npos)
+  EXPECT_NE(result.out.find("; so far: 3 of 4 joints reach the limit of their voltage: first "), std::string::npos)
       << result.out;
   const std::string page = read(folder / "one/swap.html");
   for (const char* part :

@@ -49,7 +49,8 @@ REASONS = ("of a gait's 3 periods", "so far: ", "makes energy", "moves no joint"
 
 
 def run(program, *arguments):
-    return subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, check=False, timeout=600)
+    as_it_is = ["--no-retry"] if arguments[0] == "run" else []
+    return subprocess.run([program, *map(str, arguments), *as_it_is], capture_output=True, text=True, check=False, timeout=600)
 
 
 def known_to(window):
@@ -102,8 +103,6 @@ class Gate:
         for check in verdict["checks"]:
             told = judged.checks[check["id"]]
             self.met[check["id"], check["status"]] += 1
-            if check["id"] == "battery":
-                continue
             self.said += 1
             wrong += (compare(told, check) if told else []) + hear(told, check, check["text"], "verdict.json")
             if told:

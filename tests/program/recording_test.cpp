@@ -38,8 +38,10 @@ TEST_P(ReadBack, GivesTheSameSummaryAndFigure) {
   EXPECT_EQ(read(folder / "again/summary.json"), summary);
   EXPECT_EQ(read(folder / "again/figure.svg"), read(folder / "run/figure.svg"));
   EXPECT_TRUE(read(folder / "again/report.html") == read(folder / "run/report.html"));
-  // Output of the terminal without the lines on page and files.
-  const auto text = [](const std::string& out) { return out.substr(0, std::min(out.find("  page "), out.find("  files "))); };
+  // Output of the terminal without the lines on the command, page and files, which name paths.
+  const auto text = [](const std::string& out) {
+    return out.substr(0, std::min({out.find("  judge by "), out.find("  page "), out.find("  files ")}));
+  };
   EXPECT_EQ(text(again.out), text(ran.out));
 }
 

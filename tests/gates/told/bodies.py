@@ -327,7 +327,7 @@ def slip(record, window):
     worst = max(feet, key=feet.get) if feet and max(feet.values()) > 0 else None
     way = grown["path"]
     called = Legs(record).foot
-    told = Told(worst=worst, also={"way": way, "slid": feet.get(worst, 0), "least_way": LEAST_WAY,
+    told = Told(worst=worst, also={"way": way, "slid": feet.get(worst, 0), "slip": grown["slip"], "least_way": LEAST_WAY,
                                    "foot": tuple(called(one, feet) for one in feet if worst and feet[one] >= feet[worst] * (1 - SAME))})
     told.ties = [name for name in feet if worst and feet[name] >= feet[worst] * (1 - SAME)]
     if way < LEAST_WAY:

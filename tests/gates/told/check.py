@@ -15,6 +15,7 @@ class Told:
         self.worst, self.ties, self.parts, self.least, self.unit = None, (), 0, False, None
         self.start = self.end = self.first = np.nan
         self.first_part, self.span, self.can_fail, self.error, self.also = None, None, None, 0.0, {}
+        self.certain = False  # a part is beyond its limit by more than the error of its torque
         self.undecided = ()  # other statuses that are possible with rounding errors
         self.__dict__.update(more)
 
@@ -35,7 +36,8 @@ class Told:
 
     def numbers(self):
         return {"value": self.value, "limit": self.limit, "parts": self.parts, "worst": self.worst, "at": self.start,
-                "from": self.start, "to": self.end, "error": self.error, **self.also}
+                "from": self.start, "to": self.end, "error": self.error, "first": self.first,
+                "first_part": tuple(getattr(self, "first_parts", [self.first_part])), **self.also}
 
 
 def margin(value, limit, least=False):
@@ -60,6 +62,7 @@ def widen(told, error):
     """Sets the status `too close` if the limit is within the error of the number."""
     told.error = error
     low, high = told.value * (1 - error), told.value * (1 + error)
+    told.certain = bool(low > told.limit)
     if error > 0 and low < told.limit < high:
         told.status = "too close"
     told.also |= {"low": low / told.limit if told.limit else np.nan, "high": high / told.limit if told.limit else np.nan}

@@ -73,7 +73,7 @@ def at_limit(record, window, kind):
     told.ties = [record.names[k] for k in ties] if parts else ()
     told.worst = told.worst if parts else None
     if parts:
-        first_in(told, record, window.first, np.diff(table, axis=0) > 0)
+        first_at_limit(told, record, window.first, np.diff(table, axis=0))
     # Rows that are not at a limit, but with a torque within the torque error of the limit, count with their whole time.
     errors = record.torque_errors()
     peak, amperes = record.tick("envelope_peak"), record.tick("current_peak")
@@ -91,12 +91,22 @@ def at_limit(record, window, kind):
             wide.append((room, near, on_end, k))
     surely = [share[k] * (1 - errors[k]) > limits["saturated_share"] or longest[k][0] * (1 - errors[k]) > most * (1 + 1e-6)
               for k in np.flatnonzero(record.driven)]
+    told.certain = any(surely)
     if wide and not any(surely):
         least = min(wide)[0]
         _, near, on_end, k = max((one for one in wide if one[0] <= least + SAME), key=lambda one: one[1])
         told.status, told.error = "too close", errors[k]
         told.also |= {"near": near, "near_on_end": on_end, "near_joint": record.names[k]}
     return told
+
+
+def first_at_limit(told, record, row, spent):
+    """Time and name of the joint that is first at a limit after a row of ticks. In a row, the time spent at the limit counts as its end."""
+    spent = np.where(record.driven[None, :], spent, 0)[row:]
+    begins = {j: record.t[row + k + 1] - spent[k, j] for j in range(record.count) if (k := int(np.argmax(spent[:, j] > 0)), spent[k, j] > 0)[1]}
+    told.first = min(begins.values())
+    told.first_parts = [record.names[j] for j, begin in begins.items() if begin <= told.first + SAME]
+    told.first_part = told.first_parts[0]
 
 
 def first_in(told, record, row, beyond):
@@ -183,6 +193,7 @@ def of_rating(record, values, key, rows=None, first=None):
     widen(told, errors[j])
     across = (errors > 0) & (share * (1 - errors) < 1) & (share * (1 + errors) > 1)
     beyond = (share > 1) & (share * (1 - errors) >= 1)
+    told.certain = bool(beyond.any())
     if beyond.any():  # one joint suffices
         told.status = "fail"
     elif across.any() and not across[j]:

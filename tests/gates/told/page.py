@@ -255,5 +255,7 @@ def walked(facts, verdict, checks, judged, meta_, must, known):
             ("Speed", "speed", 100, 3), ("Cost of transport", "electrical_cost", 1, 3), ("Period", "period", 1, 4)):
         text = facts.pop(name, None)
         if text is not None:
+            scale = 1 if text.endswith(" m/s") else scale
+            must(key != "electrical_cost" or not known["lossless"], name, "nothing, without losses")
             near = name == "Period" and abs(float(text.split(" ")[0]) - known[key]) < 1e-3  # known to 3e-5 of itself
             must(near or agrees(text, scale * known[key], digits), name, scale * known[key])

@@ -30,7 +30,8 @@ LINES = {
     "distance": r"{distance:.4f} m \(x {x:+.4f}, y {y:+.4f}\), heading change {heading:+.3f} rad",
     "speed": r"{speed:.4f} m/s over a path of {path:.4f} m",
     "limit cycle": r"none found|from t = {cycle_from:.2f} s, period {period:.4f} s, repeats to {repeats:pct}",
-    "transport": r"cost of transport undefined: (?:no weight|travelled less than 1 mm)|cost {electrical_cost:.3g} electrical, "
+    "transport": r"cost of transport undefined: (?:no weight|travelled less than 1 mm)|cost of transport {lossless:words}: these motors "
+                 r"lose next to nothing|cost {electrical_cost:.3g} electrical, "
                  r"{mechanical_cost:.3g} mechanical \(J per N of weight and m\)(?: the gears create {created_share:pct} of the energy "
                  r"drawn \(eq\. 2\))?",
     "engine": r"\w+ \(\w+\)",
@@ -46,7 +47,8 @@ LINES = {
 }
 READ = {title: Expression(text) for title, text in LINES.items()}
 GAIT = Expression(r"{speed:.4f} m/s over the run(?:, {per_period:.4f} m per period of {period:.4g} s \({cycle_speed:.4f} m/s\))?"
-                  r"(?:, turns by {heading:+.2f} rad)?(?:, cost of transport {electrical_cost:.3g}"
+                  r"(?:, turns by {heading:+.2f} rad)?(?:, cost of transport {lossless:words}: these motors lose next to nothing"
+                  r"|, cost of transport {electrical_cost:.3g}"
                   r"(?:: the gears create {created_share:pct} of the energy drawn \(eq\. 2\))?)?")
 HEAD = Expression(r".*: {simulated:.6g} s simulated in \S+ s")
 
@@ -99,7 +101,8 @@ def numbers(judged):
         n |= {"torque_error": errors.max(), "inaccurate": {r.names[int(np.argmax(errors))]}, "event": run["parting.twin.time"],
               "event_joint": r.names[int(run["parting.twin.joint"])]}
     n |= {"accuracy": r.scenario["physics"].get("accuracy", np.nan), "solves": run["solves"], "drawn": run["energy.electrical"],
-          "missing": abs(r.residual()), "missing_share": 100 * abs(r.residual()) / r.energy_scale(), "copper": run["energy.copper"]}
+          "lossless": "not meaningful" if (run["energy.copper"] + run["energy.gear"] + run["energy.hinges"]) < 0.01 * run["energy.electrical"]
+          or abs(n.get("electrical_cost", 1)) < 0.001 else None, "missing": abs(r.residual()), "missing_share": 100 * abs(r.residual()) / r.energy_scale(), "copper": run["energy.copper"]}
     n |= {name: abs(run["energy." + name]) for name in ("gear", "stored", "contact", "friction", "stops", "hinges")}
     ticks = run["control_ticks"]
     n |= {"stability_time": run["stability.time"], "above": run["control_ticks_above_1"] / ticks if ticks else 0.0}
@@ -139,8 +142,10 @@ def motor_numbers(r, w, n):
     j, near = worst_of(whole)
     n |= {"ever_joint": {r.names[k] for k in near}, "ever_share": whole[j]}
     if ever.any():
-        row = int(np.argmax(ever.any(1)))
-        n |= {"first": {r.names[j] for j in np.flatnonzero(ever[row])}, "first_time": r.t[row + 1]}
+        spent = np.maximum(*(np.diff(r.tick(f"{kind}_limited"), axis=0) for kind in ("voltage", "current")))
+        begins = {j: r.t[k + 1] - spent[k, j] for j in np.flatnonzero(ever.any(0)) if (k := int(np.argmax(ever[:, j]))) >= 0}
+        first_time = min(begins.values())
+        n |= {"first": {r.names[j] for j, one in begins.items() if one <= first_time + SAME}, "first_time": first_time}
     n |= {"peak": peak[order], "time": times(r, "torque_peak", order, peak[order]), "rms": effective[order]}
     for prefix, values, at in (("strongest", peak, rows), ("ever", ever_peak, ever_rows)):
         j, near = worst_of(values)
@@ -219,6 +224,8 @@ def first_screen(text, verdict, judged, known):
     must("rests on", "; ".join(one for one in (verdict["figures"], conditions) if one) or None)
     if "gait" in said:
         wrong += hear(GAIT, said["gait"], known, "terminal: gait")
+        if known.get("lossless") and "cost of transport" in said["gait"] and "next to nothing" not in said["gait"]:
+            wrong.append(f"terminal: a cost of transport without losses: {said['gait']!r}")
     return wrong
 
 

@@ -7,6 +7,7 @@ import re
 
 NUMBER = r"[-+]?(?:\d+\.?\d*(?:e[-+]?\d+)?|nan|inf)"
 WITH_UNIT = {"pct": rf"more than 1000 %|less than -1000 %|0\.0001 % and less|{NUMBER} %",
+             "part": rf"less than 0\.01 %|{NUMBER} %", "brief": rf"less than 1 ms|{NUMBER} s",
              "rough": rf"1000 % and more|0\.0001 % and less|{NUMBER} %", "length": rf"more than 1000 km|{NUMBER} (?:mm|m|km)"}
 
 
@@ -36,10 +37,19 @@ def length(metres):
     return "more than 1000 km"
 
 
+def part(value):
+    """Share of a time, which consists of steps."""
+    return "less than 0.01 %" if 0 < value < 1e-4 else percent(value)
+
+
+def brief(seconds):
+    return "less than 1 ms" if seconds < 1e-3 else f"{seconds:.3g} s"
+
+
 def printed(kind, value):
     """Text of a value in a sentence, for this format."""
     if kind in WITH_UNIT:
-        return {"pct": percent, "rough": rough_percent, "length": length}[kind](value)
+        return {"pct": percent, "rough": rough_percent, "length": length, "part": part, "brief": brief}[kind](value)
     if kind == "th":
         return "%.3f" % value if value < 1000 else "%.3g" % value
     return "%d" % value if kind == "d" else "%" + kind % value if "%" in kind else ("%" + kind) % value
@@ -87,12 +97,12 @@ class Expression:
 WITHIN = (r"(?:; with the error of the torques {low:pct} to {high:pct} of the limit"
           r"|; joint {other} takes, with the error of its torque, {other_low:pct} to {other_high:pct} of its limit)?")
 LIMITED = (r"no joint is at the limit of its (?:voltage|current|actuator)"
-           r"|{parts:d} of {driven:d} joints? reach(?:es)? the limit of (?:its|their) (?:voltage|current|actuator); worst {worst}: "
-           r"(?:{share:pct} of the judged time, up to {stretch:.3g} s on end from {from:.2f} s"
-           r"|{stretch:.3g} s on end from {from:.2f} s, (?:more than |of at most ){most:g} control periods \({limit:.3g} s\), "
-           r"in all {share:pct} of the judged time)")
-NEAR = (r"(?:; joint {near_joint} is within the error of its torque, {error:rough}, of that limit for up to {near:pct} of the "
-        r"judged time, {near_on_end:.3g} s on end)?")
+           r"|{parts:d} of {driven:d} joints? reach(?:es)? the limit of (?:its|their) (?:voltage|current|actuator): first {first_part}, "
+           r"at {first:.2f} s; (?:worst {worst}, )?(?:{share:part} of the judged time, up to {stretch:brief} on end from {from:.2f} s"
+           r"|{stretch:brief} on end from {from:.2f} s, (?:more than |of at most ){most:g} control periods \({limit:.3g} s\), "
+           r"in all {share:part} of the judged time)")
+NEAR = (r"(?:; joint {near_joint} is within the error of its torque, {error:rough}, of that limit for up to {near:part} of the "
+        r"judged time, {near_on_end:brief} on end)?")
 
 
 def dock_sentence(does, unit):
@@ -140,8 +150,8 @@ JUDGED = {
     "dock_bending": dock_sentence("bent", "N m"),
     "dock_torsion": dock_sentence("twisted", "N m"),
     "in_ground": r"no body goes through the ground|body {worst} goes {value:length} into the ground",
-    "slip": r"no foot slides under load|feet slide {value:pct} of the way under load, farthest {foot:words}, by {slid:.3g} of "
-            r"{way:.3g} m",
+    "slip": r"no foot slides under load|under load the weight slides {slip:length}, {value:pct} of the way of {way:length}; "
+            r"farthest foot {foot:words}, {slid:length}",
     "airborne": r"the ground carries less than {weight:pct} of the weight for {value:pct} of the judged time",
     "stability": r"a note: no foot bears a load for {aloft:pct} of the time; else the centre of mass stays {way:length} within the "
                  r"support polygon|statically stable: the centre of mass stays {way:length} within the support polygon"
@@ -201,7 +211,7 @@ NOT_JUDGED = (
     r"|the solver of contact\.law bullet keeps bodies apart and above the ground|no body has a shape, or the run has no poses"
     r"|{shaped:d} of {bodies:d} bodies have a shape|the start pose has its centre of mass in the ground"
     r"|judged only (?:above a ground|on a heightfield|on a plane without boxes)|the robot starts beside its heightfield"
-    r"|the module types state no battery|the robot has no dock|no foot bears a load"
+    r"|the robot has no dock|no foot bears a load"
     r"|not available with contact\.law: bullet, which yields impulses that do not all act at contact elements"
     r"|the robot goes {way:length}: less than {least_way:length} is not walking"
     r"|the robot goes {value:.3g} m (?:per period|in the judged time), less than {limit:.3g} m"
@@ -212,7 +222,8 @@ NOT_JUDGED = (
     r"ticks")
 SPREAD = (r"(?:; the motion is not predictable: of {rollouts:d} rollouts that differ by next to nothing "
           r"(?:the margin is {margin_low:pct} to {margin_high:pct}|{without:d} cannot be judged by this))?")
-EXPRESSIONS = {check: Expression(text if check == "outcome" else f"(?:{text}){SPREAD}") for check, text in JUDGED.items()}
+CERTAIN = r"(?:; certain, though torques are off by up to about {off_by:rough})?"
+EXPRESSIONS = {check: Expression(text if check == "outcome" else f"(?:{text}){SPREAD}{CERTAIN}") for check, text in JUDGED.items()}
 WHY_NOT = Expression(NOT_JUDGED)
 LACKS = Expression(MISSING)
 RESTS_ON = Expression(JUDGED["evidence"].removeprefix("judged over "))
@@ -222,7 +233,8 @@ OPEN_DOCK = {check: Expression(JUDGED[check]) for check in JUDGED if check.start
 
 def read(check, status, text):
     if check == "evidence" and status != "pass":
-        return LACKS.read(text)
+        found = [LACKS.read(one) for one in text.split("; and ")]
+        return None if None in found else [number for one in found for number in one]
     if status == "not judged":
         found = WHY_NOT.read(text)
         return OPEN_DOCK[check].read(text) if found is None and check in OPEN_DOCK else found

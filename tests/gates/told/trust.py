@@ -11,6 +11,7 @@ from told.record import LIMITS
 from told.window import set_point_cycle
 
 SETTLED, PERIODS, LEAST_TIME, BORNE, RESIDUAL, COARSE = 0.01, 3, 2.0, 0.5, 0.05, 0.10
+MOST_ERROR = 0.5  # of torques, with which a failure beyond its own error still decides
 ESTIMATE = 1e-3  # share of a period that may be missing from three periods
 
 
@@ -129,6 +130,9 @@ class Evidence:
         self.still = not self.moves(record, self.also["full"])
         self.long_enough = self.long_enough and not self.grows and not self.still
         self.untrusted, self.unborne = self.distrust(record), self.support(record, window)
+        self.inexact = self.untrusted == "torque error" and record.torque_errors().max() <= MOST_ERROR and (
+            abs(record.residual()) / record.energy_scale() <= RESIDUAL) and not (
+            record.adaptive and record.run["coarse_time"] / record.end > COARSE)
         self.borne = not self.unborne
         self.unknown = self.nobody_knows(record)
 

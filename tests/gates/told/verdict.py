@@ -101,7 +101,7 @@ class Judged:
             "tracking": motors.tracking(r, w), "stops": motors.stops(r, w), "setpoints": motors.setpoints(r, w),
             "start": motors.start(r, w), "collision": collision(r) if whole else None,
             "dock_tension": bodies.dock(r, "tension"), "dock_shear": bodies.dock(r, "shear"),
-            "dock_bending": bodies.dock(r, "bending"), "dock_torsion": bodies.dock(r, "torsion"), "battery": Told(),
+            "dock_bending": bodies.dock(r, "bending"), "dock_torsion": bodies.dock(r, "torsion"),
             "in_ground": in_ground(r), "slip": bodies.slip(r, w), "airborne": bodies.airborne(r, w),
             "stability": bodies.stability(r, w), "field": bodies.field(r, w), "periodic": trust.periodic(r, w, e),
             "evidence": Told(), "torque_error": trust.torque_error(r),
@@ -115,6 +115,7 @@ class Judged:
             told.span = told.span or ("whole run" if check in WHOLE else "window")
             told.can_fail = check in CAN_FAIL if told.can_fail is None else told.can_fail
             told.doubt = w.cycle.doubt()
+            told.also = {"off_by": r.torque_errors().max(initial=0)} | told.also
             if told.status == "not judged" or check == "outcome":
                 told.margin = np.nan
             self.spread(check, told)
@@ -156,10 +157,9 @@ class Judged:
         failing = [c for c in checks if c["status"] == "fail"]
         if status["outcome"] == "fail":
             return "failed"
-        trusted = not e.untrusted
-        if failing and trusted and (e.long_enough or any(c["span"] == "whole run" for c in failing)):
+        if any(map(self.decides, failing)):
             return "infeasible"
-        if failing or not (e.long_enough and e.borne and trusted) or "too close" in status.values():
+        if failing or not (e.long_enough and e.borne and not e.untrusted) or "too close" in status.values():
             return "not judged"
         if all(status[name] == "not judged" for name in GROUPS["motor"]):
             return "not judged"
@@ -167,14 +167,19 @@ class Judged:
             return "not judged"
         return "feasible"
 
+    def decides(self, check):
+        """True if a failure makes the gait infeasible. In a run that is too short, only checks of the whole run count; with inaccurate
+        torques, only failures beyond their errors."""
+        e = self.evidence
+        return check["status"] == "fail" and (e.long_enough or check["span"] == "whole run") and (
+            not e.untrusted or e.inexact and self.checks[check["id"]].certain)
 
     def decided_by(self, checks, word):
         """Ids of the checks that may decide `infeasible` or `failed`: failed checks of the robot as a whole, or those with the least
-        margin. In a run that is too short, only checks of the whole run count."""
+        margin."""
         if word not in ("infeasible", "failed"):
             return [None]
-        short = word == "infeasible" and not self.evidence.long_enough
-        return [by_urgency([c for c in checks if c["status"] == "fail" and (c["span"] == "whole run" or not short)])[0]["id"]]
+        return [by_urgency([c for c in checks if c["status"] == "fail" and (word == "failed" or self.decides(c))])[0]["id"]]
 
 
 def sentence(check):
@@ -292,20 +297,23 @@ def hear_evidence(judged, verdict):
     reason, _, so_far = verdict["reason"].partition("; so far: ")
     fails = by_urgency([c for c in verdict["checks"] if c["status"] == "fail"])
     close_ = by_urgency([c for c in verdict["checks"] if c["status"] == "too close"])
-    first = sentence(fails[0]) if fails and not judged.evidence.untrusted else ""
+    first = sentence(fails[0]) if fails else ""
     if so_far != first:
         wrong.append(f"reason: so far {so_far!r}, recomputed {first!r}")
     e = judged.evidence
-    lack = e.untrusted or ("short" if e.short else "grows" if e.grows else "moves nothing" if e.still else "")
-    lack = lack or e.unborne if not fails else lack
-    lack = e.unborne if lack and e.unborne in ("no gravity", "falls freely") else lack  # what no accuracy and no time mends
-    if lack and not any(words in reason for words in LACK[lack]):
-        wrong.append(f"reason: {reason!r}, recomputed {lack}")
+    lacks_ = [e.untrusted, "short" if e.short else "grows" if e.grows else "moves nothing" if e.still else "", e.unborne]
+    lacks_ = [e.unborne] if e.unborne in ("no gravity", "falls freely") else [one for one in lacks_ if one]
+    said = reason.split("; and ") if lacks_ else [reason]
+    if len(said) != max(1, len(lacks_)):
+        wrong.append(f"reason: {reason!r}, recomputed {lacks_}")
+    for lack, text in zip(lacks_, said):
+        if not any(words in text for words in LACK[lack]):
+            wrong.append(f"reason: {text!r}, recomputed {lack}")
     if reason in [c["text"] for c in close_[:1]] and not fails:
         return wrong
-    found = LACKS.read(reason)
-    if found is not None:
-        numbers(found, reason)
-    elif NO_MOTORS.read(reason) is None:
-        wrong.append(f"reason: no expression reads {reason!r}")
+    for text in said:
+        if (found := LACKS.read(text)) is not None:
+            numbers(found, text)
+        elif NO_MOTORS.read(text) is None:
+            wrong.append(f"reason: no expression reads {text!r}")
     return wrong

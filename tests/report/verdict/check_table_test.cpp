@@ -215,9 +215,8 @@ TEST(CheckTable, SpansDecideOfARunThatIsTooShort) {
 
 /// Checks have the documented spans. The span of `speed` depends on the limit that decides.
 TEST(CheckTable, HasItsSpans) {
-  const std::set<std::string> window{"progress", "voltage",  "current",         "envelope", "speed",
-                                     "stall",    "heat",     "gear_continuous", "tracking", "battery",
-                                     "slip",     "airborne", "stability",       "periodic", "evidence"};
+  const std::set<std::string> window{"progress",        "voltage",  "current", "envelope", "speed",     "stall",    "heat",
+                                     "gear_continuous", "tracking", "slip",    "airborne", "stability", "periodic", "evidence"};
   for (const CheckKind& kind : check_kinds())
     EXPECT_EQ(kind.span, window.contains(kind.id) ? CheckSpan::window : CheckSpan::whole_run) << kind.id;
 }
@@ -241,7 +240,7 @@ TEST(CheckTable, NotJudged) {
       {{"law", "voltage", "setpoints", "start", "ledger", "created", "supply"}, no_motors},
       {{"fall", "progress", "in_ground", "slip"}, no_ground},
       {{"collision", "in_ground"}, with_overlaps([](Overlaps& there) { there.shaped = 0; })},
-      {{"battery", "field", "torque_error"}, [](Case&) {}},
+      {{"field", "torque_error"}, [](Case&) {}},
       {{"step"}, [](Case& made) { made.record.control_ticks = 0; }},
       {{"coarse"}, [](Case& made) { made.record.simulated = 0; }},
   };

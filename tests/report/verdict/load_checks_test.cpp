@@ -170,7 +170,8 @@ TEST(LoadChecks, WarnOfFeetThatSlide) {
   EXPECT_EQ(with(5, 0.1).status, CheckStatus::warn) << "it never fails";
   EXPECT_EQ(with(kUnknownLimit, 0.1).status, CheckStatus::warn) << "not a number is not a pass";
   EXPECT_EQ(with(0.001, 0.005).status, CheckStatus::not_judged) << "it goes nowhere";
-  EXPECT_TRUE(contains(with(0.021, 0.1).text, "farthest m3/active, by 0.123 of 0.1 m")) << with(0.021, 0.1).text;
+  EXPECT_TRUE(contains(with(0.021, 0.1).text, "of the way of 100 mm; farthest foot m3/active, 123 mm"))
+      << with(0.021, 0.1).text;
   LoadCase lenient = crawl();
   lenient.scenario.limits.slip = 1e-6;
   EXPECT_EQ(lenient.check("slip").status, CheckStatus::warn);
@@ -184,7 +185,7 @@ TEST(LoadChecks, NameAFootByItsLeg) {
   }
   made.set("foot.m9/passive.slid", 0.123, made.last());
   const Check slip = made.check("slip");
-  EXPECT_TRUE(contains(slip.text, "farthest m9 front left, by 0.123 of ")) << slip.text;
+  EXPECT_TRUE(contains(slip.text, "farthest foot m9 front left, 123 mm")) << slip.text;
   EXPECT_EQ(slip.worst, "m9/passive");  // name of the body, by which the page finds the foot
 }
 

@@ -28,7 +28,7 @@ TEST(Verdict, OfAGaitThatTheMotorsCanDo) {
         "heat",     "tracking", "stops",        "setpoints", "start",   "collision", "in_ground", "airborne",
         "periodic", "evidence", "torque_error", "ledger",    "supply",  "step",      "coarse",    "law"})
     EXPECT_EQ(gait().status(id), CheckStatus::pass) << id << ": " << gait().check(id).text;
-  for (const char* const id : {"gear_peak", "gear_continuous", "dock_tension", "battery", "field"})
+  for (const char* const id : {"gear_peak", "gear_continuous", "dock_tension", "field"})
     EXPECT_EQ(gait().status(id), CheckStatus::not_judged) << id;
 }
 
@@ -59,7 +59,7 @@ TEST(Verdict, CountsJointsWithAMotor) {
   const Summary summary = summarise(s, record, 0);
   const Verdict made = verdict(s, record, summary, overlaps(s, record));
   const Check& voltage = *std::ranges::find(made.checks, std::string("voltage"), &Check::id);
-  EXPECT_TRUE(contains(voltage.text, "1 of 1 joint reaches the limit of its voltage; worst m0/arm: ")) << voltage.text;
+  EXPECT_TRUE(contains(voltage.text, "1 of 1 joint reaches the limit of its voltage: first m0/arm, at ")) << voltage.text;
   const std::string text = to_text(summary, s, record);
   EXPECT_TRUE(contains(text, "1 of 1 joint reaches a limit, m0/arm longest:")) << text;
 }
@@ -68,13 +68,13 @@ TEST(Verdict, CountsJointsWithAMotor) {
 /// or 1.7 % of the window.
 TEST(Verdict, TellsTheNumberThatDecided) {
   Case made = at_limit(kCurrentLimited, 4);
-  EXPECT_TRUE(contains(made.check("current").text, "worst m1/passive: 1.72 % of the judged time, up to 0.055 s on end"))
+  EXPECT_TRUE(contains(made.check("current").text, "; 1.72 % of the judged time, up to 0.055 s on end"))
       << made.check("current").text;
   made.scenario.limits.saturated_share = 0.05;
   EXPECT_EQ(made.status("current"), CheckStatus::fail);
-  EXPECT_TRUE(contains(
-      made.check("current").text,
-      "worst m1/passive: 0.055 s on end from 3.95 s, more than 3 control periods (0.045 s), in all 1.72 % of the judged time"))
+  EXPECT_TRUE(contains(made.check("current").text,
+                       ": first m1/passive, at 3.95 s; 0.055 s on end from 3.95 s, more than 3 control periods (0.045 s), in "
+                       "all 1.72 % of the judged time"))
       << made.check("current").text;
 }
 

@@ -83,7 +83,10 @@ export function walked(run: Run): Fact[] {
   const { summary, cycle, ground } = meta;
   const facts = load(run);
   const walks = ground.kind !== "none";
-  if (walks && summary.speed) facts.push(["Speed", number(100 * summary.speed, 3, "m"), "cm/s"]);
+  const fast = (summary.speed ?? 0) >= 1;
+  if (walks && summary.speed) {
+    facts.push(["Speed", number(summary.speed * (fast ? 1 : 100), 3, "m"), fast ? "m/s" : "cm/s"]);
+  }
   const cost = summary.cost_of_transport?.electrical ?? null;
   if (walks && cost) facts.push(["Cost of transport", number(cost)]);
   if (cycle) facts.push(["Period", number(cycle.period, 4), "s"]);
