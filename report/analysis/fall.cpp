@@ -157,6 +157,7 @@ std::optional<Fall> fall(const Scenario& scenario, const Recording& r) {
   for (std::size_t row = 0; found.share < limit && row < height.size() && !found.time; ++row) {
     if (height[row] / standing < limit && share(row) < limit) found.time = states.time(row);
   }
+  found.stays = found.time && share(height.size() - 1) < limit;
   return found;
 }
 

@@ -19,6 +19,7 @@ struct Fall {
   double share = 0;                 ///< lowest over the height it is compared with
   bool told = false;                ///< true if that is the height of the set points' pose
   std::optional<double> time = {};  ///< s, first tick with a share below Limits::height; empty if the robot did not fall
+  bool stays = false;               ///< true if the share is below that limit at the last tick, too
 };
 
 /// Heights at control ticks (States::at_ticks), m. Empty if the folder has no poses.

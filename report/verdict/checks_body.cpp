@@ -80,6 +80,10 @@ void height(const CheckedRun& run, Check& made) {
       fmt::format("the robot falls at {:.2f} s: the centre of mass comes {}", made.from,
                   run.fall->lowest < 0 ? fmt::format("{:.3g} m below the ground", -run.fall->lowest) : "down to " + share);
   made.first = made.from;
+  if (run.fall->stays) {
+    made.text += ", and does not rise again";
+    made.to = run.record.simulated;
+  }
   made.remedy = "take a gait with more support";
 }
 

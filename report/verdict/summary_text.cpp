@@ -101,6 +101,8 @@ std::string start_warning(const Scenario& scenario) {
                       "position: [{}, {}] lowers the robot onto the ground there",
                       number_text(start.position.z()), number_text(start.position.x()), number_text(start.position.y()));
   }
+  if (scenario.contact.on == ContactSet::all)
+    return deep + "its shapes reach below their contact elements, of which a cylinder has 8 on each rim; turn or move it";
   return deep + fmt::format("only the elements of contact.on: {} touch it; is it upside down?",
                             scenario.contact.on == ContactSet::feet ? "feet" : "none");
 }

@@ -121,7 +121,9 @@ def fall(record, window):
     below = np.flatnonzero(share < limit)
     told.start, told.end = t[below[0]] if len(below) else t[low], t[low]
     told.first = told.start if len(below) else np.nan
-    told.also = {"below": -height[low]}
+    if len(below) and share[-1] < limit:
+        told.end = record.end
+    told.also = {"below": -height[low], "stays": "not rise again" if len(below) and share[-1] < limit else None}
     return told
 
 

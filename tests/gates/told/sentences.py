@@ -117,7 +117,7 @@ JUDGED = {
     "outcome": r"the run came to its end|(?s:.+)",
     "fall": r"the centre of mass keeps at least {value:pct} of " + HEIGHT +
             r"|the robot falls at {from:.2f} s: the centre of mass comes (?:down to {value:pct} of " + HEIGHT +
-            r"|{below:.3g} m below the ground)",
+            r"|{below:.3g} m below the ground)(?:, and does {stays:words})?",
     "progress": r"the robot goes {value:.3g} m (?:per period|in the judged time)(?:, less than {limit:.3g} m)?"
                 r"|the robot slides down: gravity does {fallen:.3g} J of work, the motors {driven:.3g} J, and its speed grows "
                 r"{value:.3g} times from the first half of the judged time to the second",
