@@ -95,19 +95,19 @@ double contact_size(const Subject& subject) {
 }
 
 std::vector<Finding> stiffnesses(const Subject& subject) {
-  constexpr double kFeet = 4;  // elements that carry the robot
   const Scenario& s = subject.scenario;
+  const double feet = std::max(4.0, static_cast<double>(s.robot->modules.size()));  // elements that carry the robot
   const double size = stands(s) && s.contact.model().penalty_settings ? contact_size(subject) : 0;
   if (!(size > 0)) return {};
-  const double load = s.robot->mass * kGravity / kFeet;  // N
+  const double load = s.robot->mass * kGravity / feet;  // N
   const auto sink = [load, k = s.contact.penalty.k](double stiffness) { return std::pow(load / stiffness, 1 / k); };
   const double kn = s.contact.penalty.kn;
   return {
       {s.nearest_place("contact.stiffness"),
        with_bodies(s, "contact.stiffness"),
-       fmt::format("contact.stiffness is {}: four contact elements under the weight of the robot ({:.3g} kg) sink by {:.3g} m, "
+       fmt::format("contact.stiffness is {}: {} contact elements under the weight of the robot ({:.3g} kg) sink by {:.3g} m, "
                    "and the largest element or its body measures {:.3g} m",
-                   number_text(kn), s.robot->mass, sink(kn), size),
+                   number_text(kn), feet, s.robot->mass, sink(kn), size),
        sink(kn) / size,
        [sink, size, kn](const Slip& slip) { return sink(slip.corrected(kn)) / size; },
        {},

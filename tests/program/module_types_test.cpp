@@ -178,8 +178,8 @@ TEST(ModuleTypes, AHingeHasAMotorOfItsOwn) {
 TEST(ModuleTypes, AHingeThatTurnsFreelyHasNoEnd) {
   const std::string wheel = cube("2", "cube", faces(), kMotor, "range: free");
   const std::string text = robot(wheel, "cube", "[]");
-  const Scenario s = scenario(text, {"cpg.type=sine", "cpg.amplitude=0", "cpg.offset=12", "cpg.model.ramp=6", "duration=6",
-                                     "contact.on=none", "ground.type=none", "robot.base=fixed"});
+  const Scenario s = scenario(text, {"cpg={type: equations, model: {output: \"2*t\"}}", "duration=6", "contact.on=none",
+                                     "ground.type=none", "robot.base=fixed"});
   for (const std::string& engine : catalog().engines()) {
     Scenario one = s;
     one.physics.engine = catalog().engine(engine);
