@@ -128,9 +128,10 @@ bool RemedySettings::changes_in_time(const std::string& path) const {
 
 std::string RemedySettings::missing(const RemedyKey& key) const {
   for (const char* path : key.paths) {
-    if (std::ranges::none_of(numbers(path), [](double value) { return value != 0; }))
+    if (std::ranges::none_of(numbers(path), [](double value) { return value != 0; })) {
       return find("actuator.voltage") != nullptr && std::string_view(path) == "actuator.i_max" ? "0: the stall current at u_max"
                                                                                                : "missing or 0";
+    }
     if (changes_in_time(path)) return "set by `at`";
   }
   return "";

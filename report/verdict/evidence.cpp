@@ -128,8 +128,8 @@ std::string changed_limits(const Limits& limits) {
     const SettingsNumbers::Found& one = given.all()[k];
     const double by_default = preset.all()[k].value.common;
     if (one.value.common == by_default) continue;
-    changed.push_back(fmt::format("{} {} of the scenario, {:.4g} by default", one.key,
-                                  with_unit(one.value.common, one.unit.c_str()), by_default));
+    changed.push_back(
+        fmt::format("{} {} of the scenario, {:.4g} by default", one.key, with_unit(one.value.common, one.unit), by_default));
   }
   return changed.empty() ? "" : fmt::format("limits: {}", fmt::join(changed, "; "));
 }
@@ -183,9 +183,10 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made, std::vec
   if (s.physics.estimated_by_others) {
     unknown.emplace_back("the error of the torques, which the study estimates at other points");
   } else if (s.physics.estimate == Estimate::off) {
-    if (made.not_trusted.empty())
+    if (made.not_trusted.empty()) {
       made.not_trusted = {"the error of the torques is not estimated; take physics.estimate: full", "physics.estimate", "",
                           "physics.estimate=full"};
+    }
   } else {
     unknown.emplace_back("the error of the torques");
   }

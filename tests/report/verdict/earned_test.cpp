@@ -124,7 +124,7 @@ TEST(Earned, ADropAtTheStartIsNoSlide) {
 
 /// Robots that come down onto a flat plane, in the judged time too, and go faster then.
 TEST(Earned, ADropOntoAPlaneIsNoSlide) {
-  const auto text = [](const std::string& robot, std::vector<std::string> sets) {
+  const auto text = [](const std::string& robot, const std::vector<std::string>& sets) {
     const Told dropped(shipped(robot, sets));
     EXPECT_NE(dropped.check("progress").status, CheckStatus::fail);
     return dropped.check("progress").text;

@@ -14,7 +14,7 @@ Verdict word_of(const Scenario& s) {
 
 /// A pair of links that crawls on the ground. Its masses, inertias and motor are parameters.
 struct Links {
-  std::string mass = "0.1", inertia = "", motor = "stall_torque: 1, no_load_speed: 10", more = "";
+  std::string mass = "0.1", inertia = {}, motor = "stall_torque: 1, no_load_speed: 10", more = {};
   [[nodiscard]] std::string text() const {
     const std::string body =
         "mass: " + mass + (inertia.empty() ? "" : fmt::format(", inertia: [{0}, {0}, {0}, 0, 0, 0]", inertia));
