@@ -120,6 +120,11 @@ class Gate:
             wrong.append(f"counts {verdict['counts']}, recomputed {dict(counts)}")
         if verdict["decided_by"] not in judged.decided_by(verdict["checks"], word):
             wrong.append(f"decided by {verdict['decided_by']}, recomputed {judged.decided_by(verdict['checks'], word)}")
+        timed = [c for c in verdict["checks"] if c["status"] == "fail" and c["first"] is not None]
+        events = sorted((c["first"], c["id"], c["first_part"] or c["worst"]) for c in timed)
+        if sorted((e["time"], e["check"], e["part"]) for e in verdict["events"]) != events or any(
+                a["time"] > b["time"] for a, b in zip(verdict["events"], verdict["events"][1:])):
+            wrong.append(f"events {verdict['events']}, recomputed {events}")
         first = verdict["first"]
         if (first is None) != ("first" not in known) or first and (
                 first["joint"] not in known["first"] or first["time"] != known["first_time"]):

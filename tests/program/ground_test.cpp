@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/simulation/start.h"
+#include "report/verdict/summary_text.h"
 #include "tests/oracles/blocks.h"
 #include "tests/program/block.h"
 #include "tests/program/engines.h"
@@ -153,6 +154,30 @@ TEST(GroundStart, SaysWhyTheRobotIsDeepInTheGround) {
       stands(", orientation: [3.141592653589793, 0, 0]").err,
       "s.yaml: warning: the robot starts 0.13 m deep in the ground: only the elements of contact.on: feet touch it; is it "
       "upside down?\n");
+}
+
+/// A lying cylinder, turned by half the angle between two contact elements of its rims, reaches below them.
+TEST(GroundStart, ShapesReachBelowTheirElements) {
+  const Scenario s = scenario(R"(
+gaitlab: 1
+robot:
+  modules:
+    gaitlab_module: 3
+    name: foot
+    bodies:
+      body: {mass: 1, shape: [{box: [0.2, 0.2, 0.05], origin: [0, 0, 0.2]}]}
+      leg: {mass: 0.5, shape: [{cylinder: [0.115, 0.1], rpy: [0, 0.3927, 0]}]}
+    hinges: [{name: hip, parent: body, child: leg, axis: [0, 1, 0], range: [-1, 1]}]
+    contacts: {all: shapes}
+actuator: {type: none}
+contact: {on: all}
+duration: 1
+)");
+  const std::string warning = report::start_warning(s);
+  EXPECT_TRUE(
+      warning.ends_with("its shapes reach below their contact elements, of which a cylinder has 8 on each rim; turn or "
+                        "move it"))
+      << warning;
 }
 
 TEST(GroundStart, LowersTheRobotOntoWhatIsBelow) {

@@ -8,6 +8,7 @@
 #include "report/verdict/load_checks.h"
 #include "tests/oracles/blocks.h"
 #include "tests/program/block.h"
+#include "tests/program/dense_bending.h"
 #include "tests/program/engines.h"
 #include "tests/program/random_scenario.h"
 
@@ -234,19 +235,9 @@ duration: 0.3
 trace: {{period: 2e-4, columns: [reaction.m1/dock.*]}}
 )",
                                                                GetParam())));
-  const Table table(record.trace);
-  double dense = 0;
-  double at_ticks = 0;
-  for (std::size_t row = 0; row < record.trace.rows(); ++row) {
-    const double bending = std::hypot(table.at(row, "reaction.m1/dock.mx"), table.at(row, "reaction.m1/dock.my"),
-                                      table.at(row, "reaction.m1/dock.mz"));  // there is no torsion
-    dense = std::max(dense, bending);
-    if (row % 75 == 0) at_ticks = std::max(at_ticks, bending);
-  }
-  double watched = 0;
-  for (std::size_t row = 0; row < record.loads.rows(); ++row) watched = std::max(watched, load(record, row, "dock.1.bending"));
-  EXPECT_LT(at_ticks, 0.8 * dense) << "control ticks alone miss it";
-  EXPECT_NEAR(watched, dense, 0.05 * dense);
+  const DenseBending bending(record, 75);
+  EXPECT_LT(bending.at_ticks, 0.8 * bending.dense) << "control ticks alone miss it";
+  EXPECT_NEAR(bending.watched, bending.dense, 0.05 * bending.dense);
 }
 
 /// A pendulum whose rotor has the inertia of the rod, m l^2 / 3, and whose motor has no torque. The gear passes on what turns

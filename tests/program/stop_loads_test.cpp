@@ -1,7 +1,5 @@
 // Loads of docks at the moment when a hinge meets its stop.
-#include <cmath>
-
-#include "core/recording/recording_file.h"
+#include "tests/program/dense_bending.h"
 #include "tests/program/engines.h"
 #include "tests/program/fixture.h"
 
@@ -48,21 +46,10 @@ trace: {{period: 5e-5, columns: [reaction.m1/dock.*]}}
     Simulation simulation({&s, 1}, Loads::recorded);
     simulation.run();
     const Recording record = simulation.take_recording(0);
-    const Table table(record.trace);
-    double dense = 0;
-    double at_ticks = 0;
-    for (std::size_t row = 0; row < record.trace.rows(); ++row) {
-      const double bending = std::hypot(table.at(row, "reaction.m1/dock.mx"), table.at(row, "reaction.m1/dock.my"),
-                                        table.at(row, "reaction.m1/dock.mz"));  // there is no torsion
-      dense = std::max(dense, bending);
-      if (row % 300 == 0) at_ticks = std::max(at_ticks, bending);
-    }
-    const Table loads(record.loads);
-    double watched = 0;
-    for (std::size_t row = 0; row < record.loads.rows(); ++row) watched = std::max(watched, loads.at(row, "dock.1.bending"));
-    EXPECT_LT(at_ticks, 0.8 * dense) << "control ticks alone miss it";
-    EXPECT_GT(watched, 0.99 * dense) << range;
-    EXPECT_LT(watched, 1.25 * dense) << range;  // the load falls by up to a fifth between two rows
+    const DenseBending bending(record, 300);
+    EXPECT_LT(bending.at_ticks, 0.8 * bending.dense) << "control ticks alone miss it";
+    EXPECT_GT(bending.watched, 0.99 * bending.dense) << range;
+    EXPECT_LT(bending.watched, 1.25 * bending.dense) << range;  // the load falls by up to a fifth between two rows
   }
 }
 

@@ -127,57 +127,6 @@ TEST(CheckEvidence, TooClose) {
   }
 }
 
-/// A failure by more than the error of the torques decides, although that error is above limits.torque_error. Other failures
-/// are reported beside the missing evidence.
-TEST(CheckEvidence, AFailureBeyondTheErrorDecides) {
-  const auto with = [](double error, double from) {
-    Case made = rated_gait();
-    off(error)(made);
-    grow(made, kVoltageLimited, 1, from, 12);
-    made.scenario.limits.saturated_share = 0.1;
-    made.scenario.limits.saturated_periods = 1000;
-    return made.judged();
-  };
-  const double window = 8;
-  const Verdict surely = with(0.085, 12 - 0.12 * window);
-  EXPECT_EQ(surely.word, Word::infeasible) << surely.why();
-  EXPECT_EQ(surely.decided_by, "voltage");
-  EXPECT_TRUE(contains(surely.why(), "; certain, though torques are off by up to about 8.5 %")) << surely.why();
-  const Verdict perhaps = with(0.085, 12 - 0.105 * window);
-  EXPECT_EQ(perhaps.word, Word::not_judged);
-  EXPECT_TRUE(contains(perhaps.why(),
-                       "is off by about 8.5 % of its peak, more than 5 %; take physics.accuracy: 0.0005; so "
-                       "far: 1 of 16 joints reaches"))
-      << perhaps.why();
-  EXPECT_EQ(perhaps.retry, std::vector<std::string>{"physics.accuracy=0.0005"});
-  EXPECT_TRUE(perhaps.retry_is_finer);
-  EXPECT_EQ(with(0.499, 4).word, Word::infeasible);
-  EXPECT_EQ(with(0.501, 4).word, Word::not_judged) << "an error of half the torque shows nothing";
-  const auto tracking = [](double error) {
-    Case made = gait();
-    off(error)(made);
-    made.scenario.limits.tracking_error = 1e-6;
-    return made.judged().word;
-  };
-  EXPECT_EQ(tracking(0.049), Word::infeasible);
-  EXPECT_EQ(tracking(0.051), Word::not_judged) << "the error of this number is not known";
-}
-
-/// Everything that is missing is in one sentence, and in the settings of the next run.
-TEST(CheckEvidence, AllLacksAreNamed) {
-  Case made = walk();
-  made.scenario.limits.tracking_error = 1e-6;
-  made.record.tally.torque_error[0] = 0.085 * made.record.tally.torque_peak[0];
-  const Verdict verdict = made.judged();
-  EXPECT_EQ(verdict.word, Word::not_judged);
-  EXPECT_TRUE(contains(verdict.reason,
-                       "take physics.accuracy: 0.0005; and 4 s are 1 of a gait's 3 periods of 4 s; take "
-                       "duration: 12; so far: joint "))
-      << verdict.reason;
-  EXPECT_EQ(verdict.retry, (std::vector<std::string>{"physics.accuracy=0.0005", "duration=12"}));
-  EXPECT_FALSE(verdict.retry_is_finer) << "the user has chosen the duration";
-}
-
 /// A motor is too close to its limit if the torque, increased by its error, would reach the limit.
 TEST(CheckEvidence, TooCloseToTheLimitOfAMotor) {
   const auto with = [](double error, double peak, double current) {

@@ -31,6 +31,13 @@ TEST(NumberTexts, SharesHaveNoPowersOfTen) {
   EXPECT_EQ(texts::rough_percent(1e-9), "0.0001 % and less");
 }
 
+TEST(NumberTexts, SharesOfATimeConsistOfSteps) {
+  EXPECT_EQ(texts::share_of_time(0.1234), "12.3 %");
+  EXPECT_EQ(texts::share_of_time(1.01e-4), "0.0101 %");
+  EXPECT_EQ(texts::share_of_time(0.99e-4), "less than 0.01 %");
+  EXPECT_EQ(texts::share_of_time(0), "0 %");
+}
+
 TEST(NumberTexts, LengthsAreInTheUnitOfTheirSize) {
   EXPECT_EQ(texts::length(0), "0 mm");
   EXPECT_EQ(texts::length(0.005234), "5.23 mm");
