@@ -120,27 +120,42 @@ void print_files(const RunArguments& arguments, const std::filesystem::path& fol
                {"", "scenario.resolved.yaml, figure.svg"}});
 }
 
-/// Arguments of the more accurate run that replaces a run without a verdict, if it is cheap. Its arguments name a file, unlike
-/// those of a run of a study.
-std::optional<RunArguments> more_accurate(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
-                                          const RowsNeeded& rows, const RunArguments& arguments) {
+/// Arguments of the more accurate run that replaces the `first` run without a verdict, if it is cheap. A run of a study, which
+/// has no file, is not replaced, and neither is a run whose file has changed since. `seen` is `first` with the rows that the
+/// recording has kept.
+std::optional<RunArguments> more_accurate(const Scenario& first, const Scenario& seen, const Recording& recording,
+                                          const report::Summary& summary, const RowsNeeded& rows,
+                                          const RunArguments& arguments) {
   if (arguments.no_retry || arguments.file.empty() || !recording.outcome.done()) return {};
-  const report::Verdict own = report::verdict(scenario, recording, summary, report::overlaps(scenario, recording));
+  const report::Verdict own = report::verdict(seen, recording, summary, report::overlaps(seen, recording));
   if (!own.retry_is_finer) return {};
   RunArguments again = arguments;
   again.no_retry = true;
   again.sets.insert(again.sets.end(), own.retry.begin(), own.retry.end());
-  Catalog catalog = standard_catalog();  // the plugins of the run are already loaded
-  if (estimated_seconds(read(again, catalog), rows) >= kLongRun) return {};
+  try {
+    Catalog catalog = standard_catalog();  // the plugins of the run are already loaded
+    Scenario same = read(arguments, catalog);
+    draw_joints(same, arguments.joints);
+    if (resolved(same) != resolved(first) || estimated_seconds(read(again, catalog), rows) >= kLongRun) return {};
+  } catch (const InputError&) {
+    return {};
+  }
   if (!arguments.quiet) {
-    say(scenario.file, "note",
+    say(first.file, "note",
         fmt::format("not judged: {}; simulated again with {} (--no-retry keeps the first run)", own.reason,
                     fmt::join(own.retry, " ")));
   }
   return again;
 }
 
-int run_into(RunFolder& folder, const RunArguments& arguments);
+/// Reads a scenario and its further draws, and returns the exit code of `use(scenario, draws)`.
+template <class Use>
+int with_scenario(const RunArguments& arguments, const Use& use) {
+  Catalog catalog = careful_catalog({.from_scenario = true, .files = arguments.libraries});
+  Scenario scenario = read(arguments, catalog);
+  draw_joints(scenario, arguments.joints);
+  return use(scenario, other_draws(scenario, arguments, catalog));
+}
 
 /// Runs a scenario and its draws, and writes the folder. Returns the exit code.
 int run_into(RunFolder& folder, const Scenario& scenario, const RunArguments& arguments, std::span<const Scenario> draws) {
@@ -171,10 +186,12 @@ int run_into(RunFolder& folder, const Scenario& scenario, const RunArguments& ar
     made = summarised();
   } catch (const std::bad_alloc&) {  // the trace is written first, then the summary is computed again
   }
-  if (const auto again = made ? more_accurate(seen, recording, *made, rows, arguments) : std::nullopt) {
+  if (const auto again = made ? more_accurate(scenario, seen, recording, *made, rows, arguments) : std::nullopt) {
     recording = {};
     all.reset();
-    return run_into(folder, *again);
+    return with_scenario(*again, [&](const Scenario& finer, const std::vector<Scenario>& others) {
+      return run_into(folder, finer, *again, others);
+    });
   }
   if (made) take_spread(scenario, recording, *made, arguments.quiet);
   const bool complete = made ? take_draws(scenario, draws, arguments, recording, *made) : draws.empty();
@@ -211,20 +228,11 @@ int run_into(RunFolder& folder, const Scenario& scenario, const RunArguments& ar
   return 1;
 }
 
-int run_into(RunFolder& folder, const RunArguments& arguments) {
-  Catalog catalog = careful_catalog({.from_scenario = true, .files = arguments.libraries});
-  Scenario scenario = read(arguments, catalog);
-  draw_joints(scenario, arguments.joints);
-  return run_into(folder, scenario, arguments, other_draws(scenario, arguments, catalog));
-}
-
 }  // namespace
 
 int run(const RunArguments& arguments) {
-  Catalog catalog = careful_catalog({.from_scenario = true, .files = arguments.libraries});
-  Scenario scenario = read(arguments, catalog);
-  draw_joints(scenario, arguments.joints);
-  return run(scenario, arguments, other_draws(scenario, arguments, catalog));
+  return with_scenario(
+      arguments, [&](const Scenario& scenario, const std::vector<Scenario>& draws) { return run(scenario, arguments, draws); });
 }
 
 int run(const Scenario& scenario, const RunArguments& arguments, std::span<const Scenario> draws) {
