@@ -41,6 +41,10 @@ struct CheckedRun {
     return scenario.robot->joints[joint].driven() && !faulty(joint, span);
   }
   [[nodiscard]] bool driven() const { return !motors.of_joint.empty(); }
+  /// Relative error of a joint's torque, which is also that of its current; 0 if not estimated.
+  [[nodiscard]] double torque_error(std::size_t joint) const;
+  /// Addition to the source of a threshold: the sources of the motor values.
+  [[nodiscard]] std::string of_motors() const;
   /// Reason why checks that read this column of Recording::ticks cannot be judged; empty if they can.
   [[nodiscard]] std::string unknown(TickColumn column) const;
 };

@@ -17,7 +17,7 @@ constexpr double kAtRest = 0.05;    // share of the no-load speed
 constexpr double kLeastRest = 0.1;  // s, time at rest that counts
 constexpr double kNeverBeyond = std::numeric_limits<double>::infinity();
 constexpr double kRoundedDown = 1 - 1e-9;  // tolerance of a time that is a difference
-constexpr double kMostAtRest = 0.5;  // share of the stall torque, RMS, without a warning (chosen: that of the largest power)
+constexpr double kMostAtRest = 0.5;  // share of the stall torque, RMS, without a warning (chosen: as at the largest power)
 
 /// Torque of a joint at rest, N m.
 struct Held {
@@ -66,7 +66,7 @@ struct Rest {
   [[nodiscard]] double rms() const { return held.rms / stall; }
 };
 
-/// Every joint with a stall torque. A motor whose own law holds no more than that has no error bar.
+/// Every joint with a stall torque; without an error bar if the motor's own law stays within it.
 std::vector<Rest> rests(const CheckedRun& run, Check& made) {
   constexpr double kEqual = 1 + 1e-9;
   std::vector<Rest> all;
@@ -82,8 +82,7 @@ std::vector<Rest> rests(const CheckedRun& run, Check& made) {
       one.held.stretch = std::min(one.held.stretch, one.stall);
       one.held.first = kNeverBeyond;
     }
-    const double error = bounded || j >= run.torque_errors.size() ? 0 : run.torque_errors[j];
-    one.bar = ErrorBar::around(run.joint(j), one.most(), error);
+    one.bar = ErrorBar::around(run.joint(j), one.most(), bounded ? 0 : run.torque_error(j));
     all.push_back(one);
   }
   return all;

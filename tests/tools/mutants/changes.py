@@ -5,7 +5,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 VERDICT = [f"report/verdict/{name}.cpp" for name in (
-    "check_kinds", "checks_body", "checks_gait", "checks_motor", "checks_trust", "error_bar", "evidence", "load_checks", "trust",
+    "check_kinds", "checks_body", "checks_gait", "checks_limits", "checks_motor", "checks_stall", "checks_trust", "error_bar", "evidence", "load_checks", "trust",
     "verdict", "warnings")]
 ANALYSIS = [f"report/analysis/{name}.cpp" for name in ("collisions", "fall", "motion", "posture", "upright")]
 HEADERS = ["report/verdict/error_bar.h", "report/verdict/evidence.h", "report/analysis/posture.h", "report/analysis/gait.h"]
