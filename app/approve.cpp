@@ -214,7 +214,7 @@ void check_law(const Scenario& scenario) {
                                contact.text));
 }
 
-/// A golden of means over starts holds no columns, which may be too many to miss.
+/// Refuses --columns for a golden of means over starts, which holds numbers alone.
 void check_columns(const GoldenRun& base, const ApproveArguments& arguments) {
   if (base.starts == 1 || arguments.columns.empty()) return;
   throw InputError(SourceLocation{"--columns"}, "a sensor has a resolution, so that this golden holds numbers and no columns");

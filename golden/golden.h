@@ -17,7 +17,7 @@ struct Band {
   double ensemble = 0;
   double halving = 0;   ///< 3 x the change caused by halving the step
   double floor = 0;     ///< lower limit, above the effect of rounding by other builds
-  double constant = 0;  ///< natural scale of a constant column, in its unit, of which the parts are shares; else 0 (bands.h)
+  double constant = 0;  ///< natural scale of a constant column, in its unit: the parts are shares of it; else 0 (bands.h)
   [[nodiscard]] double width() const;
 };
 

@@ -10,7 +10,7 @@
 
 namespace gaitlab::golden {
 
-/// The scenario with the columns of a golden as its `trace.columns`: those that a pattern of `selected` matches or, if it is
+/// The scenario with the columns of a golden as its `trace.columns`: columns that a pattern of `selected` matches or, if it is
 /// empty, those of the usual columns that the scenario's own `trace.columns` match; and those that `before` has, if the run can
 /// have them. Usual are torque, current and angle of every joint (only the angle without motors) and the pose of the base.
 /// Throws InputError for a pattern that matches no column, and for a `trace.columns` that matches no usual column.

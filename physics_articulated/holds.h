@@ -58,7 +58,7 @@ class Holds {
   using Hold = BasicHingeHold<T>;
 
   bool any_ = false;
-  std::vector<math::Mask<T>> held_;  ///< lanes in which the hinge is stuck, by joint
+  std::vector<math::Mask<T>> held_;  ///< lanes with a stuck hinge, by joint
   std::vector<T> angle_, since_;     ///< rad; s, time stuck at the start of the step
   std::vector<T> grip_;
 };

@@ -48,7 +48,7 @@ struct Limits {
 template <class T>
 struct Level {
   std::vector<T> start;
-  double at = 0;  ///< s, time of the start after that of the whole step
+  double at = 0;  ///< s, time of the start since the whole step began
   Way<T> whole, halves, quarters, half, quarter, early;
   Limits<T> limits;  ///< after the first two quarters
 };

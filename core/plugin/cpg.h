@@ -18,8 +18,8 @@ struct Measured {
 /// Times that a model states about its set points, s. 0 stands for a time that it does not state.
 struct SetPointTimes {
   double period = 0;  ///< after which they repeat
-  /// From which on they keep their size, as after a ramp; infinite if they grow for ever. If a model without states states this
-  /// time, its ramp scales the motion about the set points at t = 0, where a robot without initial.angles starts.
+  /// From which on they keep their size, as after a ramp; infinite if they grow for ever. A ramp of a model without states
+  /// scales the motion about the set points at t = 0, and a robot without initial.angles starts there.
   double full_size = 0;
 };
 

@@ -22,7 +22,7 @@ struct FaultInForce {
 
 /// CPG, controller and faults of a lane by segment. Segment k begins with the k-th entry of `at`, at the first control tick at
 /// or after its time; segment 0 is the start. All numbers that change are in the array of bind(): the present segment, the
-/// angles of stuck joints and the ticks at which they got stuck, and the set points of the last ticks. Allocates at
+/// angles of stuck joints and the ticks of their jams, and the set points of the last ticks. Allocates at
 /// construction only.
 class LaneChanges {
  public:

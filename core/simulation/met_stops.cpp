@@ -60,7 +60,7 @@ int Simulation::met_stop(const Lane& lane, std::size_t joint, In from) const {
   for (const int side : {-1, 1}) {
     const double limit = side > 0 ? own.hi : own.lo;
     const double before = side * (q - limit);
-    if (!(before < 0)) continue;  // it was beyond already, or there is no stop
+    if (!(before < 0)) continue;  // it was beyond already, or without a stop
     const double reach = h_ * std::max(side * v, -side * v_end);
     const bool turns = side * v > 0 && side * v_end < 0 && before + reach > 0;
     if (turns || side * (q_end - limit) > 0) return side;
@@ -92,8 +92,8 @@ void Simulation::watch_stops() {
   if (any) std::ranges::copy(history, plant_history_.begin());
 }
 
-/// Searches the first time at which the joint is beyond its stop, by Newton's method along its free motion, and measures the
-/// loads there.
+/// Searches the first time of the joint beyond its stop, by Newton's method along its free motion, and measures the loads
+/// there.
 void Simulation::watch_stop(const Lane& lane, std::size_t joint, int side) {
   const std::size_t at = joint * lanes_.size() + lane.index;
   const double limit = side > 0 ? lane.robot.joints[joint].hi : lane.robot.joints[joint].lo;

@@ -36,7 +36,7 @@ struct Envelope {
   std::string unit;                        ///< unit of the command: V or N m
   std::optional<double> command, current;  ///< largest useful command; largest current, A, if it is limited
   std::optional<double> rest, no_load;     ///< torque at rest, N m; no-load speed, rad/s
-  /// Stall torque of a DC motor at its supply, N m: eta Kt n u_max / R, and at most that of its data sheet. It does not depend
+  /// Stall torque of a DC motor at its supply, N m: eta Kt n u_max / R, and at most the data sheet's. It does not depend
   /// on the model of the gear's efficiency.
   std::optional<double> stall;
   std::vector<double> speed, most, least;  ///< rad/s; N m at the largest positive and at the largest negative command

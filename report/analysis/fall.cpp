@@ -63,7 +63,7 @@ Ground fixed_ground(const Scenario& scenario) {
   return scenario.contact.model().moves_boxes ? scenario.ground.without_moving_boxes() : scenario.ground;
 }
 
-/// Heights of the poses that the set points ask for, at the rows of States::at_ticks.
+/// Heights of the poses of the set points, at the rows of States::at_ticks.
 class ToldPoses {
  public:
   ToldPoses(const Scenario& scenario, const Recording& r)
@@ -78,7 +78,7 @@ class ToldPoses {
   /// True if the recording has set points, and the robot contact elements to stand on.
   [[nodiscard]] bool known() const { return !setpoints_.empty(); }
   /// Angles beyond the range of a hinge count as its end, because no motor reaches them. The pose is upright: the mean
-  /// orientation of all links, by mass, is that of the start. (The base alone does not show this: it may be the raised end of a
+  /// orientation of all links, by mass, is as at the start. (The base alone does not show this: it may be the raised end of a
   /// snake.)
   double operator()(std::size_t row) {
     for (std::size_t j = 0; j < setpoints_.size(); ++j)

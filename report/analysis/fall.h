@@ -10,16 +10,16 @@ namespace gaitlab::report {
 
 /// Heights of a robot on a ground, and its fall. A height is that of the centre of mass above the mean height of the surfaces
 /// below the contact elements of contact.on (Ground::surface_below). Without contact elements it is measured from the surface
-/// below the centre of mass. The height at each tick is compared with the lower of two: that of the start pose, and that of the
-/// pose of its set points (within the ranges of the hinges) upright, on its lowest contact elements: a
-/// robot that lowers itself as it is told does not fall.
+/// below the centre of mass. The height at each tick is compared with the lower of two heights: in the start pose, and in the
+/// pose of the set points (within the ranges of the hinges), upright on its lowest contact elements. A robot that follows its
+/// set points down does not fall.
 struct Fall {
   double lowest = 0;                ///< m, height at the tick with the least share
   double lowest_time = 0;           ///< s, time of that tick
   double share = 0;                 ///< lowest over the height it is compared with
   bool told = false;                ///< true if that is the height of the set points' pose
   std::optional<double> time = {};  ///< s, first tick with a share below Limits::height; empty if the robot did not fall
-  bool stays = false;               ///< true if the share is below that limit at the last tick, too
+  bool stays = false;               ///< true if it is also below that limit at the last tick
 };
 
 /// Heights at control ticks (States::at_ticks), m. Empty if the folder has no poses.

@@ -196,7 +196,7 @@ class Periods {
     double mean = 0, rms = 0, range = 0;
     double over = 0;  ///< largest change over that allowed
   };
-  /// Change from the stretch that ends `back` s earlier to that which ends at `to`. `share` of the range from `from` on is
+  /// Change from the stretch ending `back` s earlier to the stretch ending at `to`. `share` of the range from `from` on is
   /// allowed; a jump counts in one period for a row more than in another.
   [[nodiscard]] Change change(double back, double from, double to, double share) const {
     Change most;
@@ -238,9 +238,9 @@ std::string drifts(const Scenario& s, const Recording& r, double from, double to
                      most.range);
 }
 
-/// Time from which on the recorded set points keep the size of their last period, s, for a CPG that states none: equations that
-/// rise or lower the robot, then repeat. 0 if they keep it from `start` on, or change until the end. A slow drift has no such
-/// time: within it periods are equal by a tenth of what is allowed, and one of the two before it differs by more than is.
+/// Start of the recorded set points with the size of their last period, s, for a CPG that states none: equations that lower the
+/// robot, then repeat. 0 if they have it from `start` on, or change until the end. Not of a slow drift: later periods are equal
+/// within a tenth of kMostDrift, and one of the two periods before them differs by more than kMostDrift.
 double settled_from(const Scenario& s, const Recording& r, double start, double period) {
   const Periods periods(s, r, period);
   const double unit = periods.unit();

@@ -79,7 +79,7 @@ RemedySettings::RemedySettings(const std::string& resolved) : root_(parse_yaml(r
   take_supply();
 }
 
-/// Replaces the numbers 0 of `u_max` by those of `voltage`.
+/// Replaces the numbers 0 of `u_max` by the numbers of `voltage`.
 void RemedySettings::take_supply() {
   Node* const actuator = child(root_, "actuator");
   const Node* const voltage = actuator == nullptr ? nullptr : actuator->find("voltage");

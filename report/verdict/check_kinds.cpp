@@ -32,10 +32,9 @@ constexpr CheckKind kChecks[] = {
     {"outcome", Group::run, "s", "Run finished", "simulated time against the duration", "the run ended early", "", kWhole,
      "duration", "the message of the run names the remedy", checks::outcome, true},
     {"fall", Group::run, "", "Does not fall",
-     "least height of the centre of mass above the ground over the lower of two: that at the start, and that of the pose of "
-     "its set "
-     "points at that time, upright (mean orientation of all links as at the start) on its lowest contact elements, at control "
-     "ticks",
+     "least height of the centre of mass above the ground, at control ticks, over the lower of two heights: at the start, and "
+     "in the pose of the set points at that time, upright (mean orientation of all links as at the start) on its lowest "
+     "contact elements",
      "below limits.height", "", kWhole, "limits.height", "a gait with more support, or limits.height", checks::height, true},
     {"progress", Group::run, "m", "Goes somewhere", "travel of the centre of mass per period (without periods: in the window)",
      "below limits.progress of the robot's extent (diagonal of the box around links and contact elements at the start) where "
@@ -63,8 +62,7 @@ constexpr CheckKind kChecks[] = {
      "above that speed", "above limits.warn_share of it", kWindow, "actuator.speed_max", kGentler, checks::speed},
     {"stall", Group::motor, "N m", "Motors hold at rest",
      "torque of a joint while it turns at less than 5 % of its no-load speed, RMS over all this time and over any 0.1 s on "
-     "end, "
-     "against the stall torque at the supply",
+     "end, against the stall torque at the supply",
      "above that stall torque", "RMS over all this time above half of it", kWindow, "actuator.stall_torque",
      "a pose with less load, or a stronger motor; efficiency_model: paper shows what the motor holds", checks::stall},
     {"heat", Group::motor, "A", "Motors stay cool", "RMS current in the window against the continuous rating, over all steps",

@@ -24,9 +24,8 @@ constexpr Meaning kWords[] = {
      "on a ground also fall and in_ground. The run is evidence: long enough, borne by the ground, and accurate."},
     {Word::infeasible,
      "A check fails, in a run that is accurate. In one that is too short only a check of the whole run counts (docks, gears, "
-     "collision, stops, fall "
-     "...), because more time cannot undo it. In one whose torque error is above limits.torque_error but at most 50 %, only a "
-     "check of motors, gears or docks counts that fails even with its value reduced by that error."},
+     "collision, stops, fall ...), because more time cannot undo it. With a torque error above limits.torque_error, at most 50 "
+     "%, only a check of motors, gears or docks counts that fails even with its value reduced by that error."},
     {Word::not_judged,
      "Anything else. The sentence names all missing evidence, the settings that give it, and the failing check so far; a line "
      "`judge by` has the command with these settings. `run` simulates again by itself if only the accuracy is missing and the "
@@ -42,9 +41,8 @@ constexpr const char* kEvidence =
     "changes. Borne, for a floating base: the ground carries at least half of the weight on average. Accurate: torque error at "
     "most limits.torque_error (and 10 %, whatever that limit), at most 5 % of the energy unaccounted for, at most 10 % of the "
     "time coarser than physics.accuracy, and no motor whose efficiency x Kt exceeds Ks. Possible: no mass, moment of inertia, "
-    "stall torque or power that no robot has (docs/modules.md), unless `accept` of the scenario names it; this comes before "
-    "all "
-    "checks. Limits that the scenario changes, and numbers that it accepts, are named beside the word.";
+    "stall torque or power that no robot has (docs/modules.md), unless `accept` of the scenario names it; this precedes all "
+    "checks. Limits that the scenario changes, and numbers that it accepts, are beside the word.";
 
 constexpr const char* kMargin =
     "Margin of a check: (limit - value) / limit, where limit is the one at which the check fails; with the opposite sign for a "

@@ -63,7 +63,7 @@ Halves halves(const CheckedRun& run) {
   return from >= -kMissing * unit ? Halves{from, std::ceil(held / 2) * unit} : Halves{};
 }
 
-/// Work of gravity along the ground from the start of the first half on, J: the heights are those of the ground below the
+/// Work of gravity along the ground from the start of the first half on, J, by the heights of the ground below the
 /// robot. A robot that comes down onto the ground, as after a drop at the start, does not slide.
 double gravity_work(const Scenario& s, const Recording& r, const Motion& m, const Halves& of) {
   std::size_t first = 0;

@@ -11,13 +11,13 @@
 namespace gaitlab::report {
 
 /// Largest errors of a trusted run, in addition to most_torque_error(): energy residual / energy drawn, and share of the time
-/// in which even the shortest steps miss the accuracy.
+/// when even the shortest steps miss the accuracy.
 inline constexpr double kTrustedResidual = 0.05, kTrustedCoarse = 0.1;
 /// Largest error of a limit cycle for which one period is enough. With a larger error, kPeriodsNeeded periods of the set points
 /// are required after the start of the gait (cpg_alone.h); the judged window leaves out the first of them.
 inline constexpr double kSettled = 0.01;
 inline constexpr double kLeastTime = 2;  ///< s, least duration if the set points do not repeat
-/// Largest torque error with which a failure beyond its error bar (Check::certain) still decides.
+/// Largest torque error of a run that a failure beyond its error bar (Check::certain) still decides.
 inline constexpr double kMostError = 0.5;
 
 /// A missing piece of evidence.

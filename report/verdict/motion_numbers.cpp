@@ -81,9 +81,8 @@ std::vector<SummaryNumber> motion_numbers() {
        .value = [](R r) { return or_null(texts::created(r.record) / energy_scale(r.scenario, r.record)); }},
       {.key = "fell",
        .definition = "True if the centre of mass came below `limits.height` of its height above the ground at "
-                     "the start, and of that of the pose of its set points (the check `fall` of the verdict); null for a base "
-                     "that is not floating, and "
-                     "without a ground.",
+                     "the start and in the pose of its set points (the check `fall` of the verdict); null for a base that is "
+                     "not floating, and without a ground.",
        .value = [](R r) { return fallen(r); }},
       {.key = "airborne_share",
        .definition = "Share of the control ticks in the judged window at which the ground carries less than 5 % "

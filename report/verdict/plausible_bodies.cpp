@@ -271,7 +271,7 @@ double body_extent(const ModuleType& type, std::size_t b) {
   return (high.cwiseMax(body.com) - low.cwiseMin(body.com)).norm();
 }
 
-/// Moments above those of the whole mass at twice the body's extent from its centre.
+/// Moments above the moment of the whole mass at twice the body's extent from its centre.
 std::vector<Impossible> impossible_moments(const Scenario& s) {
   constexpr double kAway = 2;
   std::vector<Impossible> found;
@@ -302,7 +302,7 @@ bool shapes_are_all(const ModuleType& type, std::size_t b) {
   return ((low - least).array() >= -room).all() && ((most - high).array() >= -room).all();
 }
 
-/// Densities above that of any metal.
+/// Densities above any metal's.
 std::vector<Impossible> impossible_densities(const Scenario& s) {
   constexpr double kMost = 23000;  // kg/m^3; osmium: 22590
   std::vector<Impossible> found;

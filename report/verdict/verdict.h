@@ -50,14 +50,15 @@ struct Draw {
 };
 
 struct Verdict {
-  /// failed: the run ended early.
-  /// infeasible: no number of the scenario is impossible (plausibility.h), and a check fails; if the torque error exceeds its
-  /// limit, by more than that error (Check::certain). feasible: no check fails or is too close to its limit, at least one motor
-  /// limit was judged, for a robot on a ground also `fall` and `in_ground`, and the evidence is complete (evidence.h). not
-  /// judged: none of these, or the run is too short and each failing check could pass in a longer run.
+  /// - failed: the run ended early.
+  /// - infeasible: no number of the scenario is impossible (plausibility.h), and a check fails; if the torque error exceeds its
+  ///   limit, by more than that error (Check::certain).
+  /// - feasible: no check fails or is too close to its limit, at least one motor limit was judged, for a robot on a ground also
+  ///   `fall` and `in_ground`, and the evidence is complete (evidence.h).
+  /// - not judged: none of these, or the run is too short and each failing check could pass in a longer run.
   Word word = Word::not_judged;
   std::string reason = {};  ///< why the verdict is `not judged`: all missing evidence, and the settings to change
-  /// Settings in the form of --set with which a `not judged` run is expected to have a verdict; empty if none are known.
+  /// Settings that should give a `not judged` run a verdict, in the form of --set; empty if none are known.
   std::vector<std::string> retry = {};
   bool retry_is_finer = false;  ///< true if these only make the simulation more accurate
   std::string rests_on = {};    ///< extent of the run that was judged, and conditions: `3 periods of 4 s`

@@ -62,7 +62,7 @@ Json draws_of(const Verdict& verdict) {
   return draws;
 }
 
-/// The failing checks in the order in which their limits were first exceeded.
+/// The failing checks by the time when a part was first beyond its limit.
 Json events_of(const Verdict& verdict) {
   std::vector<const Check*> order;
   for (const Check* const check : verdict.failures()) {

@@ -43,7 +43,7 @@ TEST_F(SteadyGolden, IsApprovedAndKept) {
   EXPECT_EQ(same.code, 0) << same.out << same.err;
 }
 
-/// A golden of a steady robot still refuses a torque that changes by more than 1e-5 of that of the motor, and says of what.
+/// A golden of a steady robot still refuses a torque that changes by more than 1e-5 of the motor's, and names that scale.
 TEST_F(SteadyGolden, NoticesAnotherTorque) {
   const auto& [file, text] = kSteady[2];
   folder.write(file, text);

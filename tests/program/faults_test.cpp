@@ -107,7 +107,7 @@ TEST(Faults, AStuckJointStaysWhereItIs) {
   for (std::size_t row = 1; row < r.trace.rows(); ++row) {
     if (!(table.at(row, std::string(kJoint) + "fault") > 0)) continue;
     if (std::isnan(held)) held = table.at(row - 1, std::string(kJoint) + "angle");
-    if (table.at(row, "t") < 2.1) continue;  // five times what a joint in motion needs: 20 ms of the ramp, and the way back
+    if (table.at(row, "t") < 2.1) continue;  // five times the time of a joint in motion: 20 ms of the ramp, then its return
     farthest = std::max(farthest, std::abs(table.at(row, std::string(kJoint) + "angle") - held));
   }
   validate_below({"closed.stuck_joint", "a stuck joint of the caterpillar keeps its angle", "required (docs/faults.md)", "rad"},
