@@ -27,7 +27,6 @@ namespace gaitlab {
 namespace {
 
 constexpr int kThrew = 3;                          // exit code of the child
-constexpr rlim_t kTrialTime = 10;                  // s of CPU time
 constexpr rlim_t kTrialMemory = rlim_t{1} << 32U;  // bytes that a plugin may allocate, more than tables of any plugin need
 
 enum class Stage : char { loading, registering, done };
@@ -50,18 +49,21 @@ class SharedStage {
   void* page_;
 };
 
-/// CPU time after which the child is killed, s: kTrialTime, or less if this process has less.
-rlim_t trial_time() {
+/// CPU time after which the child is killed, s.
+rlim_t cpu_time_of(const TrialLimits& limits) {
+  const auto allowed = static_cast<rlim_t>(limits.cpu_time.count());
   rlimit own{};
-  return ::getrlimit(RLIMIT_CPU, &own) == 0 ? std::min(kTrialTime, own.rlim_cur) : kTrialTime;
+  return ::getrlimit(RLIMIT_CPU, &own) == 0 ? std::min(allowed, own.rlim_cur) : allowed;
 }
 
-/// Ends this process after the time of a trial: by SIGXCPU or, if a static object ignores it, by SIGKILL a second later.
-void limit_time() {
+/// Ends this process after this CPU time, s: by SIGXCPU or, if a static object ignores it, by SIGKILL later. A virtual machine
+/// that is stopped for seconds counts these, so that the second limit must not be near the first.
+void limit_time(rlim_t allowed) {
+  constexpr rlim_t kIgnored = 10;  // s
   rlimit limit{};
   if (::getrlimit(RLIMIT_CPU, &limit) != 0) return;
-  limit.rlim_cur = std::min(kTrialTime, limit.rlim_cur);
-  limit.rlim_max = std::min(kTrialTime + 1, limit.rlim_max);
+  limit.rlim_cur = allowed;
+  limit.rlim_max = std::min(allowed + kIgnored, limit.rlim_max);
   std::signal(SIGXCPU, SIG_DFL);
   (void)::setrlimit(RLIMIT_CPU, &limit);  // lowers the limits, which is always allowed
 }
@@ -78,10 +80,11 @@ void limit_memory() {
 }
 
 /// Loads the library, enters it and ends the process.
-[[noreturn]] void load_and_end(const std::string& path, const std::function<void(void*)>& enter, SharedStage& stage) {
+[[noreturn]] void load_and_end(const std::string& path, const std::function<void(void*)>& enter, rlim_t allowed,
+                               SharedStage& stage) {
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, stream);
-  limit_time();
+  limit_time(allowed);
   limit_memory();
   std::set_terminate([] { std::_Exit(kThrew); });
   // dlopen is declared not to throw. Called by its name, it would let the compiler drop the handler, and the exception would
@@ -144,25 +147,24 @@ bool falls_asleep(pid_t child, std::chrono::seconds patience) {
   return asleep;
 }
 
-std::string fault_of_entry(int status) {
+std::string fault_of_entry(int status, rlim_t allowed) {
   constexpr const char* kEntry = "its gaitlab_register";
   const bool killed = WIFSIGNALED(status);
   if (killed && WTERMSIG(status) == SIGXCPU) {
-    return fmt::format("{} takes more than {} s of CPU time; a plugin should do its work when it is called", kEntry,
-                       trial_time());
+    return fmt::format("{} takes more than {} s of CPU time; a plugin should do its work when it is called", kEntry, allowed);
   }
   if (killed) return fmt::format("{} crashes ({})", kEntry, strsignal(WTERMSIG(status)));
   if (WEXITSTATUS(status) == kThrew) return fmt::format("{} threw an exception out of a noexcept function", kEntry);
   return fmt::format("{} ended the process (exit code {})", kEntry, WEXITSTATUS(status));
 }
 
-std::string fault_of_load(int status) {
+std::string fault_of_load(int status, rlim_t allowed) {
   const bool killed = WIFSIGNALED(status);
   if (killed && WTERMSIG(status) == SIGXCPU) {
     return fmt::format(
         "its static objects take more than {} s of CPU time when it is loaded; a plugin should do its work when "
         "it is called",
-        trial_time());
+        allowed);
   }
   if (killed) return fmt::format("it crashes when it is loaded ({})", strsignal(WTERMSIG(status)));
   if (WEXITSTATUS(status) == kThrew) return "a static object of this plugin threw an exception when it was loaded";
@@ -171,12 +173,13 @@ std::string fault_of_load(int status) {
 
 }  // namespace
 
-std::string load_trial(const std::string& path, const std::function<void(void*)>& enter, std::chrono::seconds patience) {
+std::string load_trial(const std::string& path, const std::function<void(void*)>& enter, TrialLimits limits) {
+  const rlim_t allowed = cpu_time_of(limits);
   SharedStage stage;
   if (!stage.made()) return "";
-  const pid_t child = begin_child([&]() -> int { load_and_end(path, enter, stage); });
+  const pid_t child = begin_child([&]() -> int { load_and_end(path, enter, allowed, stage); });
   if (child < 0) return "";
-  const bool asleep = falls_asleep(child, patience);
+  const bool asleep = falls_asleep(child, limits.sleep);
   int status = 0;
   while (waitpid(child, &status, 0) < 0) {
     if (errno != EINTR) return "";
@@ -185,9 +188,10 @@ std::string load_trial(const std::string& path, const std::function<void(void*)>
   const bool loading = stage.reached() == Stage::loading;
   if (asleep) {
     return fmt::format("{} and used hardly any CPU time for {} s; a plugin should do its work when it is called",
-                       loading ? "a static object slept when it was loaded" : "its gaitlab_register slept", patience.count());
+                       loading ? "a static object slept when it was loaded" : "its gaitlab_register slept",
+                       limits.sleep.count());
   }
-  return loading ? fault_of_load(status) : fault_of_entry(status);
+  return loading ? fault_of_load(status, allowed) : fault_of_entry(status, allowed);
 }
 
 }  // namespace gaitlab
