@@ -54,6 +54,8 @@ faces:                                 # where modules dock
 
 contacts:
   all: shapes                          # elements that touch the ground: the vertices of boxes; or a list of points and spheres
+
+may_overlap: [[base, head]]            # boxes that meet at the hinge overlap as soon as it bends: remove this for real shapes
 )";
 
 const char* const kSkeletonScenario =

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/model/body_pairs.h"
 #include "core/model/frames.h"
 #include "core/model/passive.h"
 #include "core/names.h"
@@ -85,6 +86,7 @@ struct ModuleType {
   std::vector<FaceType> faces;
   std::map<std::string, Connector> connectors = {};  ///< connectors of the faces with known loads, by name
   std::vector<ContactType> feet, all;                ///< used for `on: feet` (those on free bodies) and `on: all`
+  std::vector<BodyPair> may_overlap = {};            ///< bodies that are not compared for collisions
   std::size_t root = 0;                              ///< body that is not the child of a hinge; its frame is the module frame
 };
 

@@ -9,6 +9,7 @@
 #include "core/files/file_kind.h"
 #include "core/model/docking.h"
 #include "core/model/shape_contacts.h"
+#include "core/robot_files/body_pair_list.h"
 #include "core/robot_files/body_section.h"
 #include "core/robot_files/key_reader.h"
 #include "core/robot_files/module_check.h"
@@ -33,6 +34,8 @@ class ModuleReader {
     each(reader.take("faces"), "faces", [this](const Node& node) { read_face(node); });
     if (const Node* node = reader.take("contacts")) read_contacts(*node);
     read_connectors(reader.take("connectors"));
+    if (const Node* node = reader.take(kMayOverlap); node != nullptr && !names_.empty())
+      type_.may_overlap = read_body_pairs(*node, names_, type_.name, problems_);
     reader.finish();  // the keys within `actuator` and `controller` are read when the plugins of their types are known
     return std::move(type_);
   }

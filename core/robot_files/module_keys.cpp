@@ -233,6 +233,11 @@ constexpr ModuleKey kModuleKeys[] = {
      .format = 2,
      .map = &kConnectorMap,
      .by_name = true},
+    {.key = "may_overlap",
+     .form = ModuleForm::pairs,
+     .spec = said("Pairs [BODY, BODY] that the check collision leaves out, by names or patterns; of a pair that is not left "
+                  "out, overlap with all hinges at 0 is by design."),
+     .preset = "[]"},
     {.key = "actuator",
      .form = ModuleForm::map,
      .spec = said("Motor of every driven hinge: type, and keys of that actuator (gaitlab explain actuator TYPE).")},

@@ -11,7 +11,7 @@ inline constexpr std::int64_t kNewestModule = 3;    ///< newest format version o
 inline constexpr std::int64_t kFormatOfShapes = 3;  ///< first format in which inertia and contact elements follow from shapes
 
 /// Form of a value in a module file.
-enum class ModuleForm { text, number, integer, flag, vector, integers, word, map, list };
+enum class ModuleForm { text, number, integer, flag, vector, integers, word, map, list, pairs };
 
 /// A word that a key permits, and the first format that has it.
 struct ModuleWord {

@@ -41,6 +41,8 @@ std::string form_of(const ModuleKey& key) {
       return "list of integers" + limited;
     case ModuleForm::list:
       return "list";
+    case ModuleForm::pairs:
+      return "list of pairs";
     case ModuleForm::map:
       return key.by_name ? "map by name" : "map";
     case ModuleForm::word:
@@ -99,6 +101,9 @@ Json form_schema(const ModuleKey& key) {
       return {{"type", "array"}, {"items", number_schema("integer", key.spec)}, {"minItems", 1}};
     case ModuleForm::list:
       return {{"type", "array"}, {"items", inner}};
+    case ModuleForm::pairs:
+      return {{"type", "array"},
+              {"items", {{"type", "array"}, {"items", {{"type", "string"}}}, {"minItems", 2}, {"maxItems", 2}}}};
     case ModuleForm::map:
       if (!key.by_name) return inner;
       return {{"type", "object"}, {"minProperties", key.required ? 1 : 0}, {"additionalProperties", inner}};

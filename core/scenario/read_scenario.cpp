@@ -10,6 +10,7 @@
 
 #include "core/files/file_kind.h"
 #include "core/plugin/plugin_instance.h"
+#include "core/robot_files/body_pair_list.h"
 #include "core/robot_files/type_presets.h"
 #include "core/scenario/built_robot.h"
 #include "core/scenario/change_section.h"
@@ -129,6 +130,9 @@ class ScenarioReader {
     reader.elsewhere(&elsewhere, "robot");
     if (node->kind != Node::Kind::map) return;
     RobotParts parts = read_robot(reader, node->place, folder_, problems_);
+    const Node* const pairs = reader.take(kMayOverlap);
+    if (pairs != nullptr && parts.robot)
+      scenario_.may_overlap = read_body_pairs(*pairs, body_names(*parts.robot), "the robot", problems_);
     for (const Problem& note : parts.notes) scenario_.notes.push_back({note.place, note.text});
     BaseFields base{scenario_};
     base.fields(reader);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <variant>
 
+#include "core/robot_files/body_pair_list.h"
 #include "core/scenario/change_section.h"
 #include "core/scenario/group_section.h"
 #include "core/scenario/height_file.h"
@@ -31,6 +32,8 @@ Node plugins_node(const std::vector<PluginFile>& files, FilePaths paths) {
 Node robot_node(Scenario& scenario, const std::vector<std::string>& joints) {
   Writer writer(joints);
   for (auto& [key, node] : robot_nodes(*scenario.robot, *scenario.module_documents)) writer.add(key, std::move(node));
+  // older goldens do not contain it
+  if (!scenario.may_overlap.empty()) writer.add(kMayOverlap, body_pairs_node(scenario.may_overlap));
   const bool placed = !scenario.on_ground || scenario.position != Vec3::Zero();
   BaseFields{scenario, placed}.fields(writer);
   return writer.take();

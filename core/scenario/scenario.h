@@ -152,6 +152,7 @@ struct Scenario {
   std::string file, name;
   std::vector<PluginFile> plugins;
   std::shared_ptr<const Robot> robot;  ///< as built
+  std::vector<BodyPair> may_overlap;   ///< bodies of the robot that are not compared for collisions
   JointGroups groups;                  ///< joints by the names of section `groups`
   Tolerances tolerances;
   AsBuilt as_built;       ///< differences of the robot from the drawings, stated and drawn

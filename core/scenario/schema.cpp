@@ -37,7 +37,9 @@ constexpr const char* kRobot = R"json({
   "build": {"type": "string",
     "description": "Build file, rows child_face child_module parent_face parent_module orientation."},
   "docks": {"type": "array", "items": {"$ref": "#/definitions/dock"},
-    "description": "Docks as rows of a build file, given here; without build and docks: one module."}
+    "description": "Docks as rows of a build file, given here; without build and docks: one module."},
+  "may_overlap": {"type": "array", "default": [], "items": {"type": "array", "items": {"type": "string"}, "minItems": 2,
+    "maxItems": 2}, "description": "Pairs [BODY, BODY] that the check collision leaves out, by names or patterns: [[m0/trunk, \"m[1-4]/leg\"]]."}
 })json";
 
 constexpr const char* kHead = R"json({

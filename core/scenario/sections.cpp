@@ -321,4 +321,10 @@ std::vector<std::string> joint_names(const Robot& robot) {
   return names;
 }
 
+std::vector<std::string> body_names(const Robot& robot) {
+  std::vector<std::string> names;
+  for (const Body& body : robot.bodies) names.push_back(body.name);
+  return names;
+}
+
 }  // namespace gaitlab

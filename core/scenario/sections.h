@@ -59,5 +59,7 @@ struct SectionFields {
 
 /// Names of a robot's joints.
 std::vector<std::string> joint_names(const Robot& robot);
+/// Names of its bodies.
+std::vector<std::string> body_names(const Robot& robot);
 
 }  // namespace gaitlab

@@ -9,6 +9,7 @@
 
 #include "core/model/kinematics.h"
 #include "report/analysis/convex.h"
+#include "report/analysis/meetings.h"
 #include "report/analysis/states.h"
 
 namespace gaitlab::report {
@@ -43,27 +44,10 @@ std::vector<Piece> pieces_of(const Robot& robot) {
 
 using Pair = std::pair<std::size_t, std::size_t>;  // indices in Robot::bodies, the smaller one first
 
-/// Condition for a collision of two bodies: no hinge joins them, and they belong to different links.
-class Meetings {
- public:
-  explicit Meetings(const Robot& robot) : robot_(robot), parents_(robot.bodies.size(), robot.bodies.size()) {
-    for (const Module& module : robot.modules) {
-      for (const HingeType& hinge : robot.types[module.type].hinges)
-        parents_[module.first_body + hinge.child] = module.first_body + hinge.parent;
-    }
-  }
-  bool operator()(std::size_t a, std::size_t b) const {
-    return robot_.bodies[a].link != robot_.bodies[b].link && parents_[a] != b && parents_[b] != a;
-  }
-
- private:
-  const Robot& robot_;
-  std::vector<std::size_t> parents_;  ///< parent of each body by its hinge; the number of bodies if none
-};
-
 /// Two pieces that are near each other.
 struct Near {
   std::size_t a = 0, b = 0;  ///< indices of the pieces, the smaller index first
+  double by_design = 0;      ///< m, overlap of the two bodies that does not count
   /// Sum of the two pieces' paths, m, up to which they cannot touch.
   double apart_until = 0;
   Vec3 axis = Vec3::Zero();  ///< last separating axis; 0 if none was found yet
@@ -121,9 +105,9 @@ class Row {
   }
 
   /// Calls meet(a, b, depth) for all pairs of pieces that collide, in the order of a sweep along x. depth is that of
-  /// penetration(), m, and greater than 0.
+  /// penetration() beyond the overlap by design, m, and greater than 0.
   template <class Meet>
-  void pairs(const Meetings& can, double ignored, Meet meet) {
+  void pairs(Meetings& can, double ignored, Meet meet) {
     if (2 * since_found_ > margin_ - kRounding) find_near(can);
     met_.clear();
     for (Near& pair : near_) {
@@ -133,8 +117,8 @@ class Row {
       if (gap >= 0 || still_apart(pair)) continue;
       const Key a(left(pair.a), pair.a);
       const Key b(left(pair.b), pair.b);
-      const double depth = this->depth(std::min(a, b).second, std::max(a, b).second, ignored, pair);
-      if (depth > 0) met_.push_back({std::min(a, b), std::max(a, b), depth});
+      const double depth = this->depth(std::min(a, b).second, std::max(a, b).second, pair.by_design + ignored, pair);
+      if (depth > 0) met_.push_back({std::min(a, b), std::max(a, b), depth - pair.by_design});
     }
     std::ranges::sort(met_);
     for (const auto& [a, b, depth] : met_) meet(a.second, b.second, depth);
@@ -148,7 +132,7 @@ class Row {
   [[nodiscard]] double together(const Near& pair) const { return way_[pair.a] + way_[pair.b]; }
 
   /// Finds the pairs of pieces whose bounding spheres are less than margin_ apart, by a sweep along x.
-  void find_near(const Meetings& can) {
+  void find_near(Meetings& can) {
     since_found_ = 0;
     std::ranges::sort(order_, {}, [&](std::size_t i) { return Key(left(i), i); });
     std::vector<Near> found;
@@ -164,7 +148,11 @@ class Row {
     std::ranges::sort(found, {}, place_of);
     for (Near& pair : found) {
       const auto known = std::ranges::lower_bound(near_, place_of(pair), {}, place_of);
-      if (known != near_.end() && place_of(*known) == place_of(pair)) pair = *known;
+      if (known != near_.end() && place_of(*known) == place_of(pair)) {
+        pair = *known;
+      } else {
+        pair.by_design = can.by_design(pieces_[pair.a].body, pieces_[pair.b].body);
+      }
     }
     near_ = std::move(found);
   }
@@ -238,18 +226,17 @@ class Search {
  public:
   Search(const Scenario& scenario, const std::vector<Piece>& pieces)
       : pieces_(pieces),
-        can_(*scenario.robot),
+        can_(scenario),
         limits_(scenario.limits),
         ground_(scenario.ground),
         highest_(scenario.ground.highest()),
         above_until_(pieces.size(), 0.0) {}
 
-  void collide(Row& row, double time) {
+  void collide(Row& row, const RobotState& state, double time) {
     double deepest = 0;
     const bool first = met_.empty();
-    row.pairs(can_, limits_.meeting(), [&](std::size_t a, std::size_t b, double depth) {
+    const auto meet = [&](const Pair& pair, double depth) {
       if (!(depth > kTouching)) return;
-      const Pair pair = std::minmax(pieces_[a].body, pieces_[b].body);
       met_.insert(pair);
       if (first && depth > deepest) {
         std::tie(collision_.first, collision_.second) = pair;
@@ -260,7 +247,11 @@ class Search {
       collision_.depth = depth;
       collision_.deepest_time = time;
       std::tie(collision_.deepest_first, collision_.deepest_second) = pair;
-    });
+    };
+    row.pairs(can_, limits_.meeting(),
+              [&](std::size_t a, std::size_t b, double depth) { meet(std::minmax(pieces_[a].body, pieces_[b].body), depth); });
+    for (const Meetings::OnHinge& pair : can_.hinges())
+      meet(std::minmax(pair.parent, pair.child), can_.beyond(pair, state.q[pair.joint]));
   }
   void sink(Row& row, double time) {
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
@@ -317,9 +308,10 @@ Overlaps overlaps(const Scenario& scenario, const Recording& r) {
   Kinematics k(robot);
   Row there(pieces);
   for (std::size_t row = 0; row < states.size(); ++row) {
-    k.place(robot, states(row));
+    const RobotState state = states(row);
+    k.place(robot, state);
     there.set(k);
-    search.collide(there, states.time(row));
+    search.collide(there, state, states.time(row));
     if (scenario.ground.exists()) search.sink(there, states.time(row));
   }
   return {shaped.size(), search.collision(), search.sunk()};
@@ -332,7 +324,7 @@ std::optional<Collision> collision_in(const Scenario& scenario, const RobotState
   k.place(*scenario.robot, state);
   Row there(pieces);
   there.set(k);
-  search.collide(there, 0);
+  search.collide(there, state, 0);
   return search.collision();
 }
 

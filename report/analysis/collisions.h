@@ -9,8 +9,9 @@
 
 namespace gaitlab::report {
 
-/// Collisions of pairs of bodies that can move relative to each other and that no hinge joins. Bodies are given by their index
-/// in Robot::bodies.
+/// Collisions of pairs of bodies that can move relative to each other, and that no `may_overlap` names. The depth of two bodies
+/// of one module is that beyond their overlap by design (own_overlap.h). Bodies are given by their index in
+/// Robot::bodies.
 struct Collision {
   double time = 0;                                    ///< s, first tick with an overlap
   std::size_t first = 0, second = 0;                  ///< the pair with the deepest overlap at that tick

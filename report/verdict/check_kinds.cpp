@@ -90,8 +90,10 @@ constexpr CheckKind kChecks[] = {
     {"start", Group::motion, "rad", "Starts at its set points", "largest jump of a set point at t = 0", "",
      "above limits.start_jump", kWhole, "cpg", "initial.angles", checks::start},
     {"collision", Group::structure, "m", "Bodies keep apart",
-     "overlap of two bodies, except for bodies on one hinge, in the whole run, at control ticks", "above limits.collision",
-     "above limits.touch", kWhole, "robot", kSmaller, checks::collision},
+     "deepest overlap of two bodies that no may_overlap names, of bodies of one module what is beyond the square root of 2 "
+     "times their overlap with all hinges at 0, in the whole run, at control ticks",
+     "above limits.collision", "above limits.touch", kWhole, "robot",
+     "smaller amplitudes or offsets, or may_overlap for bodies whose shapes are rougher than the real ones", checks::collision},
     {"dock_tension", Group::structure, "N", "Docks are not pulled apart",
      "largest tension of a dock against its rating, of the whole run, at control ticks", "above what the dock holds",
      "above limits.warn_share of it", kWhole, "robot", "a softer landing, or stronger connectors", dock<DockQuantity::tension>,

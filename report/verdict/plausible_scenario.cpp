@@ -11,6 +11,7 @@
 #include "report/analysis/collisions.h"
 #include "report/analysis/cpg_alone.h"
 #include "report/analysis/envelope.h"
+#include "report/analysis/own_overlap.h"
 #include "report/verdict/plausible_number.h"
 
 namespace gaitlab::report {
@@ -172,6 +173,33 @@ std::vector<Finding> overlaps_at_start(const Subject& subject) {
            "look at the docks and at initial.angles"}};
 }
 
+/// Overlaps of the two bodies of a hinge within its range, beyond those at angle 0.
+std::vector<Finding> overlaps_in_range(const Subject& subject) {
+  const Scenario& s = subject.scenario;
+  std::vector<Finding> found;
+  for (std::size_t t = 0; t < s.robot->types.size(); ++t) {
+    const ModuleType& type = s.robot->types[t];
+    const BodyPairs left_out(type.may_overlap, body_names(type));
+    for (std::size_t h = 0; h < type.hinges.size(); ++h) {
+      const HingeType& hinge = type.hinges[h];
+      if (left_out.has(hinge.parent, hinge.child)) continue;
+      const double depth = deepest_in_range(type, h);
+      const Node* const map =
+          t < s.module_documents->size() ? entry_map((*s.module_documents)[t], "hinges", "name", hinge.name) : nullptr;
+      found.push_back({map == nullptr ? s.nearest_place("robot") : map->place,
+                       {type.name + "/" + type.bodies[hinge.parent].name, type.name + "/" + type.bodies[hinge.child].name},
+                       fmt::format("over its range the bodies of hinge {} of {} overlap by up to {:.2g} mm",
+                                   in_quotes(hinge.name), clipped(type.name), 1000 * depth),
+                       depth,
+                       {},
+                       {},
+                       {},
+                       "take a narrower range, draw the bodies as they are, or list them in may_overlap"});
+    }
+  }
+  return found;
+}
+
 SourceLocation gait_place(const Scenario& s) { return s.nearest_place("cpg.amplitude"); }
 
 std::vector<Finding> set_points_beyond(const Subject& subject) {
@@ -251,6 +279,13 @@ std::vector<PlausibleNumber> plausible_scenario() {
        false,
        1e-3},
       {"overlap", 0, 0, "expected bodies apart", {}, {"density"}, overlaps_at_start},
+      {"range overlap",
+       0,
+       Limits().collision,
+       "expected what they overlap at angle 0",
+       {},
+       {"density", "overlap"},
+       overlaps_in_range},
       {"set points",
        0,
        0.01,

@@ -177,6 +177,21 @@ std::string Verdict::why() const {
 
 namespace {
 
+/// `may_overlap leaves out m0/trunk and m1/leg`, for the list of what a verdict rests on. Empty if no pair is left out.
+std::string left_out_sentence(const Scenario& scenario) {
+  constexpr std::size_t kMost = 3;
+  std::vector<std::string> pairs;
+  for (const ModuleType& type : scenario.robot->types) {
+    for (const BodyPair& pair : type.may_overlap)
+      pairs.push_back(fmt::format("{0}/{1} and {0}/{2}", type.name, pair.first, pair.second));
+  }
+  for (const BodyPair& pair : scenario.may_overlap) pairs.push_back(fmt::format("{} and {}", pair.first, pair.second));
+  if (pairs.empty()) return "";
+  const std::size_t more = pairs.size() > kMost ? pairs.size() - kMost : 0;
+  pairs.resize(pairs.size() - more);
+  return fmt::format("may_overlap leaves out {}{}", fmt::join(pairs, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
 /// Computes the check of a kind for the run.
 Check judged_check(const CheckKind& kind, const CheckedRun& run, bool of_rows) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -229,6 +244,8 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
   // A stiffer ground leaves speeds as they are, but an impact bends docks by half as much again.
   if (!docks.empty() && scenario.ground.exists() && scenario.contact.model().penalty_settings)
     made.figures += fmt::format(", and at impacts contact.stiffness {}", number_text(scenario.contact.penalty.kn));
+  if (const std::string left_out = left_out_sentence(scenario); !left_out.empty())
+    made.figures += (made.figures.empty() ? "" : "; ") + left_out;
   for (const FaultSpan& fault : run.faults) {
     if (fault.from >= record.simulated) continue;
     const std::string until = std::isfinite(fault.to) ? fmt::format(" to {:.4g} s", fault.to) : "";

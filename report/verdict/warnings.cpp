@@ -10,6 +10,8 @@
 #include "core/scenario/built_robot.h"
 #include "core/scenario/sensor_section.h"
 #include "core/settings/settings_numbers.h"
+#include "core/settings/wording.h"
+#include "report/analysis/own_overlap.h"
 #include "report/verdict/plausibility.h"
 
 namespace gaitlab::report {
@@ -105,6 +107,25 @@ void check_motors(const Scenario& s, bool with_gain, std::vector<Warning>& out) 
   if (s.controller.entry != nullptr && with_gain) check_gain(s, motors, out);
 }
 
+/// Notes the overlaps of bodies of one module that do not count.
+void note_design(const Scenario& s, std::vector<Warning>& out) {
+  for (std::size_t t = 0; t < s.robot->types.size(); ++t) {
+    const ModuleType& type = s.robot->types[t];
+    DesignOverlap design(type);
+    const auto pairs = design.pairs();
+    if (pairs.empty()) continue;
+    const auto [a, b] = pairs.front();
+    const std::string more = pairs.size() > 1 ? fmt::format(" (and {} more pairs)", pairs.size() - 1) : "";
+    const bool known = t < s.module_documents->size();
+    const double depth = 1000 * design.depth(a, b);  // mm
+    out.push_back({known ? (*s.module_documents)[t].place : s.nearest_place("robot"),
+                   fmt::format("bodies {} and {} of {} are {:.3g} mm in one another with all hinges at 0{}: only more than "
+                               "{:.3g} mm is a collision",
+                               type.bodies[a].name, type.bodies[b].name, clipped(type.name), depth, more, kTurned * depth),
+                   false});
+  }
+}
+
 }  // namespace
 
 std::vector<Warning> setup_warnings(const Scenario& s) {
@@ -119,6 +140,7 @@ std::vector<Warning> setup_warnings(const Scenario& s) {
   } catch (const PluginError&) {
     out.clear();  // the run reports the error with its place
   }
+  note_design(s, out);
   if (s.ground.beyond_border(s.position.x(), s.position.y())) {
     out.push_back(
         {s.nearest_place("ground.heightfield"),

@@ -28,6 +28,7 @@ struct Warning {
 /// whose `Kd` does not change that bound.
 /// - A number outside its usual range (plausibility.h), with the unit in which it may have been given. Without a position loop
 /// that cannot settle if the control period or the speed of a motor is such a number.
+/// - Bodies of one module that overlap by design (note).
 /// - A robot that starts beside its heightfield.
 ///
 /// Refuses rows of Scenario::accept without an unusual number (InputError).

@@ -3,6 +3,8 @@
 The way out of a convex body is the least overlap over all directions; here over directions of a grid, then about the best of
 them, where the program tries the products of edges. Round shapes are prisms of 24 sides, with corners every 15 degrees from the
 x axis on (report/analysis/convex.h)."""
+from fnmatch import fnmatchcase
+
 import numpy as np
 
 from paper.robot import rpy
@@ -100,9 +102,47 @@ def bound(parts_a, parts_b, pose_a, pose_b):
     return most
 
 
+def at_zero(data):
+    """{body: (place, turn)} of a module type with all hinges at 0, in the frame of its root."""
+    hinges = data.get("hinges", [])
+    poses = {name: (np.zeros(3), np.eye(3)) for name in data["bodies"] if name not in {h["child"] for h in hinges}}
+    while len(poses) < len(data["bodies"]):
+        for hinge in hinges:
+            if hinge["parent"] in poses:
+                p, r = poses[hinge["parent"]]
+                poses[hinge["child"]] = p + r @ np.array(hinge.get("origin", [0, 0, 0]), float), r @ rpy(hinge.get("rpy", [0, 0, 0]))
+    return poses
+
+
+class OneModule:
+    """What bodies of one module may overlap: pairs of may_overlap anything, others sqrt(2) of what they do at angles 0."""
+
+    def __init__(self, record, found):
+        self.robot, self.found, self.known = record.robot, found, {}
+        self.of_robot = record.scenario["robot"].get("may_overlap", [])
+
+    def left_out(self, a, b):
+        (ma, own), (mb, other) = a.split("/"), b.split("/")
+        rules = [(a, b, pair) for pair in self.of_robot]
+        if ma == mb:
+            rules += [(own, other, pair) for pair in self.robot.type_of[int(ma[1:])].get("may_overlap", [])]
+        return any(fnmatchcase(x, p) and fnmatchcase(y, q) for x, y, pair in rules for p, q in (pair, pair[::-1]))
+
+    def design(self, a, b):
+        (ma, own), (mb, other) = a.split("/"), b.split("/")
+        if ma != mb:
+            return 0.0
+        data = self.robot.type_of[int(ma[1:])]
+        key = id(data), own, other
+        if key not in self.known:
+            poses = at_zero(data)
+            self.known[key] = np.sqrt(2) * penetration(self.found[a], self.found[b], poses[own], poses[other], 0.0)
+        return self.known[key]
+
+
 class Collisions:
-    """Collisions of bodies that no hinge connects and that can move relative to each other. `pairs` is {(a, b): (depth, time)} for
-    pairs deeper than limits.touch; `first` is the time of the first collision with its bodies."""
+    """Collisions of bodies that can move relative to each other. `pairs` is {(a, b): (depth, time)} for pairs deeper than
+    limits.touch, beyond their overlap by design; `first` is the time of the first collision with its bodies."""
 
     def __init__(self, record):
         found, motion, robot, t = shapes(record), record.motion(), record.robot, record.poses["t"]
@@ -110,22 +150,25 @@ class Collisions:
         self.shaped, self.pairs, self.first, self.first_bodies = len(found), {}, np.inf, set()
         for body in robot.order:  # docked bodies belong to one link
             link[body.name] = link[body.parent.name] if body.parent is not None and body.joint is None else body.name
-        hinged = {frozenset((b.name, b.parent.name)) for b in robot.order if b.joint is not None}
+        own = OneModule(record, found)
         names = [b.name for b in robot.order if b.name in found]
         reach = {n: max(np.linalg.norm(part.origin) + np.linalg.norm(part.size) for part in found[n]) for n in names}
         for i, a in enumerate(names):
             for b in names[i + 1:]:
-                if link[a] == link[b] or frozenset((a, b)) in hinged:
+                if link[a] == link[b] or own.left_out(a, b):
                     continue
                 (pa, ra), (pb, rb) = motion[a][:2], motion[b][:2]
                 rows = np.flatnonzero(np.linalg.norm(pa - pb, axis=1) < reach[a] + reach[b])
                 if not len(rows):
                     continue
                 most = bound(found[a], found[b], (pa[rows], ra[rows]), (pb[rows], rb[rows]))
-                self.pair(a, b, found, motion, rows[most > touch], most[most > touch], touch, t)
+                design = own.design(a, b)
+                most = most - design
+                self.pair(a, b, found, motion, rows[most > touch], most[most > touch], touch, t, design)
 
-    def pair(self, a, b, found, motion, rows, most, touch, t):
-        depth = lambda row: penetration(found[a], found[b], *((motion[n][0][row], motion[n][1][row]) for n in (a, b)), touch)
+    def pair(self, a, b, found, motion, rows, most, touch, t, design):
+        poses = lambda row: [(motion[n][0][row], motion[n][1][row]) for n in (a, b)]
+        depth = lambda row: max(0.0, penetration(found[a], found[b], *poses(row), touch + design) - design)
         best, when, seen = 0.0, np.nan, {}
         for k in np.argsort(-most):
             if most[k] <= best:

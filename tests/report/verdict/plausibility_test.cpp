@@ -42,6 +42,7 @@ robot:
       stall_torque: 1.8
       no_load_speed: 10.2
     controller: {type: pid, Kp: 50}
+    may_overlap: [[body, head]]
   docks: [[0, 1, 1, 0, 0], [0, 2, 1, 1, 0], [0, 3, 1, 2, 0]]
 contact: {on: all}
 physics: {engine: articulated}
@@ -288,7 +289,7 @@ TEST(Plausibility, Contacts) {
   const OddTexts found = odd_numbers({{"contacts: {all: shapes}", "contacts: {all: []}"}});
   ASSERT_EQ(found.size(), 1U);
   EXPECT_TRUE(
-      found[0].starts_with("31:15: contact.on is all, but no body has a contact element, so that the robot falls through the "
+      found[0].starts_with("32:15: contact.on is all, but no body has a contact element, so that the robot falls through the "
                            "ground; expected at least one: take contacts: {all: shapes} (module format 3) in "))
       << found[0];
   const OddTexts feet =
@@ -346,7 +347,7 @@ TEST(Plausibility, BodiesInOnePlace) {
                                        "[[0, 1, 2, 0, 2], [0, 2, 2, 1, 2], [0, 3, 2, 2, 2], [0, 4, 2, 3, 2]]"}});
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0],
-            "30:62: m0/head and m4/head are 47 mm in one another at the start; 2 pairs of bodies overlap; expected bodies "
+            "31:62: m0/head and m4/head are 47 mm in one another at the start; 2 pairs of bodies overlap; expected bodies "
             "apart: look at the docks and at initial.angles");
 }
 

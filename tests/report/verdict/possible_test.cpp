@@ -26,6 +26,7 @@ struct Links {
         "    contacts: {{all: shapes}}\n"
         "    actuator: {{type: servo, voltage: 12, {1}, source: sheet}}\n"
         "    controller: {{type: pid, Kp: 60, Kd: 0}}\n"
+        "    may_overlap: [[a, b]]\n"
         "physics: {{engine: articulated}}\ncontact: {{on: all}}\n"
         "cpg: {{type: sine, frequency: 1, amplitude: 0.2, model: {{ramp: 1}}}}\nduration: 5\n{2}",
         body, motor, more);

@@ -14,6 +14,7 @@ Check held_by(const std::string& mass, const std::vector<std::string>& sets = {}
                   "      hand: {{mass: 0.02, shape: [{{box: [0.04, 0.04, 0.04], origin: [0.02, 0, 0]}}]}}\n"
                   "    hinges:\n      - {{name: shoulder, parent: foot, child: arm, axis: [0, 1, 0], range: [-1, 1]}}\n"
                   "      - {{name: wrist, parent: arm, child: hand, origin: [0.2, 0, 0], axis: [1, 0, 0], range: [-1, 1]}}\n"
+                  "    may_overlap: [[foot, arm]]\n"
                   "    actuator: {{type: servo, voltage: 7.4, stall_torque: 0.39, no_load_speed: 11.938, stall_current: 1.1, "
                   "efficiency_model: directional, source: sheet}}\n"
                   "    controller: {{type: pid, Kp: 29, Kd: 0}}\n"

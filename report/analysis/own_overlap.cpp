@@ -1,0 +1,144 @@
+#include "report/analysis/own_overlap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+namespace gaitlab::report {
+
+namespace {
+
+constexpr double kWholeTurn = 2 * std::numbers::pi;
+constexpr double kNoDepth = 1e-9;  // m, rounding
+
+std::vector<Convex> shapes_of(const BodyType& body, const Pose& place) {
+  std::vector<Convex> made;
+  for (const Shape& shape : body.shapes) made.push_back(moved(convex(shape), place));
+  return made;
+}
+
+/// Poses of the bodies in the frame of the root, with all hinges at 0.
+std::vector<Pose> poses_at_zero(const ModuleType& type) {
+  std::vector<std::optional<Pose>> found(type.bodies.size());
+  found[type.root] = Pose{};
+  for (bool more = true; more;) {
+    more = false;
+    for (const HingeType& hinge : type.hinges) {
+      if (!found[hinge.parent] || found[hinge.child]) continue;
+      found[hinge.child] = *found[hinge.parent] * hinge.in_parent;
+      more = true;
+    }
+  }
+  std::vector<Pose> poses;
+  for (const std::optional<Pose>& pose : found) poses.push_back(pose.value_or(Pose{}));
+  return poses;
+}
+
+bool on_one_hinge(const ModuleType& type, std::size_t a, std::size_t b) {
+  return std::ranges::any_of(
+      type.hinges, [&](const HingeType& hinge) { return std::minmax(hinge.parent, hinge.child) == std::minmax(a, b); });
+}
+
+}  // namespace
+
+DesignOverlap::DesignOverlap(const ModuleType& type) : type_(type) {
+  const std::vector<Pose> poses = poses_at_zero(type);
+  for (std::size_t b = 0; b < type.bodies.size(); ++b) {
+    Placed body{shapes_of(type.bodies[b], poses[b])};
+    std::size_t corners = 0;
+    for (const Convex& shape : body.shapes) {
+      for (const Vec3& vertex : shape.vertices) body.centre += vertex;
+      corners += shape.vertices.size();
+    }
+    if (corners > 0) body.centre /= static_cast<double>(corners);
+    for (const Convex& shape : body.shapes) {
+      for (const Vec3& vertex : shape.vertices) body.reach = std::max(body.reach, (vertex - body.centre).norm() + shape.radius);
+    }
+    bodies_.push_back(std::move(body));
+  }
+}
+
+double DesignOverlap::depth(std::size_t a, std::size_t b) {
+  const auto [first, second] = std::minmax(a, b);
+  const Placed &one = bodies_[first], &other = bodies_[second];
+  if ((one.centre - other.centre).norm() > one.reach + other.reach) return 0;
+  const auto [known, fresh] = known_.emplace(std::pair(first, second), 0);
+  if (!fresh) return known->second;
+  double deepest = 0;
+  for (const Convex& shape : one.shapes) {
+    for (const Convex& with : other.shapes) deepest = std::max(deepest, penetration(shape, with, deepest));
+  }
+  known->second = deepest;
+  return deepest;
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> DesignOverlap::pairs() {
+  const BodyPairs left_out(type_.may_overlap, body_names(type_));
+  std::vector<std::pair<std::size_t, std::size_t>> found;
+  for (std::size_t a = 0; a < bodies_.size(); ++a) {
+    for (std::size_t b = a + 1; b < bodies_.size(); ++b) {
+      if (depth(a, b) > kNoDepth && !on_one_hinge(type_, a, b) && !left_out.has(a, b)) found.emplace_back(a, b);
+    }
+  }
+  std::ranges::stable_sort(found, std::greater<>(), [&](const auto& pair) { return depth(pair.first, pair.second); });
+  return found;
+}
+
+HingeOverlap::HingeOverlap(const ModuleType& type, std::size_t hinge, double by_design, double ignored)
+    : hinge_(type.hinges[hinge]),
+      by_design_(by_design),
+      ignored_(ignored),
+      parent_(shapes_of(type.bodies[hinge_.parent], hinge_.in_parent.inverse())),
+      child_(shapes_of(type.bodies[hinge_.child], Pose{})) {
+  for (const Convex& shape : child_) {
+    for (const Vec3& vertex : shape.vertices) reach_ = std::max(reach_, vertex.cross(hinge_.axis).norm() + shape.radius);
+  }
+}
+
+double HingeOverlap::beyond(double angle) {
+  if (parent_.empty() || child_.empty()) return 0;
+  angle = std::remainder(angle, kWholeTurn);
+  const auto after = clear_.upper_bound(angle);
+  if (after != clear_.begin() && angle <= std::prev(after)->second) return 0;
+  const Pose turned{turn(hinge_.axis, angle).toRotationMatrix(), Vec3::Zero()};
+  const double counts = by_design_ + ignored_;
+  double deepest = 0;
+  double room = counts;
+  for (const Convex& own : child_) {
+    const Convex there = moved(own, turned);
+    for (const Convex& other : parent_) {
+      Vec3 apart;
+      deepest = std::max(deepest, penetration(other, there, std::max(counts, deepest), apart));
+      if (deepest == 0) room = std::min(room, counts - overlap_along(Extent(other), {}, Extent(there), {}, apart));
+    }
+  }
+  if (deepest > 0) return deepest - by_design_;
+  const double near = room / std::max(reach_, kNoDepth);
+  double& end = clear_[angle - near];
+  end = std::max(end, angle + near);
+  return 0;
+}
+
+double deepest_in_range(const ModuleType& type, std::size_t hinge) {
+  constexpr double kApart = 0.05;  // rad
+  const HingeType& own = type.hinges[hinge];
+  const double by_design = kTurned * DesignOverlap(type).depth(own.parent, own.child);
+  HingeOverlap overlap(type, hinge, by_design, 0);
+  const double lo = std::max(own.lo, -kWholeTurn / 2);
+  const double hi = std::min(own.hi, kWholeTurn / 2);
+  const int steps = std::max(1, static_cast<int>(std::ceil((hi - lo) / kApart)));
+  double deepest = 0;
+  for (int k = 0; k <= steps; ++k) deepest = std::max(deepest, overlap.beyond(lo + (hi - lo) * k / steps));
+  return deepest;
+}
+
+std::vector<std::string> body_names(const ModuleType& type) {
+  std::vector<std::string> names;
+  for (const BodyType& body : type.bodies) names.push_back(body.name);
+  return names;
+}
+
+}  // namespace gaitlab::report
