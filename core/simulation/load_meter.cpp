@@ -44,6 +44,7 @@ LoadMeter::LoadMeter(const Scenario& scenario, const std::vector<ContactElement>
       weight_(robot_.mass * scenario.physics.gravity.norm()),
       stability_(wanted == Loads::recorded && scenario.ground.is_plane()),
       forces_(wanted == Loads::recorded),
+      creep_speed_(scenario.contact.model().penalty_settings ? scenario.contact.penalty.v_lim : 0),
       gears_(scenario.contact.model().element_forces ? std::move(gears) : std::vector<std::size_t>()),
       before_(robot_),
       touched_(elements.size()) {
@@ -73,6 +74,14 @@ void LoadMeter::add_columns(const Scenario& scenario) {
   add("t", "s", "time");
   add("path", "m", "horizontal way of the centre of mass from t = 0, from row to row");
   add("slip", "m", "way that contact points slid under load, times the load over the weight, from t = 0");
+  if (creep_speed_ > 0) {
+    for (const char* const axis : {"x", "y"}) {
+      add(fmt::format("creep.{}", axis), "m",
+          fmt::format(
+              "way along {} that contact points slid below contact.slip_speed, times the load over the weight, from t = 0",
+              axis));
+    }
+  }
   if (stability_) add("stability", "m", "how far the centre of mass is within the support polygon; outside negative");
   for (const DockFace& dock : docks_) {
     const auto of_dock = [&](const char* quantity, const char* unit, const char* definition) {
@@ -104,12 +113,12 @@ void LoadMeter::add_columns(const Scenario& scenario) {
 /// Number of columns per foot.
 std::size_t LoadMeter::foot_width() const { return forces_ ? std::size_t{kFootColumns} : 1; }
 
-double LoadMeter::slide(std::size_t e) const {
+Vec3 LoadMeter::slide(std::size_t e) const {
   const ContactSample& now = sample_.contacts[e];
   const Kinematics& k = sample_.kinematics;
   const std::size_t link = elements_[e].link;
-  if (touched_[e].fn > 0) return level(k.point(link, touched_[e].in_link) - before_.point(link, touched_[e].in_link));
-  return level(now.point - before_.point(link, k.R[link].transpose() * (now.point - k.p[link])));
+  if (touched_[e].fn > 0) return k.point(link, touched_[e].in_link) - before_.point(link, touched_[e].in_link);
+  return now.point - before_.point(link, k.R[link].transpose() * (now.point - k.p[link]));
 }
 
 void LoadMeter::measure(Foot& foot, Out row) {
@@ -128,7 +137,9 @@ void LoadMeter::measure(Foot& foot, Out row) {
     const double both = contact.fn + touched_[e].fn;
     if (first_ || !(both > 0)) continue;
     loads += both;
-    way += both * slide(e);
+    const Vec3 slid = slide(e);
+    way += both * level(slid);
+    if (weight_ > 0 && level(slid) < creep_speed_ * (sample_.t - time_before_)) creep_ += both / 2 / weight_ * slid;
   }
   const bool loaded = load > kLoaded * weight_;
   const bool was = foot.load > kLoaded * weight_;
@@ -180,6 +191,9 @@ void LoadMeter::measure(Out row) {
   row[at++] = sample_.t;
   row[at++] = single(path_);
   row[at++] = single(slip_);
+  if (creep_speed_ > 0) {
+    for (const double way : {creep_.x(), creep_.y()}) row[at++] = single(way);
+  }
   if (stability_) row[at++] = single(margin());
   watch();
   for (const DockLoad& load : dock_loads_) {
@@ -188,6 +202,7 @@ void LoadMeter::measure(Out row) {
   for (const double torque : gear_loads_) row[at++] = single(torque);
   watched_ = false;
   first_ = false;
+  time_before_ = sample_.t;
   com_before_ = sample_.sums.com;
   before_ = k;
   for (std::size_t e = 0; e < touched_.size(); ++e) {

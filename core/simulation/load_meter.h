@@ -55,9 +55,9 @@ class LoadMeter {
 
   void add_columns(const Scenario& scenario);
   [[nodiscard]] DockLoad load(const DockFace& dock) const;
-  /// Horizontal distance by which the contact point of an element moved since the previous tick, m. The material point that
-  /// touched the ground at the previous tick is used, or the present one if none touched then.
-  [[nodiscard]] double slide(std::size_t element) const;
+  /// Way of the contact point of an element since the previous tick, m. The material point that touched the ground at the
+  /// previous tick is used, or the present one if none touched then.
+  [[nodiscard]] Vec3 slide(std::size_t element) const;
   [[nodiscard]] std::size_t foot_width() const;
   void measure(Foot& foot, Out row);
   [[nodiscard]] double margin();
@@ -68,6 +68,7 @@ class LoadMeter {
   double weight_ = 0;       ///< N
   bool stability_ = false;  ///< there is a column of the stability margin
   bool forces_ = false;     ///< there are columns of the feet's forces and points of action
+  double creep_speed_ = 0;  ///< m/s, below which loaded contacts creep; 0 if the contact law has no such speed
   std::vector<DockFace> docks_;
   std::vector<std::size_t> gears_;    ///< joints
   std::vector<DockLoad> dock_loads_;  ///< largest loads since the last row, by index of docks_
@@ -80,7 +81,9 @@ class LoadMeter {
   Kinematics before_;
   std::vector<Before> touched_;
   Vec3 com_before_ = Vec3::Zero();
+  double time_before_ = 0;      ///< s
   double path_ = 0, slip_ = 0;  ///< m
+  Vec3 creep_ = Vec3::Zero();   ///< m
   std::vector<Vec3> support_;   ///< scratch
 };
 

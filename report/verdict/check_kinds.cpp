@@ -21,6 +21,7 @@ void slip(const CheckedRun& run, Check& made) {
   judge_slip(run.scenario, run.record, run.summary, made);
   made.source = threshold("slip", run.limits().slip, Limits().slip);
 }
+void creep(const CheckedRun& run, Check& made) { judge_creep(run.scenario, run.record, run.summary, made); }
 void stability(const CheckedRun& run, Check& made) { judge_stability(run.scenario, run.record, run.summary, made); }
 
 constexpr const char* kGentler = "a smaller amplitude or frequency, or a stronger motor; --demand computes what is missing";
@@ -137,6 +138,11 @@ constexpr CheckKind kChecks[] = {
      "change of a joint's torque, RMS over its peak, under gravity times 1 + 1e-6 (1 + 1e-9, if that suffices)", "",
      "above 1 %, or physics.accuracy; of 1e-9 the verdict is not judged where the spread reaches a failing limit", kWhole,
      "physics.gravity", "several runs with other seeds or starts; no smaller step helps", checks::predictable},
+    {"creep", Group::trust, "", "Feet that hold stay",
+     "way, weighted by load, that feet slide below contact.slip_speed, where a real ground holds them, over the displacement "
+     "of "
+     "the centre of mass",
+     "", "above 2 %", kWindow, "contact.slip_speed", "a smaller contact.slip_speed", creep},
     {"ledger", Group::trust, "", "Energy adds up",
      "residual of the energy over the energy drawn (or stored, or for lifting the robot by 1 mm, if that is more)", "",
      "above limits.energy_residual; above 5 % the verdict is not judged", kWhole, "physics.step", kShorter, checks::ledger},

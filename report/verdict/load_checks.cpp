@@ -10,6 +10,7 @@
 #include "core/model/docking.h"
 #include "core/model/pattern.h"
 #include "report/analysis/legs.h"
+#include "report/analysis/motion.h"
 #include "report/analysis/motors.h"
 #include "report/verdict/number_texts.h"
 
@@ -19,7 +20,8 @@ namespace {
 
 constexpr double kNothing = 1e-9;  // N, N m: smaller loads are rounding
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kLeastWay = 0.01;  // m: on a shorter path the robot does not walk, and the share of slip has no meaning
+constexpr double kLeastWay = 0.01;  // m: on a shorter way the robot does not walk, and shares of slip and creep have no meaning
+constexpr double kMostCreep = 0.02;
 
 struct DockWords {
   const char *column, *unit, *does;
@@ -199,6 +201,16 @@ void judge_docks(const Scenario& scenario, const Recording& record, DockQuantity
       unstated > 0 ? fmt::format("; {} of {} docks are not judged: what they hold is not stated", unstated, peaks.size()) : "");
 }
 
+namespace {
+
+/// True if the robot goes that far (m) in the judged window. If it does not, the check says so and is not judged.
+bool walks(double way, Check& made) {
+  made.text = fmt::format("the robot goes {}: less than {} is not walking", texts::length(way), texts::length(kLeastWay));
+  return way >= kLeastWay;
+}
+
+}  // namespace
+
 void judge_slip(const Scenario& scenario, const Recording& record, const Summary& summary, Check& made) {
   made.text = unknown_of_feet(scenario, record);
   if (!made.text.empty()) return;
@@ -223,8 +235,7 @@ void judge_slip(const Scenario& scenario, const Recording& record, const Summary
     }
     feet.push_back(at);
   }
-  made.text = fmt::format("the robot goes {}: less than {} is not walking", texts::length(way), texts::length(kLeastWay));
-  if (way < kLeastWay) return;
+  if (!walks(way, made)) return;
   made.value = slip / way;
   made.limit = scenario.limits.slip;
   made.status = made.value <= made.limit ? CheckStatus::pass : CheckStatus::warn;  // NaN also warns
@@ -234,6 +245,25 @@ void judge_slip(const Scenario& scenario, const Recording& record, const Summary
                                  : fmt::format("under load the weight slides {}, {} of the way of {}; farthest foot {}, {}",
                                                texts::length(slip), texts::percent(made.value), texts::length(way),
                                                foot_names(scenario, feet)[worst], texts::length(farthest));
+}
+
+void judge_creep(const Scenario& scenario, const Recording& record, const Summary& summary, Check& made) {
+  made.text = unknown_of_feet(scenario, record);
+  if (!made.text.empty()) return;
+  const Window window(record, summary);
+  const Motion m = motion(record);
+  const double travel = std::hypot(m.x.back() - m.x[window.start], m.y.back() - m.y[window.start]);
+  if (!walks(travel, made)) return;
+  const double creep = std::hypot(window.grown(window.series("creep.x")), window.grown(window.series("creep.y")));
+  made.value = creep / travel;
+  made.limit = kMostCreep;
+  made.status = made.value <= made.limit ? CheckStatus::pass : CheckStatus::warn;
+  made.from = window.time(window.start);
+  made.to = window.time(window.loads.rows() - 1);
+  made.text = fmt::format("feet that hold creep {}, {} of the travel of {}", texts::length(creep), texts::percent(made.value),
+                          texts::length(travel));
+  if (made.status == CheckStatus::warn)
+    made.text += fmt::format("; contact.slip_speed: {:.3g} would halve it", scenario.contact.penalty.v_lim / 2);
 }
 
 void judge_stability(const Scenario& scenario, const Recording& record, const Summary& summary, Check& made) {

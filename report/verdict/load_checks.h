@@ -23,6 +23,10 @@ void judge_docks(const Scenario& scenario, const Recording& record, DockQuantity
 /// Warns above Limits::slip.
 void judge_slip(const Scenario& scenario, const Recording& record, const Summary& summary, Check& made);
 
+/// Divides the way that loaded feet creep below contact.slip_speed, a vector weighted by load, by the displacement of the
+/// centre of mass, in the judged window. On a real ground such feet would hold. Warns above 2 %.
+void judge_creep(const Scenario& scenario, const Recording& record, const Summary& summary, Check& made);
+
 /// Least distance of the centre of mass from the edge of the support polygon, positive inside. It is a note without a limit and
 /// always passes, because a dynamic gait may leave the support polygon.
 void judge_stability(const Scenario& scenario, const Recording& record, const Summary& summary, Check& made);

@@ -39,7 +39,7 @@ MUST = {check: ("pass", "warn", "fail") for check in (
     "voltage", "current", "speed", "stall", "heat", "gear_peak", "gear_continuous", "tracking", "stops", "dock_tension", "dock_shear",
     "dock_bending", "dock_torsion", "upright", "collision")}
 MUST |= {check: ("pass", "warn") for check in ("envelope", "setpoints", "start", "slip", "airborne", "field", "periodic",
-                                               "torque_error", "ledger", "created")}
+                                               "torque_error", "creep", "ledger", "created")}
 MUST |= {check: ("pass", "fail") for check in ("outcome", "fall", "in_ground")}
 MUST |= {"progress": ("pass", "warn", "fail"), "stability": ("pass",), "evidence": ("pass", "not judged"), "supply": ("pass",),
          "step": ("pass",), "coarse": ("pass",), "law": ("pass",)}

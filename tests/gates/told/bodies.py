@@ -340,6 +340,21 @@ def slip(record, window):
     return told
 
 
+def creep(record, window):
+    if not on_ground(record):
+        return Told()
+    com, first = record.com(), window.first
+    travel = np.linalg.norm((com[-1] - com[first])[:2])
+    crept = np.hypot(*(record.loads[name][-1] - record.loads[name][first] for name in ("creep.x", "creep.y")))
+    told = Told(also={"way": travel, "crept": crept, "least_way": LEAST_WAY, "half": record.slip_speed / 2})
+    if travel < LEAST_WAY:
+        return told
+    told.value, told.limit = crept / travel, 0.02
+    told.status, told.margin = graded(told.value, told.limit, np.inf), margin(told.value, told.limit)
+    told.start, told.end = record.loads["t"][first], record.loads["t"][-1]
+    return told
+
+
 def borne(record, window):
     """Shares of the weight on the ground at the control ticks in the window; None if they are not required."""
     if not record.floating or not record.weight > 0 or not elements(record) or record.ground == "none":

@@ -60,6 +60,7 @@ class Record:
         self.gravity = np.array(self.scenario["physics"]["gravity"], float)
         self.weight = self.mass * np.linalg.norm(self.gravity)
         self.solver = self.scenario["contact"].get("law") == "bullet"  # Bullet's solver also separates bodies
+        self.slip_speed = self.scenario["contact"].get("slip_speed", 0.01)
         self.adaptive = self.scenario["physics"]["integrator"] == "adaptive"
         self.motors()
         self.motion_ = None

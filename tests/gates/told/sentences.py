@@ -170,6 +170,8 @@ JUDGED = {
                    r"(?: \(in proportion to 1 \+ 1e-9\))?(?:; of {rollouts:d} rollouts that differ by next "
                    r"to nothing the torque peaks at {low_peak:.3g}(?: to {high_peak:.3g})? N m \(RMS {low_rms:.3g}(?: to {high_rms:.3g})?\), the "
                    r"travel is {low_way:length}(?: to {high_way:length})?, the least margin (?:{low_margin:pct}(?: to {high_margin:pct})?|no number))?",
+    "creep": r"feet that hold creep {crept:length}, {value:pct} of the travel of {way:length}"
+             r"(?:; contact\.slip_speed: {half:.3g} would halve it)?",
     "ledger": r"{value:pct} of the energy is unaccounted for(?:: {missing:.3g} J, of {drawn:.3g} J drawn)?",
     "created": r"gears that are driven backwards create {value:pct} of the energy \(eq\. 2\)"
                r"(?:; take actuator\.efficiency_model: directional)?",

@@ -105,7 +105,7 @@ class Judged:
             "in_ground": in_ground(r), "slip": bodies.slip(r, w), "airborne": bodies.airborne(r, w),
             "stability": bodies.stability(r, w), "field": bodies.field(r, w), "periodic": trust.periodic(r, w, e),
             "evidence": Told(), "torque_error": trust.torque_error(r),
-            "predictable": trust.predictable(r), "ledger": trust.ledger(r), "created": trust.created(r),
+            "predictable": trust.predictable(r), "creep": bodies.creep(r, w), "ledger": trust.ledger(r), "created": trust.created(r),
             "supply": trust.supply(r), "step": trust.step(r), "coarse": trust.coarse(r), "law": trust.law(r)}
         complete = e.long_enough and e.borne and not e.untrusted
         self.checks["evidence"] = Told("pass" if complete else "not judged", w.end - w.start, also=self.missing())

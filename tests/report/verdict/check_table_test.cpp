@@ -215,8 +215,9 @@ TEST(CheckTable, SpansDecideOfARunThatIsTooShort) {
 
 /// Checks have the documented spans. The span of `speed` depends on the limit that decides.
 TEST(CheckTable, HasItsSpans) {
-  const std::set<std::string> window{"progress",        "voltage",  "current", "envelope", "speed",     "stall",    "heat",
-                                     "gear_continuous", "tracking", "slip",    "airborne", "stability", "periodic", "evidence"};
+  const std::set<std::string> window{"progress", "voltage",   "current",         "envelope", "speed",
+                                     "stall",    "heat",      "gear_continuous", "tracking", "slip",
+                                     "airborne", "stability", "periodic",        "evidence", "creep"};
   for (const CheckKind& kind : check_kinds())
     EXPECT_EQ(kind.span, window.contains(kind.id) ? CheckSpan::window : CheckSpan::whole_run) << kind.id;
 }
