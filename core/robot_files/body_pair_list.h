@@ -15,7 +15,7 @@ inline constexpr const char* kMayOverlap = "may_overlap";
 std::vector<BodyPair> read_body_pairs(const Node& list, const std::vector<std::string>& bodies, const std::string& owner,
                                       Problems& problems);
 
-/// The list as it stands in a file.
+/// The list of a file.
 Node body_pairs_node(const std::vector<BodyPair>& pairs);
 
 }  // namespace gaitlab
