@@ -3,6 +3,7 @@
 #include "app/commands.h"
 #include "core/scenario/read_scenario.h"
 #include "kit/run_warnings.h"
+#include "report/verdict/plausibility.h"
 
 namespace gaitlab::app {
 
@@ -30,6 +31,7 @@ Scenario read(const ScenarioArguments& arguments, Catalog& catalog) {
     if (!arguments.seed) throw;
     raise_as_typed(error, seed);
   }
+  report::check_accepted(scenario);
   if (!arguments.quiet) {
     for (const Note& note : scenario.notes) say(to_string(note.place), "note", note.text);
   }

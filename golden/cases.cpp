@@ -11,6 +11,7 @@
 #include "core/scenario/other_engine.h"
 #include "core/scenario/read_scenario.h"
 #include "report/verdict/numbers.h"
+#include "report/verdict/plausibility.h"
 #include "report/verdict/verdict.h"
 
 namespace gaitlab::golden {
@@ -125,6 +126,7 @@ Scenario with_engine(const std::string& file, const Scenario& scenario, const st
 void read_case(GoldenCase& c, const std::optional<std::string>& engine, Catalog& catalog) {
   try {
     Scenario scenario = read_scenario(c.file, {}, catalog);
+    report::check_accepted(scenario);
     const bool chosen = scenario.physics.adapts();
     if (engine) scenario = with_engine(c.file, scenario, *engine, c.golden->origin.step, catalog);
     c.other_engine = scenario.physics.engine->name != c.golden->origin.engine;

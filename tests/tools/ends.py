@@ -15,7 +15,7 @@ SCENARIOS = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else pathlib.Path(__fi
 DURATIONS = 40
 # Scenario and period of its gait, s.
 ROBOTS = [("caterpillar", 4), ("hexapod", 2), ("library/ckbot-worm", 2), ("library/rofi-snake", 2), ("library/y1-snake", 2),
-          ("library/yamor-worm", 2), ("library/revolve-spider", 2), ("library/dtto-caterpillar", 2)]
+          ("library/yamor-worm", 2), ("library/revolve-spider", 2), ("library/dtto-caterpillar", 4)]
 
 
 def words(scenario, duration, sets):

@@ -7,7 +7,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 VERDICT = [f"report/verdict/{name}.cpp" for name in (
     "check_kinds", "checks_body", "checks_gait", "checks_limits", "checks_motor", "checks_stall", "checks_trust", "error_bar", "evidence", "load_checks", "trust",
     "verdict", "warnings")]
-ANALYSIS = [f"report/analysis/{name}.cpp" for name in ("collisions", "fall", "motion", "posture", "upright")]
+ANALYSIS = [f"report/analysis/{name}.cpp" for name in (
+    "collisions", "fall", "motion", "own_overlap", "posture", "upright")]
 HEADERS = ["report/verdict/error_bar.h", "report/verdict/evidence.h", "report/analysis/posture.h", "report/analysis/gait.h"]
 GUARDS = "studies/study/guards.cpp"
 DEFAULTS = "core/scenario/scenario.h"
@@ -142,7 +143,7 @@ def mutate_guards(mutants, path, text):
         return text[:text.index(old)].count("\n") + 1
 
     edits = [
-        ("return std::isnan(margin) ? 0 : std::max(0.0, least - margin);", "no guard has a limit", "if (mutants::on({})) return 0; "),
+        ("return std::isnan(margin) ? 0 : std::max(0.0, (reserve ? least : std::min(0.0, least)) - margin);", "no guard has a limit", "if (mutants::on({})) return 0; "),
         ("if (check.can_fail || (of_energy && check.id == \"created\"))", "none of the verdict's", "if (!mutants::on({})) "),
         ("if (check.can_fail && other) add(", "none is replaced", "if (!mutants::on({})) "),
         ("add(check.id, margin_column(*given)", "none that the study gives", "if (!mutants::on({})) "),
