@@ -206,6 +206,30 @@ TEST(CheckCases, WorstIsTheLeastMargin) {
   EXPECT_EQ(made.check("stops").unit, "rad");
 }
 
+/// Hinges without a motor decide the check of stops where they fail by more than the joints with a motor, or where none of
+/// these is beyond its range.
+TEST(CheckCases, HingesWithoutMotorRestOnTheirStops) {
+  const auto stops = [](double without, double with) {
+    Case made = gait();
+    rests_on_stop(without)(made);
+    made.record.joints[4].range_worst = with;
+    return made.check("stops");
+  };
+  const std::string hinge = gait().scenario.robot->joints[kJoint].name;
+  const std::string driven = gait().scenario.robot->joints[4].name;
+  EXPECT_EQ(stops(0, 0).worst, "");
+  EXPECT_EQ(stops(0.04, 0).worst, hinge);
+  EXPECT_EQ(stops(0.04, 0).parts, 0U);
+  EXPECT_EQ(stops(0.04, 0).status, CheckStatus::pass);
+  EXPECT_EQ(stops(0.06, 0).parts, 1U);
+  EXPECT_EQ(stops(0.04, 0.005).worst, driven) << "of two that do not fail";
+  EXPECT_EQ(stops(0.04, 0.02).worst, driven);
+  EXPECT_EQ(stops(0.06, 0.03).worst, driven) << "200 % more than its limit, the hinge 20 %";
+  EXPECT_EQ(stops(0.2, 0.03).worst, hinge) << "300 %";
+  EXPECT_TRUE(contains(stops(0.2, 0.03).text, "1 hinge without a motor is pressed far beyond the stop"))
+      << stops(0.2, 0.03).text;
+}
+
 TEST(CheckCases, TightestIsTheLeastMarginOfThoseThatFail) {
   const Verdict made = gait().judged();
   const Check* const tightest = made.tightest();

@@ -2,9 +2,11 @@
 #pragma once
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "report/analysis/fall.h"
+#include "report/analysis/motion.h"
 #include "report/analysis/summary.h"
 #include "tests/report/verdict/verdict_case.h"
 
@@ -51,6 +53,30 @@ inline Change slides(double share, bool early = false) {
       made.load("path", row) = row == last ? 0.1 : 0;
       made.load("slip", row) = row == last || (early && row > 0) ? 0.1 * share : 0;
     }
+  };
+}
+
+/// Lets the feet creep along x by `share` of the travel. With `early`, they creep only before the judged window.
+inline Change creeps(double share, bool early = false) {
+  return [=](Case& made) {
+    const Motion m = motion(made.record);
+    const std::size_t from = summarise(made.scenario, made.record, 0).judged.first_row;
+    const std::size_t last = made.record.loads.rows() - 1;
+    for (std::size_t row = 0; row <= last; ++row) {
+      const bool crept = row == last || (early && row > 0);
+      made.load("creep.x", row) = crept ? share * std::hypot(m.x[last] - m.x[from], m.y[last] - m.y[from]) : 0;
+      made.load("creep.y", row) = 0;
+    }
+  };
+}
+
+/// Takes the motor of joint kJoint away, and holds the joint beyond its stop, rad.
+inline Change rests_on_stop(double beyond) {
+  return [=](Case& made) {
+    const auto robot = std::make_shared<Robot>(*made.scenario.robot);
+    robot->joints[kJoint].passive.emplace();
+    made.scenario.robot = robot;
+    made.record.joints[kJoint].range_worst = beyond;
   };
 }
 

@@ -98,6 +98,7 @@ std::vector<Expected> table() {
          };
        },
        0.01, 0},
+      {"stops", rests_on_stop, 0.05, 0.05},
       of_joint("setpoints", &JointStatistics::setpoint_outside, 0, 0),
       of_joint("start", &JointStatistics::start_jump, 0.05, 0.05),
       {"collision",
@@ -110,6 +111,7 @@ std::vector<Expected> table() {
       of_dock("dock_bending", "dock.3.bending", 400),
       of_dock("dock_torsion", "dock.3.torsion", 200),
       {"slip", [](double v) { return slides(v); }, 0.2, 0.2, [](double v) { return slides(v, true); }},
+      {"creep", [](double v) { return creeps(v); }, 0.02, 0.02, [](double v) { return creeps(v, true); }},
       {"torque_error", [](double v) { return off(std::max(v, 1e-12)); }, 0.05, 0.01},  // an error of 0 means not estimated
       {"ledger",
        [](double v) {
