@@ -208,10 +208,11 @@ void Limits::fields(Fields& f) {
       {"", 0, 1e6,
        "Longest stretch at the limit, in control periods; a longer one is a failure. Default: our choice; a step of the set "
        "point takes one or two."});
-  f.number(
-      "height", height,
-      {"", 0, 1,
-       "Share of its height above the ground at the start below which the centre of mass has fallen. Default: our choice."});
+  f.number("height", height,
+           {"", 0, 1,
+            "Share of a height below which the centre of mass has fallen: the lower of that in the start pose, on the ground, "
+            "and that "
+            "in the pose of the set points. Default: our choice."});
   f.number(
       "tilt", tilt,
       {"rad", kPositive, 4,
@@ -245,10 +246,11 @@ void Limits::fields(Fields& f) {
            {"", 0, 1e6,
             "Largest slip distance of the feet, weighted by their loads, as a share of the robot's path; more is a warning. "
             "Default: our choice."});
-  f.number("torque_error", torque_error,
-           {"", kPositive, 1,
-            "Estimated error of a joint's torque, as a share of its largest torque, above which a run is not judged. Default: "
-            "chosen."});
+  f.number(
+      "torque_error", torque_error,
+      {"", kPositive, 1,
+       "Estimated error of a joint's torque, as a share of its largest torque, above which a run is not judged. Values above "
+       "0.1 count as 0.1, because with a larger error neither torques nor motion are known. Default: chosen."});
   f.number("progress", progress,
            {"", 0, 1000,
             "Least travel per period, as a share of the robot's extent; less is a failure. With the default, 0, less than a "

@@ -33,8 +33,10 @@ constexpr CheckKind kChecks[] = {
     {"outcome", Group::run, "s", "Run finished", "simulated time against the duration", "the run ended early", "", kWhole,
      "duration", "the message of the run names the remedy", checks::outcome, true},
     {"fall", Group::run, "", "Does not fall",
-     "least height of the centre of mass above the ground, at control ticks, over the lower of two heights: at the start, and "
-     "in the pose of the set points at that time, upright (mean orientation of all links as at the start) on its lowest "
+     "least height of the centre of mass above the ground, at control ticks, over the lower of two heights: in the start pose, "
+     "lowered "
+     "onto the ground, and in the pose of the set points at that time, upright (mean orientation of all links as at the start) "
+     "on its lowest "
      "contact elements",
      "below limits.height", "", kWhole, "limits.height", "a gait with more support, or limits.height", checks::height, true},
     {"progress", Group::run, "m", "Goes somewhere", "travel of the centre of mass per period (without periods: in the window)",
@@ -64,8 +66,10 @@ constexpr CheckKind kChecks[] = {
     {"stall", Group::motor, "N m", "Motors hold at rest",
      "torque of a joint while it turns at less than 5 % of its no-load speed, RMS over all this time and over any 0.1 s on "
      "end, against the stall torque at the supply",
-     "above that stall torque", "RMS over all this time above half of it", kWindow, "actuator.stall_torque",
-     "a pose with less load, or a stronger motor; efficiency_model: paper shows what the motor holds", checks::stall},
+     "above that stall torque, if the law of the motor allows it", "RMS over all this time above half of it", kWindow,
+     "actuator.stall_torque",
+     "a pose with less load, or a stronger motor; with efficiency_model: directional friction of the gear helps to hold",
+     checks::stall},
     {"heat", Group::motor, "A", "Motors stay cool", "RMS current in the window against the continuous rating, over all steps",
      "above actuator.i_continuous", "above limits.warn_share of it", kWindow, "actuator.i_continuous", kGentler, checks::heat,
      false, false, true},
@@ -78,7 +82,7 @@ constexpr CheckKind kChecks[] = {
      "above limits.warn_share of it", kWindow, "actuator.gear_torque_continuous", kGentler, checks::gear_continuous, false,
      false, true},
     {"tracking", Group::motion, "rad", "Joints follow their set points",
-     "largest set point minus angle in the window, over all steps", "above twice limits.tracking_error",
+     "largest |set point - angle| in the window, over all steps", "above twice limits.tracking_error",
      "above limits.tracking_error", kWindow, "controller", "larger gains, or a slower gait", checks::tracking},
     {"stops", Group::motion, "rad", "Joints keep their ranges",
      "largest excess over the range of the hinge, of the whole run, over all steps",
@@ -91,8 +95,8 @@ constexpr CheckKind kChecks[] = {
     {"start", Group::motion, "rad", "Starts at its set points", "largest jump of a set point at t = 0", "",
      "above limits.start_jump", kWhole, "cpg", "initial.angles", checks::start},
     {"collision", Group::structure, "m", "Bodies keep apart",
-     "deepest overlap of two bodies that no may_overlap names, of bodies of one module what is beyond the square root of 2 "
-     "times their overlap with all hinges at 0, in the whole run, at control ticks",
+     "deepest overlap of two bodies, of bodies of one module the part beyond 1.41 times their overlap with all hinges at 0; "
+     "pairs of may_overlap are left out; in the whole run, at control ticks",
      "above limits.collision", "above limits.touch", kWhole, "robot",
      "smaller amplitudes or offsets, or may_overlap for bodies whose shapes are rougher than the real ones", checks::collision},
     {"dock_tension", Group::structure, "N", "Docks are not pulled apart",
@@ -132,16 +136,15 @@ constexpr CheckKind kChecks[] = {
      "judged time, the ground's share of the weight, and the errors of torques and energy", "", "", kWindow, "duration",
      "the check's text names the missing evidence", checks::evidence},
     {"torque_error", Group::trust, "", "Torques are accurate", "estimated error of a joint's torque over its peak", "",
-     "above 1 %, or physics.accuracy; above limits.torque_error, at most 10 %, the verdict is not judged", kWhole,
-     "physics.step", kShorter, checks::torque_error},
+     "above physics.accuracy (1 % with a given step); above limits.torque_error, at most 10 %, the verdict is not judged",
+     kWhole, "physics.step", kShorter, checks::torque_error},
     {"predictable", Group::trust, "", "Motion is predictable",
      "change of a joint's torque, RMS over its peak, under gravity times 1 + 1e-6 (1 + 1e-9, if that suffices)", "",
-     "above 1 %, or physics.accuracy; of 1e-9 the verdict is not judged where the spread reaches a failing limit", kWhole,
+     "above 1 %, or physics.accuracy; a check that some of four rollouts fail is then too close to its limit", kWhole,
      "physics.gravity", "several runs with other seeds or starts; no smaller step helps", checks::predictable},
     {"creep", Group::trust, "", "Feet that hold stay",
-     "way, weighted by load, that feet slide below contact.slip_speed, where a real ground holds them, over the displacement "
-     "of "
-     "the centre of mass",
+     "net displacement, weighted by load, of feet that slide below contact.slip_speed, where a real ground holds them, over "
+     "that of the centre of mass",
      "", "above 2 %", kWindow, "contact.slip_speed", "a smaller contact.slip_speed", creep},
     {"ledger", Group::trust, "", "Energy adds up",
      "residual of the energy over the energy drawn (or stored, or for lifting the robot by 1 mm, if that is more)", "",

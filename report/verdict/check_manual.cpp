@@ -21,35 +21,47 @@ struct Meaning {
 constexpr Meaning kWords[] = {
     {Word::feasible,
      "No check fails, and none is too close to its limit. At least one limit of the motors was judged, and for a floating base "
-     "on a ground also fall and in_ground. The run is evidence: long enough, borne by the ground, and accurate."},
+     "on a ground also fall and in_ground. The run is evidence: long enough, borne by the ground, and accurate. With "
+     "contact.law bullet, whose solver keeps bodies apart, fall and in_ground may be missing, and unknown evidence (torque "
+     "error, the ground's share of the weight) is named beside the word."},
     {Word::infeasible,
-     "A check fails, in a run that is accurate. In one that is too short only a check of the whole run counts (docks, gears, "
-     "collision, stops, fall ...), because more time cannot undo it. With a torque error above limits.torque_error, at most 50 "
-     "%, only a check of motors, gears or docks counts that fails even with its value reduced by that error."},
+     "A check fails, in a run that is accurate and shows the gait. In a run that is too short, or whose gait is not at full "
+     "size, only a check of the whole run counts (fall, upright, stops, collision, in_ground, gear_peak, docks, a rated "
+     "speed), "
+     "because more time cannot undo it. With a torque error above limits.torque_error (at most 10 %) and up to 50 %, only "
+     "voltage, current, stall, heat, gears and docks count, and only if one fails even with its value reduced by the torque "
+     "error of its joint."},
     {Word::not_judged,
-     "Anything else. The sentence names all missing evidence, the settings that give it, and the failing check so far; a line "
-     "`judge by` has the command with these settings. `run` simulates again by itself if only the accuracy is missing and the "
-     "run takes less than 10 s (not with --no-retry)."},
+     "Anything else. The sentence names all missing evidence, its settings where they are known, and the failing check so far; "
+     "an impossible number is named alone. If all settings are known, a line `judge by` has the command with them. If only the "
+     "accuracy is missing, or a value is too close to its limit, `run` simulates once more, more accurately, if that takes "
+     "less "
+     "than 10 s by its estimate (not with --no-retry)."},
     {Word::failed, "The run ended early."},
 };
 
 constexpr const char* kEvidence =
-    "Evidence. Long enough: a whole period of a limit cycle that repeats within 1 %; else three periods of the set "
-    "points after the start of the gait; where set points do not repeat, 2 s. At full size: a ramp or rate of the cpg ends "
-    "within the run; the range of a set point grows by at most 2 % in three periods after the run, in which the cpg goes on "
-    "alone; its mean and RMS in the first and the last period of the window differ by at most 1 % of the range; a set point "
-    "changes. Borne, for a floating base: the ground carries at least half of the weight on average. Accurate: torque error at "
+    "Evidence. Long enough, from the start of the gait on (the end of a ramp, the last change of `at`, the landing): two "
+    "periods, if the motion repeats within 1 %, of which one is judged; else three periods of the set points; where set points "
+    "do not repeat, 2 s. At full size: a ramp or rate of the cpg ends within the run; for other cpgs the range of a set point "
+    "grows by at most 2 % in three periods after the run, which the cpg computes alone; mean and RMS of a set point in the "
+    "first "
+    "and the last period of the window differ by at most 1 % of its range; some set point changes by more than 2.5 % of its "
+    "range. Borne, for a floating base: the ground carries at least half of the weight on average. Accurate: torque error at "
     "most limits.torque_error (and 10 %, whatever that limit), at most 5 % of the energy unaccounted for, at most 10 % of the "
-    "time coarser than physics.accuracy, and no motor whose efficiency x Kt exceeds Ks. Possible: no mass, moment of inertia, "
-    "stall torque or power that no robot has (docs/modules.md), unless `accept` of the scenario names it; this precedes all "
-    "checks. Limits that the scenario changes, and numbers that it accepts, are beside the word.";
+    "time coarser than physics.accuracy, and no motor whose efficiency x Kt exceeds Ks. Possible: density, moments of "
+    "inertia, stall torque and power are such as a robot can have (docs/modules.md), or `accept` of the scenario names the "
+    "row; "
+    "else the run is not judged, whatever its checks say. Predictable: if gravity times 1 + 1e-9 changes the torques, all of "
+    "four equally valid rollouts must pass a check, or all fail it; else its value is too close to its limit. Limits that the "
+    "scenario changes, and numbers that it accepts, are beside the word, or under `rests on`.";
 
 constexpr const char* kMargin =
     "Margin of a check: (limit - value) / limit, where limit is the one at which the check fails; with the opposite sign for a "
-    "lower limit; the least margin if there are several limits; not divided for a limit of 0. Below 0 the check fails. The "
-    "worst joint, body, dock or "
-    "foot has the least margin. A value is too close to its limit if its error bar, from the estimated error of the torques, "
-    "contains the limit, unless another part exceeds its limit by more than its own error.";
+    "lower limit; the least margin if there are several limits; not divided for a limit of 0. Below 0 the check fails, or "
+    "is too close to its limit. The worst joint, body, dock or foot has the least margin. A value is too close to its limit if "
+    "its error bar contains the limit, unless another part exceeds its limit by more than its own error. Voltage, current, "
+    "stall, heat, gears and docks have an error bar, from the estimated error of the torques.";
 
 /// Paragraph with a head. Its further lines are indented by the width of the head.
 std::string hanging(const std::string& head, const std::string& text, std::size_t width) {
