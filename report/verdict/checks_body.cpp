@@ -331,7 +331,7 @@ void collision(const CheckedRun& run, Check& made) {
   const Body &one = run.scenario.robot->bodies[found->deepest_first],
              &other = run.scenario.robot->bodies[found->deepest_second];
   made.remedy = "take smaller amplitudes or offsets: with contact.law: penalty, bodies can pass through one another";
-  if (one.module == other.module) made.remedy += "; or list the pair in may_overlap, if its shapes are rough";
+  made.remedy += "; or list the pair in robot.may_overlap, if its shapes are rough";
   made.text = fmt::format("{} of bodies pass{} through one another, deepest {} and {}, by {}", counted(found->pairs, "pair"),
                           found->pairs == 1 ? "es" : "", one.name, other.name, texts::length(found->depth));
 }

@@ -142,7 +142,8 @@ void find_first_at_limit(const CheckedRun& run, MotorLimit limit, Check& made) {
     const auto from = parts.begin() + static_cast<std::ptrdiff_t>(run.summary.judged.first_row) + 1;
     const auto row = std::find_if(from, parts.end(), [](double part) { return part > 0; });
     if (row == parts.end()) continue;
-    const double begins = t[static_cast<std::size_t>(row - parts.begin())] - *row;
+    // The first row may begin before the window, which does not begin at a row.
+    const double begins = std::max(t[static_cast<std::size_t>(row - parts.begin())] - *row, run.summary.judged.from);
     if (begins >= made.first) continue;
     made.first = begins;
     made.first_part = run.joint(j);

@@ -34,7 +34,7 @@ double one_digit(double value) {
 std::string finer_setting(const Scenario& s, double share) {
   if (quantised(s)) return "";
   const Physics& physics = s.physics;
-  const double ratio = std::min(kGood, torque_error_limit(s)) / share / kMargin;
+  const double ratio = std::min({kGood, torque_error_limit(s), most_torque_error(s.limits)}) / share / kMargin;
   if (physics.adapts())
     return fmt::format("physics.accuracy={:.1g}", std::max(one_digit(physics.accuracy * ratio), kLeastAccuracy));
   const int order = std::max(1, physics.integrator->order);

@@ -120,6 +120,8 @@ def main():
     chosen = [k for k, name in mutants.names.items() if any(text in name for text in given.only.split(","))]
     told = {}
 
+    os.environ["GAITLAB_DATA"] = str(ROOT / "scenarios")  # the program of the mutants lies elsewhere
+
     def run(numbers, tests, environment):
         """Runs the mutants. Returns the first test that fails without a mutant, or an empty text."""
         command = ["nice", "-n", "3", str(program), "--gtest_brief=1", "--gtest_filter=" + tests, *map(str, numbers)]

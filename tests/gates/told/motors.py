@@ -73,7 +73,7 @@ def at_limit(record, window, kind):
     told.ties = [record.names[k] for k in ties] if parts else ()
     told.worst = told.worst if parts else None
     if parts:
-        first_at_limit(told, record, window.first, np.diff(table, axis=0))
+        first_at_limit(told, record, window, np.diff(table, axis=0))
     # Rows that are not at a limit, but with a torque within the torque error of the limit, count with their whole time.
     errors = record.torque_errors()
     peak, amperes = record.tick("envelope_peak"), record.tick("current_peak")
@@ -100,10 +100,11 @@ def at_limit(record, window, kind):
     return told
 
 
-def first_at_limit(told, record, row, spent):
-    """Time and name of the joint that is first at a limit after a row of ticks. In a row, the time spent at the limit counts as its end."""
+def first_at_limit(told, record, window, spent):
+    """Time and name of the joint that is first at a limit in the window. In a row, the time spent at the limit counts as its end."""
+    row = window.first
     spent = np.where(record.driven[None, :], spent, 0)[row:]
-    begins = {j: record.t[row + k + 1] - spent[k, j] for j in range(record.count) if (k := int(np.argmax(spent[:, j] > 0)), spent[k, j] > 0)[1]}
+    begins = {j: max(record.t[row + k + 1] - spent[k, j], window.start) for j in range(record.count) if (k := int(np.argmax(spent[:, j] > 0)), spent[k, j] > 0)[1]}
     told.first = min(begins.values())
     told.first_parts = [record.names[j] for j, begin in begins.items() if begin <= told.first + SAME]
     told.first_part = told.first_parts[0]
