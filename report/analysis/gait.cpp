@@ -83,7 +83,9 @@ double period_of(const Scenario& s, const Recording& r, double stated, Gait& mad
   if (seen.found) return seen.period;
   if (const LookAhead* const ahead = made.ahead.get(); ahead != nullptr && ahead->cycle.found) {
     const double found = ahead->cycle.period;
-    return repeats_in_run(*ahead, found, made.full_size, s.control_period) ? found : 0;
+    if (repeats_in_run(*ahead, found, made.full_size, s.control_period)) return found;
+    // Oscillators that still synchronise will repeat with the period that they state; a chirp states none.
+    return std::abs(found - stated) <= s.control_period ? stated : 0;
   }
   if (made.ahead != nullptr) return made.ahead->until < kTwoPeriods * stated ? stated : 0;
   // The recorded set points of a run of several periods would have shown the stated period.

@@ -147,7 +147,7 @@ class Gate:
     def any_rows(self, name):
         """A checked run has the same verdict, checks and lines for trace rows of 1, 5 and 50 ms."""
         folder = self.work / re.sub(r"\W+", "-", name)
-        lines = lambda text: [x for x in text.splitlines()[1:] if not re.match(r"  (page|files)|            \w+\.\w+", x)]
+        lines = lambda text: [x for x in text.splitlines()[1:] if not re.match(r"  (page|files|judge by)|            \w+\.\w+", x)]
         seen = set()
         for period in ("0.001", "0.005", "0.05"):
             out = folder / f"rows-{period}"

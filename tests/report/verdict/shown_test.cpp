@@ -103,6 +103,15 @@ TEST(Shown, AChirpDoesNotRepeat) {
   EXPECT_EQ(made.from, 0);
 }
 
+/// Oscillators whose phases still approach each other repeat only after the run, with the period that they state.
+TEST(Shown, OscillatorsThatStillSynchronise) {
+  const std::string cpg =
+      "cpg={type: hopf, frequency: 1, amplitude: 0.3, phase_lag: 1.278, couplings: chain, model: {coupling: 1, rate: 2}}";
+  expect_not_judged(caterpillar({cpg, "duration=4"}), "the set points grow: the RMS of joint ");
+  expect_not_judged(snake({cpg, "duration=4"}), "the set points grow: the RMS of joint ");
+  EXPECT_NE(caterpillar({cpg, "duration=10"}).word, Word::not_judged);
+}
+
 /// The word of a robot that drops by 5 cm more than its start, and of one that stands, is the same for every end of the run.
 TEST(Shown, TheEndOfTheRunDoesNotDecide) {
   for (const char* const height : {"0.05", "0.1"}) {
