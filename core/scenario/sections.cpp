@@ -93,7 +93,8 @@ void PhysicsFields::fields(Fields& f) {
                "or by the stability limit at the start (bullet). gaitlab converge shows the error of a step."});
   if (known) {
     const Engine& engine = *physics.engine;
-    const Integrator& preset = filled ? *physics.integrator : step > 0 ? engine.fixed() : engine.integrators.front();
+    const bool stated = filled && physics.integrator != nullptr;
+    const Integrator& preset = stated ? *physics.integrator : step > 0 ? engine.fixed() : engine.integrators.front();
     const Names integrators(engine.integrator_names());
     std::string integrator = preset.name;
     f.one_of("integrator", integrator, integrators.pointers, "Integrator of the engine.");
