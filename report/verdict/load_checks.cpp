@@ -252,9 +252,11 @@ void judge_creep(const Scenario& scenario, const Recording& record, const Summar
   if (!made.text.empty()) return;
   const Window window(record, summary);
   const Motion m = motion(record);
+  const double creep = std::hypot(window.grown(window.series("creep.x")), window.grown(window.series("creep.y")));
+  made.text = "the run has no creep of feet, or no poses at control ticks";
+  if (std::isnan(creep) || m.x.size() != window.loads.rows() || m.y.size() != m.x.size()) return;
   const double travel = std::hypot(m.x.back() - m.x[window.start], m.y.back() - m.y[window.start]);
   if (!walks(travel, made)) return;
-  const double creep = std::hypot(window.grown(window.series("creep.x")), window.grown(window.series("creep.y")));
   made.value = creep / travel;
   made.limit = kMostCreep;
   made.status = made.value <= made.limit ? CheckStatus::pass : CheckStatus::warn;
