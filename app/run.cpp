@@ -120,9 +120,9 @@ void print_files(const RunArguments& arguments, const std::filesystem::path& fol
                {"", "scenario.resolved.yaml, figure.svg"}});
 }
 
-/// Arguments of the more accurate run that replaces the `first` run without a verdict, if it is cheap. A run of a study, which
-/// has no file, is not replaced, and neither is a run whose file has changed since. `seen` is `first` with the rows that the
-/// recording has kept.
+/// Arguments of the more accurate run that replaces the `first` run without a verdict, if it is cheap. Runs of a study are
+/// not replaced, because they have no file, and neither is a run whose file has changed since. `seen` is `first` with the rows
+/// that the recording has kept.
 std::optional<RunArguments> more_accurate(const Scenario& first, const Scenario& seen, const Recording& recording,
                                           const report::Summary& summary, const RowsNeeded& rows,
                                           const RunArguments& arguments) {

@@ -1,6 +1,6 @@
 // Overlap of two bodies of one module. Their overlap with all hinges at angle 0 is by design, for example that of an axle in
 // its bearing, and so is a larger one up to the square root of 2: a square part that turns by 45 degrees reaches so much
-// farther. Only what is deeper counts.
+// farther. Only the depth beyond that counts.
 #pragma once
 #include <cstddef>
 #include <map>

@@ -177,7 +177,7 @@ std::string Verdict::why() const {
 
 namespace {
 
-/// `may_overlap leaves out m0/trunk and m1/leg`, for the list of what a verdict rests on. Empty if no pair is left out.
+/// `may_overlap leaves out m0/trunk and m1/leg`, for the line `rests on`. Empty if no pair is left out.
 std::string left_out_sentence(const Scenario& scenario) {
   constexpr std::size_t kMost = 3;
   std::vector<std::string> pairs;
