@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "core/errors.h"
 #include "core/files/atomic_file.h"
 #include "core/files/hash.h"
 #include "core/settings/reader.h"
@@ -65,37 +66,37 @@ void load(const PluginEntry& entry, const SourceLocation& place, const std::stri
   const fs::path canonical = fs::canonical(path, failure);
   if (failure || !fs::is_regular_file(canonical, failure)) {
     const std::string why = failure ? failure.message() : "not a regular file";
-    problems.add(place, fmt::format("plugin '{}' cannot be loaded: {} (tried '{}'{})", clipped(entry.path), why,
+    problems.add(place, fmt::format("plugin '{}' cannot be loaded: {} (tried '{}'{})", one_line(entry.path), why,
                                     fs::absolute(path).lexically_normal().string(),
                                     entry.hash.empty() ? "" : "; a record has its name alone, so name the file with --plugin"));
     return;
   }
   if (const PluginTrust& trust = catalog.trust(); !trust.all && !trust.files.contains(canonical.string())) {
-    problems.add(place, fmt::format("plugin '{}' is foreign code and is not loaded; {}", clipped(entry.path), trust.remedy));
+    problems.add(place, fmt::format("plugin '{}' is foreign code and is not loaded; {}", one_line(entry.path), trust.remedy));
     return;
   }
   const std::string hash = file_hash(canonical.string());
   if (hash.empty()) {
     problems.add(place,
-                 fmt::format("plugin '{}' cannot be read, or has more than {} MB", clipped(entry.path), kMostPage >> 20U));
+                 fmt::format("plugin '{}' cannot be read, or has more than {} MB", one_line(entry.path), kMostPage >> 20U));
     return;
   }
   if (!entry.hash.empty() && entry.hash != hash) {
     problems.add(place, fmt::format("plugin '{}' is not the recorded file: its hash is {}, but {} is recorded",
-                                    clipped(entry.path), hash, clipped(entry.hash)));
+                                    one_line(entry.path), hash, clipped(entry.hash)));
     return;
   }
   if (!read_start(canonical, 4)
            .starts_with("\x7F"
                         "ELF")) {
-    problems.add(place, fmt::format("plugin '{}' is not a library (.so)", clipped(entry.path)));
+    problems.add(place, fmt::format("plugin '{}' is not a library (.so)", one_line(entry.path)));
     return;
   }
   try {
     load_plugin(canonical.string(), hash, catalog);
     files.push_back({canonical.string(), hash});
   } catch (const std::exception& e) {
-    problems.add(place, fmt::format("plugin '{}' cannot be loaded: {}", clipped(entry.path), e.what()));
+    problems.add(place, fmt::format("plugin '{}' cannot be loaded: {}", one_line(entry.path), e.what()));
   }
 }
 

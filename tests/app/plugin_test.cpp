@@ -79,6 +79,13 @@ TEST_F(Plugins, AFileThatIsNotThereNamesWhatWasTried) {
                       std::filesystem::canonical(folder / "").string() + "/lib/wave.so')\n");
 }
 
+/// A long path is whole: its end is what tells one library from another.
+TEST_F(Plugins, ALongPathIsWhole) {
+  const std::string path = std::string(40, 'a') + "/" + std::string(40, 'b') + "/wave.so";
+  const std::string text = error("gaitlab: 1\nplugins: [" + path + "]\nrobot: {}\nduration: 1\n");
+  EXPECT_NE(text.find("plugin '" + path + "' cannot be loaded"), std::string::npos) << text;
+}
+
 TEST_F(Plugins, AStaticObjectThatThrowsIsAnError) {
   EXPECT_EQ(error(with("throws_at_load.so", "sine")),
             "s.yaml:2:11: error: plugin '" + kPlugins +
