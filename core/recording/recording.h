@@ -1,5 +1,6 @@
 // Recording of a run, with its rows and the statistics of all its steps, from the simulation or from a run folder.
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -75,12 +76,13 @@ struct Recording {
   Trace spread;
   /// Verdicts on draws with other seeds (report/verdict/draws.h), this run in the first row. No columns without draws.
   Trace draws;
-  std::vector<JointStatistics> joints;  ///< empty if the robot has no joints, or the format of the run lacks them
-  Ledger ledger;                        ///< energies at the end
-  StepTally tally;                      ///< counts of the steps of the engine
-  double simulated = 0;                 ///< s
-  Stability worst;                      ///< largest damping rate at a control tick
-  double worst_time = 0;                ///< s
+  double current_peak = NAN, current_rms = NAN;  ///< A, of the sum of all motors' |current|; NaN in a folder of an older format
+  std::vector<JointStatistics> joints;           ///< empty if the robot has no joints, or the format of the run lacks them
+  Ledger ledger;                                 ///< energies at the end
+  StepTally tally;                               ///< counts of the steps of the engine
+  double simulated = 0;                          ///< s
+  Stability worst;                               ///< largest damping rate at a control tick
+  double worst_time = 0;                         ///< s
   std::int64_t control_ticks = 0, control_ticks_above_1 = 0;
   std::int64_t steps = 0;
   Outcome outcome;

@@ -22,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kHinges = "energy.hinges";
+constexpr const char* kCurrent = "robot_current.";
 constexpr const char* kEnded = "ended";
 
 /// A companion rollout, with the words that describe it in definitions.
@@ -54,6 +55,8 @@ void each_number(OfRecording& r, Visit visit) {
   visit("energy.stops", "J", "given to the hinge stops", r.ledger.stops);
   visit("energy.stored", "J", "kinetic and potential, less those at the start", r.ledger.stored);
   visit(kHinges, "J", "lost in dampers and friction of passive hinges", r.ledger.hinges);
+  visit(kCurrent + std::string("peak"), "A", "largest sum of the magnitudes of all motors' currents", r.current_peak);
+  visit(kCurrent + std::string("rms"), "A", "RMS of that sum", r.current_rms);
   visit("solves", "", "solves of the equations of motion", r.tally.solves);
   visit("off_law", "", "joint-steps that ended off the law of their motor or stop", r.tally.off);
   visit("coarse_time", "s", "time in which the steps did not reach the accuracy", r.tally.coarse);
@@ -124,11 +127,14 @@ void take_numbers(const fs::path& file, const Trace& joints, const Trace& run, R
   r.tally.torque_error.resize(joints.rows());
   r.tally.torque_peak.resize(joints.rows());
   for (std::size_t j = 0; j < joints.rows(); ++j) {
-    each_number_of(r, j, [&](const char* name, const char*, const char*, double& number) { number = value(joints, j, name); });
+    each_number_of(r, j, [&](const std::string& name, const char*, const char*, double& number) {
+      const bool added = name.starts_with("revers");
+      if (!added || joints.find(name) < joints.columns.size()) number = value(joints, j, name);  // older folders lack these
+    });
   }
   each_number(r, [&](const std::string& name, const char*, const std::string&, auto& number) {
     using Number = std::remove_reference_t<decltype(number)>;
-    const bool added = name == kHinges || name == kEnded || name.starts_with(kParting);
+    const bool added = name == kHinges || name == kEnded || name.starts_with(kParting) || name.starts_with(kCurrent);
     if (added && run.find(name) == run.columns.size()) return;  // older folders lack this number
     const double read = value(run, 0, name);
     // Largest value of a flag, an enum, or a count. A double contains counts exactly up to 2^53.

@@ -25,6 +25,9 @@ struct JointStatistics {
   double electrical = 0, copper = 0, gear = 0, shaft = 0;  ///< J: drawn, lost in winding and gear, given to the joint
   double shaft_positive = 0;                               ///< J: positive part of the shaft power
   double created = 0;                                      ///< J: energy that the gear created (eq. 2, back-driven)
+  double reversals = 0;  ///< control ticks from reversing_from to the end with a change of sign of the command, less the others
+  double reversing_from =
+      0;  ///< s: start of the last stretch in which the command reverses in most control ticks; see Reversals
 };
 
 /// A member of JointStatistics, as a column of a table.
@@ -56,6 +59,10 @@ inline constexpr std::array<JointStatistic, sizeof(JointStatistics) / sizeof(dou
     {&JointStatistics::shaft, "shaft", "J", "energy given to the joint"},
     {&JointStatistics::shaft_positive, "shaft_positive", "J", "energy given to the joint where that power is positive"},
     {&JointStatistics::created, "created", "J", "what the gear gave instead of losing"},
+    {&JointStatistics::reversals, "reversals", "",
+     "control ticks from reversing_from on with a change of the command's sign, less those without"},
+    {&JointStatistics::reversing_from, "reversing_from", "s",
+     "first tick of the stretch at the end of the run in most of whose ticks the command changes its sign"},
 }};
 
 /// Difference of the motor torques between a run and a companion rollout (core/simulation/step_error.h).

@@ -22,6 +22,9 @@ Meter::Meter(std::span<const Scenario> lanes)
     : lanes_(lanes.size()),
       entries_(lanes.size() * lanes[0].robot->joints.size()),
       pass_(__builtin_cpu_supports("avx2") != 0 ? add_pass_avx2 : add_pass),
+      last_command_(entries_),
+      current_peak_(lanes.size()),
+      current_square_(lanes.size()),
       time_(lanes.size()) {
   for (std::size_t j = 0; j < lanes[0].robot->joints.size(); ++j) {
     for (const Scenario& lane : lanes) {
@@ -47,11 +50,15 @@ void Meter::add(double time, const StepEffort::Part& part, In setpoint, const Ac
     const double seen = part.instant ? measured[l] : share > 0 ? 1 : 0;
     pass.some = pass.some || seen > 0;
     time_[l] += sum;
+    double current = 0;
     for (std::size_t i = l; i < entries_; i += lanes_) {
+      current += std::abs(report.current[i]);
       weight_[i] = sum;
       share_[i] = share;
       seen_[i] = seen;
     }
+    current_square_[l] += sum * current * current;
+    if (seen > 0) current_peak_[l] = std::max(current_peak_[l], current);
   }
   const std::array<const double*, kInputs> inputs{part.angle.data(),        part.speed.data(),      part.torque.data(),
                                                   setpoint.data(),          report.voltage.data(),  report.current.data(),
@@ -85,6 +92,26 @@ void Meter::add(MeterPass pass, const std::array<const double*, kInputs>& inputs
   pass.recent = {at(recent_peak_),     at(recent_error_),   at(recent_limit_),  at(recent_speed_),
                  at(recent_envelope_), at(recent_voltage_), at(recent_current_)};
   pass_(pass);
+}
+
+// The largest sum of a stretch that ends now, of +1 for a change of sign and -1 for none (Kadane's algorithm).
+void Meter::command(double time, std::size_t lane, In command) {
+  double* const reversals = at(sums_, &F::reversals);
+  double* const from = at(sums_, &F::reversing_from);
+  for (std::size_t i = lane, j = 0; i < entries_; i += lanes_, ++j) {
+    const double now = command[j];
+    const double last = last_command_[i];
+    if (now == 0 || std::isnan(now)) continue;
+    last_command_[i] = now;
+    if (last == 0) continue;
+    const bool reverses = (now > 0) != (last > 0);
+    if (reversals[i] == 0) from[i] = time;
+    reversals[i] = std::max(0.0, reversals[i] + (reverses ? 1 : -1));
+  }
+}
+
+std::pair<double, double> Meter::current(std::size_t lane) const {
+  return {current_peak_[lane], time_[lane] > 0 ? std::sqrt(current_square_[lane] / time_[lane]) : 0};
 }
 
 JointStatistics Meter::statistics(std::size_t joint, std::size_t lane) const {

@@ -1,6 +1,7 @@
 // Sums and peaks of each joint over ALL steps of a run; the trace rows are too sparse for them.
 #pragma once
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "core/recording/statistics.h"
@@ -20,6 +21,10 @@ class Meter {
   /// if there is no limit. `measured` has one number per lane: 1 if the part counts, else 0.
   void add(double time, const StepEffort::Part& part, In setpoint, const Actuator::Electrical& report, In available,
            In measured);
+  /// Counts the reversals of the commands of a lane that begin at `time` (s), one per joint.
+  void command(double time, std::size_t lane, In command);
+  /// Peak and RMS of the sum of all motors' |current|, A.
+  [[nodiscard]] std::pair<double, double> current(std::size_t lane) const;
   [[nodiscard]] JointStatistics statistics(std::size_t joint, std::size_t lane) const;
   /// Writes the values of each joint for Recording::ticks into `row` and resets the peaks since the last tick.
   void tick(std::size_t lane, Out row);
@@ -38,7 +43,9 @@ class Meter {
       recent_current_;
   std::size_t lanes_, entries_;
   void (*pass_)(const MeterPass&);
-  std::vector<double> time_;  ///< simulated time of each lane, s, by which sums are divided
+  std::vector<double> last_command_;                   ///< the last one that is not 0
+  std::vector<double> current_peak_, current_square_;  ///< of the sum of all motors' |current|: A, A^2 s
+  std::vector<double> time_;                           ///< simulated time of each lane, s, by which sums are divided
   // Scratch with index joint * lanes + lane: weights in sums and in shares of time (s); seen_ is 1 if the peaks of the part
   // count, else 0.
   std::vector<double> weight_, share_, seen_;

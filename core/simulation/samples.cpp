@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "core/simulation/lane.h"
 #include "core/simulation/simulation.h"
@@ -228,6 +229,7 @@ void Simulation::take_statistics(Lane& lane) {
   std::vector<JointStatistics>& joints = lane.recorder->recording.joints;
   joints.clear();
   for (std::size_t j = 0; j < layout_.joints; ++j) joints.push_back(meter_.statistics(j, lane.index));
+  std::tie(lane.recorder->recording.current_peak, lane.recorder->recording.current_rms) = meter_.current(lane.index);
 }
 
 Recording Simulation::take_recording(std::size_t lane) {

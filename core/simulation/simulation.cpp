@@ -231,6 +231,7 @@ void Simulation::command(Lane& lane) {
     setpoint_[j * lanes + lane.index] = lane.setpoint[j];
     command_[j * lanes + lane.index] = lane.command[j];
   }
+  if (recorded(lane)) meter_.command(time(), lane.index, lane.command);
   if (lane.cpg == nullptr) return;
   lane.integrate_cpg(time());
   check_cpg(*lane.cpg, lane.robot, lane.setpoint, lane.cpg_state, step_number(), time());

@@ -62,9 +62,12 @@ struct RemedyLack {
 };
 
 struct Remedy {
-  RemedySettings settings;                   ///< of the run
-  std::string scenario;                      ///< hash of the resolved scenario
-  Word word = Word::not_judged;              ///< of the run
+  RemedySettings settings;       ///< of the run
+  std::string scenario;          ///< hash of the resolved scenario
+  Word word = Word::not_judged;  ///< of the run, or of the finer run
+  /// Settings of the finer run whose verdict is searched from, if that of the run is `not judged` only for its accuracy. They
+  /// are also the first settings of each answer.
+  std::vector<std::string> finer = {};
   std::string engine = {}, own_engine = {};  ///< engines of the search and of the scenario
   std::vector<RemedyAnswer> answers = {};
   std::vector<RatingNeeded> ratings = {};
@@ -93,7 +96,7 @@ struct RemedyTask {
 /// answers are confirmed by the scenario's own engine, step and estimate: feasible with the change, and not with nine tenths of
 /// it. If no setting alone helps, the fastest feasible pair of frequency and amplitude on a grid of 13 x 13 is taken. Results
 /// do not depend on threads or lanes. If `stop` is set, the search ends with the answers so far (Remedy::interrupted). Throws
-/// InputError if the verdict is `not judged`, and PluginError.
+/// InputError if the verdict is `not judged` and not only for the accuracy of the run, and PluginError.
 Remedy remedy(const RemedyTask& task, std::atomic<bool>& stop);
 
 }  // namespace gaitlab::report

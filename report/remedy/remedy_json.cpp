@@ -90,8 +90,13 @@ Json shown_map(const Json& map) {
 }  // namespace
 
 std::string to_json(const Remedy& remedy) {
-  Json json{{"format", kFormat},       {"scenario", remedy.scenario}, {"verdict", name_of(remedy.word)},
-            {"engine", remedy.engine}, {"runs", remedy.runs},         {"interrupted", remedy.interrupted}};
+  Json json{{"format", kFormat},
+            {"scenario", remedy.scenario},
+            {"verdict", name_of(remedy.finer.empty() ? remedy.word : Word::not_judged)},
+            {"engine", remedy.engine},
+            {"runs", remedy.runs},
+            {"interrupted", remedy.interrupted}};
+  if (!remedy.finer.empty()) json["finer"] = {{"set", remedy.finer}, {"verdict", name_of(remedy.word)}};
   json["text"] = Json::array();
   json["tones"] = Json::array();
   for (const ScreenLine& line : remedy_lines(remedy)) {

@@ -219,7 +219,12 @@ std::vector<ScreenLine> remedy_lines(const Remedy& remedy) {
   }
   if (remedy.interrupted) add_interruption(remedy, lines);
   add_open(remedy, lines);
-  return lines.lines;
+  if (remedy.finer.empty() || remedy.word == Word::not_judged) return lines.lines;
+  Lines all;
+  all.add(fmt::format("with {} the run is accurate enough, and {}; from there:", fmt::join(remedy.finer, " "),
+                      name_of(remedy.word)));
+  for (const ScreenLine& line : lines.lines) all.add(line.text, line.tone);
+  return all.lines;
 }
 
 }  // namespace gaitlab::report

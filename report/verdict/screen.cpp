@@ -118,8 +118,10 @@ std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict,
     screen.add("draws", verdict.draws_text, all ? Tone::good : Tone::bad);
   }
   const bool led = verdict.word == Word::infeasible || verdict.word == Word::failed;  // the deciding check is printed above
-  if (const std::string tightest = tightest_text(verdict); !led && !tightest.empty()) screen.add("tightest", tightest);
+  if (const std::string tightest = tightest_text(verdict); !led && verdict.unstable.empty() && !tightest.empty())
+    screen.add("tightest", tightest);
   if (!verdict.demand_doubt.empty()) screen.add("demand", verdict.demand_doubt, Tone::doubtful);
+  if (!verdict.unstable.empty()) return screen.lines;  // all else follows from it
   add_kind(screen, verdict.failures(), led ? 1 : 0, most, "fails", Tone::bad);
   add_kind(screen, of_status(verdict, CheckStatus::too_close), 0, most, "too close", Tone::doubtful);
   std::vector<const Check*> warnings = of_status(verdict, CheckStatus::warn);

@@ -15,6 +15,7 @@
 #include "report/analysis/states.h"
 #include "report/verdict/checks.h"
 #include "report/verdict/draws.h"
+#include "report/verdict/instability.h"
 #include "report/verdict/number_texts.h"
 #include "report/verdict/rolled.h"
 #include "report/verdict/spread.h"
@@ -169,6 +170,7 @@ std::string Check::sentence() const {
 }
 
 std::string Verdict::why() const {
+  if (!unstable.empty() && word != Word::feasible) return unstable;
   if (word == Word::not_judged) return reason;
   const auto decisive = std::ranges::find(checks, decided_by, &Check::id);
   if (decisive == checks.end()) return "";
@@ -190,6 +192,16 @@ std::string left_out_sentence(const Scenario& scenario) {
   const std::size_t more = pairs.size() > kMost ? pairs.size() - kMost : 0;
   pairs.resize(pairs.size() - more);
   return fmt::format("may_overlap leaves out {}{}", fmt::join(pairs, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
+/// Takes `pass` from the checks of a run whose controller is unstable: they pass by chance.
+void leave_passes_out(Verdict& made) {
+  for (Check& check : made.checks) {
+    if (check.status != CheckStatus::pass) continue;
+    check.status = CheckStatus::not_judged;
+    check.margin = std::numeric_limits<double>::quiet_NaN();
+    check.text = "the controller is unstable";
+  }
 }
 
 /// Computes the check of a kind for the run.
@@ -254,6 +266,8 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
                                       name_of(fault.kind), fault.from, until));
   }
   decide(run, made);
+  made.unstable = instability(scenario, record);
+  if (!made.unstable.empty()) leave_passes_out(made);
   made.draws = draws_of(record, scenario);
   made.draws_text = draws_text(made.draws, scenario.drawn > 0 || scenario.tolerances.any());
   if (const std::vector<JudgedJoint>& whole = summary.judged.whole; Judged::limited(whole) > 0) {

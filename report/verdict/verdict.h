@@ -63,7 +63,9 @@ struct Verdict {
   bool retry_is_finer = false;  ///< true if these only make the simulation more accurate
   std::string rests_on = {};    ///< extent of the run that was judged, and conditions: `3 periods of 4 s`
   std::string conditions = {};  ///< Evidence::conditions
-  double from = 0, to = 0;      ///< s, the judged window
+  /// instability() (instability.h). If it is not empty, it is the only sentence of the verdict, and no check passes.
+  std::string unstable = {};
+  double from = 0, to = 0;  ///< s, the judged window
   std::vector<Check> checks;
   /// True if a judged check uses motor values that were chosen, or that have no source, instead of values of a maker.
   bool chosen_motors = false;

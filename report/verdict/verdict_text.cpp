@@ -98,6 +98,7 @@ std::string to_json(const Verdict& verdict) {
   json["format"] = 2;
   json["verdict"] = name_of(verdict.word);
   json["reason"] = verdict.reason;
+  if (!verdict.unstable.empty()) json["unstable"] = verdict.unstable;
   if (!verdict.retry.empty()) json["retry"] = verdict.retry;
   const Check* const tightest = verdict.tightest();
   json["decided_by"] = verdict.decided_by.empty() ? Json() : Json(verdict.decided_by);

@@ -113,6 +113,26 @@ TEST_F(RemedyCommand, ARunThatIsNotJudgedHasNone) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "brief/verdict.json"));
 }
 
+/// A run that is not judged only for its accuracy has the remedy of the run that is.
+TEST_F(RemedyCommand, ARunThatIsTooCoarseHasThatOfAFinerRun) {
+  ASSERT_EQ(call("run creep.yaml --no-retry --no-report --quiet --set physics.accuracy=0.5 --out coarse").code, 0);
+  const json verdict = read_json("coarse/verdict.json");
+  ASSERT_EQ(verdict["verdict"], "not judged") << verdict["reason"];
+  const std::string finer = verdict["retry"][0];
+  const Result result = call("remedy coarse --by i_max --no-report");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, "remedy    with " + finer + " the run is accurate enough, and feasible; from there:"))
+      << result.out;
+  const json remedy = read_json("coarse/remedy.json");
+  EXPECT_EQ(remedy["verdict"], "not judged") << "of the run";
+  EXPECT_EQ(remedy["finer"]["verdict"], "feasible");
+  const json down = answer_by(remedy, "i_max", "down");
+  ASSERT_EQ(down["set"].size(), 2U);
+  EXPECT_EQ(down["set"][0], finer);
+  const std::string sets = " --set " + finer + " --set " + down["set"][1].get<std::string>();
+  EXPECT_EQ(call("run creep.yaml --no-report --quiet --fail-infeasible" + sets).code, 0) << sets;
+}
+
 TEST_F(RemedyCommand, OptionsOfNewRunsAreRefusedForAFolder) {
   ASSERT_EQ(call("run creep.yaml --no-report --quiet --set duration=0.5 --out old").code, 0);
   for (const char* option : {"--out new", "--set duration=2", "--seed 2"}) {

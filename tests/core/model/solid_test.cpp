@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "tests/labels.h"
+
 namespace gaitlab {
 namespace {
 
@@ -153,6 +155,8 @@ Shape random_shape(std::mt19937& random) {
   const auto kind = static_cast<Shape::Kind>(random() % 4);
   return {kind, {rpy(3 * vector(any)), vector(any)}, vector(size)};
 }
+
+const test::Label kAllCells("Solid.UnionsOfRandomShapes", "unsanitized");
 
 /// 100^3 cells: a cell on the surface is wrong by half of it at most, and these errors are of both signs.
 TEST(Solid, UnionsOfRandomShapes) {

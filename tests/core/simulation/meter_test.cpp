@@ -96,6 +96,41 @@ TEST(Meter, OfASineIsItsClosedForm) {
   EXPECT_NEAR(of.saturated_current, 0.25, kRounding);
 }
 
+/// Two sines a quarter apart: |sin| + |cos| is at most sqrt(2), and its mean square is 1 + 2/pi, here the mean of 100 samples.
+TEST(Meter, OfTheRobotsCurrentIsThatOfTheSum) {
+  constexpr int kSteps = 100;
+  const std::vector<Scenario> lanes = metered(1, 2);
+  Meter meter(lanes);
+  MeterInput in(1, 2);
+  in.sum = in.share = {0.01};
+  for (int k = 0; k < kSteps; ++k) {
+    const double phase = 2 * std::numbers::pi * (k + 0.5) / kSteps;
+    in.current() = {std::sin(phase), std::cos(phase)};
+    in.add_to(meter, 0.01 * k);
+  }
+  const auto [peak, rms] = meter.current(0);
+  EXPECT_NEAR(peak, std::numbers::sqrt2, 1e-12) << "12.5 steps are an eighth of the period";
+  EXPECT_NEAR(rms * rms, 1 + 2 / std::numbers::pi, 1e-3) << "midpoint rule over two kinks in each half period";
+}
+
+/// The last stretch in which most commands reverse: zeros count neither way, and two lanes are apart.
+TEST(Meter, OfReversalsIsTheLastStretchOfThem) {
+  const std::vector<Scenario> lanes = metered(2, 1);
+  Meter meter(lanes);
+  const std::vector<double> commands{0, 2, 1, -1, 3, 3, -2, 0, 5, 5, 5, 5, -5, 5, 5, -5};
+  for (std::size_t k = 0; k < commands.size(); ++k) {
+    meter.command(static_cast<double>(k), 0, std::vector<double>{commands[k]});
+    meter.command(static_cast<double>(k), 1, std::vector<double>{1});
+    if (k == 8) {
+      EXPECT_EQ(meter.statistics(0, 0).reversals, 3) << "-1, 3, -2 and 5 less the second 3";
+      EXPECT_EQ(meter.statistics(0, 0).reversing_from, 3);
+    }
+  }
+  EXPECT_EQ(meter.statistics(0, 0).reversals, 2) << "-5, 5 and -5 less the second 5";
+  EXPECT_EQ(meter.statistics(0, 0).reversing_from, 12);
+  EXPECT_EQ(meter.statistics(0, 1).reversals, 0);
+}
+
 TEST(Meter, WithoutAStepIsZero) {
   const std::vector<Scenario> lanes = metered(2, 1);
   const Meter meter(lanes);

@@ -185,7 +185,9 @@ JUDGED = {
 }
 # Sentences on missing evidence: of the check `evidence`, and of a verdict that is not judged.
 MISSING = (r"{left:.3g} s(?: after {start:.3g} s)? are {held:.2g} of a gait's 3 periods of {period:.4g} s; take duration: {take:.4g}"
-           r"|the set points still grow: .*|the set points (?:drift|grow|shrink): .*"
+           r"|the set points still grow: they have their full size at {full_at:.4g} s of {simulated:.4g}; take (?:duration: {take_full:.4g}"
+           r"|another rate)"
+           r"|the set points {way}: the {level} of joint {grower} changes by {by:.2g} rad per period of {each:.3g} s, of a range of {width:.3g}"
            r"|{simulated:.3g} s are less than {least:g} s; take a longer duration"
            r"|the ground carries {borne:pct} of the weight on average, less than {half:pct}: the robot is not on it"
            r"|there is no gravity, so that no ground bears the robot(?:; take physics\.gravity, or base: fixed)?"

@@ -88,15 +88,16 @@ def begin(record, period):
 
 
 def drift(record, window, period, full):
-    """Largest change of mean or RMS of a joint's set points between first and last period of the window, as a share of its range."""
+    """Largest change of mean or RMS of a joint's set points between first and last period of the window, as a share of its range, and the
+    numbers of the sentence on it."""
     if not period > 0 or not record.driven.any():
-        return 0.0
+        return 0.0, {}
     t, x = record.poses["t"], record.pose("setpoint")[:, record.driven]
     unit = math.ceil(20 * (t[1] - t[0]) / period) * period
     begin_ = max(window.start, full)
     between = math.floor((window.end - begin_) / unit - 1 + 1e-3) * unit
     if not between > 0:
-        return 0.0
+        return 0.0, {}
     def level(a, b):
         grid_ = np.linspace(a, b, 20001)
         y = np.stack([np.interp(grid_, t, one) for one in x.T])
@@ -104,8 +105,13 @@ def drift(record, window, period, full):
     (m0, r0), (m1, r1) = level(window.end - unit - between, window.end - between), level(window.end - unit, window.end)
     inside = x[t >= begin_]
     jump = np.abs(np.diff(inside, axis=0)).max(axis=0) * (t[1] - t[0]) / unit
-    share = (np.maximum(np.abs(m1 - m0), np.abs(r1 - r0)) - jump) / np.maximum(np.ptp(inside, axis=0), 2e-3)
-    return float(share.max(initial=0))
+    mean, rms, width = m1 - m0, r1 - r0, np.ptp(inside, axis=0)
+    share = (np.maximum(np.abs(mean), np.abs(rms)) - jump) / np.maximum(width, 2e-3)
+    j = int(np.argmax(share))
+    moves = abs(mean[j]) >= abs(rms[j])
+    by = (mean if moves else rms)[j] * period / between
+    return float(share[j]), {"way": "drift" if moves else "grow" if by > 0 else "shrink", "level": "mean" if moves else "RMS", "by": by,
+                             "grower": [n for n, d in zip(record.names, record.driven) if d][j], "each": period, "width": width[j]}
 
 
 class Evidence:
@@ -125,7 +131,9 @@ class Evidence:
                           "inside": (window.end - window.start) / self.period, "start": start}
         self.also["start"] = start
         self.short = not self.long_enough
-        self.grows = full_size(record) > record.end or drift(record, window, period, full_size(record)) > 0.01
+        share, drifts = drift(record, window, period, full_size(record))
+        self.grows = full_size(record) > record.end or share > 0.01
+        self.also |= drifts | {"full_at": full_size(record), "take_full": full_size(record) + PERIODS * period}
         self.also["full"] = max(start, full_size(record))
         self.still = not self.moves(record, self.also["full"])
         self.long_enough = self.long_enough and not self.grows and not self.still

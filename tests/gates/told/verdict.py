@@ -277,7 +277,8 @@ def hear_evidence(judged, verdict):
 
     def numbers(found, text):
         for name, kind, said in found:
-            loose = judged.window.cycle.doubt() * lacks[name] if name in ("period", "held", "take", "inside", "left", "start") and name in lacks else 0
+            loose = judged.window.cycle.doubt() * lacks[name] if name in ("period", "held", "take", "inside", "left", "start", "each") and name in lacks else 0
+            loose = 0.01 * abs(lacks["by"]) if name == "by" and name in lacks else loose  # 20 001 samples of a period for an integral
             if name not in lacks or not (same(kind, said, lacks[name], loose) if kind else said == lacks[name]):
                 wrong.append(f"evidence: {name} is {said} in {text!r}, recomputed {lacks.get(name)}")
 

@@ -6,7 +6,7 @@
 namespace gaitlab::test {
 namespace {
 
-const Label kGaits("Creep.OfGaitsOnASlope", "long");
+const Label kGaits("Creep.OfGaitsOnASlope", "long;unsanitized");
 
 Check creep(const Scenario& s) {
   Simulation simulation({&s, 1}, Loads::recorded);
