@@ -25,9 +25,10 @@ struct JointStatistics {
   double electrical = 0, copper = 0, gear = 0, shaft = 0;  ///< J: drawn, lost in winding and gear, given to the joint
   double shaft_positive = 0;                               ///< J: positive part of the shaft power
   double created = 0;                                      ///< J: energy that the gear created (eq. 2, back-driven)
-  double reversals = 0;  ///< control ticks from reversing_from to the end with a change of sign of the command, less the others
-  double reversing_from =
-      0;  ///< s: start of the last stretch in which the command reverses in most control ticks; see Reversals
+  /// Control ticks with a change of the command's sign, less those without, in the last stretch of the run in which most have
+  /// one; 0 if there is none.
+  double reversals = 0;
+  double reversing_from = 0;  ///< s: the first tick of that stretch
 };
 
 /// A member of JointStatistics, as a column of a table.

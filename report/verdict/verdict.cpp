@@ -170,7 +170,7 @@ std::string Check::sentence() const {
 }
 
 std::string Verdict::why() const {
-  if (!unstable.empty() && word != Word::feasible) return unstable;
+  if (!unstable.empty()) return unstable;
   if (word == Word::not_judged) return reason;
   const auto decisive = std::ranges::find(checks, decided_by, &Check::id);
   if (decisive == checks.end()) return "";
@@ -266,7 +266,7 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
                                       name_of(fault.kind), fault.from, until));
   }
   decide(run, made);
-  made.unstable = instability(scenario, record);
+  if (made.word != Word::feasible) made.unstable = instability(scenario, record);
   if (!made.unstable.empty()) leave_passes_out(made);
   made.draws = draws_of(record, scenario);
   made.draws_text = draws_text(made.draws, scenario.drawn > 0 || scenario.tolerances.any());
