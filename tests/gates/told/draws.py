@@ -105,6 +105,7 @@ UNBORNE = {
 LATER = {
     "holds more than its stall torque": ("library/ckbot-worm", ["duration=12", "actuator.stall_torque=0.5",
         "actuator.efficiency_model=directional"]),
+    "more power than any motor": ("caterpillar", FAST + ["duration=3.2", "cpg.frequency=1", "actuator.u_max=100", "actuator.i_max=20"]),
     "a supply above the sheet's": ("library/yamor-worm", ["duration=8", "actuator.u_max=8", "cpg.amplitude={default: 0, m2/hinge: 0.4}"]),
 }
 CPGS = ["sine", "hopf", "kuramoto_amplitude", "matsuoka", "phase_oscillator", "van_der_pol"]

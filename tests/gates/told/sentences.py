@@ -188,6 +188,8 @@ MISSING = (r"{left:.3g} s(?: after {start:.3g} s)? are {held:.2g} of a gait's 3 
            r"|the set points still grow: they have their full size at {full_at:.4g} s of {simulated:.4g}; take (?:duration: {take_full:.4g}"
            r"|another rate)"
            r"|the set points {way}: the {level} of joint {grower} changes by {by:.2g} rad per period of {each:.3g} s, of a range of {width:.3g}"
+           r"|{power:.3g} W of the motors of module {powerful} of {heavy:.4g} kg: {density:.3g} W/kg, and no motor has more than 1500"
+           r"(?: \(and {weaker:d} more\))?; state physics that can be, or accept: \[power\]"
            r"|{simulated:.3g} s are less than {least:g} s; take a longer duration"
            r"|the ground carries {borne:pct} of the weight on average, less than {half:pct}: the robot is not on it"
            r"|there is no gravity, so that no ground bears the robot(?:; take physics\.gravity, or base: fixed)?"

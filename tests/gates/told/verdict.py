@@ -107,7 +107,7 @@ class Judged:
             "evidence": Told(), "torque_error": trust.torque_error(r),
             "predictable": trust.predictable(r), "creep": bodies.creep(r, w), "ledger": trust.ledger(r), "created": trust.created(r),
             "supply": trust.supply(r), "step": trust.step(r), "coarse": trust.coarse(r), "law": trust.law(r)}
-        complete = e.long_enough and e.borne and not e.untrusted
+        complete = e.long_enough and e.borne and not e.untrusted and not self.impossible()
         self.checks["evidence"] = Told("pass" if complete else "not judged", w.end - w.start, also=self.missing())
         for check, told in self.checks.items():
             if told is None:
@@ -137,7 +137,7 @@ class Judged:
         errors = r.torque_errors()
         j = int(np.argmax(errors)) if len(errors) else 0
         creators = np.flatnonzero(r.makes_energy) if r.count else []
-        return e.also | {
+        return e.also | self.impossible() | {
             "borne": e.share, "unknown": " and ".join(e.unknown), "half": 0.5, "off": errors[j] if len(errors) else np.nan,
             "inaccurate": r.names[j] if r.count else None,
             "most": r.most_error(), "limits": trust.changed_limits(r), "residual": abs(r.residual()) / r.energy_scale(), "kept": 0.05,
@@ -149,6 +149,18 @@ class Judged:
             "x": r.torque_constant[creators[0]] if len(creators) else np.nan,
             "y": r.speed_constant[creators[0]] if len(creators) else np.nan}
 
+    def impossible(self):
+        """Numbers of the sentence on motors with more than 1500 W per kg of their module; empty if there are none."""
+        r, found = self.record, []
+        for m in range(r.robot.count if "power" not in r.scenario.get("accept", []) else 0):
+            own = [j for j, name in enumerate(r.names) if name.startswith(f"m{m}/") and r.driven[j]]
+            mass = sum(body.mass for body in r.robot.bodies if body.name.startswith(f"m{m}/"))
+            power = sum(r.at_rest[j] * r.no_load[j] / 4 for j in own)
+            if power > 1500 * mass:
+                found.append((power / mass, -m, power, mass))
+        density, m, power, mass = max(found, default=(0, 0, 0, 0))
+        return {"power": power, "powerful": f"m{-m}", "heavy": mass, "density": density, "weaker": len(found) - 1} if found else {}
+
     def word(self, checks):
         """Verdict that follows from these checks. They are those of the program, so that one difference is reported only once."""
         e, record = self.evidence, self.record
@@ -157,6 +169,8 @@ class Judged:
         failing = [c for c in checks if c["status"] == "fail"]
         if status["outcome"] == "fail":
             return "failed"
+        if self.impossible():
+            return "not judged"
         if any(map(self.decides, failing)):
             return "infeasible"
         if failing or not (e.long_enough and e.borne and not e.untrusted) or "too close" in status.values():
@@ -295,6 +309,10 @@ def hear_evidence(judged, verdict):
         wrong.append(f"rests_on is of the {says}, {verdict['rests_on']!r}, recomputed the {judged.evidence.kind}")
     if verdict["verdict"] != "not judged":
         return wrong + ([f"reason is {verdict['reason']!r}"] if verdict["reason"] else [])
+    if judged.impossible():
+        if (found := LACKS.read(verdict["reason"])) is None:
+            return wrong + [f"reason: no expression reads {verdict['reason']!r}"]
+        return numbers(found, verdict["reason"]) or wrong
     reason, _, so_far = verdict["reason"].partition("; so far: ")
     fails = by_urgency([c for c in verdict["checks"] if c["status"] == "fail"])
     close_ = by_urgency([c for c in verdict["checks"] if c["status"] == "too close"])
