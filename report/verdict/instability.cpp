@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/scenario/sensor_section.h"
 #include "core/settings/settings_numbers.h"
 #include "core/settings/wording.h"
 
@@ -17,43 +18,54 @@ constexpr double kBeyond = 1;  // rad beyond a range, 50 N m of its stop
 constexpr double kFast = 10;   // m/s
 constexpr double kFalls = 2;   // multiple of the speed of a fall
 
-/// Largest angle of a joint beyond its range from a time on, rad.
-double beyond(const Scenario& s, const Recording& r, std::size_t joint, double from) {
+/// Largest value of rows, and the time of the first row above a bound; infinity if there is none.
+struct Excess {
+  double most = 0, first = INFINITY;
+  void add(double t, double value, double bound) {
+    most = std::max(most, value);
+    if (value > bound) first = std::min(first, t);
+  }
+};
+
+/// Angle of a joint beyond its range, rad.
+Excess beyond(const Scenario& s, const Recording& r, std::size_t joint) {
   const Series t = r.pose("t");
   const Series angle = r.pose(fmt::format("joint.{}.angle", joint));
   const Joint& hinge = s.robot->joints[joint];
-  double most = 0;
-  for (std::size_t k = 0; k < std::min(t.size(), angle.size()); ++k) {
-    if (t[k] >= from) most = std::max({most, angle[k] - hinge.hi, hinge.lo - angle[k]});
-  }
-  return most;
+  Excess made;
+  for (std::size_t k = 0; k < std::min(t.size(), angle.size()); ++k)
+    made.add(t[k], std::max(angle[k] - hinge.hi, hinge.lo - angle[k]), kBeyond);
+  return made;
 }
 
-/// Largest speed of the base from a time on, m/s, if it is faster than kFast and than its fall explains; else 0.
-double thrown(const Scenario& s, const Recording& r, double from) {
+/// Speed of the base where it is faster than kFast and than its fall explains, m/s.
+Excess thrown(const Scenario& s, const Recording& r) {
   const Series t = r.pose("t");
   const std::vector<Series> at{r.pose("base.x"), r.pose("base.y"), r.pose("base.z")};
-  if (std::ranges::any_of(at, &Series::empty)) return 0;
+  Excess made;
+  if (std::ranges::any_of(at, &Series::empty)) return made;
   double highest = t.empty() ? 0 : at[2][0];
-  double most = 0;
   for (std::size_t k = 1; k < t.size(); ++k) {
     highest = std::max(highest, at[2][k]);
     double way = 0;  // m^2
     for (const Series& axis : at) way += (axis[k] - axis[k - 1]) * (axis[k] - axis[k - 1]);
     const double speed = std::sqrt(way) / (t[k] - t[k - 1]);
     const double fall = std::sqrt(2 * s.physics.gravity.norm() * (highest - at[2][k]));
-    if (t[k] >= from && speed > std::max(kFast, kFalls * fall)) most = std::max(most, speed);
+    if (speed > std::max(kFast, kFalls * fall)) made.add(t[k], speed, 0);
   }
-  return most;
+  return made;
 }
 
-/// `Kp 600 V/rad, Kd 0.6 V s/rad, ` of a joint; empty if the controller has no such gains.
+/// `Kp 600 V/rad, Kd 0.6 V s/rad, ` of a joint, in the unit of the commands; empty if the controller has no such gains.
 std::string gains(const Scenario& s, std::size_t joint) {
   const SettingsNumbers settings(s.controller);
+  const std::string unit(make_controller(s.controller, plugin_info(s))->command_unit());
   std::string text;
   for (const char* const key : {"Kp", "Kd"}) {
-    if (const SettingsNumbers::Found* const gain = settings.find(key); gain != nullptr)
-      text += fmt::format("{} {}, ", key, with_unit(gain->value[joint], gain->unit));
+    const SettingsNumbers::Found* const gain = settings.find(key);
+    if (gain == nullptr) continue;
+    const std::string own = gain->unit.starts_with("V") ? unit + gain->unit.substr(1) : gain->unit;
+    text += fmt::format("{} {}, ", key, with_unit(gain->value[joint], own));
   }
   return text;
 }
@@ -63,27 +75,26 @@ std::string gains(const Scenario& s, std::size_t joint) {
 std::string instability(const Scenario& s, const Recording& r) {
   if (s.controller.entry == nullptr || r.joints.size() != s.robot->joints.size()) return "";
   std::size_t worst = 0;
-  double most = 0;   // rad beyond its range of joint `worst`
-  double speed = 0;  // m/s
+  double most = 0;  // rad beyond its range of joint `worst`
   double from = INFINITY;
   std::size_t joints = 0;
+  const Excess base = thrown(s, r);
   for (std::size_t j = 0; j < r.joints.size(); ++j) {
     const JointStatistics& joint = r.joints[j];
     if (!(joint.reversals > 0)) continue;
-    const double angle = beyond(s, r, j, joint.reversing_from);
-    const double base = thrown(s, r, joint.reversing_from);
-    if (angle <= kBeyond && base == 0) continue;
+    const Excess angle = beyond(s, r, j);
+    const double first = std::min(angle.first, base.first);
+    if (!std::isfinite(first) || first < joint.reversing_from) continue;
     ++joints;
     from = std::min(from, joint.reversing_from);
-    speed = std::max(speed, base);
-    if (joints > 1 && angle <= most) continue;
+    if (joints > 1 && angle.most <= most) continue;
     worst = j;
-    most = angle;
+    most = angle.most;
   }
   if (joints == 0) return "";
   const std::string& name = s.robot->joints[worst].name;
   const std::string effect = most > kBeyond ? fmt::format("goes {:.3g} rad beyond its range", most)
-                                            : fmt::format("throws the base about at {:.3g} m/s", speed);
+                                            : fmt::format("throws the base about at {:.3g} m/s", base.most);
   return fmt::format(
       "the controller is unstable from {:.3g} s on ({}a command every {:.4g} s): the command of {} changes its "
       "sign in most control ticks; {} {}",

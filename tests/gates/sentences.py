@@ -29,7 +29,7 @@ except ImportError as error:
 
 from told import draws, page, screen
 from told.record import Record
-from told.verdict import Judged, compare, hear, hear_evidence, sentence, tightest
+from told.verdict import Judged, compare, hear, hear_evidence, hear_unstable, sentence, tightest
 
 SEED = 20
 # Known defects of the program: (runs, sentence, reason why the sentence is wrong).
@@ -64,7 +64,7 @@ class Gate:
         self.program, self.scenarios, self.work = program, scenarios, work
         self.wrong, self.said, self.met, self.words, self.lines = [], 0, collections.Counter(), collections.Counter(), set()
         self.browser = page.Browser()
-        self.pages, self.mutants, self.survivors, self.begins, self.reasons = 0, 0, [], collections.Counter(), []
+        self.torn, self.pages, self.mutants, self.survivors, self.begins, self.reasons = 0, 0, 0, [], collections.Counter(), []
 
     def hear(self, rng, name, scenario, settings, fixed=None):
         """Checks one run: a draft, limits that are drawn around its values, the run, and all of its sentences."""
@@ -99,6 +99,16 @@ class Gate:
         room = known_to(judged.window)
         if not abs(judged.own_start - verdict["window"]["from"]) <= room or verdict["window"]["to"] != record.end:
             wrong.append(f"window {verdict['window']}, recomputed {judged.own_start} to {record.end}")
+        if torn := judged.unstable():
+            self.said += 1
+            self.torn += 1
+            wrong += hear_unstable(torn, verdict)
+            if verdict.get("unstable", "?") not in " ".join(stdout.split()):
+                wrong.append("the terminal lacks the sentence on the unstable controller")
+            self.wrong += [(name, text) for text in wrong]
+            return
+        if "unstable" in verdict:
+            wrong.append(f"{verdict['unstable']!r}, recomputed that it is stable")
         known = screen.numbers(judged)
         for check in verdict["checks"]:
             told = judged.checks[check["id"]]
@@ -244,6 +254,9 @@ def main():
                 if not gate.met[check, status]:
                     open_.append(check)
                     print(f"WRONG no run in which {check} is {status}")
+        if not gate.torn:
+            open_.append("unstable")
+            print("WRONG no run has an unstable controller")
         for word in WORDS:
             if not gate.words[word]:
                 open_.append(word)

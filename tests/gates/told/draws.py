@@ -68,7 +68,7 @@ RUNS = {
     "torque sources": ("hexapod", FAST + ["duration=3", "cpg.frequency=1", "actuator={type: torque, limit: 0.9}",
         "controller={type: pid, unit: N m, Kp: 2, Kd: 0.03}"]),
     "torque sources, unlimited": ("caterpillar", FAST + ["duration=2", "cpg.frequency=1.6", "actuator={type: torque}",
-        "controller={type: pid, unit: N m, Kp: 2, Kd: 0.03}"]),
+        "controller={type: pid, unit: N m, Kp: 2, Kd: 0.03, period: 0.003}"]),
     "off its field": ("caterpillar", FAST + ["duration=3.2", "cpg.frequency=1",
         "ground={type: heightfield, heightfield: {spacing: 0.4, origin: [0.4, -0.5, 0], "
         "values: [[0, 0.004, 0, 0.01], [0, 0, 0.01, 0], [0.004, 0, 0, 0], [0, 0, 0.004, 0], [0, 0, 0, 0]]}}"]),
@@ -105,6 +105,8 @@ UNBORNE = {
 LATER = {
     "holds more than its stall torque": ("library/ckbot-worm", ["duration=12", "actuator.stall_torque=0.5",
         "actuator.efficiency_model=directional"]),
+    "torque sources, unstable": ("caterpillar", FAST + ["duration=2", "cpg.frequency=1.6", "actuator={type: torque}",
+        "controller={type: pid, unit: N m, Kp: 2, Kd: 0.03}"]),
     "more power than any motor": ("caterpillar", FAST + ["duration=3.2", "cpg.frequency=1", "actuator.u_max=100", "actuator.i_max=20"]),
     "a supply above the sheet's": ("library/yamor-worm", ["duration=8", "actuator.u_max=8", "cpg.amplitude={default: 0, m2/hinge: 0.4}"]),
 }

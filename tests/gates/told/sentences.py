@@ -204,6 +204,10 @@ MISSING = (r"{left:.3g} s(?: after {start:.3g} s)? are {held:.2g} of a gait's 3 
            r"|the error of the torques is not estimated; take physics\.estimate: full"
            r"|{residual:pct} of the energy is unaccounted for, more than {kept:pct}; take .*"
            r"|in {coarse:rough} of the time the shortest steps do not reach the accuracy {accuracy:rough}; look for .*")
+# The sentence of a run whose controller is unstable.
+UNSTABLE = (r"the controller is unstable from {since:.3g} s on \((?:Kp .*, )?a command every {control:.4g} s\): the command of "
+            r"(?:{torn:d} joints|{only}) changes its sign in most control ticks; {thrower} (?:goes {beyond:.3g} rad beyond its range"
+            r"|throws the base about at {thrown:.3g} m/s)")
 # Sentences with the reason for which a check is not judged. Numbers in these sentences are also recomputed.
 NOT_JUDGED = (
     r"judged only for a floating base(?: above a ground| on a ground| that gravity holds on a ground, if the ground's forces are "
@@ -232,6 +236,7 @@ CERTAIN = r"(?:; certain, though torques are off by up to about {off_by:rough})?
 EXPRESSIONS = {check: Expression(text if check == "outcome" else f"(?:{text}){SPREAD}{CERTAIN}") for check, text in JUDGED.items()}
 WHY_NOT = Expression(NOT_JUDGED)
 LACKS = Expression(MISSING)
+TORN = Expression(UNSTABLE)
 RESTS_ON = Expression(JUDGED["evidence"].removeprefix("judged over "))
 NO_MOTORS = Expression(r"no limit of the motors is known|nothing drives the joints|(?:fall|in_ground) was not judged: .*")
 OPEN_DOCK = {check: Expression(JUDGED[check]) for check in JUDGED if check.startswith("dock_")}

@@ -5,7 +5,7 @@ import numpy as np
 
 from told import bodies, motors, trust
 from told.check import Told, graded, margin
-from told.sentences import LACKS, NO_MOTORS, RESTS_ON, read, same
+from told.sentences import LACKS, NO_MOTORS, RESTS_ON, TORN, read, same
 from told.shapes import Collisions, depths
 from told.window import Window, limit_cycle
 
@@ -149,6 +149,27 @@ class Judged:
             "x": r.torque_constant[creators[0]] if len(creators) else np.nan,
             "y": r.speed_constant[creators[0]] if len(creators) else np.nan}
 
+    def unstable(self):
+        """Numbers of the sentence on an unstable controller; empty if it is stable."""
+        r, found = self.record, []
+        t, z = r.poses["t"], r.poses["base.z"]
+        def first(rows):
+            return t[np.argmax(rows)] if rows.any() else np.inf
+        speed = np.linalg.norm(np.diff(r.poses.vector("base.", "xyz"), axis=0), axis=1) / np.diff(t)
+        fall = np.sqrt(2 * np.linalg.norm(r.gravity) * (np.maximum.accumulate(z) - z))[1:]
+        thrown = np.concatenate([[False], (speed > 10) & (speed > 2 * fall)])
+        for j in np.flatnonzero(r.joints["reversals"] > 0):
+            since = r.joints["reversing_from"][j]
+            q, (low, high) = r.pose("angle")[:, j], r.robot.ranges[j]
+            beyond = np.maximum(0, np.maximum(q - high, low - q))
+            if np.isfinite(begin := min(first(beyond > 1), first(thrown))) and begin >= since:
+                found.append((beyond.max(), -j, since))
+        if not found:
+            return {}
+        worst = r.names[-max(found)[1]]
+        return {"since": min(f[2] for f in found), "control": r.scenario["controller"]["period"], "torn": len(found), "only": worst,
+                "thrower": worst, "beyond": max(found)[0], "thrown": speed[thrown[1:]].max(initial=0)}
+
     def impossible(self):
         """Numbers of the sentence on motors with more than 1500 W per kg of their module; empty if there are none."""
         r, found = self.record, []
@@ -282,6 +303,17 @@ def hear(told, check, text, who):
         if not ok:
             wrong.append(f"{who}: {check['id']}: {name} is {said} in {text!r}, recomputed {expected}")
     return wrong
+
+
+def hear_unstable(told, verdict):
+    """Differences of a verdict whose only sentence is that on its controller."""
+    found = TORN.read(verdict.get("unstable", ""))
+    if found is None:
+        return [f"no expression reads {verdict.get('unstable')!r}, recomputed {told}"]
+    wrong = [f"{name} is {said} in {verdict['unstable']!r}, recomputed {told[name]}" for name, kind, said in found
+             if not (same(kind, said, told[name]) if kind else said == told[name])]
+    passed = [c["id"] for c in verdict["checks"] if c["status"] == "pass"]
+    return wrong + [f"unstable, and {passed} pass"] * bool(passed) + ["unstable, and feasible"] * (verdict["verdict"] == "feasible")
 
 
 def hear_evidence(judged, verdict):

@@ -79,7 +79,9 @@ TEST(Unstable, OnlyIfTheJointLeavesItsRangeWhileItsCommandReverses) {
   Reversing told;
   const double hi = told.scenario.robot->joints[0].hi;
   told.at("joint.0.angle", 1) = hi + 5;
-  EXPECT_EQ(told.text(), "") << "before the command reverses";
+  told.at("joint.0.angle", 3) = hi + 5;
+  EXPECT_EQ(told.text(), "") << "already before the command reverses";
+  told.at("joint.0.angle", 1) = 0;
   told.at("joint.0.angle", 3) = hi + 0.9;
   EXPECT_EQ(told.text(), "");
   told.at("joint.0.angle", 3) = hi + 1.5;
@@ -93,7 +95,7 @@ TEST(Unstable, OnlyIfTheBaseIsFasterThanItsFallExplains) {
   Reversing told;
   const auto fly = [&](double speed, double height) {
     for (int k = 0; k < 5; ++k) {
-      told.at("base.x", k) = 0.1 * k * speed;
+      told.at("base.x", k) = 0.1 * std::max(0, k - 2) * speed;  // from 0.2 s on
       told.at("base.z", k) = k == 0 ? height : 0;
     }
   };
