@@ -18,9 +18,10 @@ std::vector<report::Warning> start_warnings(const Scenario& scenario) {
 
 std::vector<report::Warning> run_warnings(const Scenario& scenario, const Recording& recording,
                                           const report::Verdict& verdict) {
-  if (!verdict.unstable.empty())
-    return {
-        {scenario.nearest_place("controller.Kp"), verdict.unstable + "; take smaller gains, or a shorter controller.period"}};
+  if (!verdict.unstable.empty()) {
+    const std::string text = verdict.unstable + "; take smaller gains, or a shorter controller.period";
+    return {{scenario.nearest_place("controller.Kp"), text}};
+  }
   std::vector<report::Warning> all;
   for (const report::Check& check : verdict.checks) {
     if (check.status == report::CheckStatus::pass || check.remedy.empty()) continue;
