@@ -8,7 +8,7 @@
 
 #include "core/files/hash.h"
 #include "core/scenario/resolved.h"
-#include "report/analysis/collisions.h"
+#include "report/remedy/finer_remedy.h"
 #include "report/remedy/remedy_ratings.h"
 #include "report/remedy/remedy_work.h"
 
@@ -382,49 +382,10 @@ class Search {
 
 }  // namespace
 
-namespace {
-
-InputError no_verdict(const RemedyTask& task) {
-  return {SourceLocation{task.scenario.file}, "a remedy needs a verdict, but this run is not judged: " + task.verdict.reason};
-}
-
-/// Remedy of the run with the settings that make it accurate enough to be judged.
-Remedy of_finer_run(const RemedyTask& task, std::atomic<bool>& stop) {
-  const std::vector<std::string>& finer = task.verdict.retry;
-  const auto and_finer = [&](std::vector<std::string> sets) {
-    sets.insert(sets.begin(), finer.begin(), finer.end());
-    return sets;
-  };
-  const Scenario scenario = task.with(finer);
-  std::optional<Verdict> found;
-  run_all({&scenario, 1}, task.batch, kVerdictReads, stop, [&](std::size_t, RolloutEnd&& end) {
-    if (!end.refused.empty()) throw InputError(std::move(end.refused));
-    found = verdict(scenario, end.recording, summarise(scenario, end.recording, 0), overlaps(scenario, end.recording));
-  });
-  Remedy made{RemedySettings(resolved(task.scenario)), hash(resolved(task.scenario))};
-  made.engine = made.own_engine = scenario.physics.engine->name;
-  made.interrupted = true;
-  if (found && found->word == Word::not_judged) throw no_verdict(task);
-  if (found && !stop) {
-    const std::string of_run = std::move(made.scenario);
-    made = Search({scenario, *found, [&](const std::vector<std::string>& sets) { return task.with(and_finer(sets)); }, task.map,
-                   task.by, task.batch, task.progress},
-                  stop)
-               .made();
-    made.scenario = of_run;
-  }
-  for (RemedyAnswer& answer : made.answers) answer.sets = and_finer(std::move(answer.sets));
-  if (made.pair) made.pair->sets = and_finer(std::move(made.pair->sets));
-  made.finer = finer;
-  return made;
-}
-
-}  // namespace
-
 Remedy remedy(const RemedyTask& task, std::atomic<bool>& stop) {
   if (task.verdict.word != Word::not_judged) return Search(task, stop).made();
   if (!task.verdict.retry_is_finer) throw no_verdict(task);
-  return of_finer_run(task, stop);
+  return remedy_of_finer_run(task, stop);
 }
 
 }  // namespace gaitlab::report
