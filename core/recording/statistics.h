@@ -25,7 +25,7 @@ struct JointStatistics {
   double electrical = 0, copper = 0, gear = 0, shaft = 0;  ///< J: drawn, lost in winding and gear, given to the joint
   double shaft_positive = 0;                               ///< J: positive part of the shaft power
   double created = 0;                                      ///< J: energy that the gear created (eq. 2, back-driven)
-  /// Control ticks with a change of the command's sign, less those without, in the last stretch of the run in which most have
+  /// Control ticks with a change of the command's sign, less those without, in the last stretch of the run where most have
   /// one; 0 if there is none.
   double reversals = 0;
   double reversing_from = 0;  ///< s: the first tick of that stretch
@@ -63,7 +63,7 @@ inline constexpr std::array<JointStatistic, sizeof(JointStatistics) / sizeof(dou
     {&JointStatistics::reversals, "reversals", "",
      "control ticks from reversing_from on with a change of the command's sign, less those without"},
     {&JointStatistics::reversing_from, "reversing_from", "s",
-     "first tick of the stretch at the end of the run in most of whose ticks the command changes its sign"},
+     "first tick of the last stretch of the run where the command changes its sign in most ticks"},
 }};
 
 /// Difference of the motor torques between a run and a companion rollout (core/simulation/step_error.h).

@@ -65,8 +65,8 @@ struct Remedy {
   RemedySettings settings;       ///< of the run
   std::string scenario;          ///< hash of the resolved scenario
   Word word = Word::not_judged;  ///< of the run, or of the finer run
-  /// Settings of the finer run whose verdict is searched from, if that of the run is `not judged` only for its accuracy. They
-  /// are also the first settings of each answer.
+  /// Settings of the finer run. The search begins there where the run itself is `not judged` only for its accuracy. They are
+  /// also the first settings of each answer.
   std::vector<std::string> finer = {};
   std::string engine = {}, own_engine = {};  ///< engines of the search and of the scenario
   std::vector<RemedyAnswer> answers = {};

@@ -56,7 +56,7 @@ Excess thrown(const Scenario& s, const Recording& r) {
   return made;
 }
 
-/// `Kp 600 V/rad, Kd 0.6 V s/rad, ` of a joint, in the unit of the commands; empty if the controller has no such gains.
+/// `Kp 600 V/rad, Kd 0.6 V s/rad, ` of a joint, in the unit of the commands; empty without such gains.
 std::string gains(const Scenario& s, std::size_t joint) {
   const SettingsNumbers settings(s.controller);
   const std::string unit(make_controller(s.controller, plugin_info(s))->command_unit());

@@ -8,7 +8,7 @@
 namespace gaitlab::report {
 
 /// Sentence on an unstable controller, such as `the controller is unstable from 0.03 s on (Kp 1e+04 V/rad, Kd 0.6 V s/rad, a
-/// command every 0.015 s): ...`. Empty if the controller is not unstable, or if the run does not tell. It is unstable if, up to
+/// command every 0.015 s): ...`. Empty for a stable controller. It is unstable if, up to
 /// the end of the run, the command of a joint changes its sign in most control ticks (JointStatistics::reversals), and in that
 /// time, and not before, this joint is more than 1 rad beyond its range, or the base is faster than 10 m/s and than twice the
 /// speed of a fall from its largest height.

@@ -79,7 +79,7 @@ TEST_F(Plugins, AFileThatIsNotThereNamesWhatWasTried) {
                       std::filesystem::canonical(folder / "").string() + "/lib/wave.so')\n");
 }
 
-/// A long path is whole: its end is what tells one library from another.
+/// A long path is whole, because libraries differ in its end.
 TEST_F(Plugins, ALongPathIsWhole) {
   const std::string path = std::string(40, 'a') + "/" + std::string(40, 'b') + "/wave.so";
   const std::string text = error("gaitlab: 1\nplugins: [" + path + "]\nrobot: {}\nduration: 1\n");

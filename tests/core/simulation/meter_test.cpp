@@ -113,7 +113,7 @@ TEST(Meter, OfTheRobotsCurrentIsThatOfTheSum) {
   EXPECT_NEAR(rms * rms, 1 + 2 / std::numbers::pi, 1e-3) << "midpoint rule over two kinks in each half period";
 }
 
-/// The last stretch in which most commands reverse: zeros count neither way, and two lanes are apart.
+/// The last stretch where most commands reverse: zeros count neither way, and two lanes are apart.
 TEST(Meter, OfReversalsIsTheLastStretchOfThem) {
   const std::vector<Scenario> lanes = metered(2, 1);
   Meter meter(lanes);

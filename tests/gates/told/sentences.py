@@ -186,7 +186,7 @@ JUDGED = {
 # Sentences on missing evidence: of the check `evidence`, and of a verdict that is not judged.
 MISSING = (r"{left:.3g} s(?: after {start:.3g} s)? are {held:.2g} of a gait's 3 periods of {period:.4g} s; take duration: {take:.4g}"
            r"|the set points still grow: they have their full size at {full_at:.4g} s of {simulated:.4g}; take (?:duration: {take_full:.4g}"
-           r"|another rate)"
+           r"|another rate)|the set points still grow: those of joint .*"
            r"|the set points {way}: the {level} of joint {grower} changes by {by:.2g} rad per period of {each:.3g} s, of a range of {width:.3g}"
            r"|{power:.3g} W of the motors of module {powerful} of {heavy:.4g} kg: {density:.3g} W/kg, and no motor has more than 1500"
            r"(?: \(and {weaker:d} more\))?; state physics that can be, or accept: \[power\]"

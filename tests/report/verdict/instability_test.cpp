@@ -19,7 +19,7 @@ Recording to_its_end(const Scenario& s) {
   return simulation.take_recording(0);
 }
 
-/// Gains that are stable only for a period far below that of the scenario, with motors that can obey them.
+/// Gains for a much shorter control period, and motors that can obey them.
 const std::vector<std::string> kTooStiff{"controller.Kp=5000", "actuator.u_max=1e6", "actuator.i_max=1e6", "duration=0.5"};
 
 std::vector<std::string> too_stiff(const std::string& engine) {
