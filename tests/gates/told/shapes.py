@@ -65,7 +65,8 @@ EVERYWHERE, NEAR = directions(500), directions(80)
 
 def penetration(parts_a, parts_b, pose_a, pose_b, ignored):
     """Depth of overlap of two bodies, m: the largest of the shortest ways out of each other of any two shapes; 0 if it is at most
-    `ignored`. The search samples all directions, then finer ones about the best, down to 0.4^9 of 0.1 rad."""
+    `ignored`. The search samples all directions, then finer ones about the best, down to 0.6^30 of 0.1 rad: with 0.4^9 it was 7 um
+    too large in a ridge between two faces."""
     (pa, ra), (pb, rb) = pose_a, pose_b
     deepest = ignored
     for a in parts_a:
@@ -73,7 +74,7 @@ def penetration(parts_a, parts_b, pose_a, pose_b, ignored):
             overlap = lambda d: a.support(d @ ra) + b.support(-d @ rb) + d @ (pa - pb)
             values = overlap(EVERYWHERE)
             best, at, spread = values.min(), EVERYWHERE[np.argsort(values)[:6]], 0.1  # the minimum may be near any of the six best
-            for _ in range(9):
+            for _ in range(30):
                 if best <= deepest:
                     break
                 near = (at[:, None, :] + spread * NEAR[None, :, :]).reshape(-1, 3)
@@ -81,7 +82,7 @@ def penetration(parts_a, parts_b, pose_a, pose_b, ignored):
                 values = overlap(near).reshape(-1)
                 group = np.concatenate([np.repeat(np.arange(len(at)), len(NEAR)), np.arange(len(at))])
                 at = np.stack([near[group == g][np.argmin(values[group == g])] for g in range(len(at))])
-                best, spread = min(best, values.min()), spread * 0.4
+                best, spread = min(best, values.min()), spread * 0.6
             deepest = max(deepest, best)
     return deepest if deepest > ignored else 0.0
 
