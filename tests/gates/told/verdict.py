@@ -205,9 +205,9 @@ class Judged:
     def decides(self, check):
         """True if a failure makes the gait infeasible. In a run that is too short, only checks of the whole run count; with inaccurate
         torques, only failures beyond their errors."""
-        e = self.evidence
+        e, told = self.evidence, self.checks[check["id"]]  # no check with an error is None
         return check["status"] == "fail" and (e.long_enough or check["span"] == "whole run") and (
-            not e.untrusted or e.inexact and self.checks[check["id"]].certain)
+            not e.untrusted or e.inexact and told is not None and told.certain)
 
     def decided_by(self, checks, word):
         """Ids of the checks that may decide `infeasible` or `failed`: failed checks of the robot as a whole, or those with the least
