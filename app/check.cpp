@@ -16,6 +16,7 @@
 #include "core/simulation/start.h"
 #include "report/analysis/start_row.h"
 #include "report/page/page.h"
+#include "report/verdict/position_loop.h"
 #include "report/verdict/trust.h"
 
 namespace gaitlab::app {
@@ -141,6 +142,8 @@ int check(const CheckArguments& arguments) {
                                               : "at the height in position, because on_ground is off"));
   print_fitted(fmt::format("  cpg {}, controller {}, actuator {}, {} contact elements\n", plugin_name(s.cpg),
                            plugin_name(s.controller), plugin_name(s.actuator), contacts.size()));
+  if (const auto loops = report::position_loops(s); !loops.empty())
+    print_fitted(fmt::format("  position loop: {}\n", report::loop_text(s, loops)));
   const RowsNeeded needed = simulation->rows_needed(0);
   print_fitted(fmt::format("  records {:.0f} rows of {:.0f} columns ({:.3g} MB) in {:g} s\n", needed.rows, needed.columns,
                            needed.bytes() / 1e6, s.duration));

@@ -13,6 +13,9 @@ void SettingsNumbers::visit(const Field& field) {
     found_.push_back({prefix_ + field.key, number->spec.unit, PerJoint{number->value}});
   } else if (const auto* each = std::get_if<field::EachJoint>(&field.value)) {
     found_.push_back({prefix_ + field.key, each->spec.unit, each->value});
+  } else if (const auto* periods = std::get_if<field::Periods>(&field.value)) {
+    found_.push_back(
+        {prefix_ + field.key, periods->spec.unit, PerJoint{periods->most == nullptr ? periods->value : *periods->most}});
   } else if (const auto* group = std::get_if<field::Group>(&field.value)) {
     const std::string before = prefix_;
     prefix_ += std::string(field.key) + ".";

@@ -7,7 +7,7 @@
 
 namespace gaitlab {
 
-/// Numbers by key, such as `Kp` or `model.ramp`. Numbers in lists are left out.
+/// Numbers by key, such as `Kp` or `model.ramp`. Numbers in lists are left out; of a range of delays the longest is taken.
 class SettingsNumbers final : public Fields {
  public:
   struct Found {

@@ -8,18 +8,17 @@
 
 #include "core/laws/dc_motor.h"
 #include "core/scenario/built_robot.h"
-#include "core/scenario/sensor_section.h"
-#include "core/settings/settings_numbers.h"
 #include "core/settings/wording.h"
 #include "report/analysis/own_overlap.h"
 #include "report/verdict/plausibility.h"
+#include "report/verdict/position_loop.h"
 
 namespace gaitlab::report {
 
 namespace {
 
-constexpr double kOvershoots = 1;       // gain of the sampled position loop; at 1 the error is zero at the next tick
-constexpr double kCannotSettle = 2;     // gain of the sampled position loop; measured: 1.3 to 1.9 settle, 2.3 does not
+constexpr double kOvershoots = 0.5;     // share of the bound; without delay, one command then removes the whole error
+constexpr double kStep = 0.1;           // share of the torque at rest; chosen
 constexpr double kRounding = 1 + 1e-9;  // tolerance for products that should be equal
 constexpr double kTurn = 2 * std::numbers::pi;
 
@@ -60,41 +59,42 @@ void check_constants(const Scenario& s, const DcMotor* motors, std::vector<Warni
   }
 }
 
-/// True if the derivative part responds to a step of the error with more than a quarter of the proportional part, so that it
-/// changes the bound on Kp. Its response is Kd N / (Kd + N Ts) (eq. 5).
-bool damps(const SettingsNumbers& settings, std::size_t joint, double period) {
-  const SettingsNumbers::Found* Kp = settings.find("Kp");
-  const SettingsNumbers::Found* Kd = settings.find("Kd");
-  const SettingsNumbers::Found* N = settings.find("N");
-  if (Kd == nullptr || !(Kd->value[joint] > 0)) return false;
-  const double d = Kd->value[joint];
-  const double step = N == nullptr ? d / period : d * N->value[joint] / (d + N->value[joint] * period);
-  return step > 0.25 * Kp->value[joint];
+/// Warns of the loop that is nearest to its bound, or beyond it.
+void check_gain(const Scenario& s, const std::vector<PositionLoop>& loops, std::vector<Warning>& out) {
+  const auto nearest = std::ranges::max_element(loops, {}, &PositionLoop::share);
+  if (nearest == loops.end() || !(nearest->share() > kOvershoots * kRounding)) return;
+  const bool severe = nearest->share() > 1;
+  const double most = severe ? 1 : kOvershoots;
+  const double less = most / nearest->share();
+  std::string remedy = fmt::format("take Kp: {:.4g} or less", two_digits(nearest->Kp * less));
+  // An encoder has a period and a delay of its own.
+  if (nearest->delay == 0 && nearest->period == s.control_period)
+    remedy += fmt::format(", or controller.period: {:.4g} or less", two_digits(s.control_period * less));
+  if (severe) remedy += "; with half of that it does not overshoot";
+  out.push_back({s.nearest_place("controller.Kp"),
+                 fmt::format("Kp {:.4g} of joint {} is {} for {}: the joint {} (gain {:.3g} per command, at most {:.3g}); {}",
+                             nearest->Kp, s.robot->joints[nearest->joint].name, severe ? "too large" : "large",
+                             commands_text(s, *nearest),
+                             nearest->gain > nearest->never_settles ? "cannot settle"
+                             : severe                               ? "may not settle"
+                                                                    : "overshoots",
+                             nearest->gain, most * nearest->settles, remedy),
+                 severe});
 }
 
-void check_gain(const Scenario& s, const DcMotor* motors, std::vector<Warning>& out) {
-  const SettingsNumbers settings(s.controller);
-  const auto* gain = settings.find("Kp");
-  if (gain == nullptr || make_controller(s.controller, plugin_info(s))->command_unit() != "V") return;
-  double largest = 0;
-  std::size_t worst = 0;
-  for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
-    // A motor without back-EMF has no damping, and the rule does not apply.
-    if (!s.robot->joints[j].driven() || !(motors[j].Ks > 0)) continue;
-    const double g = gain->value[j] * s.control_period / (motors[j].Ks * motors[j].gear);
-    if (!(g > largest) || damps(settings, j, s.control_period)) continue;
-    largest = g;
-    worst = j;
-  }
-  if (!(largest > kOvershoots * kRounding)) return;
-  const bool severe = largest > kCannotSettle;
-  out.push_back({s.nearest_place("controller.Kp"),
-                 fmt::format("Kp {:.4g} of joint {} is {} for commands every {:.4g} s: the joint {} (gain {:.3g} per command, "
-                             "at most {}); take Kp: {:.4g} or less, or a shorter controller.period",
-                             gain->value[worst], s.robot->joints[worst].name, severe ? "too large" : "large", s.control_period,
-                             severe ? "cannot settle" : "overshoots", largest, severe ? kCannotSettle : kOvershoots,
-                             two_digits(gain->value[worst] / largest)),
-                 severe});
+/// Warns if one step of a measured angle commands a large share of the torque at rest.
+void check_encoder(const Scenario& s, const std::vector<PositionLoop>& loops, std::vector<Warning>& out) {
+  const auto share = [](const PositionLoop& loop) { return loop.stiffness * loop.resolution / loop.stall; };
+  const auto most = std::ranges::max_element(loops, {}, share);
+  if (most == loops.end() || !(share(*most) > kStep * kRounding)) return;
+  const double torque = most->stiffness * most->resolution;
+  out.push_back(
+      {s.nearest_place("sensors"),
+       fmt::format(
+           "one step of the encoder of joint {}, {:.3g} rad, commands {:.3g} N m, {:.3g} % of the {:.3g} N m that "
+           "its motor has at rest: the torques are those of the steps; take resolution: {:.4g} or less, or Kp: {:.4g} or less",
+           s.robot->joints[most->joint].name, most->resolution, torque, 100 * share(*most), most->stall,
+           two_digits(most->resolution * kStep / share(*most)), two_digits(most->Kp * kStep / share(*most)))});
 }
 
 /// `with_gain` is false if the period or a speed is implausible, which then is the reason of a large gain.
@@ -104,7 +104,10 @@ void check_motors(const Scenario& s, bool with_gain, std::vector<Warning>& out) 
   const DcMotor* const motors = actuator->dc_motors();
   if (motors == nullptr) return;
   check_constants(s, motors, out);
-  if (s.controller.entry != nullptr && with_gain) check_gain(s, motors, out);
+  if (!with_gain) return;
+  const std::vector<PositionLoop> loops = position_loops(s);
+  check_gain(s, loops, out);
+  check_encoder(s, loops, out);
 }
 
 /// Notes the overlaps of bodies of one module that do not count.

@@ -22,10 +22,9 @@ struct Warning {
 /// - A motor without torque: Kt, u_max or i_max is 0.
 /// - A motor that creates energy (eta Kt > Ks), or whose Kt and Ks differ by more than a factor of 1.3, although they are one
 /// constant in SI units.
-/// - A position loop that cannot settle. A command u held for Ts turns the joint by u Ts / (Ks n), with n the gear ratio. The
-/// error is therefore multiplied by 1 - g per tick, with g = Kp Ts / (Ks n); for a servo, Ks n = V / w0. g > 2 diverges until
-/// the motor's limits stop it (warning); g > 1 overshoots (note). Only for DC motors and controllers with a gain `Kp` in V
-/// whose `Kd` does not change that bound.
+/// - A position loop (position_loop.h) with a gain above its bound, which may not settle, or never does (warning), or above
+/// half of it, which overshoots (note), with the largest Kp and the longest control period that do.
+/// - An encoder of which one step commands more than 10 % of the motor's torque at rest.
 /// - A number outside its usual range (plausibility.h), with the unit in which it may have been given. Without a position loop
 /// that cannot settle if the control period or the speed of a motor is such a number.
 /// - Bodies of one module that overlap by design (note).

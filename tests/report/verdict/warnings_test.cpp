@@ -13,7 +13,8 @@ const Label kLongWarnings("RunWarnings.AreSilentOnShippedScenarios", "long");
 using namespace report;
 
 const std::vector<std::string> kShipped{
-    "caterpillar.yaml", "caterpillar-equations.yaml", "hexapod.yaml", "octopod.yaml", "pendulum.yaml", "rubble.yaml"};
+    "caterpillar.yaml", "caterpillar-equations.yaml", "hexapod.yaml",      "octopod.yaml", "pendulum.yaml",
+    "rubble.yaml",      "paper-caterpillar.yaml",     "paper-hexapod.yaml"};
 
 std::vector<Warning> of(const std::string& file, const std::vector<std::string>& sets) {
   return setup_warnings(shipped(file, sets));
@@ -52,15 +53,24 @@ TEST(SetupWarnings, TellAMotorThatMakesEnergy) {
   EXPECT_TRUE(of("caterpillar.yaml", {"actuator.Kt=0.0045"}).empty()) << "efficiency 0.7: 0.00315 < 0.00395";
 }
 
-/// The program warns of a control loop that overshoots. The limit Kp period / (Ks gear) = 1 is at Kp = 0.00395 * 594 / 0.015 =
-/// 156.4 V/rad.
+/// The limit Kp period / (Ks gear) = 1 is at Kp = 0.00395 * 594 / 0.015 = 156.4 V/rad.
 TEST(SetupWarnings, TellALoopThatCannotSettle) {
   EXPECT_TRUE(of("caterpillar.yaml", {"controller.Kp=156"}).empty());
   expect_one(of("caterpillar.yaml", {"controller.Kp=157"}), false,
-             "the joint overshoots (gain 1 per command, at most 1); take Kp: 150 or less");
+             "the joint overshoots (gain 1 per command, at most 1); take Kp: 150 or less, or controller.period: 0.014 or less");
   expect_one(of("caterpillar.yaml", {"controller.Kp=312"}), false, "overshoots (gain 1.99 per command, at most 1)");
   expect_one(of("caterpillar.yaml", {"controller.Kp=314"}), true,
-             "cannot settle (gain 2.01 per command, at most 2); take Kp: 150 or less");
+             "may not settle (gain 2.01 per command, at most 2); take Kp: 310 or less, or controller.period: 0.014 or less; "
+             "with half");
+  expect_one(of("paper-caterpillar.yaml", {"controller.period=0.015"}), true,
+             "cannot settle (gain 10 per command, at most 2); take Kp: 310 or less, or controller.period: 0.0029 or less");
+  // An angle that is one tick old: 2/3 for a heavy load, and 1 for none.
+  expect_one(
+      of("caterpillar.yaml", {"sensors={type: encoder, delay: 0.015}"}), false,
+      "for commands every 0.015 s, angles that are 0.015 s old: the joint overshoots (gain 0.639 per command, at most 0.333); "
+      "take Kp: 52 or less");
+  expect_one(of("caterpillar.yaml", {"sensors={type: encoder, delay: 0.03}"}), true,
+             "cannot settle (gain 0.639 per command, at most 0.4); take Kp: 62 or less; with half");
   EXPECT_TRUE(of("caterpillar.yaml", {"controller.Kp=314", "controller.period=0.005"}).empty());
   expect_one(of("caterpillar.yaml", {"controller.Kp={default: 100, m3/active: 400}"}), true, "of joint m3/active");
 }
@@ -74,6 +84,19 @@ TEST(SetupWarnings, DoNotJudgeAMotorWithoutBackEmf) {
 /// 20 * 3000 / (20 + 3000 * 0.015) = 923 V/rad in the first tick.
 TEST(SetupWarnings, DoNotJudgeALoopWithADerivativeGain) {
   EXPECT_TRUE(of("caterpillar.yaml", {"controller.Kp=400", "controller.Kd=20", "controller.N=3000"}).empty());
+}
+
+/// One step of the encoder is 0.00153 * 600 N m/rad = 0.917 N m of 1.97; 10 % are 0.000328 rad, or Kp 336.
+TEST(SetupWarnings, TellAnEncoderWhoseStepsDecideTheTorques) {
+  expect_one(of("paper-caterpillar.yaml", {"sensors={type: encoder, resolution: 0.00153}"}), true,
+             "one step of the encoder of joint m0/active, 0.00153 rad, commands 0.917 N m, 46.6 % of the 1.97 N m that its "
+             "motor has at "
+             "rest: the torques are those of the steps; take resolution: 0.00032 or less, or Kp: 330 or less");
+  EXPECT_TRUE(of("paper-caterpillar.yaml", {"sensors={type: encoder, resolution: 0.00032}"}).empty());
+  EXPECT_TRUE(of("caterpillar.yaml", {"sensors={type: encoder, resolution: 0.00511}"}).empty())
+      << "10 bit on 300 degrees: 9.9 %";
+  expect_one(of("caterpillar.yaml", {"sensors={type: encoder, resolution: 0.0061, joints: m3/active}"}), true,
+             "joint m3/active");
 }
 
 TEST(SetupWarnings, TellDegrees) {

@@ -1,0 +1,145 @@
+#!/usr/bin/env python3
+"""Writes the figures of docs/paper.md: fig09.svg and fig14.svg by their recipes, and map.svg from grid.csv.
+
+    tests/tools/paper.py build/release/bin/gaitlab [--grid]
+
+--grid renews docs/paper/grid.csv first, 297 runs on engine articulated, some minutes; needed after a change of contacts or gears.
+"""
+import argparse
+import concurrent.futures
+import csv
+import json
+import math
+import pathlib
+import subprocess
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+OUT = ROOT / "docs/paper"
+STIFFNESS = (38.2, 75, 150, 300, 400, 500, 600, 700, 800, 1000, 1200)  # N m/rad
+CONTACT = (2e3, 3e3, 5e3, 7e3, 1e4, 1.5e4, 2e4, 3e4, 4e4)  # N/m
+PER_KP = 0.7 * 0.00395 * 594 / 4.3  # N m/V, eta Kt n / R of the M-TRAN's motor
+HEAD = ("robot", "amplitude rad", "Kn N/m", "k N m/rad", "torque min N m", "torque max N m", "torque RMS N m", "rank by peak", "rank by RMS",
+        "verdict", "decided by")
+# Joint, window in s, and amplitudes in rad of each robot.
+FIGURES = {"caterpillar": (7, 6, 14, (0.6,)), "hexapod": (5, 4, 8, (0.3, 0.4))}
+
+
+def simulate(program, robot, amplitude, contact, stiffness):
+    """Row of grid.csv: torques of the figure's joint in its window, and its ranks among all joints."""
+    joint, start, end, _ = FIGURES[robot]
+    keys = [f"cpg.amplitude={amplitude}", f"contact.stiffness={contact:g}", f"controller.Kp={stiffness / PER_KP:.6g}",
+            "trace.columns=[joint.*.torque]"]
+    with tempfile.TemporaryDirectory() as folder:
+        run = pathlib.Path(folder) / "run"
+        command = [program, "run", ROOT / f"scenarios/paper-{robot}.yaml", "--quiet", "--no-report", "--format", "csv", "--out", run]
+        subprocess.run(command + [word for key in keys for word in ("--set", key)], check=False, stderr=subprocess.DEVNULL)
+        with open(run / "trace.csv", encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+        verdict = json.loads((run / "verdict.json").read_text())
+    torques = list(zip(*([float(x) for x in row[1:]] for row in rows[1:] if start - 1e-9 <= float(row[0]) <= end + 1e-9)))
+    peaks = [max(map(abs, one)) for one in torques]
+    rms = [math.sqrt(sum(x * x for x in one) / len(one)) for one in torques]
+    rank = lambda values: 1 + sum(value > values[joint] for value in values)  # noqa: E731
+    return (robot, amplitude, f"{contact:g}", f"{stiffness:g}", f"{min(torques[joint]):+.2f}", f"{max(torques[joint]):+.2f}",
+            f"{rms[joint]:.2f}", rank(peaks), rank(rms), verdict["verdict"], verdict["decided_by"] or "")
+
+
+def write_grid(program):
+    points = [(robot, amplitude, contact, stiffness) for robot, figure in FIGURES.items() for amplitude in figure[3]
+              for contact in CONTACT for stiffness in STIFFNESS]
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        rows = list(pool.map(lambda point: simulate(program, *point), points))
+    with open(OUT / "grid.csv", "w", encoding="utf-8", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([HEAD, *rows])
+
+
+def met(row):
+    """True if the torques fit the axis of the figure and the statement of the text, and the gait is feasible."""
+    low, high, rank, feasible = row["low"], row["high"], row["peak"], row["verdict"] == "feasible"
+    if row["robot"] == "caterpillar":
+        return feasible and -2 <= low <= -1.3 and 1.3 <= high <= 2
+    return feasible and -1.2 <= low <= -1.0 and rank == 1
+
+
+def read_grid():
+    with open(OUT / "grid.csv", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    for row in rows:
+        row.update(low=float(row["torque min N m"]), high=float(row["torque max N m"]), peak=int(row["rank by peak"]))
+    return rows
+
+
+def draw_map():
+    """One panel per robot and amplitude, a cell per point: torque and rank by peak; lines between cells on two sides of 1.0 and 1.2 N m."""
+    wide, high, left, top, gap = 52, 22, 52, 46, 66  # px
+    panels = [(robot, amplitude) for robot, figure in FIGURES.items() for amplitude in figure[3]]
+    size = (left + wide * len(STIFFNESS) + 12, len(panels) * (top + high * len(CONTACT) + gap) - gap + 62)
+    rows = read_grid()
+    out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {size[0]} {size[1]}" font-family="Helvetica, Arial, sans-serif" '
+           f'font-size="11" text-anchor="middle"><rect width="100%" height="100%" fill="#fff"/>']
+    text = lambda x, y, words, more="": out.append(f'<text x="{x:g}" y="{y:g}"{more}>{words}</text>')  # noqa: E731
+    for panel, (robot, amplitude) in enumerate(panels):
+        y0 = panel * (top + high * len(CONTACT) + gap) + top
+        cells = {(float(r["Kn N/m"]), float(r["k N m/rad"])): r for r in rows if r["robot"] == robot and float(r["amplitude rad"]) == amplitude}
+        of = "joint 7 of the caterpillar (figure 9)" if robot == "caterpillar" else "central spine joint of the hexapod (figure 14)"
+        text(left, y0 - 26, f"Largest torque in N m and rank by peak: {of}, amplitude {amplitude} rad", ' text-anchor="start" font-weight="bold"')
+        for i, stiffness in enumerate(STIFFNESS):
+            text(left + (i + 0.5) * wide, y0 - 6, f"{stiffness:g}")
+        for j, contact in enumerate(reversed(CONTACT)):
+            text(left - 6, y0 + (j + 0.7) * high, f"{contact:g}", ' text-anchor="end"')
+            for i, stiffness in enumerate(STIFFNESS):
+                row, x, y = cells[contact, stiffness], left + i * wide, y0 + j * high
+                fill = "#bfe3c5" if met(row) else "#eceff3" if row["verdict"] == "feasible" else "#f6d5d0"
+                out.append(f'<rect x="{x}" y="{y}" width="{wide}" height="{high}" fill="{fill}" stroke="#fff"/>')
+                text(x + wide / 2, y + 15, f"{max(-row['low'], row['high']):.2f} / {row['peak']}")
+        for level, colour in ((1.0, "#1f5fa8"), (1.2, "#a33b1f")):
+            above = lambda n, k: max(-cells[n, k]["low"], cells[n, k]["high"]) > level  # noqa: B023, E731
+            path = ""
+            for j, contact in enumerate(reversed(CONTACT)):
+                for i, stiffness in enumerate(STIFFNESS):
+                    x, y = left + i * wide, y0 + j * high
+                    if i and above(contact, stiffness) != above(contact, STIFFNESS[i - 1]):
+                        path += f"M{x} {y}v{high}"
+                    if j and above(contact, stiffness) != above(CONTACT[-j], stiffness):
+                        path += f"M{x} {y}h{wide}"
+            out.append(f'<path d="{path}" stroke="{colour}" stroke-width="2.5" fill="none"/>')
+        text(14, y0 + high * len(CONTACT) / 2, "Kn (N/m)", f' transform="rotate(-90 14 {y0 + high * len(CONTACT) / 2:g})"')
+        text(left + wide * len(STIFFNESS) / 2, y0 + high * len(CONTACT) + 16, "stiffness k of the position loop (N m/rad)")
+    words = (("#bfe3c5", "figure met, feasible"), ("#eceff3", "feasible"), ("#f6d5d0", "infeasible"))
+    y = size[1] - 22
+    for k, (colour, word) in enumerate(words):
+        out.append(f'<rect x="{left + 170 * k}" y="{y - 11}" width="14" height="14" fill="{colour}"/>')
+        text(left + 20 + 170 * k, y, word, ' text-anchor="start"')
+    for k, (colour, level) in enumerate((("#1f5fa8", "1.0 N m"), ("#a33b1f", "1.2 N m"))):
+        x = left + 420 + 110 * k
+        out.append(f'<path d="M{x} {y - 4}h18" stroke="{colour}" stroke-width="2.5"/>')
+        text(x + 24, y, level, ' text-anchor="start"')
+    (OUT / "map.svg").write_text("\n".join(out) + "\n</svg>\n", encoding="utf-8")
+
+
+def draw_figures(program):
+    with tempfile.TemporaryDirectory() as folder:
+        for name, robot in (("fig09", "caterpillar"), ("fig14", "hexapod")):
+            run = pathlib.Path(folder) / robot
+            subprocess.run([program, "run", ROOT / f"scenarios/paper-{robot}.yaml", "--quiet", "--no-report", "--out", run], check=True,
+                           stderr=subprocess.DEVNULL)
+            subprocess.run([program, "figure", ROOT / f"scenarios/figures/{name}.yaml", "--run", f"{robot}={run}", "-o", OUT / f"{name}.svg",
+                            "--csv", pathlib.Path(folder) / "numbers.csv"],
+                           check=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("program", type=lambda path: str(pathlib.Path(path).resolve()))
+    parser.add_argument("--grid", action="store_true", help="run the grid again")
+    given = parser.parse_args()
+    OUT.mkdir(exist_ok=True)
+    if given.grid:
+        write_grid(given.program)
+    draw_map()
+    draw_figures(given.program)
+
+
+if __name__ == "__main__":
+    main()
