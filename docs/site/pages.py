@@ -36,7 +36,8 @@ CONTENTS = (
         ("Scenario", "docs/reference/scenario.md"), ("Module", "docs/reference/module.md"), ("Plugins", "docs/reference/plugins.md"),
         ("Verdict", "docs/reference/verdict.md"), ("Study", "docs/reference/study.md"), ("Figure", "docs/reference/figure.md"))),
     ("Conventions", (
-        ("Conventions", "docs/conventions.md"), ("Equations", "docs/equations.md"), ("Validation", "docs/validation.md"),
+        ("Conventions", "docs/conventions.md"), ("Equations", "docs/equations.md"), ("The paper's figures", "docs/paper.md"),
+        ("Validation", "docs/validation.md"),
         ("Determinism", "docs/determinism.md"), ("Benchmarks", "docs/benchmarks.md"))),
     ("Project", (
         ("Changes", "CHANGELOG.md"), ("Contributing", "CONTRIBUTING.md"), ("Architecture", "docs/architecture.md"),

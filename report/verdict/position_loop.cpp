@@ -16,7 +16,7 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kDamps = 0.25;  // share of the proportional part from which on the derivative part changes the bound
+constexpr double kDamps = 0.25;  // least share of the proportional part at which the derivative part changes the bound
 
 /// Response of the derivative part to a step of the error, Kd N / (Kd + N Ts) (eq. 5), V/rad.
 double derivative(const SettingsNumbers& settings, std::size_t joint, double period) {
@@ -27,7 +27,7 @@ double derivative(const SettingsNumbers& settings, std::size_t joint, double per
   return N == nullptr ? d / period : d * N->value[joint] / (d + N->value[joint] * period);
 }
 
-/// What the sensors of a joint do to its angle.
+/// Angle of a joint as its encoder gives it.
 struct Measured {
   double period = 0, resolution = 0, delay = 0;  // s, rad, s
 };

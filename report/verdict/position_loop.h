@@ -1,4 +1,4 @@
-// Position loops of the joints: their stiffness, and the gain up to which a joint settles.
+// Position loops of the joints: stiffness, and largest gain of a joint that settles.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -20,8 +20,8 @@ namespace gaitlab::report {
 ///
 ///     g > 4.03 if d = 0        g > 2 sin(pi / (2 (2 d + 1))) if d >= 1
 ///
-/// In between it depends on J: the first bound is that of tau >> T, tau = J R / (eta Kt Ks n^2), and for d = 0 of tau = 0,
-/// too; 4.03 is that of tau = T / 3.6, and the other that of tau = 0 (Kuruklis 1994, x_{k+1} = x_k - g x_{k-d}). Without
+/// In between it depends on J, through tau = J R / (eta Kt Ks n^2): tau >> T has the first bound, tau = 0 the second one
+/// (without delay the first), and tau = T / 3.6 has 4.03 (Kuruklis 1994, x_{k+1} = x_k - g x_{k-d}; Jury's criterion). Without
 /// contact, springs and friction; measured on eight robots at 15 ms: all settle at 1.9, seven do not at 2.1, one, with heavy
 /// legs, at 2.6 (docs/paper.md).
 struct PositionLoop {
@@ -47,7 +47,7 @@ std::vector<PositionLoop> position_loops(const Scenario& scenario);
 std::string commands_text(const Scenario& scenario, const PositionLoop& loop);
 
 /// Line of `gaitlab check`: `k = 38.2 N m/rad at every joint (Kp 100 V/rad); settles up to 119 N m/rad (Kp 312 V/rad) with a
-/// command every 0.015 s`. Joints that differ have the range of k, and the numbers of the one that is nearest to its bound.
+/// command every 0.015 s`. If joints differ: the range of k, and the numbers of the joint nearest to its bound.
 std::string loop_text(const Scenario& scenario, const std::vector<PositionLoop>& loops);
 
 }  // namespace gaitlab::report

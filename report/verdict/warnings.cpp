@@ -67,7 +67,7 @@ void check_gain(const Scenario& s, const std::vector<PositionLoop>& loops, std::
   const double most = severe ? 1 : kOvershoots;
   const double less = most / nearest->share();
   std::string remedy = fmt::format("take Kp: {:.4g} or less", two_digits(nearest->Kp * less));
-  // An encoder has a period and a delay of its own.
+  // Period and delay of an encoder do not follow the controller's.
   if (nearest->delay == 0 && nearest->period == s.control_period)
     remedy += fmt::format(", or controller.period: {:.4g} or less", two_digits(s.control_period * less));
   if (severe) remedy += "; with half of that it does not overshoot";
@@ -92,7 +92,7 @@ void check_encoder(const Scenario& s, const std::vector<PositionLoop>& loops, st
       {s.nearest_place("sensors"),
        fmt::format(
            "one step of the encoder of joint {}, {:.3g} rad, commands {:.3g} N m, {:.3g} % of the {:.3g} N m that "
-           "its motor has at rest: the torques are those of the steps; take resolution: {:.4g} or less, or Kp: {:.4g} or less",
+           "its motor has at rest: these steps decide the torques; take resolution: {:.4g} or less, or Kp: {:.4g} or less",
            s.robot->joints[most->joint].name, most->resolution, torque, 100 * share(*most), most->stall,
            two_digits(most->resolution * kStep / share(*most)), two_digits(most->Kp * kStep / share(*most)))});
 }

@@ -22,9 +22,9 @@ struct Warning {
 /// - A motor without torque: Kt, u_max or i_max is 0.
 /// - A motor that creates energy (eta Kt > Ks), or whose Kt and Ks differ by more than a factor of 1.3, although they are one
 /// constant in SI units.
-/// - A position loop (position_loop.h) with a gain above its bound, which may not settle, or never does (warning), or above
-/// half of it, which overshoots (note), with the largest Kp and the longest control period that do.
-/// - An encoder of which one step commands more than 10 % of the motor's torque at rest.
+/// - A position loop (position_loop.h) with a gain above its bound, which may not settle (warning), or above half of it, which
+/// overshoots (note). The message has the largest Kp and the longest control period.
+/// - An encoder whose step commands more than 10 % of the motor's torque at rest.
 /// - A number outside its usual range (plausibility.h), with the unit in which it may have been given. Without a position loop
 /// that cannot settle if the control period or the speed of a motor is such a number.
 /// - Bodies of one module that overlap by design (note).

@@ -163,7 +163,7 @@ TEST(Paper, ThirteenOtherSettingsMissIt) {
   for (const char* const set : kOtherSettings) EXPECT_NE(numbers(unmet(caterpillar({set, "duration=14"}))), Sets()) << set;
 }
 
-/// All but two of them lose one of figures 13 and 14, too.
+/// All but two of them also lose one of figures 13 and 14.
 TEST(Paper, ElevenOfThemMissTheSpineToo) {
   EXPECT_EQ(numbers(unmet_spine(hexapod({"duration=8"}))), Sets());
   for (const std::string set : kOtherSettings) {

@@ -71,8 +71,9 @@ def read_grid():
 
 
 def draw_map():
-    """One panel per robot and amplitude, a cell per point: torque and rank by peak; lines between cells on two sides of 1.0 and 1.2 N m."""
-    wide, high, left, top, gap = 52, 22, 52, 46, 66  # px
+    """One panel per robot and amplitude, a cell per point: torque and rank by peak; lines between cells on two sides of the
+    torques that a figure needs at least and at most."""
+    wide, high, left, top, gap = 54, 22, 70, 46, 40  # px
     panels = [(robot, amplitude) for robot, figure in FIGURES.items() for amplitude in figure[3]]
     size = (left + wide * len(STIFFNESS) + 12, len(panels) * (top + high * len(CONTACT) + gap) - gap + 62)
     rows = read_grid()
@@ -82,8 +83,10 @@ def draw_map():
     for panel, (robot, amplitude) in enumerate(panels):
         y0 = panel * (top + high * len(CONTACT) + gap) + top
         cells = {(float(r["Kn N/m"]), float(r["k N m/rad"])): r for r in rows if r["robot"] == robot and float(r["amplitude rad"]) == amplitude}
-        of = "joint 7 of the caterpillar (figure 9)" if robot == "caterpillar" else "central spine joint of the hexapod (figure 14)"
-        text(left, y0 - 26, f"Largest torque in N m and rank by peak: {of}, amplitude {amplitude} rad", ' text-anchor="start" font-weight="bold"')
+        of, levels = "Joint 7 of the caterpillar (figure 9)", (1.3, 2)
+        if robot == "hexapod":
+            of, levels = "Central spine joint of the hexapod (figure 14)", (1.0, 1.2)
+        text(left, y0 - 26, f"{of}, amplitude {amplitude} rad: largest torque (N m) / its rank", ' text-anchor="start" font-weight="bold"')
         for i, stiffness in enumerate(STIFFNESS):
             text(left + (i + 0.5) * wide, y0 - 6, f"{stiffness:g}")
         for j, contact in enumerate(reversed(CONTACT)):
@@ -93,7 +96,7 @@ def draw_map():
                 fill = "#bfe3c5" if met(row) else "#eceff3" if row["verdict"] == "feasible" else "#f6d5d0"
                 out.append(f'<rect x="{x}" y="{y}" width="{wide}" height="{high}" fill="{fill}" stroke="#fff"/>')
                 text(x + wide / 2, y + 15, f"{max(-row['low'], row['high']):.2f} / {row['peak']}")
-        for level, colour in ((1.0, "#1f5fa8"), (1.2, "#a33b1f")):
+        for level, colour in zip(levels, ("#1f5fa8", "#a33b1f")):
             above = lambda n, k: max(-cells[n, k]["low"], cells[n, k]["high"]) > level  # noqa: B023, E731
             path = ""
             for j, contact in enumerate(reversed(CONTACT)):
@@ -104,15 +107,15 @@ def draw_map():
                     if j and above(contact, stiffness) != above(CONTACT[-j], stiffness):
                         path += f"M{x} {y}h{wide}"
             out.append(f'<path d="{path}" stroke="{colour}" stroke-width="2.5" fill="none"/>')
-        text(14, y0 + high * len(CONTACT) / 2, "Kn (N/m)", f' transform="rotate(-90 14 {y0 + high * len(CONTACT) / 2:g})"')
+        text(12, y0 + high * len(CONTACT) / 2, "Kn (N/m)", f' transform="rotate(-90 12 {y0 + high * len(CONTACT) / 2:g})"')
         text(left + wide * len(STIFFNESS) / 2, y0 + high * len(CONTACT) + 16, "stiffness k of the position loop (N m/rad)")
     words = (("#bfe3c5", "figure met, feasible"), ("#eceff3", "feasible"), ("#f6d5d0", "infeasible"))
-    y = size[1] - 22
+    y, offsets = size[1] - 22, (0, 140, 210)
     for k, (colour, word) in enumerate(words):
-        out.append(f'<rect x="{left + 170 * k}" y="{y - 11}" width="14" height="14" fill="{colour}"/>')
-        text(left + 20 + 170 * k, y, word, ' text-anchor="start"')
-    for k, (colour, level) in enumerate((("#1f5fa8", "1.0 N m"), ("#a33b1f", "1.2 N m"))):
-        x = left + 420 + 110 * k
+        out.append(f'<rect x="{left + offsets[k]}" y="{y - 11}" width="14" height="14" fill="{colour}"/>')
+        text(left + 20 + offsets[k], y, word, ' text-anchor="start"')
+    for k, (colour, level) in enumerate((("#1f5fa8", "above 1.3 or 1.0 N m"), ("#a33b1f", "above 2 or 1.2 N m"))):
+        x = left + 300 + 152 * k
         out.append(f'<path d="M{x} {y - 4}h18" stroke="{colour}" stroke-width="2.5"/>')
         text(x + 24, y, level, ' text-anchor="start"')
     (OUT / "map.svg").write_text("\n".join(out) + "\n</svg>\n", encoding="utf-8")
@@ -125,7 +128,7 @@ def draw_figures(program):
             subprocess.run([program, "run", ROOT / f"scenarios/paper-{robot}.yaml", "--quiet", "--no-report", "--out", run], check=True,
                            stderr=subprocess.DEVNULL)
             subprocess.run([program, "figure", ROOT / f"scenarios/figures/{name}.yaml", "--run", f"{robot}={run}", "-o", OUT / f"{name}.svg",
-                            "--csv", pathlib.Path(folder) / "numbers.csv"],
+                            "--csv", pathlib.Path(folder) / f"{name}.csv"],
                            check=True)
 
 
