@@ -63,6 +63,9 @@ defect "articulated: friction's slope along the slip drives" physics_articulated
 defect "articulated: the ledger gains what stops take" physics_articulated/implicit.h \
   's/done\.stops = done\.stops - h/done.stops = done.stops + h/'
 
+defect "a stuck hinge is held at once" core/laws/hinge_stop.h 's/share = since \* \(1 \/ kRamp\)/share = since * (1 \/ kRamp) + T(1.0)/'
+defect "docks: no loads where a hinge meets its stop" core/simulation/met_stops.cpp 's/side = met_stop\(/side = 0 * met_stop(/'
+
 build() {
   [[ -f $build/build.ninja ]] || (cd -- "$clone" && expect 0 cmake --preset release)
   expect 0 cmake --build "$build" --target gaitlab core_tests program_tests
