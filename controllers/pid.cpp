@@ -15,8 +15,8 @@ const char* const Pid::kManual = R"(Sampled PID with a filtered derivative, once
 e = set point - measured angle, rad. Start: I = D = 0, e_{-1} = e_0. Anti-windup: I is held while the last command exceeded
 the actuator's limit and the error had its sign. Source: Chariot, Filippi, Verlinden 2012, eq. 3-6; gains chosen.
 
-At rest a DC motor resists a deflection with k = Kp eta Kt n / R, N m/rad. Without load the joint settles for Kp < 2 Ks n / Ts,
-k < 2 eta Kt Ks n^2 / (R Ts); `gaitlab check SCENARIO` prints both (docs/paper.md).
+At rest a DC motor resists a deflection with k = Kp eta Kt n / R, N m/rad. With any load the joint settles for
+Kp < 2 Ks n / Ts - 2 Kd N / (2 Kd + N Ts); `gaitlab check SCENARIO` prints both limits (docs/paper.md).
 
     controller: {type: pid, period: 0.015, Kp: 100, Kd: 0.6})";
 

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "core/laws/dc_motor.h"
 #include "core/scenario/built_robot.h"
@@ -16,20 +14,19 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kDamps = 0.25;  // least share of the proportional part at which the derivative part changes the bound
+constexpr double kOtherParts = 0.25;  // largest share of the proportional part that derivative and integral part have
 
-/// Response of the derivative part to a step of the error, Kd N / (Kd + N Ts) (eq. 5), V/rad.
-double derivative(const SettingsNumbers& settings, std::size_t joint, double period) {
-  const SettingsNumbers::Found* Kd = settings.find("Kd");
-  const SettingsNumbers::Found* N = settings.find("N");
-  if (Kd == nullptr || !(Kd->value[joint] > 0)) return 0;
-  const double d = Kd->value[joint];
-  return N == nullptr ? d / period : d * N->value[joint] / (d + N->value[joint] * period);
+constexpr double kSlow = 4;  // time constant, in samples, above which the derivative part does not make up for a delay
+
+/// Number of a joint under this key, or `otherwise`.
+double number(const SettingsNumbers& settings, const char* key, std::size_t joint, double otherwise) {
+  const SettingsNumbers::Found* const found = settings.find(key);
+  return found == nullptr ? otherwise : found->value[joint];
 }
 
 /// Angle of a joint as its encoder gives it.
 struct Measured {
-  double period = 0, resolution = 0, delay = 0;  // s, rad, s
+  double period = 0, resolution = 0, delay = 0, gain = 1;  // s, rad, s, 1
 };
 
 std::vector<Measured> measured(const Scenario& s) {
@@ -37,13 +34,11 @@ std::vector<Measured> measured(const Scenario& s) {
   const auto sensors = make_sensors(s);
   for (std::size_t k = 0; k < sensors.size(); ++k) {
     const SettingsNumbers settings(s.sensors[k].plugin);
-    const auto value = [&](const char* key) {
-      const SettingsNumbers::Found* const found = settings.find(key);
-      return found == nullptr ? 0.0 : found->value[0];
-    };
+    const auto value = [&](const char* key, double otherwise) { return number(settings, key, 0, otherwise); };
     for (const SensorReading& reading : sensors[k]->readings()) {
       if (reading.replaces != Replaces::angle) continue;
-      joints[reading.part] = {std::max(s.control_period, value("period")), value("resolution"), value("delay")};
+      joints[reading.part] = {std::max(s.control_period, value("period", 0)), value("resolution", 0), value("delay", 0),
+                              std::abs(value("gain", 1))};
     }
   }
   return joints;
@@ -51,34 +46,56 @@ std::vector<Measured> measured(const Scenario& s) {
 
 }  // namespace
 
+double PositionLoop::derivative() const {
+  if (!(Kd > 0)) return 0;
+  if (delay == 0) return 2 * Kd / (2 * Kd * sharp + period);
+  return Kd * sharp > kSlow * period ? Kd / (Kd * sharp + period) : 0;
+}
+double PositionLoop::gain() const { return (Kp + derivative()) * period / emf; }
+double PositionLoop::settles() const { return 2 / (2 * delay / period + 1); }
+double PositionLoop::share() const { return bounded ? gain() / settles() : 0; }
+double PositionLoop::Kp_of(double share) const { return share * settles() * emf / period - derivative(); }
+double PositionLoop::period_of(double share) const {
+  // (Kp + 2 Kd / (2 Kd sharp + T)) T = 2 share emf, a quadratic equation in T.
+  const double most = 2 * share * emf;
+  const double b = 2 * Kd * Kp * sharp + 2 * Kd - most;
+  const double c = -2 * Kd * sharp * most;
+  return (std::sqrt(b * b - 4 * Kp * c) - b) / (2 * Kp);
+}
+
 std::vector<PositionLoop> position_loops(const Scenario& s) {
   std::vector<PositionLoop> loops;
   if (s.actuator.entry == nullptr || s.controller.entry == nullptr || s.robot->joints.empty()) return loops;
   const std::unique_ptr<Actuator> actuator = make_motors(s);
   const DcMotor* const motors = actuator->dc_motors();
   const SettingsNumbers settings(s.controller);
-  const SettingsNumbers::Found* const gain = settings.find("Kp");
-  if (motors == nullptr || gain == nullptr || make_controller(s.controller, plugin_info(s))->command_unit() != "V")
+  if (motors == nullptr || settings.find("Kp") == nullptr ||
+      make_controller(s.controller, plugin_info(s))->command_unit() != "V")
     return loops;
   const std::vector<Measured> angles = measured(s);
   for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
     const DcMotor& motor = motors[j];
-    const double Kp = gain->value[j];
-    if (!s.robot->joints[j].driven() || !(Kp > 0) || !(motor.u_max > 0)) continue;
     const Measured& angle = angles[j];
-    const double samples = std::ceil(angle.delay / angle.period);
-    PositionLoop& loop = loops.emplace_back(PositionLoop{j, Kp});
-    loop.stiffness = Kp * motor.unlimited(motor.u_max, 0).torque / motor.u_max;
-    loop.stall = motor(motor.u_max, 0).torque;
-    loop.resolution = angle.resolution;
+    const double Kp = number(settings, "Kp", j, 0);
+    const double per_volt = motor.u_max > 0 ? motor.unlimited(motor.u_max, 0).torque / motor.u_max : 0;  // N m/V
+    const double stall = motor(motor.u_max, 0).torque;
+    if (!s.robot->joints[j].driven() || !(Kp * angle.gain > 0) || !(per_volt > 0) || !(stall > 0)) continue;
+    PositionLoop& loop = loops.emplace_back();
+    loop.joint = j;
+    loop.Kp = Kp * angle.gain;
+    loop.Kd = number(settings, "Kd", j, 0) * angle.gain;
+    const double sharpness = number(settings, "N", j, INFINITY) * angle.gain;
+    loop.sharp = 1 / sharpness;
+    loop.emf = motor.Ks * motor.gear;
     loop.period = angle.period;
     loop.delay = angle.delay;
-    const bool bound = motor.Ks > 0 && derivative(settings, j, s.control_period) <= kDamps * Kp;
-    loop.gain = motor.Ks > 0 ? Kp * angle.period / (motor.Ks * motor.gear) : 0;
-    if (!bound) loop.settles = loop.never_settles = std::numeric_limits<double>::infinity();
-    if (!bound || !(samples > 0)) continue;
-    loop.settles = 2 / (2 * samples + 1);
-    loop.never_settles = 2 * std::sin(std::numbers::pi / (2 * (2 * samples + 1)));
+    loop.stiffness = loop.Kp * per_volt;
+    loop.stall = stall;
+    loop.resolution = angle.resolution;
+    loop.step = Kp * per_volt * angle.resolution;
+    const double damping = loop.Kd > 0 ? loop.Kd / (loop.Kd * loop.sharp + s.control_period) : 0;
+    const double integral = std::abs(number(settings, "Ki", j, 0)) * angle.gain * s.control_period;
+    loop.bounded = loop.emf > 0 && std::max(damping, integral) <= kOtherParts * loop.Kp;
   }
   return loops;
 }
@@ -86,21 +103,27 @@ std::vector<PositionLoop> position_loops(const Scenario& s) {
 std::string commands_text(const Scenario& s, const PositionLoop& loop) {
   std::string text = fmt::format("commands every {:.4g} s", s.control_period);
   if (loop.period > s.control_period) text += fmt::format(", angles every {:.4g} s", loop.period);
-  if (loop.delay > 0) text += fmt::format(", angles that are {:.4g} s old", loop.delay);
+  if (loop.delay > 0) text += fmt::format(", angles up to {:.4g} s old", loop.delay);
   return text;
 }
 
 std::string loop_text(const Scenario& s, const std::vector<PositionLoop>& loops) {
   const auto [soft, stiff] = std::ranges::minmax(loops, {}, &PositionLoop::stiffness);
   const PositionLoop& nearest = *std::ranges::max_element(loops, {}, &PositionLoop::share);
-  const bool equal = soft.stiffness == stiff.stiffness;
-  const std::string own = fmt::format("k = {:.3g} N m/rad", nearest.stiffness);
+  const auto same = [&](PositionLoop loop) {
+    loop.joint = nearest.joint;
+    return loop == nearest;
+  };
+  const auto driven = static_cast<std::size_t>(std::ranges::count_if(s.robot->joints, &Joint::driven));
+  const bool equal = loops.size() == driven && std::ranges::all_of(loops, same);
   std::string text =
-      fmt::format("{} at {} (Kp {:.4g} V/rad)", own, equal ? "every joint" : s.robot->joints[nearest.joint].name, nearest.Kp);
-  if (!equal) text = fmt::format("k = {:.3g} to {:.3g} N m/rad; {}", soft.stiffness, stiff.stiffness, text);
-  if (!std::isfinite(nearest.settles)) return text;
-  return fmt::format("{}; settles up to {:.4g} N m/rad (Kp {:.4g} V/rad) with {}", text, nearest.stiffness / nearest.share(),
-                     nearest.Kp / nearest.share(), commands_text(s, nearest));
+      soft.stiffness == stiff.stiffness ? "" : fmt::format("k = {:.3g} to {:.3g} N m/rad; ", soft.stiffness, stiff.stiffness);
+  text += fmt::format("k = {:.3g} N m/rad at {} (Kp {:.4g} V/rad)", nearest.stiffness,
+                      equal ? "every joint" : s.robot->joints[nearest.joint].name, nearest.Kp);
+  const double most = nearest.Kp_of(1);
+  if (!nearest.bounded || !(most > 0)) return text;
+  return fmt::format("{}; settles up to {:.4g} N m/rad (Kp {:.4g} V/rad) with {}", text, nearest.stiffness * most / nearest.Kp,
+                     most, commands_text(s, nearest));
 }
 
 }  // namespace gaitlab::report

@@ -10,44 +10,59 @@ namespace gaitlab::report {
 
 /// Position loop of a joint with a DC motor whose controller has a gain `Kp` in V/rad. Angles are sampled every T (control
 /// period, or the longer one of the joint's encoder), and a command u turns the joint without load at u / (Ks n), with n the
-/// gear ratio; for a servo, Ks n = V / w0. A command therefore removes the share g of the error, and a deflected joint at rest
-/// makes the torque k times its error:
+/// gear ratio; for a servo, Ks n = V / w0. With D the response of the derivative part to an error that alternates, in V/rad, a
+/// command removes the share g of an alternating error, and a deflected joint at rest makes the torque k times its error:
 ///
-///     g = Kp T / (Ks n)        k = Kp eta Kt n / R        (eq. 1-3; without eta where the efficiency is directional)
+///     g = (Kp + D) T / (Ks n)      D = 2 Kd N / (2 Kd + N T)      k = Kp eta Kt n / R      (eq. 1-3, 5; directional gears: no
+///     eta)
 ///
-/// With d the delay of the encoder in samples, the joint settles for g < 2 / (2 d + 1), whatever inertia J it moves, and never
-/// for
+/// With an angle that is d samples old, d >= 0, not always whole, the joint settles for
 ///
-///     g > 4.03 if d = 0        g > 2 sin(pi / (2 (2 d + 1))) if d >= 1
+///     g < 2 / (2 d + 1)
 ///
-/// In between it depends on J, through tau = J R / (eta Kt Ks n^2): tau >> T has the first bound, tau = 0 the second one
-/// (without delay the first), and tau = T / 3.6 has 4.03 (Kuruklis 1994, x_{k+1} = x_k - g x_{k-d}; Jury's criterion). Without
-/// contact, springs and friction; measured on eight robots at 15 ms: all settle at 1.9, seven do not at 2.1, one, with heavy
-/// legs, at 2.6 (docs/paper.md).
+/// without contact, springs and friction, whatever inertia J it moves (tests/report/verdict/position_loop_test.cpp). D and a
+/// delay make up for one another: with a delay, D is 0 if Kd / N is at most 4 T (to 2 %), else the response to a step, Kd N /
+/// (Kd + N T). The bound is reached for tau >> T, tau = J R / (eta Kt Ks n^2), and without delay for tau = 0, too. In between a
+/// joint bears more: up to 4.1 without delay and D (tau = T / 3.7), up to 8.7 with D = Kp / 4, and never more. Measured on
+/// eight robots: docs/paper.md.
 struct PositionLoop {
   std::size_t joint = 0;
-  double Kp = 0;         ///< V/rad
-  double stiffness = 0;  ///< k, N m/rad
-  double stall = 0;      ///< largest torque at rest, N m
-  double gain = 0;       ///< g
-  /// First and second bound of g; infinite if the motor has no back-EMF, or the derivative part adds more than a quarter of the
-  /// proportional part to a step of the error, so that it changes them.
-  double settles = 2, never_settles = 4.03;
-  double resolution = 0;  ///< step of the measured angle, rad; 0 without an encoder
+  double Kp = 0, Kd = 0;  ///< V/rad, V s/rad; times the gain of the encoder
+  double sharp = 0;       ///< 1 / N, rad/V
+  double emf = 0;         ///< Ks n, V s/rad
   double period = 0;      ///< T, s
-  double delay = 0;       ///< s, of the measured angle
-  /// g as a share of its bound.
-  [[nodiscard]] double share() const { return gain / settles; }
+  double delay = 0;       ///< s, largest age of an angle that is measured
+  double stiffness = 0;   ///< k, N m/rad
+  double stall = 0;       ///< largest torque at rest, N m
+  double step = 0;        ///< torque that one step of the encoder commands, N m
+  double resolution = 0;  ///< that step, rad; 0 without an encoder
+  /// True if the bound holds: the motor has back-EMF, and the responses of the derivative and the integral part to a step of
+  /// the error, Kd N / (Kd + N T) and Ki T, are at most a quarter of Kp.
+  bool bounded = false;
+
+  [[nodiscard]] double derivative() const;  ///< D, V/rad
+  [[nodiscard]] double gain() const;        ///< g
+  [[nodiscard]] double settles() const;     ///< bound of g
+  [[nodiscard]] double share() const;       ///< g as a share of its bound; 0 without a bound
+  /// Kp whose g is `share` of the bound, V/rad.
+  [[nodiscard]] double Kp_of(double share) const;
+  /// T whose g is `share` of the bound without delay, s; 0 if there is none.
+  [[nodiscard]] double period_of(double share) const;
+  bool operator==(const PositionLoop&) const = default;
 };
 
-/// Loops of all driven joints, in their order; none if motors or controller are of another kind. Throws PluginError.
+/// Gain that no joint bears (PositionLoop).
+inline constexpr double kNeverSettles = 9;
+
+/// Loops of all driven joints, in their order, without joints that make no torque; none if motors or controller are of another
+/// kind. Throws PluginError.
 std::vector<PositionLoop> position_loops(const Scenario& scenario);
 
-/// `commands every 0.015 s, angles that are 0.03 s old`.
+/// `commands every 0.015 s, angles up to 0.03 s old`.
 std::string commands_text(const Scenario& scenario, const PositionLoop& loop);
 
-/// Line of `gaitlab check`: `k = 38.2 N m/rad at every joint (Kp 100 V/rad); settles up to 119 N m/rad (Kp 312 V/rad) with a
-/// command every 0.015 s`. If joints differ: the range of k, and the numbers of the joint nearest to its bound.
+/// Line of `gaitlab check`: `k = 38.2 N m/rad at every joint (Kp 100 V/rad); settles up to 116.1 N m/rad (Kp 304 V/rad) with
+/// commands every 0.015 s`. If joints differ: the range of k, and the numbers of the joint nearest to its bound.
 std::string loop_text(const Scenario& scenario, const std::vector<PositionLoop>& loops);
 
 }  // namespace gaitlab::report

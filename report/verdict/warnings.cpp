@@ -65,36 +65,35 @@ void check_gain(const Scenario& s, const std::vector<PositionLoop>& loops, std::
   if (nearest == loops.end() || !(nearest->share() > kOvershoots * kRounding)) return;
   const bool severe = nearest->share() > 1;
   const double most = severe ? 1 : kOvershoots;
-  const double less = most / nearest->share();
-  std::string remedy = fmt::format("take Kp: {:.4g} or less", two_digits(nearest->Kp * less));
-  // Period and delay of an encoder do not follow the controller's.
-  if (nearest->delay == 0 && nearest->period == s.control_period)
-    remedy += fmt::format(", or controller.period: {:.4g} or less", two_digits(s.control_period * less));
-  if (severe) remedy += "; with half of that it does not overshoot";
-  out.push_back({s.nearest_place("controller.Kp"),
-                 fmt::format("Kp {:.4g} of joint {} is {} for {}: the joint {} (gain {:.3g} per command, at most {:.3g}); {}",
-                             nearest->Kp, s.robot->joints[nearest->joint].name, severe ? "too large" : "large",
-                             commands_text(s, *nearest),
-                             nearest->gain > nearest->never_settles ? "cannot settle"
-                             : severe                               ? "may not settle"
-                                                                    : "overshoots",
-                             nearest->gain, most * nearest->settles, remedy),
-                 severe});
+  std::vector<std::string> remedies;
+  if (const double Kp = nearest->Kp_of(most); Kp > 0) remedies.push_back(fmt::format("Kp: {:.4g} or less", two_digits(Kp)));
+  const double period = nearest->period_of(most);
+  const bool own_period = nearest->delay > 0 || nearest->period > s.control_period;  // of the encoder
+  if (period > 0 && !own_period) remedies.push_back(fmt::format("controller.period: {:.4g} or less", two_digits(period)));
+  out.push_back(
+      {s.nearest_place("controller.Kp"),
+       fmt::format("Kp {:.4g} of joint {} is {} for {}: the joint {} (gain {:.4g} per command, at most {:.3g}){}", nearest->Kp,
+                   s.robot->joints[nearest->joint].name, severe ? "too large" : "large", commands_text(s, *nearest),
+                   nearest->gain() > kNeverSettles ? "cannot settle"
+                   : severe                        ? "may not settle"
+                                                   : "overshoots",
+                   nearest->gain(), most * nearest->settles(),
+                   remedies.empty() ? "" : fmt::format("; take {}", fmt::join(remedies, ", or "))),
+       severe});
 }
 
 /// Warns if one step of a measured angle commands a large share of the torque at rest.
 void check_encoder(const Scenario& s, const std::vector<PositionLoop>& loops, std::vector<Warning>& out) {
-  const auto share = [](const PositionLoop& loop) { return loop.stiffness * loop.resolution / loop.stall; };
+  const auto share = [](const PositionLoop& loop) { return loop.step / loop.stall; };
   const auto most = std::ranges::max_element(loops, {}, share);
   if (most == loops.end() || !(share(*most) > kStep * kRounding)) return;
-  const double torque = most->stiffness * most->resolution;
-  out.push_back(
-      {s.nearest_place("sensors"),
-       fmt::format(
-           "one step of the encoder of joint {}, {:.3g} rad, commands {:.3g} N m, {:.3g} % of the {:.3g} N m that "
-           "its motor has at rest: these steps decide the torques; take resolution: {:.4g} or less, or Kp: {:.4g} or less",
-           s.robot->joints[most->joint].name, most->resolution, torque, 100 * share(*most), most->stall,
-           two_digits(most->resolution * kStep / share(*most)), two_digits(most->Kp * kStep / share(*most)))});
+  const double less = kStep / share(*most);
+  out.push_back({s.nearest_place("sensors"),
+                 fmt::format("one step of the encoder of joint {}, {:.3g} rad, commands {:.3g} N m, {:.3g} % of the {:.3g} N m "
+                             "that its motor has at rest: these steps decide the torques; take resolution: {:.4g} or less, or "
+                             "Kp: {:.4g} or less",
+                             s.robot->joints[most->joint].name, most->resolution, most->step, 100 * share(*most), most->stall,
+                             two_digits(most->resolution * less), two_digits(most->Kp * less))});
 }
 
 /// `with_gain` is false if the period or a speed is implausible, which then is the reason of a large gain.

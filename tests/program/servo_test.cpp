@@ -292,8 +292,8 @@ TEST(Servo, TooLargeAGainIsTold) {
   };
   ASSERT_EQ(told("100").size(), 1U);
   EXPECT_EQ(told("100")[0].text,
-            "Kp 100 of joint m0/active is too large for commands every 0.015 s: the joint may not settle (gain 2.73 per "
-            "command, at most 2); take Kp: 73 or less, or controller.period: 0.011 or less; with half of that it does not overshoot");
+            "Kp 100 of joint m0/active is too large for commands every 0.015 s: the joint may not settle (gain 2.727 per "
+            "command, at most 2); take Kp: 73 or less, or controller.period: 0.011 or less");
   EXPECT_TRUE(told("26").empty());
 }
 

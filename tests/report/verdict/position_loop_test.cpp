@@ -19,18 +19,24 @@ PositionLoop first(const std::string& file, const std::vector<std::string>& sets
   return position_loops(shipped(file, sets)).at(0);
 }
 
-/// Largest modulus of an eigenvalue of a motor with inertia, whose time constant is tau = T / x, under commands every T that
-/// remove the share g of the error of d samples before: (error, speed, errors of the d samples before). Speeds in rad per tau.
-double modulus(double g, double x, int d) {
+/// Largest modulus of an eigenvalue of a motor with inertia, whose time constant is tau = T / x, under commands every T: g
+/// times the error of d samples before, and a derivative part with response `d_step` g to a step of it, which decays by
+/// `d_keeps`. State: error, speed (rad per tau), derivative part, the error before, and the errors of the d samples before.
+double modulus(double g, double x, int d, double d_step, double d_keeps) {
   const double e = std::exp(-x);
-  Eigen::MatrixXd map = Eigen::MatrixXd::Zero(2 + d, 2 + d);
-  const int used = d == 0 ? 0 : 1 + d;
+  Eigen::MatrixXd map = Eigen::MatrixXd::Zero(4 + d, 4 + d);
+  const int used = d == 0 ? 0 : 3 + d;
+  map(2, 2) = d_keeps;
+  map(2, used) += d_step;
+  map(2, 3) -= d_step;
+  const Eigen::RowVectorXd command = -g / x * (map.row(2) + Eigen::RowVectorXd::Unit(4 + d, used));
   map(0, 0) = 1;
   map(0, 1) = 1 - e;
+  map.row(0) += (x - (1 - e)) * command;
   map(1, 1) = e;
-  map(0, used) -= g / x * (x - (1 - e));
-  map(1, used) -= g / x * (1 - e);
-  for (int i = 2; i < 2 + d; ++i) map(i, i == 2 ? 0 : i - 1) = 1;
+  map.row(1) += (1 - e) * command;
+  map(3, used) = 1;
+  for (int i = 4; i < 4 + d; ++i) map(i, i == 4 ? 0 : i - 1) = 1;
   return map.eigenvalues().cwiseAbs().maxCoeff();
 }
 
@@ -38,7 +44,7 @@ TEST(PositionLoop, HasTheStiffnessOfEquationsOneToThree) {
   const double k = 100 * 0.7 * 0.00395 * 594 / 4.3;  // Kp eta Kt n / R
   const PositionLoop paper = first("caterpillar.yaml", {});
   EXPECT_NEAR(paper.stiffness, k, 1e-12);
-  EXPECT_NEAR(paper.gain, 100 * 0.015 / (0.00395 * 594), 1e-12);
+  EXPECT_NEAR(paper.gain(), (100 + 2 * 0.6 * 10 / (2 * 0.6 + 10 * 0.015)) * 0.015 / (0.00395 * 594), 1e-12);
   EXPECT_NEAR(paper.stall, 0.7 * 0.00395 * 594 * 1.2, 1e-12) << "at the current limit";
   EXPECT_NEAR(first("caterpillar.yaml", {"actuator.efficiency_model=directional"}).stiffness, k / 0.7, 1e-12);
   // A servo by its data sheet (scenarios/modules/y1.yaml): T = T0 u / V at rest.
@@ -54,27 +60,69 @@ TEST(PositionLoop, IsThatOfCommandsInVolts) {
   EXPECT_TRUE(position_loops(shipped("pendulum.yaml")).empty()) << "no joint with a motor";
 }
 
-/// The bounds of the header hold for all inertias, from tau = T / 5000 to 200 T: below the first one every joint settles, above
-/// the second none does.
-TEST(PositionLoop, SettlesBelowItsBoundWithAnyInertiaAndNeverAboveTheOther) {
+/// A joint settles below its bound with any inertia (tau = T / 5000 to 200 T), delay, and derivative part of at most a quarter
+/// of Kp; without such a part it does not settle above it with some inertia. Nothing settles at kNeverSettles.
+TEST(PositionLoop, SettlesBelowItsBoundWithAnyInertia) {
   for (int d = 0; d < 4; ++d) {
-    const PositionLoop loop = first("caterpillar.yaml", {fmt::format("sensors={{type: encoder, delay: {}}}", d * 0.015)});
-    double some = 0;
-    for (double x = 0.005; x < 5000; x *= 1.2) {
-      EXPECT_LT(modulus(0.999 * loop.settles, x, d), 1) << d << " " << x;
-      EXPECT_GT(modulus(1.001 * loop.never_settles, x, d), 1) << d << " " << x;
-      some += modulus(0.97 * loop.never_settles, x, d) < 1 ? 1 : 0;
+    for (const double Kd : {0.0, 0.05, 0.3, 3.0}) {
+      // Kd N / (Kd + N T) is up to a quarter of Kp = 100.
+      const double N = Kd > 0.3 ? 20 : 30;
+      const Scenario s = shipped("caterpillar.yaml", {fmt::format("sensors={{type: encoder, delay: {}}}", d * 0.015),
+                                                      fmt::format("controller.Kd={}", Kd), fmt::format("controller.N={}", N)});
+      const PositionLoop loop = position_loops(s).at(0);
+      ASSERT_TRUE(loop.bounded);
+      const double step = Kd * N / (Kd + N * 0.015) / loop.Kp;  // of the proportional part
+      const double keeps = Kd / (Kd + N * 0.015);
+      const double g = loop.settles() * loop.Kp / (loop.Kp + loop.derivative());  // Kp T / (Ks n) at the bound
+      double least = 0;
+      for (double x = 0.005; x < 5000; x *= 1.2) {
+        EXPECT_LT(modulus((d > 0 && Kd > 0 ? 0.98 : 0.999) * g, x, d, step, keeps), 1) << d << " " << Kd << " " << x;
+        EXPECT_GT(modulus(kNeverSettles, x, d, step, keeps), 1) << d << " " << Kd << " " << x;
+        least = std::max(least, modulus(1.01 * g, x, d, step, keeps));
+      }
+      EXPECT_TRUE(least > 1 || (d > 0 && Kd > 0)) << "the bound is reached: " << d << " " << Kd;
     }
-    EXPECT_GT(some, 0) << "the second bound is reached, delay " << d;
-    EXPECT_GT(modulus(1.01 * loop.settles, d == 0 ? 5000 : 0.005, d), 1) << "so is the first, delay " << d;
   }
 }
 
-/// A slow encoder is the period of the loop.
+/// Kp and period of the messages have this share of the bound.
+TEST(PositionLoop, HasNumbersOfItsBound) {
+  for (const double N : {10.0, 1e6}) {
+    PositionLoop loop = first("caterpillar.yaml", {"controller.Kd=0.2", fmt::format("controller.N={}", N)});
+    for (const double share : {0.5, 1.0}) {
+      PositionLoop there = loop;
+      there.Kp = loop.Kp_of(share);
+      EXPECT_NEAR(there.share(), share, 1e-9);
+      there = loop;
+      there.period = loop.period_of(share);
+      EXPECT_NEAR(there.share(), share, 1e-9);
+    }
+  }
+}
+
+/// A slow encoder is the period of the loop, and its gain a factor of it.
 TEST(PositionLoop, HasThePeriodOfItsEncoder) {
-  const PositionLoop loop = first("caterpillar.yaml", {"sensors={type: encoder, period: 0.03, delay: 0.03}"});
-  EXPECT_NEAR(loop.gain, 100 * 0.03 / (0.00395 * 594), 1e-12);
-  EXPECT_NEAR(loop.settles, 2.0 / 3, 1e-12) << "one sample";
+  const PositionLoop loop =
+      first("caterpillar.yaml", {"controller.Kd=0", "sensors={type: encoder, period: 0.03, delay: 0.015, gain: 2}"});
+  EXPECT_NEAR(loop.gain(), 2 * 100 * 0.03 / (0.00395 * 594), 1e-12);
+  EXPECT_NEAR(loop.settles(), 1, 1e-12) << "half a sample";
+}
+
+/// The bound is of the proportional part: not of a large derivative or integral part, nor of a motor without back-EMF.
+TEST(PositionLoop, MayHaveNoBound) {
+  EXPECT_TRUE(first("caterpillar.yaml", {"controller.Ki=1600"}).bounded) << "24 % of Kp";
+  for (const char* const set : {"controller.Ki=1700", "controller.Kd=1e9", "actuator.Ks=0"}) {
+    const PositionLoop loop = first("caterpillar.yaml", {set, "controller.N=1000"});
+    EXPECT_FALSE(loop.bounded) << set;
+    EXPECT_EQ(loop.share(), 0);
+  }
+}
+
+/// Joints without torque are left out.
+TEST(PositionLoop, NeedsATorque) {
+  for (const char* const set : {"actuator.Kt=0", "actuator.i_max=0", "actuator.u_max=0", "controller.Kp=0"})
+    EXPECT_TRUE(position_loops(shipped("caterpillar.yaml", {set, "sensors={type: encoder, resolution: 0.001}"})).empty())
+        << set;
 }
 
 TEST(PositionLoop, IsALineOfCheck) {
@@ -83,15 +131,19 @@ TEST(PositionLoop, IsALineOfCheck) {
     return loop_text(s, position_loops(s));
   };
   EXPECT_EQ(text({}),
-            "k = 38.2 N m/rad at every joint (Kp 100 V/rad); settles up to 119.5 N m/rad (Kp 312.8 V/rad) with commands every "
+            "k = 38.2 N m/rad at every joint (Kp 100 V/rad); settles up to 116.1 N m/rad (Kp 304 V/rad) with commands every "
             "0.015 s");
-  EXPECT_EQ(text({"controller.Kp={default: 100, m3/active: 50}"}),
-            "k = 19.1 to 38.2 N m/rad; k = 38.2 N m/rad at m0/active (Kp 100 V/rad); settles up to 119.5 N m/rad (Kp 312.8 "
-            "V/rad) with "
-            "commands every 0.015 s");
+  EXPECT_EQ(
+      text({"controller.Kp={default: 100, m3/active: 50}"}),
+      "k = 19.1 to 38.2 N m/rad; k = 38.2 N m/rad at m0/active (Kp 100 V/rad); settles up to 116.1 N m/rad (Kp 304 V/rad) with "
+      "commands every 0.015 s");
   EXPECT_EQ(text({"actuator.Ks=0"}), "k = 38.2 N m/rad at every joint (Kp 100 V/rad)") << "no back-EMF, no bound";
   EXPECT_TRUE(contains(text({"sensors={type: encoder, period: 0.03, delay: 0.03}"}),
-                       "commands every 0.015 s, angles every 0.03 s, angles that are 0.03 s old"));
+                       "commands every 0.015 s, angles every 0.03 s, angles up to 0.03 s old"));
+  // One joint with a loop, or with an encoder.
+  for (const char* const set :
+       {"controller.Kp={default: 0, m3/active: 50}", "sensors={type: encoder, joints: m3/active, delay: 0.015}"})
+    EXPECT_TRUE(contains(text({set}), " at m3/active (")) << text({set});
 }
 
 /// Joints whose commands reverse in most ticks to the end of a slow wave.
@@ -110,14 +162,15 @@ const std::vector<std::string> kOthers{"library/y1-snake.yaml", "library/polybot
 
 double bound(const std::string& file) {
   const PositionLoop loop = first(file, {"controller.Kd=0"});
-  return loop.Kp / loop.share();
+  return loop.Kp_of(1);
 }
 
-/// Measured at 15 ms: all joints settle with 95 % of the bound, most do not with 115 %.
+/// Measured at 15 ms: all joints settle with 95 % of the bound, some do not with 105 %, most do not with 115 % (docs/paper.md).
 TEST(PositionLoop, SettlesUpToItsBoundOnOtherRobots) {
   for (const std::string& file : kOthers) {
     std::size_t joints = 0;
     EXPECT_EQ(reversing(file, 0.015, 0.95 * bound(file), joints), 0U) << file;
+    EXPECT_GT(reversing(file, 0.015, 1.05 * bound(file), joints), 0U) << file;
     const std::size_t unsettled = reversing(file, 0.015, 1.15 * bound(file), joints);
     EXPECT_GT(2 * unsettled, joints) << file;
   }

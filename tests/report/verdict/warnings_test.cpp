@@ -53,25 +53,26 @@ TEST(SetupWarnings, TellAMotorThatMakesEnergy) {
   EXPECT_TRUE(of("caterpillar.yaml", {"actuator.Kt=0.0045"}).empty()) << "efficiency 0.7: 0.00315 < 0.00395";
 }
 
-/// The limit Kp period / (Ks gear) = 1 is at Kp = 0.00395 * 594 / 0.015 = 156.4 V/rad.
+/// The largest gain without overshoot, (Kp + D) period / (Ks gear) = 1, is at Kp = 0.00395 * 594 / 0.015 - 8.9 = 147.5 V/rad,
+/// with D = 2 * 0.6 * 10 / (2 * 0.6 + 10 * 0.015); the largest that settles is at 304.0.
 TEST(SetupWarnings, TellALoopThatCannotSettle) {
-  EXPECT_TRUE(of("caterpillar.yaml", {"controller.Kp=156"}).empty());
-  expect_one(of("caterpillar.yaml", {"controller.Kp=157"}), false,
-             "the joint overshoots (gain 1 per command, at most 1); take Kp: 150 or less, or controller.period: 0.014 or less");
-  expect_one(of("caterpillar.yaml", {"controller.Kp=312"}), false, "overshoots (gain 1.99 per command, at most 1)");
-  expect_one(of("caterpillar.yaml", {"controller.Kp=314"}), true,
-             "may not settle (gain 2.01 per command, at most 2); take Kp: 310 or less, or controller.period: 0.014 or less; "
-             "with half");
+  EXPECT_TRUE(of("caterpillar.yaml", {"controller.Kp=147"}).empty());
+  expect_one(
+      of("caterpillar.yaml", {"controller.Kp=148"}), false,
+      "the joint overshoots (gain 1.003 per command, at most 1); take Kp: 140 or less, or controller.period: 0.014 or less");
+  expect_one(of("caterpillar.yaml", {"controller.Kp=303"}), false, "overshoots (gain 1.994 per command, at most 1)");
+  expect_one(of("caterpillar.yaml", {"controller.Kp=305"}), true,
+             "may not settle (gain 2.007 per command, at most 2); take Kp: 300 or less, or controller.period: 0.014 or less");
   expect_one(of("paper-caterpillar.yaml", {"controller.period=0.015"}), true,
-             "cannot settle (gain 10 per command, at most 2); take Kp: 310 or less, or controller.period: 0.0029 or less");
-  // An angle that is one tick old: 2/3 for a heavy load, and 1 for none.
+             "cannot settle (gain 10.09 per command, at most 2); take Kp: 300 or less, or controller.period: 0.0029 or less");
+  // An angle that is one tick old, 2/3 for a heavy load, and two, 2/5.
   expect_one(
       of("caterpillar.yaml", {"sensors={type: encoder, delay: 0.015}"}), false,
-      "for commands every 0.015 s, angles that are 0.015 s old: the joint overshoots (gain 0.639 per command, at most 0.333); "
+      "for commands every 0.015 s, angles up to 0.015 s old: the joint overshoots (gain 0.6393 per command, at most 0.333); "
       "take Kp: 52 or less");
   expect_one(of("caterpillar.yaml", {"sensors={type: encoder, delay: 0.03}"}), true,
-             "cannot settle (gain 0.639 per command, at most 0.4); take Kp: 62 or less; with half");
-  EXPECT_TRUE(of("caterpillar.yaml", {"controller.Kp=314", "controller.period=0.005"}).empty());
+             "the joint may not settle (gain 0.6393 per command, at most 0.4); take Kp: 62 or less");
+  EXPECT_TRUE(of("caterpillar.yaml", {"controller.Kp=303", "controller.period=0.005"}).empty());
   expect_one(of("caterpillar.yaml", {"controller.Kp={default: 100, m3/active: 400}"}), true, "of joint m3/active");
 }
 
