@@ -149,7 +149,7 @@ def draw_map():
             out.append(f'<path d="{path}" stroke="{colour}" stroke-width="2.5" fill="none"/>')
         text(12, y0 + high * len(CONTACT) / 2, "Kn (N/m)", f' transform="rotate(-90 12 {y0 + high * len(CONTACT) / 2:g})"')
         text(left + wide * len(STIFFNESS) / 2, y0 + high * len(CONTACT) + 16, "stiffness k of the position loop (N m/rad)")
-    words = (("#bfe3c5", "figure met, feasible"), ("#eceff3", "feasible"), ("#f6d5d0", "infeasible"))
+    words = (("#bfe3c5", "fits, feasible"), ("#eceff3", "feasible"), ("#f6d5d0", "infeasible"))
     y, offsets = size[1] - 22, (0, 140, 210)
     for k, (colour, word) in enumerate(words):
         out.append(f'<rect x="{left + offsets[k]}" y="{y - 11}" width="14" height="14" fill="{colour}"/>')
