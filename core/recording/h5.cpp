@@ -1,12 +1,8 @@
 #include "core/recording/h5.h"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <charconv>
 #include <new>
 #include <optional>
@@ -14,7 +10,6 @@
 
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
-#include "core/files/child_process.h"
 #include "core/recording/h5_image.h"
 
 namespace gaitlab {
@@ -25,12 +20,6 @@ constexpr std::string_view kName = "gaitlab-trace-";
 constexpr std::string_view kSize = "\nHDF5 follows at byte 512. Bytes in all: ";
 constexpr std::string_view kHdf5 = "\x89HDF\r\n\x1a\n";
 
-// Trace format that this program can read.
-struct Format {
-  std::string_view version, hash_name;
-  std::string (*hash)(const SpilledVector<char>& file, std::size_t from);
-};
-
 std::string hash_of_words(const SpilledVector<char>& file, std::size_t from) {
   WordHash words;
   words.add_length(file.size() - from);
@@ -39,19 +28,9 @@ std::string hash_of_words(const SpilledVector<char>& file, std::size_t from) {
   return words.text();
 }
 
-std::string hash_of_bytes(const SpilledVector<char>& file, std::size_t from) {
-  std::uint64_t state = kFnvOffset;
-  each_part(
-      file, [&](std::string_view bytes) { state = fnv1a(bytes, state); }, from);
-  return fmt::format("{:016x}", state);
-}
-
-constexpr std::array<Format, 2> kFormats{{{"1", "FNV-1a", hash_of_bytes}, {"2", "hash", hash_of_words}}};
-
 // User block of the file. It is text, so that `head -n 2` shows the type of the file.
-std::string header(const Format& format, std::size_t size, std::string_view hash) {
-  std::string text =
-      fmt::format("{}{}{}{}; {} from byte 512 on: {}\n", kName, format.version, kSize, size, format.hash_name, hash);
+std::string header(std::size_t size, std::string_view hash) {
+  std::string text = fmt::format("{}{}{}; hash from byte 512 on: {}\n", kTraceFormat, kSize, size, hash);
   text.resize(kUserBlock, '\0');
   return text;
 }
@@ -88,10 +67,9 @@ std::string complaint(std::string_view start, std::uintmax_t bytes) {
     return is_hdf5(start) ? "is an HDF5 file, but no gaitlab trace" : "is not a gaitlab trace (nor another HDF5 file)";
   const bool cut = bytes < kUserBlock;
   const std::string_view version = rest.substr(0, rest.find('\n'));
-  const auto format = std::ranges::find(kFormats, version, &Format::version);
-  if (format == kFormats.end()) {
+  if (version != kTraceFormat.substr(kName.size())) {
     const bool number = !version.empty() && version.find_first_not_of("0123456789") == std::string_view::npos;
-    if (number && !cut) return fmt::format("has format {}{}; this gaitlab reads {}1 and 2", kName, version, kName);
+    if (number && !cut) return fmt::format("has format {}{}; this gaitlab reads {}", kName, version, kTraceFormat);
     return cut ? fmt::format("is truncated: {} bytes", bytes) : "is corrupt: its first line is damaged";
   }
   rest.remove_prefix(version.size());
@@ -105,28 +83,7 @@ std::string complaint(std::string_view start, std::uintmax_t bytes) {
 
 // True if the user block matches the remaining bytes.
 bool is_whole(const SpilledVector<char>& bytes) {
-  return std::ranges::any_of(kFormats, [&](const Format& format) {
-    return view(bytes).substr(0, kUserBlock) == header(format, bytes.size(), format.hash(bytes, kUserBlock));
-  });
-}
-
-/// Reads the bytes in a separate process, in case HDF5 crashes. Format 1 has texts of variable length, and HDF5 1.10 crashes
-/// while reading these in some forged files (heap overflow in H5HG_read).
-void try_apart(const SpilledVector<char>& bytes, const SourceLocation& place) {
-  constexpr unsigned kPatience = 60;  // s
-  const pid_t child = begin_child([&bytes] {
-    ::alarm(kPatience);
-    try {
-      (void)from_image(bytes);
-    } catch (...) {  // the process did not crash, and the caller reports the error
-    }
-    return 0;
-  });
-  if (child < 0) throw InputError(place, "cannot be read: no process for a trace of format 1");
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (!WIFEXITED(status)) throw InputError(place, "is corrupt: HDF5 crashes in reading it");
+  return view(bytes).substr(0, kUserBlock) == header(bytes.size(), hash_of_words(bytes, kUserBlock));
 }
 
 }  // namespace
@@ -142,7 +99,7 @@ void write_h5(const Trace& trace, const Provenance& origin, const std::filesyste
   } catch (const std::bad_alloc&) {
     throw NoImage(path.string() + ": cannot be written: out of memory");
   }
-  std::ranges::copy(header(kFormats.back(), image.size(), hash_of_words(image, kUserBlock)), image.begin());
+  std::ranges::copy(header(image.size(), hash_of_words(image, kUserBlock)), image.begin());
   each_part(image, [&](std::string_view bytes) { file.write(bytes); });
   file.commit();
 }
@@ -156,7 +113,6 @@ StoredTrace read_h5(const std::filesystem::path& path) {
   const SpilledVector<char> bytes = read_large_file(path, kMostTrace);
   if (bytes.size() < kUserBlock || !is_whole(bytes))
     throw InputError(place, "is corrupt or was changed by another program: its bytes are not those that were written");
-  if (view(bytes).starts_with(kTraceFormats[0])) try_apart(bytes, place);
   try {
     return from_image(bytes);
   } catch (const ImageError& error) {

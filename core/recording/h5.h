@@ -16,7 +16,7 @@ struct Provenance {
   std::string scenario;  ///< the resolved scenario, YAML
   std::int64_t seed = 0;
   std::string build;    ///< build id
-  std::string outcome;  ///< `done`, or the reason of an early end; empty in a file of format 1
+  std::string outcome;  ///< `done`, or the reason of an early end
   /// hash() of the trace in the CSV file of the same folder. Used in recording.h5 only.
   std::string csv_hash = {};
 };
@@ -45,7 +45,7 @@ class NoImage : public RunError {
 struct StoredTrace {
   Trace trace;
   Provenance origin;
-  std::vector<Beside> beside;  ///< empty for a file of format 1
+  std::vector<Beside> beside;
 };
 
 /// Writes format gaitlab-trace-2. Dataset `/trace` is float64 [rows, columns] (MATLAB shows [columns, rows]), compressed
@@ -60,11 +60,10 @@ struct StoredTrace {
 void write_h5(const Trace& trace, const Provenance& origin, const std::filesystem::path& path,
               std::span<const BesideOf> beside = {});
 
-/// Reads a file of write_h5, bit for bit, or a file of format gaitlab-trace-1, which has no `/recording` and has texts of
-/// variable length. Throws InputError `PATH: error: ...`, with one message for each of: cannot be read, is empty, is not a
-/// gaitlab trace (foreign HDF5, foreign file), has another format version, is truncated, is corrupt. A file that another
-/// program has changed counts as corrupt. HDF5 receives only bytes with the right checksum, because some other files crash it,
-/// and does not unpack values (unpack_chunks() does). An error of a dataset contains its name.
+/// Reads a file of write_h5, bit for bit. Throws InputError `PATH: error: ...`, with one message for each of: cannot be read,
+/// is empty, is not a gaitlab trace (foreign HDF5, foreign file), has another format version, is truncated, is corrupt. A file
+/// that another program has changed counts as corrupt. HDF5 receives only bytes with the right checksum, because some other
+/// files crash it, and does not unpack values (unpack_chunks() does). An error of a dataset contains its name.
 StoredTrace read_h5(const std::filesystem::path& path);
 
 }  // namespace gaitlab

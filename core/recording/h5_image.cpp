@@ -32,7 +32,7 @@ Handle file_access() {
   return access;
 }
 
-// Type of texts of `size` bytes, or in format 1 of any length.
+// Type of texts of `size` bytes.
 Handle string_type(std::size_t size) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "string type");
   checked(H5Tset_size(type, size), "string type");
@@ -156,15 +156,7 @@ std::vector<std::string> read_texts(hid_t owner, const char* name, int rank, std
   const Handle space(H5Aget_space(attribute), H5Sclose, name);
   const std::size_t count = shape_of(space, rank, name)[0];
   std::vector<std::string> found;
-  if (checked(H5Tis_variable_str(stored), name) != 0) {
-    if (!bytes.starts_with(kTraceFormats[0])) throw ImageError(fmt::format("{} is not a text of fixed length", name));
-    std::vector<char*> texts(count + 1, nullptr);
-    const Handle type = string_type(H5T_VARIABLE);
-    checked(H5Aread(attribute, type, texts.data()), name);
-    for (std::size_t i = 0; i < count; ++i) found.emplace_back(texts[i] == nullptr ? "" : texts[i]);
-    checked(H5Dvlen_reclaim(type, space, H5P_DEFAULT, texts.data()), name);
-    return found;
-  }
+  if (checked(H5Tis_variable_str(stored), name) != 0) throw ImageError(fmt::format("{} is not a text of fixed length", name));
   const std::size_t size = H5Tget_size(stored);
   if (size == 0 || count > bytes.size() / size) throw ImageError(fmt::format("{}: the declared size exceeds the file", name));
   const Handle type = string_type(size);
@@ -319,7 +311,7 @@ Image to_image(const Trace& trace, const Provenance& origin, std::span<const Bes
   H5FD_file_image_callbacks_t memory = memory_of(image);
   checked(H5Pset_file_image_callbacks(access, &memory), "memory of the file");
   Handle file(H5Fcreate(nowhere().c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose, "file");
-  write_text(file, "format", std::string(std::end(kTraceFormats)[-1]));
+  write_text(file, "format", std::string(kTraceFormat));
   write_text(file, "scenario", origin.scenario);
   write_text(file, "outcome", origin.outcome);
   write_text(file, "csv_hash", origin.csv_hash);
@@ -349,18 +341,15 @@ StoredTrace from_image(const Image& file_bytes) {
   checked(H5Pset_file_image(access, const_cast<char*>(file_bytes.data()), file_bytes.size()), "image");
   const Handle file(H5Fopen(nowhere().c_str(), H5F_ACC_RDONLY, access), H5Fclose, "opening the file");
   const auto text = [&](const char* name) { return read_texts(file, name, 0, view(file_bytes)).front(); };
-  const std::string format = text("format");
-  if (!view(file_bytes).starts_with(format + "\n"))
+  if (text("format") != kTraceFormat)
     throw ImageError("the attribute `format` differs from the format in the first line of the file");
-  const bool first = format == kTraceFormats[0];
   StoredTrace stored;
-  stored.origin = {text("scenario"), read_number(file, "seed"), text("build"), first ? "" : text("outcome"),
-                   first ? "" : text("csv_hash")};
+  stored.origin = {text("scenario"), read_number(file, "seed"), text("build"), text("outcome"), text("csv_hash")};
   stored.trace = read_table(file, "trace", file_bytes);
   if (read_number(file, "rows") != static_cast<std::int64_t>(stored.trace.rows()))
     throw ImageError(fmt::format("{} rows, of which not all were written", stored.trace.rows()));
-  if (!is_hash(text("checksum"), stored.trace)) throw ImageError("the trace does not match its checksum");
-  if (first || checked(H5Lexists(file, "recording", H5P_DEFAULT), "recording") == 0) return stored;
+  if (text("checksum") != hash(stored.trace)) throw ImageError("the trace does not match its checksum");
+  if (checked(H5Lexists(file, "recording", H5P_DEFAULT), "recording") == 0) return stored;
   check_link(file, "recording");
   for (const char* name : kBeside) {
     const std::string path = std::string("recording/") + name;

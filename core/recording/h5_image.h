@@ -8,7 +8,7 @@
 
 namespace gaitlab {
 
-inline constexpr std::string_view kTraceFormats[] = {"gaitlab-trace-1", "gaitlab-trace-2"};  ///< the last format is written
+inline constexpr std::string_view kTraceFormat = "gaitlab-trace-2";
 inline constexpr const char* kBeside[] = {"rest",   "ticks", "loads",  "poses",
                                           "spread", "draws", "joints", "run"};  ///< tables of `/recording`
 inline constexpr std::size_t kUserBlock = 512;  ///< bytes before the HDF5 part; the smallest number that HDF5 allows

@@ -7,7 +7,7 @@
 namespace gaitlab {
 
 /// End of a run. `plugin` means that a plugin threw an exception, `stopped` that a rule of a study ended the run, `not_run`
-/// that the robot was only checked. `early` is an early end in a run folder of an older format, which lacks the reason.
+/// that the robot was only checked. `early` is an early end that is known by its text alone.
 enum class Ended { done, diverged, plugin, stopped, interrupted, not_run, early };
 
 template <>

@@ -256,7 +256,7 @@ StoredRecording read_recording(const fs::path& folder) {
     std::error_code none;
     if (fs::exists(beside, none)) {
       stored = read_h5(beside);
-      if (!is_hash(stored.origin.csv_hash, read.recording.trace)) {
+      if (stored.origin.csv_hash != hash(read.recording.trace)) {
         throw InputError(SourceLocation{file.string()}, "is not the file that recording.h5 belongs to, or was changed");
       }
     }

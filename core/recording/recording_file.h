@@ -25,7 +25,7 @@ struct StoredRecording {
   std::vector<std::string> missing;  ///< one sentence for each missing part of the folder; empty if it is complete
 };
 
-/// Reads the recording of a run folder. A folder of an older format, or a CSV file alone, is read in part. Throws InputError as
+/// Reads the recording of a run folder. A CSV file alone is read in part. Throws InputError as
 /// trace_file, read_h5 and read_csv do, and if tables do not fit together.
 StoredRecording read_recording(const std::filesystem::path& folder);
 

@@ -6,7 +6,7 @@ namespace gaitlab {
 
 namespace {
 
-constexpr std::string_view kWords = "2-";  // prefix of format 2; a hash of format 1 has only 16 digits
+constexpr std::string_view kWords = "2-";  // number of the format
 
 std::string joined_names(const Trace& trace) {
   std::string names;
@@ -23,13 +23,6 @@ std::string hash(const Trace& trace) {
   words.add_length(trace.values.size() * sizeof(double));
   each_part(trace.values, [&](std::string_view bytes) { words.add_words(bytes); });
   return std::string(kWords) + words.text();
-}
-
-bool is_hash(std::string_view text, const Trace& trace) {
-  if (text.starts_with(kWords)) return text == hash(trace);
-  std::uint64_t state = fnv1a(joined_names(trace));
-  each_part(trace.values, [&](std::string_view bytes) { state = fnv1a(bytes, state); });
-  return text == fmt::format("{:016x}", state);
 }
 
 }  // namespace gaitlab

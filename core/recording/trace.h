@@ -30,7 +30,4 @@ struct Trace {
 /// of all names, each followed by a NUL, and of the values.
 std::string hash(const Trace& trace);
 
-/// True if `text` is the hash of this trace in format 2, or in format 1, which is FNV-1a over the same bytes without a prefix.
-bool is_hash(std::string_view text, const Trace& trace);
-
 }  // namespace gaitlab

@@ -17,7 +17,6 @@
 #include "core/scenario/ground_section.h"
 #include "core/scenario/group_section.h"
 #include "core/scenario/key_lookup.h"
-#include "core/scenario/old_names.h"
 #include "core/scenario/plugin_files.h"
 #include "core/scenario/replaced_motors.h"
 #include "core/scenario/robot_section.h"
@@ -50,9 +49,7 @@ class ScenarioReader {
     std::optional<Node> root = parse_yaml(text_, path_, problems_);
     if (!root) raise();
     root_ = std::move(*root);
-    rename_old_names(root_, {}, problems_);
     const std::vector<Retyped> retyped = apply_sets(root_, sets, problems_);
-    rename_old_names(root_, sets, problems_);
     Reader head(root_, "the scenario", problems_, nullptr);
     if (!head.version("gaitlab")) raise();  // in another version, the keys have other meanings
     if (const Node* plugins = root_.find("plugins")) {
@@ -85,7 +82,6 @@ class ScenarioReader {
     if (sets.empty()) return scenario_;
     ScenarioReader own = *this;
     apply_sets(own.root_, sets, own.problems_);
-    rename_old_names(own.root_, sets, own.problems_);
     own.raise();
     own.tell_dropped_keys(sets);
     own.touched_ = TouchedSections(sections_of(sets));

@@ -16,12 +16,8 @@ struct CheckOffer {
   bool limited = false;   ///< true if a guard may replace the limit of the check by another one, in `unit`
 };
 
-/// Reads the value of the key `guards`: `verdict`, `none`, or checks by id. An old name is replaced by its id, with a note in
-/// the study.
+/// Reads the value of the key `guards`: `verdict`, `none`, or checks by id.
 void read_guards(const Node& node, Study& study, Problems& problems);
-
-/// Old names of guards that are still accepted.
-std::vector<std::string> old_guards();
 
 /// Column with the margin of a guard: `margin.stops`, or `margin.stops[0.1]` if the study replaces the limit of the check by
 /// 0.1.

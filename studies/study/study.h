@@ -147,7 +147,7 @@ struct Study {
   std::vector<Text> constraints;
   bool guarded = true;         ///< true if the checks of the verdict are guards; false for no guards
   std::vector<Guard> guards;   ///< guards that the study adds, or with which it replaces checks of the verdict
-  std::vector<Problem> notes;  ///< notes on old names and their replacements
+  std::vector<Problem> notes;  ///< notes on files that hide shipped scenarios
   std::vector<StopText> stops;
   SourceLocation quantities_place{"--show"};
   std::vector<std::string> quantities;  ///< patterns for the names of the quantities to show

@@ -125,17 +125,6 @@ void read_stops(const Node& node, Study& study, Problems& problems) {
   }
 }
 
-/// Replaces old names of keys by their present names.
-void rename_old_keys(Node& root, Study& study, Problems& problems) {
-  for (auto& [key, place] : root.keys) {
-    if (key != "figures") continue;
-    if (root.find("quantities") != nullptr)
-      problems.add(place, "figures is the old name of quantities, which is given, too; expected one of them");
-    study.notes.push_back({place, "figures is the old name of quantities"});
-    key = "quantities";
-  }
-}
-
 Explainer study_keys() {
   Explainer explainer;
   Study study;
@@ -271,9 +260,8 @@ Study read_study(const std::string& file, Purpose purpose) {
   study.asked = purpose == Purpose::evaluate;
   study.file = file;
   expect_kind(file, FileKind::study);
-  Node root = read_yaml(file);
+  const Node root = read_yaml(file);
   Problems problems;
-  rename_old_keys(root, study, problems);
   Reader reader(root, "the study", problems, nullptr);
   if (!reader.version("gaitlab_study")) problems.raise();
   std::string scenario;

@@ -102,7 +102,6 @@ Json guards_schema(std::span<const CheckOffer> checks) {
     if (check.limited) schema["anyOf"].push_back({{"type", "number"}});
     schema["description"] = check.definition + (check.limited && !check.unit.empty() ? " (" + check.unit + ")" : "");
   }
-  for (const std::string& old : old_guards()) properties[old] = {{"type", "number"}, {"description", "An old name."}};
   return object_schema(std::move(properties));
 }
 
@@ -114,8 +113,6 @@ std::string study_schema(std::span<const CheckOffer> checks) {
   Json properties = Json::parse(kStudyHead);
   properties.update(properties_of(PlainKeys{study, scenario}));
   properties.update(Json::parse(kStudyRest));
-  properties["figures"] = properties["quantities"];
-  properties["figures"]["description"] = "Old name of quantities.";
   properties["method"] = group_of(MethodKeys{study}, "Choice of the points.");
   properties["budget"] = group_of(BudgetKeys{study.runs}, "Number of runs.");
   properties["budget"]["properties"]["runs"].erase("default");

@@ -47,12 +47,7 @@ TEST_F(ExportGltf, OfARunMovesAndOfAScenarioStands) {
   EXPECT_EQ(GlbFile(read(folder / "two.glb")).json()["scenes"][0]["name"], "other");
 }
 
-TEST_F(ExportGltf, TakesFoldersOfFormat1AndOfCsv) {
-  std::filesystem::copy(std::string(gaitlab::test::source_folder()) + "/tests/data/run-of-format-1", folder / "old");
-  Result result = call("export old --to gltf old.glb");
-  EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_EQ(result.err, "");
-  EXPECT_GT(GlbFile(read(folder / "old.glb")).times().size(), 1U);
+TEST_F(ExportGltf, TakesFoldersOfCsv) {
   make_run("csv", " --format csv");
   ASSERT_EQ(call("run two.yaml --quiet --out h5").code, 0);
   EXPECT_EQ(call("export csv --to gltf csv.glb").code, 0);

@@ -67,21 +67,6 @@ TEST_F(Sweep, SaysWhyAPointIsNotKept) {
   EXPECT_EQ(best.err, "s: no point is kept\n");
 }
 
-/// Old names in a study file are accepted, with a note on the new names.
-TEST_F(Sweep, OldNamesAreRead) {
-  folder_.write("old.yaml",
-                "gaitlab_study: 1\nscenario: two.yaml\nfigures: [speed]\nguards: {fell: 0, judged.tracking_error.peak: 2}\n"
-                "parameters: {cpg.phase_lag: {values: [1]}}\n");
-  const Result old = call("sweep old.yaml --out s --figure distance");
-  EXPECT_EQ(old.code, 0);
-  EXPECT_EQ(old.err,
-            "old.yaml:3:1: note: figures is the old name of quantities\n"
-            "old.yaml:4:10: note: fell is an old name; write guards: {fall: true}\n"
-            "old.yaml:4:19: note: judged.tracking_error.peak is an old name; write guards: {tracking: 2}\n");
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "s/distance.svg"));
-  EXPECT_NE(table("s")[0].at("margin.tracking[2]"), table("s")[0].at("margin.tracking"));
-}
-
 /// If runs are too short for a verdict on a slow gait, a note states this before the first run.
 TEST_F(Sweep, NotesRunsThatAreTooShortForAVerdict) {
   const Result swept = call("sweep two.yaml --set duration=3 --random cpg.frequency=0.25:1 --runs 1 --out s");

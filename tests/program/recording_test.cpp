@@ -158,52 +158,56 @@ TEST(Columns, KnownByNameAreThoseOfARun) {
   }
 }
 
-class OldFolder : public testing::Test {
+/// A run folder that has only the rows of its trace.
+class RowsAlone : public testing::Test {
  protected:
-  OldFolder() {
-    std::filesystem::copy(std::string(gaitlab::test::source_folder()) + "/tests/data/run-of-format-1", folder_ / "old");
+  RowsAlone() {
+    const std::string settings =
+        " --set duration=0.2 --set physics.engine=articulated --format csv --quiet --no-report --out old";
+    EXPECT_EQ(gaitlab("run " + kScenarios + "caterpillar.yaml" + settings, folder_.path()).code, 0);
+    std::filesystem::remove(folder_ / "old/recording.h5");
   }
   const Folder folder_;
 };
 
-TEST_F(OldFolder, IsReadAsFarAsItGoes) {
+TEST_F(RowsAlone, IsReadAsFarAsItGoes) {
   const Result result = gaitlab("report old --verbose", folder_.path());
   EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_NE(result.out.find("two-modules: 0.2 s simulated"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("caterpillar-8: 0.2 s simulated"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("distance      0.0"), std::string::npos) << result.out;
   for (const char* unknown : {"most loaded", "\n  tracking", "energy", "transport", "\n  stability"})
     EXPECT_EQ(result.out.find(unknown), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("judged from the trace's rows, one per "), std::string::npos) << result.out;
   EXPECT_EQ(result.out.find("not judged: voltage"), std::string::npos) << result.out;
   EXPECT_NE(result.err.find(
-                "old: note: old/trace.h5 contains only rows: peaks, shares of time, energies and the torque error are not "
+                "old: note: old/trace.csv contains only rows: peaks, shares of time, energies and the torque error are not "
                 "known, because they are computed from every step\nold: note: the trace has no column load.*\n"),
             std::string::npos)
       << result.err;
   const Result refused = gaitlab("report old --out new", folder_.path());
   EXPECT_EQ(refused.code, 2);
   EXPECT_TRUE(
-      refused.err.starts_with("old: error: summary and figure cannot be computed again: old/trace.h5 contains only rows"))
+      refused.err.starts_with("old: error: summary and figure cannot be computed again: old/trace.csv contains only rows"))
       << refused.err;
   EXPECT_TRUE(refused.err.ends_with("simulate again: gaitlab rerun old\n")) << refused.err;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "new"));
 }
 
-TEST_F(OldFolder, HasAPageThatSaysWhatIsMissing) {
+TEST_F(RowsAlone, HasAPageThatSaysWhatIsMissing) {
   const Result result = gaitlab("report old --page old/report.html", folder_.path());
   EXPECT_EQ(result.code, 0) << result.err;
   const std::string page = read(folder_ / "old/report.html");
-  EXPECT_NE(page.find("\"missing\":[\"trace.h5 contains only rows: peaks"), std::string::npos);
+  EXPECT_NE(page.find("\"missing\":[\"trace.csv contains only rows: peaks"), std::string::npos);
   EXPECT_NE(page.find("\"judged from the trace's rows, one per "), std::string::npos);
   EXPECT_NE(page.find("\"joint.0.angle\""), std::string::npos);
   EXPECT_EQ(page.find(folder_.path().string()), std::string::npos);
 }
 
-TEST_F(OldFolder, WithoutPosesSaysNothingOfThem) {
-  const StoredTrace stored = read_h5(folder_ / "old/trace.h5");
-  Trace bare{{stored.trace.columns[0]}, {}};
-  for (std::size_t row = 0; row < stored.trace.rows(); ++row) bare.values.push_back(stored.trace.at(row, 0));
-  write_h5(bare, stored.origin, folder_ / "old/trace.h5");
+TEST_F(RowsAlone, WithoutPosesSaysNothingOfThem) {
+  std::istringstream rows(read(folder_ / "old/trace.csv"));
+  std::string bare;
+  for (std::string row; std::getline(rows, row);) bare += row.substr(0, row.find(',')) + "\n";
+  folder_.write("old/trace.csv", bare);
   const Result result = gaitlab("report old --page bare.html", folder_.path());
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(result.out.find("distance"), std::string::npos) << result.out;

@@ -178,10 +178,10 @@ TEST_F(H5, EveryFlippedByteIsSeen) {
 TEST_F(H5, OtherVersion) {
   std::string other = written(sample(3));
   other.replace(other.find('2'), 1, "3");
-  EXPECT_EQ(complaint(other), "has format gaitlab-trace-3; this gaitlab reads gaitlab-trace-1 and 2");
+  EXPECT_EQ(complaint(other), "has format gaitlab-trace-3; this gaitlab reads gaitlab-trace-2");
   other = written(sample(3));
   other.replace(other.find("2\n"), 2, "12\n");
-  EXPECT_EQ(complaint(other), "has format gaitlab-trace-12; this gaitlab reads gaitlab-trace-1 and 2");
+  EXPECT_EQ(complaint(other), "has format gaitlab-trace-12; this gaitlab reads gaitlab-trace-2");
 }
 
 TEST_F(H5, KeepsTablesBesideTheTrace) {
@@ -217,18 +217,6 @@ TEST_F(H5, LeavesTheLoadingOfFiltersAsItWas) {
     H5PLget_loading_state(&after);
     EXPECT_EQ(after, before);
   }
-}
-
-// A recording of format 1 is read: a robot of two modules for 0.2 s, written by an older version of the program.
-TEST_F(H5, ReadsFormat1) {
-  const StoredTrace stored = read_h5(std::string(gaitlab::test::source_folder()) + "/tests/data/run-of-format-1/trace.h5");
-  ASSERT_EQ(stored.trace.rows(), 41U);
-  EXPECT_EQ(stored.trace.columns.at(1).name, "joint.0.setpoint");
-  EXPECT_EQ(stored.trace.columns.at(1).unit, "rad");
-  EXPECT_TRUE(stored.trace.columns.at(1).definition.starts_with("set point in force just before t"));
-  EXPECT_TRUE(stored.origin.scenario.starts_with("gaitlab: 1\nname: two-modules"));
-  EXPECT_EQ(stored.origin.outcome, "");
-  EXPECT_TRUE(stored.beside.empty());
 }
 
 TEST_F(H5, Foreign) {

@@ -242,23 +242,6 @@ TEST_F(ScenarioTest, LimitsBeyondWhatTheyAreSharesOf) {
             "DIR/s.yaml:3:26: error: tracking_error is 0 rad; allowed are more than 0 and up to 1000 rad");
 }
 
-TEST_F(ScenarioTest, AnOldNameAndThePresentOne) {
-  const std::string old = kShort + "limits: {margin: 0.7}\n";
-  EXPECT_EQ(read(old).limits.warn_share, 0.7);
-  // --set replaces the value of the file, with the old and with the new name of the setting.
-  EXPECT_EQ(read(old, {"limits.margin=0.6"}).limits.warn_share, 0.6);
-  EXPECT_EQ(read(old, {"limits.warn_share=0.6"}).limits.warn_share, 0.6);
-  EXPECT_EQ(read(kShort + "limits: {warn_share: 0.7}\n", {"limits.margin=0.6"}).limits.warn_share, 0.6);
-  const ScenarioTemplate file(folder_.write("s.yaml", old), {"limits.warn_share=0.5"}, catalog_);
-  EXPECT_EQ(file.with({}).limits.warn_share, 0.5);
-  EXPECT_EQ(file.with({"limits.margin=0.4"}).limits.warn_share, 0.4);
-  const std::string both = "limits.margin is the old name of limits.warn_share, which is given, too; expected one of them\n";
-  EXPECT_EQ(error(kShort + "limits: {margin: 0.7, warn_share: 0.9}\n"),
-            "DIR/s.yaml:3:18: error: " + both + "DIR/s.yaml:3:35: note: limits.warn_share is here");
-  EXPECT_EQ(error(kShort, {"limits.margin=0.6", "limits.warn_share=0.5"}),
-            "--set limits.margin=0.6: error: " + both + "--set limits.warn_share=0.5: note: limits.warn_share is here");
-}
-
 TEST_F(ScenarioTest, PeriodsAreWholeMultiples) {
   EXPECT_EQ(
       error(kShort + "physics: {step: 7e-5}\ntrace: {period: 0.0049}\n"),

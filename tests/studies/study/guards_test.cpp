@@ -125,55 +125,6 @@ TEST(Guards, OfCreatedEnergyStandWhereElectricalEnergyIsTheObjective) {
   EXPECT_EQ(dropped.set("margin.created", -0.25).violation("feasible"), 0);
 }
 
-/// Old names of guards are accepted and correspond to checks.
-TEST(Guards, HaveOldNames) {
-  struct Old {
-    const char *name, *check;
-    double number;
-    Asks asks;
-  };
-  for (const Old& old :
-       {Old{"judged.saturated.voltage", "voltage", 0.1, Asks::limit},
-        Old{"judged.saturated.current", "current", 0.1, Asks::limit},
-        Old{"range.setpoint_share", "setpoints", 0.1, Asks::limit},
-        Old{"judged.tracking_error.peak", "tracking", 0.1, Asks::limit}, Old{"airborne_share", "airborne", 0.1, Asks::limit},
-        Old{"energy.residual_share", "ledger", 0.1, Asks::limit}, Old{"energy.created_share", "created", 0.1, Asks::limit},
-        Old{"fell", "fall", 0, Asks::kept}, Old{"fell", "fall", 1, Asks::nothing},
-        Old{"limit_cycle.found", "periodic", 1, Asks::kept}, Old{"limit_cycle.found", "periodic", 0, Asks::nothing}}) {
-    SCOPED_TRACE(old.name);
-    const Node node = parse_yaml(fmt::format("guards: {{{}: {}}}\n", old.name, old.number), "s.yaml");
-    studies::Study study;
-    Problems problems;
-    studies::read_guards(*node.find("guards"), study, problems);
-    ASSERT_TRUE(problems.empty());
-    ASSERT_EQ(study.guards.size(), 1U);
-    EXPECT_EQ(study.guards[0].check, old.check);
-    EXPECT_EQ(study.guards[0].asks, old.asks);
-    EXPECT_EQ(study.notes.size(), 1U);
-    EXPECT_EQ(Guarded(study.guards).problem(), "");
-  }
-}
-
-/// Old names of guards without a corresponding check give an error with the replacement.
-TEST(Guards, SayWhatOldNamesBecame) {
-  const auto read = [](const std::string& text) {
-    const Node node = parse_yaml("guards: {" + text + "}\n", "s.yaml");
-    studies::Study study;
-    Problems problems;
-    studies::read_guards(*node.find("guards"), study, problems);
-    EXPECT_TRUE(study.guards.empty()) << text;
-    return !problems.empty() ? problems.list().front().text : study.notes.empty() ? "" : study.notes.front().text;
-  };
-  EXPECT_EQ(read("verdict_excess: 0"),
-            "verdict_excess is the old name of the verdict, which is a guard by default; leave it out");
-  EXPECT_EQ(read("verdict_excess: 0.1"),
-            "verdict_excess: 0.1 is an old guard without a check of the same meaning; write guards: {ID: {margin: -0.1}} for a "
-            "check that may fail");
-  EXPECT_EQ(read("range.share: 0.2"),
-            "range.share: 0.2 is an old guard without a check of the same meaning; write set: "
-            "[limits.beyond_range_share=0.2], or guards: {stops: ANGLE} with an angle in rad");
-}
-
 /// The margin columns of a run equal the margins of its verdict, also for limits that the study changes.
 TEST(Guards, MarginsAreThoseOfTheVerdict) {
   const Scenario scenario = shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=4", "cpg.amplitude=1.2"});

@@ -131,16 +131,6 @@ TEST_F(StudyFile, ItsExpressionsAreChecked) {
             "s.yaml:4:17: error: guards.stops is a map; expected a limit, {margin: NUMBER}, true or false");
   EXPECT_EQ(with("guards: {field: 2}\n"),
             "s.yaml:4:10: error: field has no limit that a number could replace; expected {margin: NUMBER}, true or false");
-  EXPECT_EQ(with("guards: {fall: true, fell: 0}\n"), "s.yaml:4:22: error: check 'fall' is guarded twice, once by an old name");
-  EXPECT_EQ(with("guards: {range.share: 0.2}\n"),
-            "s.yaml:4:10: error: range.share: 0.2 is an old guard without a check of the same meaning; write set: "
-            "[limits.beyond_range_share=0.2], or guards: {stops: ANGLE} with an angle in rad");
-  EXPECT_EQ(with("guards: {verdict_excess: 3}\n"),
-            "s.yaml:4:10: error: verdict_excess: 3 is an old guard without a check of the same meaning; write guards: {ID: "
-            "{margin: -0.1}} for a check that may fail");
-  EXPECT_EQ(with("guards: {verdict_excess: 0}\n"), kNoError);
-  EXPECT_EQ(with("figures: [speed]\nquantities: [speed]\n"),
-            "s.yaml:4:1: error: figures is the old name of quantities, which is given, too; expected one of them");
   EXPECT_EQ(with("guards: walk\n"),
             "s.yaml:4:9: error: guards is 'walk'; expected verdict, none, or checks of the verdict: {stops: 0.1, "
             "dock_bending: {margin: 0.2}, periodic: true, slip: false}");

@@ -156,13 +156,7 @@ def mutate_guards(mutants, path, text):
     text = text.replace(old, f"guard.number = mutants::on({mutants.add(path, at(old), 'guards: a number that is read')}) ? 0 : read.value;")
     old = 'guard.check + (guard.asks == Guard::Asks::limit ?'
     text = text.replace(old, f"guard.check + (!mutants::on({mutants.add(path, at(old), 'guards: the column of a limit')}) && guard.asks == Guard::Asks::limit ?")
-    first = mutants.next(path)
-    rows = re.findall(r'OldGuard\{"([\w.]+)"', text)
-    for name in rows:
-        mutants.add(path, at(f'OldGuard{{"{name}"'), f"guards: {name} means nothing")
-    old = "const auto found = std::ranges::find_if(kOldGuards"
-    return text.replace(old, "for (std::size_t k = 0; k < kOldGuards.size(); ++k)\n    "
-                        f"if (name == kOldGuards[k].name && mutants::on({first} + static_cast<int>(k))) return nullptr;\n  " + old)
+    return text
 
 
 def mutate_defaults(mutants, path, text):
