@@ -57,8 +57,8 @@ void print_plan(const studies::Plan& plan, const StudyRunArguments& arguments);
 /// except those on their own gaits.
 void warn_of_scenarios(const studies::Plan& plan);
 
-/// Prints the warnings on the scenarios, and notes on a plan: files that hide shipped scenarios, parameters whose slowest gait does
-/// not fit the duration, and limits of parameters that the scenario refuses.
+/// Prints the warnings on the scenarios, and notes on a plan: files that hide shipped scenarios, parameters whose slowest gait
+/// does not fit the duration, and limits of parameters that the scenario refuses.
 void print_notes(const studies::Plan& plan, bool quiet);
 
 /// Prints the estimated time of all runs of a study if engine articulated is faster. `arguments` give the number of threads.
