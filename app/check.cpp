@@ -108,9 +108,10 @@ void note_outcome(const Scenario& s) {
   const SettingsNumbers::Found* frequency = numbers.find("frequency");
   bool still = frequency != nullptr;
   for (std::size_t j = 0; still && j < s.robot->joints.size(); ++j) still = frequency->value[j] == 0;
-  if (still)
+  if (still) {
     say(to_string(s.nearest_place("cpg.frequency")), "note",
         "cpg.frequency is 0: the joints stand still, and the robot goes nowhere");
+  }
 }
 
 int check(const CheckArguments& arguments) {
