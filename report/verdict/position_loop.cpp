@@ -15,8 +15,7 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kOtherParts = 0.25;  // largest share of the proportional part that derivative and integral part have
-
-constexpr double kSlow = 4;  // time constant, in samples, above which the derivative part does not make up for a delay
+constexpr double kSlow = 4;           // time constant, in samples, above which the derivative part does not make up for a delay
 
 /// Number of a joint under this key, or `otherwise`.
 double number(const SettingsNumbers& settings, const char* key, std::size_t joint, double otherwise) {
@@ -51,13 +50,13 @@ double PositionLoop::derivative() const {
   if (delay == 0) return 2 * Kd / (2 * Kd * sharp + period);
   return Kd * sharp > kSlow * period ? Kd / (Kd * sharp + period) : 0;
 }
-double PositionLoop::gain() const { return (Kp + derivative()) * period / emf; }
+double PositionLoop::gain() const { return factor * (Kp + derivative()) * period / emf; }
 double PositionLoop::settles() const { return 2 / (2 * delay / period + 1); }
 double PositionLoop::share() const { return bounded ? gain() / settles() : 0; }
-double PositionLoop::Kp_of(double share) const { return share * settles() * emf / period - derivative(); }
+double PositionLoop::Kp_of(double share) const { return share * settles() * emf / (factor * period) - derivative(); }
 double PositionLoop::period_of(double share) const {
-  // (Kp + 2 Kd / (2 Kd sharp + T)) T = 2 share emf, a quadratic equation in T.
-  const double most = 2 * share * emf;
+  // (Kp + 2 Kd / (2 Kd sharp + T)) T = 2 share emf / factor, a quadratic equation in T.
+  const double most = 2 * share * emf / factor;
   const double b = 2 * Kd * Kp * sharp + 2 * Kd - most;
   const double c = -2 * Kd * sharp * most;
   return (std::sqrt(b * b - 4 * Kp * c) - b) / (2 * Kp);
@@ -82,20 +81,20 @@ std::vector<PositionLoop> position_loops(const Scenario& s) {
     if (!s.robot->joints[j].driven() || !(Kp * angle.gain > 0) || !(per_volt > 0) || !(stall > 0)) continue;
     PositionLoop& loop = loops.emplace_back();
     loop.joint = j;
-    loop.Kp = Kp * angle.gain;
-    loop.Kd = number(settings, "Kd", j, 0) * angle.gain;
-    const double sharpness = number(settings, "N", j, INFINITY) * angle.gain;
-    loop.sharp = 1 / sharpness;
+    loop.Kp = Kp;
+    loop.Kd = number(settings, "Kd", j, 0);
+    loop.factor = angle.gain;
+    loop.sharp = 1 / number(settings, "N", j, INFINITY);
     loop.emf = motor.Ks * motor.gear;
     loop.period = angle.period;
     loop.delay = angle.delay;
-    loop.stiffness = loop.Kp * per_volt;
+    loop.stiffness = angle.gain * Kp * per_volt;
     loop.stall = stall;
     loop.resolution = angle.resolution;
     loop.step = Kp * per_volt * angle.resolution;
     const double damping = loop.Kd > 0 ? loop.Kd / (loop.Kd * loop.sharp + s.control_period) : 0;
-    const double integral = std::abs(number(settings, "Ki", j, 0)) * angle.gain * s.control_period;
-    loop.bounded = loop.emf > 0 && std::max(damping, integral) <= kOtherParts * loop.Kp;
+    const double integral = std::abs(number(settings, "Ki", j, 0)) * s.control_period;
+    loop.bounded = loop.emf > 0 && std::max(damping, integral) <= kOtherParts * Kp;
   }
   return loops;
 }

@@ -13,8 +13,9 @@ namespace gaitlab::report {
 /// gear ratio; for a servo, Ks n = V / w0. With D the response of the derivative part to an error that alternates, in V/rad, a
 /// command removes the share g of an alternating error, and a deflected joint at rest makes the torque k times its error:
 ///
-///     g = (Kp + D) T / (Ks n)      D = 2 Kd N / (2 Kd + N T)      k = Kp eta Kt n / R      (eq. 1-3, 5; directional gears: no
-///     eta)
+///     g = (Kp + D) T / (Ks n)      D = 2 Kd N / (2 Kd + N T)      k = Kp eta Kt n / R
+///
+/// (eq. 1-3, 5; k of directional gears has no eta).
 ///
 /// With an angle that is d samples old, d >= 0, not always whole, the joint settles for
 ///
@@ -27,7 +28,8 @@ namespace gaitlab::report {
 /// eight robots: docs/paper.md.
 struct PositionLoop {
   std::size_t joint = 0;
-  double Kp = 0, Kd = 0;  ///< V/rad, V s/rad; times the gain of the encoder
+  double Kp = 0, Kd = 0;  ///< V/rad, V s/rad
+  double factor = 1;      ///< gain of the encoder, a factor of g and k
   double sharp = 0;       ///< 1 / N, rad/V
   double emf = 0;         ///< Ks n, V s/rad
   double period = 0;      ///< T, s

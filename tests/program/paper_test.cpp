@@ -83,12 +83,18 @@ double statics(double amplitude) {
   return own - front * (0.26 + stride) - middle * stride;
 }
 
-/// Lines of figure 9 and of the caterpillar's own numbers that do not hold.
-Sets unmet(const Figure& f) {
-  Sets lines;
-  const auto line = [&](bool holds, const char* text) {
+/// Lines that do not hold.
+struct Unmet {
+  Sets lines = {};
+  void operator()(bool holds, const char* text) {
     if (!holds) lines.emplace_back(text);
-  };
+  }
+};
+
+/// Lines of figure 9 and of the caterpillar's own numbers that do not hold. Torques to 4 %: none of the thirteen other settings
+/// changes all of them by less.
+Sets unmet(const Figure& f) {
+  Unmet line;
   line(f.feasible, "feasible");
   line(f.torque.rms > f.next_rms, "first by RMS");
   line(f.torque.high >= 1.3 && f.torque.high <= 2 && f.torque.low <= -1.3 && f.torque.low >= -2,
@@ -96,15 +102,12 @@ Sets unmet(const Figure& f) {
   line(near(f.torque.low, -1.45, 0.04) && near(f.torque.high, 1.44, 0.04) && near(f.torque.rms, 0.85, 0.04),
        "-1.45, +1.44, RMS 0.85");
   line(std::abs(f.angle.high - 0.6) < 0.005 && std::abs(f.angle.low + 0.6) < 0.005, "0.6 rad");
-  return lines;
+  return line.lines;
 }
 
 /// Lines of figures 13 and 14 and of the hexapod's own numbers that do not hold.
 Sets unmet_spine(const Figure& f) {
-  Sets lines;
-  const auto line = [&](bool holds, const char* text) {
-    if (!holds) lines.emplace_back(text);
-  };
+  Unmet line;
   line(f.feasible, "feasible");
   line(f.torque.rms > f.next_rms, "first by RMS");
   line(f.next_peak <= 0.95 * f.torque.peak(), "first by peak");
@@ -113,7 +116,7 @@ Sets unmet_spine(const Figure& f) {
   line(near(-f.torque.low, statics(0.3), 0.15), "statics");
   line(near(f.torque.rms, 0.73, 0.04), "RMS 0.73");
   line(f.angle.peak() < 0.005, "angle at 0");
-  return lines;
+  return line.lines;
 }
 
 TEST(Paper, FigureNineIsMetByTheCaterpillar) { EXPECT_EQ(unmet(caterpillar()), Sets()); }
@@ -172,23 +175,24 @@ TEST(Paper, ElevenOfThemMissTheSpineToo) {
   }
 }
 
-/// A control period up to the longest one that works changes nothing. With a tenth of the resistance the loop is possible at
-/// the paper's 15 ms, and the stiffness alone decides the torques.
+/// A control period up to the longest one that works changes nothing. A tenth of the resistance makes the loop possible at
+/// the paper's 15 ms: the stiffness alone decides the torques.
 TEST(Paper, StiffnessDecidesNotThePeriod) {
   EXPECT_EQ(unmet(caterpillar({"controller.period=0.0025"})), Sets());
   EXPECT_EQ(unmet_spine(hexapod({"controller.period=0.0025"})), Sets());
   const Sets strong{"controller.period=0.015", "actuator.R=0.43", "controller.Kp=157"};
-  const Extremes slow = caterpillar(strong).torque;
+  const Extremes slow = caterpillar(strong).torque;  // 3 %: a command every 15 ms instead of every millisecond
   EXPECT_TRUE(near(slow.low, -1.45, 0.03) && near(slow.high, 1.44, 0.03)) << slow.low << " " << slow.high;
   EXPECT_TRUE(near(hexapod(strong).torque.low, -1.08, 0.03));
-  // Without the efficiency of gears at rest, Kp 1099 is 600 N m/rad.
+  // Without the efficiency of gears at rest, Kp 1099 is 600 N m/rad; where the joint drives or is driven, the gears differ:
+  // measured 4.6 %.
   const Sets directional{"actuator.efficiency_model=directional", "controller.Kp=1099"};
   const Extremes driven = caterpillar(directional).torque;
   EXPECT_TRUE(near(driven.low, -1.45, 0.06) && near(driven.high, 1.44, 0.06)) << driven.low << " " << driven.high;
   EXPECT_EQ(unmet_spine(hexapod(directional)), Sets());
 }
 
-/// The scenarios with the default gains, which a real module can have.
+/// The scenarios with the default gains, which a real module can have. Tolerances: the last digit of docs/paper.md.
 TEST(Paper, DefaultGainsHaveAThirdOfTheTorque) {
   const Extremes joint = figure(shipped("caterpillar.yaml", {"physics.engine=articulated"}), 7, 6, 14).torque;
   EXPECT_TRUE(near(joint.low, -0.61, 0.01) && near(joint.high, 0.51, 0.01)) << joint.low << " " << joint.high;
@@ -196,7 +200,7 @@ TEST(Paper, DefaultGainsHaveAThirdOfTheTorque) {
   EXPECT_TRUE(near(spine.low, -0.40, 0.02)) << spine.low;
 }
 
-/// Both engines have the same peaks.
+/// Both engines have the same peaks, to 0.5 %: half of physics.accuracy of the one, 1 % (measured 0.1 %).
 void expect_equal(const Figure& a, const Figure& b) {
   for (const auto& [one, other] :
        {std::pair(a.torque.low, b.torque.low), {a.torque.rms, b.torque.rms}, {a.next_peak, b.next_peak}})

@@ -107,6 +107,10 @@ TEST(PositionLoop, HasThePeriodOfItsEncoder) {
       first("caterpillar.yaml", {"controller.Kd=0", "sensors={type: encoder, period: 0.03, delay: 0.015, gain: 2}"});
   EXPECT_NEAR(loop.gain(), 2 * 100 * 0.03 / (0.00395 * 594), 1e-12);
   EXPECT_NEAR(loop.settles(), 1, 1e-12) << "half a sample";
+  EXPECT_EQ(loop.Kp, 100) << "the controller's, which messages name";
+  PositionLoop there = loop;
+  there.Kp = loop.Kp_of(1);
+  EXPECT_NEAR(there.gain(), 1, 1e-12);
 }
 
 /// The bound is of the proportional part: not of a large derivative or integral part, nor of a motor without back-EMF.
