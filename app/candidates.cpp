@@ -92,18 +92,6 @@ Words listed_names(const std::string& about, const Words& arguments) {
   return names;
 }
 
-/// Words that a key permits, such as `bullet | articulated`, without ranges and kinds of values.
-Words permitted(const KeyRow& row) {
-  constexpr std::array<std::string_view, 6> kKinds{"file", "list", "map", "name", "number", "text"};
-  Words words = CLI::detail::split(row.range, '|');
-  if (words.size() == 1) return {};
-  for (std::string& word : words) CLI::detail::trim(word);
-  std::erase_if(words, [&](const std::string& word) {
-    return word.find(' ') != std::string::npos || std::ranges::find(kKinds, word) != kKinds.end();
-  });
-  return words;
-}
-
 /// Keys of a scenario with `=`; behind it, the words that the key permits.
 Words settings(const std::string& typed) {
   const std::string key = typed.substr(0, typed.find('='));
@@ -113,7 +101,7 @@ Words settings(const std::string& typed) {
     if (key == typed) {
       found.push_back(known.path + "=");
     } else if (known.path == key) {
-      for (const std::string& word : permitted(known.row)) found.push_back(key + "=" + word);
+      for (const std::string& word : known.row.words) found.push_back(key + "=" + word);
     }
   }
   return found;

@@ -14,7 +14,7 @@ namespace {
 std::optional<int> orientation(const FaceType& child, const FaceType& parent) {
   const bool alike = child.gender == parent.gender;
   const bool none = child.gender == Gender::none || parent.gender == Gender::none;
-  if ((none ? !alike : alike) || child.connector != parent.connector || at_one_place(child, parent)) return {};
+  if ((none ? !alike : alike) || child.connector != parent.connector || child.id == parent.id) return {};
   for (std::size_t turn = 0; turn < child.turns.size(); ++turn) {
     if (child.turns[turn] && parent.turns[turn]) return static_cast<int>(turn);
   }

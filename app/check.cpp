@@ -12,6 +12,7 @@
 #include "core/plugin/robot_info.h"
 #include "core/settings/settings_numbers.h"
 #include "core/settings/wording.h"
+#include "core/simulation/recorder.h"
 #include "core/simulation/simulation.h"
 #include "core/simulation/start.h"
 #include "report/analysis/start_row.h"
@@ -29,10 +30,9 @@ std::string_view plugin_name(const PluginSelection& choice) { return choice.entr
 /// its estimated duration.
 std::unique_ptr<Simulation> made(const Scenario& s) try {
   return std::make_unique<Simulation>(std::span<const Scenario>(&s, 1));
-} catch (const InputError& error) {
+} catch (const TooManyRows& error) {
   std::vector<Problem> problems = error.problems();
-  const bool too_long = error.problems().front().text.find(" rows") != std::string::npos;
-  const double seconds = too_long ? estimated_seconds(s) : 0;
+  const double seconds = estimated_seconds(s);
   if (seconds > kLongRun) problems.front().notes.emplace_back(SourceLocation{s.file}, "the run " + time_text(seconds));
   throw InputError(std::move(problems));
 }
@@ -45,7 +45,7 @@ struct CheckArguments : ScenarioArguments {
 void write_page(const Scenario& s, const std::string& file) {
   const Recording start = report::start_row(s);
   report::Verdict verdict;
-  verdict.word = report::Word::not_judged;
+  verdict.word = Word::not_judged;
   write_file(file, report::page(report::page_data(s, start, report::summarise(s, start, 0), verdict)), Existing::refused);
 }
 

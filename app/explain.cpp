@@ -36,13 +36,6 @@ std::string plain_path(std::string path) {
   return path;
 }
 
-/// True if `word` is one of the words that a key permits, as its row lists them: `bullet | articulated`.
-bool permits(const KeyRow& row, const std::string& word) {
-  const std::string range = " " + row.range + " ";
-  const std::size_t at = range.find(" " + word + " ");
-  return range.find(" | ") != std::string::npos && at != std::string::npos;
-}
-
 /// Adds the rows of the keys for which `fits` is true, with their paths, and with the plugin or file that has them.
 template <class Fits>
 void add_rows(const std::vector<ScenarioKey>& keys, const char* file, Fits fits, std::vector<KeyRow>& rows) {
@@ -85,7 +78,7 @@ std::string explain_everywhere(const std::string& word, const Catalog& catalog) 
   std::vector<KeyRow> rows;
   add_named(word, scenario, "", rows);
   add_named(word, module, kInModule, rows);
-  const auto permitted = [&](const ScenarioKey& key) { return permits(key.row, word); };
+  const auto permitted = [&](const ScenarioKey& key) { return std::ranges::find(key.row.words, word) != key.row.words.end(); };
   add_rows(scenario, "", permitted, rows);
   add_rows(module, kInModule, permitted, rows);
   std::string text = rows.empty() ? "" : table(rows);

@@ -27,7 +27,7 @@ report::PageData data_of(const Scenario& scenario, const Trace& trace, const std
   report::Summary summary = report::summarise(sampled, record, 0);
   summary.build = build;
   report::Verdict verdict;
-  verdict.word = report::Word::not_judged;
+  verdict.word = Word::not_judged;
   verdict.to = record.simulated;
   return report::page_data(sampled, record, summary, verdict, {}, report::kMostData / 2);
 }

@@ -142,7 +142,7 @@ std::optional<RunArguments> more_accurate(const Scenario& first, const Scenario&
   }
   if (!arguments.quiet) {
     say(first.file, "note",
-        fmt::format("not judged: {}; simulated again with {} (--no-retry keeps the first run)", own.reason,
+        fmt::format("not judged: {}; simulated again with {} (--no-retry keeps the first run)", own.reason.text,
                     fmt::join(own.retry, " ")));
   }
   return again;

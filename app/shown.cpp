@@ -114,9 +114,9 @@ report::Verdict judged(const Scenario& scenario, const Recording& recording, con
 
 int exit_code(const report::Verdict& verdict, const SummaryOptions& shown) {
   if (!shown.fail_infeasible) return 0;
-  if (verdict.word == report::Word::failed) return 1;
-  const auto fails = [](const report::Draw& draw) { return draw.word != report::Word::feasible; };
-  return verdict.word != report::Word::feasible || std::ranges::any_of(verdict.draws, fails) ? 3 : 0;
+  if (verdict.word == Word::failed) return 1;
+  const auto fails = [](const report::Draw& draw) { return draw.word != Word::feasible; };
+  return verdict.word != Word::feasible || std::ranges::any_of(verdict.draws, fails) ? 3 : 0;
 }
 
 void add_shown(CLI::App& command, SummaryOptions& shown) {

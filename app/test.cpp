@@ -197,9 +197,10 @@ void print_notes(const std::vector<GoldenCase>& cases) {
           fmt::format("numbers with bands above {}, so that smaller changes are not detected: {}", percent(kWideNumber),
                       names));
     }
-    if (!c.golden->verdict.empty() && c.golden->verdict != c.run.verdict) {
+    if (c.run.verdict && c.golden->verdict != *c.run.verdict) {
       say(c.file, "note",
-          fmt::format("the verdict was {} when it was approved, and is {}: {}", c.golden->verdict, c.run.verdict, c.run.why));
+          fmt::format("the verdict was {} when it was approved, and is {}: {}", name_of(c.golden->verdict),
+                      name_of(*c.run.verdict), c.run.why));
     }
     if (c.other_engine || hash(resolved(*c.scenario)) == c.golden->origin.scenario) continue;
     say(c.file, "note", "the resolved scenario has changed since the golden was approved");

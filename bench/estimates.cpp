@@ -25,7 +25,7 @@ namespace {
 using namespace gaitlab;
 
 /// A cart with two wheels; {} is the drive of its hinges.
-constexpr const char* kCart = R"(gaitlab_module: 2
+constexpr const char* kCart = R"(gaitlab_module: 1
 name: cart
 source: "chosen"
 bodies:

@@ -1,12 +1,20 @@
-# Run at every build: writes build_id.cpp anew only where the commit has changed.
+# Run at every build: writes build_id.cpp anew only where the commit has changed. At the tag of the release, vVERSION, without changes, the id is
+# the version alone.
 execute_process(COMMAND git -C ${SOURCE_DIR} describe --always --dirty=.dirty --abbrev=10 --exclude=*
   OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 if(NOT commit)
   set(commit "unknown")
 endif()
+execute_process(COMMAND git -C ${SOURCE_DIR} describe --exact-match --dirty --match v${VERSION} --tags
+  OUTPUT_VARIABLE release OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+if(release STREQUAL "v${VERSION}")
+  set(id ${VERSION})
+else()
+  set(id ${VERSION}+${commit})
+endif()
 file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT [[
 #include "core/build_id.h"
 namespace gaitlab {
-std::string build_id() { return "@VERSION@+@commit@ (@COMPILER@; @LIBRARIES@)"; }
+std::string build_id() { return "@id@ (@COMPILER@; @LIBRARIES@)"; }
 }  // namespace gaitlab
 ]])

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/recording/word.h"
 #include "golden/golden.h"
 
 namespace gaitlab::golden {
@@ -14,7 +15,7 @@ struct GoldenRun {
   std::vector<Number> numbers;
   std::vector<std::string> joints = {};  ///< joint names, by their numbers in the columns
   std::vector<double> natural = {};  ///< natural scale of each column, in its unit; 0 if its unit has none (natural_scales.h)
-  std::string verdict = {};          ///< word such as `feasible`; empty if not judged
+  std::optional<Word> verdict = {};  ///< empty if the run was not judged
   std::string why = {};              ///< sentence that follows a word other than `feasible` (report/verdict/verdict.h)
   int starts = 1;                    ///< number of runs of which the numbers are means (starts.h)
 };

@@ -232,17 +232,15 @@ void run_cases(std::vector<GoldenCase>& cases, const TestArguments& arguments, c
     if (c.scenario) add(*c.scenario);
     if (c.halved) add(*c.halved);
   }
-  const bool judged = arguments.fail_infeasible ||
-                      std::ranges::any_of(cases, [](const GoldenCase& c) { return c.scenario && !c.golden->verdict.empty(); });
-  const std::vector<Attempt> outcomes = golden_runs(scenarios, arguments.jobs, progress, judged);
+  const std::vector<Attempt> outcomes = golden_runs(scenarios, arguments.jobs, progress, true);
   auto outcome = outcomes.begin();
   for (GoldenCase& c : cases) {
     if (!c.scenario) continue;
     const Attempt& run = *outcome++;
     judge(c, run, c.halved ? &*outcome++ : nullptr);
     if (arguments.fail_infeasible && c.verdict == Verdict::passed && report::has_motors(*c.scenario) &&
-        c.run.verdict != name_of(report::Word::feasible))
-      c.fail(Verdict::infeasible, fmt::format("{}: {}: {}", c.file, c.run.verdict, c.run.why));
+        c.run.verdict != Word::feasible)
+      c.fail(Verdict::infeasible, fmt::format("{}: {}: {}", c.file, name_of(*c.run.verdict), c.run.why));
   }
 }
 

@@ -104,7 +104,7 @@ std::string json_text(const Golden& golden, std::string_view trace_bytes) {
   add("scenario", text_of(o.scenario));
   add("reason", text_of(golden.history.empty() ? "" : golden.history.back().reason));
   add("history", history_text(golden));
-  if (!golden.verdict.empty()) add("verdict", text_of(golden.verdict));
+  add("verdict", text_of(name_of(golden.verdict)));
   if (golden.starts > 1) add("starts", text_of(golden.starts));
   if (!golden.selected.empty()) add("selected", text_of(golden.selected));
   add("rows", text_of(trace.rows()));
@@ -161,7 +161,9 @@ Golden from_json(const Json& json) {
   golden.origin = {json.at("name"),  json.at("engine"),   json.at("integrator"), json.at("step"),
                    json.at("build"), json.at("compiler"), json.at("scenario")};
   if (json.contains("resolved")) golden.origin.resolved = resolved_of(json["resolved"], golden.origin.scenario);
-  if (json.contains("verdict")) golden.verdict = json["verdict"].get<std::string>();
+  const std::optional<Word> word = named<Word>(json.at("verdict").get<std::string>());
+  if (!word) throw std::runtime_error("its verdict is no word");
+  golden.verdict = *word;
   if (json.contains("starts")) golden.starts = json["starts"].get<int>();
   if (json.contains("selected")) golden.selected = json["selected"].get<std::vector<std::string>>();
   for (const Json& entry : json.at("history"))

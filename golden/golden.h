@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/recording/word.h"
 #include "golden/file.h"
 
 namespace gaitlab::golden {
@@ -40,7 +41,7 @@ struct GoldenProvenance {
   double step = 0;              ///< s
   std::string build, compiler;  ///< id of the build, and its compiler
   std::string scenario;         ///< hash() of the text of the resolved scenario
-  std::string resolved = {};    ///< text of the resolved scenario, including its last line end; empty in an older golden
+  std::string resolved = {};    ///< text of the resolved scenario, including its last line end; empty if it is not UTF-8
 };
 
 struct Golden {
@@ -51,8 +52,8 @@ struct Golden {
   std::vector<double> rounding;
   std::vector<Band> bands;  ///< one band per column of the trace; the band of `t` is empty
   std::vector<Number> numbers;
-  std::vector<Band> number_bands;          ///< one band per element of `numbers`
-  std::string verdict = {};                ///< word of the verdict, such as `feasible`; empty in an older golden
+  std::vector<Band> number_bands;  ///< one band per element of `numbers`
+  Word verdict = Word::not_judged;
   std::vector<std::string> selected = {};  ///< patterns of the columns that the user has chosen; empty for the usual ones
   /// Number of runs whose mean the numbers are (starts.h); the trace then has the column `t` only.
   int starts = 1;

@@ -140,12 +140,12 @@ std::string origin_changes(const GoldenProvenance& then, const GoldenProvenance&
   add("engine", then.engine, now.engine);
   add("integrator", then.integrator, now.integrator);
   add("step", then.step, now.step);
-  return text + "  the scenario has changed; this old golden does not contain the approved scenario\n";
+  return text + "  the scenario has changed; the golden does not contain the approved one, which is not UTF-8\n";
 }
 
 std::string verdict_change(const Golden& golden, const GoldenRun& run, std::size_t width) {
-  if (golden.verdict.empty() || run.verdict.empty() || golden.verdict == run.verdict) return "";
-  const std::string words = fmt::format("verdict: {} -> {}", clipped(golden.verdict), run.verdict);
+  if (!run.verdict || golden.verdict == run.verdict) return "";
+  const std::string words = fmt::format("verdict: {} -> {}", name_of(golden.verdict), name_of(*run.verdict));
   return wrapped(run.why.empty() ? words : words + ": " + run.why, 2, width);
 }
 

@@ -89,7 +89,7 @@ GoldenRun golden_run(const Scenario& scenario, const std::function<void(double)>
   if (!judged) return run;
   const report::Verdict verdict =
       report::verdict(scenario, record, report::summarise(scenario, record, 0), report::overlaps(scenario, record));
-  run.verdict = name_of(verdict.word);
+  run.verdict = verdict.word;
   run.why = verdict.why();
   return run;
 }

@@ -112,7 +112,7 @@ ModuleText module_text(const UrdfBodies& parts, const std::string& name, const s
       "# Add faces, where modules dock; replace the motor by that of a data sheet.\n",
       name);
   for (const std::string& note : parts.notes) text += one_line("# Not carried over: " + note) + "\n";
-  ModuleText made{text + fmt::format("gaitlab_module: 3\nname: {}\nsource: {}\nbodies:\n", yaml_text(name), yaml_text(from))};
+  ModuleText made{text + fmt::format("gaitlab_module: 1\nname: {}\nsource: {}\nbodies:\n", yaml_text(name), yaml_text(from))};
   for (std::size_t b = 0; b < parts.bodies.size(); ++b) {
     made.begin("link", parts.links[b]);
     made.text += body_text(parts.bodies[b]);

@@ -16,7 +16,6 @@
 #include "core/scenario/read_scenario.h"
 #include "core/settings/node.h"
 #include "core/simulation/probes.h"
-#include "report/analysis/row_statistics.h"
 
 namespace gaitlab::kit {
 
@@ -91,8 +90,7 @@ void check_fit(const std::string& run, const Scenario& scenario, const Recording
   const std::size_t joints = scenario.robot->joints.size();
   if (recording.joints.size() != joints) refuse(fmt::format("{} joints, {} in the scenario", recording.joints.size(), joints));
   const std::size_t columns = recording.poses.columns.size();
-  if (columns > 0 && columns != old_pose_columns(joints) && columns != pose_columns(joints).size())
-    refuse(fmt::format("{} columns of poses, of {} joints", columns, joints));
+  if (columns != pose_columns(joints).size()) refuse(fmt::format("{} columns of poses, of {} joints", columns, joints));
   const bool contact = recording.worst.source == Stability::Source::contact;
   const std::size_t places = contact ? contact_elements(*scenario.robot, scenario.contact.on).size() : joints;
   if (recording.worst.rate > 0 && recording.worst.index >= places) {
@@ -128,7 +126,6 @@ StoredRun read_run(const std::string& run, Catalog& catalog) {
   Scenario scenario = read_stored(scenario_of(run, stored), catalog, OtherPlugins::taken);
   if (stored.missing.empty()) check_fit(run, scenario, stored.recording);
   name_units(scenario, stored.recording.trace);
-  report::fill_ticks_from_rows(scenario, stored.recording);
   return {std::move(stored), std::move(scenario)};
 }
 

@@ -14,7 +14,7 @@ const char* const kSkeletonModule =
     R"(# Module @NAME@: two boxes on one hinge, driven by a servo. It is valid as it stands; every number is to be replaced.
 # Measure first: masses (scale), boxes (ruler); then the hinge, the servo's data sheet, and the docking faces.
 # Units: m, kg, N m, rad, s, V, A. Every key: gaitlab explain module
-gaitlab_module: 3
+gaitlab_module: 1
 name: @TEXT@
 source: "chosen: the example of gaitlab new module"   # origin of the numbers; begin with "chosen" if they are not measured
 

@@ -208,7 +208,7 @@ std::string shortfall(const std::string& file, Catalog& catalog) try {
   const Recording recording = simulation.take_recording(0);
   const report::Summary summary = report::summarise(s, recording, 0);
   const report::Verdict verdict = report::verdict(s, recording, summary, report::overlaps(s, recording));
-  return verdict.word == report::Word::feasible ? "" : fmt::format("{}: {}", name_of(verdict.word), verdict.why());
+  return verdict.word == Word::feasible ? "" : fmt::format("{}: {}", name_of(verdict.word), verdict.why());
 } catch (const InputError& error) {
   return error.problems().front().text;
 }

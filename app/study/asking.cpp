@@ -24,7 +24,7 @@ Row with_result(Row row, Told&& told, const std::vector<studies::Quantity>& colu
   row.outcome = std::move(told.outcome);
   row.message = std::move(told.message);
   row.simulated = told.simulated;
-  row.verdict = std::move(told.verdict);
+  row.verdict = told.verdict;
   if (row.outcome != "done") return row;
   row.score = told.score;
   for (const studies::Quantity& column : columns) {

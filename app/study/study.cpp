@@ -50,8 +50,7 @@ int show_study(const StudyArguments& a) {
   const studies::Results results = studies::results(journal);
   constexpr std::size_t kShown = 5;
   fmt::print("{}", study_summary(journal, results, a.folder, kShown));
-  if (const studies::Effort effort = journal.effort();
-      effort.runs > 0 && effort.wall > 0 && !studies::told(journal.head().definition))
+  if (const studies::Effort effort = journal.effort(); effort.runs > 0 && effort.wall > 0 && !journal.head().told)
     fmt::print("{:.3g} runs per s and thread\n", static_cast<double>(effort.runs) / effort.wall);
   const std::string who = studies::Lock::holder(fs::path(a.folder) / "lock");
   if (!who.empty()) {
@@ -194,7 +193,7 @@ std::vector<std::string> differences(const std::vector<std::string>& names, cons
   const bool known = std::ranges::find(names, studies::kTorqueError) != names.end();
   const bool estimated = !known || !cell(studies::kTorqueError).empty();
   for (std::size_t k = 0; k < quantities.size(); ++k) {
-    if (is_gone(columns.quantities[k]) || (!estimated && depends_on_estimate(columns.quantities[k]))) continue;
+    if ((!estimated && depends_on_estimate(columns.quantities[k]))) continue;
     const std::string then = cell(columns.quantities[k]);
     if (told && then.empty()) continue;  // the other program did not give it
     const std::string now = std::isfinite(quantities[k]) ? number_text(quantities[k] + 0.0) : "";
@@ -273,7 +272,7 @@ Scenario scenario_in_row(const Journal& journal, const std::vector<std::string>&
     return read_stored({"", (fs::path(a.folder) / studies::kJournalFile).string(), scenario_of_row(head, names, row)}, catalog,
                        OtherPlugins::refused, sets);
   };
-  const std::vector<std::string> worlds = studies::robust_worlds(head.definition);
+  const std::vector<std::string>& worlds = head.worlds;
   const std::uint64_t replicate = studies::run_number_of(row[2]);
   if (worlds.empty()) {
     sets.push_back("seed=" + row[3]);
@@ -316,8 +315,8 @@ int rerun_study(const StudyArguments& a) {
     return code == 2 ? 2 : 0;
   }
   const studies::Measured measured = quantity_measure(head.quantities, scenario)(scenario, again.stored.recording);
-  const std::vector<std::string> found = differences(names, row, journal.columns(), measured.quantities,
-                                                     again.stored.recording.outcome, studies::told(journal.head().definition));
+  const std::vector<std::string> found =
+      differences(names, row, journal.columns(), measured.quantities, again.stored.recording.outcome, journal.head().told);
   if (found.empty()) {
     fmt::print("the quantities are equal to those in the journal\n");
     const bool lost = code == 1 && again.stored.recording.outcome.done();  // true if some files of the run could not be written

@@ -178,7 +178,7 @@ report::StudyFigure map_of(const Drawn& drawn, std::size_t number, const studies
   figure.map = drawn.parameters.size() == 2;
   if (figure.map) figure.y = drawn.axis(drawn.parameters[1]);
   figure.value = {clipped(name.name), clipped(name.unit)};
-  figure.grid = drawn.head.definition.find("\nmethod: grid\n") != std::string::npos;
+  figure.grid = drawn.head.method == name_of(studies::Method::grid);
   for (std::size_t k = 0; k < drawn.rows.size(); ++k) {
     report::StudyPoint point = point_of(drawn.results.points[k], drawn.values, drawn.rows[k], number);
     point.x = drawn.values.parameters[drawn.rows[k]][0];

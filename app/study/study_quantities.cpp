@@ -35,8 +35,6 @@ bool depends_on_estimate(const std::string& quantity) {
                              [&](const char* begin) { return name.starts_with(begin); });
 }
 
-bool is_gone(const std::string& quantity) { return quantity == "verdict_excess"; }
-
 studies::QuantityOffer quantity_offer() {
   studies::QuantityOffer offer;
   for (report::QuantityText& text : report::common_quantities()) offer.common.push_back(offered(std::move(text)));
@@ -68,14 +66,15 @@ studies::Measure quantity_measure(const std::vector<studies::Quantity>& columns,
   std::vector<std::string> names;
   for (const studies::Quantity& column : columns) {
     names.push_back(column.name);
-    if (!report::describe_quantity(column.name, *scenario.robot) && !is_gone(column.name))
+    if (!report::describe_quantity(column.name, *scenario.robot))
       problems.add(SourceLocation{"study.db"}, "the quantity " + in_quotes(column.name) + " is not known to this program");
   }
   problems.raise();
   const report::RunMeasure of_run = report::run_measure(names, *scenario.robot);
   const auto measure = [measured = of_run.measured](const Scenario& of, const Recording& recording) {
     report::MeasuredRun run = measured(of, recording);
-    return studies::Measured{std::move(run.quantities), std::move(run.verdict), std::move(run.why), std::move(run.cause)};
+    return studies::Measured{
+        std::move(run.quantities), run.verdict, std::move(run.why), {std::move(run.check), std::move(run.part)}};
   };
   return {measure, of_run.reads};
 }

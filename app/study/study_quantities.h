@@ -6,9 +6,6 @@ namespace gaitlab::app {
 
 studies::QuantityOffer quantity_offer();
 
-/// True if a journal column of an older program is no longer computed.
-bool is_gone(const std::string& quantity);
-
 /// True if the value of a quantity depends on the estimate of the torque error.
 bool depends_on_estimate(const std::string& quantity);
 

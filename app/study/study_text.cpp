@@ -129,15 +129,15 @@ std::string estimated_text(Journal& journal, const studies::Results& results) {
   const studies::Estimated found = studies::estimated(journal);
   if (results.runs == 0) return "";
   if (found.runs == 0) return "torque error estimated in none of the runs: nothing shows how accurate `feasible` is\n";
-  std::string text =
-      fmt::format("torque error estimated in {}: {} beyond 1 %, {} beyond 2 %, {} beyond 5 %; at most {:.2g} %\n",
-                  counted(found.runs, "run"), found.beyond[0], found.beyond[1], found.beyond[2], 100 * found.worst);
+  std::string text = fmt::format("torque error estimated in {}: {} beyond {:.3g} %, {} beyond {:.3g} %; at most {:.2g} %\n",
+                                 counted(found.runs, "run"), found.beyond_small, 100 * studies::Estimated::kSmall,
+                                 found.beyond_most, 100 * found.most, 100 * found.worst);
   if (found.trusted()) return text;
   if (found.too_few()) {
     return text + fmt::format("fewer than {} estimates: no evidence for the other {}; take a smaller estimate_every\n",
                               studies::Estimated::kFewest, counted(found.others, "run"));
   }
-  text += "more than one in ten errors is beyond 5 %: ";
+  text += fmt::format("more than one in ten errors is beyond {:.3g} %: ", 100 * found.most);
   if (found.others > 0) {
     text +=
         fmt::format("`feasible` is not reliable for the other {}; take estimate_every: 1, and ", counted(found.others, "run"));
@@ -305,7 +305,7 @@ std::string study_summary(Journal& journal, const studies::Results& results, con
       fmt::format("{}: {} of {} runs ended, {} kept{}, {} feasible, {} failed\n", clipped(head.name), results.runs, head.runs,
                   results.kept_runs, share(results.kept_runs, results.runs), results.feasible_runs, failed);
   text += estimated_text(journal, results);
-  if (studies::told(head.definition)) text += "results of another program (--ask): nothing is verified\n";
+  if (head.told) text += "results of another program (--ask): nothing is verified\n";
   if (!head.guarded) text += "without guards: results may exploit the simulation\n";
   text += ranking_text(journal, results, most);
   text += rejected_text(journal, results);

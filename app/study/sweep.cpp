@@ -30,9 +30,10 @@ bool estimate_others(const Plan& plan, Journal& journal, const studies::Executor
   const std::vector<std::uint64_t> runs = runs_in_doubt(plan, journal);
   if (runs.empty()) return true;
   if (!a.quiet) {
-    const std::string why = studies::estimated(journal).too_few()
+    const studies::Estimated found = studies::estimated(journal);
+    const std::string why = found.too_few()
                                 ? fmt::format("was estimated for fewer than {} runs", studies::Estimated::kFewest)
-                                : "is beyond 5 % in more than one of ten estimated runs";
+                                : fmt::format("is beyond {:.3g} % in more than one of ten estimated runs", 100 * found.most);
     say(journal.file().string(), "note",
         fmt::format("the torque error {}: the other {} again with an estimate", why,
                     runs.size() == 1 ? "run is made" : fmt::format("{} runs are made", runs.size())));

@@ -10,14 +10,17 @@
 #include <vector>
 
 #include "app/study/study_text.h"
+#include "core/settings/node.h"
 #include "core/settings/wording.h"
-#include "studies/search/verify.h"
+#include "studies/search/world_trials.h"
 #include "studies/study/number.h"
+#include "studies/study/scenarios.h"
 
 namespace gaitlab::app {
 
 namespace {
 
+using studies::TrialKind;
 using studies::Verification;
 using studies::WorldCount;
 
@@ -29,8 +32,7 @@ std::string objective_cell(const Verification& v) {
 std::string faults_text(const std::vector<Verification>& faults, const std::string& objective) {
   if (faults.empty()) return "";
   std::vector<std::vector<std::string>> rows{{"joint", objective, "verdict"}};
-  for (const Verification& v : faults)
-    rows.push_back({clipped(v.what), objective_cell(v), v.verdict.empty() ? "-" : v.verdict});
+  for (const Verification& v : faults) rows.push_back({clipped(v.what()), objective_cell(v), name_of(v.verdict)});
   return fmt::format("run {} with a joint dead from t = 0:\n{}", faults.front().run, aligned(rows, 2));
 }
 
@@ -78,15 +80,16 @@ std::string point_text(studies::Journal& journal, const std::vector<Verification
   for (const Verification& v : all) {
     if (v.run != run || studies::is_world(v)) continue;
     rejected = rejected || !v.reason.empty();
-    if (studies::is_share(v)) {
+    if (v.kind == TrialKind::worlds) {
       if (!v.reason.empty()) share = ", " + one_line(v.reason);
       continue;
     }
-    ways += fmt::format("{}{} {}", ways.empty() ? "" : ", ", clipped(v.what), objective_cell(v));
-    if (!v.reason.empty()) reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", clipped(v.what), one_line(v.reason));
-    if (studies::is_quarter(v))
+    ways += fmt::format("{}{} {}", ways.empty() ? "" : ", ", clipped(v.what()), objective_cell(v));
+    if (!v.reason.empty())
+      reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", clipped(v.what()), one_line(v.reason));
+    if (v.kind == TrialKind::quarter_step)
       below += "  the other engine's own step was too long at times (check step): a quarter of it counts\n";
-    if (studies::is_limit(v))
+    if (v.kind == TrialKind::limit)
       below += fmt::format("  the gait stands; the study's step was too long: {}{}\n", objective_cell(v), unit);
   }
   if (!reasons.empty()) below += "  " + reasons + "\n";
@@ -97,18 +100,22 @@ std::string point_text(studies::Journal& journal, const std::vector<Verification
 
 /// True if the gears of the study's scenario can create energy, which those of the worlds cannot.
 bool paper_gears(const studies::JournalHead& head) {
-  return head.scenario.find("efficiency_model: paper") != std::string::npos;
+  const std::vector<studies::ScenarioText> all = studies::scenario_texts(head.scenario);
+  const auto paper = [](const std::string& text) {
+    const Node root = parse_yaml(text, "the scenario of the study");
+    const Node* actuator = root.find("actuator");
+    const Node* model = actuator == nullptr ? nullptr : actuator->find("efficiency_model");
+    return model != nullptr && model->text == "paper";
+  };
+  return all.empty() ? paper(head.scenario) : std::ranges::any_of(all, paper, &studies::ScenarioText::text);
 }
 
 /// Guard of the check that is the first cause of a fall, as in `guards: {voltage: {margin: 0.1}}`; "" if no cause is a check.
 std::string guard_text(const studies::JournalHead& head, const WorldCount& count) {
   for (const Verification& fall : count.falls) {
-    const std::size_t scenario = fall.reason.find(": ");  // as in `in rubble: voltage of m1/active`
-    const std::string cause = scenario == std::string::npos ? fall.reason : fall.reason.substr(scenario + 2);
-    std::string check = cause.substr(0, cause.find(" of "));
-    std::ranges::replace(check, ' ', '_');
-    const bool known = std::ranges::find(head.quantities, "margin." + check, &studies::Quantity::name) != head.quantities.end();
-    if (known) return fmt::format("a margin as guard, `guards: {{{}: {{margin: 0.1}}}}`, or ", check);
+    const bool known =
+        std::ranges::find(head.quantities, "margin." + fall.check, &studies::Quantity::name) != head.quantities.end();
+    if (known) return fmt::format("a margin as guard, `guards: {{{}: {{margin: 0.1}}}}`, or ", fall.check);
   }
   return "";
 }
@@ -119,7 +126,7 @@ std::string falls_text(const WorldCount& count) {
   std::vector<std::pair<std::string, std::string>> causes;  // with the worlds that they are of, each cause once
   for (const Verification& v : count.falls) {
     const auto at = std::ranges::find(causes, v.reason, [](const auto& one) { return one.first; });
-    const std::string name = clipped(studies::world_name(v));
+    const std::string name = clipped(v.name);
     if (at == causes.end()) {
       causes.emplace_back(v.reason, name);
     } else {
@@ -136,7 +143,7 @@ std::string falls_text(const WorldCount& count) {
 
 std::string nearest_text(studies::Journal& journal) {
   const std::vector<Verification> all = journal.verifications();
-  const auto share = std::ranges::find_if(all, studies::is_share);
+  const auto share = std::ranges::find(all, TrialKind::worlds, &Verification::kind);
   if (share == all.end()) return "";
   const WorldCount count = studies::counted_worlds(all, share->run);
   const bool most = count.stood < count.of / 2;
@@ -151,8 +158,9 @@ std::string nearest_text(studies::Journal& journal) {
 std::string verification_text(studies::Journal& journal) {
   std::vector<Verification> all = journal.verifications();
   std::vector<Verification> faults;
-  std::ranges::copy_if(all, std::back_inserter(faults), studies::is_fault);
-  std::erase_if(all, studies::is_fault);
+  const auto is_fault = [](const Verification& v) { return v.kind == TrialKind::dead_joint; };
+  std::ranges::copy_if(all, std::back_inserter(faults), is_fault);
+  std::erase_if(all, is_fault);
   std::string text;
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (k == 0 || all[k].run != all[k - 1].run) text += point_text(journal, all, all[k].run);

@@ -18,12 +18,6 @@ const FaceType* find_face(const ModuleType& type, int id) {
   return nullptr;
 }
 
-bool at_one_place(const FaceType& a, const FaceType& b) {
-  constexpr double kSame = 1e-9;  // m, or of unit vectors; far above the rounding of written numbers
-  return a.body == b.body && (a.origin - b.origin).squaredNorm() < kSame * kSame &&
-         (a.normal - b.normal).squaredNorm() < kSame * kSame;
-}
-
 std::array<Connector, 2> connectors_at(const Robot& robot, std::size_t module) {
   const Module& child = robot.modules[module];
   std::array<Connector, 2> found;
@@ -100,19 +94,10 @@ class DockRows {
   }
 
   void take_face(const Dock& dock, int module, int face) {
-    const std::vector<FaceType>& faces = type(module).faces;
-    const FaceType& taken = *find_face(type(module), face);
-    // In format 1, a connector that is neither active nor passive has two face numbers.
-    const auto place = std::find_if(faces.begin(), faces.end(), [&](const FaceType& one) { return at_one_place(one, taken); });
-    const auto [at, fresh] = faces_.try_emplace({module, place->id}, Taken{&dock, face});
+    const auto [at, fresh] = faces_.try_emplace({module, face}, &dock);
     if (fresh) return;
-    const int other = at->second.face;
-    problems_
-        .add(dock.place,
-             other == face ? fmt::format("face {} of module {} is used twice: a face docks once", face, module)
-                           : fmt::format("face {} of module {} is used twice: it coincides with face {}, and a face docks once",
-                                         face, module, other))
-        .notes.emplace_back(at->second.dock->place, "this face is already docked here");
+    problems_.add(dock.place, fmt::format("face {} of module {} is used twice: a face docks once", face, module))
+        .notes.emplace_back(at->second->place, "this face is already docked here");
   }
 
   void check_row(const Dock& dock) {
@@ -243,12 +228,7 @@ class DockRows {
   const std::vector<std::size_t>& type_of_;
   const std::vector<Dock>& docks_;
   int rings_asked_ = 0;
-  struct Taken {
-    const Dock* dock;
-    int face;
-  };
-  /// Occupied faces by module and face. The first of several faces at one place, which format 1 permits, is the key.
-  std::map<std::pair<int, int>, Taken> faces_;
+  std::map<std::pair<int, int>, const Dock*> faces_;  ///< occupied faces by module and face
   std::map<int, const Dock*> parent_;
   std::set<int> children_;
   Problems problems_;

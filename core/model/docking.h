@@ -7,9 +7,6 @@ namespace gaitlab {
 /// Face with the id `id`, or nullptr.
 const FaceType* find_face(const ModuleType& type, int id);
 
-/// True if two faces of a type are the same connector: one body, origin and normal.
-bool at_one_place(const FaceType& a, const FaceType& b);
-
 /// Connectors of the two faces at the dock of a module, first the face of the module. A connector is empty if the type of the
 /// module has no data for it.
 std::array<Connector, 2> connectors_at(const Robot& robot, std::size_t module);

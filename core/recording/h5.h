@@ -48,7 +48,7 @@ struct StoredTrace {
   std::vector<Beside> beside;
 };
 
-/// Writes format gaitlab-trace-2. Dataset `/trace` is float64 [rows, columns] (MATLAB shows [columns, rows]), compressed
+/// Writes format gaitlab-trace-1. Dataset `/trace` is float64 [rows, columns] (MATLAB shows [columns, rows]), compressed
 /// without loss (shuffle, gzip). Its attributes `columns`, `units`, `definitions` have one UTF-8 text per column, of fixed
 /// length and padded with NULs. Each table of `beside` is stored in the same way as `/recording/NAME`. The root attributes are
 /// `format`, `scenario`, `outcome`, `csv_hash`, `seed`, `build`, `rows`, `checksum` (hash() of the trace).

@@ -8,7 +8,7 @@
 
 namespace gaitlab {
 
-inline constexpr std::string_view kTraceFormat = "gaitlab-trace-2";
+inline constexpr std::string_view kTraceFormat = "gaitlab-trace-1";
 inline constexpr const char* kBeside[] = {"rest",   "ticks", "loads",  "poses",
                                           "spread", "draws", "joints", "run"};  ///< tables of `/recording`
 inline constexpr std::size_t kUserBlock = 512;  ///< bytes before the HDF5 part; the smallest number that HDF5 allows

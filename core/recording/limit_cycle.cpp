@@ -11,7 +11,6 @@ namespace gaitlab {
 
 namespace {
 
-constexpr double kRepeats = 0.02;     // largest e(t) of a repeating motion
 constexpr double kStill = 1e-3;       // rad, half a peak-to-peak
 constexpr double kSmall = 0.1;        // least scale as a share of the largest column, so that trembling joints do not decide
 constexpr double kPromising = 0.3;    // largest e of a lag that is half a grid step off a period, with harmonics
@@ -249,7 +248,7 @@ class Repetition {
     columns_.pairs += columns_.size() * sums.size();
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       for (std::size_t i = 0; i + 1 < sums.size(); ++i) sums[i + 1] = sums[i] + squared(c, i);
-      const double limit = kRepeats * scales_[c];
+      const double limit = kMostCycleError * scales_[c];
       const double most = limit * limit * static_cast<double>(window_);
       std::size_t start = starts_ - 1;
       while (start > from && sums[start - 1 + window_] - sums[start - 1] < most) --start;
@@ -317,7 +316,7 @@ MotionCycle find_limit_cycle(std::span<const double> values, std::size_t columns
     if (error >= best.error) continue;
     best.period = period * sample_period;
     best.error = error;
-    best.found = error < kRepeats;
+    best.found = error < kMostCycleError;
     if (!best.found) continue;
     best.from = static_cast<double>(repetition.from()) * sample_period;
     break;

@@ -5,14 +5,16 @@
 
 namespace gaitlab {
 
+inline constexpr double kMostCycleError = 0.02;  ///< largest `error` of a motion that repeats
+
 /// Result of the search for a limit cycle. T is the period and x_c a column. The scale s_c is half the peak-to-peak value of
 /// x_c over the last 2 T. It is at least 1e-3 rad, and at least a tenth of the scale of the largest column.
 ///     e(t) = max over c of RMS over [t, t + T] of (x_c(u + T) - x_c(u)) / s_c
-/// `error` is e at the last possible t (two periods before the end). `found` means error < 0.02.
+/// `error` is e at the last possible t (two periods before the end). `found` means error < kMostCycleError.
 struct MotionCycle {
   bool found = false;
-  double from =
-      0;  ///< s after the first row: earliest sample t with e < 0.02 at t and at every later sample; 0 if no cycle is found
+  double from = 0;  ///< s after the first row: earliest sample t with e < kMostCycleError at t and at every later sample; 0 if
+                    ///< no cycle is found
   double period = 0;      ///< shortest period found, s; else the period of the best candidate; 0 without candidates
   double error = 1;       ///< error of that period; 1 without candidates
   std::size_t pairs = 0;  ///< samples compared with a later sample: the cost of the search, which grows with the rows

@@ -49,9 +49,8 @@ Series Recording::pose(const std::string& column) const {
 
 Series Recording::tick(std::size_t number, TickColumn column) const {
   const std::size_t columns = ticks.columns.size();
-  if (ticked() == 0 || ticks.rows() < 2 || (columns - 1) % ticked() != 0) return {};
-  const std::size_t each = (columns - 1) / ticked();  // columns per joint; older folders lack the last ones
-  return column < each ? Series(ticks, 1 + number * each + column) : Series();
+  if (ticked() == 0 || ticks.rows() < 2 || columns != 1 + ticked() * kTickColumns) return {};
+  return Series(ticks, 1 + number * kTickColumns + column);
 }
 
 namespace {

@@ -64,20 +64,19 @@ struct Recording {
   /// integrals of torque^2 and current^2 and the time at each limit. All steps count, so that a peak or an RMS of any part of
   /// the run does not depend on trace.period.
   Trace ticks;
-  bool ticks_of_rows = false;  ///< true if `ticks` are computed from rows of the trace, as for a CSV file alone
   /// Loads of docks and feet, slip distances of feet and stability margin, with the rows of `ticks` but under the new commands.
   /// There are no columns if loads were not to be recorded.
   Trace loads;
   /// Pose of the base, angles and set points of the joints, centre of mass, and normal force of the ground on the robot, with
-  /// the rows of `ticks`. Folders of older formats have no rows, or only pose and angles.
+  /// the rows of `ticks`.
   Trace poses;
   /// Numbers (report/verdict/spread.h) of this run in the first row, and of runs under a minimally different gravity in the
   /// other rows, for a motion that is not predictable. There are no columns if predictability was not tested.
   Trace spread;
   /// Verdicts on draws with other seeds (report/verdict/draws.h), this run in the first row. No columns without draws.
   Trace draws;
-  double current_peak = NAN, current_rms = NAN;  ///< A, of the sum of all motors' |current|; NaN in a folder of an older format
-  std::vector<JointStatistics> joints;           ///< empty if the robot has no joints, or the format of the run lacks them
+  double current_peak = NAN, current_rms = NAN;  ///< A, of the sum of all motors' |current|; NaN without motors' currents
+  std::vector<JointStatistics> joints;           ///< empty if the robot has no joints
   Ledger ledger;                                 ///< energies at the end
   StepTally tally;                               ///< counts of the steps of the engine
   double simulated = 0;                          ///< s
@@ -88,12 +87,14 @@ struct Recording {
   Outcome outcome;
 
   [[nodiscard]] std::size_t rows() const { return trace.rows(); }
+  /// True if only rows of the trace are left, as of a CSV file without recording.h5: every other recording has poses.
+  [[nodiscard]] bool rows_alone() const { return poses.columns.empty(); }
   [[nodiscard]] std::string trace_hash() const { return hash_of_all.empty() ? hash(trace) : hash_of_all; }
   /// A column of `trace` or `rest` by name; empty if neither has it.
   [[nodiscard]] Series series(const std::string& column) const;
   /// Column `joint.N.QUANTITY`, where QUANTITY is angle, setpoint or torque.
   [[nodiscard]] Series joint(std::size_t number, const char* quantity) const;
-  /// A column of `poses` by name; empty if the folder has an older format without it.
+  /// A column of `poses` by name; empty if it is not there.
   [[nodiscard]] Series pose(const std::string& column) const;
   /// Centre of mass at the time of a row.
   [[nodiscard]] Vec3 com(std::size_t row) const;
@@ -103,9 +104,9 @@ struct Recording {
   [[nodiscard]] std::size_t ticked() const {
     return joints.empty() ? (ticks.columns.size() + kTickColumns - 2) / kTickColumns : joints.size();
   }
-  /// Column of `ticks` for one joint; empty if it is missing, as in a folder of an older format.
+  /// Column of `ticks` for one joint; empty if it is missing, as in rows alone.
   [[nodiscard]] Series tick(std::size_t joint, TickColumn column) const;
-  /// True if the columns for `state` exist. They are missing only in a folder of an older format.
+  /// True if the columns for `state` exist. They are missing only in some CSV files.
   [[nodiscard]] bool has_states(const Robot& robot) const;
   /// Angles and pose at the time of a row. The speeds are 0.
   [[nodiscard]] RobotState state(const Robot& robot, std::size_t row) const;
@@ -125,11 +126,9 @@ struct AllRows {
 /// are not reduced.
 std::optional<AllRows> thin_rows(Recording& r, std::size_t most = kMostInMemory);
 
-/// Columns of Recording::ticks and of Recording::poses for `joints` joints. In older folders, poses have only the first
-/// old_pose_columns().
+/// Columns of Recording::ticks and of Recording::poses for `joints` joints.
 std::vector<Column> tick_columns(std::size_t joints);
 std::vector<Column> pose_columns(std::size_t joints);
-constexpr std::size_t old_pose_columns(std::size_t joints) { return 8 + joints; }
 /// Merges each two rows after the first into the later row, with the larger peaks of the two rows.
 void halve_ticks(Trace& ticks);
 /// Merges each two rows after the first into the later row by keep_worst().

@@ -127,15 +127,11 @@ void take_numbers(const fs::path& file, const Trace& joints, const Trace& run, R
   r.tally.torque_error.resize(joints.rows());
   r.tally.torque_peak.resize(joints.rows());
   for (std::size_t j = 0; j < joints.rows(); ++j) {
-    each_number_of(r, j, [&](const std::string& name, const char*, const char*, double& number) {
-      const bool added = name.starts_with("revers");
-      if (!added || joints.find(name) < joints.columns.size()) number = value(joints, j, name);  // older folders lack these
-    });
+    each_number_of(r, j,
+                   [&](const std::string& name, const char*, const char*, double& number) { number = value(joints, j, name); });
   }
   each_number(r, [&](const std::string& name, const char*, const std::string&, auto& number) {
     using Number = std::remove_reference_t<decltype(number)>;
-    const bool added = name == kHinges || name == kEnded || name.starts_with(kParting) || name.starts_with(kCurrent);
-    if (added && run.find(name) == run.columns.size()) return;  // older folders lack this number
     const double read = value(run, 0, name);
     // Largest value of a flag, an enum, or a count. A double contains counts exactly up to 2^53.
     constexpr double kMost = std::is_same_v<Number, bool>    ? 1
@@ -158,8 +154,8 @@ void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r
   };
   r.rest = take("rest");
   r.ticks = take("ticks");
-  if (find("loads") != beside.end()) r.loads = take("loads");  // older folders lack these tables
-  if (find("poses") != beside.end()) r.poses = take("poses");
+  r.loads = take("loads");
+  r.poses = take("poses");
   if (find("spread") != beside.end()) r.spread = take("spread");
   if (find("draws") != beside.end()) r.draws = take("draws");
   const Trace joints = take("joints");

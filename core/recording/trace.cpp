@@ -6,7 +6,7 @@ namespace gaitlab {
 
 namespace {
 
-constexpr std::string_view kWords = "2-";  // number of the format
+constexpr std::string_view kWords = "1-";  // number of the format
 
 std::string joined_names(const Trace& trace) {
   std::string names;

@@ -26,7 +26,7 @@ struct Trace {
   [[nodiscard]] std::size_t find(std::string_view name) const { return columns.find(name); }
 };
 
-/// Hash of the names and the bytes of all values. The text is `2-`, the number of the format, and 16 hex digits of the WordHash
+/// Hash of the names and the bytes of all values. The text is `1-`, the number of the format, and 16 hex digits of the WordHash
 /// of all names, each followed by a NUL, and of the values.
 std::string hash(const Trace& trace);
 

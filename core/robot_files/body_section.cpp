@@ -17,8 +17,8 @@ Mat3 inertia_matrix(const std::array<double, 6>& inertia) {
   return (Mat3() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
 }
 
-void read_shape(const Node& node, std::int64_t format, BodyType& body, Problems& problems) {
-  KeyReader reader(node, kShapeMap, "shape", format, problems);
+void read_shape(const Node& node, BodyType& body, Problems& problems) {
+  KeyReader reader(node, kShapeMap, "shape", problems);
   Shape shape;
   shape.in_body = reader.frame();
   std::size_t kinds = 0;
@@ -63,9 +63,9 @@ void inertia_of_shapes(BodyType& body, bool with_com, const SourceLocation& plac
 
 }  // namespace
 
-bool read_body(const Node& node, const SourceLocation& place, std::int64_t format, BodyType& body, Problems& problems) {
+void read_body(const Node& node, const SourceLocation& place, BodyType& body, Problems& problems) {
   const std::size_t before = problems.size();
-  KeyReader reader(node, kBodyMap, in_quotes(body.name), format, problems);
+  KeyReader reader(node, kBodyMap, in_quotes(body.name), problems);
   std::array<double, 6> inertia = {};
   reader.number("mass", body.mass);
   reader.vector("com", span_of(body.com));
@@ -75,17 +75,15 @@ bool read_body(const Node& node, const SourceLocation& place, std::int64_t forma
     if (shapes->kind != Node::Kind::list)
       problems.add(shapes->place, fmt::format("shape is {}; expected a list of maps", found(*shapes)));
     for (const Node& item : shapes->kind == Node::Kind::list ? shapes->items : std::vector<Node>())
-      read_shape(item, format, body, problems);
+      read_shape(item, body, problems);
   }
   reader.finish();
-  if (problems.size() != before || format == 0 || !(body.mass > 0) || reader.has("inertia")) return true;
-  if (format < kFormatOfShapes) return false;
+  if (problems.size() != before || !(body.mass > 0) || reader.has("inertia")) return;
   if (const std::string why = no_inertia(body); !why.empty()) {
     problems.add(place, why);
   } else {
     inertia_of_shapes(body, !reader.has("com"), place, problems);
   }
-  return true;
 }
 
 }  // namespace gaitlab

@@ -30,6 +30,13 @@ bool normalise(Vec3& v, const Node& map, const char* key, Problems& problems) {
   return true;
 }
 
+/// True if two faces of a type are the same connector: one body, origin and normal.
+bool at_one_place(const FaceType& a, const FaceType& b) {
+  constexpr double kSame = 1e-9;  // m, or of unit vectors; far above the rounding of written numbers
+  return a.body == b.body && (a.origin - b.origin).squaredNorm() < kSame * kSame &&
+         (a.normal - b.normal).squaredNorm() < kSame * kSame;
+}
+
 class ModuleCheck {
  public:
   ModuleCheck(ModuleType& type, const ModulePlaces& places, Problems& problems)
@@ -172,12 +179,12 @@ class ModuleCheck {
         problems_.add(place_of(map, "reference"),
                       fmt::format("reference is not at right angles to the normal of face {}", face.id));
       }
-      if (places_.format > 1) check_twins(i);
+      check_twins(i);
       check_connector(i);
     }
   }
 
-  /// Reports two faces in one place, by which format 1 described a connector that is neither active nor passive.
+  /// Reports two faces in one place, of which only one could dock.
   void check_twins(std::size_t i) {
     for (std::size_t k = 0; k < i; ++k) {
       const FaceType& one = type_.faces[k];

@@ -1,6 +1,5 @@
 // Check of a module type: one tree of bodies and hinges, physically possible inertias, and faces that can dock.
 #pragma once
-#include <cstdint>
 #include <vector>
 
 #include "core/model/module_type.h"
@@ -12,7 +11,6 @@ namespace gaitlab {
 struct ModulePlaces {
   std::vector<SourceLocation> bodies;  ///< places of their names
   std::vector<Node> hinges, faces;     ///< maps of the hinges and of the faces
-  std::int64_t format = 1;             ///< format version of the text
 };
 
 /// Checks a module type, normalises its directions and sets `type.root`.

@@ -24,7 +24,7 @@ class ModuleReader {
   ModuleReader(const Node& document, Problems& problems) : document_(document), problems_(problems) {}
 
   ModuleType read(bool versioned) {
-    read_format(versioned);
+    if (!read_version(versioned)) return {};
     KeyReader reader = open(document_, kModuleMap, "the module type");
     reader.text("name", type_.name);
     if (const Node* name = reader.take("name")) check_name(type_.name, *name);
@@ -50,18 +50,15 @@ class ModuleReader {
   }
 
  private:
-  KeyReader open(const Node& node, const ModuleMap& map, const std::string& name) {
-    return {node, map, name, places_.format, problems_};
-  }
+  KeyReader open(const Node& node, const ModuleMap& map, const std::string& name) { return {node, map, name, problems_}; }
 
-  /// Reads the format version. A file without it is read as the newest format, so that only the version is reported.
-  void read_format(bool versioned) {
-    if (document_.kind != Node::Kind::map) return;
+  /// Reads the format version. False, with a problem, for another version, whose keys would have other meanings.
+  bool read_version(bool versioned) {
+    if (document_.kind != Node::Kind::map) return true;
     Reader reader(document_, "", problems_, nullptr);
-    places_.format = reader.version("gaitlab_module", kNewestModule);
-    if (!versioned || reader.has("gaitlab_module")) return;
-    problems_.add(document_.place, fmt::format("missing key 'gaitlab_module'; write gaitlab_module: {}", kNewestModule));
-    places_.format = kNewestModule;  // so that its keys are not reported, too
+    if (versioned && !reader.has("gaitlab_module"))
+      problems_.add(document_.place, "missing key 'gaitlab_module'; write gaitlab_module: 1");
+    return reader.version("gaitlab_module");
   }
 
   void read_connectors(const Node* connectors) {
@@ -110,7 +107,6 @@ class ModuleReader {
       return;
     }
     const std::size_t before = problems_.size();
-    std::vector<std::size_t> old;  // bodies whose inertia would follow from shapes in a newer format
     for (std::size_t i = 0; i < bodies->items.size(); ++i) {
       const auto& [name, place] = bodies->keys[i];
       Node key{Node::Kind::scalar, place};
@@ -118,22 +114,9 @@ class ModuleReader {
       names_.push_back(name);
       places_.bodies.push_back(place);
       type_.bodies.push_back({name});
-      if (!read_body(bodies->items[i], place, places_.format, type_.bodies.back(), problems_)) old.push_back(i);
+      read_body(bodies->items[i], place, type_.bodies.back(), problems_);
     }
-    bodies_are_old_ = !old.empty();
-    if (bodies_are_old_) refuse_without_inertia(old);
     bodies_are_sound_ = problems_.size() == before;
-  }
-
-  /// Reports the bodies without inertia of an old format in one problem, because they have one remedy.
-  void refuse_without_inertia(const std::vector<std::size_t>& bodies) {
-    std::vector<std::string> names;
-    for (const std::size_t body : bodies) names.push_back(in_quotes(names_[body]));
-    problems_.add(places_.bodies[bodies.front()],
-                  fmt::format("{} no inertia; expected inertia: [xx, yy, zz, xy, xz, yz], or gaitlab_module: {}, in which it "
-                              "follows from shape",
-                              bodies.size() == 1 ? "body " + names.front() + " has" : "bodies " + joined(names) + " have",
-                              kFormatOfShapes));
   }
 
   /// Index of the body that `key` names. Adds a problem for an unknown body.
@@ -174,7 +157,7 @@ class ModuleReader {
       return;
     }
     const Node* node = reader.take("range");
-    if (node != nullptr && node->kind != Node::Kind::list && places_.format >= 2) {
+    if (node != nullptr && node->kind != Node::Kind::list) {
       problems_.add(node->place, fmt::format("range is {}; expected a list of 2 numbers in rad, or free", found(*node)));
       return;
     }
@@ -258,7 +241,7 @@ class ModuleReader {
     KeyReader reader = open(node, kContactsMap, "contacts");
     feet_of_shapes_ = read_elements(reader, "feet", type_.feet);
     all_of_shapes_ = read_elements(reader, "all", type_.all);
-    feet_are_all_ = places_.format >= kFormatOfShapes && !reader.has("feet");
+    feet_are_all_ = !reader.has("feet");
     reader.finish();
   }
 
@@ -266,7 +249,6 @@ class ModuleReader {
   bool read_elements(KeyReader& reader, const char* key, std::vector<ContactType>& elements) {
     const Node* node = reader.take(key);
     if (node == nullptr) return false;
-    if (bodies_are_old_ && node->text == "shapes") return false;  // the newer format is asked for already
     if (!reader.word(key, "shapes")) {
       if (node->kind != Node::Kind::list) {
         problems_.add(node->place, fmt::format("{} is {}; expected a list of maps, or shapes", key, found(*node)));
@@ -276,8 +258,7 @@ class ModuleReader {
       return false;
     }
     const auto shaped = [](const BodyType& body) { return !body.shapes.empty(); };
-    if (bodies_are_sound_ && places_.format >= kFormatOfShapes &&
-        std::none_of(type_.bodies.begin(), type_.bodies.end(), shaped)) {
+    if (bodies_are_sound_ && std::none_of(type_.bodies.begin(), type_.bodies.end(), shaped)) {
       problems_.add(node->place, fmt::format("{} is shapes, but no body has a shape; expected a list of maps", key));
     }
     return true;
@@ -305,7 +286,6 @@ class ModuleReader {
   ModuleType type_;
   ModulePlaces places_;
   std::vector<std::string> names_;
-  bool bodies_are_old_ = false;   ///< true if a body lacks an inertia that a newer format would derive
   bool bodies_are_sound_ = true;  ///< false if a body has a fault, such as a missing shape
   bool feet_of_shapes_ = false, all_of_shapes_ = false, feet_are_all_ = false;
 };

@@ -8,7 +8,7 @@
 namespace gaitlab {
 
 /// Reads and checks a module type. If it adds problems, the type must not be used. If `versioned`, the map is a separate file,
-/// which must contain `gaitlab_module: 1`, 2 or 3 (docs/modules.md). A map in the scenario without that key has format 1.
+/// which must contain `gaitlab_module: 1` (docs/modules.md).
 ModuleType read_module(const Node& document, bool versioned, Problems& problems);
 
 struct ModuleFile {

@@ -52,15 +52,15 @@ constexpr ModuleKey kBodyKeys[] = {
      .preset = "0"},
     {.key = "com",
      .form = ModuleForm::vector,
-     .spec = any("m", "Centre of mass, body frame. Without com and inertia, in format 3: that of the shapes."),
+     .spec = any("m", "Centre of mass, body frame. Without com and inertia: that of the shapes."),
      .preset = "[0, 0, 0]",
      .size = 3},
     {.key = "inertia",
      .form = ModuleForm::vector,
-     .spec = any("kg m^2",
-                 "xx, yy, zz, xy, xz, yz about the COM, body axes; elements of the tensor (xy: -sum of m x y). From format 3 "
-                 "on, by default that of the shapes at "
-                 "uniform density."),
+     .spec =
+         any("kg m^2",
+             "xx, yy, zz, xy, xz, yz about the COM, body axes; elements of the tensor (xy: -sum of m x y). Without it: that "
+             "of the shapes at uniform density."),
      .size = 6},
     {.key = "shape",
      .form = ModuleForm::list,
@@ -68,8 +68,8 @@ constexpr ModuleKey kBodyKeys[] = {
      .map = &kShapeMap},
 };
 
-constexpr ModuleWord kFree[] = {{"free", 2}};
-constexpr ModuleWord kDrives[] = {{"motor"}, {"none"}};
+constexpr const char* kFree[] = {"free"};
+constexpr const char* kDrives[] = {"motor", "none"};
 constexpr ModuleKey kHingeKeys[] = {
     kSourceKey,
     {.key = "name", .form = ModuleForm::text, .spec = said("Name of the hinge and of its joint."), .required = true},
@@ -91,50 +91,38 @@ constexpr ModuleKey kHingeKeys[] = {
     {.key = "drive",
      .form = ModuleForm::word,
      .spec = said("motor, or none for a passive hinge."),
-     .format = 2,
      .preset = "\"motor\"",
      .words = kDrives},
     {.key = "stiffness",
      .form = ModuleForm::number,
      .spec = {"N m/rad", 0, 1e6, "Stiffness of a spring."},
-     .format = 2,
      .preset = "0",
      .passive = true},
     {.key = "rest",
      .form = ModuleForm::number,
      .spec = {"rad", -1000, 1000, "Angle at which the spring has no torque."},
-     .format = 2,
      .preset = "0",
      .passive = true},
     {.key = "damping",
      .form = ModuleForm::number,
      .spec = {"N m s/rad", 0, 1e6, "Coefficient of a viscous damper."},
-     .format = 2,
      .preset = "0",
      .passive = true},
-    {.key = "friction",
-     .form = ModuleForm::number,
-     .spec = {"N m", 0, 1e6, "Dry friction."},
-     .format = 2,
-     .preset = "0",
-     .passive = true},
+    {.key = "friction", .form = ModuleForm::number, .spec = {"N m", 0, 1e6, "Dry friction."}, .preset = "0", .passive = true},
     {.key = "friction_speed",
      .form = ModuleForm::number,
      .spec = {"rad/s", 1e-6, 1e3, "Speed below which dry friction is viscous."},
-     .format = 2,
      .preset = "0.1",
      .passive = true},
     {.key = "actuator",
      .form = ModuleForm::map,
-     .spec = said("Keys of the motor that differ from the module type's actuator."),
-     .format = 2},
+     .spec = said("Keys of the motor that differ from the module type's actuator.")},
     {.key = "controller",
      .form = ModuleForm::map,
-     .spec = said("Keys of the controller that differ from the module type's controller."),
-     .format = 2},
+     .spec = said("Keys of the controller that differ from the module type's controller.")},
 };
 
-constexpr ModuleWord kGenders[] = {{name_of(Gender::active)}, {name_of(Gender::passive)}, {name_of(Gender::none), 2}};
+constexpr const char* kGenders[] = {name_of(Gender::active), name_of(Gender::passive), name_of(Gender::none)};
 constexpr ModuleKey kFaceKeys[] = {
     kSourceKey,
     {.key = "id", .form = ModuleForm::integer, .spec = {"", 0, 1000, "Number of the face in build files."}, .required = true},
@@ -146,12 +134,10 @@ constexpr ModuleKey kFaceKeys[] = {
      .words = kGenders},
     {.key = "connector",
      .form = ModuleForm::text,
-     .spec = said("Name of the connector; only faces with the same connector dock."),
-     .format = 2},
+     .spec = said("Name of the connector; only faces with the same connector dock.")},
     {.key = "turns",
      .form = ModuleForm::integers,
      .spec = {"", 0, 3, "Orientations in which the face docks, times pi/2."},
-     .format = 2,
      .preset = "[0, 1, 2, 3]"},
     {.key = "origin",
      .form = ModuleForm::vector,
@@ -175,14 +161,13 @@ constexpr ModuleKey kContactKeys[] = {
 };
 constexpr const char* kContactKinds[] = {"point", "sphere"};
 
-constexpr ModuleWord kShapes[] = {{"shapes", kFormatOfShapes}};
+constexpr const char* kShapes[] = {"shapes"};
 constexpr ModuleKey kContactsKeys[] = {
     kSourceKey,
     {.key = "feet",
      .form = ModuleForm::list,
-     .spec = said("Elements for contact.on: feet, on the free block of every module without children. From format 3 on, by "
-                  "default those of all."),
-     .preset = "[]",
+     .spec = said("Elements for contact.on: feet, on the free block of every module without children. Without it: those of "
+                  "all."),
      .words = kShapes,
      .map = &kContactMap},
     {.key = "all",
@@ -204,7 +189,7 @@ constexpr ModuleKey kConnectorKeys[] = {
 constexpr ModuleKey kModuleKeys[] = {
     {.key = "gaitlab_module",
      .form = ModuleForm::integer,
-     .spec = {"", 1, kNewestModule, "Format version, which marks a file as a module."},
+     .spec = {"", 1, 1, "Format version, which marks a file as a module."},
      .preset = "1"},
     kSourceKey,
     {.key = "name", .form = ModuleForm::text, .spec = said("Name of the type."), .required = true},
@@ -230,7 +215,6 @@ constexpr ModuleKey kModuleKeys[] = {
     {.key = "connectors",
      .form = ModuleForm::map,
      .spec = said("Largest loads of the connectors of faces, by name; a load that is missing is not judged."),
-     .format = 2,
      .map = &kConnectorMap,
      .by_name = true},
     {.key = "may_overlap",
@@ -243,8 +227,7 @@ constexpr ModuleKey kModuleKeys[] = {
      .spec = said("Motor of every driven hinge: type, and keys of that actuator (gaitlab explain actuator TYPE).")},
     {.key = "controller",
      .form = ModuleForm::map,
-     .spec = said("Controller of these motors: type, and its keys without period (gaitlab explain controller TYPE)."),
-     .format = 2},
+     .spec = said("Controller of these motors: type, and its keys without period (gaitlab explain controller TYPE).")},
 };
 
 }  // namespace

@@ -7,17 +7,8 @@
 
 namespace gaitlab {
 
-inline constexpr std::int64_t kNewestModule = 3;    ///< newest format version of module files
-inline constexpr std::int64_t kFormatOfShapes = 3;  ///< first format in which inertia and contact elements follow from shapes
-
 /// Form of a value in a module file.
 enum class ModuleForm { text, number, integer, flag, vector, integers, word, map, list, pairs };
-
-/// A word that a key permits, and the first format that has it.
-struct ModuleWord {
-  const char* word;
-  std::int64_t format = 1;
-};
 
 struct ModuleMap;
 
@@ -25,14 +16,13 @@ struct ModuleKey {
   const char* key;
   ModuleForm form;
   Spec spec = {"", 0, 0, ""};  ///< unit, range and sentence
-  std::int64_t format = 1;     ///< first format that has the key
   bool required = false;
-  const char* preset = "";                 ///< default as JSON; "" if the key has none
-  std::size_t size = 0;                    ///< number of elements of a vector
-  std::span<const ModuleWord> words = {};  ///< permitted words; instead of a value of another form if `form` is not `word`
-  const ModuleMap* map = nullptr;          ///< keys of a map, or of each map in a list or by name; null for those of a plugin
-  bool by_name = false;                    ///< true if the value is a map of such maps by names
-  bool passive = false;                    ///< true for a key of hinges without a motor
+  const char* preset = "";                  ///< default as JSON; "" if the key has none
+  std::size_t size = 0;                     ///< number of elements of a vector
+  std::span<const char* const> words = {};  ///< permitted words; instead of a value of another form if `form` is not `word`
+  const ModuleMap* map = nullptr;           ///< keys of a map, or of each map in a list or by name; null for those of a plugin
+  bool by_name = false;                     ///< true if the value is a map of such maps by names
+  bool passive = false;                     ///< true for a key of hinges without a motor
 };
 
 /// A map of a module file with its permitted keys. Exactly one of the keys `one_of` is given.

@@ -10,16 +10,6 @@
 namespace gaitlab {
 namespace {
 
-/// The words of a key, each with the format that introduced it.
-std::string words_of(const ModuleKey& key) {
-  std::string text;
-  for (const ModuleWord& word : key.words) {
-    text += (text.empty() ? "" : " | ") + std::string(word.word);
-    if (word.format > key.format) text += fmt::format(" (format {})", word.format);
-  }
-  return text;
-}
-
 /// Form and range of a value other than words.
 std::string form_of(const ModuleKey& key) {
   Spec spec = key.spec;
@@ -53,17 +43,12 @@ std::string form_of(const ModuleKey& key) {
 
 std::string range_of(const ModuleKey& key) {
   const std::string form = form_of(key);
-  const std::string words = words_of(key);
+  const std::string words = fmt::format("{}", fmt::join(key.words, " | "));
   const std::string either = form + (form.empty() || words.empty() ? "" : " | ") + words;
   return key.required ? "required; " + either : either;
 }
 
-std::string about(const ModuleKey& key) {
-  std::string text = key.spec.about;
-  if (key.passive) text += " Only with drive: none.";
-  if (key.format > 1) text += fmt::format(" From format {} on.", key.format);
-  return text;
-}
+std::string about(const ModuleKey& key) { return key.spec.about + std::string(key.passive ? " Only with drive: none." : ""); }
 
 /// Default as the manual prints it: a word without the quotes of JSON.
 std::string preset_of(const ModuleKey& key) {
@@ -74,7 +59,9 @@ std::string preset_of(const ModuleKey& key) {
 void add_rows(const ModuleMap& map, const std::string& indent, Explainer& rows) {
   for (const ModuleKey& key : map.keys) {
     const std::string end = key.map == nullptr ? "" : key.form == ModuleForm::list ? "[]" : key.by_name ? ".NAME" : "";
-    rows.row(indent + key.key + end, key.spec.unit, preset_of(key), range_of(key), about(key));
+    std::vector<std::string> words(key.words.begin(), key.words.end());
+    if (key.form == ModuleForm::flag) words = {"true", "false"};
+    rows.row(indent + key.key + end, key.spec.unit, preset_of(key), range_of(key), about(key), std::move(words));
     // Elements for feet are those for all; their keys are listed once.
     const bool listed = key.map != nullptr && &key + 1 != map.keys.data() + map.keys.size() && (&key + 1)->map == key.map;
     if (key.map != nullptr && !listed) add_rows(*key.map, indent + "  ", rows);
@@ -117,7 +104,7 @@ Json key_schema(const ModuleKey& key) {
   Json json = form_schema(key);
   if (!key.words.empty()) {
     Json words = Json::array();
-    for (const ModuleWord& word : key.words) words.push_back(word.word);
+    for (const char* word : key.words) words.push_back(word);
     json = key.form == ModuleForm::word ? Json{{"enum", words}} : Json{{"anyOf", {json, {{"enum", words}}}}};
   }
   json["description"] = about(key) + (*key.spec.unit == '\0' ? "" : " [" + std::string(key.spec.unit) + "]");

@@ -38,16 +38,6 @@ std::string source_of(const Node* map) {
   return source == nullptr ? "" : source->text;
 }
 
-bool of_format_2(const Node& document) {
-  const Node* format = document.find("gaitlab_module");
-  return format != nullptr && read_integer(*format).value >= 2;
-}
-
-bool alike(const Node* a, const Node* b) {
-  if (a == nullptr || b == nullptr) return a == b;
-  return print_yaml(*a) == print_yaml(*b);
-}
-
 /// Collects every field of some settings, as its value per joint or its text.
 class Seen final : public Fields {
  public:
@@ -170,27 +160,18 @@ bool known_types(const std::vector<Node>& documents, const Node& scenario, const
 
 TypePresets::TypePresets(Kind kind, const Robot* robot, const std::vector<Node>& documents)
     : kind_(kind), type_(describe(kind).default_type) {
-  std::vector<const Node*> maps;
-  for (const Node& document : documents) {
-    if (const Node* map = map_of(document, kind)) maps.push_back(map);
-  }
-  if (robot == nullptr || std::ranges::none_of(documents, of_format_2)) {
-    choose_common(maps);
-  } else {
-    choose_each(*robot, documents);
+  if (robot != nullptr) choose(*robot, documents);
+  for (const Node& document :
+       robot == nullptr ? documents : std::vector<Node>()) {  // the first type decides which keys of the scenario are known
+    const Node* map = map_of(document, kind);
+    if (map == nullptr) continue;
+    kinds_.push_back({map, nullptr});
+    type_ = type_of(map, kind);
+    return;
   }
 }
 
-void TypePresets::choose_common(const std::vector<const Node*>& maps) {
-  if (maps.empty()) return;
-  kinds_.push_back({maps.front(), nullptr});
-  if (maps.front()->find("type") != nullptr) type_ = maps.front()->find("type")->text;
-  if (std::ranges::all_of(maps, [&](const Node* map) { return alike(map, maps.front()); })) return;
-  said_ = maps;
-  why_ = fmt::format("the module types have different {}s", word(kind_));
-}
-
-void TypePresets::choose_each(const Robot& robot, const std::vector<Node>& documents) {
+void TypePresets::choose(const Robot& robot, const std::vector<Node>& documents) {
   std::vector<const Node*> maps;  // maps of the module types that have a hinge with a motor
   for (const Joint& joint : robot.joints) {
     const std::size_t type = robot.modules[joint.module].type;

@@ -35,8 +35,7 @@ std::string by_default(const std::vector<std::string>& keys, const Entry& entry)
 bool known_types(const std::vector<Node>& documents, const Node& scenario, const Catalog& catalog, Problems& problems);
 
 /// Presets for one kind of plugin, actuator or controller. Each joint uses the presets of its module type; presets of its hinge
-/// replace these key by key. Module types disagree if they name different types of plugin. If no module type has format 2, one
-/// motor serves all joints, and module types with different motors disagree as well.
+/// replace these key by key. Module types disagree if they name different types of plugin.
 class TypePresets {
  public:
   /// `robot` is null if it could not be read. `documents` has one entry per module type of the robot. Both must outlive this
@@ -67,8 +66,7 @@ class TypePresets {
     const Node* of_hinge = nullptr;
     bool operator==(const Maps&) const = default;
   };
-  void choose_common(const std::vector<const Node*>& maps);
-  void choose_each(const Robot& robot, const std::vector<Node>& documents);
+  void choose(const Robot& robot, const std::vector<Node>& documents);
   void read(const Entry& entry, const Maps& maps, void* settings, JointNames joints, Problems& of_type,
             Problems& of_hinge) const;
 

@@ -74,7 +74,6 @@ class HeightFile {
     std::string bytes = read_file(path_, kMostBytes);
     place_ = {path_};
     if (format == HeightFormat::npy_in_gzip) bytes = gunzip(bytes, kMostBytes);
-    hash_ = hash_words(bytes);
     return format == HeightFormat::png ? read_grey_png(bytes, kMostHeights) : read_npy(bytes, kMostHeights);
   } catch (const TableError& error) {
     problems_.add({path_}, error.what());
@@ -89,7 +88,6 @@ class HeightFile {
     Rows rows;
     try {
       const std::string bytes = read_text(path_, file_.place);
-      hash_ = hash_words(bytes);
       const Node node = grid_node(bytes, path_);
       place_ = node.place;
       rows = read_rows(node, "row", kHeights, found);
@@ -104,10 +102,10 @@ class HeightFile {
     return table;
   }
 
-  /// False, with a problem, if a hash is recorded that is neither that of the heights nor, as in older records, of the file.
+  /// False, with a problem, if the hash of other heights is recorded.
   bool is_of_record(const std::string& of_heights) {
     const Node* recorded = map_.find("hash");
-    if (recorded == nullptr || recorded->text == of_heights || recorded->text == hash_) return true;
+    if (recorded == nullptr || recorded->text == of_heights) return true;
     problems_.add(recorded->place, fmt::format("file '{}' is not the recorded file: its hash is {}, but {} is recorded", path_,
                                                of_heights, clipped(recorded->text)));
     return false;
@@ -115,7 +113,7 @@ class HeightFile {
 
   const Node& map_;
   const Node& file_;
-  std::string folder_, path_, hash_ = {};
+  std::string folder_, path_;
   Problems& problems_;
   SourceLocation place_ = file_.place;
 };

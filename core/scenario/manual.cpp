@@ -27,10 +27,10 @@ void add_changes(Explainer& all) {
   ChangeKeys{change}.fields(keys);
   keys.row("set", "", "", "map", kAboutSet);
   keys.row("fault", "", "", "map | list", kAboutFault);
-  for (const KeyRow& row : keys.rows()) all.row("at[]." + row.key, row.unit, "", row.range, row.about);
+  for (const KeyRow& row : keys.rows()) all.row("at[]." + row.key, row.unit, "", row.range, row.about, row.words);
   Explainer of_fault;
   FaultKeys{fault, true}.fields(of_fault);
-  for (const KeyRow& row : of_fault.rows()) all.row("at[].fault." + row.key, row.unit, "", row.range, row.about);
+  for (const KeyRow& row : of_fault.rows()) all.row("at[].fault." + row.key, row.unit, "", row.range, row.about, row.words);
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ std::vector<KeyRow> scenario_keys(const Catalog& catalog) {
   Scenario scenario;
   Explainer base;
   BaseFields{scenario}.fields(base);
-  for (const KeyRow& row : base.rows()) explainer.row("  " + row.key, row.unit, row.preset, row.range, row.about);
+  for (const KeyRow& row : base.rows()) explainer.row("  " + row.key, row.unit, row.preset, row.range, row.about, row.words);
   explainer.row(kGroupsSection, "", "{}", "NAME: list", kAboutGroups);
   SectionFields sections(scenario, &catalog, nullptr, describe(Kind::actuator).default_type);
   for (PluginFields* plugin : {&sections.actuator, &sections.controller, &sections.cpg}) plugin->own_keys = false;

@@ -32,7 +32,6 @@ Node plugins_node(const std::vector<PluginFile>& files, FilePaths paths) {
 Node robot_node(Scenario& scenario, const std::vector<std::string>& joints) {
   Writer writer(joints);
   for (auto& [key, node] : robot_nodes(*scenario.robot, *scenario.module_documents)) writer.add(key, std::move(node));
-  // older goldens do not contain it
   if (!scenario.may_overlap.empty()) writer.add(kMayOverlap, body_pairs_node(scenario.may_overlap));
   const bool placed = !scenario.on_ground || scenario.position != Vec3::Zero();
   BaseFields{scenario, placed}.fields(writer);
@@ -58,14 +57,14 @@ std::string resolved(const Scenario& scenario, FilePaths paths) {
   writer.add("name", text_node(scenario.name));
   writer.add("plugins", plugins_node(scenario.plugins, paths));
   writer.add("robot", robot_node(copy, joints));
-  if (!scenario.groups.empty()) writer.add(kGroupsSection, groups_node(scenario.groups));  // older goldens do not contain it
+  if (!scenario.groups.empty()) writer.add(kGroupsSection, groups_node(scenario.groups));
   const Entry* actuator = scenario.actuator.entry;
   SectionFields sections(copy, nullptr, nullptr, actuator == nullptr ? "none" : std::string(actuator->name));
   sections.writing = true;
   sections.has_cpg = scenario.cpg.entry != nullptr;
   sections.fields(writer);
   writer.add("sensors", sensors_node(scenario, joints));
-  if (!scenario.changes.empty()) writer.add("at", changes_node(scenario, joints));  // older goldens do not contain it
+  if (!scenario.changes.empty()) writer.add("at", changes_node(scenario, joints));
   return print_yaml(writer.take());
 }
 

@@ -114,7 +114,6 @@ void PhysicsFields::fields(Fields& f) {
     f.text("integrator", any, "");
   }
   f.vector("gravity", span_of(physics.gravity), {"m/s^2", -1000, 1000, "Acceleration of gravity, world axes."});
-  // The key is written only if it differs from the default, because older goldens do not contain it.
   if (catalog == nullptr && physics.estimate == Estimate::full) return;
   f.choice("estimate", physics.estimate, enum_names<Estimate>(),
            "Estimate of the torque error. full: from rollouts beside the run, with finer and coarser steps and with gravity "

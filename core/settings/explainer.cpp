@@ -73,8 +73,8 @@ std::string markdown_table(const std::vector<KeyRow>& rows) {
 }
 
 void Explainer::row(const std::string& key, const std::string& unit, const std::string& preset, const std::string& range,
-                    const std::string& about) {
-  rows_.push_back({prefix_ + key, unit, preset, range, about});
+                    const std::string& about, std::vector<std::string> words) {
+  rows_.push_back({prefix_ + key, unit, preset, range, about, std::move(words)});
   if (depth_ == 0) keys_.push_back(key);
 }
 
@@ -88,7 +88,7 @@ void Explainer::on(const char* key, const char* about, const field::Number& fiel
 
 void Explainer::on(const char* key, const char* about, const field::NumberOr& field) {
   row(key, field.spec.unit, field.value > 0 ? number_text(field.value) : field.word,
-      field.word + (" | " + range_without_unit(field.spec)), about);
+      field.word + (" | " + range_without_unit(field.spec)), about, {field.word});
 }
 
 void Explainer::on(const char* key, const char* about, const field::Integer& field) {
@@ -96,7 +96,7 @@ void Explainer::on(const char* key, const char* about, const field::Integer& fie
 }
 
 void Explainer::on(const char* key, const char* about, const field::Flag& field) {
-  row(key, "", field.value ? "true" : "false", "true | false", about);
+  row(key, "", field.value ? "true" : "false", "true | false", about, {"true", "false"});
 }
 
 void Explainer::on(const char* key, const char* about, const field::Text& field) { row(key, "", field.value, "text", about); }
@@ -104,7 +104,7 @@ void Explainer::on(const char* key, const char* about, const field::Text& field)
 void Explainer::on(const char* key, const char* about, const field::File&) { row(key, "", "", "file, or its text", about); }
 
 void Explainer::on(const char* key, const char* about, const field::OneOf& field) {
-  row(key, "", if_among(field.names, field.value), alternatives(field.names), about);
+  row(key, "", if_among(field.names, field.value), alternatives(field.names), about, {field.names.begin(), field.names.end()});
 }
 
 void Explainer::on(const char* key, const char* about, const field::EachJoint& field) {
@@ -153,7 +153,8 @@ void Explainer::on(const char* key, const char* about, const field::Names& field
       field.one                 ? ""
       : field.value.size() == 1 ? preset
                                 : "[" + preset + "]",
-      field.one ? name : name + (words ? " | list" : " | pattern | list"), about);
+      field.one ? name : name + (words ? " | list" : " | pattern | list"), about,
+      words ? std::vector<std::string>(field.words.begin(), field.words.end()) : std::vector<std::string>());
 }
 
 void Explainer::on(const char* key, const char* about, const field::Periods& field) {
@@ -186,7 +187,7 @@ void Explainer::on(const char* key, const char* about, const field::List& field)
 }
 
 void Explainer::on(const char* key, const char* about, const field::RuleOrList& field) {
-  row(key, "", field.rule, alternatives(field.names) + " | list", about);
+  row(key, "", field.rule, alternatives(field.names) + " | list", about, {field.names.begin(), field.names.end()});
   elements(key, field.list);
 }
 

@@ -10,6 +10,7 @@ namespace gaitlab {
 /// One row of the table.
 struct KeyRow {
   std::string key, unit, preset, range, about;  ///< `preset` is the default value, `about` the sentence
+  std::vector<std::string> words = {};          ///< words that the key permits
 };
 
 /// The rows as text of at most 80 columns. A line with key, unit, default and range precedes the sentence.
@@ -26,7 +27,7 @@ class Explainer final : public Fields {
 
   /// Adds a row for a key that is not a field.
   void row(const std::string& key, const std::string& unit, const std::string& preset, const std::string& range,
-           const std::string& about);
+           const std::string& about, std::vector<std::string> words = {});
   [[nodiscard]] const std::vector<KeyRow>& rows() const { return rows_; }
   /// Keys of the outermost map, without those of groups and lists.
   [[nodiscard]] const std::vector<std::string>& keys() const { return keys_; }

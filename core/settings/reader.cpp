@@ -50,14 +50,13 @@ const Node* Reader::take(const char* key) {
   return map_->find(key);
 }
 
-std::int64_t Reader::version(const char* key, std::int64_t newest) {
+bool Reader::version(const char* key) {
   const Node* node = take(key);
-  if (node == nullptr) return 1;
+  if (node == nullptr) return true;
   const Reading<std::int64_t> reading = read_integer(*node);
-  if (reading.ok() && reading.value >= 1 && reading.value <= newest) return reading.value;
-  problems_.add(node->place, fmt::format("{} is {}; this program reads format version{} 1{}", key, found(*node),
-                                         newest > 1 ? "s" : "", newest > 1 ? fmt::format(" to {}", newest) : ""));
-  return 0;
+  if (reading.ok() && reading.value == 1) return true;
+  problems_.add(node->place, fmt::format("{} is {}; expected 1, the only format version", key, found(*node)));
+  return false;
 }
 
 bool Reader::misspelt(const char* key) const {

@@ -45,9 +45,7 @@ class Reader final : public Fields {
   /// True if the map has no such key, but an unknown one that was probably meant to be it.
   [[nodiscard]] bool misspelt(const char* key) const;
   /// Reads a format version. Returns false, and adds a problem, for any version except 1.
-  bool version(const char* key) { return version(key, 1) != 0; }
-  /// Reads a format version from 1 to `newest`. Returns 1 if no version is given, and 0 with a problem for an invalid version.
-  std::int64_t version(const char* key, std::int64_t newest);
+  bool version(const char* key);
   /// Names of the robot's modules, for values per module.
   void modules(JointNames names) { modules_ = names; }
   /// Groups of joints, whose names may stand where patterns may. They must outlive the reader.

@@ -22,7 +22,7 @@ constexpr std::size_t kReleasedRows = 4096;  // rows at a time, some 20 MB for a
 constexpr double kTickRows = 2e-3;           // shortest interval between rows of Recording::ticks, s
 
 /// Error for rows that exceed the memory or the disk. Rows are kept until the end of the run.
-InputError too_many_rows(const Scenario& s, const RowsNeeded& needed, const std::string& there_is) {
+TooManyRows too_many_rows(const Scenario& s, const RowsNeeded& needed, const std::string& there_is) {
   return {s.place("duration"),
           fmt::format("the run would record {:.3g} rows of {:.0f} columns, {:.3g} GB, and {}: take a longer trace.period than "
                       "{:.3g} s, fewer trace.columns, or a shorter duration",

@@ -6,12 +6,19 @@
 #include <string_view>
 #include <vector>
 
+#include "core/errors.h"
 #include "core/recording/recording.h"
 #include "core/simulation/load_meter.h"
 #include "core/simulation/probes.h"
 #include "core/simulation/records.h"
 
 namespace gaitlab {
+
+/// Rows of a run that exceed the memory or the disk.
+class TooManyRows : public InputError {
+ public:
+  using InputError::InputError;
+};
 
 /// Adds rows to the recording from samples, which the simulation fills. Allocates at construction, and for rows of loads.
 class Recorder {

@@ -42,7 +42,7 @@ class Study:
     @property
     def quantities(self) -> "pandas.DataFrame":
         """Name, column, unit and definition of each quantity."""
-        return self.table("select * from figure")
+        return self.table("select * from quantity")
 
     @property
     def best(self) -> "pandas.DataFrame":

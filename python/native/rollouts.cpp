@@ -90,7 +90,7 @@ class Rows {
         const report::MeasuredRun measured = measure_.measured(one.rollout.scenario, one.recording);
         std::ranges::copy(measured.quantities, values_ + i * width_);
         count_estimate(one.recording);
-        verdict[i] = measured.verdict;
+        verdict[i] = name_of(measured.verdict);
         give(i, "done", measured.why);
       }
     }

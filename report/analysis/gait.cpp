@@ -19,7 +19,6 @@ namespace {
 constexpr double kMostGrowth = 0.02;  // of a range after the run
 constexpr double kMostDrift = 0.01;   // of mean and RMS within the window, as a share of the range
 constexpr double kStill = 2e-3;       // rad or rad/s: a smaller range is none (core/recording/limit_cycle.h)
-constexpr double kRepeats = 0.02;     // RMS difference after a period / half a range (core/recording/limit_cycle.h)
 constexpr double kTwoPeriods = 2.25;  // least length that shows a period
 constexpr double kLeastSamples = 20;  // in the stretches whose means are compared
 constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -49,22 +48,18 @@ bool repeats_in_run(const LookAhead& ahead, double period, double full_size, dou
   }
   // A period of a fraction of a tick more shifts the samples.
   const double shift = std::numbers::pi * spacing / period;
-  return *std::ranges::max_element(misfit) <= (kRepeats + shift) * std::max(largest, kStill);
+  return *std::ranges::max_element(misfit) <= (kMostCycleError + shift) * std::max(largest, kStill);
 }
 
 /// Time of the landing, s: after it the mean of the ground's normal force over any `span` s is at least half of the weight. 0
 /// if the forces are not known, or too small at the end of the run.
 double carried_from(const Scenario& s, const Recording& r, double span) {
-  const std::vector<Series> loads = ground_loads(s, r);
+  const Series load = ground_load(s, r);
   const Series t = motion(r).t;
   const double least = kBorne * s.robot->mass * s.physics.gravity.norm();
-  if (loads.empty() || t.size() < 2 || !(least > 0)) return 0;
+  if (load.empty() || t.size() < 2 || !(least > 0)) return 0;
   std::vector<double> impulse{0};  // N s, from the start on
-  for (std::size_t k = 1; k < t.size(); ++k) {
-    double load = 0;
-    for (const Series& one : loads) load += one[k];
-    impulse.push_back(impulse.back() + load * (t[k] - t[k - 1]));
-  }
+  for (std::size_t k = 1; k < t.size(); ++k) impulse.push_back(impulse.back() + load[k] * (t[k] - t[k - 1]));
   std::size_t last = t.size() - 1;
   bool ever = false;
   for (std::size_t k = last; k-- > 0;) {

@@ -15,13 +15,8 @@ namespace {
 
 constexpr double kOnGrid = 1e-6;  // share of the spacing; times are whole steps, except for rounding
 
-/// Column of /recording/poses, or of the trace in a folder of an older format.
-Series of_motion(const Recording& r, const std::string& column) {
-  return motion_of_ticks(r) ? r.pose(column) : r.series(column);
-}
-
 Series of_joint(const Recording& r, std::size_t joint, const char* quantity) {
-  return of_motion(r, fmt::format("joint.{}.{}", joint, quantity));
+  return r.pose(fmt::format("joint.{}.{}", joint, quantity));
 }
 
 /// Number of evenly spaced rows, and their spacing.
@@ -32,10 +27,6 @@ struct Grid {
 
 /// Evenly spaced rows of the motion. The last row is left out if the run ends between two of them.
 Grid grid(const Scenario& scenario, const Recording& r) {
-  if (!motion_of_ticks(r)) {
-    const double period = scenario.trace.period;
-    return {std::min(r.rows(), static_cast<std::size_t>(std::floor(r.simulated / period + 1e-9)) + 1), period};
-  }
   const Series t = r.pose("t");
   if (t.size() < 2) return {};
   // Rows are at every control tick or, for short control periods and long runs, at every nth tick.
@@ -63,10 +54,8 @@ MotionCycle cycle(const Grid& grid, const std::vector<Series>& columns, double s
 
 }  // namespace
 
-bool motion_of_ticks(const Recording& r) { return !r.pose("com.x").empty(); }
-
 Motion motion(const Recording& r) {
-  const auto of = [&](const char* column) { return of_motion(r, column); };
+  const auto of = [&](const char* column) { return r.pose(column); };
   return {of("t"), of("com.x"), of("com.y"), of("com.z"), of("base.qw"), of("base.qx"), of("base.qy"), of("base.qz")};
 }
 
@@ -80,26 +69,9 @@ double heading_change(const Motion& m, std::size_t from, std::size_t to) {
   return sum;
 }
 
-std::string motion_sentence(const Recording& r) {
-  const Series t = r.series("t");
-  if (motion_of_ticks(r) || r.ticks_of_rows || t.size() < 2) return "";
-  return fmt::format(
-      "in this older folder limit cycle, judged time and the robot's way are of the trace's rows, one per {:.3g} ms; gaitlab "
-      "rerun takes control ticks",
-      1000 * (t[1] - t[0]));
-}
-
-std::vector<Series> ground_loads(const Scenario& scenario, const Recording& r) {
-  if (scenario.base != Base::floating) return {};
-  if (motion_of_ticks(r)) {
-    if (contact_elements(*scenario.robot, scenario.contact.on).empty()) return {};
-    return {r.pose("load")};
-  }
-  std::vector<Series> loads;
-  for (std::size_t m = 0; m < scenario.robot->modules.size(); ++m) {
-    if (const Series one = r.series(fmt::format("load.{}", m)); !one.empty()) loads.push_back(one);
-  }
-  return loads;
+Series ground_load(const Scenario& scenario, const Recording& r) {
+  const bool borne = scenario.base == Base::floating && !contact_elements(*scenario.robot, scenario.contact.on).empty();
+  return borne ? r.pose("load") : Series();
 }
 
 std::vector<Series> set_points(const Scenario& scenario, const Recording& r) {

@@ -1,5 +1,5 @@
 // Motion of the robot as a whole and limit cycle of its joints. They are computed at control ticks, so that results do not
-// depend on trace.period, or in folders of older formats at the rows of the trace.
+// depend on trace.period.
 #pragma once
 #include <string>
 #include <vector>
@@ -22,16 +22,9 @@ Motion motion(const Recording& record);
 /// rows, which is defined at any pitch of the base.
 double heading_change(const Motion& motion, std::size_t from, std::size_t to);
 
-/// True if the motion is at control ticks, because the recording contains set points, centre of mass and load there.
-bool motion_of_ticks(const Recording& record);
-
-/// Text `in this older folder limit cycle, judged time and the robot's way are of the trace's rows, one per 50 ms ...`. Empty
-/// if the motion is at control ticks, or if rows_sentence covers it.
-std::string motion_sentence(const Recording& record);
-
-/// Normal forces of the ground on the robot at the rows of the motion, N. Empty if they are not known, the base is not
-/// floating, or the robot has no contact elements.
-std::vector<Series> ground_loads(const Scenario& scenario, const Recording& record);
+/// Normal force of the ground on the robot at the rows of the motion, N. Empty if it is not known, the base is not floating, or
+/// the robot has no contact elements.
+Series ground_load(const Scenario& scenario, const Recording& record);
 
 /// Recorded set points of the joints with a motor, at the rows of the motion, rad.
 std::vector<Series> set_points(const Scenario& scenario, const Recording& record);

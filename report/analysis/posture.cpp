@@ -28,7 +28,7 @@ Posture posture(const Scenario& scenario, const Recording& r, const Judged& judg
   Posture found;
   const Motion m = motion(r);
   if (m.t.empty() || m.z.empty() || m.qx.empty() || m.qy.empty()) return found;
-  const std::vector<Series> loads = ground_loads(scenario, r);
+  const Series loads = ground_load(scenario, r);
   const double weight = scenario.robot->mass * scenario.physics.gravity.norm();
   std::size_t rows = 0;
   std::size_t airborne = 0;
@@ -36,8 +36,7 @@ Posture posture(const Scenario& scenario, const Recording& r, const Judged& judg
   double upright = 1;  // least cosine of the tilt
   for (std::size_t row = 0; row < m.t.size(); ++row) {
     if (!(m.t[row] > judged.from) || m.t[row] > judged.to) continue;
-    double load = 0;
-    for (const Series& one : loads) load += one[row];
+    const double load = loads.empty() ? 0 : loads[row];
     airborne += load < kAirborne * weight ? 1 : 0;
     borne += load;
     found.height_min = rows == 0 ? m.z[row] : std::min(found.height_min, m.z[row]);

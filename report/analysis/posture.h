@@ -1,5 +1,4 @@
-// Posture of the base in the judged window. It is computed from the control ticks after the window's start up to its end, or in
-// folders of older formats from the rows of the trace.
+// Posture of the base in the judged window. It is computed from the control ticks after the window's start up to its end.
 #pragma once
 #include <limits>
 

@@ -18,12 +18,10 @@ RobotState States::operator()(std::size_t row) const {
   return s;
 }
 
-bool states_of_ticks(const Recording& recording) { return recording.poses.rows() > 0; }
-
 States States::at_ticks(const Recording& recording, const Robot& robot) {
   const Trace& poses = recording.poses;
-  if (!states_of_ticks(recording)) return recording.has_states(robot) ? States(recording, robot) : States();
   States made;
+  if (poses.rows() == 0) return made;
   made.time_ = Series(poses, 0);
   for (std::size_t i = 0; i < made.base_.size(); ++i) made.base_[i] = Series(poses, 1 + i);
   for (std::size_t j = 0; j < robot.joints.size(); ++j) made.angles_.emplace_back(poses, 1 + made.base_.size() + j);

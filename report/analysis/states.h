@@ -12,8 +12,7 @@ class States {
  public:
   /// States at the rows of the trace; requires has_states(robot).
   States(const Recording& recording, const Robot& robot);
-  /// States at control ticks, so that results do not depend on trace.period, or in a folder of an older format at the rows of
-  /// the trace. No rows if the folder has neither.
+  /// States at control ticks, so that results do not depend on trace.period. No rows if only rows of the trace are left.
   static States at_ticks(const Recording& recording, const Robot& robot);
 
   [[nodiscard]] std::size_t size() const { return time_.size(); }
@@ -27,8 +26,5 @@ class States {
   std::array<Series, 7> base_;  ///< columns x, y, z, qw, qx, qy, qz
   std::vector<Series> angles_ = {};
 };
-
-/// True if States::at_ticks returns states at control ticks.
-bool states_of_ticks(const Recording& recording);
 
 }  // namespace gaitlab::report

@@ -213,10 +213,8 @@ PackedRows packed_rows(const std::vector<Signal>& signals, std::size_t rows, std
 }
 
 /// Adds the notes on what the page lacks to `missing`.
-void add_missing(std::vector<std::string>& missing, const Scenario& scenario, const Recording& r, const Verdict& verdict,
+void add_missing(std::vector<std::string>& missing, const Scenario& scenario, const Recording& r,
                  const std::vector<Signal>& signals, std::size_t stride) {
-  if (!verdict.of_rows.empty()) missing.push_back(verdict.of_rows);
-  if (!verdict.window_of_rows.empty()) missing.push_back(verdict.window_of_rows);
   if (r.rows() > 1) std::ranges::move(left_out(scenario, signals), std::back_inserter(missing));
   if (stride > 1) {
     missing.push_back(fmt::format(
@@ -270,7 +268,7 @@ PageData page_data(const Scenario& scenario, const Recording& r, const Summary& 
   const std::vector<Foot> feet = report::feet(scenario, r, loads);
   const std::vector<Signal> signals = report::signals(r, loads, feet, motors.kinds.empty() ? "" : motors.kinds[0].unit);
   PackedRows rows = packed_rows(signals, r.rows(), most);
-  add_missing(missing, scenario, r, verdict, signals, rows.stride);
+  add_missing(missing, scenario, r, signals, rows.stride);
   Json meta;
   add_run(meta, scenario, r, summary, rows.stride);
   add_robot(meta, scenario, tree, motors);

@@ -12,7 +12,8 @@
 namespace gaitlab::report {
 
 InputError no_verdict(const RemedyTask& task) {
-  return {SourceLocation{task.scenario.file}, "a remedy needs a verdict, but this run is not judged: " + task.verdict.reason};
+  return {SourceLocation{task.scenario.file},
+          "a remedy needs a verdict, but this run is not judged: " + task.verdict.reason.text};
 }
 
 Remedy remedy_of_finer_run(const RemedyTask& task, std::atomic<bool>& stop) {

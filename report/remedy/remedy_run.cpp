@@ -18,9 +18,8 @@ std::string name(const Check& check) { return texts::spaced(check.id) + (check.w
 std::string weakest(const Verdict& verdict) {
   const std::vector<const Check*> failures = verdict.failures();
   if (verdict.word == Word::not_judged) {
-    const auto close = std::ranges::find(verdict.checks, CheckStatus::too_close, &Check::status);
-    const bool only = failures.empty() && close != verdict.checks.end() && verdict.reason == close->text;
-    return only ? name(*close) + " is too close to its limit" : verdict.reason;
+    if (!failures.empty() || verdict.reason.code != ReasonCode::too_close) return verdict.reason.text;
+    return name(*std::ranges::find(verdict.checks, verdict.reason.check, &Check::id)) + " is too close to its limit";
   }
   const Check* const check = failures.empty() ? verdict.tightest() : failures.front();
   return check == nullptr ? "" : name(*check);

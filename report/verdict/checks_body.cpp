@@ -14,7 +14,6 @@
 #include "core/settings/wording.h"
 #include "report/analysis/cpg_alone.h"
 #include "report/analysis/motors.h"
-#include "report/analysis/row_statistics.h"
 #include "report/analysis/upright.h"
 #include "report/verdict/checks.h"
 #include "report/verdict/number_texts.h"
@@ -26,6 +25,11 @@ std::string threshold(const char* key, double value, double preset) {
 }
 
 namespace {
+
+/// Excess of a joint's angle beyond its range.
+struct BeyondRange {
+  double worst = 0, share = 0;  ///< largest excess, rad; share of the time beyond the range
+};
 
 constexpr double kHorizontal = std::numbers::pi / 2;  // rad
 constexpr const char* kNoPoses = "the run has no poses";
@@ -266,10 +270,11 @@ void judge_driven(const CheckedRun& run, const std::vector<BeyondRange>& joints,
 }  // namespace
 
 void stops(const CheckedRun& run, Check& made) {
-  std::vector<BeyondRange> joints = beyond_range(*run.scenario.robot, run.record);
+  std::vector<BeyondRange> joints;
+  for (const JointStatistics& joint : run.record.joints) joints.push_back({joint.range_worst, joint.range_share});
   made.text = kAllFaulty;
   if (leave_faulty_out(run, joints)) return;
-  made.text = "neither statistics of all steps were recorded nor the angle of every joint";
+  made.text = "statistics of all steps were not recorded";
   if (joints.empty() && !run.scenario.robot->joints.empty()) return;
   made.value = 0;
   judge(made, "beyond_range", &Limits::beyond_range, run);

@@ -22,9 +22,8 @@ namespace {
 // as large.
 constexpr double kLeastTravel = 0.01, kLeastTurn = 0.01;
 constexpr const char* kTooShort = "the run does not show the gait";
-constexpr double kMostCycleError = 0.02;  // equal to that in core/recording/limit_cycle.h
-constexpr const char* kTimes = "times";   // unit of a ratio of speeds
-constexpr double kSpeedsUp = 1.2;         // ratio of speeds of second and first half above which gravity drives the robot
+constexpr const char* kTimes = "times";  // unit of a ratio of speeds
+constexpr double kSpeedsUp = 1.2;        // ratio of speeds of second and first half above which gravity drives the robot
 
 /// Indices of control ticks in the judged window.
 struct Rows {

@@ -125,7 +125,7 @@ Saturated saturated(const CheckedRun& run, MotorLimit limit) {
     if (one.share > 0) ++made.joints;
     if (worse(one, made.worst)) made.worst = one;
     const double error = run.torque_error(j);
-    const bool known = error > 0 && error <= most_torque_error(run.limits());  // a larger error does not show anything
+    const bool known = error > 0 && error <= run.limits().most_torque_error();  // a larger error does not show anything
     const AtLimit wide = known ? at_limit(run, j, error, limit) : one;
     made.bars.push_back(bar_of(one, error, wide));
     if (known && wide.margin() < 0 && worse(wide, made.widest)) made.widest = wide;
@@ -203,7 +203,7 @@ void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn
       fmt::format("; joint {} is within the error of its torque, {}, of that limit for up to {} of the judged time, {} on end",
                   run.joint(found.widest->joint), texts::rough_percent(made.error), texts::share_of_time(found.widest->share),
                   time_on_end(found.widest->longest.length()));
-  const double error = std::max(made.error, most_torque_error(run.limits()));
+  const double error = std::max(made.error, run.limits().most_torque_error());
   made.remedy = "take " + torque_remedy(run.scenario, error);
   made.retry = finer_setting(run.scenario, error);
 }

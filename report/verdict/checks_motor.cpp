@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "core/settings/wording.h"
-#include "report/analysis/row_statistics.h"
 #include "report/verdict/checks.h"
 #include "report/verdict/load_checks.h"
 #include "report/verdict/number_texts.h"
@@ -18,11 +17,8 @@ namespace gaitlab::report {
 
 std::string CheckedRun::unknown(TickColumn column) const {
   if (!driven()) return "nothing drives the joints";
-  if (record.ticked() == 0 || record.ticks.rows() < 2)
-    return "statistics of all steps were not recorded: the folder is of an older format, or the run ended at once";
-  if (record.tick(0, column).empty()) return "the folder is of an older format, which does not contain this quantity";
-  const std::string lacks = record.ticks_of_rows ? lacking(record, *scenario.robot, column) : "";
-  return lacks.empty() ? "" : fmt::format("the trace has no column {}", lacks);
+  if (record.ticked() == 0 || record.ticks.rows() < 2) return "the run ended at once";
+  return record.tick(0, column).empty() ? "this quantity was not recorded" : "";
 }
 
 bool CheckedRun::faulty(std::size_t joint, CheckSpan span) const {

@@ -41,7 +41,7 @@ void torque_error(const CheckedRun& run, Check& made) {
   made.text = "the error of the torques was not estimated in this run";
   if (!error.estimated) return;
   made.value = error.share;
-  made.limit = most_torque_error(run.limits());
+  made.limit = run.limits().most_torque_error();
   made.source = threshold("torque_error", run.limits().torque_error, Limits().torque_error);
   warn_above(std::min(torque_error_limit(run.scenario), made.limit), made);
   made.part = Part::joint;
@@ -82,7 +82,7 @@ void ledger(const CheckedRun& run, Check& made) {
   made.limit = run.limits().energy_residual;
   made.source = threshold("energy_residual", made.limit, Limits().energy_residual);
   const double missing = std::abs(run.record.ledger.residual());
-  made.value = missing / energy_scale(run.scenario, run.record);
+  made.value = residual_share(run.scenario, run.record);
   warn_above(made.limit, made);
   made.text = fmt::format("{} of the energy is unaccounted for", texts::percent(made.value));
   if (made.status == CheckStatus::pass) return;
@@ -95,7 +95,7 @@ void created(const CheckedRun& run, Check& made) {
   if (!made.text.empty()) return;
   made.limit = run.limits().energy_created;
   made.source = threshold("energy_created", made.limit, Limits().energy_created);
-  made.value = texts::created(run.record) / energy_scale(run.scenario, run.record);
+  made.value = created_share(run.scenario, run.record);
   warn_above(made.limit, made);
   const std::string remedy = made.status == CheckStatus::warn ? no_created_energy(run.scenario) : "";
   made.text = fmt::format("gears that are driven backwards create {} of the energy (eq. 2){}{}", texts::percent(made.value),

@@ -66,7 +66,7 @@ auto entry(const List& list, double index) -> std::optional<std::decay_t<decltyp
 bool accurate(const Scenario& scenario, const Recording& record) {
   constexpr double kSmall = 0.2;  // share of the limit
   const TorqueError error = torque_error(record);
-  return error.estimated && error.share < kSmall * most_torque_error(scenario.limits) &&
+  return error.estimated && error.share < kSmall * scenario.limits.most_torque_error() &&
          predictability(scenario, record) == Predictability::predictable;
 }
 

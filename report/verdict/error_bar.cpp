@@ -23,7 +23,7 @@ void widen(const Scenario& scenario, std::span<const ErrorBar> bars, Check& made
   made.text += named.part == made.worst
                    ? fmt::format("; with the error of the torques {} of the limit", range)
                    : fmt::format("; joint {} takes, with the error of its torque, {} of its limit", named.part, range);
-  const double error = std::max(named.error, most_torque_error(scenario.limits));
+  const double error = std::max(named.error, scenario.limits.most_torque_error());
   made.remedy = "take " + torque_remedy(scenario, error);
   made.retry = finer_setting(scenario, error);
 }

@@ -151,11 +151,11 @@ std::string makes_energy(const Scenario& s) {
 
 void judge_trust(const Scenario& s, const Recording& r, Evidence& made, std::vector<std::string>& unknown) {
   const TorqueError error = torque_error(r);
-  const double residual = r.joints.empty() ? 0 : std::abs(r.ledger.residual()) / energy_scale(s, r);
+  const double residual = r.joints.empty() ? 0 : residual_share(s, r);
   const double coarse = s.physics.adapts() && r.simulated > 0 ? r.tally.coarse / r.simulated : 0;
   const bool driven = s.actuator.entry != nullptr && driven_joints(*s.robot) > 0;
   const bool chaotic = predictability(s, r) == Predictability::chaotic;
-  const double most_error = most_torque_error(s.limits);
+  const double most_error = s.limits.most_torque_error();
   if (made.not_trusted = {makes_energy(s), "actuator.Kt"}; !made.not_trusted.empty()) return;
   const char* const steps = s.physics.adapts() ? "physics.accuracy" : "physics.step";
   if (chaotic && r.spread.rows() == 0) {

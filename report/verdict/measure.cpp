@@ -134,14 +134,6 @@ std::vector<std::string> names_of_joints(const Robot& robot) {
   return names;
 }
 
-/// The deciding check and its part, as in `voltage of m5/passive`; the word of a verdict without one.
-std::string cause(const Verdict& verdict) {
-  const auto decisive = std::ranges::find(verdict.checks, verdict.decided_by, &Check::id);
-  if (decisive == verdict.checks.end()) return name_of(verdict.word);
-  const std::string check = texts::spaced(decisive->id);
-  return decisive->worst.empty() ? check : fmt::format("{} of {}", check, decisive->worst);
-}
-
 }  // namespace
 
 RunMeasure run_measure(const std::vector<std::string>& names, const Robot& robot) {
@@ -159,9 +151,11 @@ RunMeasure run_measure(const std::vector<std::string>& names, const Robot& robot
                                : of_verdict[k] ? of_verdict[k]->value(verdict)
                                                : std::nan(""));
     }
-    run.verdict = name_of(verdict.word);
+    run.verdict = verdict.word;
     run.why = verdict.why();
-    run.cause = cause(verdict);
+    run.check = verdict.decided_by;
+    const auto decisive = std::ranges::find(verdict.checks, verdict.decided_by, &Check::id);
+    if (decisive != verdict.checks.end()) run.part = decisive->worst;
     return run;
   };
   Records reads = kVerdictReads;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/recording/word.h"
 #include "report/verdict/quantities.h"
 #include "report/verdict/verdict.h"
 
@@ -27,10 +28,11 @@ std::optional<Quantity> find_quantity(const std::string& name, const Robot& robo
 std::optional<QuantityText> describe_quantity(const std::string& name, const Robot& robot);
 
 /// Result of a run: its quantities (NaN if not known), the word of its verdict, the reason for that word as a sentence, and the
-/// same in few words, as in `voltage of m5/passive`.
+/// id of the deciding check with its part, both empty without one.
 struct MeasuredRun {
   std::vector<double> quantities;
-  std::string verdict, why, cause = {};
+  Word verdict = Word::not_judged;
+  std::string why, check, part;
 };
 
 /// Function that computes the named quantities of a run, and the parts of the recording that it reads. An unknown quantity is

@@ -75,10 +75,10 @@ std::vector<SummaryNumber> motion_numbers() {
       {.key = "energy.residual_share",
        .definition = "Magnitude of `residual` over the energy drawn (or stored, or needed to lift the robot by "
                      "1 mm, if that is more).",
-       .value = [](R r) { return or_null(std::abs(r.record.ledger.residual()) / energy_scale(r.scenario, r.record)); }},
+       .value = [](R r) { return or_null(residual_share(r.scenario, r.record)); }},
       {.key = "energy.created_share",
        .definition = "`created` over the same energy.",
-       .value = [](R r) { return or_null(texts::created(r.record) / energy_scale(r.scenario, r.record)); }},
+       .value = [](R r) { return or_null(created_share(r.scenario, r.record)); }},
       {.key = "fell",
        .definition = "True if the centre of mass came below `limits.height` of its height above the ground at "
                      "the start and in the pose of its set points (the check `fall` of the verdict); null for a base that is "

@@ -14,10 +14,9 @@ namespace gaitlab::report::texts {
 namespace {
 
 constexpr double kMostShare = 10, kLeastShare = 1e-6;
-constexpr double kVisible = 1e-3;      // share of the energy drawn below which energies are not printed
-constexpr double kMuchCreated = 0.05;  // share of the energy drawn above which created energy is printed beside a cost
-constexpr std::size_t kWidth = 64;     // columns beside the titles, in a terminal of 80 columns
-constexpr double kNoTravel = 1e-3;     // m; on a shorter path the cost of transport is noise
+constexpr double kVisible = 1e-3;   // share of the energy drawn below which energies are not printed
+constexpr std::size_t kWidth = 64;  // columns beside the titles, in a terminal of 80 columns
+constexpr double kNoTravel = 1e-3;  // m; on a shorter path the cost of transport is noise
 
 }  // namespace
 
@@ -147,7 +146,9 @@ bool lossless(const RunData& run) {
 // Without the energy that gears create by eq. 2, the energy drawn would be larger by this share.
 std::string much_created(const RunData& run) {
   const double share = created(run.record) / run.record.ledger.electrical;
-  return share > kMuchCreated ? fmt::format("the gears create {} of the energy drawn (eq. 2)", percent(share)) : "";
+  return created_share(run.scenario, run.record) > run.scenario.limits.energy_created
+             ? fmt::format("the gears create {} of the energy drawn (eq. 2)", percent(share))
+             : "";
 }
 
 namespace {
@@ -285,7 +286,7 @@ Lines tracking(const RunData& run) {
 Lines drawn(const RunData& run) {
   if (!has_motors(run)) return {};
   const Ledger& l = run.record.ledger;
-  const double share = std::abs(l.residual()) / energy_scale(run.scenario, run.record);
+  const double share = residual_share(run.scenario, run.record);
   return {fmt::format("{:.4g} J drawn; {:.2g} J unaccounted for{}", l.electrical, std::abs(l.residual()),
                       share < 1 ? fmt::format(" ({:.2g} %)", 100 * share) : "")};
 }

@@ -95,8 +95,7 @@ std::vector<Finding> contacts(const Subject& subject) {
        {},
        {},
        {},
-       only_feet ? "take contact: {on: all}"
-                 : fmt::format("take contacts: {{all: shapes}} (module format 3) in {}", joined(files))}};
+       only_feet ? "take contact: {on: all}" : fmt::format("take contacts: {{all: shapes}} in {}", joined(files))}};
 }
 
 std::vector<Finding> frictions(const Subject& subject) {

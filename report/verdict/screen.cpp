@@ -136,9 +136,6 @@ std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict,
     title = "";
   }
   for (const std::string& fault : verdict.faults) screen.add("", fault, Tone::doubtful);
-  for (const std::string& rows : {verdict.of_rows, verdict.window_of_rows}) {
-    if (!rows.empty()) screen.add("rows", rows, Tone::doubtful);
-  }
   std::vector<std::string> grounds{verdict.figures};
   if (verdict.word != Word::feasible) grounds.push_back(verdict.conditions);  // else they are printed beside the word
   std::erase(grounds, "");

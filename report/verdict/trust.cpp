@@ -10,6 +10,7 @@
 #include "core/scenario/sensor_section.h"
 #include "core/settings/wording.h"
 #include "core/simulation/step_advice.h"
+#include "core/simulation/step_error.h"
 #include "report/analysis/summary.h"
 #include "report/verdict/number_texts.h"
 
@@ -18,7 +19,6 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kGood = 0.01;           // share of a torque's peak
-constexpr double kLeastPeak = 0.02;      // share of the largest torque of all joints; a joint's peak counts as at least this
 constexpr double kLeastAccuracy = 1e-6;  // least value that a scenario may request
 constexpr double kHeight = 1e-3;         // m, height to which least_energy() lifts the robot
 constexpr double kMargin = 2;            // factor by which a remedy is stricter than necessary
@@ -34,7 +34,7 @@ double one_digit(double value) {
 std::string finer_setting(const Scenario& s, double share) {
   if (quantised(s)) return "";
   const Physics& physics = s.physics;
-  const double ratio = std::min({kGood, torque_error_limit(s), most_torque_error(s.limits)}) / share / kMargin;
+  const double ratio = std::min({kGood, torque_error_limit(s), s.limits.most_torque_error()}) / share / kMargin;
   if (physics.adapts())
     return fmt::format("physics.accuracy={:.1g}", std::max(one_digit(physics.accuracy * ratio), kLeastAccuracy));
   const int order = std::max(1, physics.integrator->order);
@@ -61,7 +61,7 @@ std::vector<double> torque_errors(const Recording& r) {
   if (!r.tally.estimated || !(largest > 0)) return {};
   std::vector<double> shares;
   for (std::size_t j = 0; j < r.joints.size(); ++j)
-    shares.push_back(r.tally.torque_error[j] / std::max(r.tally.torque_peak[j], kLeastPeak * largest));
+    shares.push_back(r.tally.torque_error[j] / std::max(r.tally.torque_peak[j], StepError::kLeastPeak * largest));
   return shares;
 }
 
@@ -136,10 +136,9 @@ double energy_scale(const Scenario& s, const Recording& r) {
   return std::max({std::abs(r.ledger.electrical), std::abs(r.ledger.stored), least_energy(s)});
 }
 
-double most_torque_error(const Limits& limits) {
-  constexpr double kMost = 0.1;
-  return std::min(limits.torque_error, kMost);
-}
+double residual_share(const Scenario& s, const Recording& r) { return std::abs(r.ledger.residual()) / energy_scale(s, r); }
+
+double created_share(const Scenario& s, const Recording& r) { return texts::created(r) / energy_scale(s, r); }
 
 double torque_error_limit(const Scenario& s) { return s.physics.adapts() ? s.physics.accuracy : kGood; }
 double predictability_limit(const Scenario& s) { return s.physics.adapts() ? std::max(kGood, s.physics.accuracy) : kGood; }

@@ -19,10 +19,6 @@ TorqueError torque_error(const Recording& record);
 /// Torque error of each joint, as a share of its largest torque; empty if it was not estimated.
 std::vector<double> torque_errors(const Recording& record);
 
-/// Largest torque error of a run that is judged: limits.torque_error, and at most 10 %, because with a larger error neither
-/// torques nor motion are known.
-double most_torque_error(const Limits& limits);
-
 /// Sensitivity of the torques to a relative change of gravity. `chaotic`: a change of 1e-9 alters a torque by more than
 /// predictability_limit. `ill` (ill-conditioned): a change of 1e-6 does, computed in proportion from 1e-9. `predictable`:
 /// neither does. `unknown`: not tested, or gravity has no effect on the torques.
@@ -59,5 +55,9 @@ double least_energy(const Scenario& scenario);
 
 /// Energy to which the residual of the ledger is compared, J: the largest of energy drawn, energy stored, and least_energy.
 double energy_scale(const Scenario& scenario, const Recording& record);
+/// Magnitude of the residual of the ledger over that energy.
+double residual_share(const Scenario& scenario, const Recording& record);
+/// Energy that the gears create over that energy.
+double created_share(const Scenario& scenario, const Recording& record);
 
 }  // namespace gaitlab::report

@@ -9,10 +9,7 @@
 #include <utility>
 
 #include "core/settings/wording.h"
-#include "report/analysis/motion.h"
 #include "report/analysis/plugin_names.h"
-#include "report/analysis/row_statistics.h"
-#include "report/analysis/states.h"
 #include "report/verdict/checks.h"
 #include "report/verdict/draws.h"
 #include "report/verdict/instability.h"
@@ -24,12 +21,8 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr std::string_view kOverAllSteps = ", over all steps";
-constexpr std::string_view kAtTicks = ", at control ticks";
-
-void replace_end(std::string& text, std::string_view end, std::string_view by) {
-  if (text.ends_with(end)) text.replace(text.size() - end.size(), end.size(), by);
-}
+constexpr const char* kRowsAlone =
+    "only the rows of the trace are left, which miss the peaks between them; gaitlab rerun takes every step";
 
 /// Key by which failing checks are ordered. Checks of the robot as a whole come first, because a fallen robot has no gait; then
 /// the check with the least margin.
@@ -67,25 +60,28 @@ void take_spread(const Trace& spread, Check& made) {
   made.remedy = "judge several runs with other seeds or starts";
 }
 
-/// Reason why the verdict is `not judged`, with or without failing checks. Empty if there is none.
-std::string not_judged(const CheckedRun& run, const std::vector<Check>& checks) {
+/// Reason why the verdict is `not judged`, with or without failing checks; ReasonCode::none if there is none.
+Reason not_judged(const CheckedRun& run, const std::vector<Check>& checks) {
   const Evidence& found = run.evidence;
   const Check* const failing = worst_of(checks, fails);
   if (const std::vector<const Lack*> lacks = found.lacks(); !lacks.empty()) {
     std::string text = lacks.front()->sentence();
     for (std::size_t k = 1; k < lacks.size(); ++k) text += "; and " + lacks[k]->sentence();
-    return text + (failing == nullptr ? "" : "; so far: " + failing->sentence());
+    if (failing == nullptr) return {ReasonCode::lacks, text};
+    return {ReasonCode::lacks, text + "; so far: " + failing->sentence(), failing->id};
   }
-  if (const Check* const close = worst_of(checks, too_close)) return close->text;
+  if (const Check* const close = worst_of(checks, too_close)) return {ReasonCode::too_close, close->text, close->id};
   const auto judged = [](const Check& c) { return c.status != CheckStatus::not_judged; };
   if (std::ranges::none_of(checks, [&](const Check& c) { return c.group == CheckGroup::motor && judged(c); }))
-    return run.driven() ? "no limit of the motors is known" : "nothing drives the joints";
+    return run.driven() ? Reason{ReasonCode::no_limit, "no limit of the motors is known"}
+                        : Reason{ReasonCode::not_driven, "nothing drives the joints"};
   if (run.scenario.base != Base::floating || !run.scenario.ground.exists() || run.scenario.contact.model().keeps_bodies_apart)
-    return "";
+    return {};
   for (const Check& check : checks) {
-    if ((check.id == "fall" || check.id == "in_ground") && !judged(check)) return check.id + " was not judged: " + check.text;
+    if ((check.id == "fall" || check.id == "in_ground") && !judged(check))
+      return {ReasonCode::open, check.id + " was not judged: " + check.text, check.id};
   }
-  return "";
+  return {};
 }
 
 /// Sets Verdict::retry to the settings that supply all missing evidence, or decide the check that is too close.
@@ -106,12 +102,15 @@ void decide(const CheckedRun& run, Verdict& made) {
     return fails(check) && (found.not_shown.empty() || check.span == CheckSpan::whole_run) &&
            (found.not_trusted.empty() || (found.inexact && check.certain));
   };
-  if (made.checks.front().status == CheckStatus::fail) {
+  if (run.record.rows_alone()) {
+    made.word = Word::not_judged;
+    made.reason = {ReasonCode::rows_alone, kRowsAlone};
+  } else if (made.checks.front().status == CheckStatus::fail) {
     made.word = Word::failed;
     made.decided_by = worst_of(made.checks, fails)->id;
   } else if (!found.not_possible.empty()) {
     made.word = Word::not_judged;
-    made.reason = found.not_possible.sentence();
+    made.reason = {ReasonCode::impossible, found.not_possible.sentence()};
   } else if (const Check* const deciding = worst_of(made.checks, decides); deciding != nullptr) {
     made.word = Word::infeasible;
     made.decided_by = deciding->id;
@@ -119,7 +118,7 @@ void decide(const CheckedRun& run, Verdict& made) {
       made.checks[static_cast<std::size_t>(deciding - made.checks.data())].text += fmt::format(
           "; certain, though torques are off by up to about {}", texts::rough_percent(torque_error(run.record).share));
     }
-  } else if (made.reason = not_judged(run, made.checks); !made.reason.empty()) {
+  } else if (made.reason = not_judged(run, made.checks); made.reason.code != ReasonCode::none) {
     made.word = Word::not_judged;
     take_retry(found, made);
   } else {
@@ -171,7 +170,7 @@ std::string Check::sentence() const {
 
 std::string Verdict::why() const {
   if (!unstable.empty()) return unstable;
-  if (word == Word::not_judged) return reason;
+  if (word == Word::not_judged) return reason.text;
   const auto decisive = std::ranges::find(checks, decided_by, &Check::id);
   if (decisive == checks.end()) return "";
   return decisive->sentence();
@@ -205,7 +204,7 @@ void leave_passes_out(Verdict& made) {
 }
 
 /// Computes the check of a kind for the run.
-Check judged_check(const CheckKind& kind, const CheckedRun& run, bool of_rows) {
+Check judged_check(const CheckKind& kind, const CheckedRun& run) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   Check check{.id = kind.id,
               .group = kind.group,
@@ -221,8 +220,10 @@ Check judged_check(const CheckKind& kind, const CheckedRun& run, bool of_rows) {
               .first = kNone,
               .definition = kind.definition,
               .place = run.scenario.nearest_place(kind.key)};
-  if (!states_of_ticks(run.record)) replace_end(check.definition, kAtTicks, ", at trace rows");
-  if (of_rows) replace_end(check.definition, kOverAllSteps, ", over the rows of the trace");
+  if (run.record.rows_alone()) {
+    check.text = kRowsAlone;
+    return check;
+  }
   kind.judge(run, check);
   take_spread(run.record.spread, check);
   if (check.criteria.empty()) check.margin = Criterion{check.value, check.limit, check.unit, check.least}.margin();
@@ -241,10 +242,8 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
   std::vector<std::string> docks;
   made.from = summary.judged.from;
   made.to = summary.judged.to;
-  made.of_rows = rows_sentence(record);
-  made.window_of_rows = motion_sentence(record);
   for (const CheckKind& kind : check_kinds()) {
-    Check check = judged_check(kind, run, !made.of_rows.empty());
+    Check check = judged_check(kind, run);
     const bool judged = check.status != CheckStatus::not_judged;
     if (judged && check.group == CheckGroup::motor) motors = {run.motor_source};
     if (judged && check.id.starts_with("dock_")) docks.push_back(check.source);

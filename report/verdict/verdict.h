@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/names.h"
+#include "core/recording/word.h"
 #include "report/analysis/collisions.h"
 #include "report/analysis/summary.h"
 #include "report/verdict/check.h"
@@ -13,14 +14,16 @@
 namespace gaitlab {
 
 namespace report {
-enum class Word { feasible, infeasible, not_judged, failed };
-}
+/// Why a verdict is `not judged`.
+enum class ReasonCode { none, rows_alone, impossible, lacks, too_close, no_limit, not_driven, open };
+}  // namespace report
 
 template <>
-struct EnumNames<report::Word> {
-  using enum report::Word;
-  static constexpr EnumName<report::Word> kTable[] = {
-      {feasible, "feasible"}, {infeasible, "infeasible"}, {not_judged, "not judged"}, {failed, "failed"}};
+struct EnumNames<report::ReasonCode> {
+  using enum report::ReasonCode;
+  static constexpr EnumName<report::ReasonCode> kTable[] = {
+      {none, "none"},           {rows_alone, "rows alone"}, {impossible, "impossible"}, {lacks, "lacks"},
+      {too_close, "too close"}, {no_limit, "no limit"},     {not_driven, "not driven"}, {open, "open"}};
 };
 
 }  // namespace gaitlab
@@ -49,6 +52,12 @@ struct Draw {
   std::vector<FailedCheck> failing = {};
 };
 
+struct Reason {
+  ReasonCode code = ReasonCode::none;
+  std::string text = {};   ///< sentence with all missing evidence, and the settings to change; empty if there is a word
+  std::string check = {};  ///< id of the check that the sentence names: too close to its limit, failing so far, or not judged
+};
+
 struct Verdict {
   /// - failed: the run ended early.
   /// - infeasible: no number of the scenario is impossible (plausibility.h), and a check fails; if the torque error exceeds its
@@ -57,7 +66,7 @@ struct Verdict {
   ///   `fall` and `in_ground`, and the evidence is complete (evidence.h).
   /// - not judged: none of these, or the run is too short and each failing check could pass in a longer run.
   Word word = Word::not_judged;
-  std::string reason = {};  ///< why the verdict is `not judged`: all missing evidence, and the settings to change
+  Reason reason = {};
   /// Settings that should give a `not judged` run a verdict, in the form of --set; empty if none are known.
   std::vector<std::string> retry = {};
   bool retry_is_finer = false;  ///< true if these only make the simulation more accurate
@@ -73,11 +82,6 @@ struct Verdict {
   std::string figures = {};      ///< sentence on the sources of motor and dock values (motors.h): `motors: chosen figures`
   std::string first_joint = {};  ///< joint that was first at a motor limit in the whole run; empty if none
   double first_time = 0;         ///< s, time when `first_joint` was at its limit
-  /// Note that peaks, shares and durations are from the rows of the trace, because the folder contains nothing else. Empty if
-  /// they are from all steps.
-  std::string of_rows = {};
-  std::string window_of_rows = {};        ///< note of motion_sentence for a folder of an older format; empty if the motion is
-                                          ///< from control ticks
   std::vector<JointDemand> demands = {};  ///< empty if no joint reaches a limit, or if the demand was not computed
   std::string demand_doubt = {};          ///< reason why the demands are unknown or doubtful; empty otherwise
   /// Id of the deciding check of `failed` and `infeasible`. Among the checks that cause the word it is one of the robot as a
@@ -100,8 +104,8 @@ struct Verdict {
   [[nodiscard]] std::string why() const;
 };
 
-/// Judges a run. Shares, peaks and durations are from all steps (Recording::ticks) or, if these are missing, from the rows of
-/// the trace (row_statistics.h). Thresholds are those of the scenario's `limits`. A quantity whose limit is not stated is not
+/// Judges a run. Shares, peaks and durations are from all steps (Recording::ticks); without these,
+/// nothing is judged. Thresholds are those of the scenario's `limits`. A quantity whose limit is not stated is not
 /// judged.
 Verdict verdict(const Scenario& scenario, const Recording& record, const Summary& summary, const Overlaps& overlaps);
 

@@ -95,9 +95,13 @@ Json demand_of(const Verdict& verdict) {
 
 std::string to_json(const Verdict& verdict) {
   Json json;
-  json["format"] = 2;
+  json["format"] = 1;
   json["verdict"] = name_of(verdict.word);
-  json["reason"] = verdict.reason;
+  json["reason"] = verdict.reason.text;
+  if (verdict.reason.code != ReasonCode::none) json["reason_code"] = name_of(verdict.reason.code);
+  if (!verdict.reason.check.empty()) json["reason_check"] = verdict.reason.check;
+  json["failures"] = Json::array();
+  for (const Check* const check : verdict.failures()) json["failures"].push_back(check->id);
   if (!verdict.unstable.empty()) json["unstable"] = verdict.unstable;
   if (!verdict.retry.empty()) json["retry"] = verdict.retry;
   const Check* const tightest = verdict.tightest();
@@ -107,10 +111,7 @@ std::string to_json(const Verdict& verdict) {
   json["chosen_motors"] = verdict.chosen_motors;
   json["chosen_docks"] = verdict.chosen_docks;
   json["figures"] = verdict.figures;
-  json["statistics"] = verdict.of_rows.empty() ? "all steps" : "rows";
-  if (!verdict.of_rows.empty()) json["statistics_text"] = verdict.of_rows;
   json["window"] = {{"from", verdict.from}, {"to", verdict.to}};
-  if (!verdict.window_of_rows.empty()) json["window"]["text"] = verdict.window_of_rows;
   json["first"] = verdict.first_joint.empty() ? Json() : Json{{"joint", verdict.first_joint}, {"time", verdict.first_time}};
   json["events"] = events_of(verdict);
   Json counts;

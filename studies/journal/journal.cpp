@@ -98,7 +98,7 @@ void Journal::bind(Statement& insert, const Row& row) const {
     }
   }
   for (std::size_t k = 0; k < head_.quantities.size(); ++k) add(k < row.quantities.size() ? row.quantities[k] : std::nan(""));
-  add(row.verdict);
+  add(std::string(name_of(row.verdict)));
   for (std::size_t k = 0; k < head_.objectives.size(); ++k) add(row.score ? row.score->objectives[k] : std::nan(""));
   add(row.score ? row.score->violation : std::nan(""));
   add(std::int64_t{row.score && row.score->kept()});
@@ -160,7 +160,9 @@ void Journal::each_brief(const std::function<void(const Brief&)>& take) {
         brief.score->objectives[k] = all.null(at) ? std::nan("") : all.number(at);
       }
     }
-    brief.verdict = all.text(5);
+    const std::optional<Word> word = named<Word>(all.text(5));
+    if (!word) throw InputError(SourceLocation{file_.string()}, "has a verdict that is no word: " + clipped(all.text(5)));
+    brief.verdict = *word;
     take(brief);
   }
 }

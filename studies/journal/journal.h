@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "core/names.h"
+#include "core/recording/word.h"
 #include "studies/journal/database.h"
 #include "studies/study/scorer.h"
 
@@ -27,9 +29,9 @@ struct Row {
   double simulated = 0;             ///< simulated time, s
   std::vector<std::string> values;  ///< values of the parameters, then of the random draws
   std::vector<double> quantities;   ///< quantities by column; empty if not known
-  std::string verdict;
+  Word verdict = Word::failed;
   std::optional<Score> score = {};
-  std::string cause = {};  ///< the reason in few words, as in `voltage of m5/passive`; the journal does not hold it
+  Cause cause = {};  ///< the check that decided the verdict; the journal does not hold it
 };
 
 /// A parameter, or a key that is drawn for every replicate, as stored in the journal.
@@ -63,6 +65,10 @@ struct JournalHead {
   std::vector<std::string> shown;  ///< names of the quantities that tables and figures show
   std::vector<Limit> limits;
   bool guarded = true;
+  std::string method;               ///< name of the method, or `asked`
+  bool told = false;                ///< true if another program gives the results
+  double torque_error = 0.05;       ///< Limits::most_torque_error() of the scenarios, the least
+  std::vector<std::string> worlds;  ///< names of the worlds of a robust study, one for each replicate from 1 on
 };
 
 /// A generation of a search whose points have all ended.
@@ -75,14 +81,44 @@ struct Generation {
   double spread = 0;  ///< largest deviation of a coordinate, as a share of the range of its parameter
 };
 
+/// Kind of a further run of one of the best points.
+enum class TrialKind { as_run, half_step, other_engine, quarter_step, limit, dead_joint, world, drawn_world, worlds };
+
+}  // namespace gaitlab::studies
+
+namespace gaitlab {
+
+template <>
+struct EnumNames<studies::TrialKind> {
+  using enum studies::TrialKind;
+  static constexpr EnumName<studies::TrialKind> kTable[] = {{as_run, "as run"},
+                                                            {half_step, "half step"},
+                                                            {other_engine, "other engine"},
+                                                            {quarter_step, "quarter step"},
+                                                            {limit, "limit"},
+                                                            {dead_joint, "dead joint"},
+                                                            {world, "world"},
+                                                            {drawn_world, "drawn world"},
+                                                            {worlds, "worlds"}};
+};
+
+}  // namespace gaitlab
+
+namespace gaitlab::studies {
+
 /// Result of another run of one of the best points, such as a run with half the step or in another engine.
 struct Verification {
   std::uint64_t run = 0;  ///< first run of the point
-  std::string what;       ///< kind of run, such as `as run`, `half step`, or the name of an engine
+  TrialKind kind = TrialKind::as_run;
+  std::string name;  ///< the engine, joint or world; empty for the other kinds
   std::vector<double> objectives;
   double violation = 0;
-  std::string verdict;  ///< verdict of the first infeasible replicate; without such a replicate, verdict of the first replicate
-  std::string reason;   ///< reason why the run does not verify the point; "" if the point is verified
+  Word verdict =
+      Word::failed;    ///< verdict of the first infeasible replicate; without such a replicate, verdict of the first replicate
+  std::string reason;  ///< reason why the run does not verify the point; "" if the point is verified
+  std::string check = {};  ///< id of the check that decided the verdict in a world where the point falls; "" if none did
+  /// Kind and name: `half step`, `bullet at a quarter of its step`, `m3/active dead`, `world supply -10 % (6.66 V)`.
+  [[nodiscard]] std::string what() const;
 };
 
 /// Effort of packs of runs. Only these data of a journal differ from machine to machine.
@@ -102,9 +138,7 @@ struct RunColumns {
   explicit RunColumns(const JournalHead& head);
   std::vector<std::string> parameters, quantities, objectives;
   bool scenario = false;  ///< true if the table has a column `scenario`
-  /// Column that states if a run is kept: `kept`, or `feasible` in journals of older programs, whose quantities lack that name.
-  std::string kept;
-  std::string sql;  ///< statement that creates the table
+  std::string sql;        ///< statement that creates the table
   [[nodiscard]] std::vector<std::string> all() const;
 };
 
@@ -114,7 +148,7 @@ struct Brief {
   std::string outcome, message;
   double simulated = 0;
   std::optional<Score> score = {};
-  std::string verdict = {};
+  Word verdict = Word::failed;
 };
 
 /// The present time in UTC, as in 2026-01-31T23:59:59Z.

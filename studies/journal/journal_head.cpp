@@ -18,6 +18,7 @@ namespace {
 constexpr std::array kBefore{"run", "point", "replicate", "seed", "outcome", "message", "simulated"};
 constexpr const char* kScenario = "scenario";
 constexpr const char* kViolation = "violation";
+constexpr const char* kKept = "kept";
 constexpr std::uint64_t kMostRuns = 4'000'000'000;  // a journal with more was not written by this program
 
 std::string lower(std::string text) {
@@ -45,11 +46,9 @@ std::vector<std::string> joined_values(const std::string& text) {
 
 std::string objective_column(std::size_t number) { return fmt::format("objective.{}", number + 1); }
 
-RunColumns::RunColumns(const JournalHead& head)
-    : scenario(!head.scenarios.empty()),
-      kept(std::ranges::find(head.quantities, "feasible", &Quantity::name) == head.quantities.end() ? "feasible" : "kept") {
+RunColumns::RunColumns(const JournalHead& head) : scenario(!head.scenarios.empty()) {
   std::set<std::string> taken(kBefore.begin(), kBefore.end());
-  taken.insert({kViolation, kept});
+  taken.insert({kViolation, kKept});
   taken.insert("verdict");
   if (scenario) taken.insert(kScenario);
   for (std::size_t k = 0; k < head.objectives.size(); ++k) objectives.push_back(*taken.insert(objective_column(k)).first);
@@ -73,7 +72,7 @@ RunColumns::RunColumns(const JournalHead& head)
   }
   sql += ", verdict TEXT NOT NULL";
   for (const std::string& objective : objectives) sql += ", " + identifier(objective) + " REAL";
-  sql += fmt::format(", {} REAL, {} INTEGER NOT NULL) STRICT", kViolation, kept);
+  sql += fmt::format(", {} REAL, {} INTEGER NOT NULL) STRICT", kViolation, kKept);
 }
 
 std::vector<std::string> RunColumns::all() const {
@@ -83,7 +82,7 @@ std::vector<std::string> RunColumns::all() const {
   names.insert(names.end(), quantities.begin(), quantities.end());
   names.emplace_back("verdict");
   names.insert(names.end(), objectives.begin(), objectives.end());
-  names.insert(names.end(), {kViolation, kept});
+  names.insert(names.end(), {kViolation, kKept});
   return names;
 }
 
@@ -110,7 +109,7 @@ void insert_parameters(Database& database, const JournalHead& head, const RunCol
 }
 
 void insert_quantities(Database& database, const JournalHead& head, const RunColumns& columns) {
-  Statement quantity = database.prepare("INSERT INTO figure VALUES(?,?,?,?,?,?)");
+  Statement quantity = database.prepare("INSERT INTO quantity VALUES(?,?,?,?,?,?)");
   for (std::size_t k = 0; k < head.quantities.size(); ++k) {
     const Quantity& f = head.quantities[k];
     const auto shown = std::ranges::find(head.shown, f.name) - head.shown.begin();
@@ -141,14 +140,14 @@ void Journal::create() {
   database_.execute(fmt::format("PRAGMA user_version = {}", kSchema));
   for (const JournalTable& table : kTables) database_.execute(table.sql);
   database_.execute(columns_.sql);
-  database_.execute("CREATE VIEW best AS SELECT * FROM run WHERE " + columns_.kept + (" = 1 ORDER BY \"objective.1\" ") +
-                    (head_.objectives.front().maximize ? "DESC" : "ASC") + ", run");
+  database_.execute("CREATE VIEW best AS SELECT * FROM run WHERE kept = 1 ORDER BY \"objective.1\" " +
+                    std::string(head_.objectives.front().maximize ? "DESC" : "ASC") + ", run");
   database_.execute(
       fmt::format("CREATE VIEW point AS SELECT run / {0} * {0} AS first_run, count(*) AS runs, avg(verdict = 'feasible') AS "
                   "feasible_share FROM run "
                   "GROUP BY run / {0}",
                   head_.replicates));
-  database_.prepare("INSERT INTO study VALUES(?,?,?,?,?,?,?,?,?,?,?,?)")
+  database_.prepare("INSERT INTO study VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")
       .bind(0, head_.name)
       .bind(1, utc_now())
       .bind(2, head_.build)
@@ -161,6 +160,10 @@ void Journal::create() {
       .bind(9, head_.combine)
       .bind(10, head_.quantile)
       .bind(11, std::int64_t{head_.guarded})
+      .bind(12, head_.method)
+      .bind(13, std::int64_t{head_.told})
+      .bind(14, head_.torque_error)
+      .bind(15, split_values(head_.worlds))
       .run();
   insert_parameters(database_, head_, columns_);
   insert_quantities(database_, head_, columns_);
@@ -189,6 +192,10 @@ JournalHead read_study(Database& database, const std::filesystem::path& file) {
   head.combine = study.text(9);
   head.quantile = study.number(10);
   head.guarded = study.integer(11) != 0;
+  head.method = study.text(12);
+  head.told = study.integer(13) != 0;
+  head.torque_error = study.number(14);
+  head.worlds = joined_values(study.text(15));
   const bool even = head.scenarios.empty() || head.replicates % head.scenarios.size() == 0;
   if (head.runs > kMostRuns || head.replicates == 0 || head.replicates > kMostRuns || !even)
     refuse(file, std::string(kForeign) + "its numbers of runs are out of range");
@@ -203,7 +210,7 @@ void read_lists(Database& database, const std::filesystem::path& file, JournalHe
     head.parameters.push_back({parameter.text(2), kind.ends_with("word"), kind.starts_with("drawn"), parameter.number(4),
                                parameter.number(5), parameter.text(6) == "log", joined_values(parameter.text(7))});
   }
-  Statement quantity = database.prepare("SELECT * FROM figure ORDER BY number");
+  Statement quantity = database.prepare("SELECT * FROM quantity ORDER BY number");
   std::vector<std::pair<std::int64_t, std::string>> shown;
   while (quantity.step()) {
     head.quantities.push_back({quantity.text(2), quantity.text(3), quantity.text(4)});

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/settings/wording.h"
 #include "studies/journal/journal.h"
 
 namespace gaitlab::studies {
@@ -37,15 +38,36 @@ std::vector<Generation> Journal::generations() {
   return all;
 }
 
+std::string Verification::what() const {
+  switch (kind) {
+    case TrialKind::other_engine:
+      return name;
+    case TrialKind::quarter_step:
+      return name + " at a quarter of its step";
+    case TrialKind::dead_joint:
+      return name + " dead";
+    case TrialKind::world:
+    case TrialKind::drawn_world:
+      return "world " + name;
+    default:
+      return name_of(kind);
+  }
+}
+
 void Journal::write(std::span<const Verification> verifications) {
   Transaction transaction(database_);
   database_.execute("DELETE FROM verification");
-  Statement insert = database_.prepare("INSERT INTO verification VALUES(NULL,?,?,?,?,?,?,?,?,?)");
+  Statement insert = database_.prepare("INSERT INTO verification VALUES(NULL,?,?,?,?,?,?,?,?,?,?,?)");
   for (const Verification& v : verifications) {
-    insert.bind(0, static_cast<std::int64_t>(v.run)).bind(1, v.what);
+    insert.bind(0, static_cast<std::int64_t>(v.run)).bind(1, std::string(name_of(v.kind))).bind(2, v.name);
     for (std::size_t k = 0; k < kMostObjectives; ++k)
-      insert.bind(2 + static_cast<int>(k), k < v.objectives.size() ? v.objectives[k] : std::nan(""));
-    insert.bind(5, v.violation).bind(6, v.verdict).bind(7, std::int64_t{v.reason.empty()}).bind(8, v.reason).run();
+      insert.bind(3 + static_cast<int>(k), k < v.objectives.size() ? v.objectives[k] : std::nan(""));
+    insert.bind(6, v.violation)
+        .bind(7, std::string(name_of(v.verdict)))
+        .bind(8, std::int64_t{v.reason.empty()})
+        .bind(9, v.reason)
+        .bind(10, v.check);
+    insert.run();
   }
   transaction.commit();
 }
@@ -54,9 +76,13 @@ std::vector<Verification> Journal::verifications() {
   std::vector<Verification> all;
   Statement rows = database_.prepare("SELECT * FROM verification ORDER BY number");
   while (rows.step()) {
-    Verification v{count_at(rows, 1), rows.text(2), {}, number_at(rows, 6), rows.text(7), rows.text(9)};
-    for (std::size_t k = 0; k < head_.objectives.size(); ++k) v.objectives.push_back(number_at(rows, 3 + static_cast<int>(k)));
-    if (rows.integer(8) == 0 && v.reason.empty()) v.reason = "not verified";
+    const std::optional<TrialKind> kind = named<TrialKind>(rows.text(2));
+    const std::optional<Word> word = named<Word>(rows.text(8));
+    if (!word) throw InputError(SourceLocation{file_.string()}, "has a verdict that is no word: " + clipped(rows.text(8)));
+    if (!kind) throw InputError(SourceLocation{file_.string()}, "has a verification of another kind: " + clipped(rows.text(2)));
+    Verification v{count_at(rows, 1), *kind, rows.text(3), {}, number_at(rows, 7), *word, rows.text(10), rows.text(11)};
+    for (std::size_t k = 0; k < head_.objectives.size(); ++k) v.objectives.push_back(number_at(rows, 4 + static_cast<int>(k)));
+    if (rows.integer(9) == 0 && v.reason.empty()) v.reason = "not verified";
     all.push_back(std::move(v));
   }
   return all;

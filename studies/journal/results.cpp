@@ -52,8 +52,8 @@ PointResult point_result(const JournalHead& head, std::span<const Brief> runs) {
   std::array<std::vector<double>, kMostObjectives> bad;  // values per objective; larger is worse
   std::vector<double> violation;
   for (const Brief& run : runs) {
-    if (run.verdict == "feasible") ++point.feasible_runs;
-    if (run.verdict == "infeasible") ++point.infeasible_runs;
+    if (run.verdict == Word::feasible) ++point.feasible_runs;
+    if (run.verdict == Word::infeasible) ++point.infeasible_runs;
     if (run.outcome != "done" || !run.score) {
       point.lived = point.failed == 0 ? run.simulated : std::min(point.lived, run.simulated);
       ++point.failed;
@@ -105,7 +105,7 @@ Results results(Journal& journal) {
   journal.each_brief([&](const Brief& run) {
     ++results.runs;
     if (run.score && run.score->kept()) ++results.kept_runs;
-    if (run.verdict == "feasible") ++results.feasible_runs;
+    if (run.verdict == Word::feasible) ++results.feasible_runs;
     if (run.outcome != "done") {
       Failures::One& one = results.failures.by_outcome[run.outcome];
       if (one.count++ == 0) one = {1, run.run, run.message};
@@ -119,11 +119,12 @@ Results results(Journal& journal) {
 void Estimated::add(double share) {
   ++runs;
   worst = std::max(worst, share);
-  for (std::size_t k = 0; k < kShares.size(); ++k) beyond[k] += share > kShares[k] ? 1 : 0;
+  beyond_small += share > kSmall ? 1 : 0;
+  beyond_most += share > most ? 1 : 0;
 }
 
 Estimated estimated(Journal& journal) {
-  Estimated found;
+  Estimated found{.most = journal.head().torque_error};
   const std::string column = journal.column_of(kTorqueError);
   if (column.empty()) return found;
   journal.each_numbers({column}, [&](std::span<const double> values) {

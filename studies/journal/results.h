@@ -40,19 +40,20 @@ PointResult point_result(const JournalHead& head, std::span<const Brief> runs);
 
 Results results(Journal& journal);
 
-/// Number of runs with an estimated torque error, and number of estimates above each share in `kShares`. If `estimate_every` is
-/// 1, every run has an estimate, provided that the engine offers it.
+/// Number of runs with an estimated torque error, and number of estimates above 1 % and above the largest error of a run that
+/// is judged. If `estimate_every` is 1, every run has an estimate, provided that the engine offers it.
 struct Estimated {
-  static constexpr std::array kShares{0.01, 0.02, 0.05};
+  static constexpr double kSmall = 0.01;
+  double most = 0.05;                  ///< JournalHead::torque_error
   std::uint64_t runs = 0, others = 0;  ///< number of runs with an estimate, and number of runs without
-  std::array<std::uint64_t, kShares.size()> beyond{};
+  std::uint64_t beyond_small = 0, beyond_most = 0;
   double worst = 0;
   void add(double share);
   /// Least number of estimates; with fewer estimates, no run without an estimate is trusted.
   static constexpr std::uint64_t kFewest = 3;
   [[nodiscard]] bool too_few() const { return others > 0 && runs < kFewest; }
-  /// True if enough runs have an estimate and at most one in ten estimates exceeds the largest share.
-  [[nodiscard]] bool trusted() const { return !too_few() && 10 * beyond.back() <= runs; }
+  /// True if enough runs have an estimate and at most one in ten estimates exceeds `most`.
+  [[nodiscard]] bool trusted() const { return !too_few() && 10 * beyond_most <= runs; }
 };
 Estimated estimated(Journal& journal);
 /// Name of the quantity that contains the estimated torque error.

@@ -114,8 +114,7 @@ bool is_studys(const fs::path& folder) {
   if (fs::is_empty(folder, none) || none) return false;
   if (holds_a_journal(folder) || holds_a_start(folder)) return true;
   if (!fs::exists(fs::symlink_status(folder / kJournalFile, none))) return false;
-  // Opens the journal, because older programs wrote the application ID into the write-ahead log only.
-  const Journal there(folder / kJournalFile);
+  const Journal there(folder / kJournalFile);  // throws if it is not a journal
   return true;
 }
 

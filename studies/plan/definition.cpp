@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
 #include <string>
 
 #include "core/files/hash.h"
@@ -29,9 +31,16 @@ std::string law_text(const Variation& v) {
   return text;
 }
 
-constexpr std::string_view kTold = "results: of another program\n";
-constexpr std::string_view kRobust = "robust: ";
-constexpr std::string_view kBetween = ", ";
+std::string method_name(const Study& study) { return study.asked ? "asked" : name_of(study.method); }
+
+/// Names of the worlds of a robust study; none of another.
+std::vector<std::string> robust_names(const BoundStudy& bound) {
+  std::vector<std::string> names;
+  if (!bound.study().robust) return names;
+  const std::vector<World> all = worlds(bound.scenarios().front().nominal);
+  for (const std::size_t w : bound.robust_worlds()) names.push_back(all[w].name);
+  return names;
+}
 
 /// Name of an objective whose values another program gives: they need not be those of the expression in the study.
 std::string told_objective(const Study& study, std::size_t number) {
@@ -52,21 +61,16 @@ std::string search_text(const Study& study) {
 
 std::string definition(const BoundStudy& bound) {
   const Study& study = bound.study();
-  std::string text = fmt::format("seed: {}\nmethod: {}\n", study.seed, study.asked ? "asked" : name_of(study.method));
+  std::string text = fmt::format("seed: {}\nmethod: {}\n", study.seed, method_name(study));
   if (!study.asked && is_search(study.method)) text += search_text(study);
-  if (study.told) text += kTold;
+  if (study.told) text += "results: of another program\n";
   for (const std::vector<std::string>& start : bound.starts()) text += fmt::format("start: {}\n", fmt::join(start, ", "));
   for (const Parameter& p : study.parameters) {
     text += fmt::format("parameter {}: {}\n", p.key,
                         p.values.empty() ? number_range(p) : fmt::format("{}", fmt::join(p.values, ", ")));
     text += followers_text(p);
   }
-  if (study.robust) {
-    const std::vector<World> all = worlds(bound.scenarios().front().nominal);
-    std::vector<std::string> names;
-    for (const std::size_t w : bound.robust_worlds()) names.push_back(all[w].name);
-    text += fmt::format("{}{}\n", kRobust, fmt::join(names, kBetween));
-  }
+  if (study.robust) text += fmt::format("robust: {}\n", fmt::join(robust_names(bound), ", "));
   if (study.replicates.count > 0) {
     text += fmt::format("replicates: {}, {}", study.replicates.count, name_of(study.replicates.combine));
     if (study.replicates.has_argument()) text += " " + number_text(study.replicates.quantile);
@@ -85,21 +89,6 @@ std::string definition(const BoundStudy& bound) {
     if (column.name.ends_with("]")) text += "quantity: " + column.name + "\n";
   }
   return text + "quantities: " + hash128(columns) + "\n";
-}
-
-bool told(const std::string& definition) { return definition.find(fmt::format("\n{}", kTold)) != std::string::npos; }
-
-std::vector<std::string> robust_worlds(const std::string& definition) {
-  std::vector<std::string> names;
-  const std::size_t line = definition.find(fmt::format("\n{}", kRobust));
-  if (line == std::string::npos) return names;
-  const std::size_t end = std::min(definition.find('\n', line + 1), definition.size());
-  for (std::size_t at = line + 1 + kRobust.size(); at < end;) {
-    const std::size_t next = std::min(definition.find(kBetween, at), end);
-    names.push_back(definition.substr(at, next - at));
-    at = next + kBetween.size();
-  }
-  return names;
 }
 
 JournalHead journal_head(const Plan& plan) {
@@ -127,6 +116,12 @@ JournalHead journal_head(const Plan& plan) {
   for (const std::size_t column : bound.shown()) head.shown.push_back(bound.columns()[column].name);
   head.limits = plan.scorer().limits();
   head.guarded = study.guarded;
+  head.method = method_name(study);
+  head.told = study.told;
+  head.torque_error = std::numeric_limits<double>::infinity();
+  for (const StudyScenario& one : bound.scenarios())
+    head.torque_error = std::min(head.torque_error, one.nominal.limits.most_torque_error());
+  head.worlds = robust_names(bound);
   return head;
 }
 

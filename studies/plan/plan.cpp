@@ -122,12 +122,12 @@ void Plan::finish(Row& row, const Scenario& scenario, const Recording& recording
   row.outcome = name_of(recording.outcome.ended);
   if (!recording.outcome.done()) {
     row.message = recording.outcome.message;
-    row.verdict = "failed";
+    row.verdict = Word::failed;
     return;
   }
   Measured measured = measure(scenario, recording);
   row.quantities = std::move(measured.quantities);
-  row.verdict = std::move(measured.verdict);
+  row.verdict = measured.verdict;
   row.message = std::move(measured.why);
   row.cause = std::move(measured.cause);
   row.score = scorer().score(row.quantities, row.verdict);

@@ -149,7 +149,7 @@ Answers::Answers(const Plan& plan, std::filesystem::path file, const std::string
     refuse("was written by another build, which may give other numbers: " + head.build + ", and this is " + build +
            "; take its answers all the same with --accept-build");
   }
-  if (told(head.definition)) refuse("has results that another program gave; expected the journal of simulated runs");
+  if (head.told) refuse("has results that another program gave; expected the journal of simulated runs");
   if (stop_lines(head.definition) != stop_lines(definition(plan.bound())))
     refuse("is of a study with other rules for stopping runs; its runs may have ended at other times");
   const std::vector<std::string> names = journal_->columns().all();
@@ -198,7 +198,7 @@ std::optional<Row> Answers::find(const Row& wanted) {
   row.outcome = there[outcome_];
   row.message = there[message_];
   row.simulated = number_of(there[simulated_]);
-  row.verdict = there[verdict_];
+  row.verdict = named<Word>(there[verdict_]).value_or(Word::failed);
   if (row.outcome != "done") return row;
   for (const std::size_t k : quantities_) row.quantities.push_back(there[k].empty() ? std::nan("") : number_of(there[k]));
   row.score = plan_.scorer().score(row.quantities, row.verdict);

@@ -79,7 +79,7 @@ class LocalWork {
   static void refuse(Row& row, const std::vector<Problem>& problems) {
     row.outcome = "refused";
     row.message = problems.empty() ? "" : problems.front().text;
-    row.verdict = "failed";
+    row.verdict = Word::failed;
   }
 
   void give_refused() {

@@ -10,7 +10,7 @@ using Json = nlohmann::json;
 
 Json json_of(const Row& row) {
   Json json = Json::array({row.run, row.point, row.scenario, row.replicate, row.seed, row.outcome, row.message, row.simulated,
-                           row.values, row.quantities, row.verdict, row.cause, nullptr});
+                           row.values, row.quantities, name_of(row.verdict), row.cause.check, row.cause.part, nullptr});
   if (row.score) json.back() = Json::array({row.score->objectives, row.score->violation});
   return json;
 }
@@ -29,8 +29,9 @@ Row row_of(const Json& json) {
   take(row.simulated);
   take(row.values);
   take(row.quantities);
-  take(row.verdict);
-  take(row.cause);
+  row.verdict = named<Word>(json.at(at++).get<std::string>()).value();
+  take(row.cause.check);
+  take(row.cause.part);
   if (const Json& score = json.at(at); !score.is_null()) {
     row.score.emplace();
     score.at(0).get_to(row.score->objectives);

@@ -111,7 +111,7 @@ std::string answer(const Question& question, const JournalHead& head, std::span<
     double simulated = runs.front().simulated;
     for (const Brief& run : runs) simulated = std::min(simulated, run.simulated);
     text += R"(,"simulated":)" + json_number(simulated);
-    if (runs.size() == 1) text += R"(,"verdict":)" + json_text(runs.front().verdict);
+    if (runs.size() == 1) text += R"(,"verdict":)" + json_text(name_of(runs.front().verdict));
   }
   text += R"(,"figures":{)";
   for (std::size_t k = 0; done && k < head.quantities.size(); ++k)

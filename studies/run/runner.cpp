@@ -108,7 +108,7 @@ void Runner::forget_stopped() {
 void Standing::add(const Brief& run, bool maximize) {
   ++ended;
   if (run.outcome != "done") ++failed;
-  if (run.verdict == "feasible") ++feasible;
+  if (run.verdict == Word::feasible) ++feasible;
   if (!run.score || !run.score->kept()) return;
   ++kept;
   const double value = run.score->objective();

@@ -54,7 +54,7 @@ Row crashed(const Plan& plan, std::uint64_t run, int signal) {
   Row row = plan.row(run);
   row.outcome = "crashed";
   row.message = fmt::format("the process ended by signal {}", signal);
-  row.verdict = "failed";
+  row.verdict = Word::failed;
   return row;
 }
 

@@ -23,7 +23,6 @@ constexpr std::array kKeys{"id",      "objective", "violation", "outcome", "mess
                            "verdict", "figures",   "margins",   "kept",    "feasible", "run"};
 
 constexpr std::string_view kNotRun = "not run";  // of tables of rollouts: an interrupt, and no failure of the gait
-constexpr std::array<std::string_view, 3> kVerdicts{"feasible", "infeasible", "not judged"};
 
 class ToldReader {
  public:
@@ -44,10 +43,12 @@ class ToldReader {
       read_objectives(objectives, told.score);
       read_violation(told.score);
       read_figures(told.quantities);
-      text("verdict", told.verdict);
-      if (std::ranges::find(kVerdicts, told.verdict) == kVerdicts.end()) wrong("verdict", "feasible, infeasible or not judged");
+      std::string word = name_of(told.verdict);
+      text("verdict", word);
+      told.verdict = named<Word>(word).value_or(Word::failed);
+      if (told.verdict == Word::failed) wrong("verdict", "feasible, infeasible or not judged");
     } else {
-      told.verdict = "failed";
+      told.verdict = Word::failed;
     }
     problems_.raise();
     return told;

@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "core/recording/word.h"
 #include "studies/journal/results.h"
 
 namespace gaitlab::studies {
@@ -14,7 +15,7 @@ struct Told {
   std::string outcome = "done", message = {};
   double simulated = 0;  ///< time until the failure, s
   Score score = {};
-  std::string verdict = "not judged";
+  Word verdict = Word::not_judged;
   std::map<std::string, double> quantities = {};  ///< by name; NaN if not known
 };
 

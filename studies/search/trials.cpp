@@ -44,17 +44,17 @@ PointResult result_of(const Journal& journal, const Trial& trial) {
 
 Verification without_reason(const Plan& plan, const Journal& journal, const Trial& trial) {
   const PointResult is = result_of(journal, trial);
-  Verification v{trial.point.first_run, trial.what, {}, is.score.violation, trial.rows.front().verdict, ""};
+  Verification v{trial.point.first_run, trial.kind, trial.name, {}, is.score.violation, trial.rows.front().verdict, ""};
   for (const Row& row : trial.rows) {
-    if (row.verdict == "infeasible") v.verdict = row.verdict;
+    if (row.verdict == Word::infeasible) v.verdict = row.verdict;
   }
   for (std::size_t k = 0; k < plan.study().objectives.size(); ++k)
     v.objectives.push_back(is.failed > 0 ? std::nan("") : is.score.objectives[k]);
   return v;
 }
 
-bool speaks_against(const std::string& verdict, double evidence) {
-  return verdict == "infeasible" || (verdict == "not judged" && evidence < 0);
+bool speaks_against(Word verdict, double evidence) {
+  return verdict == Word::infeasible || (verdict == Word::not_judged && evidence < 0);
 }
 
 double quantity(const Plan& plan, const Row& row, const std::string& name) {

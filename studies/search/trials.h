@@ -13,7 +13,8 @@ namespace gaitlab::studies {
 /// Runs of a point with further settings.
 struct Trial {
   const PointResult& point;
-  std::string what;                                                 ///< its name in the table `verification`
+  TrialKind kind;
+  std::string name;                                                 ///< the engine, joint or world; empty for the other kinds
   std::function<std::vector<std::string>(std::uint64_t run)> sets;  ///< settings for one of the point's runs
   bool first_replicates = false;                                    ///< true: only the first replicate in each scenario
   std::vector<Row> rows = {};                                       ///< rows of the runs, in the order of their numbers
@@ -35,7 +36,7 @@ Verification without_reason(const Plan& plan, const Journal& journal, const Tria
 
 /// True if the verdict on a run rejects its point, whatever the guards: it is `infeasible`, or `not judged` for lack of
 /// evidence.
-bool speaks_against(const std::string& verdict, double evidence);
+bool speaks_against(Word verdict, double evidence);
 inline constexpr const char* kEvidence = "margin.evidence";  ///< negative if evidence is missing
 /// A quantity of a run by name; NaN if the journal lacks it.
 double quantity(const Plan& plan, const Row& row, const std::string& name);

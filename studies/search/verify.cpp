@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 #include "core/settings/wording.h"
 #include "studies/search/step_limit.h"
@@ -13,11 +12,6 @@
 namespace gaitlab::studies {
 
 namespace {
-
-constexpr const char* kAsRun = "as run";
-constexpr const char* kHalf = "half step";
-constexpr const char* kLimit = "limit";
-constexpr const char* kQuarter = " at a quarter of its step";  // behind the name of the other engine
 
 /// Setting that divides the step or, where the integrator chooses its steps, the accuracy.
 std::string divided(const Physics& physics, double by) {
@@ -41,18 +35,20 @@ std::vector<std::string> quartered(const Plan& plan, std::uint64_t run) {
 std::vector<Trial> ways(const Plan& plan, const PointResult& point) {
   std::vector<Trial> ways;
   const Verify& verify = plan.study().verify;
-  if (verify.halve_step) ways.push_back({point, kHalf, [&plan](std::uint64_t run) { return halved(plan, run); }});
+  if (verify.halve_step)
+    ways.push_back({point, TrialKind::half_step, "", [&plan](std::uint64_t run) { return halved(plan, run); }});
   if (plan.bound().has_other_engine())
-    ways.push_back({point, clipped(verify.engine), [&plan](std::uint64_t run) { return plan.other_engine(run); }});
+    ways.push_back({point, TrialKind::other_engine, clipped(verify.engine),
+                    [&plan](std::uint64_t run) { return plan.other_engine(run); }});
   return ways;
 }
 
 /// Reason in a verdict not to verify a point, even if the check is not a guard; "" without a reason. `why` is the sentence
 /// after the word.
-std::string doubt(const std::string& word, double evidence, const std::string& why) {
+std::string doubt(Word word, double evidence, const std::string& why) {
   const std::string end = why.empty() ? "" : ": " + why;
   if (!speaks_against(word, evidence)) return "";
-  return (word == "infeasible" ? "the verdict is infeasible" : word) + end;
+  return (word == Word::infeasible ? "the verdict is infeasible" : name_of(word)) + end;
 }
 
 /// True if the verdict on a single run counts. In a robust study, runs in worlds count together.
@@ -100,7 +96,7 @@ std::string broken_limits(const Plan& plan, const Trial& trial, const PointResul
     if (!breaks && doubted.empty()) continue;
     Reason why;
     const std::vector<std::string> broken = plan.scorer().broken(row.quantities, row.verdict, row.message);
-    const std::string of_verdict = row.verdict + (row.message.empty() ? "" : ": " + row.message);
+    const std::string of_verdict = name_of(row.verdict) + (row.message.empty() ? std::string() : ": " + row.message);
     if (breaks) why.add(in_scenario(row) + fmt::format("{}", fmt::join(broken, ", ")));
     const bool said = breaks && std::ranges::find(broken, of_verdict) != broken.end();
     if (!doubted.empty() && !said) why.add(in_scenario(row) + doubted);
@@ -113,15 +109,15 @@ std::string broken_limits(const Plan& plan, const Trial& trial, const PointResul
 
 /// Entry for the original runs of a point.
 Verification as_run(const Plan& plan, Journal& journal, const PointResult& point) {
-  Verification own{point.first_run, kAsRun, {}, point.score.violation, "", ""};
+  Verification own{point.first_run, TrialKind::as_run, "", {}, point.score.violation, Word::failed, ""};
   const std::vector<std::string> names = journal.columns().all();
   const auto place = [&](const std::string& name) {
     return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
   };
   for (std::uint64_t run = point.first_run; run < point.first_run + point.runs; ++run) {
     const std::vector<std::string> row = journal.row(run);
-    const std::string& word = row[place("verdict")];
-    if (own.verdict.empty()) own.verdict = word;
+    const Word word = named<Word>(row[place("verdict")]).value_or(Word::failed);
+    if (run == point.first_run) own.verdict = word;
     if (!counts_alone(plan, plan.points().replicate(run))) continue;
     const std::string doubted = doubt(word, number_of(row[place(kEvidence)]), row[place("message")]);
     if (doubted.empty() || !own.reason.empty()) continue;
@@ -178,12 +174,12 @@ Objections objections(const Plan& plan, const Journal& journal, const Trial& tri
 /// that were too long. The quarter then counts instead. Returns false if interrupted.
 bool add_quarters(const Plan& plan, const Journal& journal, std::vector<Trial>& trials, const Executor& executor,
                   const TrialsTold& told, std::atomic<bool>& stop) {
-  const std::string engine = clipped(plan.study().verify.engine);
   std::vector<Trial> quarters;
   for (const Trial& trial : trials) {
     const bool too_long = std::ranges::any_of(trial.rows, [&](const Row& row) { return had_long_steps(plan, row); });
-    if (trial.what != engine || !too_long || !objections(plan, journal, trial).any()) continue;
-    quarters.push_back({trial.point, engine + kQuarter, [&plan](std::uint64_t run) { return quartered(plan, run); }});
+    if (trial.kind != TrialKind::other_engine || !too_long || !objections(plan, journal, trial).any()) continue;
+    quarters.push_back(
+        {trial.point, TrialKind::quarter_step, trial.name, [&plan](std::uint64_t run) { return quartered(plan, run); }});
   }
   if (quarters.empty()) return true;
   if (!run_trials(plan, quarters, true, executor, told, stop)) return false;
@@ -200,7 +196,7 @@ std::vector<Verification> judged(const Plan& plan, Journal& journal, const std::
   bool changed = false;
   for (std::size_t k = 0; k < tried.size(); ++k) {
     all.push_back(without_reason(plan, journal, tried[k]));
-    if (k + 1 < tried.size() && tried[k + 1].what == tried[k].what + kQuarter) continue;
+    if (k + 1 < tried.size() && tried[k + 1].kind == TrialKind::quarter_step) continue;
     const Objections found = objections(plan, journal, tried[k]);
     all.back().reason = found.text();
     sound = sound && found.failed.empty() && found.broken.empty();
@@ -212,13 +208,12 @@ std::vector<Verification> judged(const Plan& plan, Journal& journal, const std::
   if (!limit) return all;
   for (std::size_t k = 1; k < all.size(); ++k) all[k].reason.clear();
   all.push_back(all[1]);
-  all.back().what = kLimit;
+  all.back().kind = TrialKind::limit;
+  all.back().name.clear();
   all.back().objectives.assign(limit->objectives.begin(),
                                limit->objectives.begin() + static_cast<std::ptrdiff_t>(plan.study().objectives.size()));
   return all;
 }
-
-constexpr std::string_view kDead = " dead";
 
 }  // namespace
 
@@ -241,10 +236,6 @@ std::optional<std::vector<Verification>> verify(const Plan& plan, Journal& journ
   return all;
 }
 
-bool is_limit(const Verification& verification) { return verification.what == kLimit; }
-
-bool is_quarter(const Verification& verification) { return verification.what.ends_with(kQuarter); }
-
 std::optional<std::vector<Verification>> with_dead_joints(const Plan& plan, Journal& journal, const PointResult& point,
                                                           const Executor& executor, const TrialsTold& told,
                                                           std::atomic<bool>& stop) {
@@ -253,14 +244,12 @@ std::optional<std::vector<Verification>> with_dead_joints(const Plan& plan, Jour
   for (const Joint& joint : scenario.robot->joints) {
     if (!joint.driven()) continue;
     const std::string set = fmt::format("at=[{{t: 0, fault: {{joint: {}, kind: dead}}}}]", joint.name);
-    trials.push_back({point, joint.name + std::string(kDead), [set](std::uint64_t) { return std::vector{set}; }});
+    trials.push_back({point, TrialKind::dead_joint, joint.name, [set](std::uint64_t) { return std::vector{set}; }});
   }
   if (!run_trials(plan, trials, true, executor, told, stop)) return {};
   std::vector<Verification> all;
   for (const Trial& trial : trials) all.push_back(without_reason(plan, journal, trial));
   return all;
 }
-
-bool is_fault(const Verification& verification) { return verification.what.ends_with(kDead); }
 
 }  // namespace gaitlab::studies

@@ -21,10 +21,6 @@ namespace gaitlab::studies {
 std::optional<std::vector<Verification>> verify(const Plan& plan, Journal& journal, const Results& results,
                                                 const std::vector<std::size_t>& points, const Executor& executor,
                                                 const TrialsTold& told, std::atomic<bool>& stop);
-/// True for an entry `limit`.
-bool is_limit(const Verification& verification);
-/// True for the entry of a run that was repeated with a quarter of its step.
-bool is_quarter(const Verification& verification);
 
 /// Runs a point again with each joint that has a motor dead in turn, from t = 0, so that the whole run is that of the broken
 /// robot. The result has an entry for each joint, `m3/active dead`, which neither verifies nor rejects the point. Returns
@@ -32,7 +28,5 @@ bool is_quarter(const Verification& verification);
 std::optional<std::vector<Verification>> with_dead_joints(const Plan& plan, Journal& journal, const PointResult& point,
                                                           const Executor& executor, const TrialsTold& told,
                                                           std::atomic<bool>& stop);
-/// True for an entry of with_dead_joints().
-bool is_fault(const Verification& verification);
 
 }  // namespace gaitlab::studies

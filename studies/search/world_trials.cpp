@@ -5,19 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <string_view>
 #include <tuple>
 
 #include "studies/plan/worlds.h"
-#include "studies/search/verify.h"
 
 namespace gaitlab::studies {
 
 namespace {
-
-constexpr std::string_view kWorld = "world ";
-constexpr std::string_view kDraw = "world draw ";
-constexpr const char* kShare = "worlds";
 
 /// The worlds of a point, one trial for each that applies in a scenario.
 std::vector<Trial> world_trials(const Plan& plan, const PointResult& point) {
@@ -30,25 +24,35 @@ std::vector<Trial> world_trials(const Plan& plan, const PointResult& point) {
     std::map<std::uint64_t, std::vector<std::string>> sets;
     for (const auto& [run, all] : of_run) sets[run] = all[w].sets;
     if (std::ranges::none_of(of_run, [w](const auto& one) { return one.second[w].applies; })) continue;
-    trials.push_back({point, std::string(kWorld) + of_run.begin()->second[w].text(),
+    const World& world = of_run.begin()->second[w];
+    trials.push_back({point, world.drawn ? TrialKind::drawn_world : TrialKind::world, world.text(),
                       [sets](std::uint64_t run) { return sets.at(run); }, true});
   }
   return trials;
 }
 
-/// Why a point falls in a world, in few words; "" if it stands. Only the first failing scenario is described.
-std::string fall(const Plan& plan, Trial& trial) {
+/// Why a point falls in a world.
+struct Fall {
+  std::string text = {};   ///< in few words; "" if it stands
+  std::string check = {};  ///< id of the check that decided the verdict; "" if none did
+};
+
+/// Only the first failing scenario is described.
+Fall fall(const Plan& plan, Trial& trial) {
   for (Row& row : trial.rows) {
-    if (row.outcome != "done") return in_scenario(row) + row.outcome + (row.message.empty() ? "" : ": " + row.message);
+    if (row.outcome != "done") return {in_scenario(row) + row.outcome + (row.message.empty() ? "" : ": " + row.message)};
     row.score = plan.scorer().score(row.quantities, row.verdict, false);
     const bool against = speaks_against(row.verdict, evidence(plan, row));
     if (row.score->violation == 0 && !against) continue;
     std::vector<std::string> causes = plan.scorer().broken(row.quantities, row.verdict, "", false);
-    std::erase(causes, row.verdict);
-    if (row.verdict != "feasible" && !row.cause.empty()) causes.push_back(row.cause);
-    return in_scenario(row) + (causes.empty() ? row.verdict : fmt::format("{}", fmt::join(causes, ", ")));
+    std::erase(causes, name_of(row.verdict));
+    const bool decided = row.verdict != Word::feasible && !row.cause.check.empty();
+    if (row.verdict != Word::feasible) causes.push_back(decided ? row.cause.text() : name_of(row.verdict));
+    return {
+        in_scenario(row) + (causes.empty() ? std::string(name_of(row.verdict)) : fmt::format("{}", fmt::join(causes, ", "))),
+        decided ? row.cause.check : ""};
   }
-  return "";
+  return {};
 }
 
 /// Runs of the points in `tried`, each once, in their order.
@@ -64,7 +68,8 @@ std::vector<std::uint64_t> points_of(const std::vector<Verification>& tried) {
 double value_of(const std::vector<Verification>& tried, std::uint64_t run) {
   double value = std::nan("");
   for (const Verification& v : tried) {
-    if (v.run == run && !v.objectives.empty() && (std::isnan(value) || is_limit(v))) value = v.objectives.front();
+    if (v.run == run && !v.objectives.empty() && (std::isnan(value) || v.kind == TrialKind::limit))
+      value = v.objectives.front();
   }
   return value;
 }
@@ -74,7 +79,7 @@ Verification share_entry(const Plan& plan, const std::vector<Verification>& trie
   const WorldCount count = counted_worlds(tried, run);
   const std::size_t least = needed(plan.study().verify.share, count.of);
   const auto first = std::ranges::find(tried, run, &Verification::run);
-  Verification entry{run, kShare, first->objectives, 0, first->verdict, ""};
+  Verification entry{run, TrialKind::worlds, "", first->objectives, 0, first->verdict, ""};
   entry.objectives.front() = value_of(tried, run);
   if (count.stood < least) entry.reason = fmt::format("stands in {} of {} worlds; {} are needed", count.stood, count.of, least);
   return entry;
@@ -82,11 +87,7 @@ Verification share_entry(const Plan& plan, const std::vector<Verification>& trie
 
 }  // namespace
 
-bool is_world(const Verification& v) { return v.what.starts_with(kWorld); }
-
-bool is_share(const Verification& v) { return v.what == kShare; }
-
-std::string world_name(const Verification& v) { return v.what.substr(kWorld.size()); }
+bool is_world(const Verification& v) { return v.kind == TrialKind::world || v.kind == TrialKind::drawn_world; }
 
 std::size_t needed(double share, std::size_t of) {
   constexpr double kRounding = 1e-9;  // 0.07 * 100 is more than 7
@@ -97,7 +98,7 @@ WorldCount counted_worlds(const std::vector<Verification>& tried, std::uint64_t 
   WorldCount count;
   for (const Verification& v : tried) {
     if (v.run != run || !is_world(v)) continue;
-    const bool drawn = v.what.starts_with(kDraw);
+    const bool drawn = v.kind == TrialKind::drawn_world;
     ++count.of;
     count.drawn += drawn ? 1 : 0;
     if (v.reason.empty()) {
@@ -122,9 +123,10 @@ std::optional<std::vector<Verification>> in_worlds(const Plan& plan, Journal& jo
   if (!run_trials(plan, trials, false, executor, told, stop)) return {};
   std::vector<Verification> all = tried;
   for (Trial& trial : trials) {
-    const std::string why = fall(plan, trial);
+    Fall why = fall(plan, trial);
     all.push_back(without_reason(plan, journal, trial));
-    all.back().reason = why;
+    all.back().reason = std::move(why.text);
+    all.back().check = std::move(why.check);
   }
   for (const std::uint64_t run : verified(tried)) all.push_back(share_entry(plan, all, run));
   return ranked_by_share(all, plan.study().objectives.front().maximize);

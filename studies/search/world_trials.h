@@ -17,8 +17,6 @@ std::optional<std::vector<Verification>> in_worlds(const Plan& plan, Journal& jo
                                                    const TrialsTold& told, std::atomic<bool>& stop);
 /// True for an entry of a single world.
 bool is_world(const Verification& verification);
-/// True for the entry `worlds`.
-bool is_share(const Verification& verification);
 
 /// The worlds of a point, counted.
 struct WorldCount {
@@ -28,8 +26,6 @@ struct WorldCount {
   [[nodiscard]] double share() const { return of == 0 ? 0 : static_cast<double>(stood) / static_cast<double>(of); }
 };
 WorldCount counted_worlds(const std::vector<Verification>& tried, std::uint64_t run);
-/// Name of a world without the word `world`.
-std::string world_name(const Verification& verification);
 
 /// Number of worlds that a share asks for.
 std::size_t needed(double share, std::size_t of);

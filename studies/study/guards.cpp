@@ -94,28 +94,28 @@ Guards::Guards(const Study& study, const std::vector<std::string>& columns, std:
   }
 }
 
-bool Guards::made_up_for(std::span<const double> quantities, const std::string& verdict) const {
+bool Guards::made_up_for(std::span<const double> quantities, Word verdict) const {
   const auto fails = [&](const MarginGuard& guard) { return guard.broken(quantities) > 0; };
   const auto fails_of_verdict = [&](const MarginGuard& guard) { return guard.of_verdict && fails(guard); };
-  return verdict == "infeasible" && std::ranges::any_of(replaced_, fails) && std::ranges::none_of(all_, fails_of_verdict);
+  return verdict == Word::infeasible && std::ranges::any_of(replaced_, fails) && std::ranges::none_of(all_, fails_of_verdict);
 }
 
-double Guards::violation(std::span<const double> quantities, const std::string& verdict, bool reserve) const {
+double Guards::violation(std::span<const double> quantities, Word verdict, bool reserve) const {
   double sum = 0;
   for (const MarginGuard& guard : all_) {
-    if (!guard.of_verdict || verdict != "feasible") sum += limited_violation(guard.broken(quantities, reserve));
+    if (!guard.of_verdict || verdict != Word::feasible) sum += limited_violation(guard.broken(quantities, reserve));
   }
-  const bool kept = !verdict_ || verdict == "feasible" || made_up_for(quantities, verdict);
+  const bool kept = !verdict_ || verdict == Word::feasible || made_up_for(quantities, verdict);
   return sum == 0 && !kept ? limited_violation(1) : sum;
 }
 
-std::vector<std::string> Guards::broken(std::span<const double> quantities, const std::string& verdict, const std::string& why,
+std::vector<std::string> Guards::broken(std::span<const double> quantities, Word verdict, const std::string& why,
                                         bool reserve) const {
   std::vector<std::string> texts;
-  if (verdict_ && verdict != "feasible" && !made_up_for(quantities, verdict))
-    texts.push_back(verdict + (why.empty() ? "" : ": " + why));
+  if (verdict_ && verdict != Word::feasible && !made_up_for(quantities, verdict))
+    texts.push_back(name_of(verdict) + (why.empty() ? std::string() : ": " + why));
   for (const MarginGuard& guard : all_) {
-    if (!reserve && guard.least > 0 && verdict_ && verdict != "feasible") continue;  // the verdict states the same
+    if (!reserve && guard.least > 0 && verdict_ && verdict != Word::feasible) continue;  // the verdict states the same
     if (!guard.of_verdict && guard.broken(quantities, reserve) > 0) {
       texts.push_back(fmt::format("check {} has a margin of {:.4g}; the study requires {}", guard.check,
                                   quantities[guard.column], number_text(reserve ? guard.least : std::min(0.0, guard.least))));

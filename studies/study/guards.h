@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/recording/word.h"
 #include "core/settings/node.h"
 #include "studies/study/study.h"
 
@@ -49,10 +50,10 @@ class Guards {
   /// Sum over the guards of limited_violation() of the amount by which each margin is too small. It is 0.5 if the verdict is
   /// not `feasible` although no margin is too small, and 0 if all guards are satisfied. Without `reserve`, a margin that the
   /// study requires above 0 counts as 0: the reserve may be used up.
-  [[nodiscard]] double violation(std::span<const double> quantities, const std::string& verdict, bool reserve = true) const;
+  [[nodiscard]] double violation(std::span<const double> quantities, Word verdict, bool reserve = true) const;
   /// Texts of the guards that a run violates. `why` is the sentence after its verdict.
-  [[nodiscard]] std::vector<std::string> broken(std::span<const double> quantities, const std::string& verdict,
-                                                const std::string& why, bool reserve = true) const;
+  [[nodiscard]] std::vector<std::string> broken(std::span<const double> quantities, Word verdict, const std::string& why,
+                                                bool reserve = true) const;
   /// Relations over columns, as in `margin.stops >= 0`. For a verdict with checks that the study replaces, the text is a
   /// sentence.
   [[nodiscard]] std::vector<std::string> texts() const;
@@ -61,7 +62,7 @@ class Guards {
 
  private:
   /// True if the verdict is infeasible only because of checks that the study replaces.
-  [[nodiscard]] bool made_up_for(std::span<const double> quantities, const std::string& verdict) const;
+  [[nodiscard]] bool made_up_for(std::span<const double> quantities, Word verdict) const;
 
   bool verdict_ = false;
   std::vector<MarginGuard> all_;

@@ -10,6 +10,12 @@
 
 namespace gaitlab::studies {
 
+std::string Cause::text() const {
+  std::string words = check;
+  std::ranges::replace(words, '_', ' ');
+  return part.empty() ? words : words + " of " + part;
+}
+
 namespace {
 
 std::string full(const std::string& name, const std::string& joint) { return joint.empty() ? name : name + "[" + joint + "]"; }
@@ -116,7 +122,7 @@ std::vector<Limit> Scorer::limits() const {
   return all;
 }
 
-std::vector<std::string> Scorer::broken(std::span<const double> quantities, const std::string& verdict, const std::string& why,
+std::vector<std::string> Scorer::broken(std::span<const double> quantities, Word verdict, const std::string& why,
                                         bool reserve) const {
   std::vector<std::string> all;
   for (std::size_t k = 0; k < objectives_.size(); ++k) {
@@ -130,7 +136,7 @@ std::vector<std::string> Scorer::broken(std::span<const double> quantities, cons
   return all;
 }
 
-Score Scorer::score(std::span<const double> quantities, const std::string& verdict, bool reserve) const {
+Score Scorer::score(std::span<const double> quantities, Word verdict, bool reserve) const {
   Score score;
   for (std::size_t k = 0; k < objectives_.size(); ++k) {
     score.objectives[k] = objectives_[k].value(quantities);

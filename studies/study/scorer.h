@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/recording/recording.h"
+#include "core/recording/word.h"
 #include "core/scenario/scenario.h"
 #include "core/simulation/simulation.h"
 #include "studies/study/guards.h"
@@ -30,11 +31,20 @@ struct QuantityOffer {
       value_so_far = {};
 };
 
+/// The check that decided a verdict, and its part. Both are empty if no check did.
+struct Cause {
+  std::string check, part;
+  /// Text such as `dock bending of m5`.
+  [[nodiscard]] std::string text() const;
+};
+
 /// Result of one run: its quantities by column (NaN if not known), the word of its verdict, the reason for that word as a
-/// sentence, and the same in few words, as in `voltage of m5/passive`.
+/// sentence, and its cause.
 struct Measured {
   std::vector<double> quantities;
-  std::string verdict, why, cause = {};
+  Word verdict = Word::not_judged;
+  std::string why;
+  Cause cause = {};
 };
 /// Function that computes the quantities of a run, with the parts of the recording that the function reads. Several threads may
 /// call it at once.
@@ -67,10 +77,10 @@ class Scorer {
          const std::vector<std::string>& joints, Problems& problems);
 
   /// Score of a run. Without `reserve`, margins that the study requires above 0 count as 0.
-  [[nodiscard]] Score score(std::span<const double> quantities, const std::string& verdict, bool reserve = true) const;
+  [[nodiscard]] Score score(std::span<const double> quantities, Word verdict, bool reserve = true) const;
   /// Constraints and guards that a run violates, as in `torque.rms <= 0.6 (0.7)`. `why` is the sentence after the verdict.
-  [[nodiscard]] std::vector<std::string> broken(std::span<const double> quantities, const std::string& verdict,
-                                                const std::string& why, bool reserve = true) const;
+  [[nodiscard]] std::vector<std::string> broken(std::span<const double> quantities, Word verdict, const std::string& why,
+                                                bool reserve = true) const;
   /// All limits of the study: constraints, then guards.
   [[nodiscard]] std::vector<Limit> limits() const;
   [[nodiscard]] const std::vector<std::string>& objectives() const { return objective_texts_; }

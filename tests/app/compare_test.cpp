@@ -163,7 +163,7 @@ TEST_F(CompareCommand, UnreadableInput) {
   expect_refused("a huge", "huge/summary.json: error: holds a number that is outside the range of a double");
   folder.write("half.csv", "t,x\n0,1\n0.5,");
   expect_refused("a half.csv", "half.csv:3:5: error: the last line does not end: the file is truncated");
-  folder.write("half.h5", "gaitlab-trace-2\n");
+  folder.write("half.h5", "gaitlab-trace-1\n");
   expect_refused("a half.h5", "half.h5: error: is truncated: 16 bytes");
   EXPECT_EQ(compare("a").code, 2);
 }

@@ -41,7 +41,7 @@ TEST_F(GoldenCommand, ApprovedIsGreen) {
   EXPECT_EQ(golden.origin.scenario, hash(resolved(read_scenario(folder / "good.yaml", {}, catalog()))));
   EXPECT_NE(golden.origin.build.find("(" + golden.origin.compiler), std::string::npos);
   EXPECT_EQ(golden.history.front().reason, "first golden");
-  EXPECT_EQ(golden.verdict, "not judged");
+  EXPECT_EQ(golden.verdict, Word::not_judged);
   EXPECT_EQ(golden.run.trace.columns[1].name, "joint.0.angle");
   EXPECT_LT(golden.run.trace.find("joint.3.torque"), golden.run.trace.columns.size());
   EXPECT_LT(golden.run.trace.find("base.qw"), golden.run.trace.columns.size());
@@ -153,7 +153,7 @@ TEST_F(GoldenCommand, TellsAnotherVerdict) {
   folder.write("good.yaml", kCaterpillar + "limits: {tracking_error: 1e-6}\n");
   Result result = call("test good.yaml");
   EXPECT_EQ(result.code, 0);
-  golden.verdict = "feasible";
+  golden.verdict = Word::feasible;
   write_golden(golden, folder / "good.golden");
   result = call("test good.yaml");
   EXPECT_EQ(result.code, 0);
@@ -163,7 +163,7 @@ TEST_F(GoldenCommand, TellsAnotherVerdict) {
   EXPECT_EQ(result.code, 4);
   expect_contains(result.out, "\n  actuator.Kt: 0.00395 -> 0.0039895\n  verdict: feasible -> not judged: ");
   expect_contains(read(folder / "runs/test/good.failure.html"), "\"verdict: feasible -> not judged: ");
-  golden.verdict.clear();
+  golden.verdict = Word::not_judged;
   write_golden(golden, folder / "good.golden");
   result = call("test good.yaml");
   EXPECT_EQ(result.code, 4);

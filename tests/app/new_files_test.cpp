@@ -117,7 +117,7 @@ TEST_F(NewFiles, AGaitFitsTheMotorsAndTheWeight) {
   const std::string box = "mass: 5, shape: [{box: [0.2, 0.2, 0.2], origin: [";
   folder.write(
       "slow.yaml",
-      "gaitlab_module: 3\nname: slow\nbodies:\n  a: {" + box + "-0.1, 0, 0]}]}\n  b: {" + box +
+      "gaitlab_module: 1\nname: slow\nbodies:\n  a: {" + box + "-0.1, 0, 0]}]}\n  b: {" + box +
           "0.1, 0, 0]}]}\nhinges:\n  - {name: hinge, parent: a, child: b, axis: [0, 0, 1], range: [-1, 1]}\n"
           "actuator: {type: servo, voltage: 5, stall_torque: 1, no_load_speed: 0.5}\ncontacts: {all: shapes}\n"
           "faces:\n  - {id: 0, body: a, gender: none, origin: [-0.2, 0, 0], normal: [-1, 0, 0], reference: [0, 1, 0]}\n"
@@ -135,7 +135,7 @@ TEST_F(NewFiles, AGaitFitsTheMotorsAndTheWeight) {
 TEST_F(NewFiles, AFileStatesWhyItsGaitIsNotFeasible) {
   folder.write(
       "weak.yaml",
-      "gaitlab_module: 3\nname: weak\nbodies:\n  a: {mass: 1, shape: [{box: [0.1, 0.1, 0.1], origin: [-0.05, 0, 0]}]}\n"
+      "gaitlab_module: 1\nname: weak\nbodies:\n  a: {mass: 1, shape: [{box: [0.1, 0.1, 0.1], origin: [-0.05, 0, 0]}]}\n"
       "  b: {mass: 1, shape: [{box: [0.1, 0.1, 0.1], origin: [0.05, 0, 0]}]}\n"
       "hinges:\n  - {name: hinge, parent: a, child: b, axis: [0, 1, 0], range: [-1, 1]}\n"
       "actuator: {type: servo, voltage: 5, stall_torque: 0.01, no_load_speed: 5}\ncontacts: {all: shapes}\n");
@@ -184,7 +184,7 @@ TEST_F(NewFiles, TheModuleIsNamedFromTheFolderOfTheScenario) {
 /// A leg whose knee bends one way only, without faces and contact elements: the gait stays within the range, on a fixed base.
 TEST_F(NewFiles, AGaitFitsTheRangesOfTheHinges) {
   folder.write("leg.yaml",
-               "gaitlab_module: 2\nname: leg\nbodies:\n"
+               "gaitlab_module: 1\nname: leg\nbodies:\n"
                "  hip: {mass: 1, inertia: [0.01, 0.01, 0.01, 0, 0, 0]}\n"
                "  thigh: {mass: 0.1, com: [0, 0, -0.05], inertia: [1e-4, 1e-4, 1e-4, 0, 0, 0]}\n"
                "  shin: {mass: 0.1, com: [0, 0, -0.05], inertia: [1e-4, 1e-4, 1e-4, 0, 0, 0]}\n"
@@ -203,7 +203,7 @@ TEST_F(NewFiles, AGaitFitsTheRangesOfTheHinges) {
 
 TEST_F(NewFiles, AModuleWithFeetAloneStandsOnThem) {
   folder.write("foot.yaml",
-               "gaitlab_module: 3\nname: foot\nbodies:\n  sole: {mass: 1, shape: [{box: [0.2, 0.2, 0.02]}]}\n"
+               "gaitlab_module: 1\nname: foot\nbodies:\n  sole: {mass: 1, shape: [{box: [0.2, 0.2, 0.02]}]}\n"
                "  mast: {mass: 0.1, com: [0, 0, 0.05], shape: [{box: [0.01, 0.01, 0.1], origin: [0, 0, 0.05]}]}\n"
                "hinges:\n  - {name: ankle, parent: sole, child: mast, origin: [0, 0, 0.02], axis: [0, 1, 0], range: [-1, 1]}\n"
                "contacts: {feet: shapes, all: []}\nactuator: {type: servo, voltage: 5, stall_torque: 1, no_load_speed: 5}\n");
@@ -213,7 +213,7 @@ TEST_F(NewFiles, AModuleWithFeetAloneStandsOnThem) {
 }
 
 TEST_F(NewFiles, AModuleWithFaultsIsRefusedWithThem) {
-  folder.write("bad.yaml", "gaitlab_module: 2\nname: bad\nbodies: {b: {mass: -1}}\n");
+  folder.write("bad.yaml", "gaitlab_module: 1\nname: bad\nbodies: {b: {mass: -1}}\n");
   EXPECT_EQ(refused("scenario walk --module bad.yaml"), "bad.yaml:3:20: error: mass is -1 kg; allowed are at least 0 kg\n");
   EXPECT_FALSE(std::filesystem::exists(folder / "walk.yaml"));
 }

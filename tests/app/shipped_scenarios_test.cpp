@@ -41,7 +41,7 @@ TEST(ShippedScenarios, AreRunAndApprovedAsCopies) {
   }
 }
 
-constexpr const char* kBody = "gaitlab_module: 2\nname: y1\nbodies: {a: {mass: 1, inertia: [1, 1, 1, 0, 0, 0]}}\n";
+constexpr const char* kBody = "gaitlab_module: 1\nname: y1\nbodies: {a: {mass: 1, inertia: [1, 1, 1, 0, 0, 0]}}\n";
 
 /// Output of `check` on stderr for a scenario with this robot, alone with the files in the folder.
 std::string said_of(const Folder& folder, const std::string& robot) {

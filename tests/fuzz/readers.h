@@ -122,7 +122,7 @@ inline void golden_trace(const std::string& bytes) {
 inline void trace(const std::string& bytes) {
   constexpr std::size_t kUserBlock = 512;
   const std::string rest = bytes.size() > kUserBlock ? bytes.substr(kUserBlock) : bytes;
-  std::string head = "gaitlab-trace-2\nHDF5 follows at byte 512. Bytes in all: " + std::to_string(kUserBlock + rest.size()) +
+  std::string head = "gaitlab-trace-1\nHDF5 follows at byte 512. Bytes in all: " + std::to_string(kUserBlock + rest.size()) +
                      "; hash from byte 512 on: " + hash_words(rest) + "\n";
   head.resize(kUserBlock, '\0');
   (void)read_h5(folder().write("trace.h5", head + rest));
@@ -136,7 +136,7 @@ inline void summary(const std::string& text) {
 
 /// Reads a remedy.json for the page of the run that it belongs to. A remedy that is not shown counts as refused.
 inline void remedy(const std::string& text) {
-  const std::string shown = report::shown_remedy(text, "0123456789abcdef", report::Word::infeasible);
+  const std::string shown = report::shown_remedy(text, "0123456789abcdef", Word::infeasible);
   if (shown.empty()) throw InputError(SourceLocation{"remedy.json"}, "is not shown");
   const nlohmann::json json = nlohmann::json::parse(shown);
   if (json.at("text").size() != json.at("tones").size()) std::abort();

@@ -97,7 +97,7 @@ inline const std::string& good_journal() {
         row.outcome = run == 5 ? "diverged" : "done";
         row.message = run == 5 ? "at t = 0.1 s" : "";
         row.simulated = 0.3;
-        row.verdict = run == 5 ? "failed" : "feasible";
+        row.verdict = run == 5 ? Word::failed : Word::feasible;
         if (run == 5) continue;
         row.quantities.assign(plan.columns().size(), 0.1 * static_cast<double>(run));
         row.score = studies::Score{{}, run == 2 ? 0.5 : 0};
@@ -106,7 +106,7 @@ inline const std::string& good_journal() {
       made.write(rows, {0, rows.size(), "2026-01-01T00:00:00Z", 0.5, "machine", 12});
       const studies::Generation generation{0, 0, 0, 0, 8, 4, 2, 0.5, 0.25, 0.1};
       made.write({&generation, 1});
-      const studies::Verification verification{0, "half step", {0.1, 0.2}, 0, "feasible", ""};
+      const studies::Verification verification{0, studies::TrialKind::half_step, "", {0.1, 0.2}, 0, Word::feasible, ""};
       made.write({&verification, 1});
     }
     return test::read(file);

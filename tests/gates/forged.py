@@ -26,7 +26,7 @@ def signed(name):
     for word in (len(rest), *struct.unpack(f"<{(len(rest) + 7) // 8}Q", rest + b"\0" * (-len(rest) % 8))):
         state = (state ^ word) * 1099511628211 % 2**64
         state ^= state >> 32
-    head = f"gaitlab-trace-2\nHDF5 follows at byte 512. Bytes in all: {512 + len(rest)}; hash from byte 512 on: {state:016x}\n"
+    head = f"gaitlab-trace-1\nHDF5 follows at byte 512. Bytes in all: {512 + len(rest)}; hash from byte 512 on: {state:016x}\n"
     open(name, "wb").write(head.encode().ljust(512, b"\0") + rest)
 
 

@@ -39,7 +39,7 @@ whole = open("runs/walk/trace.h5", "rb").read()
 assert whole[:512].decode().split("on: ")[1].startswith(f"{words(whole[512:]):016x}\n"), "the hash of the file"
 names = words(b"".join(name.encode() + b"\0" for name in columns))
 import json
-trace_hash = f"2-{words(trace.astype('<f8').tobytes(), names):016x}"
+trace_hash = f"1-{words(trace.astype('<f8').tobytes(), names):016x}"
 assert json.load(open("runs/walk/summary.json"))["trace_hash"] == trace_hash, "the hash of the trace"
 
 with h5py.File("runs/walk/trace.h5") as file:

@@ -104,7 +104,7 @@ def expect_module_agreement(text, right):
 with tempfile.TemporaryDirectory() as new_folder:
     subprocess.run([PROGRAM, "new", "module", "demo"], cwd=new_folder, check=True, capture_output=True)
     DEMO = (pathlib.Path(new_folder) / "demo.yaml").read_text()
-MODULE = "gaitlab_module: 3\nname: m\n"
+MODULE = "gaitlab_module: 1\nname: m\n"
 BODY = MODULE + "bodies: {b: {mass: 1, shape: [{sphere: 0.1}]}}\n"
 PAIR = ("bodies: {b: {mass: 1, shape: [{box: [1, 1, 1]}]}, c: {mass: 1, inertia: [1, 1, 1, 0, 0, 0]}}\n"
         "hinges: [{name: h, parent: b, child: c, axis: [0, 1, 0], ")

@@ -127,7 +127,7 @@ TEST(Estimate, FindsWhatNobodyCanPredict) {
   EXPECT_LT(torque->low, torque->high);
   const auto error = std::ranges::find(lonely.checks, "torque_error", &report::Check::id);
   EXPECT_EQ(error->remedy, "") << "no step helps";
-  EXPECT_EQ(judged().reason.find("not predictable: gravity"), std::string::npos) << judged().reason;
+  EXPECT_EQ(judged().reason.text.find("not predictable: gravity"), std::string::npos) << judged().reason.text;
 }
 
 TEST(Estimate, FindsTheWalksPredictable) {

@@ -162,7 +162,7 @@ TEST(GroundStart, ShapesReachBelowTheirElements) {
 gaitlab: 1
 robot:
   modules:
-    gaitlab_module: 3
+    gaitlab_module: 1
     name: foot
     bodies:
       body: {mass: 1, shape: [{box: [0.2, 0.2, 0.05], origin: [0, 0, 0.2]}]}

@@ -1,4 +1,4 @@
-// Module format 2 in scenarios: faces without gender, motors and controllers by module type and hinge, hinges without stops.
+// Module types in scenarios: faces without gender, motors and controllers by module type and hinge, hinges without stops.
 #include <cmath>
 
 #include "core/dynamics/dock_load.h"
@@ -13,29 +13,23 @@ namespace {
 
 /// Module file of a 60 mm cube: two halves with a hinge, face 0 at the rear and face 1 at the front. `faces` and `rest` are
 /// YAML.
-std::string cube(const std::string& format, const std::string& name, const std::string& faces, const std::string& rest,
+std::string cube(const std::string& name, const std::string& faces, const std::string& rest,
                  const std::string& hinge = "range: [-1.5, 1.5]") {
   return fmt::format(R"(
-    {1}:
-      gaitlab_module: {0}
-      name: {1}
+    {0}:
+      gaitlab_module: 1
+      name: {0}
       bodies:
         tail: {{mass: 0.09, com: [-0.015, 0, 0], inertia: [5e-05, 3e-05, 3e-05, 0, 0, 0]}}
         head: {{mass: 0.05, com: [0.015, 0, 0], inertia: [3e-05, 2e-05, 2e-05, 0, 0, 0]}}
-      hinges: [{{name: hinge, parent: tail, child: head, axis: [0, 1, 0], {4}}}]
+      hinges: [{{name: hinge, parent: tail, child: head, axis: [0, 1, 0], {3}}}]
       faces:
-{2}
+{1}
       contacts: {{feet: [{{body: head, point: [0.03, 0, -0.03]}}, {{body: tail, point: [-0.03, 0, -0.03]}}]}}
-{3})",
-                     format, name, faces, rest, hinge);
+{2})",
+                     name, faces, rest, hinge);
 }
 
-constexpr const char* kTwoNumbers = R"(
-        - {id: 0, body: tail, gender: active, origin: [-0.03, 0, 0], normal: [-1, 0, 0], reference: [0, 1, 0]}
-        - {id: 10, body: tail, gender: passive, origin: [-0.03, 0, 0], normal: [-1, 0, 0], reference: [0, 1, 0]}
-        - {id: 1, body: head, gender: active, origin: [0.03, 0, 0], normal: [1, 0, 0], reference: [0, 1, 0]}
-        - {id: 11, body: head, gender: passive, origin: [0.03, 0, 0], normal: [1, 0, 0], reference: [0, 1, 0]}
-)";
 std::string faces(const std::string& more = "") {
   return fmt::format(R"(
         - {{id: 0, body: tail, gender: none, origin: [-0.03, 0, 0], normal: [-1, 0, 0], reference: [0, 1, 0]{0}}}
@@ -64,28 +58,17 @@ std::string error_of(const std::string& text, const std::vector<std::string>& se
   return message_of([&] { scenario(text, sets); });
 }
 
-TEST(ModuleTypes, AFaceWithoutGenderIsTwoOfFormat1) {
-  const Recording two =
-      run(scenario(robot(cube("1", "cube", kTwoNumbers, kMotor), "cube", "[[0, 1, 11, 0, 0], [0, 2, 11, 1, 1]]")));
-  const Recording one = run(scenario(robot(cube("2", "cube", faces(), kMotor), "cube", "[[0, 1, 1, 0, 0], [0, 2, 1, 1, 1]]")));
-  EXPECT_GT(two.trace.rows(), 10U);
-  EXPECT_EQ(two.trace.values, one.trace.values);
-}
-
-TEST(ModuleTypes, OneConnectorDocksOnce) {
-  const std::string twice =
-      error_of(robot(cube("1", "cube", kTwoNumbers, kMotor), "cube", "[[0, 1, 11, 0, 0], [10, 2, 1, 0, 0]]"));
-  EXPECT_TRUE(contains(twice, "face 1 of module 0 is used twice: it coincides with face 11, and a face docks once")) << twice;
+TEST(ModuleTypes, ARingIsRefused) {
   const std::string ring =
-      error_of(robot(cube("2", "cube", faces(), kMotor), "cube", "[[0, 1, 1, 0, 0], [0, 2, 1, 1, 0], [0, 0, 1, 2, 0]]"));
+      error_of(robot(cube("cube", faces(), kMotor), "cube", "[[0, 1, 1, 0, 0], [0, 2, 1, 1, 0], [0, 0, 1, 2, 0]]"));
   EXPECT_TRUE(contains(ring, "closes a ring")) << ring;
   EXPECT_TRUE(contains(ring, "docks must form a tree")) << ring;
 }
 
 TEST(ModuleTypes, OnlyLikeConnectorsDock) {
-  const std::string a = cube("2", "a", faces(", connector: hook, turns: [0, 2]"), kMotor);
-  const std::string b = cube("2", "b", faces(", connector: roficom"), kMotor);
-  const std::string c = cube("2", "c", faces(), kMotor);
+  const std::string a = cube("a", faces(", connector: hook, turns: [0, 2]"), kMotor);
+  const std::string b = cube("b", faces(", connector: roficom"), kMotor);
+  const std::string c = cube("c", faces(), kMotor);
   const std::string other = error_of(robot(a + b, "{0: a, 1: b}", "[[0, 1, 1, 0, 0]]"));
   EXPECT_TRUE(contains(
       other, "face 0 of module 1 has connector 'roficom', face 1 of module 0 'hook'; only faces with the same connector dock"))
@@ -125,7 +108,7 @@ const std::string kGendered = R"(
 )";
 
 TEST(ModuleTypes, EveryJointHasTheMotorAndTheGainsOfItsType) {
-  const std::string text = robot(cube("2", "small", kGendered, kSmallMotor), "{0: mtran, 1: small}", "[[0, 1, 4, 0, 0]]");
+  const std::string text = robot(cube("small", kGendered, kSmallMotor), "{0: mtran, 1: small}", "[[0, 1, 4, 0, 0]]");
   const Scenario s = scenario(text);
   const std::vector<double> torques = stall(s);
   EXPECT_NEAR(torques[0], 1.97, 0.005) << "mtran: eta Kt i_max n";
@@ -146,37 +129,33 @@ TEST(ModuleTypes, EveryJointHasTheMotorAndTheGainsOfItsType) {
 
 TEST(ModuleTypes, DifferentKindsOfMotorsAreAQuestion) {
   const std::string torque = "      actuator: {type: torque, limit: 1}\n";
-  const std::string text = error_of(robot(cube("2", "small", kGendered, torque), "{0: mtran, 1: small}", "[[0, 1, 4, 0, 0]]"));
+  const std::string text = error_of(robot(cube("small", kGendered, torque), "{0: mtran, 1: small}", "[[0, 1, 4, 0, 0]]"));
   EXPECT_TRUE(contains(text, "the module types have different actuators; choose one: add actuator: {type: ...}")) << text;
-  const std::string none = error_of(robot(cube("2", "small", kGendered, ""), "{0: mtran, 1: small}", "[[0, 1, 4, 0, 0]]"));
+  const std::string none = error_of(robot(cube("small", kGendered, ""), "{0: mtran, 1: small}", "[[0, 1, 4, 0, 0]]"));
   EXPECT_TRUE(contains(none, "some of the module types with a motor state none; choose one")) << none;
   const std::string hold = "      actuator: {type: dc_motor}\n      controller: {type: hold}\n";
-  const std::string controllers =
-      error_of(robot(cube("2", "small", kGendered, hold), "{0: mtran, 1: small}", "[[0, 1, 4, 0, 0]]"));
+  const std::string controllers = error_of(robot(cube("small", kGendered, hold), "{0: mtran, 1: small}", "[[0, 1, 4, 0, 0]]"));
   EXPECT_TRUE(contains(controllers, "the module types have different controllers; choose one")) << controllers;
   const std::string models = "      actuator: {type: dc_motor, efficiency_model: directional}\n";
-  const std::string one = error_of(robot(cube("2", "small", kGendered, models), "{0: mtran, 1: small}", "[[0, 1, 4, 0, 0]]"));
+  const std::string one = error_of(robot(cube("small", kGendered, models), "{0: mtran, 1: small}", "[[0, 1, 4, 0, 0]]"));
   EXPECT_TRUE(contains(one, "efficiency_model must be equal for all joints of a robot, but differs between its hinges")) << one;
-  // Module types of format 1 must have the same motor.
-  const std::string old = error_of(robot(cube("1", "small", kGendered, kMotor), "{0: mtran, 1: small}", "[[0, 1, 4, 0, 0]]"));
-  EXPECT_TRUE(contains(old, "the module types have different actuators")) << old;
 }
 
 TEST(ModuleTypes, AHingeHasAMotorOfItsOwn) {
   const std::string own = "range: [-1.5, 1.5], actuator: {i_max: 0.2}, controller: {Kp: 7}";
-  const Scenario s = scenario(robot(cube("2", "cube", faces(), kMotor, own), "cube", "[]"));
+  const Scenario s = scenario(robot(cube("cube", faces(), kMotor, own), "cube", "[]"));
   EXPECT_NEAR(stall(s)[0], 0.7 * 0.00395 * 0.2 * 594, 1e-9);
   EXPECT_TRUE(contains(resolved(s), "Kp: 7"));
   const std::string wrong =
-      error_of(robot(cube("2", "cube", faces(), kMotor, "range: [-1, 1], actuator: {imax: 0.2}"), "cube", "[]"));
+      error_of(robot(cube("cube", faces(), kMotor, "range: [-1, 1], actuator: {imax: 0.2}"), "cube", "[]"));
   EXPECT_TRUE(contains(wrong, "unknown key 'imax'; did you mean 'i_max'?")) << wrong;
   const std::string type =
-      error_of(robot(cube("2", "cube", faces(), kMotor, "range: [-1, 1], actuator: {type: torque}"), "cube", "[]"));
+      error_of(robot(cube("cube", faces(), kMotor, "range: [-1, 1], actuator: {type: torque}"), "cube", "[]"));
   EXPECT_TRUE(contains(type, "unknown key 'type'")) << type;
 }
 
 TEST(ModuleTypes, AHingeThatTurnsFreelyHasNoEnd) {
-  const std::string wheel = cube("2", "cube", faces(), kMotor, "range: free");
+  const std::string wheel = cube("cube", faces(), kMotor, "range: free");
   const std::string text = robot(wheel, "cube", "[]");
   const Scenario s = scenario(text, {"cpg={type: equations, model: {output: \"2*t\"}}", "duration=6", "contact.on=none",
                                      "ground.type=none", "robot.base=fixed"});
@@ -194,7 +173,7 @@ TEST(ModuleTypes, AHingeThatTurnsFreelyHasNoEnd) {
     EXPECT_EQ(r.ledger.stops, 0) << engine;
     EXPECT_EQ(end(r, "joint.0.stop_torque"), 0) << engine;
   }
-  const std::string ranged = error_of(robot(cube("2", "cube", faces(), kMotor), "cube", "[]"), {"cpg.amplitude=30"});
+  const std::string ranged = error_of(robot(cube("cube", faces(), kMotor), "cube", "[]"), {"cpg.amplitude=30"});
   EXPECT_TRUE(contains(ranged,
                        "amplitude of joint m0/hinge is 30 rad; allowed are -3.2 to 3.2 rad where the hinge has a range; 30 "
                        "degrees are 0.5236 rad"))
@@ -204,7 +183,7 @@ TEST(ModuleTypes, AHingeThatTurnsFreelyHasNoEnd) {
 TEST(ModuleTypes, ARobotWithoutJointsNeedsNoColumns) {
   const Scenario stone = scenario(R"(
 gaitlab: 1
-robot: {modules: {gaitlab_module: 2, name: stone, bodies: {stone: {mass: 1, inertia: [1, 1, 1, 0, 0, 0]}}}, position: [0, 0, 1]}
+robot: {modules: {gaitlab_module: 1, name: stone, bodies: {stone: {mass: 1, inertia: [1, 1, 1, 0, 0, 0]}}}, position: [0, 0, 1]}
 physics: {engine: articulated}
 contact: {on: none}
 duration: 0.1

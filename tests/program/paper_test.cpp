@@ -48,8 +48,7 @@ struct Figure {
 Figure figure(const Scenario& s, std::size_t joint, double from, double to) {
   const Recording made = run(s);
   Figure f;
-  f.feasible =
-      report::verdict(s, made, report::summarise(s, made, 0), report::overlaps(s, made)).word == report::Word::feasible;
+  f.feasible = report::verdict(s, made, report::summarise(s, made, 0), report::overlaps(s, made)).word == Word::feasible;
   f.torque = extremes(made.trace, joint, "torque", from, to);
   f.angle = extremes(made.trace, joint, "angle", from, to);
   for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {

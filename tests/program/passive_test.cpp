@@ -25,7 +25,7 @@ robot:
   base: fixed
   position: [0, 0, 2]
   modules:
-    gaitlab_module: 2
+    gaitlab_module: 1
     name: sprung-rod
     bodies:
       support: {{mass: 1, inertia: [1, 1, 1, 0, 0, 0]}}
@@ -214,7 +214,7 @@ robot:
   base: fixed
   position: [0, 0, 1]
   modules:
-    gaitlab_module: 2
+    gaitlab_module: 1
     name: arm
     bodies:
       support: {mass: 1, inertia: [1, 1, 1, 0, 0, 0]}

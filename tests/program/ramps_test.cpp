@@ -110,7 +110,7 @@ TEST(Ramps, AStandingRobotStaysUp) {
                     name, x, y);
   }
   const Scenario s = scenario(
-      "gaitlab: 1\nrobot:\n  modules:\n    gaitlab_module: 3\n    name: stool\n    bodies:\n"
+      "gaitlab: 1\nrobot:\n  modules:\n    gaitlab_module: 1\n    name: stool\n    bodies:\n"
       "      top: {mass: 1, shape: [{box: [0.2, 0.2, 0.04]}]}\n" +
       bodies + "    hinges:\n" + hinges +
       "    contacts: {all: shapes}\n"

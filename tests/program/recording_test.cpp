@@ -7,6 +7,8 @@
 #include "core/recording/run_files.h"
 #include "core/scenario/resolved.h"
 #include "core/simulation/probes.h"
+#include "kit/stored_scenario.h"
+#include "report/verdict/verdict.h"
 #include "tests/core/recording/tables.h"
 #include "tests/folders.h"
 #include "tests/labels.h"
@@ -177,8 +179,10 @@ TEST_F(RowsAlone, IsReadAsFarAsItGoes) {
   EXPECT_NE(result.out.find("distance      0.0"), std::string::npos) << result.out;
   for (const char* unknown : {"most loaded", "\n  tracking", "energy", "transport", "\n  stability"})
     EXPECT_EQ(result.out.find(unknown), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("judged from the trace's rows, one per "), std::string::npos) << result.out;
-  EXPECT_EQ(result.out.find("not judged: voltage"), std::string::npos) << result.out;
+  EXPECT_NE(
+      result.out.find("not judged: only the rows of the trace are left, which miss the peaks between them; gaitlab rerun "),
+      std::string::npos)
+      << result.out;
   EXPECT_NE(result.err.find(
                 "old: note: old/trace.csv contains only rows: peaks, shares of time, energies and the torque error are not "
                 "known, because they are computed from every step\nold: note: the trace has no column load.*\n"),
@@ -193,12 +197,23 @@ TEST_F(RowsAlone, IsReadAsFarAsItGoes) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "new"));
 }
 
+/// Not one check passes or fails by rows, which do not contain peaks.
+TEST_F(RowsAlone, HasNoCheckThatIsJudged) {
+  const kit::StoredRun run = kit::read_run(folder_ / "old", catalog());
+  const Recording& record = run.stored.recording;
+  const report::Verdict made =
+      report::verdict(run.scenario, record, report::summarise(run.scenario, record, 0), report::overlaps(run.scenario, record));
+  EXPECT_EQ(made.word, Word::not_judged);
+  for (const report::Check& check : made.checks) EXPECT_EQ(check.status, report::CheckStatus::not_judged) << check.id;
+  EXPECT_EQ(gaitlab("report old --fail-infeasible", folder_.path()).code, 3);
+}
+
 TEST_F(RowsAlone, HasAPageThatSaysWhatIsMissing) {
   const Result result = gaitlab("report old --page old/report.html", folder_.path());
   EXPECT_EQ(result.code, 0) << result.err;
   const std::string page = read(folder_ / "old/report.html");
   EXPECT_NE(page.find("\"missing\":[\"trace.csv contains only rows: peaks"), std::string::npos);
-  EXPECT_NE(page.find("\"judged from the trace's rows, one per "), std::string::npos);
+  EXPECT_NE(page.find("only the rows of the trace are left"), std::string::npos);
   EXPECT_NE(page.find("\"joint.0.angle\""), std::string::npos);
   EXPECT_EQ(page.find(folder_.path().string()), std::string::npos);
 }

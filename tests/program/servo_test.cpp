@@ -187,7 +187,7 @@ class ServoModule : public testing::Test {
 gaitlab: 1
 robot:
   modules:
-    gaitlab_module: 2
+    gaitlab_module: 1
     name: arm
     bodies:
       support: {{mass: 1, inertia: [1, 1, 1, 0, 0, 0]}}

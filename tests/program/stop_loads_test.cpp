@@ -23,7 +23,7 @@ robot:
   modules: {{0: flail, 1: rod}}
   types:
     flail:
-      gaitlab_module: 3
+      gaitlab_module: 1
       name: flail
       bodies:
         post: {{mass: 0.1, inertia: [0.0001, 0.0001, 0.0001, 0, 0, 0]}}
@@ -31,7 +31,7 @@ robot:
       hinges: [{{name: free, parent: post, child: arm, axis: [0, 1, 0], range: [-0.2, {}], drive: none}}]
       faces: [{{id: 1, body: arm, gender: passive, origin: [0.05, 0, 0], normal: [1, 0, 0], reference: [0, 1, 0]}}]
     rod:
-      gaitlab_module: 3
+      gaitlab_module: 1
       name: rod
       bodies: {{rod: {{mass: {}, com: [0.02, 0, 0], inertia: [2e-5, 2e-5, 2e-5, 0, 0, 0]}}}}
       faces: [{{id: 0, body: rod, gender: active, origin: [0, 0, 0], normal: [-1, 0, 0], reference: [0, 1, 0]}}]

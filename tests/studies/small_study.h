@@ -48,7 +48,7 @@ class SmallStudy {
   /// Row of a run that ended, feasible, with this value of a quantity and without the others.
   [[nodiscard]] studies::Row done(studies::Row row, const std::string& quantity, double value) const {
     row.outcome = "done";
-    row.verdict = "feasible";
+    row.verdict = Word::feasible;
     row.simulated = 0.02;
     row.quantities.assign(plan->columns().size(), std::nan(""));
     row.quantities[column(quantity)] = value;

@@ -10,7 +10,7 @@ code is 1 if a check fails. Takes about half an hour.
 import argparse, json, pathlib, re, resource, subprocess, sys, tempfile
 
 OWN_MODULE = """
-gaitlab_module: 2
+gaitlab_module: 1
 name: elbow
 source: "chosen: two boxes and a hinge"
 bodies:

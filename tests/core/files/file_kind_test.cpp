@@ -12,7 +12,7 @@ TEST(FileKinds, ByKeysAtTheBeginningOfLines) {
   EXPECT_EQ(kind_of_text("gaitlab: 1\nrobot: {modules: mtran}\nduration: 1\n"), FileKind::scenario);
   EXPECT_EQ(kind_of_text("robot:\n  modules: mtran\n"), FileKind::scenario);
   EXPECT_EQ(kind_of_text("gaitlab: 1\nduration: soon\n"), FileKind::scenario);
-  EXPECT_EQ(kind_of_text("# a comment\ngaitlab_module: 2\nname: a\n"), FileKind::module);
+  EXPECT_EQ(kind_of_text("# a comment\ngaitlab_module: 1\nname: a\n"), FileKind::module);
   EXPECT_EQ(kind_of_text("name: a\nbodies: {}\n"), FileKind::module);
   EXPECT_EQ(kind_of_text("gaitlab_study: 1\n"), FileKind::study);
   EXPECT_EQ(kind_of_text("scenario: a.yaml\nparameters: {}\n"), FileKind::study);

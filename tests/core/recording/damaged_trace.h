@@ -20,7 +20,7 @@ namespace gaitlab::test {
 /// Bytes with the size and hash in the first lines that belong to them, so that HDF5 reads them.
 inline std::string sealed(const std::string& bytes) {
   const std::string body = bytes.substr(kUserBlock);
-  std::string head = "gaitlab-trace-2\nHDF5 follows at byte 512. Bytes in all: " + std::to_string(bytes.size()) +
+  std::string head = "gaitlab-trace-1\nHDF5 follows at byte 512. Bytes in all: " + std::to_string(bytes.size()) +
                      "; hash from byte 512 on: " + hash_words(body) + "\n";
   head.resize(kUserBlock, '\0');
   return head + body;

@@ -119,7 +119,7 @@ TEST_F(H5, SameTraceSameBytes) {
 TEST_F(H5, FirstLinesSayWhatItIs) {
   const std::string bytes = written(sample(3));
   EXPECT_EQ(bytes.substr(0, bytes.find('\0')),
-            "gaitlab-trace-2\nHDF5 follows at byte 512. Bytes in all: " + std::to_string(bytes.size()) +
+            "gaitlab-trace-1\nHDF5 follows at byte 512. Bytes in all: " + std::to_string(bytes.size()) +
                 "; hash from byte 512 on: " + hash_words(std::string_view(bytes).substr(kHeader)) + "\n");
   EXPECT_EQ(bytes.substr(kHeader, 4), "\x89HDF");
 }
@@ -178,10 +178,10 @@ TEST_F(H5, EveryFlippedByteIsSeen) {
 TEST_F(H5, OtherVersion) {
   std::string other = written(sample(3));
   other.replace(other.find('2'), 1, "3");
-  EXPECT_EQ(complaint(other), "has format gaitlab-trace-3; this gaitlab reads gaitlab-trace-2");
+  EXPECT_EQ(complaint(other), "has format gaitlab-trace-3; this gaitlab reads gaitlab-trace-1");
   other = written(sample(3));
   other.replace(other.find("2\n"), 2, "12\n");
-  EXPECT_EQ(complaint(other), "has format gaitlab-trace-12; this gaitlab reads gaitlab-trace-2");
+  EXPECT_EQ(complaint(other), "has format gaitlab-trace-12; this gaitlab reads gaitlab-trace-1");
 }
 
 TEST_F(H5, KeepsTablesBesideTheTrace) {
@@ -241,7 +241,7 @@ TEST_F(H5, ContentThatDoesNotFitTogether) {
   // HDF5 detects changes of names and attributes of format 2 by a separate checksum.
   for (const auto& [from, to, where] : {std::array{hash(sample(3)), std::string("0123456789abcdef"), std::string()},
                                         {"joint.0.angle", "joint.1.angle", "dataset /trace: "},
-                                        {"gaitlab-trace-2", "gaitlab-trace-3", ""},
+                                        {"gaitlab-trace-1", "gaitlab-trace-3", ""},
                                         {"checksum", "checksun", ""}}) {
     EXPECT_TRUE(complaint(changed(from, to)).starts_with("is corrupt: " + where + "HDF5: ")) << from;
   }

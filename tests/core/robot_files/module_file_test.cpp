@@ -52,9 +52,9 @@ TEST_F(ModuleFileTest, ShippedTypesAreValid) {
 }
 
 TEST_F(ModuleFileTest, KeysAndVersion) {
-  EXPECT_EQ(error("gaitlab_module: 1\n", ""), "DIR/m.yaml:1:1: error: missing key 'gaitlab_module'; write gaitlab_module: 3");
+  EXPECT_EQ(error("gaitlab_module: 1\n", ""), "DIR/m.yaml:1:1: error: missing key 'gaitlab_module'; write gaitlab_module: 1");
   EXPECT_EQ(error("gaitlab_module: 1", "gaitlab_module: 4"),
-            "DIR/m.yaml:1:17: error: gaitlab_module is 4; this program reads format versions 1 to 3");
+            "DIR/m.yaml:1:17: error: gaitlab_module is 4; expected 1, the only format version");
   EXPECT_EQ(error("name: duo", "name: my duo"),
             "DIR/m.yaml:2:7: error: name 'my duo' is not allowed; expected letters, digits, _ and -");
   EXPECT_EQ(error("mass: 0.5", "mas: 0.5"), "DIR/m.yaml:6:5: error: unknown key 'mas'; did you mean 'mass'?");
@@ -72,7 +72,7 @@ TEST_F(ModuleFileTest, KeysAndVersion) {
 TEST_F(ModuleFileTest, Format2) {
   const auto read = [&](const std::string& from, const std::string& to) {
     std::string text = fakes::kDuo;
-    text.replace(text.find("gaitlab_module: 1"), 17, "gaitlab_module: 2");
+    text.replace(text.find("gaitlab_module: 1"), 17, "gaitlab_module: 1");
     text.replace(text.find(from), from.size(), to);
     return read_module_file(folder_.write("m.yaml", text)).type;
   };
@@ -119,14 +119,6 @@ TEST_F(ModuleFileTest, Format2) {
             "DIR/m.yaml:14:46: error: turns[0] is 4; allowed are 0 to 3");
   EXPECT_EQ(wrong("faces:", "connectors: {hook: {tension: 0}}\nfaces:"),
             "DIR/m.yaml:13:30: error: tension is 0 N; allowed are more than 0 N");
-  // In a file of format 1, the message for a key of format 2 states the required format.
-  const std::string old = "is a key of module format 2, but this file has format 1; write gaitlab_module: 2";
-  EXPECT_EQ(error(range, range + ", drive: none"), "DIR/m.yaml:12:102: error: 'drive' " + old);
-  EXPECT_EQ(error("faces:", "connectors: {}\nfaces:"), "DIR/m.yaml:13:13: error: 'connectors' " + old);
-  EXPECT_EQ(error(range, "range: free"),
-            "DIR/m.yaml:12:82: error: range: free is of module format 2, but this file has format 1; write gaitlab_module: 2");
-  EXPECT_EQ(error("gender: active", "gender: none"),
-            "DIR/m.yaml:14:30: error: gender: none is of module format 2, but this file has format 1; write gaitlab_module: 2");
 }
 
 TEST_F(ModuleFileTest, BodiesByName) {
@@ -173,11 +165,11 @@ TEST_F(ModuleFileTest, MassAndInertia) {
       "DIR/m.yaml:5:3: error: the inertia of body 'b' is not positive definite; its principal moments are 0, 0, 0 kg m^2");
 }
 
-/// A module of format 3, whose bodies have only mass and shape.
+/// A module whose bodies have only mass and shape.
 class ShapeModuleTest : public ModuleFileTest {
  protected:
   static constexpr const char* kShaped =
-      "gaitlab_module: 3\nname: shaped\nbodies:\n"
+      "gaitlab_module: 1\nname: shaped\nbodies:\n"
       "  block:\n    mass: 0.16\n    shape:\n      - {box: [0.0325, 0.065, 0.065], origin: [-0.01625, 0, 0]}\n"
       "      - {half_cylinder: [0.0325, 0.065]}\ncontacts: {all: shapes}\n";
   ModuleType read_shaped(const std::string& from, const std::string& to) {
@@ -200,7 +192,7 @@ TEST_F(ShapeModuleTest, InertiaAndCentreFollowFromShapes) {
   EXPECT_EQ(placed.com, Vec3(0.01, 0, 0));
   EXPECT_EQ(placed.inertia, block.inertia) << "about the centre of mass, wherever it is stated";
   const BodyType stated = read_shaped("mass: 0.16", "mass: 0.16\n    inertia: [1, 2, 2, 0, 0, 0]").bodies[0];
-  EXPECT_EQ(stated.com, Vec3::Zero()) << "as in the other formats";
+  EXPECT_EQ(stated.com, Vec3::Zero());
   EXPECT_EQ(stated.inertia(1, 1), 2);
 }
 
@@ -214,7 +206,7 @@ TEST_F(ShapeModuleTest, ContactsFollowFromShapes) {
   EXPECT_EQ(read_shaped("{all: shapes}", "{}").feet.size(), 0U);
 }
 
-/// The module Y1 in format 3, from its masses and shapes, has the inertias and contact points of the shipped file.
+/// The module Y1, from its masses and shapes alone, has the inertias and contact points of the shipped file.
 TEST_F(ShapeModuleTest, Y1HasItsNumbers) {
   const ModuleFile shipped = read_module_file(std::string(gaitlab::test::source_folder()) + "/scenarios/modules/y1.yaml");
   Node document = shipped.document;
@@ -226,7 +218,6 @@ TEST_F(ShapeModuleTest, Y1HasItsNumbers) {
     }
   };
   drop(document, "contacts");
-  drop(document, "gaitlab_module");
   for (std::size_t i = 0; i < document.keys.size(); ++i) {
     if (document.keys[i].first != "bodies") continue;
     for (Node& body : document.items[i].items) {
@@ -234,7 +225,7 @@ TEST_F(ShapeModuleTest, Y1HasItsNumbers) {
       drop(body, "com");
     }
   }
-  const std::string text = print_yaml(document) + "gaitlab_module: 3\ncontacts: {all: shapes}\n";
+  const std::string text = print_yaml(document) + "contacts: {all: shapes}\n";
   const ModuleType type = read_module_file(folder_.write("y1.yaml", text)).type;
   for (std::size_t b = 0; b < 2; ++b) {
     const BodyType& stated = shipped.type.bodies[b];
@@ -249,13 +240,7 @@ TEST_F(ShapeModuleTest, Y1HasItsNumbers) {
   }
 }
 
-TEST_F(ShapeModuleTest, FormatOfShapes) {
-  EXPECT_EQ(wrong("gaitlab_module: 3", "gaitlab_module: 2"),
-            "DIR/m.yaml:4:3: error: body 'block' has no inertia; expected inertia: [xx, yy, zz, xy, xz, yz], or "
-            "gaitlab_module: 3, in which it follows from shape");
-  EXPECT_EQ(wrong("gaitlab_module: 3\n", ""), "DIR/m.yaml:1:1: error: missing key 'gaitlab_module'; write gaitlab_module: 3");
-  EXPECT_EQ(wrong("gaitlab_module: 3", "gaitlab_module: 9"),
-            "DIR/m.yaml:1:17: error: gaitlab_module is 9; this program reads format versions 1 to 3");
+TEST_F(ShapeModuleTest, Errors) {
   EXPECT_EQ(wrong("all: shapes", "all: boxes"), "DIR/m.yaml:9:17: error: all is 'boxes'; expected a list of maps, or shapes");
   const std::string shape = std::string(kShaped).substr(std::string(kShaped).find("    shape"), 116);
   EXPECT_EQ(wrong(shape, ""),

@@ -44,24 +44,8 @@ TEST(ModuleKeys, ASchemaRequiresWhatTheReaderRequires) {
   const nlohmann::ordered_json& hinge = schema["properties"]["hinges"]["items"];
   EXPECT_EQ(hinge["required"].dump(), R"(["name","parent","child","axis","range"])");
   EXPECT_EQ(hinge["properties"]["range"]["anyOf"][1].dump(), R"({"enum":["free"]})");
-  EXPECT_EQ(
-      hinge["properties"]["drive"].dump(),
-      R"({"enum":["motor","none"],"description":"motor, or none for a passive hinge. From format 2 on.","default":"motor"})");
-}
-
-/// A key of a newer format is one problem and counts as absent.
-TEST(ModuleKeys, OfANewerFormatAreAbsent) {
-  const std::string text = "name: h\nparent: a\nchild: b\naxis: [0, 1, 0]\nrange: [0, 1]\nstiffness: soft\n";
-  const Node node = parse_yaml(text, "m.yaml");
-  for (const std::int64_t format : {std::int64_t{0}, std::int64_t{1}, std::int64_t{2}}) {
-    Problems problems;
-    KeyReader reader(node, kHingeMap, "hinge", format, problems);
-    double stiffness = 7;
-    reader.number("stiffness", stiffness);
-    EXPECT_EQ(reader.has("stiffness"), format == 2);
-    EXPECT_EQ(stiffness, 7);
-    EXPECT_EQ(problems.size(), format == 0 ? 0U : 1U) << "format " << format;
-  }
+  EXPECT_EQ(hinge["properties"]["drive"].dump(),
+            R"({"enum":["motor","none"],"description":"motor, or none for a passive hinge.","default":"motor"})");
 }
 
 }  // namespace

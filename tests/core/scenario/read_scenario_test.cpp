@@ -76,7 +76,7 @@ TEST_F(ScenarioTest, UnknownKeysBeyondThoseThatArePrintedGetNoOffer) {
 }
 
 TEST_F(ScenarioTest, VersionAndName) {
-  EXPECT_EQ(error("gaitlab: 2\nfuture: 1\n"), "DIR/s.yaml:1:10: error: gaitlab is 2; this program reads format version 1");
+  EXPECT_EQ(error("gaitlab: 2\nfuture: 1\n"), "DIR/s.yaml:1:10: error: gaitlab is 2; expected 1, the only format version");
   EXPECT_EQ(error(kShort + "name: a/b\n"),
             "DIR/s.yaml:3:7: error: name 'a/b' is not allowed; expected letters, digits, _ . and -, not a . first");
   EXPECT_EQ(error(kShort + "name: ..\n"),
@@ -145,7 +145,7 @@ TEST_F(ScenarioTest, ErrorsOfABrokenModuleFileAreShownOnce) {
       error("robot: {modules: bad.yaml, docks: [[1, 1, 4, 0, 0]]}\nduration: 1\nsede: 1\n"),
       "DIR/s.yaml:3:1: error: unknown key 'sede'; did you mean 'seed'?\n"
       "DIR/bad.yaml:3:23: error: duplicate key 'mass'\nDIR/bad.yaml:3:14: note: it is given here first\n"
-      "DIR/bad.yaml:3:10: error: body 'a' has no inertia; expected inertia: [xx, yy, zz, xy, xz, yz], or gaitlab_module: 3, in "
+      "DIR/bad.yaml:3:10: error: body 'a' has no inertia; expected inertia: [xx, yy, zz, xy, xz, yz], or gaitlab_module: 1, in "
       "which it follows from shape");
 }
 

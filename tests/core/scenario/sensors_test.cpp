@@ -175,7 +175,7 @@ TEST_F(SensorsTest, UnknownParts) {
 TEST_F(SensorsTest, JointsWithoutMotor) {
   std::string passive = fakes::kDuo;
   passive.replace(passive.find("range: [-1.5, 1.5]"), 18, "range: [-1.5, 1.5], drive: none");
-  passive.replace(passive.find("gaitlab_module: 1"), 17, "gaitlab_module: 2");
+  passive.replace(passive.find("gaitlab_module: 1"), 17, "gaitlab_module: 1");
   passive.replace(passive.find("name: duo"), 9, "name: free");
   folder_.write("modules/free.yaml", passive);
   const std::string robot = "robot: {modules: {0: duo, 1: free}, docks: [[1, 1, 4, 0, 0]]}\nduration: 1\n";

@@ -157,43 +157,6 @@ TEST(Motion, AtTicksIsThatOfTheRows) {
   }
 }
 
-/// Recording in an older form, in which the table of poses contains only base pose and angles.
-Recording older(const Recording& r, std::size_t joints) {
-  Recording old = r;
-  const std::size_t columns = old_pose_columns(joints);
-  old.poses.columns.change([&](auto& all) { all.resize(columns); });
-  old.poses.values.clear();
-  for (std::size_t k = 0; k < r.poses.rows(); ++k) {
-    const std::span<const double> row = r.poses.row(k);
-    old.poses.values.insert(old.poses.values.end(), row.begin(), row.begin() + static_cast<std::ptrdiff_t>(columns));
-  }
-  return old;
-}
-
-TEST(Motion, OfAnOlderFolderIsOfItsRowsAndSaysSo) {
-  const Scenario s = scenario(kQuadruped, {"trace.period=0.05"});
-  const Recording now = run(s);
-  const Recording old = older(now, s.robot->joints.size());
-  const Summary summary = summarise(s, old, 1);
-  EXPECT_FALSE(summary.limit_cycle.found);
-  EXPECT_NEAR(summary.judged.from, 2, 1e-4) << "the period of the set points is an estimate";
-  EXPECT_EQ(motion_sentence(now), "");
-  const std::string sentence =
-      "in this older folder limit cycle, judged time and the robot's way are of the trace's rows, one per 50 ms; gaitlab rerun "
-      "takes control ticks";
-  EXPECT_EQ(motion_sentence(old), sentence);
-  const Folder folder;
-  write_recording(old, {resolved(s), 0, "", "done"}, "h5", folder.path());
-  folder.write("scenario.resolved.yaml", resolved(s));
-  const Result told = gaitlab("report . --verbose --out again", folder.path());
-  EXPECT_EQ(told.code, 0) << told.err;
-  EXPECT_TRUE(contains(told.out, "t = 2 to 3 s")) << told.out;
-  EXPECT_TRUE(contains(told.out, "in this older folder limit cycle")) << told.out;
-  EXPECT_EQ(Json::parse(read(folder / "again/verdict.json")).at("window").at("text"), sentence);
-  EXPECT_EQ(Json::parse(read(folder / "again/verdict.json")).at("statistics"), "all steps");
-  EXPECT_TRUE(contains(read(folder / "again/report.html"), sentence));
-}
-
 TEST(Motion, HasTheCentreOfMassOfTheStates) {
   const Scenario s = shipped("hexapod.yaml", {"duration=0.6", "physics.engine=articulated"});
   const Recording r = run(s);

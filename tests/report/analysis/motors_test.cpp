@@ -18,11 +18,11 @@ constexpr const char* kServo = "type: servo, voltage: 5, stall_torque: 1, no_loa
 const std::string kDefaults =
     "R 4.3 ohm, Kt 0.00395 N m/A, Ks 0.00395 V s/rad, gear 594, efficiency 0.7, u_max 7.4 V, i_max 1.2 A";
 
-/// Module type of two bodies and a hinge, by default of format 2. `motor` is its actuator and `hinge` further keys of its
+/// Module type of two bodies and a hinge. `motor` is its actuator and `hinge` further keys of its
 /// hinge, both in YAML.
-std::string type_with(const std::string& name, const std::string& motor, const std::string& hinge = "", int format = 2) {
+std::string type_with(const std::string& name, const std::string& motor, const std::string& hinge = "") {
   return fmt::format(R"(    {0}:
-      gaitlab_module: {3}
+      gaitlab_module: 1
       name: {0}
       bodies:
         tail: {{mass: 0.09, com: [-0.015, 0, 0], inertia: [5e-05, 3e-05, 3e-05, 0, 0, 0]}}
@@ -33,7 +33,7 @@ std::string type_with(const std::string& name, const std::string& motor, const s
         - {{id: 1, body: head, gender: passive, origin: [0.03, 0, 0], normal: [1, 0, 0], reference: [0, 1, 0]}}
       contacts: {{feet: [{{body: head, point: [0.03, 0, -0.03]}}, {{body: tail, point: [-0.03, 0, -0.03]}}]}}
 {1})",
-                     name, motor.empty() ? "" : "      actuator: {" + motor + "}\n", hinge, format);
+                     name, motor.empty() ? "" : "      actuator: {" + motor + "}\n", hinge);
 }
 
 /// Scenario text of a row of modules, one of each type. `more` is further sections.
@@ -167,7 +167,7 @@ TEST(MotorSource, AMissingOneMeansChosen) {
   EXPECT_EQ(made.figures, "motors: data sheet 17");
 }
 
-/// In format 2 the settings of a hinge replace those of its module type key by key, and sources follow the values.
+/// The settings of a hinge replace those of its module type key by key, and sources follow the values.
 TEST(MotorSource, OfHingesIsTheirTypesWhereTheyHaveNone) {
   const std::string stated = std::string(kServo) + ", source: data sheet 17";
   EXPECT_EQ(source(one(stated, "", ", actuator: {stall_torque: 2}")), "data sheet 17");

@@ -29,7 +29,7 @@ robot:
   position: [0, 0, 1]
   types:
     fold:
-      gaitlab_module: 3
+      gaitlab_module: 1
       name: fold
       bodies:
         one: {{mass: 0.05, shape: [{{box: [0.02, 0.042, 0.07], origin: [-0.0115, 0, 0]}}]}}
@@ -116,7 +116,7 @@ TEST(OwnOverlap, ByDesign) {
 gaitlab: 1
 robot:
   modules:
-    gaitlab_module: 3
+    gaitlab_module: 1
     name: dog
     bodies:
       trunk: {mass: 1, shape: [{box: [0.1, 0.1, 0.1]}]}

@@ -168,7 +168,7 @@ TEST(PageData, ARobotThatHasNotRun) {
   const Scenario s = shipped("hexapod.yaml");
   const Recording start = report::start_row(s);
   report::Verdict none;
-  none.word = report::Word::not_judged;
+  none.word = Word::not_judged;
   const Opened page(report::page_data(s, start, report::summarise(s, start, 0), none));
   EXPECT_EQ(page.meta["outcome"], "not run");
   EXPECT_EQ(page.meta["rows"], 1);

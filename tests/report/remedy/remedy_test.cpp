@@ -113,7 +113,7 @@ TEST(RemedySettings, MeanTheSameForTheFileAndTheResolvedScenario) {
 /// An arm of one servo without u_max, whose gait needs more speed than it has: a higher supply and a faster motor suffice.
 TEST(RemedyOfServos, HasASupplyAndAFasterMotor) {
   const std::string text =
-      "gaitlab: 1\nrobot:\n  base: fixed\n  position: [0, 0, 1]\n  modules:\n    gaitlab_module: 3\n    name: lever\n    "
+      "gaitlab: 1\nrobot:\n  base: fixed\n  position: [0, 0, 1]\n  modules:\n    gaitlab_module: 1\n    name: lever\n    "
       "bodies:\n"
       "      base: {mass: 0.2, shape: [{box: [0.05, 0.05, 0.05]}]}\n"
       "      rod: {mass: 0.05, com: [0, 0, -0.08], inertia: [1e-4, 1e-4, 1e-5, 0, 0, 0]}\n"
@@ -125,7 +125,7 @@ TEST(RemedyOfServos, HasASupplyAndAFasterMotor) {
   const Scenario s = scenario(text);
   const Recording record = run(s);
   const report::Verdict verdict = report::verdict(s, record, report::summarise(s, record, 0), report::overlaps(s, record));
-  ASSERT_EQ(verdict.word, report::Word::infeasible) << verdict.why();
+  ASSERT_EQ(verdict.word, Word::infeasible) << verdict.why();
   std::atomic<bool> stop = false;
   const report::Remedy made = report::remedy(
       {s, verdict, [&](const Sets& sets) { return scenario(text, sets); }, false, {"u_max", "no_load_speed"}, {}, {}}, stop);
@@ -156,11 +156,11 @@ duration: 0.8
 
 /// Engine of the search for a scenario in engine bullet; under engine articulated it also has the settings `other`. No setting
 /// is tried, so that the only run of the search is the one that compares the engines.
-std::string engine_of_search(const Sets& own, const Sets& other, report::Word word) {
+std::string engine_of_search(const Sets& own, const Sets& other, Word word) {
   const Scenario s = scenario(kTwoInBullet, own);
   const Recording record = run(s);
   const report::Verdict verdict = report::verdict(s, record, report::summarise(s, record, 0), report::overlaps(s, record));
-  EXPECT_EQ(verdict.word, word) << verdict.reason << verdict.why();
+  EXPECT_EQ(verdict.word, word) << verdict.reason.text << verdict.why();
   const auto with = [&](const Sets& sets) {
     Sets all = own;
     all.insert(all.end(), sets.begin(), sets.end());
@@ -175,15 +175,15 @@ std::string engine_of_search(const Sets& own, const Sets& other, report::Word wo
 }
 
 TEST(RemedyEngine, IsTheFasterOneWhereTheVerdictsAgree) {
-  EXPECT_EQ(engine_of_search({}, {}, report::Word::feasible), "articulated");
+  EXPECT_EQ(engine_of_search({}, {}, Word::feasible), "articulated");
   const Sets weak{"actuator.i_continuous=0.001"};
-  EXPECT_EQ(engine_of_search(weak, {}, report::Word::infeasible), "articulated");
+  EXPECT_EQ(engine_of_search(weak, {}, Word::infeasible), "articulated");
 }
 
 TEST(RemedyEngine, IsThatOfTheScenarioWhereTheVerdictsDiffer) {
   const Sets weak{"actuator.i_continuous=0.001"}, strong{"actuator.i_continuous=1"};
-  EXPECT_EQ(engine_of_search({}, weak, report::Word::feasible), "bullet");
-  EXPECT_EQ(engine_of_search(weak, strong, report::Word::infeasible), "bullet");
+  EXPECT_EQ(engine_of_search({}, weak, Word::feasible), "bullet");
+  EXPECT_EQ(engine_of_search(weak, strong, Word::infeasible), "bullet");
 }
 
 }  // namespace

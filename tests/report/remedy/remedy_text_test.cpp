@@ -11,7 +11,6 @@ namespace {
 using report::Remedy;
 using report::RemedyAnswer;
 using report::RemedyKey;
-using report::Word;
 using Lines = std::vector<std::string>;
 
 const RemedyKey* key_named(const std::string& name) {

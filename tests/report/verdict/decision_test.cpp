@@ -87,10 +87,10 @@ TEST(Decision, AllLacksAreNamed) {
   made.record.tally.torque_error[0] = 0.085 * made.record.tally.torque_peak[0];
   const Verdict verdict = made.judged();
   EXPECT_EQ(verdict.word, Word::not_judged);
-  EXPECT_TRUE(contains(verdict.reason,
+  EXPECT_TRUE(contains(verdict.reason.text,
                        "take physics.accuracy: 0.0005; and 4 s are 1 of a gait's 3 periods of 4 s; take "
                        "duration: 12; so far: joint "))
-      << verdict.reason;
+      << verdict.reason.text;
   EXPECT_EQ(verdict.retry, (std::vector<std::string>{"physics.accuracy=0.0005", "duration=12"}));
   EXPECT_FALSE(verdict.retry_is_finer) << "the user has chosen the duration";
 }

@@ -179,7 +179,7 @@ robot:
   base: fixed
   position: [0, 0, 1]
   modules:
-    gaitlab_module: 3
+    gaitlab_module: 1
     name: leg
     bodies:
       base: {{mass: 1, inertia: [1e-3, 1e-3, 1e-3, 0, 0, 0]}}

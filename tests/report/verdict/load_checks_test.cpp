@@ -123,7 +123,7 @@ TEST(LoadChecks, TakeTheSmallerLimitOfBothConnectors) {
   EXPECT_TRUE(contains(weak.check("dock_tension").text, "of what it holds by a chosen figure"));
   EXPECT_TRUE(contains(weak.check("dock_tension").text, "m5's dock is pulled apart")) << weak.check("dock_tension").text;
   const Verdict made = verdict(weak.scenario, weak.record, weak.summary(), overlaps(weak.scenario, weak.record));
-  EXPECT_EQ(made.word, report::Word::infeasible);
+  EXPECT_EQ(made.word, Word::infeasible);
 }
 
 TEST(LoadChecks, OfATensionOnlyThePullCounts) {

@@ -16,7 +16,7 @@ using namespace report;
 const std::string kSnakeOfBoxes = R"(gaitlab: 1
 robot:
   modules:
-    gaitlab_module: 3
+    gaitlab_module: 1
     name: emerge
     bodies:
       body:
@@ -290,7 +290,7 @@ TEST(Plausibility, Contacts) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_TRUE(
       found[0].starts_with("32:15: contact.on is all, but no body has a contact element, so that the robot falls through the "
-                           "ground; expected at least one: take contacts: {all: shapes} (module format 3) in "))
+                           "ground; expected at least one: take contacts: {all: shapes} in "))
       << found[0];
   const OddTexts feet =
       odd_numbers({{"contacts: {all: shapes}", "contacts: {all: shapes, feet: []}"}, {"on: all", "on: feet"}});

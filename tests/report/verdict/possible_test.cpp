@@ -19,7 +19,7 @@ struct Links {
     const std::string body =
         "mass: " + mass + (inertia.empty() ? "" : fmt::format(", inertia: [{0}, {0}, {0}, 0, 0, 0]", inertia));
     return fmt::format(
-        "gaitlab: 1\nrobot:\n  modules:\n    gaitlab_module: 3\n    name: link\n    bodies:\n"
+        "gaitlab: 1\nrobot:\n  modules:\n    gaitlab_module: 1\n    name: link\n    bodies:\n"
         "      a: {{{0}, com: [-0.05, 0, 0], shape: [{{box: [0.1, 0.05, 0.05], origin: [-0.05, 0, 0]}}]}}\n"
         "      b: {{{0}, com: [0.05, 0, 0], shape: [{{box: [0.1, 0.05, 0.05], origin: [0.05, 0, 0]}}]}}\n"
         "    hinges: [{{name: h, parent: a, child: b, axis: [0, 0, 1], range: [-1.5, 1.5]}}]\n"

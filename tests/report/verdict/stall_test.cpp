@@ -8,7 +8,7 @@ namespace {
 /// An arm whose first hinge holds the rest of it, while the second one moves.
 Check held_by(const std::string& mass, const std::vector<std::string>& sets = {}, Verdict* whole = nullptr) {
   const Scenario s = scenario(
-      fmt::format("gaitlab: 1\nrobot:\n  base: fixed\n  modules:\n    gaitlab_module: 3\n    name: arm\n    bodies:\n"
+      fmt::format("gaitlab: 1\nrobot:\n  base: fixed\n  modules:\n    gaitlab_module: 1\n    name: arm\n    bodies:\n"
                   "      foot: {{mass: 1, shape: [{{box: [0.1, 0.1, 0.1], origin: [-0.05, 0, 0]}}]}}\n"
                   "      arm: {{mass: {}, com: [0.1, 0, 0], shape: [{{box: [0.2, 0.05, 0.05], origin: [0.1, 0, 0]}}]}}\n"
                   "      hand: {{mass: 0.02, shape: [{{box: [0.04, 0.04, 0.04], origin: [0.02, 0, 0]}}]}}\n"

@@ -132,7 +132,7 @@ TEST(Verdict, OfAnActuatorWithoutALimit) {
   const Verdict ideal = with("{type: torque}");
   EXPECT_EQ(status(ideal, "voltage"), CheckStatus::not_judged);
   EXPECT_EQ(status(ideal, "current"), CheckStatus::not_judged);
-  EXPECT_EQ(ideal.word, report::Word::not_judged);
+  EXPECT_EQ(ideal.word, Word::not_judged);
   const Verdict real = with("{type: torque, limit: 100}");
   EXPECT_EQ(status(real, "voltage"), CheckStatus::not_judged);
   EXPECT_EQ(status(real, "current"), CheckStatus::pass);

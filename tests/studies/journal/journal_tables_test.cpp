@@ -49,7 +49,7 @@ TEST_F(JournalTables, HaveOneRowPerNumber) {
   };
   for (const char* insert :
        {"INSERT INTO attempt VALUES(7, 1)", "INSERT INTO search VALUES(0, 3, 0, 0, 8, 8, 2, NULL, NULL, 0.5)",
-        "INSERT INTO verification VALUES(0, 7, 'half step', 1, NULL, NULL, 0, 'feasible', 1, '')",
+        "INSERT INTO verification VALUES(0, 7, 'half step', '', 1, NULL, NULL, 0, 'feasible', 1, '', '')",
         "INSERT INTO effort VALUES(0, 0, 8, '2026-01-31T23:59:59Z', 0.5, 'host', 12)"})
     EXPECT_NE(twice(insert).find("UNIQUE constraint failed"), std::string::npos) << insert << ": " << twice(insert);
   database_.execute("INSERT INTO search VALUES(1, 3, 0, 0, 8, 8, 2, NULL, NULL, 0.5)");
@@ -61,7 +61,7 @@ TEST_F(JournalTables, HaveAStrictHead) {
   const auto head = [&](const std::string& seed, const std::string& quantile) {
     return test::message_of<std::exception>([&] {
       database_.execute("INSERT INTO study VALUES('n', 'now', 'b', 'd', 's', 'c', " + seed + ", 8, 1, 'worst', " + quantile +
-                        ", 1)");
+                        ", 1, 'grid', 0, '')");
     });
   };
   EXPECT_EQ(head("1", "0.5"), test::kNoError);

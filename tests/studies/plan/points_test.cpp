@@ -136,13 +136,13 @@ TEST(Combined, ShareOfTheReplicates) {
   for (std::size_t k = 0; k < runs.size(); ++k) {
     runs[k].run = k;
     runs[k].outcome = "done";
-    runs[k].verdict = k == 3 ? "infeasible" : "feasible";
+    runs[k].verdict = k == 3 ? Word::infeasible : Word::feasible;
     runs[k].score.emplace();
     runs[k].score->objectives[0] = static_cast<double>(k);
     runs[k].score->violation = k == 3 ? 0.5 : 0;
   }
   runs[7].outcome = "diverged";
-  runs[7].verdict = "failed";
+  runs[7].verdict = Word::failed;
   head.quantile = 0.8;
   const PointResult kept = point_result(head, runs);
   EXPECT_TRUE(kept.kept());

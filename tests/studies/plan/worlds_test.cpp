@@ -182,12 +182,10 @@ TEST(Robust, ReplicatesAreTheWorlds) {
     EXPECT_EQ(plan.sets(run), expected);
     EXPECT_EQ(plan.row(run).seed, all[w].seed);
   }
-  const Sets names = studies::robust_worlds(studies::definition(plan.bound()));
+  const Sets names = studies::journal_head(plan).worlds;
   ASSERT_EQ(names.size(), all.size());
   for (std::size_t w = 0; w < all.size(); ++w) EXPECT_EQ(names[w], all[w].name);
-  EXPECT_TRUE(
-      studies::robust_worlds(studies::definition(SmallStudy("parameters: {cpg.frequency: {values: [1, 2]}}\n").plan->bound()))
-          .empty());
+  EXPECT_TRUE(studies::journal_head(*SmallStudy("parameters: {cpg.frequency: {values: [1, 2]}}\n").plan).worlds.empty());
 }
 
 TEST(Robust, WorldsThatDoNotApplyAreLeftOut) {

@@ -134,7 +134,7 @@ class OtherStudy {
       rows.push_back(study.done(study.plan->row(run), "speed", 0.25 * static_cast<double>(run)));
     rows[1].outcome = "diverged";
     rows[1].message = "diverged at step 3";
-    rows[1].verdict = "failed";
+    rows[1].verdict = Word::failed;
     rows[1].score.reset();
     rows[1].quantities.clear();
     journal.write(rows, {});
@@ -160,7 +160,7 @@ TEST(AnswersOfAnotherStudy, AreRowsOfEqualPointsWithThisStudysScore) {
   ASSERT_TRUE(last.has_value());
   EXPECT_EQ(last->run, 4U) << "this study's number";
   EXPECT_EQ(last->outcome, "done");
-  EXPECT_EQ(last->verdict, "feasible");
+  EXPECT_EQ(last->verdict, Word::feasible);
   EXPECT_EQ(last->simulated, 0.02);
   EXPECT_EQ(last->quantities.at(study.column("speed")), 0.5);
   EXPECT_TRUE(std::isnan(last->quantities.at(study.column("torque.peak")))) << "unknown there";

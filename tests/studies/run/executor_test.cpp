@@ -25,7 +25,7 @@ struct ExecutedJobs {
                                      estimated_by_others = scenario.physics.estimated_by_others;
                                      studies::Measured measured;
                                      measured.quantities.assign(study.plan->columns().size(), recording.simulated);
-                                     measured.verdict = "feasible";
+                                     measured.verdict = Word::feasible;
                                      measured.why = "why";
                                      return measured;
                                    },
@@ -69,7 +69,7 @@ TEST(LocalExecutor, GivesARowForEachJob) {
       EXPECT_EQ(row.values, known.values);
       EXPECT_EQ(row.outcome, "done") << row.message;
       EXPECT_NEAR(row.simulated, 0.02, 1e-12);
-      EXPECT_EQ(row.verdict, "feasible");
+      EXPECT_EQ(row.verdict, Word::feasible);
       EXPECT_EQ(row.message, "why");
       ASSERT_EQ(row.quantities.size(), study.plan->columns().size());
       EXPECT_EQ(row.quantities[0], row.simulated) << "of its own recording";
@@ -96,7 +96,7 @@ TEST(LocalExecutor, GivesARowForEachRefusedScenario) {
   for (const auto& [run, row] : of.rows) {
     const bool runs = run == 0 || run == 101;
     EXPECT_EQ(row.outcome, runs ? "done" : "refused") << run;
-    EXPECT_EQ(row.verdict, runs ? "feasible" : "failed");
+    EXPECT_EQ(row.verdict, runs ? Word::feasible : Word::failed);
     if (!runs) {
       EXPECT_EQ(row.message, "frequency is -1 Hz; allowed are 0 to 20 Hz");
       EXPECT_FALSE(row.score.has_value());
@@ -156,7 +156,7 @@ TEST(LocalExecutor, StopsARunByTheStudysRules) {
   const Row& row = of.rows.at(0);
   EXPECT_EQ(row.outcome, "stopped");
   EXPECT_EQ(row.message, "stopped by simulated > 0.9 after 1 at t = 1 s");
-  EXPECT_EQ(row.verdict, "failed");
+  EXPECT_EQ(row.verdict, Word::failed);
   EXPECT_NEAR(row.simulated, 1, 1e-9);
 }
 

@@ -24,8 +24,8 @@ Row hostile_row() {
   row.quantities = {
       1.0 / 3, -0.0, std::nan(""), std::numeric_limits<double>::infinity(), std::numeric_limits<double>::denorm_min(),
       1e300,   0.5F, 16777217};
-  row.verdict = "feasible";
-  row.cause = "voltage of m5/passive";
+  row.verdict = Word::feasible;
+  row.cause = {"voltage", "m5/passive"};
   row.score = Score{{0.1, std::nan(""), -1e-9}, 0.25};
   return row;
 }
@@ -41,7 +41,7 @@ void expect_same(const Row& a, const Row& b) {
   EXPECT_EQ(a.simulated, b.simulated);
   EXPECT_EQ(a.values, b.values);
   EXPECT_EQ(a.verdict, b.verdict);
-  EXPECT_EQ(a.cause, b.cause);
+  EXPECT_EQ(a.cause.text(), b.cause.text());
   const auto same = [](double x, double y) {
     EXPECT_TRUE(std::isnan(x) ? std::isnan(y) : std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y))
         << x << " " << y;

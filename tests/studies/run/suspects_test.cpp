@@ -71,7 +71,7 @@ TEST(Suspects, CrashBySignalsOfTheirOwn) {
       EXPECT_EQ(rows[k].values, known.values);
       EXPECT_EQ(rows[k].outcome, "crashed");
       EXPECT_EQ(rows[k].message, "the process ended by signal " + known.values[0]);
-      EXPECT_EQ(rows[k].verdict, "failed");
+      EXPECT_EQ(rows[k].verdict, Word::failed);
       EXPECT_FALSE(rows[k].score.has_value());
     }
   }

@@ -25,7 +25,7 @@ TEST(Told, LeastResult) {
   EXPECT_EQ(one.outcome, "done");
   EXPECT_EQ(one.score.objective(), 0.25);
   EXPECT_TRUE(one.score.kept());
-  EXPECT_EQ(one.verdict, "not judged");
+  EXPECT_EQ(one.verdict, Word::not_judged);
 }
 
 TEST(Told, ReadsWhatAnswerWrites) {
@@ -40,7 +40,7 @@ TEST(Told, ReadsWhatAnswerWrites) {
   EXPECT_EQ(one.score.objectives[1], 2.5);
   EXPECT_EQ(one.score.violation, 0.75);
   EXPECT_EQ(one.simulated, 1.5);
-  EXPECT_EQ(one.verdict, "infeasible");
+  EXPECT_EQ(one.verdict, Word::infeasible);
   EXPECT_EQ(one.quantities.at("power"), 2.5);
   EXPECT_TRUE(std::isnan(one.quantities.at("margin")));
   run.outcome = "diverged";
@@ -59,18 +59,18 @@ TEST(Told, FailedPointsHaveNoScore) {
   const Told one = told(R"({"id": 1, "outcome": "fell", "message": "on its back", "objective": [null]})");
   EXPECT_EQ(one.outcome, "fell");
   EXPECT_EQ(one.message, "on its back");
-  EXPECT_EQ(one.verdict, "failed");
+  EXPECT_EQ(one.verdict, Word::failed);
   EXPECT_EQ(told(R"({"id": 1, "outcome": "fell", "simulated": null})").simulated, 0);
 }
 
 TEST(Told, EmptyCellsOfATableAreLeftOut) {
   const Told one = told(R"({"id": 1, "objective": 2, "outcome": null, "message": null, "verdict": null, "figures": null})");
   EXPECT_EQ(one.outcome, "done");
-  EXPECT_EQ(one.verdict, "not judged");
+  EXPECT_EQ(one.verdict, Word::not_judged);
   EXPECT_EQ(one.score.objective(), 2);
   const Told empty = told(R"({"id": 1, "objective": 2, "outcome": "", "verdict": ""})");
   EXPECT_EQ(empty.outcome, "done");
-  EXPECT_EQ(empty.verdict, "not judged");
+  EXPECT_EQ(empty.verdict, Word::not_judged);
 }
 
 TEST(Told, FaultyLinesAreRefused) {

@@ -86,7 +86,7 @@ std::function<Row(const Job&)> times(const SearchedStudy& made, double factor, c
 std::vector<std::string> reasons(SearchedStudy& made, double factor, const std::function<void(Row&)>& change = {}) {
   std::vector<std::string> all;
   for (const Verification& v : made.verify(times(made, factor, change))) {
-    if (v.what != "as run") all.push_back(v.reason);
+    if (v.what() != "as run") all.push_back(v.reason);
   }
   return all;
 }
@@ -107,10 +107,10 @@ TEST(Verify, RunsEachPointAgainInEachWay) {
   ASSERT_EQ(tried.size(), 6U);
   const std::vector<std::string> what{"as run", "half step", "bullet", "as run", "half step", "bullet"};
   for (std::size_t k = 0; k < 6; ++k) {
-    EXPECT_EQ(tried[k].what, what[k]);
+    EXPECT_EQ(tried[k].what(), what[k]);
     EXPECT_EQ(tried[k].run, k / 3);
     EXPECT_EQ(tried[k].objectives, std::vector<double>{k < 3 ? 1.0 : 5.0});
-    EXPECT_EQ(tried[k].verdict, "feasible");
+    EXPECT_EQ(tried[k].verdict, Word::feasible);
     EXPECT_EQ(tried[k].reason, "");
   }
 }
@@ -163,8 +163,8 @@ TEST(Verify, TakesTheLimitOfVanishingSteps) {
   SearchedStudy made({{"0.6", 1 - 0.024}}, kFixedStep);
   const std::vector<Verification> tried = made.verify(of_first_order(made, 1, 0.024, 1.001));
   ASSERT_EQ(tried.size(), 4U);
-  for (const Verification& v : tried) EXPECT_EQ(v.reason, "") << v.what;
-  EXPECT_TRUE(studies::is_limit(tried[3])) << tried[3].what;
+  for (const Verification& v : tried) EXPECT_EQ(v.reason, "") << v.what();
+  EXPECT_TRUE(tried[3].kind == studies::TrialKind::limit) << tried[3].what();
   constexpr double kRounding = 1e-15;
   EXPECT_NEAR(tried[3].objectives.at(0), 1, kRounding) << "exact, as the error is of first order";
 }
@@ -218,7 +218,7 @@ TEST(Verify, NamesAStepThatWasTooLong) {
   const std::size_t column = made.study.column("margin.step");
   for (const double margin : {0.5, -0.5}) {
     const Values found = reasons(made, 1, [&](Row& row) {
-      row.verdict = "infeasible";
+      row.verdict = Word::infeasible;
       row.message = "because";
       row.quantities[column] = margin;
     });
@@ -239,7 +239,7 @@ std::function<Row(const Job&)> with_long_steps(const SearchedStudy& made, bool a
     Row row = made.study.done(job.row, "speed", 1);
     if (bullet) steps.push_back(job.sets.back());
     if (!bullet || (quarter && !at_quarter)) return row;
-    row.verdict = "infeasible";
+    row.verdict = Word::infeasible;
     row.message = "because";
     row.quantities[made.study.column("margin.step")] = quarter ? 0.5 : -0.5;
     return row;
@@ -253,11 +253,11 @@ TEST(Verify, RepeatsTheOtherEngineWithAQuarterOfAStepThatWasTooLong) {
   const std::vector<Verification> tried = made.verify(with_long_steps(made, false, steps));
   EXPECT_EQ(steps, (Values{"physics.step=auto", "physics.step=6.25e-06"}));
   ASSERT_EQ(tried.size(), 4U);
-  EXPECT_EQ(tried[2].what, "bullet");
+  EXPECT_EQ(tried[2].what(), "bullet");
   EXPECT_EQ(tried[2].reason, "") << "its repetition counts";
-  EXPECT_EQ(tried[3].what, "bullet at a quarter of its step");
+  EXPECT_EQ(tried[3].what(), "bullet at a quarter of its step");
   EXPECT_EQ(tried[3].reason, "");
-  EXPECT_TRUE(studies::is_quarter(tried[3]));
+  EXPECT_TRUE(tried[3].kind == studies::TrialKind::quarter_step);
   EXPECT_EQ(studies::verified(tried), std::vector<std::uint64_t>{0});
 }
 
@@ -272,7 +272,7 @@ TEST(Verify, RefusesWhatAQuarterOfTheStepConfirms) {
 
 /// A run of other steps that stands is not repeated, nor is one that falls with steps that are short enough.
 TEST(Verify, RepeatsNothingElse) {
-  for (const auto& [verdict, margin] : {std::pair<const char*, double>{"feasible", -0.5}, {"infeasible", 0.5}}) {
+  for (const auto& [verdict, margin] : {std::pair{Word::feasible, -0.5}, {Word::infeasible, 0.5}}) {
     SearchedStudy made({{"0.6", 1}}, "verify: {engine: bullet}\n");
     const std::vector<Verification> tried = made.verify([&, word = verdict, step = margin](const Job& job) {
       Row row = made.study.done(job.row, "speed", 1);
@@ -280,33 +280,33 @@ TEST(Verify, RepeatsNothingElse) {
       row.quantities[made.study.column("margin.step")] = step;
       return row;
     });
-    EXPECT_EQ(tried.size(), 3U) << verdict;
+    EXPECT_EQ(tried.size(), 3U) << name_of(verdict);
   }
 }
 
 TEST(Verify, RefusesAVerdictThatSpeaksAgainstIt) {
   SearchedStudy made({{"0.6", 1}});
   const std::size_t column = made.study.column("margin.evidence");
-  const auto with = [&](const std::string& verdict, double evidence) {
+  const auto with = [&](Word verdict, double evidence) {
     return reasons(made, 1, [&](Row& row) {
       row.verdict = verdict;
       row.message = "because";
       row.quantities[column] = evidence;
     });
   };
-  EXPECT_EQ(with("feasible", 1), Values{""});
-  EXPECT_EQ(with("infeasible", 1), Values{"the verdict is infeasible: because"});
-  EXPECT_EQ(with("not judged", 1), Values{""}) << "for lack of ratings, not of evidence";
-  EXPECT_EQ(with("not judged", -0.1), Values{"not judged: because"});
+  EXPECT_EQ(with(Word::feasible, 1), Values{""});
+  EXPECT_EQ(with(Word::infeasible, 1), Values{"the verdict is infeasible: because"});
+  EXPECT_EQ(with(Word::not_judged, 1), Values{""}) << "for lack of ratings, not of evidence";
+  EXPECT_EQ(with(Word::not_judged, -0.1), Values{"not judged: because"});
 }
 
 TEST(Verify, RefusesAPointWhoseOwnRunIsInfeasible) {
   SearchedStudy made({{"0.6", 1}, {"0.7", 5}});
-  made.rows[1].verdict = "infeasible";
+  made.rows[1].verdict = Word::infeasible;
   made.rows[1].message = "because";
   const std::vector<Verification> tried = made.verify(times(made, 1));
   ASSERT_EQ(tried.size(), 4U);
-  EXPECT_EQ(tried[2].what, "as run");
+  EXPECT_EQ(tried[2].what(), "as run");
   EXPECT_EQ(tried[2].reason, "the verdict is infeasible: because");
   EXPECT_EQ(studies::verified(tried), std::vector<std::uint64_t>{0});
 }
@@ -331,19 +331,19 @@ TEST(Verify, GivesNothingWhenItIsStopped) {
 }
 
 TEST(Verified, PassedInEveryWay) {
-  const auto tried = [](std::uint64_t run, const std::string& what, const std::string& reason) {
-    return Verification{run, what, {}, 0, "feasible", reason};
+  using enum studies::TrialKind;
+  const auto tried = [](std::uint64_t run, studies::TrialKind kind, const std::string& reason) {
+    return Verification{run, kind, "", {}, 0, Word::feasible, reason};
   };
-  EXPECT_EQ(studies::verified({tried(8, "as run", ""), tried(8, "half step", ""), tried(2, "as run", ""),
-                               tried(2, "half step", "why"), tried(5, "as run", "why"), tried(5, "half step", ""),
-                               tried(1, "as run", "")}),
+  EXPECT_EQ(studies::verified({tried(8, as_run, ""), tried(8, half_step, ""), tried(2, as_run, ""), tried(2, half_step, "why"),
+                               tried(5, as_run, "why"), tried(5, half_step, ""), tried(1, as_run, "")}),
             (std::vector<std::uint64_t>{8, 1}))
       << "in their order";
   EXPECT_TRUE(studies::verified({}).empty());
-  EXPECT_EQ(studies::verified({tried(8, "as run", ""), tried(8, "world R +5 %", "why"), tried(8, "worlds", "")}),
+  EXPECT_EQ(studies::verified({tried(8, as_run, ""), tried(8, world, "why"), tried(8, worlds, "")}),
             std::vector<std::uint64_t>{8})
       << "a single world rejects nothing";
-  EXPECT_TRUE(studies::verified({tried(8, "as run", ""), tried(8, "worlds", "why")}).empty());
+  EXPECT_TRUE(studies::verified({tried(8, as_run, ""), tried(8, worlds, "why")}).empty());
 }
 
 }  // namespace

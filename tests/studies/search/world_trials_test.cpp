@@ -19,7 +19,7 @@ std::vector<Verification> own_runs(SearchedStudy& made) {
   made.write();
   std::vector<Verification> all;
   for (const studies::PointResult& point : results(made.journal).points)
-    all.push_back({point.first_run, "as run", {point.score.objectives[0]}, 0, "feasible", ""});
+    all.push_back({point.first_run, studies::TrialKind::as_run, "", {point.score.objectives[0]}, 0, Word::feasible, ""});
   return all;
 }
 
@@ -36,8 +36,8 @@ std::function<Row(const Job&)> falling(const SearchedStudy& made, const std::vec
   return [=, &made](const Job& job) {
     Row row = made.study.done(job.row, "speed", speed);
     if (std::ranges::none_of(sets, [&](const std::string& set) { return has_set(job, set); })) return row;
-    row.verdict = "infeasible";
-    row.cause = "voltage of m1/passive";
+    row.verdict = Word::infeasible;
+    row.cause = {"voltage", "m1/passive"};
     return row;
   };
 }
@@ -59,7 +59,7 @@ TEST(InWorlds, CountsWhereAPointStands) {
   EXPECT_EQ(count.fell_drawn, 1U);
   EXPECT_EQ(count.drawn, 7U);
   EXPECT_EQ(app::falls_text(count), "falls by supply -10 % (6.66 V): voltage of m1/passive; and in 1 of 7 draws");
-  EXPECT_TRUE(studies::is_share(all.back()));
+  EXPECT_TRUE(all.back().kind == studies::TrialKind::worlds);
   EXPECT_EQ(all.back().reason, "");
   EXPECT_EQ(studies::verified(all), std::vector<std::uint64_t>{0});
 }
@@ -92,7 +92,7 @@ TEST(InWorlds, WhatAFallIs) {
       return row;
     });
     const studies::WorldCount count = studies::counted_worlds(all, 0);
-    return count.falls.empty() ? "" : studies::world_name(count.falls.front()) + ": " + count.falls.front().reason;
+    return count.falls.empty() ? "" : count.falls.front().name + ": " + count.falls.front().reason;
   };
   const auto speed = [](double value) {
     return [value](Row& row, const SearchedStudy& made) { row.quantities[made.study.column("speed")] = value; };
@@ -108,7 +108,7 @@ TEST(InWorlds, WhatAFallIs) {
             "R +5 % (4.51 ohm): diverged: at step 3");
   const auto not_judged = [](double evidence) {
     return [evidence](Row& row, const SearchedStudy& made) {
-      row.verdict = row.cause = "not judged";
+      row.verdict = Word::not_judged;
       row.quantities[made.study.column("margin.evidence")] = evidence;
     };
   };
@@ -172,11 +172,11 @@ TEST(InWorlds, TakesTheFirstReplicate) {
 TEST(RankedByShare, ByShareThenByValue) {
   std::vector<Verification> tried;
   const auto add = [&](std::uint64_t run, double value, std::size_t falls, const std::string& rejected = "", double limit = 0) {
-    tried.push_back({run, "as run", {value}, 0, "feasible", ""});
-    if (limit > 0) tried.push_back({run, "limit", {limit}, 0, "feasible", ""});
+    tried.push_back({run, studies::TrialKind::as_run, "", {value}, 0, Word::feasible, ""});
+    if (limit > 0) tried.push_back({run, studies::TrialKind::limit, "", {limit}, 0, Word::feasible, ""});
     for (std::size_t k = 0; k < 4; ++k)
-      tried.push_back({run, "world " + std::to_string(k), {value}, 0, "feasible", k < falls ? "why" : ""});
-    tried.push_back({run, "worlds", {value}, 0, "feasible", rejected});
+      tried.push_back({run, studies::TrialKind::world, std::to_string(k), {value}, 0, Word::feasible, k < falls ? "why" : ""});
+    tried.push_back({run, studies::TrialKind::worlds, "", {value}, 0, Word::feasible, rejected});
   };
   add(1, 9, 3, "why");
   add(2, 8, 1);
@@ -198,14 +198,15 @@ TEST(RankedByShare, ByShareThenByValue) {
 TEST(VerificationText, NamesTheWorldsInWhichAPointFalls) {
   SearchedStudy made({{"0.6", 0.0646}});
   made.write();
-  std::vector<Verification> all{{0, "as run", {0.0646}, 0, "feasible", ""},
-                                {0, "half step", {0.0654}, 0, "feasible", ""},
-                                {0, "bullet", {0.06615}, 0, "feasible", ""},
-                                {0, "limit", {0.0662}, 0, "feasible", ""},
-                                {0, "world supply -10 % (6.66 V)", {0.06}, 0, "infeasible", "voltage of m5/passive"},
-                                {0, "world mass +3 % (3.3 kg)", {0.055}, 0, "feasible", ""},
-                                {0, "world draw 1 (seed 2)", {0.06}, 0, "infeasible", "heat of m5/passive"},
-                                {0, "worlds", {0.0662}, 0, "feasible", ""}};
+  std::vector<Verification> all{
+      {0, studies::TrialKind::as_run, "", {0.0646}, 0, Word::feasible, ""},
+      {0, studies::TrialKind::half_step, "", {0.0654}, 0, Word::feasible, ""},
+      {0, studies::TrialKind::other_engine, "bullet", {0.06615}, 0, Word::feasible, ""},
+      {0, studies::TrialKind::limit, "", {0.0662}, 0, Word::feasible, ""},
+      {0, studies::TrialKind::world, "supply -10 % (6.66 V)", {0.06}, 0, Word::infeasible, "voltage of m5/passive", "voltage"},
+      {0, studies::TrialKind::world, "mass +3 % (3.3 kg)", {0.055}, 0, Word::feasible, ""},
+      {0, studies::TrialKind::drawn_world, "draw 1 (seed 2)", {0.06}, 0, Word::infeasible, "heat of m5/passive", "heat"},
+      {0, studies::TrialKind::worlds, "", {0.0662}, 0, Word::feasible, ""}};
   made.journal.write(all);
   const std::string ways =
       "as run 0.0646, half step 0.0654, bullet 0.06615, limit 0.0662, in worlds 0.055 to 0.06)\n"

@@ -37,8 +37,8 @@ class Guarded {
     if (at != columns_.end()) values_[static_cast<std::size_t>(at - columns_.begin())] = value;
     return *this;
   }
-  [[nodiscard]] double violation(const std::string& word) const { return guards_.violation(values_, word); }
-  [[nodiscard]] std::vector<std::string> broken(const std::string& word, const std::string& why = "") const {
+  [[nodiscard]] double violation(Word word) const { return guards_.violation(values_, word); }
+  [[nodiscard]] std::vector<std::string> broken(Word word, const std::string& why = "") const {
     return guards_.broken(values_, word, why);
   }
   [[nodiscard]] std::vector<std::string> texts() const { return guards_.texts(); }
@@ -58,22 +58,22 @@ TEST(Guards, OfEveryCheckAreKeptFromTheirMarginOnAndBrokenBelow) {
     SCOPED_TRACE(check.id);
     const std::string own = "margin." + check.id;
     Guarded kept({{check.id, Asks::kept}});
-    EXPECT_EQ(kept.violation("feasible"), 0) << "the run does not have it";
-    EXPECT_EQ(kept.set(own, 0).violation("feasible"), 0);
-    EXPECT_EQ(kept.set(own, -0.25).violation("feasible"), 0.2);
-    EXPECT_EQ(kept.broken("feasible"),
+    EXPECT_EQ(kept.violation(Word::feasible), 0) << "the run does not have it";
+    EXPECT_EQ(kept.set(own, 0).violation(Word::feasible), 0);
+    EXPECT_EQ(kept.set(own, -0.25).violation(Word::feasible), 0.2);
+    EXPECT_EQ(kept.broken(Word::feasible),
               std::vector{fmt::format("check {} has a margin of -0.25; the study requires 0", check.id)});
     Guarded margin({{check.id, Asks::margin, 0.5}});
-    EXPECT_EQ(margin.set(own, 0.5).violation("feasible"), 0);
-    EXPECT_EQ(margin.set(own, 0.25).violation("feasible"), 0.2);
-    EXPECT_EQ(margin.broken("feasible"),
+    EXPECT_EQ(margin.set(own, 0.5).violation(Word::feasible), 0);
+    EXPECT_EQ(margin.set(own, 0.25).violation(Word::feasible), 0.2);
+    EXPECT_EQ(margin.broken(Word::feasible),
               std::vector{fmt::format("check {} has a margin of 0.25; the study requires 0.5", check.id)});
     Guarded dropped({{check.id, Asks::nothing}});
-    EXPECT_EQ(dropped.set(own, -0.25).violation(check.can_fail ? "infeasible" : "feasible"), 0);
+    EXPECT_EQ(dropped.set(own, -0.25).violation(check.can_fail ? Word::infeasible : Word::feasible), 0);
     if (!check.limited) continue;
     Guarded limit({{check.id, Asks::limit, 0.1}});
-    EXPECT_EQ(limit.set(own, -9).set(own + "[0.1]", 0).violation(check.can_fail ? "infeasible" : "feasible"), 0);
-    EXPECT_EQ(limit.set(own, 9).set(own + "[0.1]", -0.25).violation("feasible"), 0.2);
+    EXPECT_EQ(limit.set(own, -9).set(own + "[0.1]", 0).violation(check.can_fail ? Word::infeasible : Word::feasible), 0);
+    EXPECT_EQ(limit.set(own, 9).set(own + "[0.1]", -0.25).violation(Word::feasible), 0.2);
   }
 }
 
@@ -83,24 +83,24 @@ TEST(Guards, OfTheVerdictAreTheChecksThatCanFail) {
     SCOPED_TRACE(check.id);
     Guarded verdict({});
     verdict.set("margin." + check.id, -0.25);
-    EXPECT_EQ(verdict.violation("infeasible"), check.can_fail ? 0.2 : 0.5);
-    EXPECT_EQ(verdict.broken("infeasible", "a sentence"), std::vector<std::string>{"infeasible: a sentence"});
+    EXPECT_EQ(verdict.violation(Word::infeasible), check.can_fail ? 0.2 : 0.5);
+    EXPECT_EQ(verdict.broken(Word::infeasible, "a sentence"), std::vector<std::string>{"infeasible: a sentence"});
     Guarded none({}, false);
-    EXPECT_EQ(none.set("margin." + check.id, -0.25).violation("infeasible"), 0);
-    EXPECT_TRUE(none.broken("infeasible", "a sentence").empty());
+    EXPECT_EQ(none.set("margin." + check.id, -0.25).violation(Word::infeasible), 0);
+    EXPECT_TRUE(none.broken(Word::infeasible, "a sentence").empty());
   }
 }
 
 TEST(Guards, AskForTheWordFeasible) {
-  EXPECT_EQ(Guarded({}).set("margin.stops", -1e-9).violation("feasible"), 0) << "the word decides";
+  EXPECT_EQ(Guarded({}).set("margin.stops", -1e-9).violation(Word::feasible), 0) << "the word decides";
   Guarded verdict({});
-  EXPECT_EQ(verdict.violation("feasible"), 0);
-  for (const char* word : {"not judged", "infeasible"}) {
+  EXPECT_EQ(verdict.violation(Word::feasible), 0);
+  for (const Word word : {Word::not_judged, Word::infeasible}) {
     EXPECT_EQ(verdict.violation(word), 0.5) << "no margin is negative";
-    EXPECT_EQ(verdict.broken(word, "why"), std::vector{std::string(word) + ": why"});
+    EXPECT_EQ(verdict.broken(word, "why"), std::vector{std::string(name_of(word)) + ": why"});
   }
   verdict.set("margin.stops", -0.5).set("margin.voltage", -0.25).set("margin.slip", -3);
-  EXPECT_EQ(verdict.violation("infeasible"), 0.5 / 1.5 + 0.2) << "slip only warns";
+  EXPECT_EQ(verdict.violation(Word::infeasible), 0.5 / 1.5 + 0.2) << "slip only warns";
   EXPECT_EQ(verdict.texts().front(), "feasible >= 1");
 }
 
@@ -108,21 +108,21 @@ TEST(Guards, AskForTheWordFeasible) {
 TEST(Guards, MayAskLessThanTheVerdict) {
   Guarded guards({{"stops", Asks::limit, 0.1}});
   guards.set("margin.stops", -0.5).set("margin.stops[0.1]", 0.2);
-  EXPECT_EQ(guards.violation("infeasible"), 0);
-  EXPECT_TRUE(guards.broken("infeasible", "why").empty());
-  EXPECT_EQ(guards.violation("not judged"), 0.5) << "evidence is missing";
+  EXPECT_EQ(guards.violation(Word::infeasible), 0);
+  EXPECT_TRUE(guards.broken(Word::infeasible, "why").empty());
+  EXPECT_EQ(guards.violation(Word::not_judged), 0.5) << "evidence is missing";
   guards.set("margin.voltage", -0.25);
-  EXPECT_EQ(guards.violation("infeasible"), 0.2);
+  EXPECT_EQ(guards.violation(Word::infeasible), 0.2);
   EXPECT_EQ(guards.texts().front(), "verdict but for stops");
 }
 
 TEST(Guards, OfCreatedEnergyStandWhereElectricalEnergyIsTheObjective) {
   Guarded without({});
-  EXPECT_EQ(without.set("margin.created", -0.25).violation("feasible"), 0);
+  EXPECT_EQ(without.set("margin.created", -0.25).violation(Word::feasible), 0);
   Guarded with({}, true, true);
-  EXPECT_EQ(with.set("margin.created", -0.25).violation("feasible"), 0.2);
+  EXPECT_EQ(with.set("margin.created", -0.25).violation(Word::feasible), 0.2);
   Guarded dropped({{"created", Asks::nothing}}, true, true);
-  EXPECT_EQ(dropped.set("margin.created", -0.25).violation("feasible"), 0);
+  EXPECT_EQ(dropped.set("margin.created", -0.25).violation(Word::feasible), 0);
 }
 
 /// The margin columns of a run equal the margins of its verdict, also for limits that the study changes.
@@ -139,7 +139,7 @@ TEST(Guards, MarginsAreThoseOfTheVerdict) {
   const studies::Measured measured = app::quantity_measure(columns, scenario)(scenario, record);
   EXPECT_EQ(measured.verdict, name_of(verdict.word));
   EXPECT_EQ(measured.why, verdict.why());
-  EXPECT_EQ(measured.quantities[0], verdict.word == report::Word::feasible ? 1 : 0);
+  EXPECT_EQ(measured.quantities[0], verdict.word == Word::feasible ? 1 : 0);
   EXPECT_EQ(measured.quantities[1], verdict.tightest()->margin);
   std::size_t known = 0;
   for (std::size_t k = 0; k < verdict.checks.size(); ++k) {

@@ -235,7 +235,7 @@ TEST_F(StudyFile, ThoseThatComeWithTheProgramAreTaken) {
 TEST_F(StudyFile, AllThatIsWrongIsToldAtOnce) {
   EXPECT_EQ(error("gaitlab_study: 1\nscenari: two.yaml\nparameters: {a: {low: 1, high: x}}\nseed: -1\n").substr(0, 7),
             "s.yaml:");
-  EXPECT_EQ(error("gaitlab_study: 2\n"), "s.yaml:1:16: error: gaitlab_study is 2; this program reads format version 1");
+  EXPECT_EQ(error("gaitlab_study: 2\n"), "s.yaml:1:16: error: gaitlab_study is 2; expected 1, the only format version");
 }
 
 }  // namespace

@@ -1,0 +1,17 @@
+// The word of a verdict on a run.
+#pragma once
+#include "core/names.h"
+
+namespace gaitlab {
+
+/// Their meaning: report/verdict/verdict.h.
+enum class Word { feasible, infeasible, not_judged, failed };
+
+template <>
+struct EnumNames<Word> {
+  using enum Word;
+  static constexpr EnumName<Word> kTable[] = {
+      {feasible, "feasible"}, {infeasible, "infeasible"}, {not_judged, "not judged"}, {failed, "failed"}};
+};
+
+}  // namespace gaitlab
