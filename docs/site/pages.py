@@ -40,7 +40,7 @@ CONTENTS = (
         ("Validation", "docs/validation.md"),
         ("Determinism", "docs/determinism.md"), ("Benchmarks", "docs/benchmarks.md"))),
     ("Project", (
-        ("Changes", "CHANGELOG.md"), ("Contributing", "CONTRIBUTING.md"), ("Architecture", "docs/architecture.md"),
+        ("Changes", "CHANGELOG.md"), ("Contributing", "CONTRIBUTING.md"), ("Tests and tools", "tests/README.md"), ("Architecture", "docs/architecture.md"),
         ("Decisions", "docs/decisions.md"))),
 )
 
@@ -85,7 +85,7 @@ def repository():
 
 def listed():
     """Paths of the pages of the project."""
-    found = ["CHANGELOG.md", "CONTRIBUTING.md", "README.md"]
+    found = ["CHANGELOG.md", "CONTRIBUTING.md", "README.md", "tests/README.md"]
     for folder, folders, names in os.walk(os.path.join(ROOT, "docs")):
         folders[:] = sorted(name for name in folders if name != "site")
         found += [os.path.relpath(os.path.join(folder, name), ROOT) for name in sorted(names) if name.endswith(".md")]

@@ -26,7 +26,7 @@ except ImportError as error:
 
 # Pages, or beginnings of blocks, that are not run.
 NOT_RUN = {
-    'CONTRIBUTING.md': 'stages of ./lab', 'docs/benchmarks.md': 'a quarter of an hour', 'docs/ci.md': 'Install.Gate',
+    'CONTRIBUTING.md': 'stages of ./lab', 'tests/README.md': 'npm', 'docs/benchmarks.md': 'a quarter of an hour', 'docs/ci.md': 'Install.Gate',
     'docs/tutorials/write-a-cpg.md': 'Install.Gate', 'docs/tutorials/optuna.md': 'Python.Gate', 'docs/python.md': 'Python.tests',
     'docs/packages.md': 'Packages.Gate', 'docs/cluster.md': 'Slurm.Gate, Mpi.Gate', 'docs/validation.md': 'writes the page', './lab ': 'builds',
 }
