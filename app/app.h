@@ -1,4 +1,4 @@
-// Functions that the subcommands share. Each subcommand has a file, and returns the exit code (docs/conventions.md: 0 ok, 1
+// Functions that the subcommands share. Each subcommand has a file, and returns the exit code (docs/commands.md: 0 ok, 1
 // failed run, 2 bad input, 3 infeasible, 4 regression).
 #pragma once
 #include <cstdint>

@@ -1,5 +1,5 @@
 # The Debian packages gaitlab, gaitlab-dev and python3-gaitlab, by CPack from the components `program`, `development` and `python`
-# (docs/packages.md): cpack --config BUILD_FOLDER/CPackConfig.cmake -B FOLDER. gaitlab-mpi and CHANGELOG.md are in none of them.
+# (docs/overview.md): cpack --config BUILD_FOLDER/CPackConfig.cmake -B FOLDER. gaitlab-mpi and CHANGELOG.md are in none of them.
 
 # Notices of everything that is part of a binary: the project, the report page, the fonts, and libraries that are compiled into it, as far as
 # their licences ask for it (Boost's does not, for binaries).

@@ -11,7 +11,7 @@ const char* const EncoderSensor::kManual = R"(Encoders or potentiometers of join
     speed = (y_k - y_(k-1)) / T                   T: time between samples, also after a lost one
 
 The controller and the CPG get the measured angle and speed of these joints in place of the true ones; trace columns
-joint.J.measured and joint.J.measured_speed. All keys are those of a channel (docs/sensors.md). speed: true measures the speed by a
+joint.J.measured and joint.J.measured_speed. All keys are those of a channel (docs/real-robot.md). speed: true measures the speed by a
 tachometer, a channel with keys of its own. Every joint has its own draws. One joint has at most one encoder.
 Source: quantisation as additive noise of q/sqrt(12), Widrow and Kollar, Quantization Noise, 2008. Defaults (chosen): exact.
 

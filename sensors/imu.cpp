@@ -33,7 +33,7 @@ R: body axes to world axes; w: angular velocity; v: velocity of the point; Ts: c
 gives -g. It gives the mean over the last control period, which any contact law and engine has. Roll and pitch lack the turn about
 the vertical. A gyroscope of noise density N has noise: N/sqrt(T), where T is the time between samples, and walk: K.
 All values are of their own (Measured::channels). Trace columns sensor.NAME.gyro_x, sensor.NAME.accelerometer_x, sensor.NAME.roll ...
-Each quantity has the keys of a channel (docs/sensors.md), and its numbers have common losses and delay.
+Each quantity has the keys of a channel (docs/real-robot.md), and its numbers have common losses and delay.
 Source: IEEE Std 952-1997 (gyroscopes), IEEE Std 1293 (accelerometers). Defaults (chosen): exact.
 
     sensors:

@@ -11,7 +11,7 @@ const char* const LoadSensor::kManual =
 
 CPG and controller get `touches` of these modules in place of the true contact (a force above 0). The loads are values of their own
 (Measured::channels). Trace columns sensor.NAME.MODULE, sensor.NAME.MODULE.touching and sensor.NAME.BODY. The keys are those of a
-channel (docs/sensors.md). Every module and body has its own draws. A robot without contact elements measures 0.
+channel (docs/real-robot.md). Every module and body has its own draws. A robot without contact elements measures 0.
 Source: none. Defaults (chosen): exact, and a switch at 1 N and 0.5 N.
 
     sensors:

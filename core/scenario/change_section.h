@@ -26,7 +26,7 @@ struct ChangeKeys {
 };
 /// Sentences on the other keys.
 inline constexpr const char* kAboutChanges =
-    "Changes at times of the run, by rising times; each has set, fault or both (docs/faults.md).";
+    "Changes at times of the run, by rising times; each has set, fault or both (docs/real-robot.md).";
 inline constexpr const char* kAboutSet =
     "New values of keys of cpg and controller, such as {cpg.frequency: 0.5}; not type, period, step, or one that changes the "
     "number of states.";

@@ -124,7 +124,7 @@ struct SensorSelection {
   PluginSelection plugin;
 };
 
-/// Fault of a joint (docs/faults.md). The column `joint.J.fault` has the numbers of the enum.
+/// Fault of a joint (docs/real-robot.md). The column `joint.J.fault` has the numbers of the enum.
 enum class FaultKind { none, dead, open, stuck, weak, lost, late };
 
 template <>

@@ -11,7 +11,7 @@
 
 namespace gaitlab {
 
-/// Computes the rows of Recording::loads in the order of time. Definitions: docs/conventions.md, "Loads".
+/// Computes the rows of Recording::loads in the order of time. Definitions: docs/numbers.md, "Loads".
 class LoadMeter {
  public:
   /// `wanted` must not be Loads::left_out. `gears` are the joints whose gears have a rated peak torque.

@@ -13,7 +13,7 @@ namespace gaitlab {
 
 class Probes {
  public:
-  /// Selects the columns that match the patterns of the scenario, in the order of docs/conventions.md. `sample` must outlive
+  /// Selects the columns that match the patterns of the scenario, in the order of docs/numbers.md. `sample` must outlive
   /// this object. It contains the initial state, which fixes the signs of the quaternions of bodies (qw >= 0). Throws
   /// InputError if a pattern matches no column, or if reactions are wanted with contact.law: bullet.
   Probes(const Scenario& scenario, const std::vector<ContactElement>& contacts, const Cpg* cpg, std::string_view command_unit,

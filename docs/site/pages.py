@@ -29,19 +29,18 @@ CONTENTS = (
         ("Overview", "docs/overview.md"), ("Commands", "docs/commands.md"), ("All pages", "docs/README.md"))),
     ("More", (
         ("Remedies", "docs/remedy.md"), ("Library of modules", "docs/library.md"), ("Studies", "docs/studies.md"),
-        ("The page of a run", "docs/report.md"), ("Sensors", "docs/sensors.md"), ("Robots as built", "docs/as-built.md"),
-        ("Changes and faults", "docs/faults.md"), ("Write a CPG", "docs/tutorials/write-a-cpg.md"), ("Clusters", "docs/cluster.md"),
-        ("In MuJoCo", "docs/mujoco.md"), ("Debian packages", "docs/packages.md"), ("Files of others", "docs/trust.md"))),
+        ("The page of a run", "docs/report.md"), ("The real robot", "docs/real-robot.md"),
+        ("Write a CPG", "docs/tutorials/write-a-cpg.md"), ("In MuJoCo", "docs/mujoco.md"), ("Files of others", "docs/trust.md"))),
     ("Reference", (
         ("Scenario", "docs/reference/scenario.md"), ("Module", "docs/reference/module.md"), ("Plugins", "docs/reference/plugins.md"),
         ("Verdict", "docs/reference/verdict.md"), ("Study", "docs/reference/study.md"), ("Figure", "docs/reference/figure.md"))),
     ("Conventions", (
-        ("Conventions", "docs/conventions.md"), ("Equations", "docs/equations.md"), ("The paper's figures", "docs/paper.md"),
+        ("Numbers", "docs/numbers.md"), ("Files", "docs/files.md"), ("Equations", "docs/equations.md"), ("The paper's figures", "docs/paper.md"),
         ("Validation", "docs/validation.md"),
         ("Determinism", "docs/determinism.md"), ("Benchmarks", "docs/benchmarks.md"))),
     ("Project", (
-        ("Changes", "CHANGELOG.md"), ("Contributing", "CONTRIBUTING.md"), ("Architecture", "docs/architecture.md"),
-        ("Decisions", "docs/decisions.md"))),
+        ("Changes", "CHANGELOG.md"), ("Contributing", "CONTRIBUTING.md"), ("Tests and tools", "tests/README.md"),
+        ("Architecture", "docs/architecture.md"), ("Decisions", "docs/decisions.md"))),
 )
 
 COMMAND = re.compile(r"(\$ |gaitlab |\./lab |cmake (-|\.)|ctest |export |mpirun |python3 |tests/\S+ |npm |cd |git |[A-Z_]+=\S+ )")
@@ -85,7 +84,7 @@ def repository():
 
 def listed():
     """Paths of the pages of the project."""
-    found = ["CHANGELOG.md", "CONTRIBUTING.md", "README.md"]
+    found = ["CHANGELOG.md", "CONTRIBUTING.md", "README.md", "tests/README.md"]
     for folder, folders, names in os.walk(os.path.join(ROOT, "docs")):
         folders[:] = sorted(name for name in folders if name != "site")
         found += [os.path.relpath(os.path.join(folder, name), ROOT) for name in sorted(names) if name.endswith(".md")]

@@ -13,7 +13,7 @@
 
 namespace gaitlab::report {
 
-/// Summary of a run in SI units. docs/conventions.md defines the numbers.
+/// Summary of a run in SI units. docs/numbers.md defines the numbers.
 struct Summary {
   double wall_time = 0;  ///< s, real time of the run; the only number that differs between equal runs
   std::string build;

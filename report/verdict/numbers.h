@@ -1,5 +1,5 @@
 // The list of summary numbers, from which summary.json, terminal output, `compare`, `swap`, goldens and the table in
-// docs/conventions.md are generated. A new number requires one entry.
+// docs/numbers.md are generated. A new number requires one entry.
 #pragma once
 #include <algorithm>
 #include <functional>
@@ -24,7 +24,7 @@ struct SummaryNumber {
   /// Path in summary.json, separated by `.`. `J` represents the name of a joint; `x` and `y` are the elements of an array.
   const char* key = "";
   const char* unit = "";        ///< "" for a share, a count or a name
-  const char* definition = "";  ///< sentence printed in docs/conventions.md
+  const char* definition = "";  ///< sentence printed in docs/numbers.md
   bool words = false;           ///< the value is or can be a text, which calculations cannot use
   /// Computes the value, or null if it is not known. If one number of a group such as `torque_error` is null, the whole group
   /// is null.

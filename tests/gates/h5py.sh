@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A trace read by h5py with the literal code of docs/conventions.md equals the same trace as CSV. Then forged traces are tested.
+# A trace read by h5py with the literal code of docs/files.md equals the same trace as CSV. Then forged traces are tested.
 # usage: h5py.sh PROGRAM     (exit code 77 if h5py is not available; FLIPS is the number of files with flipped bits, 40 by default)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
@@ -14,8 +14,8 @@ cd -- "$work"
 expect 0 "$program" run "$root/scenarios/caterpillar.yaml" --set duration=0.2 --seed 7 --out runs/walk --quiet
 expect 0 "$program" export runs/walk --to csv trace.csv
 
-# The indented block of docs/conventions.md that imports h5py.
-awk '/^    import h5py/ { inside = 1 } inside && /^[^ ]/ { exit } inside { print substr($0, 5) }' "$root/docs/conventions.md" >recipe.py
+# The indented block of docs/files.md that imports h5py.
+awk '/^    import h5py/ { inside = 1 } inside && /^[^ ]/ { exit } inside { print substr($0, 5) }' "$root/docs/files.md" >recipe.py
 cat >>recipe.py <<'TEXT'
 
 import csv
@@ -49,7 +49,7 @@ with h5py.File("runs/walk/trace.h5") as file:
 assert ticks["t"][-1] == t[-1] and max(ticks["joint.3.torque_peak"]) >= max(abs(torque))
 TEXT
 "$python" recipe.py
-ok "h5py reads names, units, definitions, origin, tables and every bit; both hashes are those of docs/conventions.md"
+ok "h5py reads names, units, definitions, origin, tables and every bit; both hashes are those of docs/files.md"
 mkdir forged && cd forged
 if "$python" "$root/tests/gates/forged.py" "$program" ../runs/walk/trace.h5 "${FLIPS:-40}"; then ok "forged traces are refused"; else bad "forged traces"; fi
 verdict

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The Debian packages (docs/packages.md), made from a finished build without building anything: lintian finds no error, no file contains a path
+# The Debian packages (docs/overview.md), made from a finished build without building anything: lintian finds no error, no file contains a path
 # of this machine, and the unpacked program and Python module work from there. Tests the completion in bash and the manual page, too.
 # usage: packages.sh PROGRAM_BUILD_DIR     (exit code 77 without dpkg-deb or lintian)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
@@ -41,7 +41,7 @@ check_contents() {
   ok "${packages[*]}: version $version, notices, changelogs, files"
 }
 
-# Errors of lintian fail. The warnings are known, with the reason in docs/packages.md.
+# Errors of lintian fail. The warnings are known, with the reason in docs/overview.md.
 check_lintian() {
   lintian --fail-on none --allow-root --no-tag-display-limit "$work"/packages/*.deb >"$work/lintian" 2>&1 || { cat "$work/lintian" && fail "lintian"; }
   ! grep '^E:' "$work/lintian" >&2 || bad "errors of lintian"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The recipes of docs/cluster.md work in a separate Slurm on loopback and give the rows of a single process: shards, of which one is
+# The recipes of docs/studies.md work in a separate Slurm on loopback and give the rows of a single process: shards, of which one is
 # killed and requeued, their merging, and MPI in a job.
 # usage: slurm.sh PROGRAM (gaitlab-mpi must be in the folder of PROGRAM)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
@@ -88,8 +88,8 @@ ok "a Slurm with two nodes"
 # ended JOB: waits until all tasks of JOB have ended.
 ended() { wait_until "$daemon" is_over "$1" || { squeue >&2 && fail "job $1 does not end"; }; }
 is_over() { left=$(squeue -h -j "$1" -t PENDING,RUNNING,COMPLETING -o %i 2>/dev/null) && [[ -z $left ]]; }
-# recipe NUMBER: prints the script number NUMBER of docs/cluster.md.
-recipe() { awk -v number="$1" '/^    #!/ { ++n } /^    / { if (n == number && !over) print substr($0, 5); next } n == number { over = 1 }' "$root/docs/cluster.md"; }
+# recipe NUMBER: prints the script number NUMBER of docs/studies.md.
+recipe() { awk -v number="$1" '/^    #!/ { ++n } /^    / { if (n == number && !over) print substr($0, 5); next } n == number { over = 1 }' "$root/docs/studies.md"; }
 
 source "$root/tests/gates/two_modules.sh"
 two_modules "$work" "method: {type: random}" "budget: {runs: 160}" "seed: 6"
@@ -101,7 +101,7 @@ PATH=$(dirname -- "$program"):$PATH
 export PATH STUDY=$work/study.yaml OUT=$work/runs/map OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 recipe 1 >shards.sbatch
 recipe 2 >mpi.sbatch
-grep -q -- '--shard auto' shards.sbatch && grep -q '^exec mpirun gaitlab-mpi' mpi.sbatch || fail "docs/cluster.md has no such recipes"
+grep -q -- '--shard auto' shards.sbatch && grep -q '^exec mpirun gaitlab-mpi' mpi.sbatch || fail "docs/studies.md has no such recipes"
 expect 0 gaitlab sweep "$STUDY" --out "$work/whole" -j 2 --quiet
 
 hold

@@ -110,8 +110,9 @@ TEST(Faults, AStuckJointStaysWhereItIs) {
     if (table.at(row, "t") < 2.1) continue;  // five times the time of a joint in motion: 20 ms of the ramp, then its return
     farthest = std::max(farthest, std::abs(table.at(row, std::string(kJoint) + "angle") - held));
   }
-  validate_below({"closed.stuck_joint", "a stuck joint of the caterpillar keeps its angle", "required (docs/faults.md)", "rad"},
-                 farthest, 1e-3, "the largest torques over the stiffness of the hold");
+  validate_below(
+      {"closed.stuck_joint", "a stuck joint of the caterpillar keeps its angle", "required (docs/real-robot.md)", "rad"},
+      farthest, 1e-3, "the largest torques over the stiffness of the hold");
   EXPECT_LT(std::abs(r.ledger.residual()) / r.ledger.electrical, 1e-3);
 }
 

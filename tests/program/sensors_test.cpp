@@ -233,7 +233,7 @@ double limited(const Recording& r) {
 }
 
 // Over 20 s, encoders of this size move RMS by at most 0.9 % and travel by at most 1.3 %, and two ticks of delay bring a motor
-// to its limit of voltage for 27 % of the time and raise RMS by 3 % (docs/sensors.md). Over 4 s the start, which all runs
+// to its limit of voltage for 27 % of the time and raise RMS by 3 % (docs/real-robot.md). Over 4 s the start, which all runs
 // share, is a part of both: twice these changes are allowed.
 TEST(Sensors, CaterpillarMovesTheSameAndItsTorquesDoNot) {
   const auto walk = [](const std::string& keys) {

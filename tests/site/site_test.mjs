@@ -58,7 +58,7 @@ for (const path of pages) for (const width of [390, 1366]) for (const colorSchem
 
 // At this width a reader sees whole rows and lines: the scroll bar of a long table is far below.
 test("no table or block of a page for users is cut, 1366 px", async () => {
-  const read = ["index", "docs/tutorials/feasible", "docs/modules", "docs/library", "docs/benchmarks", "docs/validation", "docs/sensors", "docs/reference/scenario", "docs/reference/plugins", "docs/reference/verdict"];
+  const read = ["index", "docs/tutorials/feasible", "docs/modules", "docs/library", "docs/benchmarks", "docs/validation", "docs/real-robot", "docs/reference/scenario", "docs/reference/plugins", "docs/reference/verdict"];
   for (const path of read) {
     const { page, close: done } = await open(`${path}.html`, { width: 1366 });
     const cut = await page.$$eval("article .table-wrapper, article pre", (all) => all.filter((e) => e.scrollWidth > e.clientWidth + 1).map((e) => e.textContent.slice(0, 60)));
@@ -98,7 +98,7 @@ test("the table of contents follows the reader", async () => {
   await done();
 });
 
-for (const [path, least] of [["equations", 25], ["sensors", 1], ["mujoco", 1], ["as-built", 1], ["conventions", 2]]) test(`the equations of ${path} are set`, async () => {
+for (const [path, least] of [["equations", 25], ["real-robot", 2], ["mujoco", 1], ["files", 1], ["numbers", 1]]) test(`the equations of ${path} are set`, async () => {
   const { page, complaints, close: done } = await open(`docs/${path}.html`, { width: 1366 });
   const made = await page.$$eval("article .math", (all) => all.map((e) => ({ set: Boolean(e.querySelector(".katex-html")), error: e.querySelector(".katex-error")?.title })));
   assert.ok(made.length >= least, `${made.length} equations`);
@@ -139,7 +139,7 @@ const asked = {
   torque: "docs/reference/plugins.html", servo: "docs/modules.html", friction: "docs/reference/scenario.html", infeasible: "docs/errors.html", "current limit": "docs/errors.html",
   slope: "docs/glossary.html", python: "docs/python.html", install: "docs/overview.html", MuJoCo: "docs/mujoco.html", voltage: "docs/modules.html",
   gear: "docs/reference/plugins.html", wheel: "docs/modules.html", heat: "docs/reference/verdict.html", slip: "docs/reference/scenario.html", approve: "docs/commands.html",
-  tolerance: "docs/as-built.html", sweep: "docs/studies.html", ramp: "docs/reference/plugins.html", keyframes: "docs/reference/plugins.html"
+  tolerance: "docs/real-robot.html", sweep: "docs/studies.html", ramp: "docs/reference/plugins.html", keyframes: "docs/reference/plugins.html"
 };
 test("the search: words of a user", async () => {
   for (const [query, page] of Object.entries(asked)) {

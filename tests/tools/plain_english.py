@@ -184,7 +184,7 @@ def doc_texts(path, source):
 
 def texts(paths):
     found = []
-    for path in files('*.h', '*.cpp', 'report/page/src/*.ts', 'docs/*.md', 'README.md', 'CONTRIBUTING.md'):
+    for path in files('*.h', '*.cpp', 'report/page/src/*.ts', 'docs/*.md', 'README.md', 'CONTRIBUTING.md', 'tests/README.md'):
         if path.startswith('docs/reference/') or path == 'docs/validation.md' or (paths and not path.startswith(tuple(paths))):
             continue
         with open(os.path.join(ROOT, path), encoding='utf-8') as file:

@@ -217,7 +217,7 @@ std::string recipe_page() {
       "# The recipe of a figure\n\n"
       "<!-- Written by `tests/gates/reference.sh build/release --renew`; CI fails where it is stale. -->\n\n"
       "All keys that `gaitlab figure` reads, as `gaitlab explain figure KIND` prints them. Rules of drawing:\n"
-      "[conventions](../conventions.md). Recipes that come with the program: `scenarios/figures/`.\n";
+      "[files](../files.md#figure-recipes). Recipes that come with the program: `scenarios/figures/`.\n";
   for (const PanelKind* kind : kPanelKinds) {
     const std::vector<KeyRow> rows = recipe_keys(*kind).rows();
     const bool first = kind == kPanelKinds[0];

@@ -1,4 +1,4 @@
-// Module geometry, docking and fusion agree with closed forms and with the table of the hexapod in docs/conventions.md.
+// Module geometry, docking and fusion agree with closed forms and with docs/numbers.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 """The robot of a resolved scenario: assembly by docks, poses, velocities and Jacobians of all bodies, for many rows at once.
 
-Written from docs/conventions.md (docking, joints, names) and docs/equations.md, 1; shares no code with the program.
+Written from docs/numbers.md (docking, joints, names) and docs/equations.md, 1; shares no code with the program.
 Arrays over rows come first: rotations (rows, 3, 3), vectors (rows, 3)."""
 import numpy as np
 

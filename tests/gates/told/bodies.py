@@ -1,4 +1,4 @@
-"""Checks of the base, of bodies, docks and the ground: docs/reference/verdict.md, docs/conventions.md (verdict.json, loads)."""
+"""Checks of the base, of bodies, docks and the ground: docs/reference/verdict.md, docs/numbers.md (verdict.json, loads)."""
 import numpy as np
 
 from paper.robot import rpy
@@ -53,7 +53,7 @@ def carried(record, at):
 
 
 def elements(record):
-    """Contact elements that can touch the ground: all, or those of free blocks of modules without children (docs/conventions.md)."""
+    """Contact elements that can touch the ground: all, or those of free blocks of modules without children (docs/numbers.md)."""
     on, robot = record.scenario["contact"]["on"], record.robot
     found = robot.contacts(on) if on != "none" else {}
     docked = {f"m{k}/{robot.reference[k]}" for k in range(1, robot.count)}

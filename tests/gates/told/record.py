@@ -1,6 +1,6 @@
 """Reader of a trace.h5: its tables by the names of their columns, the stored scenario, and its motors.
 
-Written from docs/conventions.md (the trace, its tables) and docs/reference/plugins.md (motors); shares no code with the program."""
+Written from docs/numbers.md (the trace), docs/files.md (its tables) and docs/reference/plugins.md (motors); shares no code with the program."""
 import h5py
 import numpy as np
 import yaml

@@ -1,4 +1,4 @@
-"""Output on the terminal: the first screen, and the numbers with --verbose. Definitions: docs/conventions.md (the summary)."""
+"""Output on the terminal: the first screen, and the numbers with --verbose. Definitions: docs/numbers.md (the summary)."""
 import re
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""The limit cycle and the window by which a run is judged. Written from docs/conventions.md (the summary; limit cycle)."""
+"""The limit cycle and the window by which a run is judged. Written from docs/numbers.md (the summary; limit cycle)."""
 import numpy as np
 
 REPEATS, STILL, SHORTEST = 0.02, 1e-3, 5

@@ -1,4 +1,4 @@
-// The list of summary numbers agrees with summary.json and docs/conventions.md.
+// The list of summary numbers agrees with summary.json and docs/numbers.md.
 #include "report/verdict/numbers.h"
 
 #include <nlohmann/json.hpp>
@@ -28,14 +28,14 @@ struct Walk {
   Json json = Json::parse(to_json(summary, scenario, record));
 };
 
-/// Row of a summary number, as the table of docs/conventions.md must contain it.
+/// Row of a summary number, as the table of docs/numbers.md must contain it.
 std::string row(const SummaryNumber& number) {
   return fmt::format("| `{}` | {} | {} |\n", number.key, number.unit, number.definition);
 }
 
 TEST(Numbers, EveryEntryIsInTheSummaryAndInTheDocs) {
   const Walk walk;
-  const std::string docs = read(std::string(gaitlab::test::source_folder()) + "/docs/conventions.md");
+  const std::string docs = read(std::string(gaitlab::test::source_folder()) + "/docs/numbers.md");
   std::string table;
   for (const SummaryNumber& number : summary_numbers()) {
     EXPECT_TRUE(std::string(number.definition).ends_with('.')) << number.key << ": a definition is a sentence";
@@ -48,7 +48,7 @@ TEST(Numbers, EveryEntryIsInTheSummaryAndInTheDocs) {
   }
   const std::string head = "| key | unit | definition |\n|---|---|---|\n";
   EXPECT_NE(docs.find(head + table + "\n"), std::string::npos)
-      << "docs/conventions.md is stale; its table of summary numbers should be\n"
+      << "docs/numbers.md is stale; its table of summary numbers should be\n"
       << head << table;
 }
 
