@@ -1,7 +1,8 @@
 // Recording of a run, read from the page: the description of the run (meta), and the channels over time.
 import { inflate, unpack, type Values } from "./channels";
 import type { Channel, Meta } from "./format";
-import type { Span } from "../panel";
+
+export type Span = [from: number, to: number];
 
 /** Second run of the page, and the differences from the first run by signal. */
 export interface Second {

@@ -1,7 +1,7 @@
 // Canvas that fills its parent, and its common parts: ticks, axes, frame.
 import type { Ink } from "../colour";
 import { fixed } from "../data/numbers";
-import type { Span } from "../panel";
+import type { Span } from "../data/recording";
 
 export type Pen = CanvasRenderingContext2D;
 export type Draw = (pen: Pen, width: number, height: number) => void;

@@ -4,7 +4,8 @@ import { element, leaveOut, make } from "../dom";
 import type { Motor } from "../data/format";
 import { keys, type Key } from "../keyline";
 import { decimalsOf, fixed, number, percent } from "../data/numbers";
-import type { Desk, Panel, Span } from "../panel";
+import type { Desk, Panel } from "../panel";
+import type { Span } from "../data/recording";
 import { second, TimePlot, type Curve, type Level, type Tube } from "./timeplot";
 import { limited } from "../data/motor";
 

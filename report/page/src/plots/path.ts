@@ -3,7 +3,8 @@ import { Board, clipped, frame, type Box, type Pen, type Scale } from "./board";
 import type { Values } from "../data/channels";
 import { element, leaveOut } from "../dom";
 import { keys } from "../keyline";
-import type { Desk, Panel, Span } from "../panel";
+import type { Desk, Panel } from "../panel";
+import type { Span } from "../data/recording";
 
 export class Path implements Panel {
   private readonly board: Board | null = null;

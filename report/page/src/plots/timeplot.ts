@@ -4,7 +4,8 @@ import uPlot from "uplot";
 import { font } from "./board";
 import type { Ink } from "../colour";
 import type { Values } from "../data/channels";
-import type { Desk, Span } from "../panel";
+import type { Desk } from "../panel";
+import type { Span } from "../data/recording";
 
 type Side = "left" | "right";
 

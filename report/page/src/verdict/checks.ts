@@ -3,7 +3,8 @@ import { element, icon, make } from "../dom";
 import type { Check, Status, Verdict } from "../data/format";
 import { plural, quantity, sentence, span } from "../data/numbers";
 import type { Desk } from "../panel";
-import { moment, partName, show } from "../data/places";
+import { show } from "./place";
+import { moment, partName } from "../data/places";
 
 const marks: Record<Status, string> = {
   pass: "M3 8.5l3.4 3.4L13 4.6",

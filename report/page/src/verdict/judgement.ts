@@ -1,6 +1,6 @@
 // Judgement of a run in words: the verdict, the reasons for the verdict, and the limitations of the verdict.
 import { make } from "../dom";
-import { built, hardest, shortfall, walked, type Fact } from "../data/facts";
+import { built, hardest, shortfall, walked, type Fact } from "./facts";
 import { folder } from "../data/folder";
 import type { Check, Meta } from "../data/format";
 import { capital, inSentence, percent, plural, quantity, sentence } from "../data/numbers";

@@ -5,7 +5,8 @@ import type { Check, Status } from "../data/format";
 import { failures, leading } from "./judgement";
 import { inSentence, percent, sentence } from "../data/numbers";
 import type { Run } from "../panel";
-import { moment, partName, show } from "../data/places";
+import { show } from "./place";
+import { moment, partName } from "../data/places";
 
 const words: Record<Status, string> = {
   pass: "Tightest",

@@ -1,10 +1,10 @@
 // Main numbers on the card of a run: the missing torque or voltage of an infeasible gait, otherwise the tightest check
 // and the motion.
-import type { Check, Meta, Part } from "./format";
-import { make } from "../dom";
-import { inSentence, number, percent, quantity, span, time } from "./numbers";
+import type { Check, Meta } from "../data/format";
+import { inSentence, number, percent, quantity, span, time } from "../data/numbers";
 import type { Run } from "../panel";
-import { firstMoment, jointAt, longestMoment, moment, partName, show } from "./places";
+import { place } from "./place";
+import { firstMoment, jointAt, longestMoment, moment, partName } from "../data/places";
 
 export type Fact = [name: string, value: Node | string, small?: string];
 
@@ -68,13 +68,6 @@ function missing(first: Check, failed: Check[]): Fact[] {
   if (!ofMotor(first) || !strays) return [];
   const { value, limit, unit } = strays;
   return [["Off its set point", quantity(value, unit), `limit ${quantity(limit, unit)}`]];
-}
-
-function place(run: Run, part: Part, name: string, t: number | null): HTMLButtonElement {
-  const go = make("button.link", partName(run.recording.meta, part, name));
-  go.type = "button";
-  go.addEventListener("click", () => show(run, part, name, t));
-  return go;
 }
 
 /** Facts of a run that is not infeasible: its tightest check, speed, cost of transport and period. */
