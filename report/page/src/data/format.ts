@@ -137,6 +137,7 @@ export interface Verdict {
   verdict: "feasible" | "infeasible" | "failed" | "not judged";
   reason: string; // reason of `not judged`
   why: string; // text after the verdict, as on the terminal; "" for feasible
+  unstable?: string; // sentence on an unstable controller, from which all other findings follow
   decided_by: string | null; // id of the check that decides `failed` or `infeasible`
   tightest: string | null; // id of the check with the smallest margin, among checks that can fail
   rests_on: string; // evidence for the verdict, for example `3 periods of 4 s`

@@ -19,8 +19,9 @@ export interface Judgement {
 const few = 2; // largest number of further failed checks in the sentence; the table of checks contains all
 
 export function judgement(run: Run): Judgement {
-  const judged = ofRun(run);
-  const { draws } = run.recording.meta.verdict ?? {};
+  const { draws, unstable } = run.recording.meta.verdict ?? {};
+  // All other findings follow from an unstable controller, and are therefore left out.
+  const judged = unstable ? { ...ofRun(run), why: [sentence(unstable)], facts: [] } : ofRun(run);
   if (!draws) return judged;
   const why = [...judged.why, sentence(draws.text)];
   if (judged.mood !== "good" || draws.feasible === draws.count) return { ...judged, why };
@@ -67,7 +68,7 @@ function infeasible(run: Run): Judgement {
   const [first, ...rest] = failed;
   return {
     mood: "bad",
-    said: first?.group === "motor" ? "Not feasible with these motors" : "Not feasible",
+    said: first?.group === "motor" && !meta.verdict.unstable ? "Not feasible with these motors" : "Not feasible",
     why: [sentence(meta.verdict.why), ...others(rest)],
     facts: first ? shortfall(run, first, failed) : walked(run),
   };
@@ -137,9 +138,9 @@ function others(failed: Check[]): string[] {
 /** Findings of the checks, without advice. */
 const briefly = (found: Check[]): string => found.map((c) => c.text.split("; ")[0].replace(/[.]$/, "")).join("; ");
 
-/** Limitations of the verdict: warnings, doubtful numbers, checks that were not judged. */
+/** Limitations of the verdict: warnings, doubtful numbers, checks that were not judged. None for an unstable run. */
 export function aside(meta: Meta, own = true): (string | Node)[] {
-  if (meta.outcome === "not run") return [];
+  if (meta.outcome === "not run" || meta.verdict.unstable) return [];
   const { verdict, counts, chosen_motors, chosen_docks, demand } = meta.verdict;
   const of = (trust: boolean, ...status: Check["status"][]) =>
     meta.verdict.checks.filter((c) => status.includes(c.status) && (c.group === "trust") === trust);
