@@ -115,7 +115,7 @@ export class Page implements Desk {
   }
 
   /** Shows the second run at the same phase of its gait, or at the same time. */
-  align(on: boolean): void {
+  private align(on: boolean): void {
     if (!this.ghost) return;
     this.ghost.aligned = on;
     this.panels.forEach((p) => p.paint());

@@ -101,4 +101,9 @@ export class Recording {
   get judged(): number {
     return this.row(this.meta.verdict.window.from);
   }
+  /** The first row of the last period; without a limit cycle, of the judged window. */
+  get lastPeriod(): number {
+    const { cycle } = this.meta;
+    return cycle ? Math.max(this.judged, this.row(this.end - cycle.period)) : this.judged;
+  }
 }

@@ -7,9 +7,9 @@ import type { Rings } from "./rings";
 
 /** A robot with its poses and rings at the time shown. */
 interface Posed {
-  readonly meta: Meta;
-  readonly kinematics: Kinematics;
-  readonly rings: Rings;
+  meta: Meta;
+  kinematics: Kinematics;
+  rings: Rings;
 }
 
 /** Position of a part at the time shown; null if the robot has no such part. */

@@ -99,9 +99,13 @@ function load(run: Run): Fact[] {
   return run.loads.peak > 1e-6 ? [["Largest torque", number(run.loads.peak), "N m"]] : [];
 }
 
+/** Value of a check as a share of its limit, from its margin. */
+export const shareOfLimit = ({ least }: Check, margin: number): string =>
+  `${percent(least ? 1 + margin : 1 - margin, 2)} of the limit`;
+
 function margin(run: Run, check: Check, left: number): Fact {
-  const { least, part, title, worst: name } = check;
-  const share = left >= 0 && left <= 1 ? `${percent(least ? 1 + left : 1 - left, 2)} of the limit` : held(check);
+  const { part, title, worst: name } = check;
+  const share = left >= 0 && left <= 1 ? shareOfLimit(check, left) : held(check);
   const word = left < 0 ? "Worst" : "Tightest";
   return name !== null && part !== "none"
     ? [word, place(run, part, name, moment(run, check)), `${inSentence(title)}: ${share}`]

@@ -1,5 +1,5 @@
 // Place of a check on the page: the link that shows its part and its time.
-import { make } from "../dom";
+import { link } from "../dom";
 import type { Part } from "../data/format";
 import type { Run } from "../panel";
 import { dockAt, jointAt, partName } from "../data/places";
@@ -13,9 +13,5 @@ export function show(run: Run, part: Part, name: string | null, t: number | null
 }
 
 /** Link with the name of a part, which shows the part and a time. */
-export function place(run: Run, part: Part, name: string, t: number | null): HTMLButtonElement {
-  const go = make("button.link", partName(run.recording.meta, part, name));
-  go.type = "button";
-  go.addEventListener("click", () => show(run, part, name, t));
-  return go;
-}
+export const place = (run: Run, part: Part, name: string, t: number | null): HTMLButtonElement =>
+  link(partName(run.recording.meta, part, name), () => show(run, part, name, t));
