@@ -251,10 +251,11 @@ on("infeasible: what was first over the limit, what is worst, when, how much is 
 });
 
 const unstable = "the controller is unstable from 0.03 s on";
-on("an unstable controller is the only finding of the verdict", changed(pages.infeasible, { unstable, why: unstable }), flat, async (page, meta) => {
+on("an unstable controller is the only finding of the card, and its checks have no advice", changed(pages.infeasible, { unstable, why: unstable }), flat, async (page, meta) => {
   assert.ok(meta.verdict.counts.fail > 1 && meta.verdict.chosen_motors, "there is more to say of a stable run");
   const texts = await Promise.all(["#said", "#why", "#aside", "#facts"].map((id) => page.textContent(id)));
   assert.deepEqual(texts, ["Not feasible", "The controller is unstable from 0.03 s on.", "", ""]);
+  assert.equal(await page.locator("#checks .try").count(), 0, "no advice such as larger gains");
 });
 
 // The joint of the row with the largest share of the time at a limit, by the rows that are drawn.

@@ -177,13 +177,17 @@ function explanation(desk: Desk, row: Row): Node[] {
   });
 }
 
-/** Sentences under a check. `tried` contains the advice of earlier rows, which is not repeated. */
-function findings(c: Check, label: string, tried: Set<string>): HTMLElement[] {
+/**
+ * Sentences under a check. `tried` contains the advice of earlier rows, which is not repeated. A check of an unstable
+ * run has no advice, because it fails by the controller.
+ */
+function findings(c: Check, { unstable }: Verdict, label: string, tried: Set<string>): HTMLElement[] {
   const found: HTMLElement[] = [];
-  const advice = label + remedy(c);
+  const tip = unstable ? "" : remedy(c);
+  const advice = label + tip;
   if (aloud(c)) found.push(make("p.why", label + sentence(c.text)));
   if (c.missing) found.push(make("p.short", `${label}Missing: ${c.missing}`));
-  if (remedy(c) && !tried.has(advice)) {
+  if (tip && !tried.has(advice)) {
     tried.add(advice);
     found.push(make("p.try", advice));
   }
@@ -195,7 +199,9 @@ function drawn(desk: Desk, row: Row, tried: Set<string>): HTMLTableRowElement[] 
   const status = worst(row);
   const open = link(first(row).title || first(row).id);
   const added = make("div.more", ...explanation(desk, row));
-  const found = row.flatMap((c, n) => (c ? findings(c, labelOf(desk, n), tried) : []));
+  const found = row.flatMap((c, n) =>
+    c ? findings(c, desk.runs[n].recording.meta.verdict, labelOf(desk, n), tried) : [],
+  );
   const head = summary(row, open, !!desk.ghost);
   const text = make("td", ...found, added);
   const detail = make("tr", make("td"), text);
