@@ -76,11 +76,12 @@ function infeasible(run: Run): Judgement {
 
 function unjudged(run: Run): Judgement {
   const { meta } = run.recording;
-  const { why, reason } = meta.verdict;
+  const { why, reason, reason_check } = meta.verdict;
+  const rest = failures(meta).filter((c) => c.id !== reason_check);
   return {
     mood: "open",
     said: "Not judged",
-    why: [sentence(why || reason), ...(reason.includes("so far:") ? [] : others(failures(meta)))],
+    why: [sentence(why || reason), ...others(rest)],
     facts: walked(run),
   };
 }
@@ -104,12 +105,9 @@ function feasible(run: Run): Judgement {
   };
 }
 
-/** Failed checks: first the check that decides the verdict, then checks of group `run`, then others by margin. */
-export function failures({ verdict: { checks, decided_by } }: Meta): Check[] {
-  const urgency = ({ id, group, margin }: Check) =>
-    id === decided_by ? [0, 0] : [group === "run" ? 1 : 2, margin ?? -1e300];
-  const sooner = ([a, m]: number[], [b, n]: number[]) => a - b || m - n;
-  return checks.filter((c) => c.status === "fail").sort((a, b) => sooner(urgency(a), urgency(b)));
+/** Failed checks in the order of the program. */
+export function failures({ verdict: { checks, failures } }: Meta): Check[] {
+  return failures.flatMap((id) => checks.find((c) => c.id === id) ?? []);
 }
 
 /**
