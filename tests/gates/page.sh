@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Report page: the checks of types, eslint and prettier pass, the committed bundle equals the built sources, and the page works in a
+# Report page: the checks of types, arrows, eslint and prettier pass, the committed bundle equals the built sources, and the page works in a
 # browser.
 # usage: page.sh PROGRAM_BUILD_DIR     (exit code 77 without node, npm, Chromium or packages, which is an error with CI=true)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
@@ -11,12 +11,12 @@ needs_browser "$build" "the report page"
 # The page is built outside the sources, so that the committed bundle is not overwritten before the comparison.
 page=$work/page
 mkdir -p "$page"
-(cd -- "$root/report/page" && cp -r -- package.json package-lock.json tsconfig.json eslint.config.mjs .prettierrc.json .prettierignore build.mjs \
+(cd -- "$root/report/page" && cp -r -- package.json package-lock.json tsconfig.json eslint.config.mjs .prettierrc.json .prettierignore arrows.mjs build.mjs \
   src "$page")
 ln -s -- "$NODE_MODULES" "$page/node_modules"
 cd -- "$page"
 expect 0 npm run --silent check
-ok "report/page: types, eslint, prettier"
+ok "report/page: types, arrows, eslint, prettier"
 expect 0 node build.mjs
 for file in dist/page.html LICENSES.txt; do
   cmp -- "$root/report/page/$file" "$file" ||

@@ -1,10 +1,11 @@
 // The report page in a browser. usage: node page_test.mjs NAME=FILE...
 // feasible, infeasible, failed, open (not judged), built: pages by what they say; markup: one of a scenario with markup in its text; csv, old
-// (a folder of format 1), jointless, built_ball: what there is little of; castor, motorless: joint 0 has no motor, none has; cured: a run with a remedy; fall, current: runs that fail in other ways; torque: of torque sources; pair, robots, ball, pair_second: two runs; strayed: of a golden.
+// (rows alone), jointless, built_ball: what there is little of; castor, motorless: joint 0 has no motor, none has; cured: a run with a remedy; fall, current: runs that fail in other ways; torque: of torque sources; pair, robots, ball, pair_second: two runs; strayed: of a golden.
 // trace: CSV of the feasible run with body.* columns.
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
-import { resolve } from "node:path";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
 import { after, test } from "node:test";
 import { close, columnsOf, frames, metaOf, modules, open } from "./browser.mjs";
 
@@ -32,6 +33,15 @@ const factsOf = async (page) => Object.fromEntries(await page.$$eval("#facts > d
 const state = (page) => page.evaluate(() => ({ ...window.gaitlab.page.state }));
 const words = { pass: "pass", warn: "warning", fail: "fail", "too close": "too close", "not judged": "not judged" };
 const wordOf = (c) => c && (c.id === "stability" && c.status === "pass" ? "a note" : words[c.status]);
+/** A copy of a page with another verdict. */
+const changed = (file, verdict) => {
+  if (!file) return undefined;
+  const folder = mkdtempSync(join(tmpdir(), "page-")), copy = join(folder, "report.html"), meta = metaOf(file);
+  Object.assign(meta.verdict, verdict);
+  writeFileSync(copy, readFileSync(file, "utf8").replace(/(id="meta">)[^]*?(<\/script>)/, (_, begin, end) => begin + JSON.stringify(meta).replaceAll("<", "\\u003c") + end));
+  after(() => rmSync(folder, { recursive: true }));
+  return copy;
+};
 const failing = (meta) => meta.verdict.checks.find((c) => c.id === meta.verdict.decided_by) ?? meta.verdict.checks.find((c) => c.status === "fail");
 const nameOf = (meta, c) => (c.part === "dock" ? `${c.worst}'s dock` : c.part === "foot" ? meta.feet.find((f) => f.name === c.worst)?.title ?? c.worst : c.worst);
 const near = (a, b, off, what) => assert.ok(Math.abs(a - b) <= off, `${what}: ${a}, expected ${b}`);
@@ -238,6 +248,14 @@ on("infeasible: what was first over the limit, what is worst, when, how much is 
   assert.ok(asked.length > 0 && asked.every((name) => demand.joints.some((d) => d.joint === name)));
   const advice = await page.textContent(`[data-check="${check.id}"] + tr .try`);
   assert.ok(advice.startsWith("Try: ") && advice.includes((check.remedy || check.advice).replace(/[.]$/, "")));
+});
+
+const unstable = "the controller is unstable from 0.03 s on";
+on("an unstable controller is the only finding of the card, and its checks have no advice", changed(pages.infeasible, { unstable, why: unstable }), flat, async (page, meta) => {
+  assert.ok(meta.verdict.counts.fail > 1 && meta.verdict.chosen_motors, "there is more to say of a stable run");
+  const texts = await Promise.all(["#said", "#why", "#aside", "#facts"].map((id) => page.textContent(id)));
+  assert.deepEqual(texts, ["Not feasible", "The controller is unstable from 0.03 s on.", "", ""]);
+  assert.equal(await page.locator("#checks .try").count(), 0, "no advice such as larger gains");
 });
 
 // The joint of the row with the largest share of the time at a limit, by the rows that are drawn.
@@ -519,13 +537,12 @@ on("failed: why it ended, and what there is until then", pages.failed, flat, asy
   assert.ok(await page.isVisible("#motion"));
 });
 
-on("old: what a folder of format 1 lacks is said, and nothing is made up", pages.old, flat, async (page, meta) => {
+on("old: what rows alone lack is said, and nothing is made up", pages.old, flat, async (page, meta) => {
   assert.ok(meta.missing.length > 0);
   assert.deepEqual(await page.$$eval("#missing li", (all) => all.map((l) => l.textContent.toLowerCase().replace(/[.]$/, ""))), meta.missing.map((m) => m.toLowerCase()));
   assert.ok(await page.isVisible("#motion"));
-  assert.ok(meta.missing.some((m) => /^judged from the trace's rows/.test(m)));
-  assert.match(await page.textContent('[data-check="voltage"] .value'), /^0\s%$/);
-  assert.equal(await page.textContent('[data-check="dock_tension"] .value'), "not judged");
+  assert.match(await page.textContent("#why"), /^Only the rows of the trace are left, which miss the peaks between them/);
+  for (const id of ["voltage", "fall", "dock_tension"]) assert.equal(await page.textContent(`[data-check="${id}"] .value`), "not judged");
 });
 
 on("csv: a run whose trace is text", pages.csv, flat, async (page, meta) => {

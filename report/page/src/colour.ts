@@ -4,30 +4,6 @@
 export type Theme = "light" | "dark";
 export type Rgb = [number, number, number];
 
-/** Theme of the page, and the colours of style.css that drawings use. */
-export interface Ink {
-  theme: Theme;
-  ink: string;
-  ink2: string;
-  muted: string;
-  line: string;
-  grid: string;
-  track: string;
-  panel: string;
-  accent: string;
-  hatch: string;
-  cloud: string;
-  veil: string;
-  band: string;
-  blue: string;
-  vermillion: string;
-  green: string;
-  orange: string;
-  sky: string;
-  purple: string;
-  fail: string;
-}
-
 const names = [
   "ink",
   "ink2",
@@ -50,13 +26,13 @@ const names = [
   "fail",
 ] as const;
 
+/** Theme of the page, and the colours of style.css that drawings use. */
+export type Ink = { theme: Theme } & Record<(typeof names)[number], string>;
+
 export function inkOf(page: HTMLElement): Ink {
   const style = getComputedStyle(page);
-  const colours = Object.fromEntries(names.map((n) => [n, style.getPropertyValue(`--${n}`).trim()])) as Record<
-    (typeof names)[number],
-    string
-  >;
-  return { theme: page.dataset.theme === "dark" ? "dark" : "light", ...colours };
+  const colours = Object.fromEntries(names.map((n) => [n, style.getPropertyValue(`--${n}`).trim()]));
+  return { theme: page.dataset.theme === "dark" ? "dark" : "light", ...colours } as Ink;
 }
 
 type Ramp = [at: number, colour: Rgb][];

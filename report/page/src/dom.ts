@@ -20,15 +20,36 @@ export function make<K extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
-export function icon(paths: string, box = 16): SVGSVGElement {
-  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-  svg.setAttribute("viewBox", `0 0 ${box} ${box}`);
-  svg.setAttribute("aria-hidden", "true");
-  const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
-  path.setAttribute("d", paths);
-  svg.append(path);
-  return svg;
+/** Button that looks like a link. A click calls `act`, and then the listeners of the elements around the button. */
+export function link(text: string, act?: () => void): HTMLButtonElement {
+  const made = make("button.link", text);
+  made.type = "button";
+  if (act) made.addEventListener("click", act);
+  return made;
 }
+
+/** Head of a table with the names and units of its columns. */
+export const tableHead = (...columns: (readonly [name: string, unit?: string])[]): HTMLElement =>
+  make(
+    "thead",
+    make("tr", ...columns.map(([name, unit]) => make("th", name, ...(unit ? [make("small", ` ${unit}`)] : [])))),
+  );
+
+export function rowHead(child: Child): HTMLTableCellElement {
+  const made = make("th", child);
+  made.scope = "row";
+  return made;
+}
+
+export function svg(tag: string, attributes: Record<string, number | string>, ...children: Child[]): SVGElement {
+  const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));
+  made.append(...children);
+  return made;
+}
+
+export const icon = (paths: string, box = 16): SVGElement =>
+  svg("svg", { viewBox: `0 0 ${box} ${box}`, "aria-hidden": "true" }, svg("path", { d: paths }));
 
 /** Hides the panel that contains an element, and lists this panel with the reason at the end of the page. */
 export function leaveOut(host: HTMLElement, why: string): void {

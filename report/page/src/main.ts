@@ -1,6 +1,7 @@
 // Start of the page: reads its data, creates it, and draws its frames.
 import { unpack } from "./data/channels";
 import { bodyColours, rim, ringGradient, ringLoad } from "./colour";
+import { controls } from "./controls";
 import { make } from "./dom";
 import { least, most, use } from "./data/motor";
 import { capital, decimalsOf, percent, quantity } from "./data/numbers";
@@ -24,6 +25,7 @@ declare global {
 Recording.of(document)
   .then(([recording, second]) => {
     const page = new Page(recording, second);
+    controls(page);
     const frame = (now: number) => {
       page.tick(now);
       requestAnimationFrame(frame);

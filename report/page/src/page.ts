@@ -2,17 +2,16 @@
 import { Address } from "./address";
 import { captions } from "./verdict/captions";
 import { inkOf, type Ink, type Theme } from "./colour";
-import { controls } from "./controls";
 import { element } from "./dom";
 import type { Check } from "./data/format";
 import { Ghost } from "./data/ghost";
 import { arrange } from "./layout";
 import { Loads } from "./data/loads";
 import { opening, type Opening } from "./verdict/opening";
-import type { Desk, Panel, Run, Span, State } from "./panel";
+import type { Desk, Panel, Run, State } from "./panel";
 import { dockAt } from "./data/places";
 import { Problems } from "./verdict/problems";
-import type { Recording, Second } from "./data/recording";
+import type { Recording, Second, Span } from "./data/recording";
 import { Stage } from "./scene/stage";
 import { Transport } from "./transport";
 import type { Look } from "./scene/view";
@@ -53,7 +52,6 @@ export class Page implements Desk {
     captions(this);
     this.stage = new Stage(this, (on) => this.align(on));
     this.panels.push(this.stage, ...this.transport(), ...arrange(this));
-    controls(this);
     this.offerStretches();
     this.panels.forEach((p) => p.paint());
     this.open(first);
@@ -117,7 +115,7 @@ export class Page implements Desk {
   }
 
   /** Shows the second run at the same phase of its gait, or at the same time. */
-  align(on: boolean): void {
+  private align(on: boolean): void {
     if (!this.ghost) return;
     this.ghost.aligned = on;
     this.panels.forEach((p) => p.paint());

@@ -2,10 +2,8 @@
 // that panels receive.
 import type { Ink } from "./colour";
 import type { Ghost } from "./data/ghost";
-import type { Loads } from "./data/loads";
-import type { Recording } from "./data/recording";
-
-export type Span = [from: number, to: number];
+import type { Measured } from "./data/places";
+import type { Span } from "./data/recording";
 
 export interface State {
   t: number;
@@ -16,9 +14,7 @@ export interface State {
 }
 
 /** A run on the page, and functions that select a time, joint or dock of the run. */
-export interface Run {
-  readonly recording: Recording;
-  readonly loads: Loads;
+export interface Run extends Measured {
   /** Stops playing, and shows a time of this run. */
   goTo(t: number): void;
   /** Selects a joint by its number in this run. */

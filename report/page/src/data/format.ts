@@ -1,11 +1,11 @@
 // Types of the data in the page, which report/page/page_data.cpp writes. Numbers are in SI units. An unknown number is
 // null, and a list that does not apply to the run is [].
 
-export type Vec3 = [number, number, number];
+type Vec3 = [number, number, number];
 /** Position x, y, z in m, then the quaternion w, x, y, z. */
 export type Pose = [number, number, number, number, number, number, number];
 
-export interface Joint {
+interface Joint {
   name: string;
   module: number;
   body: number; // index in bodies of the body that the joint moves
@@ -15,7 +15,7 @@ export interface Joint {
 }
 
 /** Body of the robot. Its world pose is (world pose of the parent) * pre * turn(axis, angle of the joint) * post. */
-export interface Body {
+interface Body {
   name: string;
   module: number;
   type: string; // key of geometry and faces
@@ -45,7 +45,7 @@ export interface Face {
   reference: Vec3;
 }
 
-export interface Dock {
+interface Dock {
   name: string;
   module: number;
   parent: number;
@@ -53,7 +53,7 @@ export interface Dock {
   parent_face: number;
 }
 
-export interface GroundBox {
+interface GroundBox {
   pose: Pose;
   size: Vec3;
   moves: number; // N of the channels box.N.* of a moving box; -1 for a fixed box
@@ -68,7 +68,7 @@ export interface Heightfield {
   heights: number[];
 }
 
-export interface Ground {
+interface Ground {
   kind: "none" | "plane" | "boxes" | "heightfield";
   height: number;
   friction: number | null;
@@ -76,7 +76,7 @@ export interface Ground {
   heightfield: Heightfield | null;
 }
 
-export interface Foot {
+interface Foot {
   name: string; // name of the body
   title: string; // name of the leg as in figures (m5 rear left), or of the body if the leg has no name
   module: number;
@@ -110,16 +110,13 @@ export interface Check {
   title: string;
   status: Status;
   span: "window" | "whole run";
-  can_fail: boolean;
   value: number | null;
   limit: number | null;
   least: boolean; // true for a lower limit
   unit: string; // unit of value and limit; "" for a share
   margin: number | null; // margin as a share of the limit; negative if the value is beyond the limit
-  error: number | null; // relative error of the value
   part: Part; // kind of part of the names worst and first_part
   worst: string | null; // name of the worst part; for a dock the name of its module
-  parts: number; // number of parts beyond the limit
   from: number | null; // start of the time that the worst part is beyond the limit, s
   to: number | null; // end of the time that the worst part is beyond the limit, s
   first: number | null; // first time at which a part is beyond the limit, s
@@ -133,17 +130,17 @@ export interface Check {
 }
 
 export interface Verdict {
-  format: 2;
   verdict: "feasible" | "infeasible" | "failed" | "not judged";
   reason: string; // reason of `not judged`
+  reason_check?: string; // id of the check that it names: too close, failing so far, or not judged
+  failures: string[]; // ids of the failed checks: the one that decides, those of group `run`, then by margin
   why: string; // text after the verdict, as on the terminal; "" for feasible
+  unstable?: string; // sentence on an unstable controller, from which all other findings follow
   decided_by: string | null; // id of the check that decides `failed` or `infeasible`
   tightest: string | null; // id of the check with the smallest margin, among checks that can fail
   rests_on: string; // evidence for the verdict, for example `3 periods of 4 s`
   /** Joint at limits of its motor for the largest share of the judged time. */
   longest: { joint: string; voltage: number; current: number } | null;
-  /** First joint that reaches a limit of its motor, and the time, s. The duration at the limit does not matter. */
-  first: { joint: string; time: number } | null;
   window: { from: number; to: number };
   counts: Record<Status, number>;
   checks: Check[];
@@ -175,7 +172,7 @@ export interface RemedyMap {
 }
 
 /** Largest magnitudes of a joint in a run without motor limits, V, A, N m and rad/s. */
-export interface Demand {
+interface Demand {
   joint: string;
   voltage: number | null;
   current: number | null;
@@ -184,10 +181,9 @@ export interface Demand {
 }
 
 /** Part of summary.json that the page uses. */
-export interface Summary {
+interface Summary {
   speed?: number | null;
-  distance?: number | null;
-  cost_of_transport?: { electrical: number | null; mechanical: number | null } | null;
+  cost_of_transport?: { electrical: number | null } | null;
   energy?: Record<string, number | null> | null;
   trace_hash?: string;
 }
@@ -196,7 +192,7 @@ export interface Summary {
 export type Channel = [name: string, unit: string, quantum: number, count: number];
 
 /** Amplitude and phase of a first harmonic, rad. */
-export type Harmonic = [amplitude: number, phase: number];
+type Harmonic = [amplitude: number, phase: number];
 
 /** Signal of the second run that left its band around the signal of the first run. */
 export interface Stray {

@@ -1,6 +1,13 @@
 // Place of a check in a run: the name of the worst part, its joint or dock, and the time of the largest value.
 import type { Check, Meta, Part } from "./format";
-import type { Run } from "../panel";
+import type { Loads } from "./loads";
+import type { Recording } from "./recording";
+
+/** Recording of a run, and the loads of its joints. */
+export interface Measured {
+  readonly recording: Recording;
+  readonly loads: Loads;
+}
 
 export const dockName = (module: string): string => `${module}'s dock`;
 
@@ -27,7 +34,7 @@ export const dockAt = ({ docks }: Meta, part: Part, name: string | null): number
 type Measure = (row: number) => number;
 
 /** Function from a row to a measure of a check that is largest at the worst row; null without a suitable channel. */
-function measure({ recording, loads }: Run, { id, part }: Check, name: string | null): Measure | null {
+function measure({ recording, loads }: Measured, { id, part }: Check, name: string | null): Measure | null {
   const { joints } = recording.meta;
   if (part === "dock") {
     const kind = id.slice("dock_".length);
@@ -67,7 +74,7 @@ function measure({ recording, loads }: Run, { id, part }: Check, name: string | 
  * Time of the row with the largest measure between two times, s. Among rows with equal measures, the middle row counts.
  * If there is no row between the times, the result is the time of the row nearest to their middle.
  */
-function largestRow({ recording: { times, rows } }: Run, of: Measure, from: number, to: number): number {
+function largestRow({ recording: { times, rows } }: Measured, of: Measure, from: number, to: number): number {
   const within: number[] = [];
   let nearest = 0;
   for (let i = 0; i < rows; i++) {
@@ -82,7 +89,7 @@ function largestRow({ recording: { times, rows } }: Run, of: Measure, from: numb
 }
 
 /** Time of the worst row of the worst part of a check, s; null if the check does not refer to a time. */
-export function moment(run: Run, check: Check): number | null {
+export function moment(run: Measured, check: Check): number | null {
   const { window } = run.recording.meta.verdict;
   const of = measure(run, check, check.worst);
   const { from } = check;
@@ -92,7 +99,7 @@ export function moment(run: Run, check: Check): number | null {
 }
 
 /** Time of the first row beyond the limit of a check, s; null if no row is beyond the limit or the time is unknown. */
-export function firstMoment(run: Run, check: Check): number | null {
+export function firstMoment(run: Measured, check: Check): number | null {
   const { first, first_part: part } = check;
   const of = first === null ? null : measure(run, check, part);
   if (first === null || !of) return first;
@@ -101,7 +108,7 @@ export function firstMoment(run: Run, check: Check): number | null {
 }
 
 /** Middle of the longest interval in the judged window in which a joint is at a limit of its motor, s. */
-export function longestMoment({ recording }: Run, joint: number): number | null {
+export function longestMoment({ recording }: Measured, joint: number): number | null {
   const at = recording.find(`joint.${joint}.saturation`);
   let best = 0;
   let middle: number | null = null;
@@ -113,12 +120,4 @@ export function longestMoment({ recording }: Run, joint: number): number | null 
     middle = recording.times[i - (length >> 1)];
   }
   return middle;
-}
-
-/** Shows a part and a time: selects the joint of the part, marks the part if it is a dock, and sets the time. */
-export function show(run: Run, part: Part, name: string | null, t: number | null): void {
-  const joint = jointAt(run.recording.meta, part, name);
-  if (joint >= 0) run.choose(joint);
-  run.mark(dockAt(run.recording.meta, part, name));
-  if (t !== null) run.goTo(t);
 }

@@ -1,7 +1,8 @@
 // Recording of a run, read from the page: the description of the run (meta), and the channels over time.
 import { inflate, unpack, type Values } from "./channels";
 import type { Channel, Meta } from "./format";
-import type { Span } from "../panel";
+
+export type Span = [from: number, to: number];
 
 /** Second run of the page, and the differences from the first run by signal. */
 export interface Second {
@@ -99,5 +100,10 @@ export class Recording {
   /** The first row of the judged window. */
   get judged(): number {
     return this.row(this.meta.verdict.window.from);
+  }
+  /** The first row of the last period; without a limit cycle, of the judged window. */
+  get lastPeriod(): number {
+    const { cycle } = this.meta;
+    return cycle ? Math.max(this.judged, this.row(this.end - cycle.period)) : this.judged;
   }
 }

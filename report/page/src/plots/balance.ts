@@ -3,7 +3,7 @@
 import { element } from "../dom";
 import { keys } from "../keyline";
 import type { Desk, Panel } from "../panel";
-import { second, TimePlot } from "./timeplot";
+import { curve, second, TimePlot } from "./timeplot";
 
 export class Balance implements Panel {
   private plot: TimePlot | null = null;
@@ -14,10 +14,9 @@ export class Balance implements Panel {
 
   paint(): void {
     this.plot?.destroy();
-    const { recording, ink } = this.desk;
+    const { recording, ink, ghost } = this.desk;
     const margin = recording.find("stability");
     const height = recording.find("com.z");
-    const { ghost } = this.desk;
     const other = ghost?.values("stability");
     const high = height && ghost?.values("com.z");
     if (!margin) return;
@@ -28,9 +27,9 @@ export class Balance implements Panel {
       levels: [{ value: 0, axis: "left", colour: ink.line }],
       curves: [
         { values: margin, label: "margin", colour: ink.green, axis: "left" },
-        ...(height ? [{ values: height, label: "height", colour: ink.sky, axis: "right" as const }] : []),
-        ...(other ? [second(other, `margin, ${ghost!.label}`, ink.green, "left")] : []),
-        ...(high ? [second(high, `height, ${ghost!.label}`, ink.sky, "right")] : []),
+        ...curve(height, { label: "height", colour: ink.sky, axis: "right" }),
+        ...second(other, `margin, ${ghost?.label}`, ink.green, "left"),
+        ...second(high, `height, ${ghost?.label}`, ink.sky, "right"),
       ],
     });
     keys("balance-key", [

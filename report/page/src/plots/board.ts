@@ -1,16 +1,17 @@
 // Canvas that fills its parent, and its common parts: ticks, axes, frame.
 import type { Ink } from "../colour";
+import type { Values } from "../data/channels";
 import { fixed } from "../data/numbers";
-import type { Span } from "../panel";
+import type { Span } from "../data/recording";
 
 export type Pen = CanvasRenderingContext2D;
-export type Draw = (pen: Pen, width: number, height: number) => void;
+type Draw = (pen: Pen, width: number, height: number) => void;
 
 export const font = (px: number, weight = 400): string =>
   `${weight} ${px}px ${getComputedStyle(document.body).fontFamily}`;
 
 export class Board {
-  readonly canvas = document.createElement("canvas");
+  private readonly canvas = document.createElement("canvas");
   private painted = { width: 0, height: 0 };
 
   constructor(
@@ -42,7 +43,7 @@ export class Board {
   }
 }
 
-export interface Ticks {
+interface Ticks {
   at: number[];
   text: (v: number) => string;
 }
@@ -125,6 +126,13 @@ export function line(pen: Pen, x0: number, y0: number, x1: number, y1: number): 
   pen.beginPath();
   pen.moveTo(x0, y0);
   pen.lineTo(x1, y1);
+  pen.stroke();
+}
+
+/** Draws the curve through the points of two channels from row `from` on, of which every `step`-th counts. */
+export function trace(pen: Pen, { X, Y }: Scale, x: Values, y: Values, from = 0, step = 1): void {
+  pen.beginPath();
+  for (let i = from; i < x.length; i += step) pen.lineTo(X(x[i]), Y(y[i]));
   pen.stroke();
 }
 

@@ -103,7 +103,7 @@ export class Energy implements Panel {
           levels: [{ value: 0, axis: "left", colour: ink.line }],
           curves: [
             { values: own, label: "power", colour: ink.orange, width: 1.4, axis: "left" },
-            ...(theirs ? [second(ghost!.atRows(theirs), `power, ${ghost!.label}`, ink.purple, "left")] : []),
+            ...second(theirs && ghost!.atRows(theirs), `power, ${ghost?.label}`, ink.purple, "left"),
           ],
         }),
       );

@@ -1,6 +1,6 @@
 // Plot of torque over speed within the envelope of the chosen joint's motor. Dots are states of all joints with this
 // motor, a line is the last period of the chosen joint, and a ring is the state of the chosen joint at the time shown.
-import { Board, clipped, font, frame, line, type Box, type Pen, type Scale } from "./board";
+import { Board, clipped, font, frame, line, trace, type Box, type Pen, type Scale } from "./board";
 import type { Values } from "../data/channels";
 import { element, leaveOut } from "../dom";
 import type { Motor } from "../data/format";
@@ -72,16 +72,7 @@ export class Envelope implements Panel {
     const { recording, loads } = ghost;
     const speed = recording.find(`joint.${j}.speed`);
     const torque = recording.find(`joint.${j}.torque`);
-    const { cycle } = recording.meta;
-    return (
-      speed &&
-      torque && {
-        speed,
-        torque,
-        motor: loads.motor(j),
-        from: cycle ? Math.max(recording.judged, recording.row(recording.end - cycle.period)) : recording.judged,
-      }
-    );
+    return speed && torque && { speed, torque, motor: loads.motor(j), from: recording.lastPeriod };
   }
 
   private get driven(): boolean {
@@ -190,7 +181,6 @@ export class Envelope implements Panel {
   private points(pen: Pen, peers: number[]): void {
     const { recording, ink, state } = this.desk;
     const { rows, judged: from } = recording;
-    const { cycle } = recording.meta;
     const { X, Y } = this.scale!;
     const step = Math.max(1, Math.floor(((rows - from) * peers.length) / 40000));
     const curve = (j: number) => [recording.channel(`joint.${j}.speed`), recording.channel(`joint.${j}.torque`)];
@@ -199,24 +189,18 @@ export class Envelope implements Panel {
       const [v, u] = curve(j);
       for (let i = from; i < rows; i += step) pen.fillRect(X(v[i]) - 0.75, Y(u[i]) - 0.75, 1.5, 1.5);
     }
-    const first = cycle ? Math.max(from, recording.row(recording.end - cycle.period)) : from;
     const [v, u] = curve(state.joint);
     pen.strokeStyle = ink.blue;
     pen.lineWidth = 1.8;
     pen.lineJoin = "round";
-    pen.beginPath();
-    for (let i = first; i < rows; i++) pen.lineTo(X(v[i]), Y(u[i]));
-    pen.stroke();
+    trace(pen, this.scale!, v, u, recording.lastPeriod);
   }
 
   private pointsOfSecond(pen: Pen, { speed, torque, from }: Second): void {
-    const { X, Y } = this.scale!;
     pen.setLineDash([7, 4]);
     pen.strokeStyle = this.desk.ink.purple;
     pen.lineWidth = 1.5;
-    pen.beginPath();
-    for (let i = from; i < speed.length; i++) pen.lineTo(X(speed[i]), Y(torque[i]));
-    pen.stroke();
+    trace(pen, this.scale!, speed, torque, from);
     pen.setLineDash([]);
   }
 

@@ -4,8 +4,9 @@ import { element, leaveOut, make } from "../dom";
 import type { Motor } from "../data/format";
 import { keys, type Key } from "../keyline";
 import { decimalsOf, fixed, number, percent } from "../data/numbers";
-import type { Desk, Panel, Span } from "../panel";
-import { second, TimePlot, type Curve, type Level, type Tube } from "./timeplot";
+import type { Desk, Panel } from "../panel";
+import type { Span } from "../data/recording";
+import { curve, second, TimePlot, type Curve, type Level, type Tube } from "./timeplot";
 import { limited } from "../data/motor";
 
 type Cell = "angle" | "error" | "speed" | "torque" | "use";
@@ -17,10 +18,6 @@ const SOURCE: Record<Cell, string> = {
   torque: "torque",
   use: "torque",
 };
-
-/** List with one curve, or an empty list if the values are not recorded. */
-const curve = (values: Values | null | undefined, look: Omit<Curve, "values">): Curve[] =>
-  values ? [{ values, ...look }] : [];
 
 /** Signals of the chosen joint. Names that end in B are signals of the second run. */
 type Signals = Record<"angle" | "measured" | "setpoint" | "torque" | "stopped" | "angleB" | "torqueB", Values | null>;
@@ -139,8 +136,8 @@ export class JointPlots implements Panel {
       ...curve(setpoint, { label: "set point", colour: ink.ink, dash: [2, 3], width: 1.3, axis: "left" }),
       ...curve(torque, { label: "torque", colour: ink.vermillion, width: 1.5, axis: "right" }),
       ...curve(stopped, { label: "torque of the stops", colour: ink.sky, width: 1.2, axis: "right" }),
-      ...(angleB ? [second(angleB, `angle, ${label}`, ink.blue, "left")] : []),
-      ...(torqueB ? [second(torqueB, `torque, ${label}`, ink.vermillion, "right")] : []),
+      ...second(angleB, `angle, ${label}`, ink.blue, "left"),
+      ...second(torqueB, `torque, ${label}`, ink.vermillion, "right"),
     ];
   }
 
@@ -221,13 +218,13 @@ export class JointPlots implements Panel {
 
   private driveCurves(command: string, word: string, current: Values | null): Curve[] {
     const { ink, recording, ghost } = this.desk;
-    const other = ghost?.values(this.channel(command));
-    const drawn = current ? ghost?.values(this.channel("current")) : null;
+    const other = (quantity: string) => ghost?.values(this.channel(quantity));
+    const label = ghost?.label ?? "";
     return [
       { values: recording.channel(this.channel(command)), label: word, colour: ink.purple, axis: "left" },
       ...curve(current, { label: "current", colour: ink.green, axis: "right" }),
-      ...(other ? [second(other, `${word}, ${ghost!.label}`, ink.purple, "left")] : []),
-      ...(drawn ? [second(drawn, `current, ${ghost!.label}`, ink.green, "right")] : []),
+      ...second(other(command), `${word}, ${label}`, ink.purple, "left"),
+      ...second(current && other("current"), `current, ${label}`, ink.green, "right"),
     ];
   }
 

@@ -1,9 +1,10 @@
 // Plot of the path of the centre of mass, seen from above, with the footprints.
-import { Board, clipped, frame, type Box, type Pen, type Scale } from "./board";
+import { Board, clipped, frame, trace, type Box, type Pen, type Scale } from "./board";
 import type { Values } from "../data/channels";
 import { element, leaveOut } from "../dom";
 import { keys } from "../keyline";
-import type { Desk, Panel, Span } from "../panel";
+import type { Desk, Panel } from "../panel";
+import type { Span } from "../data/recording";
 
 export class Path implements Panel {
   private readonly board: Board | null = null;
@@ -117,21 +118,15 @@ export class Path implements Panel {
 
   private paths(pen: Pen): void {
     const { ink } = this.desk;
-    const { X, Y } = this.scale!;
-    const path = (x: Values, y: Values, rows: number) => {
-      pen.beginPath();
-      for (let i = 0; i < rows; i += Math.max(1, Math.floor(rows / 2000))) pen.lineTo(X(x[i]), Y(y[i]));
-      pen.stroke();
-    };
+    const path = (x: Values, y: Values) => trace(pen, this.scale!, x, y, 0, Math.max(1, Math.floor(x.length / 2000)));
     pen.strokeStyle = ink.blue;
     pen.lineWidth = 2;
     pen.lineJoin = "round";
-    path(this.x, this.y, this.desk.recording.rows);
+    path(this.x, this.y);
     if (this.second) {
-      const [x, y] = this.second;
       pen.setLineDash([7, 4]);
       pen.strokeStyle = ink.purple;
-      path(x, y, x.length);
+      path(...this.second);
       pen.setLineDash([]);
     }
   }

@@ -1,5 +1,5 @@
 // Table and plot of the signals that left their bands around the golden, ordered by the time at which they did.
-import { element, make, panelOf } from "../dom";
+import { element, link, make, panelOf, rowHead, tableHead } from "../dom";
 import type { Stray } from "../data/format";
 import { keys } from "../keyline";
 import { fixed, number } from "../data/numbers";
@@ -7,7 +7,7 @@ import type { Desk, Panel, Run } from "../panel";
 import { TimePlot } from "./timeplot";
 
 /** Name of a channel in texts, for example `m5/active torque` for joint.9.torque. */
-export function signalName(run: Run, signal: string): string {
+function signalName(run: Run, signal: string): string {
   const [, joint, quantity] = /^joint\.(\d+)\.(.*)$/.exec(signal) ?? [];
   const { joints } = run.recording.meta;
   return joint === undefined ? signal : `${joints[Number(joint)]?.name ?? `joint ${joint}`} ${quantity}`;
@@ -17,14 +17,11 @@ export function signalName(run: Run, signal: string): string {
 export const jointOf = ({ signal }: Stray): number => Number(/^joint\.(\d+)\./.exec(signal)?.[1] ?? -1);
 
 export function signalLink(run: Run, stray: Stray): HTMLButtonElement {
-  const go = make("button.link", signalName(run, stray.signal));
   const joint = jointOf(stray);
-  go.type = "button";
-  go.addEventListener("click", () => {
+  return link(signalName(run, stray.signal), () => {
     if (joint >= 0) run.choose(joint);
     if (stray.from !== null) run.goTo(stray.from);
   });
-  return go;
 }
 
 export class Strays implements Panel {
@@ -37,27 +34,20 @@ export class Strays implements Panel {
     this.shown = strays.find((s) => jointOf(s) === desk.state.joint) ?? strays[0] ?? null;
     panelOf("drift").hidden = !this.shown;
     for (const stray of strays) {
-      const link = signalLink(desk, stray);
-      const head = make("th", link);
-      head.scope = "row";
-      link.addEventListener("click", () => this.show(stray));
+      const signal = signalLink(desk, stray);
+      signal.addEventListener("click", () => this.show(stray));
       body.append(
         make(
           "tr",
-          head,
+          rowHead(signal),
           make("td", number(stray.ratio)),
           make("td", stray.from === null ? "never" : fixed(stray.from, 2)),
           make("td", `±${number(stray.tolerance)} ${stray.unit}`),
         ),
       );
     }
-    const columns = [
-      ["signal", ""],
-      ["RMS", "bands"],
-      ["outside from", "s"],
-      ["tolerance", ""],
-    ].map(([name, unit]) => make("th", name, make("small", ` ${unit}`)));
-    if (strays.length) element("strays").append(make("thead", make("tr", ...columns)), body);
+    const head = tableHead(["signal"], ["RMS", "bands"], ["outside from", "s"], ["tolerance"]);
+    if (strays.length) element("strays").append(head, body);
     element("strays-note").textContent = strays.length
       ? "A signal fails if the RMS of its difference from the golden exceeds one band. It is outside from the time " +
         "at which the difference first exceeds three bands, which is the tolerance."

@@ -1,10 +1,11 @@
 // Plot of curves over time. A click sets the time, a drag selects the span of all plots over time, and a double click
 // shows the whole run.
 import uPlot from "uplot";
-import { font } from "./board";
+import { clipped, font } from "./board";
 import type { Ink } from "../colour";
 import type { Values } from "../data/channels";
-import type { Desk, Span } from "../panel";
+import type { Desk } from "../panel";
+import type { Span } from "../data/recording";
 
 type Side = "left" | "right";
 
@@ -24,7 +25,7 @@ export interface Level {
   dash?: number[];
 }
 
-export interface Plot {
+interface Plot {
   label: string;
   curves: Curve[];
   left: { name: string; colour?: string };
@@ -42,15 +43,13 @@ export interface Tube {
   colour: string;
 }
 
-/** Dashed curve of the second run. */
-export const second = (values: Values, label: string, colour: string, axis: Side): Curve => ({
-  values,
-  label,
-  colour,
-  axis,
-  width: 1.5,
-  dash: [7, 4],
-});
+/** List with one curve, or an empty list without values. */
+export const curve = (values: Values | null | undefined, look: Omit<Curve, "values">): Curve[] =>
+  values ? [{ values, ...look }] : [];
+
+/** List with the dashed curve of the second run, or an empty list without values. */
+export const second = (values: Values | null | undefined, label: string, colour: string, axis: Side): Curve[] =>
+  curve(values, { label, colour, axis, width: 1.5, dash: [7, 4] });
 
 export class TimePlot {
   private readonly plot: uPlot;
@@ -98,9 +97,12 @@ export class TimePlot {
   private hooks({ bands = [], tubes = [], levels = [] }: Plot): uPlot.Hooks.Arrays {
     const { desk } = this;
     const below = (u: uPlot) => {
-      this.changes(u);
-      this.bands(u, bands);
-      this.tubes(u, tubes);
+      const { left, top, width, height } = u.bbox;
+      clipped(u.ctx, { left, right: left + width, top, bottom: top + height }, () => {
+        this.changes(u);
+        this.bands(u, bands);
+        this.tubes(u, tubes);
+      });
     };
     const above = (u: uPlot) => {
       this.levels(u, levels);
@@ -146,10 +148,6 @@ export class TimePlot {
     if (changes.length === 0) return;
     const { ctx, bbox } = u;
     const ratio = window.devicePixelRatio || 1;
-    ctx.save();
-    ctx.beginPath();
-    ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
-    ctx.clip();
     const first = Math.max(u.valToPos(changes[0].t, "x", true), bbox.left);
     ctx.fillStyle = this.desk.ink.track;
     ctx.globalAlpha = 0.5;
@@ -163,30 +161,20 @@ export class TimePlot {
       ctx.fillRect(x, bbox.top, ratio, bbox.height);
       ctx.fillText(text, Math.max(x, bbox.left) + 4 * ratio, bbox.top + (2 + 12 * (k % 3)) * ratio);
     }
-    ctx.restore();
   }
 
   private bands(u: uPlot, bands: Span[]): void {
     const { ctx, bbox } = u;
-    ctx.save();
-    ctx.beginPath();
-    ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
-    ctx.clip();
     ctx.fillStyle = this.desk.ink.band;
     for (const [from, to] of bands) {
       const x = u.valToPos(from, "x", true);
       ctx.fillRect(x, bbox.top, Math.max(u.valToPos(to, "x", true) - x, 1.5), bbox.height);
     }
-    ctx.restore();
   }
 
   private tubes(u: uPlot, tubes: Tube[]): void {
-    const { ctx, bbox } = u;
+    const { ctx } = u;
     const { times } = this.desk.recording;
-    ctx.save();
-    ctx.beginPath();
-    ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
-    ctx.clip();
     for (const { around, by, axis, colour } of tubes) {
       const shape = new Path2D();
       const edge = (i: number, sign: number) =>
@@ -197,7 +185,6 @@ export class TimePlot {
       ctx.globalAlpha = 0.18;
       ctx.fill(shape);
     }
-    ctx.restore();
   }
 
   private levels(u: uPlot, levels: Level[]): void {

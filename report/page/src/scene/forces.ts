@@ -16,6 +16,7 @@ import {
 import type { Values } from "../data/channels";
 import type { Theme } from "../colour";
 import type { Recording } from "../data/recording";
+import { copies, unseen } from "./shapes";
 
 interface Arrow {
   force: Values[];
@@ -23,7 +24,6 @@ interface Arrow {
 }
 
 const up = new Vector3(0, 1, 0);
-const unseen = new Matrix4().makeScale(0, 0, 0);
 
 export class Forces {
   shown = true;
@@ -66,19 +66,10 @@ export class Forces {
     });
     const [hidden, seen, always] = this.materials;
     const made = (shape: BufferGeometry, materials: MeshBasicMaterial[]) =>
-      materials.map((material, n) => this.mesh(shape, material, 4 + n, scene));
+      materials.map((material, n) => copies(scene, shape, material, this.arrows.length, 4 + n));
     this.shafts = made(new CylinderGeometry(0.045, 0.045, 1, 10).translate(0, 0.5, 0), [hidden, seen]);
     this.tips = made(new ConeGeometry(0.13, 1, 14).translate(0, 0.5, 0), [hidden, seen]);
     this.dots = made(new SphereGeometry(0.06, 12, 8), [always]);
-  }
-
-  private mesh(shape: BufferGeometry, material: MeshBasicMaterial, order: number, scene: Scene): InstancedMesh {
-    const mesh = new InstancedMesh(shape, material, Math.max(this.arrows.length, 1));
-    mesh.count = this.arrows.length;
-    mesh.frustumCulled = false;
-    mesh.renderOrder = order;
-    scene.add(mesh);
-    return mesh;
   }
 
   /** Largest force on a foot in the whole run, N. */

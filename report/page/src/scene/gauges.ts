@@ -13,8 +13,9 @@ import {
   ShaderMaterial,
   type DepthModes,
 } from "three";
-import { bodyColours, rim, ringLoad, type Rgb, type Theme } from "../colour";
+import { bodyColours, rim, ringLoad, type Theme } from "../colour";
 import type { Kinematics } from "../data/kinematics";
+import { coloured } from "./shapes";
 
 const radius = 0.2; // of a ring, in sizes of a body
 const least = 4.5; // smallest radius of a ring, in a picture of the whole of a long robot, px
@@ -74,7 +75,7 @@ export class Gauges {
   private readonly states: InstancedBufferAttribute; // share; 1 for the chosen joint, 0.5 under the pointer
   private readonly meshes: Mesh<InstancedBufferGeometry, ShaderMaterial>[];
   private readonly colours = {
-    rim: { value: plain(rim) },
+    rim: { value: coloured(rim, new Color(), "") },
     none: { value: new Color() },
     accent: { value: new Color() },
     pixel: { value: 1 },
@@ -116,7 +117,7 @@ export class Gauges {
 
   paint(theme: Theme): void {
     this.theme = theme;
-    this.colours.none.value.copy(plain(ringLoad(theme, 0)));
+    coloured(ringLoad(theme, 0), this.colours.none.value, "");
     this.colours.accent.value.setHex(bodyColours[theme].accent, "");
   }
 
@@ -151,6 +152,3 @@ export class Gauges {
     return new Mesh(geometry, material);
   }
 }
-
-/** Colour whose numbers reach the screen as they are. */
-const plain = ([r, g, b]: Rgb): Color => new Color().setRGB(r / 255, g / 255, b / 255, "");

@@ -2,7 +2,6 @@
 import {
   BoxGeometry,
   BufferAttribute,
-  BufferGeometry,
   DoubleSide,
   EdgesGeometry,
   InstancedMesh,
@@ -16,16 +15,19 @@ import {
   Vector3,
 } from "three";
 import type { Theme } from "../colour";
-import type { Heightfield } from "../data/format";
+import type { Heightfield, Meta } from "../data/format";
 import { position, rotation } from "../data/kinematics";
 import { rounded } from "../data/numbers";
 import type { Recording } from "../data/recording";
-import { lines, place } from "./robot";
+import { copies, geometryOf, place, room, segments } from "./shapes";
 
 const looks = {
   light: { minor: 0xcdd4da, major: 0xa3aeb8, solid: 0xc9d0d6, edge: 0x6c7680 },
   dark: { minor: 0x27303a, major: 0x44515e, solid: 0x323b45, edge: 0x0a0d10 },
 };
+
+/** True for ground with a level surface, on which shadows, a grid and the way of the robot can be drawn. */
+export const level = ({ ground: { kind } }: Meta): boolean => kind === "plane" || kind === "boxes";
 
 /** Rectangle of the ground: least and largest x, least and largest y, m. */
 export type Area = [number, number, number, number];
@@ -50,18 +52,17 @@ export class Ground {
     const { ground } = recording.meta;
     this.spacing = rounded(size / 4);
     if (ground.kind === "none") return;
-    const room = Math.max(50 * this.spacing, 5 * size);
+    const margin = Math.max(50 * this.spacing, 5 * size);
     const step = 10 * this.spacing;
     const [x0, x1, y0, y1] = area.map(
-      (v, i) => (i % 2 ? Math.ceil((v + room) / step) : Math.floor((v - room) / step)) * step,
+      (v, i) => (i % 2 ? Math.ceil((v + margin) / step) : Math.floor((v - margin) / step)) * step,
     );
     if (ground.kind !== "heightfield") scene.add(this.grid([x0, x1, y0, y1], false), this.grid([x0, x1, y0, y1], true));
     if (ground.heightfield) scene.add(this.field(ground.heightfield), this.net(ground.heightfield));
     if (ground.boxes.length) {
-      this.boxes = new InstancedMesh(new BoxGeometry(1, 1, 1), this.solid, ground.boxes.length);
-      this.boxes.frustumCulled = false;
-      this.outlines = lines((ground.boxes.length * this.cube.length) / 3, this.edge);
-      scene.add(this.boxes, this.outlines);
+      this.boxes = copies(scene, new BoxGeometry(1, 1, 1), this.solid, ground.boxes.length);
+      this.outlines = segments(room((ground.boxes.length * this.cube.length) / 3), this.edge);
+      scene.add(this.outlines);
       this.put(0, () => true);
     }
   }
@@ -116,7 +117,7 @@ export class Ground {
         for (let x = x0; x < x1 - d / 2; x += piece) at.push(x, i * d, height, x + piece, i * d, height);
       }
     }
-    return segments(at, major ? this.major : this.minor);
+    return segments(geometryOf(at), major ? this.major : this.minor);
   }
 
   private field({ origin, spacing, nx, ny, heights }: Heightfield): Mesh {
@@ -131,9 +132,7 @@ export class Ground {
         corners.push(a, a + 1, a + nx, a + 1, a + nx + 1, a + nx);
       }
     }
-    const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new BufferAttribute(at, 3));
-    geometry.setIndex(corners);
+    const geometry = geometryOf(at).setIndex(corners);
     geometry.computeVertexNormals();
     const mesh = new Mesh(geometry, this.solid);
     mesh.frustumCulled = false;
@@ -158,14 +157,6 @@ export class Ground {
         }
       }
     }
-    return segments(at, this.minor);
+    return segments(geometryOf(at), this.minor);
   }
-}
-
-function segments(at: number[], material: LineBasicMaterial): LineSegments {
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new BufferAttribute(new Float32Array(at), 3));
-  const made = new LineSegments(geometry, material);
-  made.frustumCulled = false;
-  return made;
 }

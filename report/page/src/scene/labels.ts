@@ -1,6 +1,6 @@
 // Labels in front of the 3D picture. If two labels overlap, only the first is shown.
 
-export interface Label {
+interface Label {
   text: string;
   x: number;
   y: number;

@@ -1,5 +1,6 @@
 // Legends in the lower corners of the 3D picture: colours of the loads, scales of forces and of the grid, symbols.
 import { ringGradient, type Theme } from "../colour";
+import { level } from "./ground";
 import { element } from "../dom";
 import { number, quantity, rounded } from "../data/numbers";
 import type { Desk } from "../panel";
@@ -15,8 +16,7 @@ export class Legends {
     private readonly view: View,
   ) {
     const { meta } = desk.recording;
-    element("grid-size").textContent =
-      meta.ground.kind === "plane" || meta.ground.kind === "boxes" ? `grid ${quantity(view.ground.spacing, "m")}` : "";
+    element("grid-size").textContent = level(meta) ? `grid ${quantity(view.ground.spacing, "m")}` : "";
     for (const words of document.querySelectorAll<HTMLElement>("[data-gender]")) {
       words.hidden = !view.marks.hasFaces(words.dataset.gender!);
     }

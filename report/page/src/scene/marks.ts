@@ -12,14 +12,13 @@ import {
   SRGBColorSpace,
   Scene,
   Vector3,
-  type BufferGeometry,
 } from "three";
 import type { Theme } from "../colour";
 import type { Face, Meta } from "../data/format";
 import { corners } from "./outline";
 import type { Robot } from "./robot";
-import type { Kinematics } from "../data/kinematics";
-import { position } from "../data/kinematics";
+import { position, type Kinematics } from "../data/kinematics";
+import { copies } from "./shapes";
 
 /** Decals of faces with equal number, gender and orientation of the number, and the poses of these decals. */
 interface Decals {
@@ -34,7 +33,7 @@ export class Marks {
   faces = false;
   axes = false;
   private readonly decals: Decals[] = [];
-  private readonly parts: InstancedMesh[] = [];
+  private readonly parts: InstancedMesh[];
   private readonly sensors: InstancedMesh;
   // Axes are visible through bodies, because an axis often ends within the next module.
   private readonly material = new MeshBasicMaterial({ transparent: true, opacity: 0.95, depthTest: false });
@@ -56,29 +55,16 @@ export class Marks {
       }
     });
     for (const { face, quarters, places } of kinds.values()) {
-      const mesh = new InstancedMesh(
-        new PlaneGeometry(1, 1),
-        new MeshBasicMaterial({ map: plate(face, quarters), transparent: true, depthWrite: false }),
-        places.length,
-      );
-      mesh.frustumCulled = false;
-      mesh.renderOrder = 2;
-      scene.add(mesh);
-      this.decals.push({ mesh, places });
+      const look = new MeshBasicMaterial({ map: plate(face, quarters), transparent: true, depthWrite: false });
+      this.decals.push({ mesh: copies(scene, new PlaneGeometry(1, 1), look, places.length, 2), places });
     }
     // An axis is a rod with a cone at its positive end.
     const rod = new CylinderGeometry(0.022, 0.022, 2, 10);
     const cone = new ConeGeometry(0.085, 0.3, 18).translate(0, 1.15, 0);
-    for (const part of [rod, cone] as BufferGeometry[]) {
-      const mesh = new InstancedMesh(part, this.material, Math.max(meta.joints.length, 1));
-      mesh.count = meta.joints.length;
-      mesh.frustumCulled = false;
-      mesh.renderOrder = 5;
-      scene.add(mesh);
-      this.parts.push(mesh);
-    }
-    this.sensors = cubes(meta.sensors?.length ?? 0);
-    scene.add(this.sensors);
+    this.parts = [rod, cone].map((part) => copies(scene, part, this.material, meta.joints.length, 5));
+    // Small cubes for sensors are visible through their bodies.
+    const look = new MeshBasicMaterial({ color: 0xe69f00, depthTest: false, transparent: true });
+    this.sensors = copies(scene, new BoxGeometry(1, 1, 1), look, meta.sensors?.length ?? 0, 3);
   }
 
   /** Names and positions of the sensors at points of bodies. */
@@ -207,15 +193,4 @@ function plate({ id, gender }: Face, quarters: number): CanvasTexture {
   const texture = new CanvasTexture(canvas);
   texture.colorSpace = SRGBColorSpace;
   return texture;
-}
-
-/** Small cubes for sensors, visible through their bodies. */
-function cubes(count: number): InstancedMesh {
-  const look = new MeshBasicMaterial({ color: 0xe69f00, depthTest: false, transparent: true });
-  const mesh = new InstancedMesh(new BoxGeometry(1, 1, 1), look, Math.max(count, 1));
-  mesh.count = count;
-  mesh.visible = count > 0;
-  mesh.frustumCulled = false;
-  mesh.renderOrder = 3;
-  return mesh;
 }

@@ -1,8 +1,9 @@
 // Geometry of a body from its pieces. Pieces that form one convex prism are merged, such as the box and half cylinder
 // of an M-TRAN block.
-import { BufferAttribute, BufferGeometry, SphereGeometry, Vector3 } from "three";
+import { Float32BufferAttribute, SphereGeometry, Vector3, type BufferGeometry } from "three";
 import type { Pose, Shape } from "../data/format";
 import { matrix, position, rotation } from "../data/kinematics";
+import { geometryOf } from "./shapes";
 
 export type Point = [number, number];
 
@@ -114,10 +115,7 @@ class Mesh {
   }
 
   get geometry(): BufferGeometry {
-    const made = new BufferGeometry();
-    made.setAttribute("position", new BufferAttribute(new Float32Array(this.at), 3));
-    made.setAttribute("normal", new BufferAttribute(new Float32Array(this.normals), 3));
-    return made;
+    return geometryOf(this.at).setAttribute("normal", new Float32BufferAttribute(this.normals, 3));
   }
 }
 

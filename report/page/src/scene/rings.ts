@@ -7,7 +7,6 @@ import {
   Matrix4,
   MeshBasicMaterial,
   Quaternion,
-  SRGBColorSpace,
   Scene,
   Vector3,
 } from "three";
@@ -16,8 +15,7 @@ import type { DockLoads } from "../data/dock_loads";
 import type { Meta } from "../data/format";
 import { position } from "../data/kinematics";
 import type { Robot } from "./robot";
-
-const unseen = new Matrix4().makeScale(0, 0, 0);
+import { coloured, copies, unseen } from "./shapes";
 
 export class Rings {
   all = false;
@@ -34,8 +32,7 @@ export class Rings {
     scene: Scene,
   ) {
     this.places = meta.docks.map((_, n) => this.place(n));
-    [this.rims, this.fills] = [0, 1].map((n) => hoops(meta.docks.length, n));
-    scene.add(this.rims, this.fills);
+    [this.rims, this.fills] = [0, 1].map((n) => hoops(scene, meta.docks.length, n));
   }
 
   get any(): boolean {
@@ -60,8 +57,7 @@ export class Rings {
       if (shown) matrix.multiplyMatrices(this.robot.matrix(p.body), p.local);
       this.rims.setMatrixAt(n, shown ? matrix.multiply(scaled(1, wide)) : unseen);
       this.fills.setMatrixAt(n, shown ? matrix.multiply(scaled(1.004, 0.56)) : unseen);
-      const [r, g, b] = ringLoad(this.theme, this.loads.shareAt(n, t));
-      this.fills.setColorAt(n, colour.setRGB(r / 255, g / 255, b / 255, SRGBColorSpace));
+      this.fills.setColorAt(n, coloured(ringLoad(this.theme, this.loads.shareAt(n, t)), colour));
     });
     for (const mesh of [this.rims, this.fills]) mesh.instanceMatrix.needsUpdate = true;
     this.fills.instanceColor!.needsUpdate = true;
@@ -99,8 +95,7 @@ export class Rings {
 const scaled = (across: number, along: number): Matrix4 => new Matrix4().makeScale(across, along, across);
 
 /** Open cylinders, the rims (0) or their fills (1). They have no depth test, because two bodies cover a dock. */
-function hoops(count: number, kind: number): InstancedMesh {
-  const [r, g, b] = rim;
+function hoops(scene: Scene, count: number, kind: number): InstancedMesh {
   const look = new MeshBasicMaterial({
     side: DoubleSide,
     transparent: true,
@@ -108,10 +103,6 @@ function hoops(count: number, kind: number): InstancedMesh {
     depthTest: false,
     forceSinglePass: true, // two passes would need two shaders
   });
-  if (!kind) look.color.setRGB(r / 255, g / 255, b / 255, SRGBColorSpace);
-  const mesh = new InstancedMesh(new CylinderGeometry(1, 1, 1, 36, 1, true), look, Math.max(count, 1));
-  mesh.count = count;
-  mesh.frustumCulled = false;
-  mesh.renderOrder = 10 + kind;
-  return mesh;
+  if (!kind) coloured(rim, look.color);
+  return copies(scene, new CylinderGeometry(1, 1, 1, 36, 1, true), look, count, 10 + kind);
 }

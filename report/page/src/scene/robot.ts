@@ -2,7 +2,6 @@
 // a body type is one instanced mesh, so that the time to draw hardly depends on the number of joints.
 import {
   BufferAttribute,
-  BufferGeometry,
   Color,
   DoubleSide,
   DynamicDrawUsage,
@@ -15,7 +14,6 @@ import {
   MeshBasicMaterial,
   MeshLambertMaterial,
   Raycaster,
-  SRGBColorSpace,
   Scene,
   Vector3,
   type Intersection,
@@ -23,9 +21,11 @@ import {
 } from "three";
 import { bodyColours, ringLoad, type Theme } from "../colour";
 import type { Meta } from "../data/format";
+import { level } from "./ground";
 import { axesOf, hingesOf, type Hinge } from "./hinge";
 import type { Kinematics } from "../data/kinematics";
 import { corners, extents, outline, type Piece } from "./outline";
+import { coloured, place, room, segments } from "./shapes";
 
 /** Meshes of a piece of a body type, for all bodies of the type. */
 interface Kind {
@@ -87,13 +87,10 @@ export class Robot {
     this.matrices = bodies.map(() => new Matrix4());
     // A shadow is a copy of a body that is projected onto the ground along the light. Shadows are opaque, so that
     // overlaps are invisible. A shadow map would cost 140 ms a frame without a GPU.
-    this.press =
-      light && (ground.kind === "plane" || ground.kind === "boxes")
-        ? pressed(light, ground.height + 0.0008 * this.unit)
-        : null;
-    this.outlines = lines(this.addBodies(), new LineBasicMaterial({ transparent: true, opacity: 0.55 }));
-    this.chosen = lines(
-      Math.max(0, ...bodies.map((_, i) => this.edgesOf(i).reduce((n, k) => n + k.edges.length / 3, 0))),
+    this.press = light && level(meta) ? pressed(light, ground.height + 0.0008 * this.unit) : null;
+    this.outlines = segments(room(this.addBodies()), new LineBasicMaterial({ transparent: true, opacity: 0.55 }));
+    this.chosen = segments(
+      room(Math.max(0, ...bodies.map((_, i) => this.edgesOf(i).reduce((n, k) => n + k.edges.length / 3, 0)))),
       new LineBasicMaterial(),
     );
     this.outlines.renderOrder = light ? 0 : 3;
@@ -205,8 +202,8 @@ export class Robot {
       }
       mesh.material = this.flat;
       members.forEach((body, n) => {
-        const [r, g, b] = ringLoad(this.theme, Math.max(0, ...this.hingesOn[body].map((j) => shares[j])));
-        mesh.setColorAt(n, colour.setRGB(r / 255, g / 255, b / 255, SRGBColorSpace));
+        const share = Math.max(0, ...this.hingesOn[body].map((j) => shares[j]));
+        mesh.setColorAt(n, coloured(ringLoad(this.theme, share), colour));
       });
       mesh.instanceColor!.needsUpdate = true;
     }
@@ -307,28 +304,6 @@ export class Robot {
     position.needsUpdate = true;
     this.chosen.geometry.setDrawRange(0, n / 3);
   }
-}
-
-export function lines(points: number, material: LineBasicMaterial): LineSegments {
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new BufferAttribute(new Float32Array(3 * points), 3).setUsage(DynamicDrawUsage));
-  const made = new LineSegments(geometry, material);
-  made.frustumCulled = false;
-  return made;
-}
-
-/** Writes the points, transformed by m, into `out`, starting at index `at`. Returns the number of values written. */
-export function place(points: Float32Array, m: Matrix4, out: Float32Array, at: number): number {
-  const e = m.elements;
-  for (let i = 0; i < points.length; i += 3) {
-    const x = points[i];
-    const y = points[i + 1];
-    const z = points[i + 2];
-    out[at + i] = e[0] * x + e[4] * y + e[8] * z + e[12];
-    out[at + i + 1] = e[1] * x + e[5] * y + e[9] * z + e[13];
-    out[at + i + 2] = e[2] * x + e[6] * y + e[10] * z + e[14];
-  }
-  return points.length;
 }
 
 /** Projection onto the plane z = height along the direction of the light. */

@@ -3,7 +3,6 @@
 import {
   BufferAttribute,
   BufferGeometry,
-  DynamicDrawUsage,
   Line,
   LineBasicMaterial,
   Matrix4,
@@ -15,6 +14,7 @@ import {
 import type { Theme } from "../colour";
 import { hull, type Point } from "./outline";
 import type { Recording } from "../data/recording";
+import { room } from "./shapes";
 
 type Corner = [x: number, y: number, z: number];
 
@@ -115,18 +115,9 @@ export class Support {
   }
 }
 
-function room(points: number): BufferGeometry {
-  const made = new BufferGeometry();
-  made.setAttribute("position", new BufferAttribute(new Float32Array(3 * points), 3).setUsage(DynamicDrawUsage));
-  return made;
-}
-
 /** Triangles of a convex polygon, from its first corner. */
-function fan(): BufferGeometry {
-  const made = room(most);
-  made.setIndex(Array.from({ length: most - 2 }, (_, k) => [0, k + 1, k + 2]).flat());
-  return made;
-}
+const fan = (): BufferGeometry =>
+  room(most).setIndex(Array.from({ length: most - 2 }, (_, k) => [0, k + 1, k + 2]).flat());
 
 /** Corners of a disc around the origin. */
 const disc = (radius: number): Corner[] =>

@@ -1,16 +1,9 @@
 // Direction of travel in the 3D picture: an arrow on the ground before the robot, and the path of the centre of mass.
-import {
-  BufferAttribute,
-  BufferGeometry,
-  Line,
-  LineBasicMaterial,
-  Mesh,
-  MeshBasicMaterial,
-  Scene,
-  Vector3,
-} from "three";
+import { BufferGeometry, Line, LineBasicMaterial, Mesh, MeshBasicMaterial, Scene, Vector3 } from "three";
 import type { Theme } from "../colour";
 import type { Recording } from "../data/recording";
+import { level } from "./ground";
+import { geometryOf } from "./shapes";
 
 const colours = { light: 0x0072b2, dark: 0x5fb3e6 };
 const every = 8; // rows between two points of the path
@@ -30,8 +23,7 @@ export class Travel {
     private readonly size: number,
     scene: Scene,
   ) {
-    const { ground } = recording.meta;
-    this.flat = ground.kind === "plane" || ground.kind === "boxes";
+    this.flat = level(recording.meta);
     this.any = recording.ran && recording.has("com.x");
     this.line = new Line(this.path(), new LineBasicMaterial());
     this.arrow = new Mesh(chevron(unit), this.look);
@@ -96,20 +88,13 @@ export class Travel {
       const k = Math.min(every * i, recording.rows - 1);
       xyz.set([x[k], y[k], this.flat ? this.ground + 0.002 * this.size : z[k]], 3 * i);
     }
-    const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new BufferAttribute(xyz, 3));
-    return geometry;
+    return geometryOf(xyz);
   }
 }
 
 /** Flat arrow along x, as long as a body: a rectangle and a triangle. */
 function chevron(unit: number): BufferGeometry {
-  const points = [0, -0.09, 0.6, -0.09, 0.6, 0.09, 0, -0.09, 0.6, 0.09, 0, 0.09, 0.6, -0.24, 1, 0, 0.6, 0.24];
-  const xyz = new Float32Array(27);
-  points.forEach((v, i) => {
-    xyz[3 * (i >> 1) + (i % 2)] = v * unit;
-  });
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new BufferAttribute(xyz, 3));
-  return geometry;
+  const tail = [0, -0.09, 0, 0.6, -0.09, 0, 0.6, 0.09, 0, 0, -0.09, 0, 0.6, 0.09, 0, 0, 0.09, 0];
+  const tip = [0.6, -0.24, 0, 1, 0, 0, 0.6, 0.24, 0];
+  return geometryOf([...tail, ...tip].map((x) => x * unit));
 }

@@ -16,7 +16,7 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Theme } from "../colour";
 import { DockLoads } from "../data/dock_loads";
 import { Forces } from "./forces";
-import type { Meta, Part } from "../data/format";
+import type { Part } from "../data/format";
 import { Gauges } from "./gauges";
 import { Ground, type Area } from "./ground";
 import type { Ghost } from "../data/ghost";
@@ -43,10 +43,10 @@ const directions: Record<Look, Vector3> = {
 const skies = { light: 0xeef1f4, dark: 0x14181d };
 
 export class View {
-  selected = -1;
+  private selected = -1;
   hovered = -1;
   follow = true;
-  dirty = true;
+  private dirty = true;
   readonly kinematics: Kinematics;
   readonly robot: Robot;
   readonly marks: Marks;
@@ -118,16 +118,13 @@ export class View {
     this.set(this.time);
   }
 
-  get meta(): Meta {
-    return this.recording.meta;
-  }
-
   /**
    * Moves the camera so that the surroundings of a part, at least four bodies wide, fill the picture. Returns false,
    * without a change, if the robot has no such part or is so small that the whole of it is in the picture anyway.
    */
   near(part: Part, name: string | null): boolean {
-    const at = spot(this, part, name);
+    const { kinematics, rings } = this;
+    const at = spot({ meta: this.recording.meta, kinematics, rings }, part, name);
     const r = 2.6 * this.robot.unit;
     if (!at || this.size < 3 * r) return false;
     // The camera comes from the first of four sides from which no other body hides the part.

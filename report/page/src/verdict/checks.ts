@@ -1,9 +1,10 @@
 // Table of checks. A click on a row opens its definition and source, and shows its joint and time.
-import { element, icon, make } from "../dom";
+import { element, icon, link, make } from "../dom";
 import type { Check, Status, Verdict } from "../data/format";
 import { plural, quantity, sentence, span } from "../data/numbers";
 import type { Desk } from "../panel";
-import { moment, partName, show } from "../data/places";
+import { show } from "./place";
+import { moment, partName } from "../data/places";
 
 const marks: Record<Status, string> = {
   pass: "M3 8.5l3.4 3.4L13 4.6",
@@ -20,7 +21,7 @@ const words: Record<Status, string> = {
   "not judged": "not judged",
 };
 /** True for a limit that uses a value chosen by this project, without a published source. */
-export const rests = (source: string): boolean => /^(.* of the scenario; the rest: )?chosen/.test(source);
+const rests = (source: string): boolean => /^(.* of the scenario; the rest: )?chosen/.test(source);
 /** Findings without a limit, which neither pass nor fail. */
 const notes = new Set(["stability"]);
 const noted = (check: Check): boolean => notes.has(check.id) && check.status === "pass";
@@ -110,7 +111,7 @@ function counted({ checks: all, counts }: Verdict): string {
 
 /** A row that shows and hides the checks that were not judged. */
 function fold(open: Check[], rows: HTMLTableRowElement[], columns: number): HTMLTableRowElement {
-  const button = make("button.link", `${plural(open.length, "check")} not judged`);
+  const button = link(`${plural(open.length, "check")} not judged`);
   const cell = make("td", button);
   const line = make("tr.fold", make("td.mark", icon(marks["not judged"])), cell);
   const set = (shown: boolean) => {
@@ -120,7 +121,6 @@ function fold(open: Check[], rows: HTMLTableRowElement[], columns: number): HTML
     button.setAttribute("aria-expanded", String(shown));
   };
   cell.colSpan = columns - 1;
-  button.type = "button";
   line.classList.add(given("not judged"));
   line.addEventListener("click", () => {
     element("checks").dispatchEvent(new Event("close"));
@@ -177,13 +177,17 @@ function explanation(desk: Desk, row: Row): Node[] {
   });
 }
 
-/** Sentences under a check. `tried` contains the advice of earlier rows, which is not repeated. */
-function findings(c: Check, label: string, tried: Set<string>): HTMLElement[] {
+/**
+ * Sentences under a check. `tried` contains the advice of earlier rows, which is not repeated. A check of an unstable
+ * run has no advice, because it fails by the controller.
+ */
+function findings(c: Check, { unstable }: Verdict, label: string, tried: Set<string>): HTMLElement[] {
   const found: HTMLElement[] = [];
-  const advice = label + remedy(c);
+  const tip = unstable ? "" : remedy(c);
+  const advice = label + tip;
   if (aloud(c)) found.push(make("p.why", label + sentence(c.text)));
   if (c.missing) found.push(make("p.short", `${label}Missing: ${c.missing}`));
-  if (remedy(c) && !tried.has(advice)) {
+  if (tip && !tried.has(advice)) {
     tried.add(advice);
     found.push(make("p.try", advice));
   }
@@ -193,14 +197,15 @@ function findings(c: Check, label: string, tried: Set<string>): HTMLElement[] {
 /** Two rows of the table for one check: a row of values, and below that a row with findings and explanation. */
 function drawn(desk: Desk, row: Row, tried: Set<string>): HTMLTableRowElement[] {
   const status = worst(row);
-  const open = make("button.link", first(row).title || first(row).id);
+  const open = link(first(row).title || first(row).id);
   const added = make("div.more", ...explanation(desk, row));
-  const found = row.flatMap((c, n) => (c ? findings(c, labelOf(desk, n), tried) : []));
+  const found = row.flatMap((c, n) =>
+    c ? findings(c, desk.runs[n].recording.meta.verdict, labelOf(desk, n), tried) : [],
+  );
   const head = summary(row, open, !!desk.ghost);
   const text = make("td", ...found, added);
   const detail = make("tr", make("td"), text);
   text.colSpan = head.cells.length - 1;
-  open.type = "button";
   const expand = (on: boolean) => {
     added.hidden = !on;
     detail.hidden = !on && !found.length;

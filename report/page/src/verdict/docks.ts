@@ -1,5 +1,5 @@
 // Table of the docks, sorted by load. If the recording has no loads, the table lists the two faces at each dock.
-import { element, make } from "../dom";
+import { element, link, make, rowHead, tableHead } from "../dom";
 import { number } from "../data/numbers";
 import type { Desk } from "../panel";
 import { dockName } from "../data/places";
@@ -21,8 +21,7 @@ export function docks(desk: Desk): void {
   if (shown.length) {
     const below = desk.ghost ? `; below, thin: ${desk.ghost.label}` : "";
     note.textContent = `largest of the rows in the judged window${below}`;
-    const columns = shown.map(([kind, unit]) => make("th", kind, make("small", ` ${unit}`)));
-    table.append(make("thead", make("tr", make("th", "dock"), ...columns)), loads(desk, shown));
+    table.append(tableHead(["dock"], ...shown), loads(desk, shown));
   } else {
     note.textContent = "The recording has no loads of docks.";
     table.append(...joins(desk));
@@ -98,42 +97,35 @@ function shorten(table: HTMLTableElement): void {
 function head(desk: Desk, n: number): HTMLTableCellElement {
   const { docks: all, modules } = desk.recording.meta;
   const { name, module, parent, face, parent_face } = all[n];
-  const cell = make("th", marker(desk, n, dockName(name)));
-  cell.scope = "row";
+  const cell = rowHead(marker(desk, n, dockName(name)));
   const own = `face ${face} of ${modules[module]?.name ?? name}`;
   cell.title = `${own} on face ${parent_face} of ${modules[parent]?.name ?? "?"}`;
   return cell;
 }
 
 /** Button that marks a dock in the 3D picture. */
-function marker(desk: Desk, n: number, text: string): HTMLElement {
-  const button = make("button.link", text);
-  button.type = "button";
-  button.addEventListener("click", () => {
+const marker = (desk: Desk, n: number, text: string): HTMLElement =>
+  link(text, () => {
     desk.mark(n);
     element("stage").scrollIntoView({ block: "nearest" });
   });
-  return button;
-}
 
 /** Head and rows of a table with the two faces at each dock. */
 export function joins(desk: Desk): HTMLElement[] {
   const { docks: all, modules } = desk.recording.meta;
   return [
-    make("thead", make("tr", make("th", "module"), make("th", "its face"), make("th", "on face"), make("th", "of"))),
+    tableHead(["module"], ["its face"], ["on face"], ["of"]),
     make(
       "tbody",
-      ...all.map((d, n) => {
-        const name = make("th", marker(desk, n, modules[d.module]?.name ?? d.name));
-        name.scope = "row";
-        return make(
+      ...all.map((d, n) =>
+        make(
           "tr",
-          name,
+          rowHead(marker(desk, n, modules[d.module]?.name ?? d.name)),
           make("td", String(d.face)),
           make("td", String(d.parent_face)),
           make("td", modules[d.parent]?.name ?? "–"),
-        );
-      }),
+        ),
+      ),
     ),
   ];
 }

@@ -1,7 +1,7 @@
 // Verdict of the page: a card per run with the verdict, the reasons for the verdict, and the main numbers of the run.
 import { about } from "./about";
 import { element, icon, make } from "../dom";
-import type { Fact } from "../data/facts";
+import type { Fact } from "./facts";
 import type { Overlay } from "../data/format";
 import type { Ghost } from "../data/ghost";
 import { aside, judgement, type Judgement, type Mood } from "./judgement";

@@ -1,6 +1,6 @@
 // Judgement of a run in words: the verdict, the reasons for the verdict, and the limitations of the verdict.
 import { make } from "../dom";
-import { built, hardest, shortfall, walked, type Fact } from "../data/facts";
+import { built, hardest, shortfall, walked, type Fact } from "./facts";
 import { folder } from "../data/folder";
 import type { Check, Meta } from "../data/format";
 import { capital, inSentence, percent, plural, quantity, sentence } from "../data/numbers";
@@ -19,8 +19,9 @@ export interface Judgement {
 const few = 2; // largest number of further failed checks in the sentence; the table of checks contains all
 
 export function judgement(run: Run): Judgement {
-  const judged = ofRun(run);
-  const { draws } = run.recording.meta.verdict ?? {};
+  const { draws, unstable } = run.recording.meta.verdict ?? {};
+  // All other findings follow from an unstable controller, and are therefore left out.
+  const judged = unstable ? { ...ofRun(run), why: [sentence(unstable)], facts: [] } : ofRun(run);
   if (!draws) return judged;
   const why = [...judged.why, sentence(draws.text)];
   if (judged.mood !== "good" || draws.feasible === draws.count) return { ...judged, why };
@@ -67,7 +68,7 @@ function infeasible(run: Run): Judgement {
   const [first, ...rest] = failed;
   return {
     mood: "bad",
-    said: first?.group === "motor" ? "Not feasible with these motors" : "Not feasible",
+    said: first?.group === "motor" && !meta.verdict.unstable ? "Not feasible with these motors" : "Not feasible",
     why: [sentence(meta.verdict.why), ...others(rest)],
     facts: first ? shortfall(run, first, failed) : walked(run),
   };
@@ -75,11 +76,12 @@ function infeasible(run: Run): Judgement {
 
 function unjudged(run: Run): Judgement {
   const { meta } = run.recording;
-  const { why, reason } = meta.verdict;
+  const { why, reason, reason_check } = meta.verdict;
+  const rest = failures(meta).filter((c) => c.id !== reason_check);
   return {
     mood: "open",
     said: "Not judged",
-    why: [sentence(why || reason), ...(reason.includes("so far:") ? [] : others(failures(meta)))],
+    why: [sentence(why || reason), ...others(rest)],
     facts: walked(run),
   };
 }
@@ -103,12 +105,9 @@ function feasible(run: Run): Judgement {
   };
 }
 
-/** Failed checks: first the check that decides the verdict, then checks of group `run`, then others by margin. */
-export function failures({ verdict: { checks, decided_by } }: Meta): Check[] {
-  const urgency = ({ id, group, margin }: Check) =>
-    id === decided_by ? [0, 0] : [group === "run" ? 1 : 2, margin ?? -1e300];
-  const sooner = ([a, m]: number[], [b, n]: number[]) => a - b || m - n;
-  return checks.filter((c) => c.status === "fail").sort((a, b) => sooner(urgency(a), urgency(b)));
+/** Failed checks in the order of the program. */
+export function failures({ verdict: { checks, failures } }: Meta): Check[] {
+  return failures.flatMap((id) => checks.find((c) => c.id === id) ?? []);
 }
 
 /**
@@ -137,9 +136,9 @@ function others(failed: Check[]): string[] {
 /** Findings of the checks, without advice. */
 const briefly = (found: Check[]): string => found.map((c) => c.text.split("; ")[0].replace(/[.]$/, "")).join("; ");
 
-/** Limitations of the verdict: warnings, doubtful numbers, checks that were not judged. */
+/** Limitations of the verdict: warnings, doubtful numbers, checks that were not judged. None for an unstable run. */
 export function aside(meta: Meta, own = true): (string | Node)[] {
-  if (meta.outcome === "not run") return [];
+  if (meta.outcome === "not run" || meta.verdict.unstable) return [];
   const { verdict, counts, chosen_motors, chosen_docks, demand } = meta.verdict;
   const of = (trust: boolean, ...status: Check["status"][]) =>
     meta.verdict.checks.filter((c) => status.includes(c.status) && (c.group === "trust") === trust);

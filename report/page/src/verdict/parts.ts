@@ -1,5 +1,5 @@
 // Lists of the parts of a robot that was only assembled: modules, docks, hinges with their motors.
-import { element, make } from "../dom";
+import { element, link, make, rowHead, tableHead } from "../dom";
 import { joins } from "./docks";
 import { fixed, number } from "../data/numbers";
 import type { Desk } from "../panel";
@@ -19,14 +19,10 @@ export function parts(desk: Desk): void {
     return;
   }
   const rows = joints.map((joint, j) => {
-    const name = make("button.link", joint.name);
     const motor = desk.loads.motor(j);
-    const head = make("th", name);
-    head.scope = "row";
-    name.type = "button";
     const made = make(
       "tr",
-      head,
+      rowHead(link(joint.name)),
       make("td", joint.lo === null || joint.hi === null ? "free" : `${degrees(joint.lo)} to ${degrees(joint.hi)}`),
       make("td", motor?.rest ? `${number(motor.rest)} N m` : "–"),
       make("td", motor?.no_load ? `${number(motor.no_load)} rad/s` : "–"),
@@ -34,9 +30,6 @@ export function parts(desk: Desk): void {
     made.addEventListener("click", () => desk.choose(j));
     return made;
   });
-  const columns = ["hinge", "range", "torque at rest", "speed without load"].map((name) => make("th", name));
-  host.append(
-    make("h4", "Hinges"),
-    make("div.scroll", make("table.plain", make("thead", make("tr", ...columns)), make("tbody", ...rows))),
-  );
+  const head = tableHead(["hinge"], ["range"], ["torque at rest"], ["speed without load"]);
+  host.append(make("h4", "Hinges"), make("div.scroll", make("table.plain", head, make("tbody", ...rows))));
 }

@@ -2,10 +2,12 @@
 // tightest check. The line under the buttons of the 3D picture names the present one.
 import { element, make } from "../dom";
 import type { Check, Status } from "../data/format";
+import { shareOfLimit } from "./facts";
 import { failures, leading } from "./judgement";
-import { inSentence, percent, sentence } from "../data/numbers";
+import { inSentence, sentence } from "../data/numbers";
 import type { Run } from "../panel";
-import { moment, partName, show } from "../data/places";
+import { show } from "./place";
+import { moment, partName } from "../data/places";
 
 const words: Record<Status, string> = {
   pass: "Tightest",
@@ -16,7 +18,7 @@ const words: Record<Status, string> = {
 };
 
 /** Checks of a run in the order of their urgency: first the check that the page opens at. */
-export function problemsOf(run: Run): Check[] {
+function problemsOf(run: Run): Check[] {
   const { meta } = run.recording;
   if (meta.outcome === "not run") return [];
   const of = (status: Check["status"]) =>
@@ -46,7 +48,7 @@ export class Problems {
   }
 
   /** Goes to the next problem; after the last to the first. A single problem is shown again. */
-  next(): void {
+  private next(): void {
     if (!this.all.length) return;
     this.at = (this.at + 1) % this.all.length;
     const check = this.all[this.at];
@@ -69,9 +71,10 @@ export class Problems {
   }
 
   /** Finding of a check: its sentence, or for a check that passes its part, title and share of the limit. */
-  private found({ status, text, part, worst, title, margin, least }: Check): string {
+  private found(check: Check): string {
+    const { status, text, part, worst, title, margin } = check;
     if (status !== "pass" && text) return sentence(text.split("; ")[0]);
-    const share = margin === null ? "" : `: ${percent(least ? 1 + margin : 1 - margin, 2)} of the limit`;
+    const share = margin === null ? "" : `: ${shareOfLimit(check, margin)}`;
     return worst === null || part === "none"
       ? `${title}${share}`
       : `${partName(this.run.recording.meta, part, worst)}, ${inSentence(title)}${share}`;

@@ -1,5 +1,5 @@
 // Settings that would make the gait feasible, or the reserves of a feasible gait; with a map of its verdicts.
-import { element, make } from "../dom";
+import { element, make, svg } from "../dom";
 import type { Remedy, RemedyMap } from "../data/format";
 import { capital, number, percent } from "../data/numbers";
 
@@ -22,13 +22,6 @@ export function remedy({ verdict, text, tones, runs, map }: Remedy): void {
 }
 
 const symbols = (line: string): string => line.replaceAll("<=", "≤").replaceAll(">=", "≥");
-
-function svg(tag: string, attributes: Record<string, number | string>, text = ""): SVGElement {
-  const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));
-  if (text) made.textContent = text;
-  return made;
-}
 
 function drawn(data: RemedyMap): SVGElement {
   const { factors, cells } = data;

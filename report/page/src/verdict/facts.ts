@@ -1,10 +1,10 @@
 // Main numbers on the card of a run: the missing torque or voltage of an infeasible gait, otherwise the tightest check
 // and the motion.
-import type { Check, Meta, Part } from "./format";
-import { make } from "../dom";
-import { inSentence, number, percent, quantity, span, time } from "./numbers";
+import type { Check, Meta } from "../data/format";
+import { inSentence, number, percent, quantity, span, time } from "../data/numbers";
 import type { Run } from "../panel";
-import { firstMoment, jointAt, longestMoment, moment, partName, show } from "./places";
+import { place } from "./place";
+import { firstMoment, jointAt, longestMoment, moment, partName } from "../data/places";
 
 export type Fact = [name: string, value: Node | string, small?: string];
 
@@ -70,13 +70,6 @@ function missing(first: Check, failed: Check[]): Fact[] {
   return [["Off its set point", quantity(value, unit), `limit ${quantity(limit, unit)}`]];
 }
 
-function place(run: Run, part: Part, name: string, t: number | null): HTMLButtonElement {
-  const go = make("button.link", partName(run.recording.meta, part, name));
-  go.type = "button";
-  go.addEventListener("click", () => show(run, part, name, t));
-  return go;
-}
-
 /** Facts of a run that is not infeasible: its tightest check, speed, cost of transport and period. */
 export function walked(run: Run): Fact[] {
   const { meta } = run.recording;
@@ -106,9 +99,13 @@ function load(run: Run): Fact[] {
   return run.loads.peak > 1e-6 ? [["Largest torque", number(run.loads.peak), "N m"]] : [];
 }
 
+/** Value of a check as a share of its limit, from its margin. */
+export const shareOfLimit = ({ least }: Check, margin: number): string =>
+  `${percent(least ? 1 + margin : 1 - margin, 2)} of the limit`;
+
 function margin(run: Run, check: Check, left: number): Fact {
-  const { least, part, title, worst: name } = check;
-  const share = left >= 0 && left <= 1 ? `${percent(least ? 1 + left : 1 - left, 2)} of the limit` : held(check);
+  const { part, title, worst: name } = check;
+  const share = left >= 0 && left <= 1 ? shareOfLimit(check, left) : held(check);
   const word = left < 0 ? "Worst" : "Tightest";
   return name !== null && part !== "none"
     ? [word, place(run, part, name, moment(run, check)), `${inSentence(title)}: ${share}`]
