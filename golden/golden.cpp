@@ -162,7 +162,7 @@ Golden from_json(const Json& json) {
                    json.at("build"), json.at("compiler"), json.at("scenario")};
   if (json.contains("resolved")) golden.origin.resolved = resolved_of(json["resolved"], golden.origin.scenario);
   const std::optional<Word> word = named<Word>(json.at("verdict").get<std::string>());
-  if (!word) throw std::runtime_error("its verdict is no word");
+  if (!word) throw std::runtime_error("it has another word as verdict");
   golden.verdict = *word;
   if (json.contains("starts")) golden.starts = json["starts"].get<int>();
   if (json.contains("selected")) golden.selected = json["selected"].get<std::vector<std::string>>();

@@ -161,7 +161,7 @@ void Journal::each_brief(const std::function<void(const Brief&)>& take) {
       }
     }
     const std::optional<Word> word = named<Word>(all.text(5));
-    if (!word) throw InputError(SourceLocation{file_.string()}, "has a verdict that is no word: " + clipped(all.text(5)));
+    if (!word) throw InputError(SourceLocation{file_.string()}, "has another word as verdict: " + clipped(all.text(5)));
     brief.verdict = *word;
     take(brief);
   }

@@ -78,7 +78,7 @@ std::vector<Verification> Journal::verifications() {
   while (rows.step()) {
     const std::optional<TrialKind> kind = named<TrialKind>(rows.text(2));
     const std::optional<Word> word = named<Word>(rows.text(8));
-    if (!word) throw InputError(SourceLocation{file_.string()}, "has a verdict that is no word: " + clipped(rows.text(8)));
+    if (!word) throw InputError(SourceLocation{file_.string()}, "has another word as verdict: " + clipped(rows.text(8)));
     if (!kind) throw InputError(SourceLocation{file_.string()}, "has a verification of another kind: " + clipped(rows.text(2)));
     Verification v{count_at(rows, 1), *kind, rows.text(3), {}, number_at(rows, 7), *word, rows.text(10), rows.text(11)};
     for (std::size_t k = 0; k < head_.objectives.size(); ++k) v.objectives.push_back(number_at(rows, 4 + static_cast<int>(k)));

@@ -114,8 +114,6 @@ TEST(GoldenReport, NamesTheVerdictWhereItChanged) {
             "  and the longest stretch of it is 0.83 s\n");
   golden.verdict = Word::infeasible;
   EXPECT_EQ(golden::verdict_change(golden, run), "");
-  golden.verdict = "\x1b[2J";
-  EXPECT_EQ(golden::verdict_change(golden, run).find('\x1b'), std::string::npos);
 }
 
 /// Difference with twelve columns and two numbers, of which some are outside their bands, each by one band more than the

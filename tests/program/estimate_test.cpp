@@ -118,7 +118,7 @@ TEST(Estimate, FindsWhatNobodyCanPredict) {
   const report::Summary summary = report::summarise(s, r, 0);
   const auto judged = [&] { return report::verdict(s, r, summary, report::overlaps(s, r)); };
   const report::Verdict lonely = judged();
-  EXPECT_TRUE(contains(lonely.reason, "not predictable: gravity times 1 + 1e-9 changes")) << lonely.reason;
+  EXPECT_TRUE(contains(lonely.reason.text, "not predictable: gravity times 1 + 1e-9 changes")) << lonely.reason.text;
   std::atomic<bool> stop = false;
   r.spread = report::spread(s, r, summary, lonely, stop);
   ASSERT_EQ(r.spread.rows(), 4U);

@@ -34,8 +34,7 @@ SLOW = ["report/verdict/verdict", "report/verdict/warnings", "report/verdict/tru
         "report/analysis/motion"]
 QUICK_FILTER = "Check*:Decision*:Stall*:OwnOverlap*:LoadChecks*:Fall*:Upright*:InGround*:Guards*:Posture*-Posture.Shipped*"
 # The filter excludes tests that take minutes and do not concern a single check: whole programs, all shipped scenarios.
-SLOW_FILTER = ("Verdict*:SetupWarnings*:RunWarnings*:Doubts*:Earned*:Shown*:Creep*:Possible*:ChangedLimits*:Motion.*:AnyRows*-*Shipped*:Verdict.IsAFile*:"
-               "Motion.OfAnOlderFolder*")
+SLOW_FILTER = ("Verdict*:SetupWarnings*:RunWarnings*:Doubts*:Earned*:Shown*:Creep*:Possible*:ChangedLimits*:Motion.*:AnyRows*-*Shipped*:Verdict.IsAFile*")
 # Mutants that no test can detect, as (part of the mutant's name, reason).
 EQUIVALENT = [
     ("kEqual times 1.3", "rounding of sums of the same ticks, which differ by a tick or not at all"),

@@ -53,7 +53,7 @@ duration: 2
 };
 
 TEST_F(InterruptedRemedy, HasTheAnswersOfTheRunsThatHaveEnded) {
-  ASSERT_EQ(verdict_.word, Word::infeasible) << verdict_.reason;
+  ASSERT_EQ(verdict_.word, Word::infeasible) << verdict_.reason.text;
   const Remedy whole = after(1000);
   ASSERT_FALSE(whole.interrupted);
   ASSERT_TRUE(larger(whole).confirmed) << text(whole);

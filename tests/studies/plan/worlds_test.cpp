@@ -245,7 +245,7 @@ TEST(Robust, NominalRunsMayNotFail) {
   for (std::uint64_t failing = 0; failing < 10; ++failing) {
     std::vector<studies::Brief> runs;
     for (std::uint64_t r = 0; r < 10; ++r) {
-      studies::Brief run{20 + r, r == failing ? "diverged" : "done", "", 1, studies::Score{}, "feasible"};
+      studies::Brief run{20 + r, r == failing ? "diverged" : "done", "", 1, studies::Score{}, Word::feasible};
       if (r == failing) run.score.reset();
       runs.push_back(run);
     }

@@ -32,7 +32,7 @@ TEST(Told, ReadsWhatAnswerWrites) {
   JournalHead head;
   head.objectives = {{"speed", true}, {"power", false}};
   head.quantities = {{"speed", "m/s", ""}, {"power", "W", ""}, {"margin", "", ""}};
-  Brief run{12, "done", "", 1.5, Score{{0.1, 2.5}, 0.75}, "infeasible"};
+  Brief run{12, "done", "", 1.5, Score{{0.1, 2.5}, 0.75}, Word::infeasible};
   const std::vector<std::vector<std::string>> figures{{"0.1", "2.5", ""}};
   const Told one = told(answer({"12", {}, ""}, head, {}, {&run, 1}, figures), 2);
   EXPECT_EQ(one.point, 12U);

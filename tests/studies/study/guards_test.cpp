@@ -137,7 +137,7 @@ TEST(Guards, MarginsAreThoseOfTheVerdict) {
     columns.push_back({"margin." + check.id + "[0.25]", "", ""});
   }
   const studies::Measured measured = app::quantity_measure(columns, scenario)(scenario, record);
-  EXPECT_EQ(measured.verdict, name_of(verdict.word));
+  EXPECT_EQ(measured.verdict, verdict.word);
   EXPECT_EQ(measured.why, verdict.why());
   EXPECT_EQ(measured.quantities[0], verdict.word == Word::feasible ? 1 : 0);
   EXPECT_EQ(measured.quantities[1], verdict.tightest()->margin);
