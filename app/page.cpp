@@ -1,7 +1,7 @@
 // Checks of the paths to which pages are written.
 #include <fmt/format.h>
 
-#include "app/commands.h"
+#include "app/shell/commands.h"
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
 

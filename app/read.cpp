@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "app/commands.h"
+#include "app/shell/commands.h"
 #include "core/scenario/read_scenario.h"
 #include "kit/run_warnings.h"
 #include "report/verdict/plausibility.h"

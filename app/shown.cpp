@@ -10,8 +10,8 @@
 #include <sstream>
 #include <utility>
 
-#include "app/commands.h"
-#include "app/progress.h"
+#include "app/shell/commands.h"
+#include "app/shell/progress.h"
 #include "app/study/study_text.h"
 #include "core/errors.h"
 #include "core/scenario/resolved.h"

@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <system_error>
 
-#include "app/chain.h"
-#include "app/commands.h"
+#include "app/gait/run_time.h"
+#include "app/new/chain.h"
+#include "app/new/scenario_values.h"
 #include "app/new/skeletons.h"
-#include "app/run_time.h"
-#include "app/scenario_values.h"
+#include "app/shell/commands.h"
 #include "app/study/study_text.h"
 #include "core/robot_files/type_library.h"
 #include "core/scenario/read_scenario.h"

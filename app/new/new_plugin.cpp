@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <system_error>
 
-#include "app/commands.h"
 #include "app/new/skeletons.h"
+#include "app/shell/commands.h"
 #include "core/files/atomic_file.h"
 #include "core/settings/data_folder.h"
 #include "core/settings/wording.h"

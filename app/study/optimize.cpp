@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <csignal>
 
-#include "app/commands.h"
+#include "app/shell/commands.h"
 #include "app/study/asking.h"
 #include "app/study/optimize_seeds.h"
 #include "app/study/own_gait.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/app.h"
-#include "app/stop_on_signal.h"
+#include "app/shell/stop_on_signal.h"
 #include "app/study/study_text.h"
 #include "core/errors.h"
 #include "core/settings/wording.h"

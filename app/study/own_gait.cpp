@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "app/app.h"
-#include "app/stop_on_signal.h"
+#include "app/shell/stop_on_signal.h"
 #include "app/study/study_progress.h"
 #include "app/study/study_quantities.h"
 #include "core/errors.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/commands.h"
+#include "app/shell/commands.h"
 #include "app/study/study_quantities.h"
 #include "app/study/study_text.h"
 #include "core/settings/wording.h"

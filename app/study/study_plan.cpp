@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "app/run_time.h"
+#include "app/gait/run_time.h"
 #include "app/study/study_quantities.h"
 #include "app/study/study_run.h"
 #include "core/errors.h"

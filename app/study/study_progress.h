@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "app/progress.h"
+#include "app/shell/progress.h"
 #include "studies/run/runner.h"
 #include "studies/search/optimizer.h"
 

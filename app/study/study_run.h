@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/commands.h"
-#include "app/stop_on_signal.h"
+#include "app/shell/commands.h"
+#include "app/shell/stop_on_signal.h"
 #include "studies/run/answers.h"
 
 namespace gaitlab::app {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "app/commands.h"
+#include "app/shell/commands.h"
 #include "app/study/own_gait.h"
 #include "app/study/study_progress.h"
 #include "app/study/study_quantities.h"

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "app/run_time.h"
-#include "app/stop_on_signal.h"
+#include "app/gait/run_time.h"
+#include "app/shell/stop_on_signal.h"
 #include "app/study/study_text.h"
 #include "app/swap/swapped.h"
 #include "core/errors.h"

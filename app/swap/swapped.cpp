@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "app/stop_on_signal.h"
+#include "app/shell/stop_on_signal.h"
 #include "app/study/study_progress.h"
 #include "core/errors.h"
 #include "core/simulation/batch.h"

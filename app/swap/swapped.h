@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/commands.h"
+#include "app/shell/commands.h"
 #include "core/recording/recording.h"
 #include "report/verdict/verdict.h"
 

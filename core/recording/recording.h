@@ -88,7 +88,7 @@ struct Recording {
 
   [[nodiscard]] std::size_t rows() const { return trace.rows(); }
   /// True if only rows of the trace are left, as of a CSV file without recording.h5: every other recording has poses.
-  [[nodiscard]] bool rows_alone() const { return poses.columns.empty(); }
+  [[nodiscard]] bool rows_alone() const { return rows() > 0 && poses.columns.empty(); }
   [[nodiscard]] std::string trace_hash() const { return hash_of_all.empty() ? hash(trace) : hash_of_all; }
   /// A column of `trace` or `rest` by name; empty if neither has it.
   [[nodiscard]] Series series(const std::string& column) const;

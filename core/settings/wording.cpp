@@ -35,6 +35,7 @@ std::string range_text(const Spec& spec) {
   const std::string unit = spec.unit;
   if (positive && high) return "more than 0 and up to " + with_unit(spec.max, unit);
   if (positive) return "more than " + with_unit(0, unit);
+  if (low && high && spec.min == spec.max) return with_unit(spec.min, unit);
   if (low && high) return number_text(spec.min) + " to " + with_unit(spec.max, unit);
   if (low) return "at least " + with_unit(spec.min, unit);
   if (high) return "at most " + with_unit(spec.max, unit);

@@ -1,5 +1,5 @@
 // Tests of the messages for mistakes of new users.
-#include "app/run_time.h"
+#include "app/gait/run_time.h"
 #include "tests/folders.h"
 #include "tests/program/fixture.h"
 

@@ -1,5 +1,5 @@
 // The output of `list module` and `explain module` agrees with the published data of the modules.
-#include "app/module_table.h"
+#include "app/look/module_table.h"
 
 #include "tests/program/fixture.h"
 

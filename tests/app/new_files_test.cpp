@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "app/chain.h"
+#include "app/new/chain.h"
 #include "core/laws/data_sheet.h"
 #include "core/settings/shipped_files.h"
 #include "tests/folders.h"

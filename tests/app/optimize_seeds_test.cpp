@@ -1,7 +1,7 @@
 // Tests of `gaitlab optimize --seeds`.
 #include "app/study/optimize_seeds.h"
 
-#include "app/stop_on_signal.h"
+#include "app/shell/stop_on_signal.h"
 #include "tests/app/study_fixture.h"
 
 namespace gaitlab::test {

@@ -1,5 +1,5 @@
 // Tests of the progress lines, and of the width and colour of what is printed on a terminal.
-#include "app/progress.h"
+#include "app/shell/progress.h"
 
 #include <cstdlib>
 

@@ -1,5 +1,5 @@
 // Tests of the estimated CPU time of a run, and of the advice to take the faster engine.
-#include "app/run_time.h"
+#include "app/gait/run_time.h"
 
 #include "tests/folders.h"
 #include "tests/labels.h"

@@ -1,4 +1,4 @@
-#include "app/stop_on_signal.h"
+#include "app/shell/stop_on_signal.h"
 
 #include <gtest/gtest.h>
 

@@ -86,9 +86,9 @@ TEST(GoldenReport, NamesTheSettingsThatChanged) {
   now.engine = "articulated";
   now.resolved = "name: \"walk\"\nKp: 97\n\n";
   now.scenario = hash(now.resolved);
-  EXPECT_EQ(
-      golden::origin_changes(golden.origin, now),
-      "  engine: bullet -> articulated\n  the scenario has changed; this old golden does not contain the approved scenario\n");
+  EXPECT_EQ(golden::origin_changes(golden.origin, now),
+            "  engine: bullet -> articulated\n  the scenario has changed; the golden does not contain the approved one, which "
+            "is not UTF-8\n");
   golden.origin.resolved = kText;
   EXPECT_EQ(golden::origin_changes(golden.origin, now), "  Kp: 100 -> 97\n");
   now.resolved = "name: fast\nKp: 97\n";

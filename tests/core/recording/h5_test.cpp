@@ -177,10 +177,10 @@ TEST_F(H5, EveryFlippedByteIsSeen) {
 
 TEST_F(H5, OtherVersion) {
   std::string other = written(sample(3));
-  other.replace(other.find('2'), 1, "3");
+  other.replace(other.find('1'), 1, "3");
   EXPECT_EQ(complaint(other), "has format gaitlab-trace-3; this gaitlab reads gaitlab-trace-1");
   other = written(sample(3));
-  other.replace(other.find("2\n"), 2, "12\n");
+  other.replace(other.find("1\n"), 2, "12\n");
   EXPECT_EQ(complaint(other), "has format gaitlab-trace-12; this gaitlab reads gaitlab-trace-1");
 }
 

@@ -51,27 +51,6 @@ TEST(Judged, KnowsWhatAMotorGaveAndTook) {
   EXPECT_EQ(j.current_peak, 0.8);
 }
 
-/// In an older recording without the columns from speed_peak on, the existing values are found and the missing values are NaN.
-TEST(Judged, ReadsOlderTicks) {
-  const Recording now = ticks_of_ten_seconds();
-  Recording old = now;
-  old.ticks = {};
-  constexpr std::size_t kOld = kCurrentLimited + 1;
-  const auto kept = [](std::size_t c) { return c == 0 || (c - 1) % kTickColumns < kOld; };
-  for (std::size_t c = 0; c < now.ticks.columns.size(); ++c) {
-    if (kept(c)) old.ticks.columns.push_back(now.ticks.columns[c]);
-  }
-  for (std::size_t i = 0; i < now.ticks.values.size(); ++i) {
-    if (kept(i % now.ticks.columns.size())) old.ticks.values.push_back(now.ticks.values[i]);
-  }
-  const JudgedJoint j = judge(old, cycle(1, 2.5), kLongPeriod).joints[1];
-  EXPECT_EQ(j.torque_peak, 2);
-  EXPECT_NEAR(j.torque_rms, 2, 1e-12);
-  EXPECT_EQ(j.error_peak, 0.02);
-  for (const double value : {j.envelope_peak, j.speed_peak, j.current_rms, j.voltage_peak, j.current_peak})
-    EXPECT_TRUE(std::isnan(value));
-}
-
 TEST(Judged, LeavesOutTheFirstPeriod) {
   const Recording r = ticks_of_ten_seconds();
   const Judged early = judge(r, cycle(1, 2.5), kLongPeriod);  // 9 s contain three whole periods

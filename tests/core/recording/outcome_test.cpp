@@ -61,20 +61,6 @@ TEST_F(StoredOutcomes, AreReadBackBesideCsv) {
   EXPECT_EQ(read().message, "interrupted at t = 1 s");
 }
 
-TEST_F(StoredOutcomes, OfOlderFoldersAreDoneOrEarly) {
-  for (const Outcome& outcome : {Outcome(), Outcome{Ended::diverged, "diverged at step 3"}}) {
-    const StoredTrace stored = written(outcome);
-    std::vector<Beside> beside = stored.beside;
-    Trace& run = std::ranges::find(beside, "run", &Beside::name)->table;
-    const auto at = static_cast<std::ptrdiff_t>(run.find("ended"));
-    run.columns.change([&](auto& columns) { columns.erase(columns.begin() + at); });
-    run.values.erase(run.values.begin() + at);
-    write_h5(stored.trace, stored.origin, own_.path() / "trace.h5", tables_of(beside));
-    EXPECT_EQ(read().ended, outcome.done() ? Ended::done : Ended::early);
-    EXPECT_EQ(read().text(), outcome.text());
-  }
-}
-
 TEST_F(StoredOutcomes, ThatContradictTheirTextAreRefused) {
   const StoredTrace stored = written({});
   const std::string corrupt = (own_.path() / "trace.h5").string() + ": error: is corrupt: ";

@@ -50,23 +50,5 @@ TEST_F(StoredPartings, NameAJointThatThereIs) {
   EXPECT_NE(text.find("is corrupt: parting.ill.joint is 2"), std::string::npos) << text;
 }
 
-/// Older run folders contain no such results.
-TEST_F(StoredPartings, AreNoneInOlderFolders) {
-  write_recording(made, {"", 0, "", "done"}, "h5", own.path());
-  const StoredTrace stored = read_h5(own.path() / "trace.h5");
-  std::vector<Beside> beside = stored.beside;
-  Trace& run = std::ranges::find(beside, "run", &Beside::name)->table;
-  for (std::size_t k = run.columns.size(); k-- > 0;) {
-    if (!run.columns[k].name.starts_with("parting.")) continue;
-    run.columns.change([&](auto& columns) { columns.erase(columns.begin() + static_cast<std::ptrdiff_t>(k)); });
-    run.values.erase(run.values.begin() + static_cast<std::ptrdiff_t>(k));
-  }
-  write_h5(stored.trace, stored.origin, own.path() / "trace.h5", tables_of(beside));
-  const Recording there = read_recording(own.path()).recording;
-  EXPECT_LT(there.tally.event.time, 0);
-  EXPECT_EQ(there.tally.ill.share, 0);
-  EXPECT_EQ(there.spread.rows(), 0U);
-}
-
 }  // namespace
 }  // namespace gaitlab

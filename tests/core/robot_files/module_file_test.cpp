@@ -63,13 +63,13 @@ TEST_F(ModuleFileTest, KeysAndVersion) {
   EXPECT_EQ(error("mass: 1,", "mass: -1,"), "DIR/m.yaml:4:13: error: mass is -1 kg; allowed are at least 0 kg");
   EXPECT_EQ(error("name: h, ", ""), "DIR/m.yaml:12:5: error: missing key 'name'");
   EXPECT_EQ(error("gender: active", "gender: male"),
-            "DIR/m.yaml:14:30: error: gender 'male' is unknown; known names: active, passive");
+            "DIR/m.yaml:14:30: error: gender 'male' is unknown; known names: active, passive, none");
   EXPECT_EQ(error("faces:", "faces: 3\nfaces2:"),
             "DIR/m.yaml:13:8: error: faces is 3; expected a list of maps\n"
             "DIR/m.yaml:14:1: error: unknown key \'faces2\'; did you mean \'faces\'?");
 }
 
-TEST_F(ModuleFileTest, Format2) {
+TEST_F(ModuleFileTest, HingesFacesAndConnectors) {
   const auto read = [&](const std::string& from, const std::string& to) {
     std::string text = fakes::kDuo;
     text.replace(text.find("gaitlab_module: 1"), 17, "gaitlab_module: 1");

@@ -62,12 +62,12 @@ TEST(Posture, TiltIsOfTheBaseAgainstTheVertical) {
 /// The speed is the distance between the ends of the window divided by its length, here with ends at ticks.
 TEST(Posture, CycleSpeedIsThatOfTheWindow) {
   Recording r;
-  r.trace.columns = {{"t", "s", ""}, {"com.x", "m", ""}, {"com.y", "m", ""}};
+  r.poses.columns = {{"t", "s", ""}, {"com.x", "m", ""}, {"com.y", "m", ""}};
   for (int k = 0; k <= 100; ++k) {
     const double t = 0.1 * k;
     const double v = t < 4 ? 7 : 0.3;  // speeds of start and gait, m/s
     const double x = t < 4 ? v * t : 28 + v * (t - 4);
-    for (const double value : {t, x, -x}) r.trace.values.push_back(value);
+    for (const double value : {t, x, -x}) r.poses.values.push_back(value);
   }
   Judged judged;
   judged.from = 5.55;

@@ -61,7 +61,7 @@ TEST_F(JournalTables, HaveAStrictHead) {
   const auto head = [&](const std::string& seed, const std::string& quantile) {
     return test::message_of<std::exception>([&] {
       database_.execute("INSERT INTO study VALUES('n', 'now', 'b', 'd', 's', 'c', " + seed + ", 8, 1, 'worst', " + quantile +
-                        ", 1, 'grid', 0, '')");
+                        ", 1, 'grid', 0, 0.05, '')");
     });
   };
   EXPECT_EQ(head("1", "0.5"), test::kNoError);

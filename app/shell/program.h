@@ -1,0 +1,19 @@
+// Common main function of the programs. It reads the arguments, runs one subcommand and returns its exit code.
+#pragma once
+#include <functional>
+#include <span>
+#include <string_view>
+
+#include "app/shell/subcommands.h"
+
+namespace gaitlab::app {
+
+/// Runs `command` and returns its exit code, or 2 for bad arguments and bad input, or 1 for a failed run. No exception escapes.
+/// `tell` receives the error message, piece by piece.
+int guarded(const std::function<int()>& command, void (*tell)(std::string_view text));
+
+/// Runs the command that the arguments name; `commands` lists the functions that register the known commands. Passes on
+/// exceptions of the command. Throws RunError if standard output cannot be written in full, also after --help.
+int program(std::span<void (*const)(Commands&)> commands, int argc, char** argv);
+
+}  // namespace gaitlab::app
