@@ -14,6 +14,7 @@
 #include "app/study/sweep_arguments.h"
 #include "studies/run/asked.h"
 #include "studies/run/question.h"
+#include "studies/run/runner.h"
 #include "studies/study/study_file.h"
 
 namespace gaitlab::app {
