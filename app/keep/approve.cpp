@@ -180,14 +180,14 @@ bool can_keep(const Golden& before, const GoldenDifference& change, const Golden
   return change.passed() && before.numbers.size() == now.numbers.size();
 }
 
-std::uintmax_t size_of(const fs::path& folder) {
+std::uintmax_t golden_size(const fs::path& folder) {
   return fs::file_size(folder / "golden.json") + fs::file_size(folder / "trace.golden");
 }
 
 void tell(const Golden& golden, const GoldenRun& run, const fs::path& folder, bool calibrated) {
   fmt::print("{}: approval {}: {} of {}, {}, {:.0f} kB; bands {}\n", folder.string(), golden.history.back().number,
              plural(golden.bands.size() - 1, "column"), plural(golden.run.trace.rows(), "row"),
-             plural(golden.numbers.size(), "number"), std::ceil(static_cast<double>(size_of(folder)) / 1000),
+             plural(golden.numbers.size(), "number"), std::ceil(static_cast<double>(golden_size(folder)) / 1000),
              calibrated ? "made" : "kept");
   const auto line = [](const std::string& name, const Band& band) {
     fmt::print("  widest band: {} {} = {}\n", name, percent(band.width()), parts(band));
