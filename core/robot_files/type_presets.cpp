@@ -160,9 +160,11 @@ bool known_types(const std::vector<Node>& documents, const Node& scenario, const
 
 TypePresets::TypePresets(Kind kind, const Robot* robot, const std::vector<Node>& documents)
     : kind_(kind), type_(describe(kind).default_type) {
-  if (robot != nullptr) choose(*robot, documents);
-  for (const Node& document :
-       robot == nullptr ? documents : std::vector<Node>()) {  // the first type decides which keys of the scenario are known
+  if (robot != nullptr) {
+    choose(*robot, documents);
+    return;
+  }
+  for (const Node& document : documents) {  // the first type decides which keys of the scenario are known
     const Node* map = map_of(document, kind);
     if (map == nullptr) continue;
     kinds_.push_back({map, nullptr});

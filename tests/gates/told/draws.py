@@ -185,7 +185,6 @@ def ratings(rng, record, judged, scenario, mild):
             peak[q] = max((record.loads[c] if q == "tension" else abs(record.loads[c])).max() for c in columns)
     held = {q: float(value * level(rng, mild)) for q, value in peak.items() if value > 1e-6}
     for data in scenario["robot"]["types"].values():
-        data["gaitlab_module"] = 2
         for name in {face.get("connector", "latch") for face in data["faces"]}:
             data.setdefault("connectors", {})[name] = held | {"source": rng.choice(["chosen: drawn", "a data sheet"])}
         for face in data["faces"]:
