@@ -52,7 +52,7 @@ change() {
   said "$2"
 }
 change "alter table effort rename to e; create view effort as select * from e" "is not a journal that this program wrote: its table effort is another"
-change "update figure set name = 'a\"); drop table run; --' where name = 'speed'" "is not a journal that this program wrote: its table run is another"
+change "update quantity set name = 'a\"); drop table run; --' where name = 'speed'" "is not a journal that this program wrote: its table run is another"
 change "update parameter set key = 'x\" REAL); drop table run; --'" "is not a journal that this program wrote: its table run is another"
 change "delete from study" "is not a journal that this program wrote: it names no study"
 change "update study set runs = -1" "its numbers of runs are out of range"
