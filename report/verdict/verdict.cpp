@@ -72,9 +72,10 @@ Reason not_judged(const CheckedRun& run, const std::vector<Check>& checks) {
   }
   if (const Check* const close = worst_of(checks, too_close)) return {ReasonCode::too_close, close->text, close->id};
   const auto judged = [](const Check& c) { return c.status != CheckStatus::not_judged; };
-  if (std::ranges::none_of(checks, [&](const Check& c) { return c.group == CheckGroup::motor && judged(c); }))
+  if (std::ranges::none_of(checks, [&](const Check& c) { return c.group == CheckGroup::motor && judged(c); })) {
     return run.driven() ? Reason{ReasonCode::no_limit, "no limit of the motors is known"}
                         : Reason{ReasonCode::not_driven, "nothing drives the joints"};
+  }
   if (run.scenario.base != Base::floating || !run.scenario.ground.exists() || run.scenario.contact.model().keeps_bodies_apart)
     return {};
   for (const Check& check : checks) {

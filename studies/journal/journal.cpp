@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/settings/wording.h"
 #include "studies/journal/journal_tables.h"
 #include "studies/study/number.h"
 

@@ -101,9 +101,10 @@ JournalHead journal_head(const Plan& plan) {
   for (const StudyScenario& one : bound.scenarios()) {
     if (!one.name.empty()) head.scenarios.push_back(one.name);
   }
-  for (std::size_t k = 0; k < study.objectives.size(); ++k)
+  for (std::size_t k = 0; k < study.objectives.size(); ++k) {
     head.objectives.push_back(
         {study.told ? told_objective(study, k) : plan.scorer().objectives()[k], study.objectives[k].maximize});
+  }
   head.combine = name_of(study.replicates.combine);
   head.quantile = study.replicates.quantile;
   head.runs = plan.most_runs();

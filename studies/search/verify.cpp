@@ -37,9 +37,10 @@ std::vector<Trial> ways(const Plan& plan, const PointResult& point) {
   const Verify& verify = plan.study().verify;
   if (verify.halve_step)
     ways.push_back({point, TrialKind::half_step, "", [&plan](std::uint64_t run) { return halved(plan, run); }});
-  if (plan.bound().has_other_engine())
+  if (plan.bound().has_other_engine()) {
     ways.push_back({point, TrialKind::other_engine, clipped(verify.engine),
                     [&plan](std::uint64_t run) { return plan.other_engine(run); }});
+  }
   return ways;
 }
 
