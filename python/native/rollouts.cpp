@@ -47,7 +47,8 @@ class Rows {
     constexpr std::size_t kOneIn = 10;
     if (estimate_every_ == 1 || large_ * kOneIn <= estimates_) return;
     say("rollouts", "warning",
-        fmt::format("the torque error is above 5 % in {} of {} estimates: `feasible` is not reliable for the other rows; take "
+        fmt::format("the torque error is above limits.torque_error in {} of {} estimates: `feasible` is not reliable for the "
+                    "other rows; take "
                     "estimate_every=1, and a smaller physics.accuracy or physics.step",
                     large_.load(), estimates_.load()));
   }
@@ -89,7 +90,7 @@ class Rows {
       } else {
         const report::MeasuredRun measured = measure_.measured(one.rollout.scenario, one.recording);
         std::ranges::copy(measured.quantities, values_ + i * width_);
-        count_estimate(one.recording);
+        count_estimate(one.recording, one.rollout.scenario.limits.most_torque_error());
         verdict[i] = name_of(measured.verdict);
         give(i, "done", measured.why);
       }
@@ -101,11 +102,11 @@ class Rows {
     if (estimate_every_ == 0) return false;
     return (overrides_.size() + estimate_every_ - 1) / estimate_every_ < kFewest || i % estimate_every_ == 0;
   }
-  void count_estimate(const Recording& recording) {
-    constexpr double kLarge = 0.05;
+  /// `most` is the largest error of a run that is judged.
+  void count_estimate(const Recording& recording, double most) {
     const report::TorqueError error = report::torque_error(recording);
     estimates_ += error.estimated ? 1 : 0;
-    large_ += error.estimated && !(error.share <= kLarge) ? 1 : 0;
+    large_ += error.estimated && !(error.share <= most) ? 1 : 0;
   }
   void refuse(std::size_t i, const InputError& error) { give(i, "refused", error.what()); }
   void give(std::size_t i, std::string how, std::string why) {
