@@ -2,6 +2,7 @@
 import itertools
 import sys
 import unittest
+import warnings
 
 import numpy as np
 
@@ -75,6 +76,14 @@ class Rows(unittest.TestCase):
         self.assertEqual(usual[error][16], all_rows[error][16])
         few = gaitlab.rollouts(caterpillar(duration=0.3), points[:20])
         self.assertTrue(np.isfinite(few[error]).all())
+
+    def test_estimates_are_held_against_the_limit_of_the_scenario(self):
+        points = [{"cpg.phase_lag": 0.05 * k} for k in range(34)]
+        with self.assertWarnsRegex(Warning, r"above limits\.torque_error in 3 of 3 estimates"):
+            gaitlab.rollouts(caterpillar(duration=0.3, limits__torque_error=1e-9), points, estimate_every=16)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            gaitlab.rollouts(caterpillar(duration=0.3), points, estimate_every=16)
 
     def test_refused_is_a_row(self):
         points = [{}, {"cpg.amplitude": 99}, {"cpg.nope": 1}, {"cpg.amplitude": float("nan")}, {"duration": float("inf")}, {}]

@@ -124,7 +124,7 @@ void Estimated::add(double share) {
 }
 
 Estimated estimated(Journal& journal) {
-  Estimated found{.most = journal.head().torque_error};
+  Estimated found(journal.head());
   const std::string column = journal.column_of(kTorqueError);
   if (column.empty()) return found;
   journal.each_numbers({column}, [&](std::span<const double> values) {

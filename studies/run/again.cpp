@@ -36,7 +36,7 @@ std::vector<std::uint64_t> runs_in_doubt(const Plan& plan, Journal& journal) {
   if (error.empty() || plan.study().estimate_every == 0) return {};
   const auto on = [](const StudyScenario& s) { return s.nominal.physics.estimate == Estimate::full; };
   if (std::ranges::none_of(plan.scenarios(), on)) return {};
-  Estimated drawn;
+  Estimated drawn(journal.head());
   bool without = false;  // true if a run was drawn for an estimate but has none
   std::vector<std::uint64_t> others;
   journal.each_row({"run", "point", "outcome", error}, [&](const std::vector<std::string>& row) {

@@ -95,6 +95,17 @@ TEST(RunsInDoubt, AreTheOthersWhereMoreThanOneInTenIsInaccurate) {
       << "a run that diverged has no torque error";
 }
 
+/// The limit is that of the scenario, and at most 10 %.
+TEST(RunsInDoubt, AreByTheLimitOfTheScenario) {
+  const std::string every = "estimate_every: 8\n";
+  const auto of = [](double error) { return [error](std::size_t) { return error; }; };
+  EXPECT_TRUE(DoubtedSweep(every + "set: [limits.torque_error=0.07]\n").in_doubt(of(0.06)).empty());
+  DoubtedSweep strict(every + "set: [limits.torque_error=0.02]\n");
+  EXPECT_EQ(strict.in_doubt(of(0.03)), strict.others_that_ended());
+  DoubtedSweep lax(every + "set: [limits.torque_error=1]\n");
+  EXPECT_EQ(lax.in_doubt(of(0.11)), lax.others_that_ended());
+}
+
 TEST(RunsInDoubt, AreTheOthersWhereTooFewAreEstimated) {
   DoubtedSweep two;
   EXPECT_EQ(two.in_doubt([](std::size_t k) { return k < 2 ? 0.01 : std::nan(""); }), two.others_that_ended());
