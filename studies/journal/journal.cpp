@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/settings/wording.h"
 #include "studies/journal/journal_tables.h"
 #include "studies/study/number.h"
 
@@ -161,9 +160,7 @@ void Journal::each_brief(const std::function<void(const Brief&)>& take) {
         brief.score->objectives[k] = all.null(at) ? std::nan("") : all.number(at);
       }
     }
-    const std::optional<Word> word = named<Word>(all.text(5));
-    if (!word) throw InputError(SourceLocation{file_.string()}, "has another word as verdict: " + clipped(all.text(5)));
-    brief.verdict = *word;
+    brief.verdict = named_cell<Word>(all.text(5), "verdict", file_);
     take(brief);
   }
 }

@@ -1,5 +1,7 @@
 // The journal of a study, study.db: an SQLite database with a row for each run that has ended.
 #pragma once
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -12,6 +14,7 @@
 
 #include "core/names.h"
 #include "core/recording/word.h"
+#include "core/settings/wording.h"
 #include "studies/journal/database.h"
 #include "studies/study/scorer.h"
 
@@ -65,9 +68,9 @@ struct JournalHead {
   std::vector<std::string> shown;  ///< names of the quantities that tables and figures show
   std::vector<Limit> limits;
   bool guarded = true;
-  std::string method;               ///< name of the method, or `asked`
-  bool told = false;                ///< true if another program gives the results
-  double torque_error = 0.05;       ///< Limits::most_torque_error() of the scenarios, the least
+  std::string method;                                  ///< name of the method, or `asked`
+  bool told = false;                                   ///< true if another program gives the results
+  double torque_error = Limits().most_torque_error();  ///< Limits::most_torque_error() of the scenarios, the least
   std::vector<std::string> worlds;  ///< names of the worlds of a robust study, one for each replicate from 1 on
 };
 
@@ -113,10 +116,9 @@ struct Verification {
   std::string name;  ///< the engine, joint or world; empty for the other kinds
   std::vector<double> objectives;
   double violation = 0;
-  Word verdict =
-      Word::failed;    ///< verdict of the first infeasible replicate; without such a replicate, verdict of the first replicate
-  std::string reason;  ///< reason why the run does not verify the point; "" if the point is verified
-  std::string check = {};  ///< id of the check that decided the verdict in a world where the point falls; "" if none did
+  Word verdict = Word::failed;  ///< of the first infeasible replicate, or else of the first replicate
+  std::string reason;           ///< reason why the run does not verify the point; "" if the point is verified
+  std::string check = {};       ///< id of the check that decided the verdict in a world where the point falls; "" if none did
   /// Kind and name: `half step`, `bullet at a quarter of its step`, `m3/active dead`, `world supply -10 % (6.66 V)`.
   [[nodiscard]] std::string what() const;
 };
@@ -129,6 +131,17 @@ struct Effort {
   std::string host;
   std::int64_t process = 0;
 };
+
+/// The value of an enum whose name a cell of the journal `file` contains; `what` is its noun. Throws InputError for another
+/// text.
+template <NamedEnum Enum>
+Enum named_cell(const std::string& text, const char* what, const std::filesystem::path& file) {
+  if (const std::optional<Enum> found = named<Enum>(text)) return *found;
+  const auto names = enum_names<Enum>();
+  throw InputError(SourceLocation{file.string()},
+                   fmt::format("has the {} '{}'{}", what, clipped(text),
+                               offer(text, {names.begin(), names.end()}, what + std::string("s"))));
+}
 
 /// Name of the column of an objective: `objective.1` for number 0.
 std::string objective_column(std::size_t number);

@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 
-#include "core/settings/wording.h"
 #include "studies/journal/journal.h"
 
 namespace gaitlab::studies {
@@ -76,11 +75,10 @@ std::vector<Verification> Journal::verifications() {
   std::vector<Verification> all;
   Statement rows = database_.prepare("SELECT * FROM verification ORDER BY number");
   while (rows.step()) {
-    const std::optional<TrialKind> kind = named<TrialKind>(rows.text(2));
-    const std::optional<Word> word = named<Word>(rows.text(8));
-    if (!word) throw InputError(SourceLocation{file_.string()}, "has another word as verdict: " + clipped(rows.text(8)));
-    if (!kind) throw InputError(SourceLocation{file_.string()}, "has a verification of another kind: " + clipped(rows.text(2)));
-    Verification v{count_at(rows, 1), *kind, rows.text(3), {}, number_at(rows, 7), *word, rows.text(10), rows.text(11)};
+    Verification v{count_at(rows, 1),  named_cell<TrialKind>(rows.text(2), "kind of verification", file_),
+                   rows.text(3),       {},
+                   number_at(rows, 7), named_cell<Word>(rows.text(8), "verdict", file_),
+                   rows.text(10),      rows.text(11)};
     for (std::size_t k = 0; k < head_.objectives.size(); ++k) v.objectives.push_back(number_at(rows, 4 + static_cast<int>(k)));
     if (rows.integer(9) == 0 && v.reason.empty()) v.reason = "not verified";
     all.push_back(std::move(v));

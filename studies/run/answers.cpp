@@ -198,7 +198,7 @@ std::optional<Row> Answers::find(const Row& wanted) {
   row.outcome = there[outcome_];
   row.message = there[message_];
   row.simulated = number_of(there[simulated_]);
-  row.verdict = named<Word>(there[verdict_]).value_or(Word::failed);
+  row.verdict = named_cell<Word>(there[verdict_], "verdict", journal_->file());
   if (row.outcome != "done") return row;
   for (const std::size_t k : quantities_) row.quantities.push_back(there[k].empty() ? std::nan("") : number_of(there[k]));
   row.score = plan_.scorer().score(row.quantities, row.verdict);

@@ -117,7 +117,7 @@ Verification as_run(const Plan& plan, Journal& journal, const PointResult& point
   };
   for (std::uint64_t run = point.first_run; run < point.first_run + point.runs; ++run) {
     const std::vector<std::string> row = journal.row(run);
-    const Word word = named<Word>(row[place("verdict")]).value_or(Word::failed);
+    const Word word = named_cell<Word>(row[place("verdict")], "verdict", journal.file());
     if (run == point.first_run) own.verdict = word;
     if (!counts_alone(plan, plan.points().replicate(run))) continue;
     const std::string doubted = doubt(word, number_of(row[place(kEvidence)]), row[place("message")]);

@@ -61,6 +61,10 @@ change "update study set replicates = 0" "its numbers of runs are out of range"
 change "delete from objective" "its number of objectives is out of range"
 change "pragma user_version = 99" "is a journal of format 99; this program reads format 1"
 change "pragma application_id = 7" "is a database of SQLite, and not the journal of a study"
+copy
+sqlite3 "$work/now/study.db" "update run set verdict = 'fesible'"
+expect 2 "$program" study show "$work/now"
+said "has the verdict 'fesible'; did you mean 'feasible'?"
 ok "a stranger's tables are refused"
 
 # Added triggers do not run, and unusual values in rows are displayed unchanged.
