@@ -13,6 +13,7 @@
 #include "core/files/atomic_file.h"
 #include "core/files/folder_lock.h"
 #include "core/files/shallow_json.h"
+#include "core/settings/wording.h"
 
 namespace gaitlab::golden {
 
@@ -161,8 +162,9 @@ Golden from_json(const Json& json) {
   golden.origin = {json.at("name"),  json.at("engine"),   json.at("integrator"), json.at("step"),
                    json.at("build"), json.at("compiler"), json.at("scenario")};
   if (json.contains("resolved")) golden.origin.resolved = resolved_of(json["resolved"], golden.origin.scenario);
-  const std::optional<Word> word = named<Word>(json.at("verdict").get<std::string>());
-  if (!word) throw std::runtime_error("it has another word as verdict");
+  const auto verdict = json.at("verdict").get<std::string>();
+  const std::optional<Word> word = named<Word>(verdict);
+  if (!word) throw std::runtime_error("its verdict is '" + clipped(verdict) + "'");
   golden.verdict = *word;
   if (json.contains("starts")) golden.starts = json["starts"].get<int>();
   if (json.contains("selected")) golden.selected = json["selected"].get<std::vector<std::string>>();

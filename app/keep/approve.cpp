@@ -228,7 +228,7 @@ Golden golden_of(const GoldenRun& base, const Scenario& scenario, const fs::path
   golden.rounding = mean_squares(base.trace, rounded.trace);
   golden.run = {base.trace, std::move(rounded.precision)};
   golden.numbers = golden_numbers(base);
-  golden.verdict = base.verdict.value_or(Word::not_judged);
+  golden.verdict = base.verdict.value();
   golden.starts = base.starts;
   return golden;
 }

@@ -193,7 +193,7 @@ std::vector<std::string> differences(const std::vector<std::string>& names, cons
   const bool known = std::ranges::find(names, studies::kTorqueError) != names.end();
   const bool estimated = !known || !cell(studies::kTorqueError).empty();
   for (std::size_t k = 0; k < quantities.size(); ++k) {
-    if ((!estimated && depends_on_estimate(columns.quantities[k]))) continue;
+    if (!estimated && depends_on_estimate(columns.quantities[k])) continue;
     const std::string then = cell(columns.quantities[k]);
     if (told && then.empty()) continue;  // the other program did not give it
     const std::string now = std::isfinite(quantities[k]) ? number_text(quantities[k] + 0.0) : "";

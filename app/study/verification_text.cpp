@@ -102,8 +102,9 @@ std::string point_text(studies::Journal& journal, const std::vector<Verification
 bool paper_gears(const studies::JournalHead& head) {
   const std::vector<studies::ScenarioText> all = studies::scenario_texts(head.scenario);
   const auto paper = [](const std::string& text) {
-    const Node root = parse_yaml(text, "the scenario of the study");
-    const Node* actuator = root.find("actuator");
+    Problems ignored;  // of a journal whose scenario was changed, whose gears are not known
+    const std::optional<Node> root = parse_yaml(text, "scenario", ignored);
+    const Node* actuator = root ? root->find("actuator") : nullptr;
     const Node* model = actuator == nullptr ? nullptr : actuator->find("efficiency_model");
     return model != nullptr && model->text == "paper";
   };

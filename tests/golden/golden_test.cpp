@@ -262,6 +262,8 @@ TEST_F(GoldenFolder, ChecksumsThatAreRightOnOtherContent) {
   EXPECT_EQ(complaint(), "G/golden.json: error: is corrupt: an entry is missing or of another type");
   put_checked(content + ",\n  \"verdict\": [1]");
   EXPECT_EQ(complaint(), "G/golden.json: error: is corrupt: an entry is missing or of another type");
+  put_checked(content + ",\n  \"verdict\": \"fesible\"");
+  EXPECT_EQ(complaint(), "G/golden.json: error: is corrupt: its verdict is 'fesible'");
   put_checked(content + ",\n  \"resolved\": [1]");
   EXPECT_EQ(complaint(), "G/golden.json: error: is corrupt: an entry is missing or of another type");
   put_checked(content + ",\n  \"resolved\": [\"Kp: 100\"]");
