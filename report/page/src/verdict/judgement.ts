@@ -77,11 +77,11 @@ function infeasible(run: Run): Judgement {
 function unjudged(run: Run): Judgement {
   const { meta } = run.recording;
   const { why, reason, reason_check } = meta.verdict;
-  const rest = failures(meta).filter((c) => c.id !== reason_check);
+  const failed = failures(meta);
   return {
     mood: "open",
     said: "Not judged",
-    why: [sentence(why || reason), ...others(rest)],
+    why: [sentence(why || reason), ...(failed.some((c) => c.id === reason_check) ? [] : others(failed))],
     facts: walked(run),
   };
 }
