@@ -28,7 +28,7 @@ Posture posture(const Scenario& scenario, const Recording& r, const Judged& judg
   Posture found;
   const Motion m = motion(r);
   if (m.t.empty() || m.z.empty() || m.qx.empty() || m.qy.empty()) return found;
-  const Series loads = ground_load(scenario, r);
+  const Series force = ground_load(scenario, r);
   const double weight = scenario.robot->mass * scenario.physics.gravity.norm();
   std::size_t rows = 0;
   std::size_t airborne = 0;
@@ -36,7 +36,7 @@ Posture posture(const Scenario& scenario, const Recording& r, const Judged& judg
   double upright = 1;  // least cosine of the tilt
   for (std::size_t row = 0; row < m.t.size(); ++row) {
     if (!(m.t[row] > judged.from) || m.t[row] > judged.to) continue;
-    const double load = loads.empty() ? 0 : loads[row];
+    const double load = force.empty() ? 0 : force[row];
     airborne += load < kAirborne * weight ? 1 : 0;
     borne += load;
     found.height_min = rows == 0 ? m.z[row] : std::min(found.height_min, m.z[row]);
@@ -47,7 +47,7 @@ Posture posture(const Scenario& scenario, const Recording& r, const Judged& judg
   }
   if (rows == 0) return found;
   found.tilt_max = std::acos(std::clamp(upright, -1.0, 1.0));
-  if (loads.empty() || !(weight > 0)) return found;
+  if (force.empty() || !(weight > 0)) return found;
   found.airborne_share = static_cast<double>(airborne) / static_cast<double>(rows);
   found.borne_share = borne / (weight * static_cast<double>(rows));
   return found;

@@ -52,6 +52,7 @@ struct Draw {
   std::vector<FailedCheck> failing = {};
 };
 
+/// Reason of `not judged`.
 struct Reason {
   ReasonCode code = ReasonCode::none;
   std::string text = {};   ///< sentence with all missing evidence, and the settings to change; empty if there is a word
@@ -104,9 +105,8 @@ struct Verdict {
   [[nodiscard]] std::string why() const;
 };
 
-/// Judges a run. Shares, peaks and durations are from all steps (Recording::ticks); without these,
-/// nothing is judged. Thresholds are those of the scenario's `limits`. A quantity whose limit is not stated is not
-/// judged.
+/// Judges a run. Shares, peaks and durations are from all steps (Recording::ticks); without these, nothing is
+/// judged. Thresholds are those of the scenario's `limits`. A quantity whose limit is not stated is not judged.
 Verdict verdict(const Scenario& scenario, const Recording& record, const Summary& summary, const Overlaps& overlaps);
 
 /// Optional tables of a recording that summary, verdict and quantities (quantities.h) read. Numbers of checks with

@@ -92,6 +92,10 @@ TEST(Decision, AllLacksAreNamed) {
                        "duration: 12; so far: joint "))
       << verdict.reason.text;
   EXPECT_EQ(verdict.retry, (std::vector<std::string>{"physics.accuracy=0.0005", "duration=12"}));
+  const auto json = nlohmann::json::parse(to_json(verdict));
+  EXPECT_EQ(json.at("reason_code"), "lacks");
+  EXPECT_EQ(json.at("reason_check"), "tracking") << "the check that fails so far";
+  EXPECT_EQ(json.at("failures").at(0), "tracking");
   EXPECT_FALSE(verdict.retry_is_finer) << "the user has chosen the duration";
 }
 

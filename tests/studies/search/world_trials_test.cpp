@@ -58,6 +58,8 @@ TEST(InWorlds, CountsWhereAPointStands) {
   EXPECT_EQ(count.stood, 14U);
   EXPECT_EQ(count.fell_drawn, 1U);
   EXPECT_EQ(count.drawn, 7U);
+  EXPECT_EQ(count.falls.at(0).check, "voltage");
+  EXPECT_EQ(count.falls.at(0).reason, "voltage of m1/passive");
   EXPECT_EQ(app::falls_text(count), "falls by supply -10 % (6.66 V): voltage of m1/passive; and in 1 of 7 draws");
   EXPECT_TRUE(all.back().kind == studies::TrialKind::worlds);
   EXPECT_EQ(all.back().reason, "");
