@@ -188,8 +188,9 @@ void ScenarioChecks::limits() {
       touch ? *touch : place_of(root_, "limits", "collision"),
       fmt::format(
           "limits.touch, above which bodies that touch are a warning, is {}, and limits.collision, above which they are "
-          "a failure, is {}; expected limits.touch of at most {} m",
-          size(limits.touch, touch.has_value()), size(limits.collision, collision.has_value()), number_text(limits.collision)));
+          "a failure, is {}; expected limits.touch of at most {} m, or limits.collision of at least {} m",
+          size(limits.touch, touch.has_value()), size(limits.collision, collision.has_value()), number_text(limits.collision),
+          number_text(limits.touch)));
   if (touch && collision) problem.notes.emplace_back(*collision, "limits.collision is here");
 }
 

@@ -18,7 +18,8 @@ void widen(const Scenario& scenario, std::span<const ErrorBar> bars, Check& made
   if (!too_close(bars)) return;
   const auto reach = [&](const ErrorBar& bar) { return std::tuple(bar.across(), bar.part == made.worst, bar.most); };
   const ErrorBar& named = *std::ranges::max_element(bars, {}, reach);
-  const std::string range = fmt::format("{} to {}", texts::percent(named.least), texts::percent(named.most));
+  std::string range = fmt::format("{} to {}", texts::percent(named.least), texts::percent(named.most));
+  if (texts::percent(named.least) == texts::percent(named.most)) range = "slightly less or slightly more than 100 %";
   made.status = CheckStatus::too_close;
   made.text += named.part == made.worst
                    ? fmt::format("; with the error of the torques {} of the limit", range)

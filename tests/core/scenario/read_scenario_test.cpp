@@ -216,15 +216,15 @@ TEST_F(ScenarioTest, LimitsThatContradictOneAnother) {
   EXPECT_EQ(error(kShort + "limits: {touch: 0.02, collision: 0.01}\n"),
             "DIR/s.yaml:3:17: error: " + text +
                 "0.02 m, and limits.collision, above which they are a failure, is 0.01 m; expected limits.touch of at most "
-                "0.01 m\nDIR/s.yaml:3:34: note: limits.collision is here");
+                "0.01 m, or limits.collision of at least 0.02 m\nDIR/s.yaml:3:34: note: limits.collision is here");
   EXPECT_EQ(error(kShort + "limits: {touch: 0.02}\n"),
             "DIR/s.yaml:3:17: error: " + text +
                 "0.02 m, and limits.collision, above which they are a failure, is 0.002 m by default; expected limits.touch of "
-                "at most 0.002 m");
+                "at most 0.002 m, or limits.collision of at least 0.02 m");
   EXPECT_EQ(error(kShort, {"limits.collision=1e-4"}),
             "--set limits.collision=1e-4: error: " + text +
                 "0.0005 m by default, and limits.collision, above which they are a failure, is 0.0001 m; expected limits.touch "
-                "of at most 0.0001 m");
+                "of at most 0.0001 m, or limits.collision of at least 0.0005 m");
   // The resolved scenario of an old run is read as a record, which permits touch above collision.
   const std::string old = folder_.write("old.yaml", kShort + "limits: {touch: 0.02, collision: 0.01}\n");
   EXPECT_EQ(read_scenario(old, {}, catalog_, ReadAs::record).limits.touch, 0.02);

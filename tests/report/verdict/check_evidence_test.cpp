@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "report/verdict/error_bar.h"
 #include "report/verdict/trust.h"
 #include "tests/report/verdict/check_changes.h"
 
@@ -231,6 +232,15 @@ TEST(CheckEvidence, AnyPartDecides) {
     EXPECT_TRUE(contains(open.remedy, "take physics.accuracy: ")) << open.remedy;
     EXPECT_EQ(check(0.96, 0.99).status, CheckStatus::warn) << id;
   }
+}
+
+TEST(CheckEvidence, AnErrorBarWhoseEndsArePrintedAlike) {
+  const ErrorBar bars[] = {ErrorBar::around("m1", 1.0001, 3e-4)};
+  Check made;
+  made.worst = "m1";
+  widen(rated_gait().scenario, bars, made);
+  EXPECT_EQ(made.status, CheckStatus::too_close);
+  EXPECT_EQ(made.text, "; with the error of the torques slightly less or slightly more than 100 % of the limit");
 }
 
 /// If the ground does not carry the robot, this is reported first, with the setting that causes it, because neither a longer

@@ -9,6 +9,9 @@ VERDICT = [f"report/verdict/{name}.cpp" for name in (
     "verdict", "warnings")]
 ANALYSIS = [f"report/analysis/{name}.cpp" for name in (
     "collisions", "fall", "motion", "own_overlap", "posture", "upright")]
+WORD = [f"report/{name}.cpp" for name in (  # period, full size and window of a gait, implausible and impossible numbers, instability
+    "analysis/gait", "verdict/plausibility", "verdict/plausible_bodies", "verdict/plausible_contacts", "verdict/plausible_motors",
+    "verdict/plausible_scenario", "verdict/instability")]
 HEADERS = ["report/verdict/error_bar.h", "report/verdict/evidence.h", "report/analysis/posture.h", "report/analysis/gait.h"]
 GUARDS = "studies/study/guards.cpp"
 DEFAULTS = "core/scenario/scenario.h"
@@ -181,4 +184,5 @@ def generate():
         made[path] = mutate_kinds(mutants, path, text) if path.endswith("check_kinds.cpp") else text
     made[GUARDS] = mutate_guards(mutants, GUARDS, (ROOT / GUARDS).read_text())
     made[DEFAULTS] = mutate_defaults(mutants, DEFAULTS, (ROOT / DEFAULTS).read_text())
+    made.update((path, mutate_checks(mutants, path, (ROOT / path).read_text())) for path in WORD)
     return mutants, made
