@@ -95,11 +95,11 @@ int run_apart(const WatchArguments& a, const fs::path& out, const fs::path& told
     arguments.out = out.string();
     arguments.shown = a.shown;
     arguments.names_files = false;
-    int code = guarded([&] { return run(arguments); }, say);
+    int code = guarded([&] { return run(arguments); });
     std::string all;  // records that end with a NUL, which a path cannot contain
     for (const FileRead& one : reading.files())
       all += fmt::format("{} {} {} {}", one.stamp.modified, one.stamp.size, one.stamp.inode, one.path.string()) + '\0';
-    const int wrote = guarded([&] { return write_file(told, all), 0; }, say);
+    const int wrote = guarded([&] { return write_file(told, all), 0; });
     if (std::fflush(stdout) != 0 || wrote != 0) code = std::max(code, 1);
     return code;
   });
@@ -171,15 +171,13 @@ int renew(const WatchArguments& a, const fs::path& folder, int shown) {
   fs::create_directories(folder, none);
   const int code = run_apart(a, made, folder / kRead);
   const bool made_page = code != 2 && !stopped() && fs::exists(made / kPageFile, none);
-  (void)guarded(
-      [&] {
-        if (made_page) publish(made, folder, shown + 1);
-        if (!made_page && !stopped()) write_file(folder / kStamp, report::stamp(shown, true));
-        shown += made_page ? 1 : 0;
-        if (made_page && !a.quiet) print_page(folder / kPageFile);
-        return 0;
-      },
-      say);
+  (void)guarded([&] {
+    if (made_page) publish(made, folder, shown + 1);
+    if (!made_page && !stopped()) write_file(folder / kStamp, report::stamp(shown, true));
+    shown += made_page ? 1 : 0;
+    if (made_page && !a.quiet) print_page(folder / kPageFile);
+    return 0;
+  });
   fs::remove_all(made, none);
   return shown;
 }

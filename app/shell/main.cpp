@@ -2,7 +2,6 @@
 #include <csignal>
 
 #include "app/shell/program.h"
-#include "core/errors.h"
 
 int main(int argc, char** argv) {
   using namespace gaitlab::app;
@@ -12,5 +11,5 @@ int main(int argc, char** argv) {
                                               add_manuals, add_converge, add_swap,   add_sweep,      add_optimize, add_evaluate,
                                               add_study,   add_dynamics, add_figure, add_compare,    add_rerun,    add_export,
                                               add_approve, add_test,     add_new,    add_completion, add_man};
-  return guarded([&] { return program(kCommands, argc, argv); }, gaitlab::say);
+  return guarded([&] { return program(kCommands, argc, argv); });
 }

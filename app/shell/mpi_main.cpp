@@ -228,11 +228,10 @@ class Others {
     std::string why = text_of(message->bytes);
     if (why.size() < 2) return message;
     const bool bad_input = why.front() == '2';
-    why = why.substr(1, why.find_last_not_of('\n'));
+    why.erase(0, 1);
     const std::string rank = "rank " + std::to_string(message->rank);
     if (bad_input) throw InputError(SourceLocation{rank}, why);
-    constexpr std::string_view kError = "gaitlab: error: ";  // prefix that is removed, because this process prints it again
-    throw RunError(rank + ": " + (why.starts_with(kError) ? why.substr(kError.size()) : why));
+    throw RunError(rank + ": " + why);
   }
 
   std::vector<bool> left_;  ///< true for each rank that has not ended
@@ -264,7 +263,7 @@ struct Served {};
   throw Served();
 }
 
-std::string said;  ///< error message that is sent to rank 0, which prints it
+std::string said;  ///< text of the error, sent to rank 0, which prints it behind a `gaitlab: error: ` of its own
 
 }  // namespace
 
@@ -288,7 +287,7 @@ int main(int argc, char** argv) {
                    const Work& work, std::atomic<bool>& stop) { return others.lead(local, pack, work, stop); };
       };
     }
-    code = app::guarded(run, say);
+    code = app::guarded(run);
     others.dismiss();
   } else {
     if (std::freopen("/dev/null", "w", stdout) == nullptr) return 1;
@@ -296,7 +295,7 @@ int main(int argc, char** argv) {
       serve(plan, settings, measure);
     };
     try {
-      code = app::guarded(run, [](std::string_view text) { said += text; });
+      code = app::guarded(run, [](const char*, const char* text, const char* remark) { said = std::string(text) + remark; });
     } catch (const Served&) {
     }
     send(0, kBye, bytes_of(std::to_string(code) + said));

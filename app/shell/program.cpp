@@ -63,25 +63,27 @@ void group(CLI::App& app) {
 
 }  // namespace
 
-int guarded(const std::function<int()>& command, void (*tell)(std::string_view)) {
+// Parts are not formatted with fmt, because nothing may throw here.
+void say_error(const char* before, const char* text, const char* remark) {
+  for (const char* part : {before, text, remark, "\n"}) say(part);
+}
+
+int guarded(const std::function<int()>& command, void (*tell)(const char* before, const char* text, const char* remark)) {
+  constexpr const char* kError = "gaitlab: error: ";
   hold_streams();
-  // The text is passed in pieces and not formatted with fmt, because nothing may throw here.
-  const auto say = [&](const char* before, const char* what, const char* after) {
-    for (const char* text : {before, what, after}) tell(text);
-  };
   try {
     return command();
   } catch (const InputError& error) {
-    say("", error.what(), "\n");
+    tell("", error.what(), "");
     return 2;
   } catch (const RunError& error) {
-    say("gaitlab: error: ", error.what(), "\n");
+    tell(kError, error.what(), "");
   } catch (const std::system_error& error) {  // thrown by fmt when it cannot write to standard output
-    say("gaitlab: error: ", error.what(), "\n");
+    tell(kError, error.what(), "");
   } catch (const std::bad_alloc&) {
-    say("gaitlab: error: ", "out of memory", "\n");
+    tell(kError, "out of memory", "");
   } catch (const std::exception& error) {
-    say("gaitlab: error: ", error.what(), " (this is a defect of gaitlab: please report it)\n");
+    tell(kError, error.what(), " (this is a defect of gaitlab: please report it)");
   }
   return 1;
 }

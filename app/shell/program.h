@@ -2,15 +2,19 @@
 #pragma once
 #include <functional>
 #include <span>
-#include <string_view>
 
 #include "app/shell/subcommands.h"
 
 namespace gaitlab::app {
 
+/// Prints the parts of an error message as a line. It does not throw.
+void say_error(const char* before, const char* text, const char* remark);
+
 /// Runs `command` and returns its exit code, or 2 for bad arguments and bad input, or 1 for a failed run. No exception escapes.
-/// `tell` receives the error message, piece by piece.
-int guarded(const std::function<int()>& command, void (*tell)(std::string_view text));
+/// `tell` receives the error message: what the line begins with, such as `gaitlab: error: `, the text, and a remark. By default
+/// it is printed.
+int guarded(const std::function<int()>& command,
+            void (*tell)(const char* before, const char* text, const char* remark) = say_error);
 
 /// Runs the command that the arguments name; `commands` lists the functions that register the known commands. Passes on
 /// exceptions of the command. Throws RunError if standard output cannot be written in full, also after --help.
