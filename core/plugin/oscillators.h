@@ -26,7 +26,7 @@ struct OscillatorKeys {
     f.rule_or_list("couplings", rule, kCouplingRules, couplings, kCouplingRulesAbout);
   }
 
-  /// Throws std::invalid_argument if the set point of a joint is outside its range at all times, or if amplitude or offset of a
+  /// Throws SettingError if the set point of a joint is outside its range at all times, or if amplitude or offset of a
   /// hinge with a range is beyond 3.2 rad. A set point that only temporarily exceeds the range is not refused; the run reports
   /// it.
   void check(const RobotInfo& robot) const {
@@ -36,7 +36,7 @@ struct OscillatorKeys {
       check_angle(joint, "amplitude", amplitude[j]);
       check_angle(joint, "offset", offset[j]);
       if (amplitude[j] != 0 || (offset[j] >= joint.lo && offset[j] <= joint.hi)) continue;
-      throw std::invalid_argument("joint " + joint.name + " would hold its offset, outside its range (amplitude 0)");
+      throw SettingError("offset", "joint " + joint.name + " would hold its offset, outside its range (amplitude 0)");
     }
   }
 

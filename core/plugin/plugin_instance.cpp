@@ -20,6 +20,8 @@ auto guarded(const Entry& entry, const char* function, Call call) {
   const auto before = [&] { return *function == '\0' ? std::string() : fmt::format("{} threw: ", function); };
   try {
     return call();
+  } catch (const SettingError& error) {
+    throw PluginError(entry, before() + error.what(), error.key());
   } catch (const std::exception& error) {
     throw PluginError(entry, before() + error.what());
   } catch (...) {
@@ -170,8 +172,8 @@ std::unique_ptr<T> make(const PluginSelection& selection, const RobotInfo& robot
 
 }  // namespace
 
-PluginError::PluginError(const Entry& entry, const std::string& what)
-    : RunError(title(entry) + ": " + what), kind(entry.kind) {}
+PluginError::PluginError(const Entry& entry, const std::string& what, std::string at)
+    : RunError(title(entry) + ": " + what), kind(entry.kind), key(std::move(at)) {}
 
 std::shared_ptr<void> default_settings(const Entry& entry) {
   return guarded(entry, "Settings", [&] { return entry.settings(entry); });

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gaitlab {
@@ -23,8 +24,18 @@ struct JointInfo {
   [[nodiscard]] bool turns_freely() const { return hi == std::numeric_limits<double>::infinity(); }
 };
 
-/// Throws std::invalid_argument for a set point that only a freely turning hinge can have. For a hinge with a range, such an
-/// angle is probably in degrees or a mistake.
+/// Settings that do not fit the robot, because of the value of one key. If --set gave this value, the error is reported there.
+class SettingError : public std::invalid_argument {
+ public:
+  SettingError(std::string key, const std::string& text) : std::invalid_argument(text), key_(std::move(key)) {}
+  [[nodiscard]] const std::string& key() const { return key_; }
+
+ private:
+  std::string key_;
+};
+
+/// Throws SettingError for a set point that only a freely turning hinge can have. For a hinge with a range, such an angle is
+/// probably in degrees or a mistake. `what`: the key, or words in the place of one.
 inline void check_angle(const JointInfo& joint, const char* what, double angle) {
   constexpr double kLargest = 3.2;  // rad; slightly more than half a turn
   if (joint.turns_freely() || (angle >= -kLargest && angle <= kLargest)) return;
@@ -32,9 +43,9 @@ inline void check_angle(const JointInfo& joint, const char* what, double angle) 
     std::array<char, 32> text = {};
     return std::string(text.data(), std::to_chars(text.begin(), text.end(), value, std::chars_format::general, count).ptr);
   };
-  throw std::invalid_argument(std::string(what) + " of joint " + joint.name + " is " + digits(angle, 6) +
-                              " rad; allowed are -3.2 to 3.2 rad where the hinge has a range; " + digits(angle, 6) +
-                              " degrees are " + digits(angle * 3.14159265358979323846 / 180, 4) + " rad");
+  throw SettingError(what, std::string(what) + " of joint " + joint.name + " is " + digits(angle, 6) +
+                               " rad; allowed are -3.2 to 3.2 rad where the hinge has a range; " + digits(angle, 6) +
+                               " degrees are " + digits(angle * 3.14159265358979323846 / 180, 4) + " rad");
 }
 
 struct ModuleInfo {

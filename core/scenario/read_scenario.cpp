@@ -280,7 +280,7 @@ class ScenarioReader {
       const Node* node = root_.find(section);
       const std::string other = node != nullptr ? hidden_file(*node, folder_) : "";
       problems_.add(
-          place_of_fault(root_, section, error.what()),
+          place_of_fault(root_, section, error.key),
           other.empty() ? error.what() : fmt::format("{} does not take the file {}; {}", section, in_quotes(other), kNotShown));
     }
   }

@@ -34,14 +34,11 @@ std::optional<SourceLocation> set_place(const Node& node) {
 
 }  // namespace
 
-SourceLocation place_of_fault(const Node& root, const std::string& section, const std::string& text) {
+SourceLocation place_of_fault(const Node& root, const std::string& section, const std::string& key) {
   const Node* map = root.find(section);
-  for (std::size_t i = 0; map != nullptr && i < map->keys.size(); ++i) {
-    const std::string& key = map->keys[i].first;
-    if (key == "type" || text.find(" " + key + " ") == std::string::npos) continue;
-    if (std::optional<SourceLocation> place = set_place(map->items[i])) return *place;
-  }
-  return place_of(root, section, "type");
+  const Node* value = map == nullptr ? nullptr : map->find(key);
+  const std::optional<SourceLocation> place = value == nullptr ? std::nullopt : set_place(*value);
+  return place ? *place : place_of(root, section, "type");
 }
 
 ContactLaw wanted_law(const Node& root) {

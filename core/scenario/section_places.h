@@ -18,9 +18,9 @@ std::optional<SourceLocation> given(const Node& root, const std::string& section
 /// Place of a key's value, or else of the section's name, or else of the whole map.
 SourceLocation place_of(const Node& root, const std::string& section, const std::string& key);
 
-/// Place of a fault that a plugin reports on the settings of its section as a whole: the setting of --set whose key the text
-/// names, or else the section's `type`.
-SourceLocation place_of_fault(const Node& root, const std::string& section, const std::string& text);
+/// Place of a fault that a plugin reports on the settings of its section as a whole: the setting of --set for the `key` that
+/// the plugin names (PluginError), or else the section's `type`.
+SourceLocation place_of_fault(const Node& root, const std::string& section, const std::string& key);
 
 /// Contact law of a scenario, found before its section is read, because the default of the step depends on it.
 ContactLaw wanted_law(const Node& root);
