@@ -45,10 +45,10 @@ void warn_of_start(const Scenario& scenario, bool quiet) {
 }
 
 void add_scenario(CLI::App& command, ScenarioArguments& arguments, std::string (*named)(const std::string&)) {
-  command.add_option("SCENARIO", arguments.file, "scenario file (YAML), or a name of `gaitlab list scenarios`")
+  offering(command.add_option("SCENARIO", arguments.file), "scenario file (YAML), or a name of {}", {.kinds = {"scenarios"}})
       ->required()
       ->transform(named);
-  command.add_option("--set", arguments.sets, "override a key, as key.path=value; may be repeated")
+  offering(command.add_option("--set", arguments.sets), "override a key, as {}; may be repeated", {.settings = true})
       ->expected(1)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

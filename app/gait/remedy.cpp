@@ -137,7 +137,7 @@ void add_remedy(Commands& commands) {
       "Search the settings that would make a gait feasible, one at a time; of a feasible gait, its reserves.", remedy,
       [](CLI::App& command, RemedyArguments& arguments) {
         add_scenario(command, arguments, named_file_or_run);
-        command.get_option("SCENARIO")->description("scenario file (YAML), or a run folder");
+        offering(command.get_option("SCENARIO"), "scenario file (YAML), or a run folder", {});
         command.add_option("--out", arguments.out, "run folder (default runs/NAME, then NAME-2 ...); new or empty");
         command.add_flag("--no-report", arguments.no_page, "write no report.html");
         command.add_flag("--map", arguments.map, "also draw the verdict over frequency and amplitude, 13 x 13 runs");

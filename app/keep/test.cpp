@@ -306,9 +306,8 @@ void add_test(Commands& commands) {
   add_command<TestArguments>(
       commands, "test", "Run scenarios and compare them with their goldens; exit code 4: a torque drifted.", test_goldens,
       [](CLI::App& command, TestArguments& arguments) {
-        command
-            .add_option("SCENARIO", arguments.scenarios,
-                        "scenario files, names of `gaitlab list scenarios`, or folders (default: scenarios)")
+        offering(command.add_option("SCENARIO", arguments.scenarios),
+                 "scenario files, names of {}, or folders (default: scenarios)", {.kinds = {"scenarios"}})
             ->check(not_empty)
             ->transform(named_file_or_folder);
         command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, kMostThreads));

@@ -208,10 +208,12 @@ void add_explain(Commands& commands) {
   add_command<ManualArguments>(
       commands, "explain", "Print the manual of KIND NAME, or of a single word; without them, that of the scenario file.",
       explain, [](CLI::App& command, ManualArguments& arguments) {
-        command.add_option("KIND", arguments.kind,
-                           "a kind of `gaitlab list`; or alone: any name that it prints, a section or key of a scenario or "
-                           "module file, a word that a key permits, scenario, study, verdict, or a module's file");
-        command.add_option("NAME", arguments.name, "name that `gaitlab list` prints, or the file NAME.yaml of a module");
+        offering(command.add_option("KIND", arguments.kind),
+                 "a kind of {}; or alone: any name that it prints, a section or key of a scenario or "
+                 "module file, a word that a key permits, scenario, study, verdict, or a module's file",
+                 {.kinds = {""}});
+        offering(command.add_option("NAME", arguments.name), "name that {} prints, or the file NAME.yaml of a module",
+                 {.kinds = {""}});
         add_plugins(command, arguments);
       });
 }

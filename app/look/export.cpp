@@ -125,11 +125,10 @@ void add_export(Commands& commands) {
   add_command<ExportArguments>(
       commands, "export", "Write the trace of a run, the robot of a scenario, or how it moved, in another format.", export_to,
       [](CLI::App& command, ExportArguments& arguments) {
-        command
-            .add_option(
-                "SOURCE", arguments.source.file,
-                "csv: run folder or trace file; gltf: the same, or a scenario file; mjcf, urdf: scenario file, or a name "
-                "of `gaitlab list scenarios`")
+        offering(
+            command.add_option("SOURCE", arguments.source.file),
+            "csv: run folder or trace file; gltf: the same, or a scenario file; mjcf, urdf: scenario file, or a name of {}",
+            {.kinds = {"scenarios"}})
             ->required()
             ->transform(named_file_or_run);
         command
@@ -146,7 +145,7 @@ void add_export(Commands& commands) {
             "mjcf: exactly the robot's dynamics, for comparison: nothing touches, and controls are torques; without "
             "it the robot stands and walks, and controls are set points");
         add_trust(command, arguments.plugins);
-        command.add_option("--set", arguments.source.sets, "key.path=value in the scenario")
+        offering(command.add_option("--set", arguments.source.sets), "{} in the scenario", {.settings = true})
             ->expected(1)
             ->allow_extra_args(false)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -71,7 +71,7 @@ void add_manuals(Commands& commands) {
       "List what can be named: cpg, controller, actuator, sensor, engine, module, robot, figure, check, "
       "scenario and study.",
       list, [](CLI::App& command, ManualArguments& arguments) {
-        command.add_option("KIND", arguments.kind, "list only this kind of `gaitlab list`");
+        offering(command.add_option("KIND", arguments.kind), "list only this kind of {}", {.kinds = {""}, .files = false});
         add_plugins(command, arguments);
       });
   add_explain(commands);

@@ -261,8 +261,8 @@ void add_new_files(Commands& commands, CLI::App& command) {
       commands, "scenario", "Write a commented scenario that runs: a wave along modules in a row.", new_scenario,
       [](CLI::App& scenario, NewFileArguments& arguments) {
         scenario.add_option("NAME", arguments.name, "name of the scenario")->required();
-        scenario
-            .add_option("--module", arguments.module, "name that `gaitlab list module` prints, or a module file (default: y1)")
+        offering(scenario.add_option("--module", arguments.module), "name that {} prints, or a module file (default: y1)",
+                 {.kinds = {"module"}})
             ->check(not_empty);
         scenario
             .add_option("--count", arguments.count,

@@ -1,12 +1,12 @@
 #include "app/shell/candidates.h"
 
 #include <algorithm>
-#include <array>
-#include <string_view>
+#include <map>
 #include <utility>
 
 #include "app/look/listed_kinds.h"
 #include "app/shell/command_tree.h"
+#include "app/shell/commands.h"
 #include "core/scenario/key_lookup.h"
 #include "kit/catalog.h"
 
@@ -68,24 +68,20 @@ void step(Place& place, const std::string& word) {
   }
 }
 
-constexpr std::string_view kList = "`gaitlab list";
+/// Offered values of the options whose help names them.
+std::map<const CLI::Option*, Offered>& offers() {
+  static std::map<const CLI::Option*, Offered> all;
+  return all;
+}
 
-/// Names that the description of an argument names by `gaitlab list KIND`. Without a kind: the names of the kind that was typed
-/// before, or else the kinds.
-Words listed_names(const std::string& about, const Words& arguments) {
+/// Names of the offered kinds. For the kind "": the names of the kind that was typed before, or else the kinds.
+Words listed_names(const Offered& offered, const Words& arguments) {
   static const Catalog catalog = kit::standard_catalog();
   Words names;
-  const auto add = [&](const ListedKind& kind) {
-    for (std::string& name : kind.names(catalog)) names.push_back(std::move(name));
-  };
-  for (std::size_t at = about.find(kList); at != std::string::npos; at = about.find(kList, at + 1)) {
-    const std::size_t from = at + kList.size();
-    std::string kind = about.substr(from, about.find('`', from) - from);
-    kind.erase(0, kind.find_first_not_of(' '));
-    if (kind.empty() && !arguments.empty()) kind = arguments.back();
-    if (const ListedKind* listed = listed_kind(kind)) {
-      add(*listed);
-    } else if (kind.empty()) {
+  for (const std::string& kind : offered.kinds) {
+    if (const ListedKind* listed = listed_kind(kind.empty() && !arguments.empty() ? arguments.back() : kind)) {
+      for (std::string& name : listed->names(catalog)) names.push_back(std::move(name));
+    } else if (kind.empty() && arguments.empty()) {
       for (const ListedKind& one : listed_kinds()) names.push_back(one.name);
     }
   }
@@ -109,14 +105,14 @@ Words settings(const std::string& typed) {
 
 /// Words that an option or argument accepts in the place of `typed`.
 Candidates values(const CLI::Option& option, const Words& arguments, const std::string& typed) {
-  const std::string& about = option.get_description();
-  if (about.find("key.path=value") != std::string::npos) return {settings(typed)};
+  const auto found = offers().find(&option);
+  const Offered offered = found == offers().end() ? Offered() : found->second;
+  if (offered.settings) return {settings(typed)};
   Candidates known{choices(option)};
   if (!known.words.empty() || is_number(option)) return known;
-  known.words = listed_names(about, arguments);
-  known.files = known.words.empty() || about.find("file") != std::string::npos;
-  if (about.find("separated by commas") == std::string::npos) return known;
-  for (std::string& word : known.words) word.insert(0, typed.substr(0, typed.rfind(',') + 1));
+  known.words = listed_names(offered, arguments);
+  known.files = offered.files;
+  for (std::string& word : known.words) word.insert(0, offered.several ? typed.substr(0, typed.rfind(',') + 1) : "");
   return known;
 }
 
@@ -148,6 +144,15 @@ Candidates at_place(const Place& place, const std::string& typed) {
 }
 
 }  // namespace
+
+CLI::Option* offering(CLI::Option* option, std::string text, const Offered& offered) {
+  Words names(offered.settings ? 1 : 0, "key.path=value");
+  for (const std::string& kind : offered.kinds)
+    names.push_back(kind.empty() ? "`gaitlab list`" : "`gaitlab list " + kind + "`");
+  for (const std::string& name : names) text.replace(text.find("{}"), 2, name);
+  offers()[option] = offered;
+  return option->description(std::move(text));
+}
 
 Candidates candidates(const CLI::App& app, const std::vector<std::string>& words) {
   Words before = joined_words(words);

@@ -31,6 +31,16 @@ void add_command(Commands& commands, const char* name, const char* about, int (*
   command->callback([&commands, run, arguments] { commands.chosen = [run, arguments] { return run(*arguments); }; });
 }
 
+/// Values of an option or argument. Its help names the kinds, and the completion of a shell offers their items.
+struct Offered {
+  std::vector<std::string> kinds = {};  ///< of `gaitlab list`; "": the kinds, or the names of the kind that was typed before
+  bool settings = false;                ///< settings of a scenario; then nothing else
+  bool files = true;                    ///< false if it accepts no file
+  bool several = false;                 ///< names, separated by commas
+};
+/// Describes an option by a text whose `{}` become the names of what it accepts, in their order. Returns the option.
+CLI::Option* offering(CLI::Option* option, std::string text, const Offered& offered);
+
 /// Adds the commands `new module` and `new scenario`.
 void add_new_files(Commands& commands, CLI::App& command);
 

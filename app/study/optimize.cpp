@@ -321,7 +321,7 @@ void add_optimize(Commands& commands) {
   add_command<OptimizeArguments>(
       commands, "optimize", "Search the best point of a study, and verify it.", optimize_study,
       [](CLI::App& command, OptimizeArguments& a) {
-        command.add_option("STUDY", a.file, "the file of a study (YAML), or a name of `gaitlab list studies`")
+        offering(command.add_option("STUDY", a.file), "the file of a study (YAML), or a name of {}", {.kinds = {"studies"}})
             ->required()
             ->check(not_empty)
             ->transform(named_file);

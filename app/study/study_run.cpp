@@ -33,9 +33,8 @@ void add_study_run(CLI::App& command, StudyRunArguments& a, const char* folder) 
 }
 
 void add_study_sets(CLI::App& command, std::vector<std::string>& sets) {
-  command
-      .add_option("--set", sets,
-                  "override a key of the scenario in all runs, as key.path=value, after those of the study; may be repeated")
+  offering(command.add_option("--set", sets),
+           "override a key of the scenario in all runs, as {}, after those of the study; may be repeated", {.settings = true})
       ->expected(1)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -146,9 +146,8 @@ void add_sweep(Commands& commands) {
       commands, "sweep", "Run a scenario at many points: a journal, a table and a map.", sweep_study,
       [](CLI::App& command, SweepArguments& a) {
         add_scenario(command, a);
-        command.get_option("SCENARIO")
-            ->description(
-                "file of a scenario or study (YAML), or a name of `gaitlab list scenarios` or `gaitlab list studies`");
+        offering(command.get_option("SCENARIO"), "file of a scenario or study (YAML), or a name of {} or {}",
+                 {.kinds = {"scenarios", "studies"}});
         command.get_option("--seed")->description("seed of the random draws (default 1)");
         repeatable(
             command.add_option("--grid", a.grids, "values of a key, KEY=A:B:N, KEY=log:A:B:N or KEY=v,v,v; may be repeated"));

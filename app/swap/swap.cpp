@@ -228,16 +228,14 @@ void add_swap(Commands& commands) {
       [](CLI::App& command, SwapArguments& arguments) {
         add_scenario(command, arguments);
         command.remove_option(command.get_option("SCENARIO"));
-        command
-            .add_option("SCENARIO", arguments.files,
-                        "scenario files (YAML), or names of `gaitlab list scenarios`; for several the table shows every CPG in "
-                        "every scenario")
+        offering(command.add_option("SCENARIO", arguments.files),
+                 "scenario files (YAML), or names of {}; for several the table shows every CPG in every scenario",
+                 {.kinds = {"scenarios"}})
             ->required()
             ->transform(named_file);
-        command
-            .add_option("--cpg", arguments.cpgs,
-                        "types of the CPGs (`gaitlab list cpg`), separated by commas; their common keys are kept, `model` gets "
-                        "its defaults")
+        offering(command.add_option("--cpg", arguments.cpgs),
+                 "types of the CPGs ({}), separated by commas; their common keys are kept, `model` gets its defaults",
+                 {.kinds = {"cpg"}, .files = false, .several = true})
             ->required();
         command.add_option(
             "--out", arguments.out,

@@ -49,6 +49,8 @@ TEST(Completion, ValuesAreThoseOfTheProgram) {
   EXPECT_EQ(offered("run x --set physics.engine = art"), "\nphysics.engine=articulated\n");
   EXPECT_EQ(offered("explain engine art"), "\narticulated\n:files\n");
   EXPECT_EQ(offered("explain engi"), "\nengine\n:files\n");
+  EXPECT_EQ(offered("list engi"), "\nengine\n");  // no file
+  EXPECT_EQ(offered("remedy hexa"), "\n:files\n");
   EXPECT_EQ(offered("study sh"), "\nshow\n");
   EXPECT_EQ(offered("help study sh"), "\nshow\n");
   EXPECT_EQ(offered("run x -j ''"), "\n");  // a number
