@@ -5,6 +5,10 @@ execute_process(COMMAND git -C ${SOURCE_DIR} describe --always --dirty=.dirty --
 if(NOT commit)
   set(commit "unknown")
 endif()
+set(of_commit true)
+if(commit MATCHES "^unknown$|[.]dirty$")
+  set(of_commit false)
+endif()
 execute_process(COMMAND git -C ${SOURCE_DIR} describe --exact-match --dirty --match v${VERSION} --tags
   OUTPUT_VARIABLE release OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 if(release STREQUAL "v${VERSION}")
@@ -16,5 +20,6 @@ file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT [[
 #include "core/build_id.h"
 namespace gaitlab {
 std::string build_id() { return "@id@ (@COMPILER@; @LIBRARIES@)"; }
+bool build_is_of_commit() { return @of_commit@; }
 }  // namespace gaitlab
 ]])

@@ -203,10 +203,10 @@ int verify(const std::string& run, const PluginArguments& plugins) {
   const std::vector<std::string> changed = changes(stored, past, scenario, again, catalog);
   for (const std::string& line : changed) fmt::print("  {}\n", line);
   if (!same && changed.empty()) {
-    const bool vague = past.build.find(".dirty") != std::string::npos || past.build.find("unknown") != std::string::npos;
-    fmt::print("  build, plugins and scenario are those of the recorded run{}\n",
-               vague ? ", as far as the build id of a changed source tree shows"
-                     : "; possible causes: a library that is not in the build id, the machine, or a defect of gaitlab");
+    fmt::print("  build, plugins and scenario are those of the recorded run{}\n",  // so the build is this one
+               build_is_of_commit()
+                   ? "; possible causes: a library that is not in the build id, the machine, or a defect of gaitlab"
+                   : ", as far as the build id of a changed source tree shows");
   }
   return same && (!early || past.ended) ? 0 : 4;
 }
