@@ -26,14 +26,14 @@ struct Problem {
   SourceLocation place;
   std::string text;
   std::vector<std::pair<SourceLocation, std::string>> notes = {};
+  std::string unknown_key = {};  ///< the key, if the problem is that nothing has this key
 };
 
 /// Collection of problems, so that a user sees all of them at once.
 class Problems {
  public:
-  Problem& add(SourceLocation place, std::string text) {
-    return list_.emplace_back(Problem{std::move(place), std::move(text), {}});
-  }
+  Problem& add(Problem problem) { return list_.emplace_back(std::move(problem)); }
+  Problem& add(SourceLocation place, std::string text) { return add(Problem{std::move(place), std::move(text)}); }
   /// Replaces a problem by another one.
   void replace(std::size_t number, Problem problem) { list_[number] = std::move(problem); }
   [[nodiscard]] bool empty() const { return list_.empty(); }

@@ -121,7 +121,8 @@ class TypeChoice {
       number.text = key;
       const Reading<std::int64_t> module = read_integer(number);
       if (!module.ok() || module.value < 0) {
-        problems_.add(place, "unknown key " + in_quotes(key) + " in modules; expected the number of a module, or `default`");
+        problems_.add(
+            {place, "unknown key " + in_quotes(key) + " in modules; expected the number of a module, or `default`", {}, key});
       } else if (static_cast<std::size_t>(module.value) >= count_) {
         problems_.add(place, fmt::format("there is no module {}; the robot has {}", module.value,
                                          count_ == 1 ? "module 0 alone" : fmt::format("modules 0 to {}", count_ - 1)));

@@ -85,7 +85,7 @@ void Reader::finish() {
     const std::size_t colon = key.find(':');
     // In YAML, {a:1} is a key without a value. The user probably meant a: 1.
     if (map_->items[i].kind == Node::Kind::null && colon != std::string::npos) {
-      problems_.add(place, "unknown key " + in_quotes(key) + "; put a space after the colon");
+      problems_.add(place, "unknown key " + in_quotes(key) + "; put a space after the colon").unknown_key = key;
     } else if (const std::string comma = decimal_comma(*map_, i); !comma.empty()) {
       problems_.add(place, comma);
     } else {
@@ -99,13 +99,13 @@ void Reader::unknown(const std::string& key, const Node& value, const SourceLoca
   const std::string remedy = of_a_list                        ? "; an item of a list is addressed by its number: " + dotted(key)
                              : problems_.size() < kMostOffers ? meant(key, value)
                                                               : "";
-  const std::string text = "unknown key " + in_quotes(key) + remedy;
+  const Problem problem{place, "unknown key " + in_quotes(key) + remedy, {}, key};
   const std::string near = missing_.empty() ? "" : nearest(key, known_);
   const auto misspelt = std::ranges::find(missing_, near, [](const auto& one) { return one.first; });
   if (misspelt == missing_.end() || of_a_list) {
-    problems_.add(place, text);
+    problems_.add(problem);
   } else {
-    problems_.replace(misspelt->second, {place, text});
+    problems_.replace(misspelt->second, problem);
     missing_.erase(misspelt);
   }
 }

@@ -80,7 +80,7 @@ void add_found(const Problems& found, const NamedFile& file, Problems& problems)
   bool first = true;
   for (const Problem& problem : found.list()) {
     if (!hidden || !of_file(problem)) {
-      problems.add(problem.place, problem.text).notes = problem.notes;
+      problems.add(problem);
     } else if (std::exchange(first, false)) {
       problems.add(problem.place, fmt::format("is not a {}; {}", file.kind, kNotShown));
     }

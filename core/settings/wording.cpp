@@ -162,7 +162,7 @@ const char* noun(Among among) {
 std::vector<std::string> to_strings(std::span<const char* const> names) { return {names.begin(), names.end()}; }
 
 void add_all(const InputError& error, Problems& problems) {
-  for (const Problem& problem : error.problems()) problems.add(problem.place, problem.text).notes = problem.notes;
+  for (const Problem& problem : error.problems()) problems.add(problem);
 }
 
 bool is_name(const std::string& text, const std::string& also) {

@@ -95,12 +95,11 @@ void BoundStudy::find_worlds() {
 void BoundStudy::check_own_names(std::size_t scenario, Problems& problems) const {
   for (const Parameter& p : study_.parameters) {
     if (p.sets.empty()) continue;
-    const std::string unknown = "unknown key " + in_quotes(p.key);
     bool is_key = true;
     try {
       (void)with({p.key + "=0"}, scenario);
     } catch (const InputError& error) {
-      is_key = std::ranges::none_of(error.problems(), [&](const Problem& one) { return one.text.starts_with(unknown); });
+      is_key = std::ranges::none_of(error.problems(), [&](const Problem& one) { return one.unknown_key == p.key; });
     }
     if (is_key) {
       problems.add(p.place, fmt::format("{} is a key of the scenario; a parameter with `sets` needs another name", p.key));

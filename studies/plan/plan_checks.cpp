@@ -20,9 +20,6 @@ std::vector<std::string> corner(const Study& study, bool high) {
   return values;
 }
 
-/// True if a key is wrong, not its value. check_corners() reports these at the place of the key.
-bool is_of_key(const Problem& problem) { return problem.text.starts_with("unknown key"); }
-
 /// Trial of the listed values of the parameters in one scenario.
 class ValueTrial {
  public:
@@ -48,7 +45,7 @@ class ValueTrial {
       return true;
     } catch (const InputError& error) {
       const Problem& found = error.problems().front();
-      if (!why_ || (is_of_key(*why_) && !is_of_key(found))) why_ = found;
+      if (!why_ || (!why_->unknown_key.empty() && found.unknown_key.empty())) why_ = found;
       return false;
     }
   }
@@ -116,7 +113,7 @@ Problems wrong_values(const Plan& plan) {
     for (std::size_t k = 0; k < parameters.size(); ++k) {
       for (std::size_t v = 0; v < parameters[k].values.size(); ++v) {
         const std::optional<Problem> why = trial.refused(k, v);
-        if (why && !is_of_key(*why)) {
+        if (why && why->unknown_key.empty()) {  // check_corner() reports a key that is unknown, at the place of the key
           const std::vector<SourceLocation>& places = parameters[k].value_places;
           refused[s].add(v < places.size() ? places[v] : parameters[k].place, why->text);
         }

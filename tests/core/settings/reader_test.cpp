@@ -79,6 +79,18 @@ TEST(Reader, UnknownKeysOfferTheNearestOrAll) {
   EXPECT_EQ(read("<<: {on: true}\n", s).substr(0, 31), "f:1:1: error: unknown key '<<';");
 }
 
+TEST(Reader, AnUnknownKeyIsAValueOfItsProblem) {
+  const Node node = parse_yaml("{colour: 2, order: 9}\n", "f");
+  Problems problems;
+  Gains s;
+  Reader reader(node, "settings", problems, &kJoints);
+  s.fields(reader);
+  reader.finish();
+  ASSERT_EQ(problems.size(), 2U);
+  EXPECT_EQ(problems.list()[0].unknown_key, "") << "a wrong value";
+  EXPECT_EQ(problems.list()[1].unknown_key, "colour");
+}
+
 TEST(Reader, WrongTypesAndRanges) {
   Gains s;
   EXPECT_EQ(read("stiffness: stiff\norder: 9\nwindow: [1, .nan]\non: yes\nmode: fst\nleader: m0/pasive\n", s),
