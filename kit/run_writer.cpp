@@ -5,7 +5,7 @@
 #include "core/recording/recording_file.h"
 #include "core/scenario/height_file.h"
 #include "core/scenario/resolved.h"
-#include "report/figures/run/run_figure.h"
+#include "report/figures/paper/run_figure.h"
 #include "report/page/page.h"
 #include "report/verdict/summary_text.h"
 

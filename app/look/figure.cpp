@@ -83,7 +83,13 @@ StoredRun read_named_run(const std::string& run, const std::string& folder, Cata
   }
 }
 
-std::vector<report::PaperRun> read_runs(const report::Recipe& recipe, const std::vector<std::string>& given, Catalog& catalog) {
+/// A run of the recipe, as read from its folder.
+struct ReadRun {
+  std::string name;
+  StoredRun stored;
+};
+
+std::vector<ReadRun> read_runs(const report::Recipe& recipe, const std::vector<std::string>& given, Catalog& catalog) {
   const std::vector<Named> folders = folders_of(recipe, given);
   Problems problems;
   for (const Named& run : folders) {
@@ -94,15 +100,16 @@ std::vector<report::PaperRun> read_runs(const report::Recipe& recipe, const std:
     }
   }
   problems.raise();
-  std::vector<report::PaperRun> runs;
+  std::vector<ReadRun> runs;
   const std::string folder = fs::path(recipe.file).parent_path().string();
   for (const Named& run : folders) {
     const bool typed = std::ranges::any_of(given, [&](const std::string& text) { return text.starts_with(run.name + "="); });
-    auto [stored, scenario] = typed ? read_run(run.text, catalog) : read_named_run(run.text, folder, catalog);
-    if (stored.recording.trace.columns.empty() || stored.recording.trace.columns.front().name != "t")
+    StoredRun read = typed ? read_run(run.text, catalog) : read_named_run(run.text, folder, catalog);
+    Recording& recording = read.stored.recording;
+    if (recording.trace.columns.empty() || recording.trace.columns.front().name != "t")
       throw InputError(SourceLocation{run.text}, "its trace has no column t");
-    if (stored.recording.rows() > 0) stored.recording.simulated = stored.recording.trace.at(stored.recording.rows() - 1, 0);
-    runs.push_back({run.name, std::move(scenario), std::move(stored.recording)});
+    if (recording.rows() > 0) recording.simulated = recording.trace.at(recording.rows() - 1, 0);
+    runs.push_back({run.name, std::move(read)});
   }
   return runs;
 }
@@ -183,7 +190,9 @@ int figure(const FigureArguments& arguments) {
   const fs::path file = target(arguments);
   const fs::path numbers = numbers_target(arguments, file);
   Catalog catalog = careful_catalog(arguments.plugins);
-  const std::vector<report::PaperRun> runs = read_runs(recipe, arguments.runs, catalog);
+  const std::vector<ReadRun> read = read_runs(recipe, arguments.runs, catalog);
+  std::vector<report::PaperRun> runs;
+  for (const auto& [name, run] : read) runs.push_back({name, run.scenario, run.stored.recording});
   const report::PaperFigure figure(recipe, runs);
   const std::vector<Trace> tables = figure.data();
   std::vector<fs::path> files;

@@ -18,7 +18,7 @@
 #include "core/settings/changed_settings.h"
 #include "kit/stored_scenario.h"
 #include "report/analysis/summary.h"
-#include "report/figures/run/run_figure.h"
+#include "report/figures/paper/run_figure.h"
 #include "report/page/page.h"
 #include "report/page/page_overlay.h"
 #include "report/verdict/demand.h"

@@ -18,7 +18,7 @@
 #include "python/native/apart.h"
 #include "python/native/python_cpg.h"
 #include "report/analysis/cpg_alone.h"
-#include "report/figures/run/run_figure.h"
+#include "report/figures/paper/run_figure.h"
 #include "report/page/page.h"
 #include "report/verdict/spread.h"
 

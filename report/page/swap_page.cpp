@@ -104,9 +104,9 @@ std::string robot_picture(const std::vector<SwapEntry>& entries) {
         !run.record.has_states(*run.scenario.robot))
       continue;
     const Sight from = sight(run.scenario, run.record);
-    FigureInput input = views_input(run.scenario, run.record, from);
-    input.views_title = from.view;
-    input.views_legend = false;
+    ViewsInput input = views_input(run.scenario, run.record, from);
+    input.title = from.view;
+    input.legend = false;
     View view = view_at(run.scenario, run.record, from, run.record.rows() - 1, 0);
     view.joint.reset();
     input.views.push_back(std::move(view));

@@ -59,7 +59,7 @@ TEST_F(PaperFigure, RecipesAreReadStrictly) {
   refused(kRuns + "panels: [{kind: curve, left: {columns: [com.x]}}]\n",
           "figure.yaml:2:17: error: kind 'curve' is unknown; did you mean 'curves'?");
   refused(kRuns + "panels: [{kind: heat, left: {columns: [com.x]}}]\n",
-          "figure.yaml:2:23: error: unknown key 'left'; known keys: kind, run, joints, from, to, height");
+          "figure.yaml:2:23: error: unknown key 'left'; known keys: kind, title, run, joints, from, to, height");
   refused(kRuns + "panels: [{left: {columns: [joint.1.torqe]}}]\n",
           "figure.yaml:2:28: error: no column 'joint.1.torqe' in run 'creep'; did you mean 'joint.1.torque'?");
   refused(

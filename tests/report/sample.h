@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/model/kinematics.h"
-#include "report/figures/run/figure.h"
+#include "report/figures/run/views.h"
 
 namespace gaitlab::sample {
 
@@ -98,33 +98,6 @@ inline report::View view(const Robot& robot, RobotState state, double time) {
     view.joint = report::Point{hinge.x(), hinge.z()};
   }
   return view;
-}
-
-// Input of a figure: a wave of period 4 s travels through eight modules, and the robot drifts. The torques are invented.
-inline report::FigureInput figure(double duration = 20) {
-  report::FigureInput input;
-  input.title = "caterpillar-8";
-  input.joints.resize(1);
-  report::JointPanel& panel = input.joints[0];
-  panel.joint = "m3/passive";
-  for (int row = 0; row * 0.005 <= duration; ++row) {
-    const double t = row * 0.005;
-    const double phase = 2 * kPi * t / 4 + 7 * 1.2;
-    input.time.push_back(t);
-    panel.setpoint.push_back(0.6 * math::sin(phase));
-    panel.angle.push_back(0.594 * math::sin(phase - 0.05));
-    panel.torque.push_back(-0.05 + 0.45 * math::sin(phase + 1) + 0.12 * math::sin(3 * phase) + 0.02 * math::sin(41 * phase));
-  }
-  const Robot robot = caterpillar(8);
-  for (int k = 4; k >= 0; --k) {
-    const double t = duration - k;
-    RobotState state;
-    for (std::size_t j = 0; j < robot.joints.size(); ++j)
-      state.q.push_back(0.594 * math::sin(2 * kPi * t / 4 + 1.2 * static_cast<double>(j)));
-    state.position.x() = -0.0272 * t;
-    input.views.push_back(view(robot, level(robot, state), t));
-  }
-  return input;
 }
 
 }  // namespace gaitlab::sample

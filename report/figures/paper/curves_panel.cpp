@@ -8,6 +8,7 @@
 #include "core/scenario/sections.h"
 #include "core/settings/joint_patterns.h"
 #include "core/settings/wording.h"
+#include "report/figures/paper/motor_limits.h"
 #include "report/figures/paper/paper_panel.h"
 #include "report/figures/run/run_footfalls.h"
 
@@ -19,6 +20,7 @@ constexpr double kCurvesHeight = 45;  // mm
 constexpr double kTitleAway = 8;      // px, between tick texts and the title of the axis
 constexpr double kAscent = 10;        // px, height of 13 px text above its baseline
 constexpr std::string_view kStanceFill = "#E4E4E4";
+constexpr Style kMarkLine{.stroke = colour::kBlack, .width = 1, .dash = "1 3"};
 
 /// A column of a recording, split into quantity and joint.
 struct FoundColumn {
@@ -73,6 +75,7 @@ class CurvesOfPanel final : public PaperPanel {
     find(source, runs, panel_.left, Side::left, "left");
     find(source, runs, panel_.right, Side::right, "right");
     if (!panel_.stance.empty()) find_stance(source, runs);
+    if (!panel_.motor.empty()) find_motor(source, runs);
     if (!source.problems.empty()) return;
     name_curves();
     set_ticks();
@@ -99,7 +102,11 @@ class CurvesOfPanel final : public PaperPanel {
       plot.right_axis(std::move(right));
     }
     for (const Stance& stance : stances_) plot.band(stance.from, stance.to, kStanceFill);
+    limits_.shade(plot);
     plot.draw_axes();
+    for (const double mark : panel_.marks)
+      if (mark >= from_ && mark <= to_) plot.moment(mark, kMarkLine);
+    limits_.draw(plot, torque_side_);
     for (const PaperCurve& curve : curves_) plot.curve(curve.time, curve.values, curve.style, curve.side);
     draw_legend_above(canvas, legend(), area);
   }
@@ -211,6 +218,30 @@ class CurvesOfPanel final : public PaperPanel {
     stances_ = footfalls(run.scenario, run.recording, {legs[number]}, time, 0).front().stances;
   }
 
+  void find_motor(const PanelSource& source, const std::vector<const PaperRun*>& runs) {
+    if (runs.size() != 1) {
+      source.problem({"motor"}, "motor shows limits in the panel of one run; expected runs: [NAME]");
+      return;
+    }
+    const PaperRun& run = *runs.front();
+    const std::vector<std::string> names = joint_names(*run.scenario.robot);
+    const std::size_t joint = static_cast<std::size_t>(std::ranges::find(names, panel_.motor) - names.begin());
+    std::string wrong = not_one_joint(panel_.motor, names);
+    if (wrong.empty() && !run.scenario.robot->joints[joint].driven()) wrong = "joint " + panel_.motor + " has no motor";
+    if (!wrong.empty()) {
+      source.problem({"motor"}, wrong);
+      return;
+    }
+    limits_ = motor_limits(run, joint, rows_within(row_times(run.recording), from_, to_));
+    const auto torque = std::ranges::find(curves_, fmt::format("joint.{}.torque", joint),
+                                          [](const PaperCurve& curve) { return curve.column.name; });
+    if (torque == curves_.end()) {
+      limits_.rest.clear();
+    } else {
+      torque_side_ = torque->side;
+    }
+  }
+
   /// Gives each curve a name from the parts in which the curves differ: run, joint, quantity.
   void name_curves() {
     const auto differs = [&](const auto& part) {
@@ -242,6 +273,9 @@ class CurvesOfPanel final : public PaperPanel {
     for (const PaperCurve& curve : curves_) {
       if (curve.side == side) bounds.add(curve.values);
     }
+    if (side == torque_side_) bounds.add(limits_.rest);
+    if (const double least = (side == Side::left ? panel_.left : panel_.right).least; least > 0 && !bounds.empty())
+      bounds.add(std::vector{-least, least});
     return bounds;
   }
 
@@ -282,6 +316,7 @@ class CurvesOfPanel final : public PaperPanel {
     }
     if (!panel_.stance.empty())
       entries.push_back(line_entry("stance of " + panel_.stance, {.stroke = kStanceFill, .width = 11}, kPrintLine));
+    limits_.add_to(entries);
     return entries;
   }
 
@@ -291,6 +326,8 @@ class CurvesOfPanel final : public PaperPanel {
   bool several_runs_ = false;
   std::vector<PaperCurve> curves_;
   std::vector<Stance> stances_;
+  MotorLimits limits_;
+  Side torque_side_ = Side::left;
   TwinTicks ticks_;
 };
 
@@ -299,6 +336,10 @@ void curves_fields(PanelRecipe& panel, Fields& f) {
   f.group("left", panel.left, "Curves of the left axis.");
   f.group("right", panel.right, "Curves of the right axis; the zeros of both meet where that wastes little paper.");
   f.text("stance", panel.stance, "Leg whose stance is shaded, named as in the footfalls of figure.svg: m5 front left.");
+  f.text("motor", panel.motor,
+         "Joint whose motor is shown: time at a limit of voltage or current is shaded, and its torque at rest is a line if the "
+         "curve of its torque comes near.");
+  f.numbers("marks", panel.marks, {"s", 0, kLongestTime, "Times that a dotted line marks."});
   panel.time_fields(f);
   panel.height_field(f);
 }

@@ -17,7 +17,8 @@ class PaperFigure {
   /// joint or leg that the run does not have, incompatible units, a time beyond the run, or a size that is too small.
   PaperFigure(const Recipe& recipe, std::span<const PaperRun> runs);
   [[nodiscard]] const Paper& paper() const { return paper_; }
-  /// Kinds of the panels with their runs, for programs that read the figure aloud: `views of hexapod; footfalls of hexapod`.
+  /// Title of the recipe, or else the kinds of the panels with their runs, for programs that read the figure aloud: `views of
+  /// hexapod; footfalls of hexapod`.
   [[nodiscard]] const std::string& title() const { return title_; }
   void draw(Canvas& canvas) const;
   /// Data of the figure, one table per panel.
@@ -28,7 +29,8 @@ class PaperFigure {
   struct Placed {
     std::unique_ptr<PaperPanel> panel;
     PlotArea area = {};
-    double top = 0;  ///< px, upper edge of the part above the frame
+    double top = 0;          ///< px, upper edge of the part above the frame
+    std::string title = {};  ///< in bold above the panel
   };
   /// Left and right edge of all frames. Throws InputError if the width is too small.
   [[nodiscard]] Edges edges(const Recipe& recipe) const;
@@ -37,7 +39,15 @@ class PaperFigure {
   std::vector<Placed> panels_;
   Paper paper_;
   std::string title_;
+  std::string heading_;  ///< title that is drawn above the panels
+  double margin_ = 0;    ///< px
   bool letters_ = false;
 };
+
+/// Recipe without panels for a figure on the screen, 1000 px wide at 96 px per inch.
+Recipe screen_recipe(std::string title);
+
+/// SVG document of a recipe. Throws InputError as PaperFigure does.
+std::string figure_svg(const Recipe& recipe, std::span<const PaperRun> runs);
 
 }  // namespace gaitlab::report

@@ -16,11 +16,11 @@
 
 namespace gaitlab::report {
 
-/// A run that a recipe names.
+/// A run that a recipe names. Scenario and recording must outlive the figure.
 struct PaperRun {
   std::string name;
-  Scenario scenario;
-  Recording recording;
+  const Scenario& scenario;
+  const Recording& recording;
 };
 
 /// A frame with its surroundings; lengths are in px. The panel reads its data once, when it is made, and collects problems for

@@ -95,6 +95,7 @@ void AxisRecipe::fields(Fields& f) {
   f.texts("names", names, "Names in the legend, one per curve; default: the names of the columns.");
   f.text("label", label, "Title of the axis; default: quantity and unit of the columns.");
   f.numbers("range", range, {"", -1e300, 1e300, "Ends of the axis, [from, to]; default: chosen to fit the curves."});
+  f.number("least", least, {"", 0, 1e300, "The axis extends at least this far below and above zero."});
   if (!range.empty() && (range.size() != 2 || !(range[0] < range[1])))
     f.problem("range", "range is not [from, to] with from below to");
 }
@@ -105,6 +106,7 @@ void PanelRecipe::fields(Fields& f) {
   std::string name = kind->name;
   f.one_of("kind", name, panel_names(), "Kind of panel; the other keys depend on it.");
   kind = &panel_kind(name);
+  f.text("title", title, "Title above the panel.");
   if (kind->one_run) f.text("run", run, "Run that is drawn, by name; required if there are several.");
   kind->fields(*this, f);
 }
@@ -126,6 +128,7 @@ void PanelRecipe::joint_fields(Fields& f) {
 
 void Recipe::fields(Fields& f) {
   f.named("runs", runs, NamedValues::texts, "Names of runs and their folders, relative to this file.");
+  f.text("title", title, "Title above the figure.");
   f.number("font", font, {"pt", 7, 20, "Font size on paper; line widths scale with it."});
   f.flag("letters", letters, "Letters (a), (b), ... on the panels if there are several.");
   f.list("panels", panels, "Panels, from top to bottom.");

@@ -20,6 +20,7 @@ struct AxisRecipe {
   std::vector<std::string> columns, names;
   std::string label;
   std::vector<double> range;
+  double least = 0;  ///< least half range of the axis; 0 if there is none
   void fields(Fields& f);
 };
 
@@ -28,7 +29,10 @@ struct PanelRecipe {
   std::vector<std::string> runs;  ///< names of runs, in a panel of curves; empty for all runs
   std::string run;                ///< name of the run in panels of other kinds; empty for the only run
   AxisRecipe left, right;
+  std::string title;                     ///< above the panel; empty if there is none
   std::string stance;                    ///< name of the leg whose stance phases are shaded
+  std::string motor;                     ///< name of the joint whose motor limits are shown
+  std::vector<double> marks;             ///< s, times that are marked
   std::vector<std::string> joints{"*"};  ///< patterns of joint names; joints without a motor are left out
   std::string joint;
   std::vector<double> times;  ///< s
@@ -44,11 +48,13 @@ struct PanelRecipe {
 
 struct Recipe {
   std::string file;
+  std::string title;        ///< above the figure; empty if there is none
   std::vector<Named> runs;  ///< name and folder of each run, as written in the file
   double width = 88.9;      ///< mm
   double height = 0;        ///< mm; 0 for the sum of the panels
   double font = 8;          ///< pt
   bool letters = true;
+  double margin = 5;  ///< px, at the sides; 1.1 mm with text of 8 pt, because presses cut and viewers round at the edge
   std::vector<PanelRecipe> panels;
   Node root;  ///< YAML tree of the file
 

@@ -57,7 +57,7 @@ class FootfallsOfPanel final : public PaperPanel {
   [[nodiscard]] bool stretches() const override { return false; }
 
   void draw(Canvas& canvas, const PlotArea& area) const override {
-    draw_footfalls(canvas, {rows_, "", "duty factor", kPrint}, time_axis(from_, to_), area);
+    draw_footfalls(canvas, {rows_, "duty factor", kPrint}, time_axis(from_, to_), area);
   }
 
   [[nodiscard]] Trace data() const override {
@@ -112,8 +112,8 @@ class ViewsOfPanel final : public PaperPanel {
     }
     const Sight from = sight(run.scenario, run.recording);
     input_ = views_input(run.scenario, run.recording, from);
-    input_.views_title = from.view;
-    input_.views_legend = panel.legend;
+    input_.title = panel.title.empty() ? from.view : "";
+    input_.legend = panel.legend;
     for (std::size_t k = 0; k < panel.times.size(); ++k) {
       if (panel.times[k] > run.recording.simulated + 1e-9) {
         source.problem({"times", std::to_string(k)},
@@ -159,7 +159,7 @@ class ViewsOfPanel final : public PaperPanel {
   }
 
  private:
-  FigureInput input_;
+  ViewsInput input_;
   std::vector<RobotState> states_;
   std::vector<std::string> names_;
 };

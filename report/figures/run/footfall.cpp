@@ -60,7 +60,6 @@ void draw_footfalls(Canvas& canvas, const FootfallDiagram& diagram, const Axis& 
     names.push_back(row.name);
     duty.push_back(fmt::format("{:.2f}", row.duty_factor));
   }
-  if (!diagram.title.empty()) canvas.text({area.left, area.top - 12}, diagram.title, {.bold = true});
   if (!diagram.note.empty()) {
     const double right = area.right + 8 + text_width("0.00", diagram.look.text);
     canvas.text({right, area.top - 12}, diagram.note, {.anchor = Anchor::end});

@@ -33,7 +33,7 @@ inline constexpr double kFootfallHead = 30, kFootfallFoot = 26;  ///< px, parts 
 
 struct FootfallDiagram {
   const std::vector<Footfall>& rows;
-  std::string title = {}, note = {};  ///< texts above the frame: at the left, and over the duty factors
+  std::string note = {};  ///< text over the duty factors
   PlotLook look = {.text = 12};
 };
 

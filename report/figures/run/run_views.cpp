@@ -129,11 +129,11 @@ View view_at(const Scenario& scenario, const Recording& r, const Sight& from, st
   return view;
 }
 
-FigureInput views_input(const Scenario& scenario, const Recording& record, const Sight& from) {
-  FigureInput input;
+ViewsInput views_input(const Scenario& scenario, const Recording& record, const Sight& from) {
+  ViewsInput input;
   input.ground = !from.above && scenario.ground.has_plane();
   input.solids = solids(scenario, record, from);
-  input.views_axis = from.axis + ", " + from.scale();
+  input.axis = from.axis + ", " + from.scale();
   return input;
 }
 

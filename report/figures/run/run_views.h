@@ -5,7 +5,7 @@
 
 #include "core/recording/recording.h"
 #include "core/scenario/scenario.h"
-#include "report/figures/run/figure.h"
+#include "report/figures/run/views.h"
 
 namespace gaitlab::report {
 
@@ -25,8 +25,8 @@ Sight sight(const Scenario& scenario, const Recording& record);
 /// View of the robot at a row of the recording, with the position of a joint.
 View view_at(const Scenario& scenario, const Recording& record, const Sight& from, std::size_t row, std::size_t joint);
 
-/// Figure input with the ground, its obstacles and the axis of the views, but without views. Boxes are outlines. A height field
-/// is a line, its profile below the robot at the end of the run.
-FigureInput views_input(const Scenario& scenario, const Recording& record, const Sight& from);
+/// Input of views with the ground, its obstacles and the axis of the views, but without views. Boxes are outlines. A height
+/// field is a line, its profile below the robot at the end of the run.
+ViewsInput views_input(const Scenario& scenario, const Recording& record, const Sight& from);
 
 }  // namespace gaitlab::report

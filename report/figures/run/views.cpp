@@ -60,7 +60,7 @@ Polygon beside(const Polygon& polygon, double at, double sign) {
 
 class Views {
  public:
-  Views(const FigureInput& input, const Edges& edges) : input_(input), left_(edges.left), right_(edges.right) {
+  Views(const ViewsInput& input, const Edges& edges) : input_(input), left_(edges.left), right_(edges.right) {
     Bounds x;
     for (const View& view : input.views) {
       const Extent seen = extent(view);
@@ -85,7 +85,7 @@ class Views {
   void draw(Canvas& canvas, double top) const {
     const double bottom = top + height() - kFoot;
     header(canvas, top);
-    Plot(canvas, {left_, right_, top + head(), bottom}, {.ticks = ticks_, .title = input_.views_axis}, {},
+    Plot(canvas, {left_, right_, top + head(), bottom}, {.ticks = ticks_, .title = input_.axis}, {},
          {.text = 13, .frame = false})
         .draw_axes();
     std::vector<Point> centres;
@@ -102,7 +102,7 @@ class Views {
  private:
   static constexpr double kFoot = 48;  // px
 
-  [[nodiscard]] double head() const { return (input_.views_legend ? 34 : 20) + legend_below(); }
+  [[nodiscard]] double head() const { return (input_.legend ? 34 : 20) + legend_below(); }
   [[nodiscard]] double pitch() const { return std::max(30.0, (above_ + below_) * per_metre_) + kViewGap; }
 
   void draw_view(Canvas& canvas, const View& view, const Scale& z) const {
@@ -138,7 +138,7 @@ class Views {
 
   [[nodiscard]] std::vector<LegendEntry> legend() const {
     std::vector<LegendEntry> all;
-    if (!input_.views_legend) return all;
+    if (!input_.legend) return all;
     for (const RoleLook& role : kLooks) {
       if (any([&](const View& view) { return shows(view, role.role); }))
         all.push_back(box_entry(std::string(role.name), {.stroke = colour::kInk, .fill = role.fill}));
@@ -156,21 +156,16 @@ class Views {
     return all;
   }
 
-  [[nodiscard]] std::string views_title() const {
-    if (!input_.views_title.empty()) return input_.views_title;
-    return any([](const View& view) { return view.joint.has_value(); }) ? "side view (arrow: joint above)" : "side view";
-  }
-
   /// Height of the legend below the title, px; 0 if the legend fits beside the title.
   [[nodiscard]] double legend_below() const {
-    const double title = text_width(views_title(), 13) * 1.1 + 20;  // bold text is wider
-    if (!input_.views_legend || title + legend_width(legend()) <= right_ - left_) return 0;
+    const double title = text_width(input_.title, 13) * 1.1 + 20;  // bold text is wider
+    if (!input_.legend || title + legend_width(legend()) <= right_ - left_) return 0;
     return kLegendLine + draw_legend(nullptr, legend(), left_, right_, 0);
   }
 
   void header(Canvas& canvas, double top) const {
-    if (!input_.views_legend) return;
-    canvas.text({left_, top + 14}, views_title(), {.bold = true});
+    if (!input_.legend) return;
+    canvas.text({left_, top + 14}, input_.title, {.bold = true});
     if (legend_below() > 0) {
       draw_legend(&canvas, legend(), left_, right_, top + 14 + kLegendLine);
     } else {
@@ -186,7 +181,7 @@ class Views {
     return std::any_of(input_.views.begin(), input_.views.end(), test);
   }
 
-  const FigureInput& input_;
+  const ViewsInput& input_;
   double left_, right_;
   std::vector<double> floors_ = {};  // m, height of the base line of each view
   double above_ = 0, below_ = 0;     // m, extent above and below the base line
@@ -199,9 +194,9 @@ class Views {
 
 std::string_view body_colour(Role role) { return look(role).fill; }
 
-double views_height(const FigureInput& input, const Edges& edges) { return Views(input, edges).height(); }
+double views_height(const ViewsInput& input, const Edges& edges) { return Views(input, edges).height(); }
 
-void draw_views(Canvas& canvas, const FigureInput& input, const Edges& edges, double top) {
+void draw_views(Canvas& canvas, const ViewsInput& input, const Edges& edges, double top) {
   Views(input, edges).draw(canvas, top);
 }
 

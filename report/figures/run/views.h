@@ -1,26 +1,43 @@
-// The lower part of a run's figure: the robot at a few instants, one below another.
+// Drawing of a robot at a few instants, one below another.
 #pragma once
-#include "report/figures/run/figure.h"
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/figures/run/side_view.h"
 #include "report/plot/plot.h"
 
 namespace gaitlab::report {
 
-inline constexpr double kLeft = 80, kRight = 920;  ///< px, left and right edge of all parts of a figure
-inline constexpr double kLeftOfNames = 120;        ///< px, left edge in figures with names of legs at the left
+/// The robot at one instant, m, in the plane of the view: x is along the direction of travel, y up, and the ground is at y = 0.
+struct View {
+  double time = 0;                   ///< s
+  std::vector<Outline> outlines;     ///< outlines of the bodies from far to near, as side_view returns them
+  std::vector<Point> contacts = {};  ///< points at which the ground pushes
+  std::optional<Point> joint = {};   ///< position of a joint, marked by an arrow
+  std::optional<double> com = {};    ///< x of the centre of mass
+};
 
-/// Left edge of the panels of a figure, px.
-inline double left_edge(const FigureInput& input) { return input.footfalls.empty() ? kLeft : kLeftOfNames; }
+struct ViewsInput {
+  std::vector<View> views;           ///< from top to bottom
+  std::vector<Polygon> solids = {};  ///< obstacles on the ground, m, in the plane of the view; only the part within its x
+                                     ///< range is drawn
+  bool ground = true;                ///< true: a plane at height 0 is drawn; false: every view is centred on the robot
+  std::string title = {};            ///< beside the legend
+  bool legend = true;
+  std::string axis = "x (m), heights on the same scale";
+};
 
 /// Fill colour of the bodies of a role, `#RRGGBB`.
 std::string_view body_colour(Role role);
 
 /// Horizontal range of a drawing, px.
 struct Edges {
-  double left = kLeft, right = kRight;
+  double left = 0, right = 0;
 };
 
 /// Height of the views with legend and axis, px.
-double views_height(const FigureInput& input, const Edges& edges);
-void draw_views(Canvas& canvas, const FigureInput& input, const Edges& edges, double top);
+double views_height(const ViewsInput& input, const Edges& edges);
+void draw_views(Canvas& canvas, const ViewsInput& input, const Edges& edges, double top);
 
 }  // namespace gaitlab::report

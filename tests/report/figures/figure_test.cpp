@@ -1,17 +1,21 @@
-#include "report/figures/run/figure.h"
-
-#include <gtest/gtest.h>
-
+// Tests of the figure of a run: a wave through eight modules, whose torques are invented.
 #include <algorithm>
-#include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "report/analysis/motors.h"
+#include "report/figures/paper/run_figure.h"
+#include "tests/program/fixture.h"
 #include "tests/report/sample.h"
 
-namespace gaitlab::report {
+namespace gaitlab::test {
 namespace {
+
+using namespace report;
+
+constexpr std::size_t kJoint = 7;  // m3/passive
 
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t found = 0;
@@ -40,92 +44,145 @@ bool well_formed(const std::string& xml) {
   return open.empty();
 }
 
-TEST(Figure, ShowsCurvesViewsAndUnits) {
-  const std::string svg = figure_svg(sample::figure());
+/// A wave of period 4 s through the caterpillar, which drifts.
+class Wave {
+ public:
+  explicit Wave(double duration = 20, double period = 0.005) {
+    const Robot& robot = *scenario.robot;
+    scenario.figure.joints = {robot.joints[kJoint].name};
+    scenario.trace.period = period;
+    add("t", "s", [](double t) { return t; });
+    for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+      const auto angle = [j](double t) { return 0.594 * math::sin(2 * sample::kPi * t / 4 + 1.2 * static_cast<double>(j)); };
+      add(column(j, "angle"), "rad", angle);
+    }
+    const auto phase = [](double t) { return 2 * sample::kPi * t / 4; };
+    add(column(kJoint, "setpoint"), "rad", [=](double t) { return 0.6 * math::sin(phase(t)); });
+    add(column(kJoint, "torque"), "N m",
+        [=](double t) { return -0.05 + 0.45 * math::sin(phase(t) + 1) + 0.02 * math::sin(41 * phase(t)); });
+    add(column(kJoint, "saturation"), "", [](double t) { return t > 17 && t < 18 ? 1.0 : 0.0; });
+    for (const char* pose : {"base.y", "base.qx", "base.qy", "base.qz"}) add(pose, "", [](double) { return 0.0; });
+    add("base.x", "m", [](double t) { return -0.0272 * t; });
+    add("base.z", "m", [](double) { return 0.05; });
+    add("base.qw", "", [](double) { return 1.0; });
+    for (int row = 0; row * period <= duration + 1e-9; ++row) {
+      for (const auto& value : values_) record.trace.values.push_back(value(row * period));
+    }
+    record.simulated = summary.simulated = duration;
+  }
+  [[nodiscard]] static std::string column(std::size_t joint, const char* quantity) {
+    return fmt::format("joint.{}.{}", joint, quantity);
+  }
+  double& last(const std::string& name) {
+    const auto found = std::ranges::find(record.trace.columns, name, &Column::name);
+    return *(record.trace.values.end() - (record.trace.columns.end() - found));
+  }
+  [[nodiscard]] std::string svg() const { return run_figure(scenario, record, summary); }
+
+  Scenario scenario = shipped("caterpillar.yaml");
+  Recording record;
+  Summary summary;
+
+ private:
+  void add(const std::string& name, const std::string& unit, std::function<double(double)> value) {
+    record.trace.columns.push_back({name, unit, ""});
+    values_.push_back(std::move(value));
+  }
+  std::vector<std::function<double(double)>> values_;
+};
+
+TEST(Figure, ShowsCurvesLimitsViewsAndUnits) {
+  const std::string svg = Wave().svg();
   EXPECT_TRUE(well_formed(svg));
-  for (const std::string text : {"caterpillar-8", "joint m3/passive", "angle (rad)", "torque (N m)", "time (s)", "set point",
-                                 ">16 s<", ">20 s<", "x (m)", "active block", "passive block", "link", "contact"})
+  for (const std::string text :
+       {"caterpillar-8", "joint 7 (m3/passive)", "angle (rad)", "torque (N m)", "time (s)", "set point", "voltage limit",
+        ">16 s<", ">20 s<", "x (m)", "active block", "passive block", "link", "side view (arrow: m3/passive)"})
     EXPECT_NE(svg.find(text), std::string::npos) << text;
   EXPECT_EQ(count(svg, "paint-order"), 5U * 24U);
+  EXPECT_EQ(svg.find("current limit"), std::string::npos);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   EXPECT_EQ(svg.find("inf"), std::string::npos);
   EXPECT_LT(svg.size(), 200000U);
+  EXPECT_EQ(svg, Wave().svg());
 }
 
-TEST(Figure, SameInputSameBytes) { EXPECT_EQ(figure_svg(sample::figure()), figure_svg(sample::figure())); }
-
 TEST(Figure, ShowsTheLastEightSecondsOrAll) {
-  FigureInput input = sample::figure();
-  input.views.clear();
-  EXPECT_NE(figure_svg(input).find(">12</text>"), std::string::npos);
-  EXPECT_EQ(figure_svg(input).find(">11</text>"), std::string::npos);
-  input = sample::figure(4);
-  input.views.clear();
-  EXPECT_NE(figure_svg(input).find(">0.0</text>"), std::string::npos);
+  EXPECT_NE(Wave().svg().find(">12</text>"), std::string::npos);
+  EXPECT_EQ(Wave().svg().find(">11</text>"), std::string::npos);
+  EXPECT_NE(Wave(4).svg().find(">0.5</text>"), std::string::npos);
+  Wave whole;
+  whole.summary.limit_cycle = {true, 0, 3, 0.001};  // two whole periods
+  EXPECT_NE(whole.svg().find(">14</text>"), std::string::npos);
+  EXPECT_EQ(whole.svg().find(">13</text>"), std::string::npos);
 }
 
 TEST(Figure, DrawsTheTorqueAtRestWhereTheCurveComesNear) {
-  FigureInput input = sample::figure();
-  double peak = 0;
-  for (const double torque : input.joints[0].torque) peak = std::max(peak, std::abs(torque));
-  const auto with = [&](double rest) {
-    input.joints[0].peak = peak;
-    input.joints[0].rest_torque = rest;
-    return figure_svg(input);
+  const double rest = rest_torques(Wave().scenario)[kJoint];
+  const auto with = [&](double torque) {
+    Wave wave;
+    wave.last(Wave::column(kJoint, "torque")) = torque;
+    return wave.svg();
   };
-  EXPECT_NE(with(1.1 * peak).find("torque of the motor at rest"), std::string::npos);
-  EXPECT_EQ(with(2 * peak).find("torque of the motor at rest"), std::string::npos);
-  EXPECT_EQ(with(0).find("torque of the motor at rest"), std::string::npos);
+  const std::string text = fmt::format("torque at rest, {:.3g} N m", rest);
+  EXPECT_NE(with(0.9 * rest).find(text), std::string::npos);
+  EXPECT_NE(with(-0.9 * rest).find(text), std::string::npos);
+  EXPECT_EQ(with(0.7 * rest).find("at rest"), std::string::npos);
 }
 
-TEST(Figure, LongTracesStaySmall) {
-  FigureInput input = sample::figure();
-  FigureInput fine = input;
-  for (std::vector<double>* series : {&fine.time, &fine.joints[0].angle, &fine.joints[0].setpoint, &fine.joints[0].torque}) {
-    std::vector<double> dense;
-    for (std::size_t i = 0; i + 1 < series->size(); ++i) {
-      for (int k = 0; k < 100; ++k) dense.push_back((*series)[i] + 0.01 * k * ((*series)[i + 1] - (*series)[i]));
-    }
-    *series = dense;
-  }
-  EXPECT_LT(figure_svg(fine).size(), 200000U);
+TEST(Figure, NamesThePeakOfTheJudgedTimeAndMarksChanges) {
+  Wave wave;
+  const std::string without = wave.svg();
+  wave.summary.judged.joints.resize(wave.scenario.robot->joints.size());
+  wave.summary.judged.joints[kJoint].torque_peak = 1.234;
+  wave.summary.judged.joints[kJoint].torque_peak_time = 9.5;
+  wave.scenario.changes.resize(2);
+  wave.scenario.changes[0].t = 3;  // before the drawn time
+  wave.scenario.changes[1].t = 15;
+  const std::string svg = wave.svg();
+  EXPECT_NE(svg.find(", peak 1.23 N m at 9.50 s"), std::string::npos);
+  EXPECT_EQ(count(svg, "stroke-dasharray=\"1 3\""), 1U);
+  EXPECT_EQ(count(without, "stroke-dasharray=\"1 3\""), 0U);
 }
 
-TEST(Figure, DoesWithoutMotorJointGroundOrViews) {
-  FigureInput input = sample::figure();
-  input.joints[0].setpoint.clear();
-  input.joints[0].torque.clear();
-  EXPECT_EQ(figure_svg(input).find("torque"), std::string::npos);
-  EXPECT_EQ(figure_svg(input).find("set point"), std::string::npos);
-  input.joints[0].angle.clear();
-  EXPECT_EQ(figure_svg(input).find("time (s)"), std::string::npos);
-  input.ground = false;
-  EXPECT_TRUE(well_formed(figure_svg(input)));
-  input.views.clear();
-  EXPECT_TRUE(well_formed(figure_svg(input)));
-  EXPECT_TRUE(well_formed(figure_svg({})));
+// At most two points per 0.25 px: three curves of 850 px and 13 bytes per point are 270 kB, and the views 60 kB.
+TEST(Figure, LongTracesStaySmall) { EXPECT_LT(Wave(20, 0.0002).svg().size(), 400000U); }
+
+TEST(Figure, DoesWithoutMotorColumnsGroundOrRows) {
+  Wave wave;
+  wave.scenario.actuator.entry = nullptr;
+  EXPECT_EQ(wave.svg().find("torque"), std::string::npos);
+  EXPECT_EQ(wave.svg().find("set point"), std::string::npos);
+  EXPECT_NE(wave.svg().find("angle"), std::string::npos);
+  Trace times;
+  times.columns.push_back({"t", "s", ""});
+  for (std::size_t row = 0; row < wave.record.rows(); ++row) times.values.push_back(wave.record.trace.at(row, 0));
+  wave.record.trace = times;
+  EXPECT_EQ(wave.svg().find("time (s)"), std::string::npos);
+  EXPECT_TRUE(well_formed(wave.svg()));
+  wave.record = {};
+  wave.summary.simulated = 0;
+  EXPECT_TRUE(well_formed(wave.svg()));
 }
 
 TEST(Figure, SurvivesAFailedRun) {
-  FigureInput input = sample::figure();
-  input.joints[0].angle.back() = std::numeric_limits<double>::quiet_NaN();
-  input.joints[0].torque.back() = -std::numeric_limits<double>::infinity();
-  input.joints[0].torque[input.joints[0].torque.size() - 2] = 1e300;
-  input.views.back().outlines[0].polygons[0][0].x = std::numeric_limits<double>::quiet_NaN();
-  input.views.push_back({21, {}});
-  const std::string svg = figure_svg(input);
+  Wave wave;
+  wave.last(Wave::column(kJoint, "angle")) = std::numeric_limits<double>::quiet_NaN();
+  wave.last(Wave::column(kJoint, "torque")) = -std::numeric_limits<double>::infinity();
+  wave.last(Wave::column(kJoint, "setpoint")) = 1e300;
+  wave.last("base.x") = std::numeric_limits<double>::quiet_NaN();
+  const std::string svg = wave.svg();
   EXPECT_TRUE(well_formed(svg));
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   EXPECT_EQ(svg.find("\"inf"), std::string::npos);
 }
 
 TEST(Figure, TitlesAreText) {
-  FigureInput input;
-  input.title = "<script>alert(\"&\")</script>";
-  const std::string svg = figure_svg(input);
+  Wave wave;
+  wave.scenario.name = "<script>alert(\"&\")</script>";
+  const std::string svg = wave.svg();
   EXPECT_TRUE(well_formed(svg));
   EXPECT_EQ(svg.find("<script"), std::string::npos);
 }
 
 }  // namespace
-}  // namespace gaitlab::report
+}  // namespace gaitlab::test

@@ -1,14 +1,14 @@
-#include "report/figures/run/run_figure.h"
+#include "report/figures/paper/run_figure.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
-#include "core/math/periods.h"
 #include "core/scenario/change_section.h"
-#include "report/analysis/motors.h"
+#include "report/figures/paper/paper_figure.h"
 #include "report/figures/run/run_footfalls.h"
 #include "report/figures/run/run_views.h"
 
@@ -17,43 +17,21 @@ namespace gaitlab::report {
 namespace {
 
 constexpr std::size_t kViews = 5;
+constexpr double kShownSeconds = 8;  // s, curves show the end of the run, at most of this length
 // Longest time that the views cover, s. The period found may be a multiple of the gait's.
 constexpr double kLongest = 4;
 constexpr double kPeriodless = 2;     // s, time that the views cover without a limit cycle
 constexpr double kLeastAngle = 0.02;  // rad, least half range of the angle axis, for a joint at rest
 constexpr double kAboutY = 0.9;       // least |y| of the axis of a joint that turns about y
 constexpr double kSamePlace = 1e-3;   // m, distances that differ by less are equal
-
-JointPanel joint_panel(const Scenario& scenario, const Recording& r, const Summary& summary, std::size_t joint) {
-  JointPanel panel;
-  panel.joint = std::to_string(joint) + " (" + scenario.robot->joints[joint].name + ")";
-  for (const FaultSpan& fault : fault_spans(scenario)) {
-    if (fault.joint == joint && fault.from < r.simulated)
-      panel.joint += fmt::format(", {} from {:.4g} s", name_of(fault.kind), fault.from);
-  }
-  for (const Change& change : scenario.changes) {
-    if (change.t < r.simulated) panel.changes.push_back(change.t);
-  }
-  panel.angle = r.joint(joint, "angle").values();
-  if (scenario.actuator.entry != nullptr && scenario.robot->joints[joint].driven()) {
-    panel.setpoint = r.joint(joint, "setpoint").values();
-    panel.torque = r.joint(joint, "torque").values();
-    panel.limit = r.joint(joint, "saturation").values();
-    if (const std::vector<double> rest = rest_torques(scenario); joint < rest.size()) panel.rest_torque = rest[joint];
-    if (joint < summary.judged.joints.size()) {
-      panel.peak = summary.judged.joints[joint].torque_peak;
-      panel.peak_time = summary.judged.joints[joint].torque_peak_time;
-    }
-  }
-  return panel;
-}
+constexpr double kChartHeight = 65;   // mm
 
 // Start of the whole periods within the time shown at the end of the run, s.
 double periods_from(const Summary& s) {
   const double shown = std::min(kShownSeconds, s.simulated);
   const double period = s.limit_cycle.period;
   if (!s.limit_cycle.found || period > shown) return s.simulated - shown;
-  return s.simulated - std::floor(shown / period + 1e-3) * period;
+  return std::max(0.0, s.simulated - std::floor(shown / period + 1e-3) * period);
 }
 
 /// Sides of the view at which the robot's front is and to which the robot moves: `, front at the right, moves to the left`.
@@ -73,21 +51,29 @@ std::string directions(const Robot& robot, const Recording& r, const Sight& from
   return text;
 }
 
-// Adds five views from the start of the last period on. A view at its end would be equal to the first one.
-void add_period(FigureInput& input, const Scenario& scenario, const Recording& r, const Summary& s, const Sight& from,
-                std::size_t joint) {
+/// Five views from the start of the last period on (a view at its end would be equal to the first one), or else one second
+/// apart up to the end.
+PanelRecipe views(const Scenario& scenario, const Recording& r, const Summary& s, bool walks, const Joint* pointed) {
+  const Sight from = sight(scenario, r);
   const MotionCycle& cycle = s.limit_cycle;
-  const double span = std::min({cycle.found ? cycle.period : kPeriodless, kLongest, s.simulated});
+  const bool periodic = pointed != nullptr && (cycle.found || walks);
+  const double span = periodic ? std::min({cycle.found ? cycle.period : kPeriodless, kLongest, s.simulated}) : kViews - 1;
+  PanelRecipe panel;
+  panel.kind = &kViewsPanel;
   for (std::size_t i = 0; i < kViews; ++i) {
-    const double t = s.simulated - span * (1 - static_cast<double>(i) / kViews);
-    const auto tick = static_cast<std::size_t>(std::llround(t / scenario.trace.period));
-    if (tick >= input.time.size() || (i > 0 && input.time[tick] <= input.views.back().time)) continue;
-    input.views.push_back(view_at(scenario, r, from, tick, joint));
+    const double t = s.simulated - span * (1 - static_cast<double>(i) / (periodic ? kViews : kViews - 1));
+    if (t > -1e-9 && (panel.times.empty() || t > panel.times.back() + scenario.trace.period - 1e-9))
+      panel.times.push_back(std::max(0.0, t));
   }
-  input.views_title =
-      fmt::format("{} over {} {:.3g} s (arrow: {})", from.view,
-                  cycle.found && cycle.period <= span ? "one period," : "the last", span, scenario.robot->joints[joint].name);
-  input.views_axis = fmt::format("{}{}; {}", from.axis, directions(*scenario.robot, r, from), from.scale());
+  panel.title = from.view;
+  if (periodic)
+    panel.title += fmt::format(" over {} {:.3g} s", cycle.found && cycle.period <= span ? "one period," : "the last", span);
+  if (pointed != nullptr) {
+    panel.joint = pointed->name;
+    panel.title += fmt::format(" (arrow: {})", pointed->name);
+  }
+  panel.title += directions(*scenario.robot, r, from);
+  return panel;
 }
 
 struct Drawn {
@@ -115,6 +101,37 @@ std::vector<Drawn> drawn_joints(const Scenario& scenario, const Summary& summary
   if (worst != spine) drawn.push_back({worst, told(worst)});
   drawn.push_back({spine, std::string(", middle of the spine") + told(spine), kLeastAngle});
   return drawn;
+}
+
+/// Angle and set point of a joint with its torque at the right.
+PanelRecipe chart(const Scenario& scenario, const Recording& r, const Summary& summary, const Drawn& drawn, double from) {
+  const Joint& joint = scenario.robot->joints[drawn.joint];
+  PanelRecipe panel;
+  panel.from = from;
+  panel.height = kChartHeight;
+  panel.left.label = "angle (rad)";
+  panel.left.least = drawn.least_angle;
+  panel.title = fmt::format("joint {} ({})", drawn.joint, joint.name);
+  for (const FaultSpan& fault : fault_spans(scenario)) {
+    if (fault.joint == drawn.joint && fault.from < r.simulated)
+      panel.title += fmt::format(", {} from {:.4g} s", name_of(fault.kind), fault.from);
+  }
+  panel.title += drawn.what;
+  for (const Change& change : scenario.changes) panel.marks.push_back(change.t);
+  const auto add = [&](AxisRecipe& axis, const char* quantity) {
+    if (!r.joint(drawn.joint, quantity).empty()) axis.columns.push_back(fmt::format("joint.{}.{}", drawn.joint, quantity));
+  };
+  add(panel.left, "angle");
+  if (scenario.actuator.entry == nullptr || !joint.driven()) return panel;
+  add(panel.left, "setpoint");
+  add(panel.right, "torque");
+  panel.motor = joint.name;
+  if (drawn.joint < summary.judged.joints.size()) {
+    const JudgedJoint& judged = summary.judged.joints[drawn.joint];
+    if (judged.torque_peak > 0)
+      panel.title += fmt::format(", peak {:.3g} N m at {:.2f} s", judged.torque_peak, judged.torque_peak_time);
+  }
+  return panel;
 }
 
 }  // namespace
@@ -147,33 +164,28 @@ std::size_t central_spine_joint(const RobotInfo& robot, const std::vector<Leg>& 
 std::string run_figure(const Scenario& scenario, const Recording& r, const Summary& summary) {
   const std::vector<Leg> legs = r.rows() > 0 ? legs_that_walk(scenario) : std::vector<Leg>();
   const std::vector<Drawn> drawn = drawn_joints(scenario, summary, legs);
-  const Sight from = sight(scenario, r);
-  FigureInput input = views_input(scenario, r, from);
-  input.title = scenario.name;
-  const std::size_t pointed = drawn.empty() ? 0 : drawn.front().joint;
-  const std::string arrow = drawn.empty() ? "" : fmt::format(" (arrow: {})", scenario.robot->joints[pointed].name);
-  input.views_title = from.view + arrow;
-  if (!drawn.empty()) input.time = r.series("t").values();
-  for (const Drawn& each : drawn) {
-    input.joints.push_back(joint_panel(scenario, r, summary, each.joint));
-    input.joints.back().joint += each.what;
-    input.joints.back().least_angle = each.least_angle;
+  const double from = periods_from(summary);
+  const std::vector<double> time = row_times(r);
+  const Rows shown = rows_within(time, from, 0);
+  Recipe recipe = screen_recipe(scenario.name);
+  if (shown.last - shown.first > 1) {
+    for (const Drawn& each : drawn) {
+      PanelRecipe panel = chart(scenario, r, summary, each, from);
+      if (!panel.left.columns.empty() || !panel.right.columns.empty()) recipe.panels.push_back(std::move(panel));
+    }
+    if (!legs.empty() && lacking_load(scenario, r, legs).empty()) {
+      PanelRecipe& panel = recipe.panels.emplace_back();
+      panel.kind = &kFootfallsPanel;
+      panel.from = from;
+      panel.title = fmt::format("footfalls: load above {:.3g} % of the weight, duty factor over {:.3g} s", 100 * kStands,
+                                summary.simulated - from);
+    }
   }
-  if (!legs.empty()) {
-    const double start = periods_from(summary);
-    input.footfalls = footfalls(scenario, r, legs, input.time, start);
-    input.footfall_note = fmt::format("bars: load above {:.3g} % of the weight; at the right the duty factor over {:.3g} s",
-                                      100 * kStands, summary.simulated - start);
+  if (r.rows() > 0 && r.has_states(*scenario.robot)) {
+    const Joint* pointed = drawn.empty() ? nullptr : &scenario.robot->joints[drawn.front().joint];
+    recipe.panels.push_back(views(scenario, r, summary, !legs.empty(), pointed));
   }
-  if (!input.time.empty() && (summary.limit_cycle.found || !legs.empty())) {
-    add_period(input, scenario, r, summary, from, pointed);
-    return figure_svg(input);
-  }
-  const auto second = static_cast<std::size_t>(std::max<std::int64_t>(1, math::steps_in(1.0, scenario.trace.period)));
-  for (std::size_t back = kViews; back-- > 0;) {
-    if (r.rows() > back * second) input.views.push_back(view_at(scenario, r, from, r.rows() - 1 - back * second, pointed));
-  }
-  return figure_svg(input);
+  return figure_svg(recipe, std::vector<PaperRun>{{scenario.name, scenario, r}});
 }
 
 }  // namespace gaitlab::report

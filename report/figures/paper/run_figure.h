@@ -1,6 +1,5 @@
-// The figure of a run, written as figure.svg.
+// The figure of a run, written as figure.svg: a recipe of the panels that suit the robot.
 #pragma once
-#include <span>
 #include <string>
 #include <vector>
 
@@ -9,14 +8,13 @@
 
 namespace gaitlab::report {
 
-/// SVG of a run's figure. It shows the joints of `figure.joints`, or else the most loaded joint, over time on twin axes, and
-/// five views of the robot from the side of its path (from above if its joints turn about the vertical). The views are one
-/// second apart at the end of the run. With a limit cycle they are a fifth of its last period apart, at most 0.8 s.
+/// SVG of a run's figure. It shows the joints of `figure.joints`, or else the most loaded joint, with their motors' limits,
+/// over the whole periods in the last 8 s (without a limit cycle, or with a longer period, over the last 8 s), and five views
+/// of the robot from the side of its path (from above if its joints turn about the vertical). The views are one second apart at
+/// the end of the run. With a limit cycle they are a fifth of its last period apart, at most 0.8 s.
 ///
 /// For a robot that walks (four or more legs by find_legs, contact elements, a ground) the figure also contains the central
-/// spine joint (the paper's figure 14) and the footfalls of the legs. Without a limit cycle its views cover the last 2 s. A leg
-/// is in stance if it carries more than 2 % of the weight. Duty factors are over the whole periods within the last 8 s; without
-/// a limit cycle, or with a longer period, over the last 8 s.
+/// spine joint (the paper's figure 14) and the footfalls of the legs. Without a limit cycle its views cover the last 2 s.
 std::string run_figure(const Scenario& scenario, const Recording& record, const Summary& summary);
 
 /// Index of the central spine joint, which is the joint marked in the paper's figure 13. The spine is all modules outside the
