@@ -21,7 +21,7 @@
 #include "golden/advice.h"
 #include "golden/cases.h"
 #include "golden/report.h"
-#include "report/figures/run/overlay.h"
+#include "report/figures/paper/paper_figure.h"
 #include "report/plot/svg.h"
 #include "report/plot/ticks.h"
 
@@ -33,7 +33,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostDrawn = 6;  // largest number of columns in a figure
+constexpr std::size_t kMostDrawn = 6;      // largest number of columns in a figure
+constexpr const char* kBands = "3 bands";  // name of the line at kOutside bands
 
 // ---- the table
 
@@ -119,25 +120,55 @@ std::vector<Strayed> strayed(const GoldenCase& c) {
   return groups;
 }
 
-std::vector<report::OverlayPanel> panels(const GoldenCase& c) {
-  std::vector<report::OverlayPanel> panels;
-  for (const auto& [check, others] : strayed(c)) {
-    report::OverlayPanel panel{check->label, check->unit};
+/// A column of the golden and of the run over their common rows, and their difference as a multiple of kOutside bands, which is
+/// often a thousandth of the column.
+Recording compared(const GoldenCase& c, const ColumnCheck& check) {
+  constexpr double kLeast = 0.01, kMost = 1e9;  // multiples that are drawn
+  const Trace& golden = c.golden->run.trace;
+  const Trace& run = c.run.trace;
+  Recording both;
+  both.trace.columns = std::vector<Column>{
+      {"t", "s", ""}, {"golden", check.unit, ""}, {"now", check.unit, ""}, {"difference", "", ""}, {kBands, "", ""}};
+  for (std::size_t k = 0; k < std::min(golden.rows(), run.rows()); ++k) {
+    const double before = golden.at(k, golden.find(check.name));
+    const double now = run.at(k, run.find(check.name));
+    const double apart = std::abs(now - before);
+    const double bands = apart == 0 ? kLeast : std::clamp(apart / (kOutside * check.band * check.scale), kLeast, kMost);
+    both.simulated = golden.at(k, 0);
+    both.trace.values.insert(both.trace.values.end(), {both.simulated, before, now, bands, 1});
+  }
+  return both;
+}
+
+/// Figure of columns with, below each of them, the difference of its curves.
+std::string overlay(const GoldenCase& c, const std::string& title, const std::vector<Strayed>& shown) {
+  report::Recipe recipe = report::screen_recipe(title);
+  std::vector<Recording> recordings;
+  recordings.reserve(shown.size());
+  std::vector<report::PaperRun> runs;
+  for (const auto& [check, others] : shown) {
+    runs.push_back({check->label, *c.scenario, recordings.emplace_back(compared(c, *check))});
+    if (recordings.back().rows() < 2) continue;
+    report::PanelRecipe panel;
+    panel.runs = {check->label};
+    panel.title = check->label + (check->unit.empty() ? "" : " (" + check->unit + ")");
     if (others > 0) {
-      panel.others =
+      panel.title +=
           fmt::format(" and {} more, late by {} s", others, report::with_minus(fmt::format("{:.2g}", check->time_shift)));
     }
-    const Trace& golden = c.golden->run.trace;
-    for (std::size_t k = 0; k < std::min(golden.rows(), c.run.trace.rows()); ++k) {
-      panel.time.push_back(golden.at(k, 0));
-      panel.reference.push_back(golden.at(k, golden.find(check->name)));
-      panel.now.push_back(c.run.trace.at(k, c.run.trace.find(check->name)));
+    if (check->outside) {
+      panel.title += fmt::format(", outside from {:.6g} s (dotted line)", *check->outside);
+      panel.marks = {*check->outside};
     }
-    panel.tolerance = kOutside * check->band * check->scale;
-    panel.outside = check->outside;
-    panels.push_back(std::move(panel));
+    panel.left = {.columns = {"golden", "now"}, .label = check->unit.empty() ? check->label : check->unit};
+    panel.height = 40;
+    recipe.panels.push_back(panel);
+    panel.title.clear();
+    panel.left = {.columns = {"difference", kBands}, .label = "\u00D7 3 bands", .log = true};
+    panel.height = 22;
+    recipe.panels.push_back(panel);
   }
-  return panels;
+  return report::figure_svg(recipe, runs);
 }
 
 /// Folder of the figures. If --out does not name one, it is created with the first figure.
@@ -149,7 +180,7 @@ class Figures {
 
   /// Writes figure and page of a case, and stores their names in the case. Does nothing if there is nothing to draw.
   void write(GoldenCase& c) {
-    const std::vector<report::OverlayPanel> shown = panels(c);
+    const std::vector<Strayed> shown = strayed(c);
     if (shown.empty()) return;
     if (!folder_) folder_.emplace(std::nullopt, "test");
     fs::path file = folder_->path() / (c.scenario->name + ".svg");
@@ -159,7 +190,7 @@ class Figures {
         all == 0 ? fmt::format("{}: no column outside its band; the closest column is shown", c.scenario->name)
                  : fmt::format("{}: {}{} of {} outside their bands, the first to leave its band on top", c.scenario->name,
                                all > shown.size() ? "the worst " : "", shown.size(), plural(all, "column"));
-    write_file(file, report::overlay_svg(title, shown));
+    write_file(file, overlay(c, title, shown));
     folder_->keep();
     c.figure = file.string();
     file.replace_extension(".failure.html");

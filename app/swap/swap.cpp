@@ -15,8 +15,8 @@
 #include "core/recording/run_folder.h"
 #include "core/simulation/batch_limits.h"
 #include "golden/report.h"
+#include "report/figures/paper/paper_figure.h"
 #include "report/figures/run/coincide.h"
-#include "report/figures/run/figure.h"
 #include "report/page/page.h"
 #include "report/page/swap_page.h"
 
@@ -32,42 +32,63 @@ std::vector<report::NamedRun> named_runs(const std::vector<Swapped>& all) {
 
 // ---- the figure
 
-/// Figure of the travel and, if the most loaded joint under the first CPG has a motor, of its set point and torque.
-report::CurvesInput figure(const std::vector<Swapped>& all) {
+/// Content of the figure: a joint, its curves from a time on, and the CPGs whose curves coincide.
+struct SwapShown {
+  std::size_t joint = 0;                   ///< the most loaded one under the first CPG
+  bool driven = false;                     ///< true if it has a motor; otherwise it is not drawn
+  double from = 0;                         ///< s
+  std::vector<std::string> coincide = {};  ///< names of the CPGs of each group
+};
+
+SwapShown swap_shown(const std::vector<Swapped>& all) {
+  constexpr double kShownSeconds = 8;
   const Scenario& first = *all.front().scenario;
-  report::CurvesInput input;
-  input.title = fmt::format("{} under {}", first.name, golden::plural(all.size(), "CPG"));
-  report::CurvesPanel setpoint{"set point"};
-  report::CurvesPanel torque{"torque"};
-  report::CurvesPanel travel{"travel of the centre of mass along x (m)"};
-  const std::size_t joint = all.front().summary.most_loaded();
-  const bool driven = report::has_motors(first) && first.robot->joints[joint].driven();
-  if (driven) {
-    const std::string where = fmt::format(" of joint {} ({})", joint, first.robot->joints[joint].name);
-    setpoint.title += where + " (rad)";
-    torque.title += where + " (N m)";
+  SwapShown shown{.joint = all.front().summary.most_loaded()};
+  shown.driven = report::has_motors(first) && first.robot->joints[shown.joint].driven();
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> time;
+  for (const Swapped& one : all) {
+    shown.from = std::max(shown.from, one.record.simulated - kShownSeconds);
+    names.push_back(one.cpg);
+    time.push_back(report::row_times(one.record));
   }
-  setpoint.from = torque.from = std::max(0.0, first.duration - report::kShownSeconds);
-  for (const Swapped& swapped : all) {
-    const Recording& r = swapped.record;
-    input.names.push_back(swapped.cpg);
-    std::vector<double>& time = input.time.emplace_back();
-    std::vector<double>& way = travel.values.emplace_back();
-    const Series x = r.series("com.x");
-    for (std::size_t k = 0; k < x.size(); ++k) {
-      time.push_back(std::min(static_cast<double>(k) * first.trace.period, swapped.summary.simulated));
-      way.push_back(x[k] - x.front());
-    }
-    if (!driven) continue;
-    setpoint.values.push_back(r.joint(joint, "setpoint").values());
-    torque.values.push_back(r.joint(joint, "torque").values());
+  if (!shown.driven) return shown;
+  std::vector<report::RunCurves> curves;
+  for (const char* quantity : {"setpoint", "torque"}) {
+    curves.push_back({shown.from});
+    for (const Swapped& one : all) curves.back().values.push_back(one.record.joint(shown.joint, quantity).values());
   }
-  if (driven) {
-    input.panels = {setpoint, torque};
-    input.coincide = report::coinciding(input.time, input.panels);
+  for (const std::vector<std::size_t>& group : report::coinciding(time, curves))
+    shown.coincide.push_back(report::run_names(group, names));
+  return shown;
+}
+
+std::string figure(const std::vector<Swapped>& all, const SwapShown& shown) {
+  const Scenario& first = *all.front().scenario;
+  report::Recipe recipe = report::screen_recipe(fmt::format("{} under {}", first.name, golden::plural(all.size(), "CPG")));
+  std::vector<report::PaperRun> runs;
+  double end = 0;
+  for (const Swapped& one : all) {
+    if (one.record.rows() > 0) runs.push_back({one.cpg, *one.scenario, one.record});
+    end = std::max(end, one.record.simulated);
   }
-  input.panels.push_back(travel);
-  return input;
+  const auto add = [&](const std::string& title, const std::string& column, double from, const char* label = "") {
+    report::PanelRecipe panel;
+    panel.title = title;
+    panel.left = {.columns = {column}, .label = label};
+    panel.from = from;
+    panel.height = 50;
+    if (!runs.empty() && end > from) recipe.panels.push_back(std::move(panel));
+  };
+  if (shown.driven) {
+    const std::string joint = fmt::format("joint {} ({})", shown.joint, first.robot->joints[shown.joint].name);
+    std::string coincide;
+    for (const std::string& group : shown.coincide) coincide += "; coincide: " + group;
+    add("set point of " + joint + coincide, fmt::format("joint.{}.setpoint", shown.joint), shown.from);
+    add("torque of " + joint, fmt::format("joint.{}.torque", shown.joint), shown.from);
+  }
+  add("x of the centre of mass", "com.x", 0, "x (m)");
+  return report::figure_svg(recipe, runs);
 }
 
 void print_verdicts(const std::vector<Swapped>& all) {
@@ -88,12 +109,11 @@ void write_pages(const std::vector<Swapped>& all, const std::filesystem::path& f
   write_file(folder / "swap.html", report::swap_page(all.front().scenario->name, entries));
 }
 
-void print_coinciding(const std::vector<Swapped>& all, const report::CurvesInput& shown) {
+void print_coinciding(const std::vector<Swapped>& all, const SwapShown& shown) {
   const Scenario& first = *all.front().scenario;
-  for (const std::vector<std::size_t>& group : shown.coincide) {
+  for (const std::string& group : shown.coincide) {
     fmt::print("coincide within {:g} % of their range: {} (set point and torque of {}, {:g} to {:g} s)\n",
-               100 * report::kCoincide, report::run_names(group, shown.names),
-               first.robot->joints[all.front().summary.most_loaded()].name, shown.panels.front().from, first.duration);
+               100 * report::kCoincide, group, first.robot->joints[shown.joint].name, shown.from, first.duration);
   }
 }
 
@@ -144,10 +164,9 @@ void note_time(const SwapArguments& arguments, Catalog& catalog) {
 }
 
 /// Writes the files of one scenario: figure, numbers and, with `pages`, the pages.
-void write_swap(const std::vector<Swapped>& all, const report::CurvesInput& shown, const std::filesystem::path& folder,
-                bool pages) {
+void write_swap(const std::vector<Swapped>& all, const SwapShown& drawn, const std::filesystem::path& folder, bool pages) {
   const std::vector<report::NamedRun> runs = named_runs(all);
-  write_file(folder / "overlay.svg", report::curves_svg(shown));
+  write_file(folder / "overlay.svg", figure(all, drawn));
   write_file(folder / "swap.csv", report::swap_csv(runs));
   write_file(folder / "swap.json", report::swap_json(runs));
   if (pages) write_pages(all, folder);
@@ -162,11 +181,11 @@ int swap_one(const SwapArguments& arguments, Catalog& catalog) {
   for (Swapped& one : all) runs.push_back(&one);
   note_time(arguments, catalog);
   if (!run_or_tell(runs, arguments)) return 1;
-  const report::CurvesInput shown = figure(all);
+  const SwapShown drawn = swap_shown(all);
   fmt::print("{}: {:g} s under each\n{}", first.name, first.duration, report::swap_table(named_runs(all)));
   print_verdicts(all);
-  print_coinciding(all, shown);
-  write_swap(all, shown, folder.path(), arguments.report);
+  print_coinciding(all, drawn);
+  write_swap(all, drawn, folder.path(), arguments.report);
   folder.keep();
   fmt::print("figure: {}\n", (folder.path() / "overlay.svg").string());
   fmt::print("numbers: {}, swap.json\n", (folder.path() / "swap.csv").string());
@@ -202,7 +221,7 @@ int swap_matrix(const SwapArguments& arguments, Catalog& catalog) {
   for (const std::vector<Swapped>& of : all) {
     const std::filesystem::path own = folder.path() / of.front().scenario->name;
     std::filesystem::create_directory(own);
-    write_swap(of, figure(of), own, arguments.report);
+    write_swap(of, swap_shown(of), own, arguments.report);
   }
   write_file(folder.path() / "swap.csv", report::matrix_csv(runs));
   write_file(folder.path() / "swap.json", report::matrix_json(runs));

@@ -83,6 +83,10 @@ TEST_F(PaperFigure, RecipesAreReadStrictly) {
           "figure.yaml:2:10: error: missing key 'run': there are several, a, b");
   refused("runs: {a: run}\npanels: [{kind: heat, run: b}]\n",
           "figure.yaml:2:28: error: run 'b' is not one of `runs`; did you mean 'a'?");
+  refused(kRuns + "panels: [{motor: m0/activ, left: {columns: [com.x]}}]\n",
+          "figure.yaml:2:18: error: no joint 'm0/activ'; did you mean 'm0/active'?");
+  refused("runs: {a: run, b: run}\npanels: [{motor: m0/active, left: {columns: [com.x]}}]\n",
+          "figure.yaml:2:18: error: motor shows limits in the panel of one run; expected runs: [NAME]");
   refused("runs: {creep: walk}\npanels: [{left: {columns: [com.x]}}]\n",
           "figure.yaml:1:15: error: run 'creep': walk does not exist; simulate it first, or name its folder with --run "
           "creep=FOLDER");
@@ -117,6 +121,23 @@ TEST_F(PaperFigure, HingesWithoutAMotorAreLeftOut) {
               fmt::format("figure.yaml:2:{}: error: joint m0/castor has no motor", 28 + kind.size()));
     }
   }
+}
+
+TEST_F(PaperFigure, TitlesMarksMotorsAndLogarithms) {
+  const std::string panels =
+      "panels:\n"
+      "  - {title: the torque, motor: m0/passive, marks: [0.2, 3], left: {columns: [joint.1.torque], least: 70}}\n"
+      "  - {left: {columns: [joint.1.speed], log: true, range: [0.001, 10]}}\n";
+  ASSERT_EQ(draw(kRuns + "title: Creep\n" + panels, "-o f.svg").code, 0);
+  const std::string svg = read(folder / "f.svg");
+  for (const char* part :
+       {"<title>Creep</title>", ">Creep</text>", ">the torque</text>", ">0.001</text>", ">10</text>", ">50</text>"})
+    EXPECT_TRUE(contains(svg, part)) << part;
+  const std::string mark = "stroke-dasharray=\"1 3\"";  // one, because 3 s is not within the panel
+  EXPECT_TRUE(contains(svg, mark));
+  EXPECT_EQ(svg.find(mark), svg.rfind(mark));
+  refused(kRuns + "panels: [{left: {columns: [joint.1.speed], log: true, range: [0, 10]}}]\n",
+          "figure.yaml:2:62: error: range of a logarithmic axis is not above 0");
 }
 
 TEST_F(PaperFigure, SameBytesTwice) {

@@ -106,7 +106,7 @@ TEST_F(GoldenCommand, AnotherMotorIsARegression) {
   expect_contains(figure, "good: ");
   expect_contains(figure, "outside from ");
   expect_contains(figure, ">good: the worst 6 of ");
-  expect_contains(figure, ">m1/passive torque (N m)<");
+  expect_contains(figure, ">m1/passive torque (N m)");
   EXPECT_EQ(figure.find("joint."), std::string::npos);
   const std::string bands = ">3 bands<";  // label that appears once per panel
   std::size_t panels = 0;

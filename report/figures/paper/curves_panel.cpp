@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/model/pattern.h"
@@ -107,7 +109,7 @@ class CurvesOfPanel final : public PaperPanel {
     for (const double mark : panel_.marks)
       if (mark >= from_ && mark <= to_) plot.moment(mark, kMarkLine);
     limits_.draw(plot, torque_side_);
-    for (const PaperCurve& curve : curves_) plot.curve(curve.time, curve.values, curve.style, curve.side);
+    for (const PaperCurve& curve : curves_) plot.curve(curve.time, drawn(curve), curve.style, curve.side);
     draw_legend_above(canvas, legend(), area);
   }
 
@@ -235,7 +237,7 @@ class CurvesOfPanel final : public PaperPanel {
     limits_ = motor_limits(run, joint, rows_within(row_times(run.recording), from_, to_));
     const auto torque = std::ranges::find(curves_, fmt::format("joint.{}.torque", joint),
                                           [](const PaperCurve& curve) { return curve.column.name; });
-    if (torque == curves_.end()) {
+    if (torque == curves_.end() || axis(torque->side).log) {
       limits_.rest.clear();
     } else {
       torque_side_ = torque->side;
@@ -268,13 +270,24 @@ class CurvesOfPanel final : public PaperPanel {
     return std::ranges::any_of(curves_, [side](const PaperCurve& c) { return c.side == side; });
   }
 
+  [[nodiscard]] const AxisRecipe& axis(Side side) const { return side == Side::left ? panel_.left : panel_.right; }
+
+  /// Values of a curve on its axis.
+  [[nodiscard]] std::vector<double> drawn(const PaperCurve& curve) const {
+    std::vector<double> values = curve.values;
+    if (axis(curve.side).log) {
+      for (double& value : values) value = value > 0 ? log10_of(value) : std::numeric_limits<double>::quiet_NaN();
+    }
+    return values;
+  }
+
   [[nodiscard]] Bounds bounds(Side side) const {
     Bounds bounds;
     for (const PaperCurve& curve : curves_) {
-      if (curve.side == side) bounds.add(curve.values);
+      if (curve.side == side) bounds.add(drawn(curve));
     }
     if (side == torque_side_) bounds.add(limits_.rest);
-    if (const double least = (side == Side::left ? panel_.left : panel_.right).least; least > 0 && !bounds.empty())
+    if (const double least = axis(side).least; least > 0 && !axis(side).log && !bounds.empty())
       bounds.add(std::vector{-least, least});
     return bounds;
   }
@@ -282,22 +295,29 @@ class CurvesOfPanel final : public PaperPanel {
   void set_ticks() {
     const Bounds a = bounds(Side::left);
     const Bounds b = bounds(Side::right);
-    const auto given = [](const std::vector<double>& range, Ticks& ticks) {
-      if (!range.empty()) ticks = ticks_within(range[0], range[1], 5);
+    const auto given = [](const AxisRecipe& axis, const Bounds& bounds, Ticks& ticks) {
+      const std::vector<double>& range = axis.range;
+      if (axis.log) {
+        Bounds ends = bounds.empty() ? Bounds{0, 1} : Bounds{std::floor(bounds.lo), std::ceil(bounds.hi)};  // decades
+        if (!range.empty()) ends = {log10_of(range[0]), log10_of(range[1])};
+        ticks = ticks_over(ends, true, 4, range.empty() ? 0.03 : 0);
+      } else if (!range.empty()) {
+        ticks = ticks_within(range[0], range[1], 5);
+      }
     };
-    const bool both = has(Side::left) && has(Side::right) && panel_.left.range.empty() && panel_.right.range.empty();
+    const auto free = [&](Side side) { return has(side) && axis(side).range.empty() && !axis(side).log; };
+    const bool both = free(Side::left) && free(Side::right);
     ticks_ = both ? twin_ticks(a.lo, a.hi, b.lo, b.hi) : TwinTicks{ticks_around(a, 5), ticks_around(b, 5)};
     make_room(ticks_, a, b);
-    given(panel_.left.range, ticks_.a);
-    given(panel_.right.range, ticks_.b);
+    given(panel_.left, a, ticks_.a);
+    given(panel_.right, b, ticks_.b);
   }
 
   [[nodiscard]] double beside(Side side) const { return texts_beside(side == Side::left ? ticks_.a : ticks_.b); }
 
   /// Title of an axis: the unit, preceded by the quantities if there are one or two.
   [[nodiscard]] std::string title(Side side) const {
-    const AxisRecipe& axis = side == Side::left ? panel_.left : panel_.right;
-    if (!axis.label.empty() || !has(side)) return axis.label;
+    if (!axis(side).label.empty() || !has(side)) return axis(side).label;
     std::vector<std::string> quantities;
     std::string unit;
     for (const PaperCurve& curve : curves_) {

@@ -96,8 +96,10 @@ void AxisRecipe::fields(Fields& f) {
   f.text("label", label, "Title of the axis; default: quantity and unit of the columns.");
   f.numbers("range", range, {"", -1e300, 1e300, "Ends of the axis, [from, to]; default: chosen to fit the curves."});
   f.number("least", least, {"", 0, 1e300, "The axis extends at least this far below and above zero."});
+  f.flag("log", log, "Logarithmic axis; values that are not above 0 leave a gap.");
   if (!range.empty() && (range.size() != 2 || !(range[0] < range[1])))
     f.problem("range", "range is not [from, to] with from below to");
+  if (log && !range.empty() && !(range[0] > 0)) f.problem("range", "range of a logarithmic axis is not above 0");
 }
 
 PanelRecipe::PanelRecipe() : kind(kPanelKinds[0]) {}

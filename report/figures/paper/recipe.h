@@ -17,9 +17,10 @@ inline constexpr double kLongestTime = 1e9;  ///< s
 
 /// The left or the right axis of a panel of curves.
 struct AxisRecipe {
-  std::vector<std::string> columns, names;
-  std::string label;
-  std::vector<double> range;
+  std::vector<std::string> columns = {}, names = {};
+  std::string label = {};
+  std::vector<double> range = {};
+  bool log = false;
   double least = 0;  ///< least half range of the axis; 0 if there is none
   void fields(Fields& f);
 };

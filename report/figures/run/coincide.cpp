@@ -28,9 +28,9 @@ bool same_curve(const std::vector<double>& time, double from, const std::vector<
 }  // namespace
 
 std::vector<std::vector<std::size_t>> coinciding(const std::vector<std::vector<double>>& time,
-                                                 const std::vector<CurvesPanel>& panels) {
+                                                 const std::vector<RunCurves>& panels) {
   const auto same = [&](std::size_t a, std::size_t b) {
-    return time[a] == time[b] && !panels.empty() && std::ranges::all_of(panels, [&](const CurvesPanel& panel) {
+    return time[a] == time[b] && !panels.empty() && std::ranges::all_of(panels, [&](const RunCurves& panel) {
              const auto& values = panel.values;
              return values[a].size() == time[a].size() && values[b].size() == time[b].size() &&
                     same_curve(time[a], panel.from, values[a], values[b]);

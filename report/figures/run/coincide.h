@@ -3,8 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "report/figures/run/curves.h"
-
 namespace gaitlab::report {
 
 /// Largest difference of two curves that coincide, as a share of their range. The range is from the least to the largest value
@@ -12,10 +10,16 @@ namespace gaitlab::report {
 /// chosen: about one pixel of a panel that the curves fill.
 inline constexpr double kCoincide = 5e-3;
 
+/// A quantity of several runs over the shown time.
+struct RunCurves {
+  double from = 0;                               ///< s, start of the shown time
+  std::vector<std::vector<double>> values = {};  ///< one curve per run, as long as its time
+};
+
 /// Groups of two or more runs whose curves coincide pairwise in all panels, in the order of the runs. Each run is in the first
 /// group to which it fits. A run without values, with a value that is not finite, or with different times coincides with none.
 std::vector<std::vector<std::size_t>> coinciding(const std::vector<std::vector<double>>& time,
-                                                 const std::vector<CurvesPanel>& panels);
+                                                 const std::vector<RunCurves>& panels);
 
 /// Names of the runs of a group: `a, b, c`.
 std::string run_names(const std::vector<std::size_t>& group, const std::vector<std::string>& of_runs);

@@ -15,7 +15,7 @@ using Groups = std::vector<std::vector<std::size_t>>;
 Groups groups(const std::vector<std::vector<double>>& values, double from = 6) {
   std::vector<double> time;
   for (int k = 0; k <= 10; ++k) time.push_back(k);
-  CurvesPanel panel{"", from};
+  RunCurves panel{from};
   panel.values = values;
   return coinciding(std::vector<std::vector<double>>(values.size(), time), {panel});
 }
@@ -53,7 +53,7 @@ TEST(Coincide, FlatCurvesThatDifferByRounding) {
 TEST(Coincide, WhatHasNoValuesCoincidesWithNothing) {
   EXPECT_EQ(groups({wave(NAN), wave(NAN)}), Groups{});
   EXPECT_EQ(groups({{}, {}}), Groups{});
-  CurvesPanel panel{""};
+  RunCurves panel;
   panel.values = {{1, 2}, {1, 2, 3}};
   EXPECT_EQ(coinciding({{0, 1}, {0, 1, 2}}, {panel}), Groups{});
   EXPECT_EQ(coinciding({{0, 1}, {0, 1}}, {}), Groups{});
@@ -61,9 +61,9 @@ TEST(Coincide, WhatHasNoValuesCoincidesWithNothing) {
 
 /// Curves coincide only if they coincide in all panels.
 TEST(Coincide, InAllPanels) {
-  CurvesPanel same{""};
+  RunCurves same;
   same.values = {{1, 2}, {1, 2}};
-  CurvesPanel other{""};
+  RunCurves other;
   other.values = {{1, 2}, {1, 3}};
   EXPECT_EQ(coinciding({{0, 1}, {0, 1}}, {same}), (Groups{{0, 1}}));
   EXPECT_EQ(coinciding({{0, 1}, {0, 1}}, {same, other}), Groups{});
