@@ -105,8 +105,6 @@ std::string robot_picture(const std::vector<SwapEntry>& entries) {
       continue;
     const Sight from = sight(run.scenario, run.record);
     ViewsInput input = views_input(run.scenario, run.record, from);
-    input.title = from.view;
-    input.legend = false;
     View view = view_at(run.scenario, run.record, from, run.record.rows() - 1, 0);
     view.joint.reset();
     input.views.push_back(std::move(view));

@@ -52,16 +52,4 @@ double draw_legend(Canvas* canvas, std::span<const LegendEntry> entries, double 
   return y;
 }
 
-double legend_width(std::span<const LegendEntry> entries, const LegendLook& look) {
-  double width = entries.empty() ? 0 : -look.behind;
-  for (const LegendEntry& entry : entries) width += entry_width(entry, look);
-  return width;
-}
-
-double draw_legend_row(Canvas& canvas, std::span<const LegendEntry> entries, double right, double y) {
-  const double left = right - legend_width(entries);
-  draw_legend(&canvas, entries, left, std::numeric_limits<double>::infinity(), y);
-  return left;
-}
-
 }  // namespace gaitlab::report

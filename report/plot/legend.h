@@ -30,10 +30,4 @@ inline constexpr double kLegendLine = 24;  ///< px, distance between lines of a 
 double draw_legend(Canvas* canvas, std::span<const LegendEntry> entries, double left, double right, double y,
                    const LegendLook& look = {});
 
-/// Width of all entries in one line, px.
-double legend_width(std::span<const LegendEntry> entries, const LegendLook& look = {});
-
-/// Draws the entries in one line that ends at `right` (px). Returns the left end of the line.
-double draw_legend_row(Canvas& canvas, std::span<const LegendEntry> entries, double right, double y);
-
 }  // namespace gaitlab::report

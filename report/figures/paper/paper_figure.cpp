@@ -42,9 +42,12 @@ PaperFigure::PaperFigure(const Recipe& recipe, std::span<const PaperRun> runs)
   paper_.mm = recipe.font * kPointMm / kTextSize;
   paper_.width = recipe.width / paper_.mm;
   Problems problems;
-  for (std::size_t i = 0; i < recipe.panels.size(); ++i)
-    panels_.push_back(
-        {.panel = recipe.panels[i].kind->make({recipe, i, runs, 1 / paper_.mm, problems}), .title = recipe.panels[i].title});
+  for (std::size_t i = 0; i < recipe.panels.size(); ++i) {
+    const std::string& title = recipe.panels[i].title;
+    Placed& placed = panels_.emplace_back();
+    placed.panel = recipe.panels[i].kind->make({recipe, i, runs, 1 / paper_.mm, problems});
+    placed.title = title.empty() ? placed.panel->title() : title;
+  }
   problems.raise();
   title_ = title_of(recipe);
   place(recipe);

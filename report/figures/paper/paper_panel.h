@@ -41,6 +41,8 @@ class PaperPanel {
   /// Height below the frame for an axis.
   [[nodiscard]] virtual double foot() const { return 44; }
   virtual void draw(Canvas& canvas, const PlotArea& area) const = 0;
+  /// Title of a panel whose recipe has none.
+  [[nodiscard]] virtual std::string title() const { return {}; }
   /// Data that the panel draws, in columns with units in their names. Columns that are shorter than the longest end in NaN.
   [[nodiscard]] virtual Trace data() const = 0;
   /// Notes on facts that the figure does not show, printed for the user.

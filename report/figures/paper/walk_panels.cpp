@@ -56,9 +56,7 @@ class FootfallsOfPanel final : public PaperPanel {
   }
   [[nodiscard]] bool stretches() const override { return false; }
 
-  void draw(Canvas& canvas, const PlotArea& area) const override {
-    draw_footfalls(canvas, {rows_, "duty factor", kPrint}, time_axis(from_, to_), area);
-  }
+  void draw(Canvas& canvas, const PlotArea& area) const override { draw_footfalls(canvas, rows_, time_axis(from_, to_), area); }
 
   [[nodiscard]] Trace data() const override {
     std::vector<DataColumn> columns;
@@ -112,8 +110,6 @@ class ViewsOfPanel final : public PaperPanel {
     }
     const Sight from = sight(run.scenario, run.recording);
     input_ = views_input(run.scenario, run.recording, from);
-    input_.title = panel.title.empty() ? from.view : "";
-    input_.legend = panel.legend;
     for (std::size_t k = 0; k < panel.times.size(); ++k) {
       if (panel.times[k] > run.recording.simulated + 1e-9) {
         source.problem({"times", std::to_string(k)},
@@ -128,6 +124,9 @@ class ViewsOfPanel final : public PaperPanel {
       states_.push_back(run.recording.state(robot, row));
     }
     names_ = joint_names(robot);
+    if (!panel.legend) return;
+    title_ = from.view;
+    legend_ = views_legend(input_.views);
   }
 
   [[nodiscard]] Margins margins() const override {
@@ -135,11 +134,13 @@ class ViewsOfPanel final : public PaperPanel {
     for (const View& view : input_.views) times = std::max(times, print_width(fmt::format("{:.6g} s", view.time), 13, true));
     return {10 + times, 4};
   }
-  [[nodiscard]] double head(const Edges&) const override { return 0; }
+  [[nodiscard]] std::string title() const override { return title_; }
+  [[nodiscard]] double head(const Edges& edges) const override { return legend_.empty() ? 0 : legend_head(legend_, edges); }
   [[nodiscard]] double body(const Edges& edges) const override { return views_height(input_, edges); }
   [[nodiscard]] bool stretches() const override { return false; }
   [[nodiscard]] double foot() const override { return 0; }
   void draw(Canvas& canvas, const PlotArea& area) const override {
+    draw_legend_above(canvas, legend_, area);
     draw_views(canvas, input_, {area.left, area.right}, area.top);
   }
 
@@ -162,6 +163,8 @@ class ViewsOfPanel final : public PaperPanel {
   ViewsInput input_;
   std::vector<RobotState> states_;
   std::vector<std::string> names_;
+  std::string title_;
+  std::vector<LegendEntry> legend_;
 };
 
 void views_fields(PanelRecipe& panel, Fields& f) {

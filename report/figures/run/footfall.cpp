@@ -53,21 +53,19 @@ double duty_factor(const std::vector<Stance>& stances, double from, double to) {
 
 double footfall_height(std::size_t rows) { return kFootfallHead + kRow * static_cast<double>(rows) + kFootfallFoot; }
 
-void draw_footfalls(Canvas& canvas, const FootfallDiagram& diagram, const Axis& time, const PlotArea& area) {
+void draw_footfalls(Canvas& canvas, const std::vector<Footfall>& rows, const Axis& time, const PlotArea& area) {
   std::vector<std::string> names;
   std::vector<std::string> duty;
-  for (const Footfall& row : diagram.rows) {
+  for (const Footfall& row : rows) {
     names.push_back(row.name);
     duty.push_back(fmt::format("{:.2f}", row.duty_factor));
   }
-  if (!diagram.note.empty()) {
-    const double right = area.right + 8 + text_width("0.00", diagram.look.text);
-    canvas.text({right, area.top - 12}, diagram.note, {.anchor = Anchor::end});
-  }
-  Plot plot(canvas, area, time, {.ticks = row_ticks(names), .lines = TickLines::none}, diagram.look);
+  const double right = area.right + 8 + text_width("0.00", kPrint.text);
+  canvas.text({right, area.top - 12}, "duty factor", {.anchor = Anchor::end});
+  Plot plot(canvas, area, time, {.ticks = row_ticks(names), .lines = TickLines::none}, kPrint);
   plot.right_axis({.ticks = row_ticks(duty), .lines = TickLines::none});
   plot.draw_axes();
-  for (std::size_t i = 0; i < diagram.rows.size(); ++i) draw_bars(canvas, plot, area, diagram.rows[i], i);
+  for (std::size_t i = 0; i < rows.size(); ++i) draw_bars(canvas, plot, area, rows[i], i);
 }
 
 }  // namespace gaitlab::report

@@ -31,14 +31,8 @@ double duty_factor(const std::vector<Stance>& stances, double from, double to);
 double footfall_height(std::size_t rows);
 inline constexpr double kFootfallHead = 30, kFootfallFoot = 26;  ///< px, parts of the height above and below the rows
 
-struct FootfallDiagram {
-  const std::vector<Footfall>& rows;
-  std::string note = {};  ///< text over the duty factors
-  PlotLook look = {.text = 12};
-};
-
 /// Draws one row per leg into a frame: the name, a bar for each stance within the range of the axis `time` (s), and the duty
 /// factor.
-void draw_footfalls(Canvas& canvas, const FootfallDiagram& diagram, const Axis& time, const PlotArea& area);
+void draw_footfalls(Canvas& canvas, const std::vector<Footfall>& rows, const Axis& time, const PlotArea& area);
 
 }  // namespace gaitlab::report

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 
-#include "report/plot/legend.h"
 #include "report/plot/plot.h"
 
 namespace gaitlab::report {
@@ -80,17 +79,16 @@ class Views {
     x_ = {ticks_.lo, ticks_.hi, left_, right_};
   }
 
-  [[nodiscard]] double height() const { return head() + pitch() * static_cast<double>(input_.views.size()) + kFoot; }
+  [[nodiscard]] double height() const { return kHead + pitch() * static_cast<double>(input_.views.size()) + kFoot; }
 
   void draw(Canvas& canvas, double top) const {
     const double bottom = top + height() - kFoot;
-    header(canvas, top);
-    Plot(canvas, {left_, right_, top + head(), bottom}, {.ticks = ticks_, .title = input_.axis}, {},
+    Plot(canvas, {left_, right_, top + kHead, bottom}, {.ticks = ticks_, .title = input_.axis}, {},
          {.text = 13, .frame = false})
         .draw_axes();
     std::vector<Point> centres;
     for (std::size_t i = 0; i < input_.views.size(); ++i) {
-      const double floor = top + head() + pitch() * static_cast<double>(i + 1) - kViewGap / 2 - below_ * per_metre_;
+      const double floor = top + kHead + pitch() * static_cast<double>(i + 1) - kViewGap / 2 - below_ * per_metre_;
       const Scale z{floors_[i], floors_[i] + 1, floor, floor - per_metre_};
       draw_view(canvas, input_.views[i], z);
       if (input_.views[i].com) centres.push_back({x_(*input_.views[i].com), floor + below_ * per_metre_ + 8});
@@ -100,9 +98,8 @@ class Views {
   }
 
  private:
-  static constexpr double kFoot = 48;  // px
+  static constexpr double kHead = 20, kFoot = 48;  // px
 
-  [[nodiscard]] double head() const { return (input_.legend ? 34 : 20) + legend_below(); }
   [[nodiscard]] double pitch() const { return std::max(30.0, (above_ + below_) * per_metre_) + kViewGap; }
 
   void draw_view(Canvas& canvas, const View& view, const Scale& z) const {
@@ -136,51 +133,6 @@ class Views {
     canvas.polygons(std::vector<Polygon>{{tip, {tip.x - 5, tip.y - 11}, {tip.x + 5, tip.y - 11}}}, {.fill = colour::kBlack});
   }
 
-  [[nodiscard]] std::vector<LegendEntry> legend() const {
-    std::vector<LegendEntry> all;
-    if (!input_.legend) return all;
-    for (const RoleLook& role : kLooks) {
-      if (any([&](const View& view) { return shows(view, role.role); }))
-        all.push_back(box_entry(std::string(role.name), {.stroke = colour::kInk, .fill = role.fill}));
-    }
-    if (any([](const View& view) { return std::ranges::any_of(view.outlines, &Outline::far); }))
-      all.push_back(box_entry("far side", {.stroke = colour::kGrey, .fill = "#F4F4F4"}));
-    if (any([](const View& view) { return !view.contacts.empty(); }))
-      all.push_back(dot_entry("contact", {.fill = colour::kVermillion}, 3));
-    if (any([](const View& view) { return view.com.has_value(); })) {
-      all.push_back({"centre of mass", [](Canvas& canvas, Point m) {
-                       canvas.polygons(std::vector<Polygon>{{{m.x, m.y - 4}, {m.x - 5, m.y + 4}, {m.x + 5, m.y + 4}}},
-                                       {.fill = colour::kInk});
-                     }});
-    }
-    return all;
-  }
-
-  /// Height of the legend below the title, px; 0 if the legend fits beside the title.
-  [[nodiscard]] double legend_below() const {
-    const double title = text_width(input_.title, 13) * 1.1 + 20;  // bold text is wider
-    if (!input_.legend || title + legend_width(legend()) <= right_ - left_) return 0;
-    return kLegendLine + draw_legend(nullptr, legend(), left_, right_, 0);
-  }
-
-  void header(Canvas& canvas, double top) const {
-    if (!input_.legend) return;
-    canvas.text({left_, top + 14}, input_.title, {.bold = true});
-    if (legend_below() > 0) {
-      draw_legend(&canvas, legend(), left_, right_, top + 14 + kLegendLine);
-    } else {
-      draw_legend_row(canvas, legend(), right_, top + 14);
-    }
-  }
-
-  static bool shows(const View& view, Role role) {
-    return std::any_of(view.outlines.begin(), view.outlines.end(), [role](const Outline& o) { return o.role == role; });
-  }
-  template <class Test>
-  [[nodiscard]] bool any(const Test& test) const {
-    return std::any_of(input_.views.begin(), input_.views.end(), test);
-  }
-
   const ViewsInput& input_;
   double left_, right_;
   std::vector<double> floors_ = {};  // m, height of the base line of each view
@@ -193,6 +145,28 @@ class Views {
 }  // namespace
 
 std::string_view body_colour(Role role) { return look(role).fill; }
+
+std::vector<LegendEntry> views_legend(const std::vector<View>& views) {
+  const auto any = [&](const auto& test) { return std::ranges::any_of(views, test); };
+  std::vector<LegendEntry> all;
+  for (const RoleLook& role : kLooks) {
+    const auto shown = [&](const View& view) {
+      return std::ranges::find(view.outlines, role.role, &Outline::role) != view.outlines.end();
+    };
+    if (any(shown)) all.push_back(box_entry(std::string(role.name), {.stroke = colour::kInk, .fill = role.fill}));
+  }
+  if (any([](const View& view) { return std::ranges::any_of(view.outlines, &Outline::far); }))
+    all.push_back(box_entry("far side", {.stroke = colour::kGrey, .fill = "#F4F4F4"}));
+  if (any([](const View& view) { return !view.contacts.empty(); }))
+    all.push_back(dot_entry("contact", {.fill = colour::kVermillion}, 3));
+  if (any([](const View& view) { return view.com.has_value(); })) {
+    all.push_back({"centre of mass", [](Canvas& canvas, Point m) {
+                     canvas.polygons(std::vector<Polygon>{{{m.x, m.y - 4}, {m.x - 5, m.y + 4}, {m.x + 5, m.y + 4}}},
+                                     {.fill = colour::kInk});
+                   }});
+  }
+  return all;
+}
 
 double views_height(const ViewsInput& input, const Edges& edges) { return Views(input, edges).height(); }
 

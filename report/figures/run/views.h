@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "report/figures/run/side_view.h"
+#include "report/plot/legend.h"
 #include "report/plot/plot.h"
 
 namespace gaitlab::report {
@@ -23,8 +24,6 @@ struct ViewsInput {
   std::vector<Polygon> solids = {};  ///< obstacles on the ground, m, in the plane of the view; only the part within its x
                                      ///< range is drawn
   bool ground = true;                ///< true: a plane at height 0 is drawn; false: every view is centred on the robot
-  std::string title = {};            ///< beside the legend
-  bool legend = true;
   std::string axis = "x (m), heights on the same scale";
 };
 
@@ -36,7 +35,10 @@ struct Edges {
   double left = 0, right = 0;
 };
 
-/// Height of the views with legend and axis, px.
+/// Legend of what the views show.
+std::vector<LegendEntry> views_legend(const std::vector<View>& views);
+
+/// Height of the views with their axis, px.
 double views_height(const ViewsInput& input, const Edges& edges);
 void draw_views(Canvas& canvas, const ViewsInput& input, const Edges& edges, double top);
 

@@ -73,12 +73,13 @@ TEST(Footfall, DrawsABarAStanceAndJoinsWhatNobodySees) {
   // One footfall before the panel, one across its edge, two separated by 1 ms, and one near the end.
   const Footfall row{"m9 front left", {{8, 9}, {9.5, 11}, {12, 13}, {13.001, 14}, {17, 19}}, 0.625};
   const std::vector<Footfall> rows{row};
-  draw_footfalls(svg, {rows, "note"}, {.ticks = time, .texts = false}, {120, 920, 30, 54});
+  draw_footfalls(svg, rows, {.ticks = time, .texts = false}, {120, 920, 30, 54});
   const std::string text = svg.finish();
   EXPECT_EQ(count(text, "height=\"12\""), 3U);
   EXPECT_NE(text.find("width=\"100\" height=\"12\""), std::string::npos);  // from 10 to 11 s
   EXPECT_NE(text.find("width=\"200\" height=\"12\""), std::string::npos);  // from 12 to 14 s
-  for (const std::string part : {">m9 front left<", ">0.62<", ">note<"}) EXPECT_NE(text.find(part), std::string::npos) << part;
+  for (const std::string part : {">m9 front left<", ">0.62<", ">duty factor<"})
+    EXPECT_NE(text.find(part), std::string::npos) << part;
 }
 
 TEST(Footfall, CentralSpineJointIsThePapers) {
