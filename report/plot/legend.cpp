@@ -1,7 +1,6 @@
 #include "report/plot/legend.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace gaitlab::report {
