@@ -3,7 +3,7 @@
 #include "app/shell/commands.h"
 #include "core/scenario/read_scenario.h"
 #include "kit/run_warnings.h"
-#include "report/verdict/plausibility.h"
+#include "report/verdict/plausible/plausibility.h"
 
 namespace gaitlab::app {
 

@@ -22,9 +22,9 @@
 #include "kit/stored_scenario.h"
 #include "report/analysis/summary.h"
 #include "report/verdict/demand.h"
-#include "report/verdict/number_texts.h"
+#include "report/verdict/numbers/number_texts.h"
+#include "report/verdict/numbers/summary_text.h"
 #include "report/verdict/screen.h"
-#include "report/verdict/summary_text.h"
 
 namespace gaitlab::app {
 

@@ -10,8 +10,8 @@
 #include "core/files/atomic_file.h"
 #include "core/scenario/other_engine.h"
 #include "core/scenario/read_scenario.h"
-#include "report/verdict/numbers.h"
-#include "report/verdict/plausibility.h"
+#include "report/verdict/numbers/numbers.h"
+#include "report/verdict/plausible/plausibility.h"
 #include "report/verdict/verdict.h"
 
 namespace gaitlab::golden {

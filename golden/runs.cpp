@@ -20,7 +20,7 @@
 #include "core/simulation/simulation.h"
 #include "golden/natural_scales.h"
 #include "golden/starts.h"
-#include "report/verdict/numbers.h"
+#include "report/verdict/numbers/numbers.h"
 #include "report/verdict/verdict.h"
 
 namespace gaitlab::golden {

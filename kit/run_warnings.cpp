@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/settings/wording.h"
-#include "report/verdict/summary_text.h"
+#include "report/verdict/numbers/summary_text.h"
 #include "report/verdict/trust.h"
 
 namespace gaitlab::kit {

@@ -7,7 +7,7 @@
 #include "core/scenario/resolved.h"
 #include "report/figures/paper/run_figure.h"
 #include "report/page/page.h"
-#include "report/verdict/summary_text.h"
+#include "report/verdict/numbers/summary_text.h"
 
 namespace gaitlab::kit {
 

@@ -22,9 +22,9 @@
 #include "kit/stored_scenario.h"
 #include "report/analysis/summary.h"
 #include "report/verdict/draws.h"
-#include "report/verdict/number_texts.h"
+#include "report/verdict/numbers/number_texts.h"
+#include "report/verdict/numbers/summary_text.h"
 #include "report/verdict/spread.h"
-#include "report/verdict/summary_text.h"
 #include "report/verdict/trust.h"
 
 namespace gaitlab::app {

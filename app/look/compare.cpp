@@ -15,7 +15,7 @@
 #include "core/settings/changed_settings.h"
 #include "core/settings/wording.h"
 #include "kit/stored_scenario.h"
-#include "report/verdict/numbers.h"
+#include "report/verdict/numbers/numbers.h"
 
 namespace gaitlab::app {
 

@@ -22,7 +22,7 @@
 #include "report/page/page.h"
 #include "report/page/page_overlay.h"
 #include "report/verdict/demand.h"
-#include "report/verdict/summary_text.h"
+#include "report/verdict/numbers/summary_text.h"
 
 namespace gaitlab::app {
 

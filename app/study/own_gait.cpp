@@ -13,7 +13,7 @@
 #include "core/errors.h"
 #include "core/settings/wording.h"
 #include "core/simulation/batch.h"
-#include "report/verdict/number_texts.h"
+#include "report/verdict/numbers/number_texts.h"
 #include "report/verdict/trust.h"
 #include "studies/search/step_limit.h"
 

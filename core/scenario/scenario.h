@@ -102,7 +102,7 @@ struct Limits {
   void fields(Fields& f);
 };
 
-/// Rows of the list of plausible numbers (report/verdict/plausible_number.h) with numbers that no robot can have.
+/// Rows of the list of plausible numbers (report/verdict/plausible/plausible_number.h) with numbers that no robot can have.
 inline constexpr const char* kAcceptable[] = {"density", "moments", "stall torque", "power"};
 
 /// A message for stderr that is not a problem, such as settings that --set dropped, or the set-up of the CPG.

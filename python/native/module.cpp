@@ -14,7 +14,7 @@
 #include "python/native/rollouts.h"
 #include "python/native/run.h"
 #include "python/native/scenario.h"
-#include "report/verdict/summary_text.h"
+#include "report/verdict/numbers/summary_text.h"
 
 namespace py = pybind11;
 

@@ -19,8 +19,8 @@
 #include "report/page/page_ground.h"
 #include "report/page/robot_tree.h"
 #include "report/page/signals.h"
-#include "report/verdict/number_texts.h"
-#include "report/verdict/numbers.h"
+#include "report/verdict/numbers/number_texts.h"
+#include "report/verdict/numbers/numbers.h"
 
 namespace gaitlab::report {
 

@@ -9,7 +9,7 @@
 #include "report/page/heat_image.h"
 #include "report/page/packing.h"
 #include "report/plot/svg.h"
-#include "report/verdict/number_texts.h"
+#include "report/verdict/numbers/number_texts.h"
 
 namespace gaitlab::report {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "report/verdict/swap_table.h"
+#include "report/verdict/numbers/swap_table.h"
 #include "report/verdict/verdict.h"
 
 namespace gaitlab::report {

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
-#include <utility>
 
-#include "report/verdict/load_checks.h"
+#include "report/verdict/checks/loads.h"
 
 namespace gaitlab::report {
 
@@ -13,13 +11,8 @@ namespace {
 
 /// True if all parts with this check have the same rating.
 bool same_ratings(const Scenario& scenario, const RemedySettings& settings, const CheckKind& kind) {
-  constexpr std::pair<std::string_view, DockQuantity> kDocks[] = {{"dock_tension", DockQuantity::tension},
-                                                                  {"dock_shear", DockQuantity::shear},
-                                                                  {"dock_bending", DockQuantity::bending},
-                                                                  {"dock_torsion", DockQuantity::torsion}};
-  for (const auto& [id, quantity] : kDocks) {
-    if (id != kind.id) continue;
-    std::vector<double> limits = dock_limits(*scenario.robot, quantity);
+  if (const std::optional<DockQuantity> quantity = dock_quantity(kind.id)) {
+    std::vector<double> limits = dock_limits(*scenario.robot, *quantity);
     std::erase_if(limits, [](double limit) { return std::isnan(limit); });
     return std::ranges::adjacent_find(limits, std::ranges::not_equal_to()) == limits.end();
   }

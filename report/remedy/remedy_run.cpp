@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "report/analysis/collisions.h"
-#include "report/verdict/number_texts.h"
+#include "report/verdict/numbers/number_texts.h"
 
 namespace gaitlab::report {
 

@@ -107,8 +107,8 @@ struct CheckKind {
   const char* id;
   CheckGroup group;
   const char *unit, *title;
-  const char* definition;  ///< definition of the number that the main criterion compares
-  const char *fails, *warns;
+  std::string definition;    ///< definition of the number that the main criterion compares
+  std::string fails, warns;  ///< texts of their limits; empty if it never does
   CheckSpan span;
   const char* key;     ///< key of the scenario setting at which messages about the check are placed
   const char* remedy;  ///< advice printed by `gaitlab explain`
@@ -116,7 +116,7 @@ struct CheckKind {
   bool least = false;         ///< the limit is a lower limit
   bool of_all_loads = false;  ///< true: without a stated limit the check needs Loads::recorded to compute its number
   bool rating = false;        ///< true: the limit is a rated load, which does not act on the motion
-  [[nodiscard]] bool can_fail() const { return *fails != '\0'; }
+  [[nodiscard]] bool can_fail() const { return !fails.empty(); }
 };
 /// All kinds of checks, in the order of the verdict.
 std::span<const CheckKind> check_kinds();

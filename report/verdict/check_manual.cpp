@@ -56,7 +56,7 @@ constexpr const char* kEvidence =
     "four equally valid rollouts must pass a check, or all fail it; else its value is too close to its limit. Limits that the "
     "scenario changes, and numbers that it accepts, are beside the word, or under `rests on`.";
 
-constexpr const char* kMargin =
+constexpr const char* kAboutMargins =
     "Margin of a check: (limit - value) / limit, where limit is the one at which the check fails; with the opposite sign for a "
     "lower limit; the least margin if there are several limits; not divided for a limit of 0. Below 0 the check fails, or "
     "is too close to its limit. The worst joint, body, dock or foot has the least margin. A value is too close to its limit if "
@@ -75,7 +75,7 @@ const char* of(CheckSpan span) { return span == CheckSpan::window ? "the judged 
 std::string explain_verdict() {
   std::string text = wrapped(kAbout) + "\n";
   for (const Meaning& one : kWords) text += hanging(fmt::format("  {:<11} ", name_of(one.word)), one.meaning, kTerminal);
-  text += "\n" + wrapped(kEvidence) + "\n" + wrapped(kMargin) + "\nchecks (gaitlab explain CHECK)\n";
+  text += "\n" + wrapped(kEvidence) + "\n" + wrapped(kAboutMargins) + "\nchecks (gaitlab explain CHECK)\n";
   for (const CheckKind& kind : check_kinds()) text += fmt::format("  {:<16} {}\n", kind.id, kind.title);
   return text;
 }
@@ -88,7 +88,7 @@ std::string explain_check(const CheckKind& kind) {
   line("value", fmt::format("{}{}", kind.definition, *kind.unit == '\0' ? "" : fmt::format(", {}", kind.unit)));
   line("over", of(kind.span));
   line("fails", kind.can_fail() ? kind.fails : "never");
-  line("warns", *kind.warns == '\0' ? "never" : kind.warns);
+  line("warns", kind.warns.empty() ? "never" : kind.warns);
   line("setting", kind.key);
   line("remedy", kind.remedy);
   return text;
@@ -99,13 +99,13 @@ std::string verdict_page() {
       "# Verdict\n\n<!-- Written by `tests/gates/reference.sh build/release --renew`; CI fails where it is stale. -->\n\n{}\n",
       wrapped(kAbout, 0, kPage));
   for (const Meaning& one : kWords) text += hanging("- ", fmt::format("`{}`: {}", name_of(one.word), one.meaning), kPage);
-  text += fmt::format("\n{}\n{}\n", wrapped(kEvidence, 0, kPage), wrapped(kMargin, 0, kPage));
+  text += fmt::format("\n{}\n{}\n", wrapped(kEvidence, 0, kPage), wrapped(kAboutMargins, 0, kPage));
   text += "| check | group | value | over | fails | warns | setting | remedy |\n|---|---|---|---|---|---|---|---|\n";
   for (const CheckKind& kind : check_kinds()) {
     text +=
         fmt::format("| `{}` | {} | {}{} | {} | {} | {} | `{}` | {} |\n", kind.id, name_of(kind.group), kind.definition,
                     *kind.unit == '\0' ? "" : fmt::format(", {}", kind.unit), of(kind.span),
-                    kind.can_fail() ? kind.fails : "never", *kind.warns == '\0' ? "never" : kind.warns, kind.key, kind.remedy);
+                    kind.can_fail() ? kind.fails : "never", kind.warns.empty() ? "never" : kind.warns, kind.key, kind.remedy);
   }
   return text;
 }

@@ -10,7 +10,7 @@
 #include "core/scenario/as_built.h"
 #include "core/scenario/sections.h"
 #include "report/analysis/collisions.h"
-#include "report/verdict/number_texts.h"
+#include "report/verdict/numbers/number_texts.h"
 #include "report/verdict/trust.h"
 
 namespace gaitlab::report {

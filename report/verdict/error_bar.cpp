@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "core/scenario/scenario.h"
-#include "report/verdict/number_texts.h"
+#include "report/verdict/numbers/number_texts.h"
 #include "report/verdict/trust.h"
 
 namespace gaitlab::report {

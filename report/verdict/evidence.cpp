@@ -14,8 +14,8 @@
 #include "report/analysis/cpg_alone.h"
 #include "report/analysis/motion.h"
 #include "report/analysis/motors.h"
-#include "report/verdict/number_texts.h"
-#include "report/verdict/plausibility.h"
+#include "report/verdict/numbers/number_texts.h"
+#include "report/verdict/plausible/plausibility.h"
 #include "report/verdict/trust.h"
 
 namespace gaitlab::report {

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "report/verdict/number_texts.h"
+#include "report/verdict/numbers/number_texts.h"
 
 namespace gaitlab::report {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/recording/word.h"
-#include "report/verdict/quantities.h"
+#include "report/verdict/numbers/quantities.h"
 #include "report/verdict/verdict.h"
 
 namespace gaitlab::report {

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "report/verdict/checks.h"
-
 namespace gaitlab::report {
 
 namespace {

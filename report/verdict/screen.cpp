@@ -8,7 +8,7 @@
 #include "core/settings/wording.h"
 #include "report/analysis/changes.h"
 #include "report/analysis/posture.h"
-#include "report/verdict/number_texts.h"
+#include "report/verdict/numbers/number_texts.h"
 
 namespace gaitlab::report {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "report/verdict/numbers.h"
+#include "report/verdict/numbers/numbers.h"
 #include "report/verdict/verdict.h"
 
 namespace gaitlab::report {

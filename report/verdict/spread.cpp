@@ -7,7 +7,7 @@
 
 #include "core/simulation/batch.h"
 #include "report/analysis/collisions.h"
-#include "report/verdict/number_texts.h"
+#include "report/verdict/numbers/number_texts.h"
 #include "report/verdict/rolled.h"
 #include "report/verdict/trust.h"
 

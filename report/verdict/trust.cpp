@@ -12,7 +12,7 @@
 #include "core/simulation/step_advice.h"
 #include "core/simulation/step_error.h"
 #include "report/analysis/summary.h"
-#include "report/verdict/number_texts.h"
+#include "report/verdict/numbers/number_texts.h"
 
 namespace gaitlab::report {
 

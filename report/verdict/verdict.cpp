@@ -10,10 +10,10 @@
 
 #include "core/settings/wording.h"
 #include "report/analysis/plugin_names.h"
-#include "report/verdict/checks.h"
+#include "report/verdict/checks/checked_run.h"
 #include "report/verdict/draws.h"
 #include "report/verdict/instability.h"
-#include "report/verdict/number_texts.h"
+#include "report/verdict/numbers/number_texts.h"
 #include "report/verdict/rolled.h"
 #include "report/verdict/spread.h"
 

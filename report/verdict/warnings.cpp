@@ -10,7 +10,7 @@
 #include "core/scenario/built_robot.h"
 #include "core/settings/wording.h"
 #include "report/analysis/own_overlap.h"
-#include "report/verdict/plausibility.h"
+#include "report/verdict/plausible/plausibility.h"
 #include "report/verdict/position_loop.h"
 
 namespace gaitlab::report {

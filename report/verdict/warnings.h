@@ -1,22 +1,10 @@
 // Warnings about a scenario before it runs, most of which detect wrong units. Warnings about a run are checks (verdict.h).
 #pragma once
-#include <string>
 #include <vector>
 
-#include "core/scenario/scenario.h"
+#include "report/verdict/plausible/plausible_number.h"
 
 namespace gaitlab::report {
-
-/// Largest Kt / Ks or Ks / Kt without a warning. The two are one constant in SI units, and measured ones of one motor agree to
-/// 10 %.
-inline constexpr double kConstantsApart = 1.3;
-
-struct Warning {
-  SourceLocation place;
-  std::string text;
-  bool severe = true;    ///< false: a note
-  bool of_gait = false;  ///< the warning is on the scenario's own gait, which a study varies
-};
 
 /// Warnings about a scenario, each with its cause and remedy:
 /// - A motor without torque: Kt, u_max or i_max is 0.

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "core/settings/wording.h"
-#include "report/verdict/numbers.h"
+#include "report/verdict/numbers/numbers.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {

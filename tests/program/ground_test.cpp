@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/simulation/start.h"
-#include "report/verdict/summary_text.h"
+#include "report/verdict/numbers/summary_text.h"
 #include "tests/oracles/blocks.h"
 #include "tests/program/block.h"
 #include "tests/program/engines.h"

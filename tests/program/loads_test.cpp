@@ -5,7 +5,7 @@
 
 #include "core/model/pattern.h"
 #include "core/recording/recording_file.h"
-#include "report/verdict/load_checks.h"
+#include "report/verdict/checks/loads.h"
 #include "tests/oracles/blocks.h"
 #include "tests/program/block.h"
 #include "tests/program/dense_bending.h"

@@ -26,11 +26,11 @@ OUT = ROOT / "build/mutants"
 # Sources that create scenarios or print their limits, and sources that use the constants of HEADERS.
 WITH_DEFAULTS = ["core/scenario/read_scenario.cpp"]
 # Tests of tables and of changed recordings run first. Surviving mutants are then tested by tests that simulate.
-QUICK = ["report/verdict/check_table", "report/verdict/check_cases", "report/verdict/motion_cases", "report/verdict/check_evidence",
-         "report/verdict/load_checks", "report/verdict/body_checks", "report/verdict/verdict_motor", "report/verdict/decision",
-         "report/verdict/stall", "report/analysis/own_overlap", "studies/study/guards", "report/analysis/posture"]
+QUICK = ["report/verdict/checks/check_table", "report/verdict/checks/check_cases", "report/verdict/checks/motion_cases", "report/verdict/check_evidence",
+         "report/verdict/checks/load_checks", "report/verdict/checks/body_checks", "report/verdict/checks/verdict_motor", "report/verdict/decision",
+         "report/verdict/checks/stall", "report/analysis/own_overlap", "studies/study/guards", "report/analysis/posture"]
 SLOW = ["report/verdict/verdict", "report/verdict/warnings", "report/verdict/trust", "report/verdict/earned",
-        "report/verdict/shown", "report/verdict/creep", "report/verdict/possible", "report/verdict/plausibility",
+        "report/verdict/shown", "report/verdict/checks/creep", "report/verdict/plausible/possible", "report/verdict/plausible/plausibility",
         "report/verdict/instability", "report/analysis/gait", "report/analysis/motion"]
 QUICK_FILTER = "Check*:Decision*:Stall*:OwnOverlap*:LoadChecks*:Fall*:Upright*:InGround*:Guards*:Posture*-Posture.Shipped*"
 # The filter excludes tests that take minutes and do not concern a single check: whole programs, all shipped scenarios.

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "report/figures/study/study_sheet.h"
-#include "report/verdict/quantities.h"
+#include "report/verdict/numbers/quantities.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {

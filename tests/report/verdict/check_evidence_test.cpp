@@ -5,7 +5,7 @@
 
 #include "report/verdict/error_bar.h"
 #include "report/verdict/trust.h"
-#include "tests/report/verdict/check_changes.h"
+#include "tests/report/verdict/checks/check_changes.h"
 
 namespace gaitlab::test {
 namespace {

@@ -2,8 +2,8 @@
 // verdict.json.
 #include <nlohmann/json.hpp>
 
-#include "report/verdict/number_texts.h"
-#include "tests/report/verdict/check_changes.h"
+#include "report/verdict/numbers/number_texts.h"
+#include "tests/report/verdict/checks/check_changes.h"
 
 namespace gaitlab::test {
 namespace {

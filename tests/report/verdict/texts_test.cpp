@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "report/verdict/check_manual.h"
-#include "report/verdict/number_texts.h"
+#include "report/verdict/numbers/number_texts.h"
 
 namespace gaitlab::test {
 namespace {

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "report/analysis/summary.h"
-#include "report/verdict/number_texts.h"
-#include "report/verdict/summary_text.h"
+#include "report/verdict/numbers/number_texts.h"
+#include "report/verdict/numbers/summary_text.h"
 #include "tests/folders.h"
 #include "tests/labels.h"
 #include "tests/report/verdict/messages.h"

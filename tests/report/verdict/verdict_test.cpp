@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/scenario/resolved.h"
-#include "report/verdict/summary_text.h"
+#include "report/verdict/numbers/summary_text.h"
 #include "tests/labels.h"
 #include "tests/program/cart.h"
 #include "tests/report/verdict/verdict_case.h"

@@ -4,15 +4,14 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
-VERDICT = [f"report/verdict/{name}.cpp" for name in (
-    "check_kinds", "checks_body", "checks_gait", "checks_limits", "checks_motor", "checks_stall", "checks_trust", "error_bar", "evidence", "load_checks", "trust",
-    "verdict", "warnings")]
+CHECKS = sorted(f"report/verdict/checks/{path.name}" for path in (ROOT / "report/verdict/checks").glob("*.cpp"))
+VERDICT = CHECKS + [f"report/verdict/{name}.cpp" for name in ("error_bar", "evidence", "trust", "verdict", "warnings")]
 ANALYSIS = [f"report/analysis/{name}.cpp" for name in (
     "collisions", "fall", "motion", "own_overlap", "posture", "upright")]
-WORD = [f"report/{name}.cpp" for name in (  # period, full size and window of a gait, implausible and impossible numbers, instability
-    "analysis/gait", "verdict/plausibility", "verdict/plausible_bodies", "verdict/plausible_contacts", "verdict/plausible_motors",
-    "verdict/plausible_scenario", "verdict/instability")]
-HEADERS = ["report/verdict/error_bar.h", "report/verdict/evidence.h", "report/analysis/posture.h", "report/analysis/gait.h"]
+# Period, full size and window of a gait; implausible and impossible numbers; instability.
+WORD = ["report/analysis/gait.cpp", "report/verdict/instability.cpp"] + sorted(
+    f"report/verdict/plausible/{path.name}" for path in (ROOT / "report/verdict/plausible").glob("*.cpp"))
+HEADERS = ["report/verdict/checks/rated.h", "report/verdict/error_bar.h", "report/verdict/evidence.h", "report/analysis/posture.h", "report/analysis/gait.h"]
 GUARDS = "studies/study/guards.cpp"
 DEFAULTS = "core/scenario/scenario.h"
 
@@ -92,10 +91,6 @@ def mutate_checks(mutants, path, text):
             statement = ""
             continue
         made_text = TEXT.match(statement) is not None or "made.text +=" in code
-        if path.endswith("check_kinds.cpp"):
-            out.append(line)
-            statement = ""
-            continue
         if "torque_remedy" not in code and "threshold(" not in code and not made_text:
             line = sub(line, LIMIT_USE, lambda m: f"mutants::scaled({mutants.add(path, number, m.group() + ' times 1.3')}, {m.group()})")
         line = sub(line, r"(?<=, )&Limits::(\w+), run\)(?=;)", lambda m: m.group() +
@@ -119,24 +114,19 @@ def mutate_checks(mutants, path, text):
 
 
 def mutate_kinds(mutants, path, text):
-    """Mutates the span of every row of the table of checks, in a copy of the table that is created at the call."""
-    rows = []
-    for number, line in enumerate(text.split("\n"), 1):
-        start = re.match(r'\s+\{"(\w+)", Group::', line)
-        if start:
-            rows.append((number, start.group(1)))
-    first = mutants.next(path)
-    for number, check in rows:
-        mutants.add(path, number, f"span of {check} exchanged")
-    return text.replace("std::span<const CheckKind> check_kinds() { return kChecks; }", f"""
-std::span<const CheckKind> check_kinds() {{
-  static std::vector<CheckKind> all;
-  all.assign(std::begin(kChecks), std::end(kChecks));
-  for (std::size_t k = 0; k < all.size(); ++k) {{
-    if (mutants::on({first} + static_cast<int>(k))) all[k].span = all[k].span == kWindow ? kWhole : kWindow;
-  }}
-  return all;
-}}""")
+    """Mutates the span of every row of the list of checks, in a copy of the list that is created at the call."""
+    spans = ""
+    for check in re.findall(r'\{"(\w+)", (?:CheckGroup::|"N)', "".join((ROOT / source).read_text() for source in CHECKS)):
+        number = mutants.add(path, 1, f"span of {check} exchanged")
+        spans += f'    if (mutants::on({number}) && one.id == std::string("{check}")) one.span = exchanged;\n'
+    return text.replace("  return kKinds;\n", f"""
+  static std::vector<CheckKind> mutated;
+  mutated = kKinds;
+  for (CheckKind& one : mutated) {{
+    const CheckSpan exchanged = one.span == CheckSpan::window ? CheckSpan::whole_run : CheckSpan::window;
+{spans}  }}
+  return mutated;
+""")
 
 
 def mutate_guards(mutants, path, text):
@@ -179,10 +169,9 @@ def mutate_defaults(mutants, path, text):
 def generate():
     mutants = Mutants()
     made = {}
-    for path in HEADERS + VERDICT + ANALYSIS:
+    for path in HEADERS + VERDICT + ANALYSIS + WORD:
         text = mutate_checks(mutants, path, (ROOT / path).read_text())
-        made[path] = mutate_kinds(mutants, path, text) if path.endswith("check_kinds.cpp") else text
+        made[path] = mutate_kinds(mutants, path, text) if path.endswith("checks/list.cpp") else text
     made[GUARDS] = mutate_guards(mutants, GUARDS, (ROOT / GUARDS).read_text())
     made[DEFAULTS] = mutate_defaults(mutants, DEFAULTS, (ROOT / DEFAULTS).read_text())
-    made.update((path, mutate_checks(mutants, path, (ROOT / path).read_text())) for path in WORD)
     return mutants, made
