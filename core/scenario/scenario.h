@@ -95,9 +95,10 @@ struct Limits {
   double progress = 0;         ///< least travel per period, as a share of the robot's extent; 0 means no requirement
   /// Depth above which two bodies count as overlapping, m. A recorded scenario may have a `touch` above `collision`.
   [[nodiscard]] double meeting() const { return touch < collision ? touch : collision; }
-  /// Largest torque error of a run that is judged: `torque_error`, and at most 10 %, because with a larger error neither
-  /// torques nor motion are known.
-  [[nodiscard]] double most_torque_error() const { return torque_error < 0.1 ? torque_error : 0.1; }
+  /// Largest torque error of a run that is judged: `torque_error`, and at most kMostTorqueError, because with a larger error
+  /// neither torques nor motion are known.
+  [[nodiscard]] double most_torque_error() const { return torque_error < kMostTorqueError ? torque_error : kMostTorqueError; }
+  static constexpr double kMostTorqueError = 0.1;
   bool operator==(const Limits&) const = default;
   void fields(Fields& f);
 };

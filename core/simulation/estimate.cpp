@@ -14,8 +14,7 @@ namespace gaitlab {
 namespace {
 
 constexpr double kEventShare = 0.01;  // event threshold, as a share of a torque's peak, for integrators without an accuracy
-constexpr double kChaotic = 1e-9;     // relative change of gravity
-/// Factors by which torque differences are multiplied, by Companion.
+/// Factors by which torque differences are multiplied, by Companion; the last is kIll / kChaotic without rounding.
 constexpr std::array<double, kDifferences> kFactors{StepError::kOfFiner, StepError::kOfCoarser, 1, 1000};
 
 /// Number of steps h in `seconds`, rounded up to whole control periods.
@@ -29,7 +28,7 @@ std::vector<Scenario> companions(const Scenario& s) {
   std::vector<Scenario> all(kCompanions, s);
   all[static_cast<std::size_t>(Companion::twin)].physics.accuracy *= StepError::kFiner;
   all[static_cast<std::size_t>(Companion::coarse)].physics.accuracy *= StepError::kCoarser;
-  all[static_cast<std::size_t>(Companion::chaotic)].physics.gravity *= 1 + kChaotic;
+  all[static_cast<std::size_t>(Companion::chaotic)].physics.gravity *= 1 + StepError::kChaotic;
   return all;
 }
 

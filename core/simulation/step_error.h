@@ -29,8 +29,8 @@ struct TwinWindows {
 enum class Companion {
   twin,     ///< finer steps; with a fixed step, steps of another length
   coarse,   ///< coarser steps, for errors that run and twin have in common
-  chaotic,  ///< gravity times 1 + 1e-9. A motion that this changes is not predictable with steps of any length
-  ill,      ///< difference to `chaotic` times 1000, as a linear estimate for gravity times 1 + 1e-6
+  chaotic,  ///< gravity times 1 + StepError::kChaotic. A motion that this changes is not predictable with steps of any length
+  ill,      ///< difference to `chaotic` times 1000, as a linear estimate for gravity times 1 + StepError::kIll
 };
 constexpr std::size_t kCompanions = 3, kDifferences = 4;
 
@@ -50,7 +50,8 @@ class StepError {
   static constexpr double kFiner = 0.5, kCoarser = 3;  ///< accuracy of twin and coarse companion over accuracy of the run
   static constexpr double kOfFiner = 2.26, kOfCoarser = 0.58;  ///< error of the run over its difference to them
   static constexpr double kSafety = 1.25;                      ///< because events lower the order, and windows miss some events
-  static constexpr double kStart = 1.0 / 3;   ///< weight of the first window; other windows have the weight 1 of a whole cycle
+  static constexpr double kStart = 1.0 / 3;  ///< weight of the first window; other windows have the weight 1 of a whole cycle
+  static constexpr double kChaotic = 1e-9, kIll = 1e-6;  ///< relative changes of gravity of these companions
   static constexpr double kLeastPeak = 0.02;  ///< share of the largest peak of all joints, to which smaller peaks are raised
 
   /// `accuracy` is, per lane, the share of the peak torque by which two rollouts must differ for an event.

@@ -16,8 +16,6 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kMostGrowth = 0.02;  // of a range after the run
-constexpr double kMostDrift = 0.01;   // of mean and RMS within the window, as a share of the range
 constexpr double kStill = 2e-3;       // rad or rad/s: a smaller range is none (core/recording/limit_cycle.h)
 constexpr double kTwoPeriods = 2.25;  // least length that shows a period
 constexpr double kLeastSamples = 20;  // in the stretches whose means are compared
@@ -165,7 +163,7 @@ std::string grows(const Scenario& s, const Judged& judged, const Gait& gait) {
     const double range = high - low;
     const double more = std::max(ahead.after_run[c].second, high) - std::min(ahead.after_run[c].first, low) - range;
     const double share = more / std::max(range, kStill);
-    if (!(more > kStill / 2) || !(share > kMostGrowth + sampled) || !(share > most)) continue;
+    if (!(more > kStill / 2) || !(share > Gait::kMostGrowth + sampled) || !(share > most)) continue;
     most = share;
     text = fmt::format(
         "the set points still grow: those of joint {} range over {:.3g} {} in the judged time and over {:.3g} later; "
@@ -223,7 +221,7 @@ std::string drifts(const Scenario& s, const Recording& r, double from, double to
   const double unit = periods.unit();
   const double between = unit > 0 ? std::floor((to - from) / unit - 1 + 1e-3) * unit : 0;
   if (!(between > 0)) return "";
-  const Periods::Change most = periods.change(between, from, to, kMostDrift);
+  const Periods::Change most = periods.change(between, from, to, Gait::kMostDrift);
   if (!(most.over > 1)) return "";
   const bool moves = std::abs(most.mean) >= std::abs(most.rms);
   return fmt::format("the set points {}: {} of joint {} changes by {:.2g} {} per period of {:.3g} s, of a range of {:.3g}",
@@ -237,7 +235,7 @@ std::string drifts(const Scenario& s, const Recording& r, double from, double to
 
 /// Start of the recorded set points with the size of their last period, s, for a CPG that states none: equations that lower the
 /// robot, then repeat. 0 if they have it from `start` on, or change until the end. Not of a slow drift: later periods are equal
-/// within a tenth of kMostDrift, and one of the two periods before them differs by more than kMostDrift.
+/// within a tenth of Gait::kMostDrift, and one of the two periods before them differs by more than Gait::kMostDrift.
 double settled_from(const Scenario& s, const Recording& r, double start, double period) {
   const Periods periods(s, r, period);
   const double unit = periods.unit();
@@ -245,10 +243,10 @@ double settled_from(const Scenario& s, const Recording& r, double start, double 
   const double held = unit > 0 ? std::floor((to - start) / unit + 1e-3) : 0;
   if (held < 3) return 0;
   const auto differs = [&](double back, double share) { return periods.change(back * unit, to - unit, to, share).over > 1; };
-  if (!differs(held - 2, kMostDrift)) return 0;
+  if (!differs(held - 2, Gait::kMostDrift)) return 0;
   double equal = 1;
-  while (equal < held - 1 && !differs(equal, kMostDrift / 10)) ++equal;
-  const bool apart = differs(equal, kMostDrift) || differs(std::min(equal + 1, held - 1), kMostDrift);
+  while (equal < held - 1 && !differs(equal, Gait::kMostDrift / 10)) ++equal;
+  const bool apart = differs(equal, Gait::kMostDrift) || differs(std::min(equal + 1, held - 1), Gait::kMostDrift);
   return equal >= 2 && apart ? to - equal * unit : 0;
 }
 

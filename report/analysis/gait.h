@@ -14,6 +14,9 @@ namespace gaitlab::report {
 inline constexpr double kBorne = 0.5;
 
 struct Gait {
+  /// Largest growth of a set point's range after the run; largest drift of its mean and RMS within the window. Shares of the
+  /// range.
+  static constexpr double kMostGrowth = 0.02, kMostDrift = 0.01;
   /// s; 0 if the set points do not repeat, or by no known period. That of the recorded set points; of the CPG alone, if the run
   /// is too short for it; or the stated one.
   double period = 0;

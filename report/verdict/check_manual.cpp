@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include "core/settings/wording.h"
+#include "core/simulation/step_error.h"
+#include "report/verdict/evidence.h"
+#include "report/verdict/numbers/number_texts.h"
+#include "report/verdict/trust.h"
 
 namespace gaitlab::report {
 
@@ -16,50 +20,56 @@ constexpr std::size_t kTerminal = 80, kPage = 120;  // columns
 
 struct Meaning {
   Word word;
-  const char* meaning;
-};
-constexpr Meaning kWords[] = {
-    {Word::feasible,
-     "No check fails, and none is too close to its limit. At least one limit of the motors was judged, and for a floating base "
-     "on a ground also fall and in_ground. The run is evidence: long enough, borne by the ground, and accurate. With "
-     "contact.law bullet, whose solver keeps bodies apart, fall and in_ground may be missing, and unknown evidence (torque "
-     "error, the ground's share of the weight) is named beside the word."},
-    {Word::infeasible,
-     "A check fails, in a run that is accurate and shows the gait. In a run that is too short, or whose gait is not at full "
-     "size, only a check of the whole run counts (fall, upright, stops, collision, in_ground, gear_peak, docks, a rated "
-     "speed), "
-     "because more time cannot undo it. With a torque error above limits.torque_error (at most 10 %) and up to 50 %, only "
-     "voltage, current, stall, heat, gears and docks count, and only if one fails even with its value reduced by the torque "
-     "error of its joint."},
-    {Word::not_judged,
-     "Anything else. The sentence names all missing evidence, its settings where they are known, and the failing check so far; "
-     "an impossible number is named alone. If all settings are known, a line `judge by` has the command with them. If only the "
-     "accuracy is missing, or a value is too close to its limit, `run` simulates once more, more accurately, if that takes "
-     "less "
-     "than 10 s by its estimate (not with --no-retry)."},
-    {Word::failed, "The run ended early."},
+  std::string meaning;
 };
 
-constexpr const char* kEvidence =
-    "Evidence. Long enough, from the start of the gait on (the end of a ramp, the last change of `at`, the landing): two "
-    "periods, if the motion repeats within 1 %, of which one is judged; else three periods of the set points; where set points "
-    "do not repeat, 2 s. At full size: a ramp or rate of the cpg ends within the run; for other cpgs the range of a set point "
-    "grows by at most 2 % in three periods after the run, which the cpg computes alone; mean and RMS of a set point in the "
-    "first "
-    "and the last period of the window differ by at most 1 % of its range; some set point changes by more than 2.5 % of its "
-    "range. Borne, for a floating base: the ground carries at least half of the weight on average. Accurate: torque error at "
-    "most limits.torque_error (and 10 %, whatever that limit), at most 5 % of the energy unaccounted for, at most 10 % of the "
-    "time coarser than physics.accuracy, and no motor whose efficiency x Kt exceeds Ks. Possible: density, moments of "
-    "inertia, stall torque and power are such as a robot can have (docs/modules.md), or `accept` of the scenario names the "
-    "row; "
-    "else the run is not judged, whatever its checks say. Predictable: if gravity times 1 + 1e-9 changes the torques, all of "
-    "four equally valid rollouts must pass a check, or all fail it; else its value is too close to its limit. Limits that the "
-    "scenario changes, and numbers that it accepts, are beside the word, or under `rests on`.";
+std::vector<Meaning> meanings() {
+  return {{Word::feasible,
+           "No check fails, and none is too close to its limit. At least one limit of the motors was judged, and for a "
+           "floating base on a ground also fall and in_ground. The run is evidence: long enough, borne by the ground, and "
+           "accurate. With contact.law bullet, whose solver keeps bodies apart, fall and in_ground may be missing, and unknown "
+           "evidence (torque error, the ground's share of the weight) is named beside the word."},
+          {Word::infeasible,
+           fmt::format("A check fails, in a run that is accurate and shows the gait. In a run that is too short, or whose gait "
+                       "is not at full size, only a check of the whole run counts (fall, upright, stops, collision, in_ground, "
+                       "gear_peak, docks, a rated speed), because more time cannot undo it. With a torque error above "
+                       "limits.torque_error (at most {}) and up to {}, only voltage, current, stall, heat, gears and docks "
+                       "count, and only if one fails even with its value reduced by the torque error of its joint.",
+                       texts::percent(Limits::kMostTorqueError), texts::percent(kMostError))},
+          {Word::not_judged,
+           "Anything else. The sentence names all missing evidence, its settings where they are known, and the failing check "
+           "so far; an impossible number is named alone. If all settings are known, a line `judge by` has the command with "
+           "them. If only the accuracy is missing, or a value is too close to its limit, `run` simulates once more, more "
+           "accurately, if that takes less than 10 s by its estimate (not with --no-retry)."},
+          {Word::failed, "The run ended early."}};
+}
+
+std::string about_evidence() {
+  return fmt::format(
+      "Evidence. Long enough, from the start of the gait on (the end of a ramp, the last change of `at`, the landing): two "
+      "periods, if the motion repeats within {settled}, of which one is judged; else three periods of the set points; where "
+      "set points do not repeat, {time:g} s. At full size: a ramp or rate of the cpg ends within the run; for other cpgs the "
+      "range of a set point grows by at most {growth} in three periods after the run, which the cpg computes alone; mean and "
+      "RMS of a set point in the first and the last period of the window differ by at most {drift} of its range; some set "
+      "point changes by more than {moves} of its range. Borne, for a floating base: the ground carries at least half of the "
+      "weight on average. Accurate: torque error at most limits.torque_error (and {torque}, whatever that limit), at most "
+      "{residual} of the energy unaccounted for, at most {coarse} of the time coarser than physics.accuracy, and no motor "
+      "whose efficiency x Kt exceeds Ks. Possible: density, moments of inertia, stall torque and power are such as a robot can "
+      "have (docs/modules.md), or `accept` of the scenario names the row; else the run is not judged, whatever its checks say. "
+      "Predictable: if gravity times {disturbed} changes the torques, all of four equally valid rollouts must pass a check, or "
+      "all fail it; else its value is too close to its limit. Limits that the scenario changes, and numbers that it accepts, "
+      "are beside the word, or under `rests on`.",
+      fmt::arg("settled", texts::percent(kSettled)), fmt::arg("time", kLeastTime),
+      fmt::arg("growth", texts::percent(Gait::kMostGrowth)), fmt::arg("drift", texts::percent(Gait::kMostDrift)),
+      fmt::arg("moves", texts::percent(kMoves)), fmt::arg("torque", texts::percent(Limits::kMostTorqueError)),
+      fmt::arg("residual", texts::percent(kTrustedResidual)), fmt::arg("coarse", texts::percent(kTrustedCoarse)),
+      fmt::arg("disturbed", disturbed(StepError::kChaotic)));
+}
 
 constexpr const char* kAboutMargins =
     "Margin of a check: (limit - value) / limit, where limit is the one at which the check fails; with the opposite sign for a "
-    "lower limit; the least margin if there are several limits; not divided for a limit of 0. Below 0 the check fails, or "
-    "is too close to its limit. The worst joint, body, dock or foot has the least margin. A value is too close to its limit if "
+    "lower limit; the least margin if there are several limits; not divided for a limit of 0. Below 0 the check fails, or is "
+    "too close to its limit. The worst joint, body, dock or foot has the least margin. A value is too close to its limit if "
     "its error bar contains the limit, unless another part exceeds its limit by more than its own error. Voltage, current, "
     "stall, heat, gears and docks have an error bar, from the estimated error of the torques.";
 
@@ -74,8 +84,8 @@ const char* of(CheckSpan span) { return span == CheckSpan::window ? "the judged 
 
 std::string explain_verdict() {
   std::string text = wrapped(kAbout) + "\n";
-  for (const Meaning& one : kWords) text += hanging(fmt::format("  {:<11} ", name_of(one.word)), one.meaning, kTerminal);
-  text += "\n" + wrapped(kEvidence) + "\n" + wrapped(kAboutMargins) + "\nchecks (gaitlab explain CHECK)\n";
+  for (const Meaning& one : meanings()) text += hanging(fmt::format("  {:<11} ", name_of(one.word)), one.meaning, kTerminal);
+  text += "\n" + wrapped(about_evidence()) + "\n" + wrapped(kAboutMargins) + "\nchecks (gaitlab explain CHECK)\n";
   for (const CheckKind& kind : check_kinds()) text += fmt::format("  {:<16} {}\n", kind.id, kind.title);
   return text;
 }
@@ -98,8 +108,8 @@ std::string verdict_page() {
   std::string text = fmt::format(
       "# Verdict\n\n<!-- Written by `tests/gates/reference.sh build/release --renew`; CI fails where it is stale. -->\n\n{}\n",
       wrapped(kAbout, 0, kPage));
-  for (const Meaning& one : kWords) text += hanging("- ", fmt::format("`{}`: {}", name_of(one.word), one.meaning), kPage);
-  text += fmt::format("\n{}\n{}\n", wrapped(kEvidence, 0, kPage), wrapped(kAboutMargins, 0, kPage));
+  for (const Meaning& one : meanings()) text += hanging("- ", fmt::format("`{}`: {}", name_of(one.word), one.meaning), kPage);
+  text += fmt::format("\n{}\n{}\n", wrapped(about_evidence(), 0, kPage), wrapped(kAboutMargins, 0, kPage));
   text += "| check | group | value | over | fails | warns | setting | remedy |\n|---|---|---|---|---|---|---|---|\n";
   for (const CheckKind& kind : check_kinds()) {
     text +=

@@ -25,9 +25,8 @@ namespace {
 constexpr double kRelative = 1e-9;  // tolerance for rounding
 constexpr double kEstimate = 1e-3;  // share of a period, tolerance of an estimated period
 
-/// True if a set point changes after `start`, s, by more than the rest of a rise (SetPointTimes::full_size).
+/// True if a set point changes after `start`, s, by more than kMoves of its range.
 bool moves(const std::vector<Series>& set_points, const Series& time, double start) {
-  constexpr double kLeft = 0.025;  // of a range, a little more than 2 %
   for (const Series& one : set_points) {
     double low = one[0];
     double high = low;
@@ -40,7 +39,7 @@ bool moves(const std::vector<Series>& set_points, const Series& time, double sta
       later_low = std::min(later_low, one[k]);
       later_high = std::max(later_high, one[k]);
     }
-    if (later_high - later_low > kLeft * (high - low)) return true;
+    if (later_high - later_low > kMoves * (high - low)) return true;
   }
   return false;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/simulation/batch.h"
+#include "core/simulation/step_error.h"
 #include "report/analysis/collisions.h"
 #include "report/verdict/numbers/number_texts.h"
 #include "report/verdict/rolled.h"
@@ -17,7 +18,7 @@ Trace spread(const Scenario& scenario, const Recording& record, const Summary& s
              std::atomic<bool>& stop, const std::function<void()>& ended) {
   const Predictability found = predictability(scenario, record);
   if (!record.outcome.done() || (found != Predictability::chaotic && found != Predictability::ill)) return {};
-  const double by = found == Predictability::chaotic ? 1e-9 : 1e-6;
+  const double by = found == Predictability::chaotic ? StepError::kChaotic : StepError::kIll;
   Trace made;
   made.columns = rolled_columns();
   const auto add = [&](const Rolled& run) {

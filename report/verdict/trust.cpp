@@ -18,9 +18,7 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kGood = 0.01;           // share of a torque's peak
 constexpr double kLeastAccuracy = 1e-6;  // least value that a scenario may request
-constexpr double kHeight = 1e-3;         // m, height to which least_energy() lifts the robot
 constexpr double kMargin = 2;            // factor by which a remedy is stricter than necessary
 
 /// Rounds down to one digit: 0.0037 becomes 0.003.
@@ -34,7 +32,7 @@ double one_digit(double value) {
 std::string finer_setting(const Scenario& s, double share) {
   if (quantised(s)) return "";
   const Physics& physics = s.physics;
-  const double ratio = std::min({kGood, torque_error_limit(s), s.limits.most_torque_error()}) / share / kMargin;
+  const double ratio = std::min({kAccurate, torque_error_limit(s), s.limits.most_torque_error()}) / share / kMargin;
   if (physics.adapts())
     return fmt::format("physics.accuracy={:.1g}", std::max(one_digit(physics.accuracy * ratio), kLeastAccuracy));
   const int order = std::max(1, physics.integrator->order);
@@ -111,6 +109,8 @@ const Parting& parting(const Scenario& s, const Recording& r) {
   return predictability(s, r) == Predictability::chaotic ? r.tally.chaotic : r.tally.ill;
 }
 
+std::string disturbed(double change) { return fmt::format("1 + 1e{:.0f}", std::log10(change)); }
+
 std::string predictability_text(const Scenario& s, const Recording& r) {
   const Predictability found = predictability(s, r);
   const Parting& apart = parting(s, r);
@@ -119,17 +119,19 @@ std::string predictability_text(const Scenario& s, const Recording& r) {
                                                    : "not tested: no rollout under a disturbed gravity was made";
   }
   const bool chaotic = found == Predictability::chaotic;
-  std::string does =
-      chaotic ? fmt::format("gravity times 1 + 1e-9 changes the torques by {} of their peak", texts::rough_percent(apart.share))
-              : fmt::format("gravity times 1 + 1e-6 changes the torques by about {} of their peak (in proportion to 1 + 1e-9)",
-                            texts::rough_percent(apart.share));
+  const std::string share = texts::rough_percent(apart.share);
+  const std::string by = disturbed(StepError::kChaotic);
+  std::string does = chaotic
+                         ? fmt::format("gravity times {} changes the torques by {} of their peak", by, share)
+                         : fmt::format("gravity times {} changes the torques by about {} of their peak (in proportion to {})",
+                                       disturbed(StepError::kIll), share, by);
   if (found == Predictability::predictable) return does;
   return fmt::format("from t = {:.4g} s on (joint {}) the motion is {}: {}", apart.time, s.robot->joints[apart.joint].name,
                      chaotic ? "not predictable" : "ill-conditioned", does);
 }
 
 double least_energy(const Scenario& s) {
-  return std::max(s.robot->mass * s.physics.gravity.norm() * kHeight, std::numeric_limits<double>::min());
+  return std::max(s.robot->mass * s.physics.gravity.norm() * kLifted, std::numeric_limits<double>::min());
 }
 
 double energy_scale(const Scenario& s, const Recording& r) {
@@ -140,8 +142,10 @@ double residual_share(const Scenario& s, const Recording& r) { return std::abs(r
 
 double created_share(const Scenario& s, const Recording& r) { return texts::created(r) / energy_scale(s, r); }
 
-double torque_error_limit(const Scenario& s) { return s.physics.adapts() ? s.physics.accuracy : kGood; }
-double predictability_limit(const Scenario& s) { return s.physics.adapts() ? std::max(kGood, s.physics.accuracy) : kGood; }
+double torque_error_limit(const Scenario& s) { return s.physics.adapts() ? s.physics.accuracy : kAccurate; }
+double predictability_limit(const Scenario& s) {
+  return s.physics.adapts() ? std::max(kAccurate, s.physics.accuracy) : kAccurate;
+}
 
 std::vector<std::string> not_finite(const Scenario& s, const Recording& r) {
   std::vector<std::string> names;

@@ -7,6 +7,9 @@
 
 namespace gaitlab::report {
 
+inline constexpr double kAccurate = 0.01;  ///< share of a torque's peak
+inline constexpr double kLifted = 1e-3;    ///< m, height to which least_energy() lifts the robot
+
 /// Estimated error of the motor torques of the worst joint: RMS error / largest torque of the joint, both from the instants of
 /// the estimate (core/simulation/step_error.h). The largest torque of a joint counts as at least 2 % of the largest of all
 /// joints.
@@ -29,6 +32,8 @@ const Parting& parting(const Scenario& scenario, const Recording& record);
 /// Text `from t = 0.66 s on (joint m0/active) the motion is not predictable: gravity times 1 + 1e-9 changes the torques by 49 %
 /// of their peak`.
 std::string predictability_text(const Scenario& scenario, const Recording& record);
+/// Text `1 + 1e-9` of a change of gravity, a power of ten.
+std::string disturbed(double change);
 
 /// Largest torque error without a warning: the accuracy that the scenario requests, or 1 % with a fixed step.
 double torque_error_limit(const Scenario& scenario);

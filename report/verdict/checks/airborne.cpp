@@ -17,8 +17,8 @@ std::vector<CheckKind> checks::airborne() {
                             texts::percent(kAirborne), texts::percent(made.value));
   };
   return {{"airborne", CheckGroup::ground, "", "Keeps to the ground",
-           "share of the window in which the ground carries less than 5 % of the weight", "", "any", CheckSpan::window, "cpg",
-           "a slower gait", judge}};
+           fmt::format("share of the window in which the ground carries less than {} of the weight", texts::percent(kAirborne)),
+           "", "any", CheckSpan::window, "cpg", "a slower gait", judge}};
 }
 
 }  // namespace gaitlab::report

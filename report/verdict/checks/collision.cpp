@@ -1,5 +1,6 @@
 // The check `collision`: bodies keep apart.
 #include "core/settings/wording.h"
+#include "report/analysis/own_overlap.h"
 #include "report/verdict/checks/checked_run.h"
 
 namespace gaitlab::report {
@@ -27,12 +28,12 @@ std::vector<CheckKind> checks::collision() {
     made.text = fmt::format("{} of bodies pass{} through one another, deepest {} and {}, by {}", counted(found->pairs, "pair"),
                             found->pairs == 1 ? "es" : "", one.name, other.name, texts::length(found->depth));
   };
-  return {
-      {"collision", CheckGroup::structure, "m", "Bodies keep apart",
-       "deepest overlap of two bodies, of bodies of one module the part beyond 1.41 times their overlap with all hinges at 0; "
-       "pairs of may_overlap are left out; in the whole run, at control ticks",
-       "above limits.collision", "above limits.touch", CheckSpan::whole_run, "robot",
-       "smaller amplitudes or offsets, or may_overlap for bodies whose shapes are rougher than the real ones", judge}};
+  return {{"collision", CheckGroup::structure, "m", "Bodies keep apart",
+           fmt::format("deepest overlap of two bodies, of bodies of one module the part beyond {:.3g} times their overlap with "
+                       "all hinges at 0; pairs of may_overlap are left out; in the whole run, at control ticks",
+                       kTurned),
+           "above limits.collision", "above limits.touch", CheckSpan::whole_run, "robot",
+           "smaller amplitudes or offsets, or may_overlap for bodies whose shapes are rougher than the real ones", judge}};
 }
 
 }  // namespace gaitlab::report

@@ -26,11 +26,11 @@ std::vector<CheckKind> checks::creep() {
     if (made.status == CheckStatus::warn)
       made.text += fmt::format("; contact.slip_speed: {:.3g} would halve it", run.scenario.contact.penalty.v_lim / 2);
   };
-  return {
-      {"creep", CheckGroup::trust, "", "Feet that hold stay",
-       "net displacement, weighted by load, of feet that slide below contact.slip_speed, where a real ground holds them, over "
-       "that of the centre of mass",
-       "", "above 2 %", CheckSpan::window, "contact.slip_speed", "a smaller contact.slip_speed", judge}};
+  return {{"creep", CheckGroup::trust, "", "Feet that hold stay",
+           "net displacement, weighted by load, of feet that slide below contact.slip_speed, where a real ground holds them, "
+           "over that of the centre of mass",
+           "", "above " + texts::percent(kMostCreep), CheckSpan::window, "contact.slip_speed", "a smaller contact.slip_speed",
+           judge}};
 }
 
 }  // namespace gaitlab::report

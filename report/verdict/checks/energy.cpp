@@ -48,8 +48,8 @@ void judge_supply(const CheckedRun& run, Check& made) {
   made.text = fmt::format("the motors draw {:.3g} J", made.value);
   if (!gave) return;
   made.text = fmt::format(
-      "the motors gave {:.3g} J back to their supply instead of drawing any, so that the cost of transport is "
-      "negative: the robot went down, or a motor makes energy",
+      "the motors gave {:.3g} J back to their supply instead of drawing any, so that the cost of transport is negative: the "
+      "robot went down, or a motor makes energy",
       std::max(-made.value, -drawn));
   made.remedy = "check Kt, Ks and the efficiency of the motors";
 }
@@ -57,15 +57,17 @@ void judge_supply(const CheckedRun& run, Check& made) {
 }  // namespace
 
 std::vector<CheckKind> checks::energy() {
-  return {{"ledger", CheckGroup::trust, "", "Energy adds up",
-           "residual of the energy over the energy drawn (or stored, or for lifting the robot by 1 mm, if that is more)", "",
-           "above limits.energy_residual; above 5 % the verdict is not judged", CheckSpan::whole_run, "physics.step", kShorter,
-           judge_ledger},
-          {"created", CheckGroup::trust, "", "Gears create no energy",
-           "energy that back-driven gears create (eq. 2) over the energy of check ledger", "", "above limits.energy_created",
-           CheckSpan::whole_run, "actuator", "actuator.efficiency_model: directional", judge_created},
-          {"supply", CheckGroup::trust, "J", "Motors draw energy", "energy drawn from the supply", "", "below 0",
-           CheckSpan::whole_run, "actuator", "Kt, Ks and the efficiency of the motors", judge_supply, true}};
+  return {
+      {"ledger", CheckGroup::trust, "", "Energy adds up",
+       fmt::format("residual of the energy over the energy drawn (or stored, or for lifting the robot by {}, if that is more)",
+                   texts::length(kLifted)),
+       "", fmt::format("above limits.energy_residual; above {} the verdict is not judged", texts::percent(kTrustedResidual)),
+       CheckSpan::whole_run, "physics.step", kShorter, judge_ledger},
+      {"created", CheckGroup::trust, "", "Gears create no energy",
+       "energy that back-driven gears create (eq. 2) over the energy of check ledger", "", "above limits.energy_created",
+       CheckSpan::whole_run, "actuator", "actuator.efficiency_model: directional", judge_created},
+      {"supply", CheckGroup::trust, "J", "Motors draw energy", "energy drawn from the supply", "", "below 0",
+       CheckSpan::whole_run, "actuator", "Kt, Ks and the efficiency of the motors", judge_supply, true}};
 }
 
 }  // namespace gaitlab::report

@@ -20,7 +20,8 @@ std::vector<CheckKind> checks::periodic() {
   };
   return {{"periodic", CheckGroup::trust, "", "Repeats",
            "error of the limit cycle: difference of angles and set points from their values a period later", "",
-           "2 % and more, of set points that repeat", CheckSpan::window, "duration", "a longer duration", judge}};
+           texts::percent(kMostCycleError) + " and more, of set points that repeat", CheckSpan::window, "duration",
+           "a longer duration", judge}};
 }
 
 }  // namespace gaitlab::report

@@ -1,4 +1,5 @@
 // The check `predictable`: a change of gravity by next to nothing changes no torque.
+#include "core/simulation/step_error.h"
 #include "report/verdict/checks/checked_run.h"
 #include "report/verdict/spread.h"
 
@@ -20,8 +21,11 @@ std::vector<CheckKind> checks::predictable() {
     made.remedy = "judge several runs with other seeds or starts; no smaller step helps";
   };
   return {{"predictable", CheckGroup::trust, "", "Motion is predictable",
-           "change of a joint's torque, RMS over its peak, under gravity times 1 + 1e-6 (1 + 1e-9, if that suffices)", "",
-           "above 1 %, or physics.accuracy; a check that some of four rollouts fail is then too close to its limit",
+           fmt::format("change of a joint's torque, RMS over its peak, under gravity times {} ({}, if that suffices)",
+                       disturbed(StepError::kIll), disturbed(StepError::kChaotic)),
+           "",
+           "above " + texts::percent(kAccurate) +
+               ", or physics.accuracy; a check that some of four rollouts fail is then too close to its limit",
            CheckSpan::whole_run, "physics.gravity", "several runs with other seeds or starts; no smaller step helps", judge}};
 }
 

@@ -124,14 +124,14 @@ std::vector<CheckKind> checks::stall() {
     for (const Rest& one : all) bars.push_back(one.bar);
     widen(run.scenario, bars, made);
   };
-  return {
-      {"stall", CheckGroup::motor, "N m", "Motors hold at rest",
-       "torque of a joint while it turns at less than 5 % of its no-load speed, RMS over all this time and over any 0.1 s on "
-       "end, against the stall torque at the supply",
-       "above that stall torque, if the law of the motor allows it", "RMS over all this time above half of it",
-       CheckSpan::window, "actuator.stall_torque",
-       "a pose with less load, or a stronger motor; with efficiency_model: directional friction of the gear helps to hold",
-       judge}};
+  return {{"stall", CheckGroup::motor, "N m", "Motors hold at rest",
+           fmt::format("torque of a joint while it turns at less than {} of its no-load speed, RMS over all this time and over "
+                       "any {:g} s on end, against the stall torque at the supply",
+                       texts::percent(kAtRest), kLeastRest),
+           "above that stall torque, if the law of the motor allows it", "RMS over all this time above half of it",
+           CheckSpan::window, "actuator.stall_torque",
+           "a pose with less load, or a stronger motor; with efficiency_model: directional friction of the gear helps to hold",
+           judge}};
 }
 
 }  // namespace gaitlab::report

@@ -50,11 +50,11 @@ void judge_law(const CheckedRun& run, Check& made) {
 
 std::vector<CheckKind> checks::steps() {
   return {{"step", CheckGroup::trust, "", "Steps are short enough", "share of the control ticks at which h lambda exceeds 1",
-           "", "above 1 %", CheckSpan::whole_run, "physics.step", "a smaller physics.step", judge_step},
+           "", "above " + texts::percent(kTooLong), CheckSpan::whole_run, "physics.step", "a smaller physics.step", judge_step},
           {"coarse", CheckGroup::trust, "", "Steps reach the accuracy",
            "share of the time in which the shortest steps do not reach physics.accuracy", "",
-           "above 10 %, and the verdict is not judged", CheckSpan::whole_run, "physics.step",
-           "damping, or bounds on the drive of the joints", judge_coarse},
+           fmt::format("above {}, and the verdict is not judged", texts::percent(kTrustedCoarse)), CheckSpan::whole_run,
+           "physics.step", "damping, or bounds on the drive of the joints", judge_coarse},
           {"law", CheckGroup::trust, "", "Torques satisfy the law of their motor",
            "number of joint-steps that end off the law of their motor or stop", "", "any", CheckSpan::whole_run, "physics.step",
            "an actuator whose torque falls with the speed", judge_law}};

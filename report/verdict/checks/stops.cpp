@@ -33,7 +33,7 @@ std::string beyond_text(const Check& made, const BeyondRange& worst, bool by_ang
 }
 
 // A hinge without a motor is meant to touch its stop.
-constexpr double kRestsBeyond = 0.05;  // rad, 2.5 N m of the stop
+constexpr double kRestsBeyond = 0.05;  // rad
 
 /// Judges hinges without a motor, by their angle beyond the stop alone, after the joints with a motor: they decide if they fail
 /// by more than these, or if none of these is beyond its range.
@@ -120,12 +120,14 @@ std::vector<CheckKind> checks::stops() {
     judge_driven(run, driven, made);
     judge_rests(run, joints, made);
   };
-  return {{"stops", CheckGroup::motion, "rad", "Joints keep their ranges",
-           "largest excess over the range of the hinge, of the whole run, over all steps",
+  return {
+      {"stops", CheckGroup::motion, "rad", "Joints keep their ranges",
+       "largest excess over the range of the hinge, of the whole run, over all steps",
+       fmt::format(
            "above limits.beyond_range, or for more than limits.beyond_range_share of the time; of a hinge without a motor, "
-           "which is "
-           "meant to touch its stop, above 0.05 rad (2.5 N m of the stop), or limits.beyond_range if that is more",
-           "any, of joints with a motor", CheckSpan::whole_run, "cpg", kSmaller, judge}};
+           "which is meant to touch its stop, above {:g} rad ({:g} N m of the stop), or limits.beyond_range if that is more",
+           kRestsBeyond, HingeStop::kStiffness * kRestsBeyond),
+       "any, of joints with a motor", CheckSpan::whole_run, "cpg", kSmaller, judge}};
 }
 
 }  // namespace gaitlab::report

@@ -23,10 +23,12 @@ std::vector<CheckKind> checks::torque_error() {
     made.first = event.time;
     made.first_part = run.joint(event.joint);
   };
-  return {{"torque_error", CheckGroup::trust, "", "Torques are accurate", "estimated error of a joint's torque over its peak",
-           "",
-           "above physics.accuracy (1 % with a given step); above limits.torque_error, at most 10 %, the verdict is not judged",
-           CheckSpan::whole_run, "physics.step", kShorter, judge}};
+  return {
+      {"torque_error", CheckGroup::trust, "", "Torques are accurate", "estimated error of a joint's torque over its peak", "",
+       fmt::format(
+           "above physics.accuracy ({} with a given step); above limits.torque_error, at most {}, the verdict is not judged",
+           texts::percent(kAccurate), texts::percent(Limits::kMostTorqueError)),
+       CheckSpan::whole_run, "physics.step", kShorter, judge}};
 }
 
 }  // namespace gaitlab::report

@@ -11,7 +11,8 @@ ANALYSIS = [f"report/analysis/{name}.cpp" for name in (
 # Period, full size and window of a gait; implausible and impossible numbers; instability.
 WORD = ["report/analysis/gait.cpp", "report/verdict/instability.cpp"] + sorted(
     f"report/verdict/plausible/{path.name}" for path in (ROOT / "report/verdict/plausible").glob("*.cpp"))
-HEADERS = ["report/verdict/checks/rated.h", "report/verdict/error_bar.h", "report/verdict/evidence.h", "report/analysis/posture.h", "report/analysis/gait.h"]
+HEADERS = ["report/verdict/checks/rated.h", "report/verdict/error_bar.h", "report/verdict/evidence.h", "report/verdict/trust.h",
+           "report/analysis/posture.h", "report/analysis/gait.h"]
 GUARDS = "studies/study/guards.cpp"
 DEFAULTS = "core/scenario/scenario.h"
 
