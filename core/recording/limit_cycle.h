@@ -5,6 +5,8 @@
 
 namespace gaitlab {
 
+/// Number of set-point periods that show a gait whose motion does not settle to a limit cycle.
+inline constexpr double kPeriodsNeeded = 3;
 inline constexpr double kMostCycleError = 0.02;  ///< largest `error` of a motion that repeats
 
 /// Result of the search for a limit cycle. T is the period and x_c a column. The scale s_c is half the peak-to-peak value of

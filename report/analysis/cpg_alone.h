@@ -9,9 +9,6 @@
 
 namespace gaitlab::report {
 
-/// Number of set-point periods that show a gait whose motion does not settle to a limit cycle.
-inline constexpr double kPeriodsNeeded = 3;
-
 /// Times of the set points that the last CPG of a run states; all 0 without a CPG.
 struct StatedTimes {
   double period = 0;     ///< s; if it states none, 1 / least frequency (Hz) of a driven joint among its settings, or 0

@@ -65,33 +65,34 @@ namespace report {
 
 /// Result of a check, which compares a number of the run with a limit. Numbers that are not known are NaN.
 struct Check {
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::string id;                      ///< identifier, for example `voltage`
   CheckGroup group = CheckGroup::run;  ///< the group `trust` contains the checks of the run's accuracy
   std::string title;                   ///< for example `Voltage suffices`
   CheckStatus status = CheckStatus::not_judged;
   CheckSpan span = CheckSpan::window;
-  bool can_fail = true;  ///< false: beyond the limit the check warns and does not fail
-  bool least = false;    ///< the limit is a lower limit
-  double value, limit;   ///< number and limit of the worst part, by the criterion with the least margin
-  std::string unit;      ///< "" for shares and counts
+  bool can_fail = true;                 ///< false: beyond the limit the check warns and does not fail
+  bool least = false;                   ///< the limit is a lower limit
+  double value = kNone, limit = kNone;  ///< number and limit of the worst part, by the criterion with the least margin
+  std::string unit;                     ///< "" for shares and counts
   /// Margin of the criterion with the least margin. It orders the checks, and studies can use it as a quantity.
-  double margin = std::numeric_limits<double>::quiet_NaN();
+  double margin = kNone;
   std::vector<Criterion> criteria = {};  ///< all criteria of a check that has several, the main criterion first
   double error = 0;                      ///< relative error of the value; 0 if not estimated
-  bool certain = false;         ///< true if it fails by more than the error of the torques; only of checks with error bars
-  Part part = Part::none;       ///< kind of the part `worst`
-  std::string worst = {};       ///< the part with the least margin, for example `m3/passive` or `m5`
-  std::size_t parts = 0;        ///< number of parts beyond the limit
-  double from, to;              ///< s, time interval in which the worst part reached `value`
-  double first;                 ///< s, time when a part was first beyond the limit
-  std::string first_part = {};  ///< part that was first beyond the limit; empty if none is known
-  std::string definition;       ///< definition of the value
-  std::string source = {};      ///< source of the limit
-  std::string text = {};        ///< sentence about the result, printed for the user
-  std::string remedy = {};      ///< change of a setting that helps: `take a smaller amplitude`; empty if none is known
-  std::string retry = {};       ///< setting that decides a check that is too close, in the form of --set; else empty
-  std::string missing = {};     ///< shortfall of the motor, for example `11 V`; empty if not known
-  SourceLocation place = {};    ///< line of the scenario with the setting that the check concerns
+  bool certain = false;             ///< true if it fails by more than the error of the torques; only of checks with error bars
+  Part part = Part::none;           ///< kind of the part `worst`
+  std::string worst = {};           ///< the part with the least margin, for example `m3/passive` or `m5`
+  std::size_t parts = 0;            ///< number of parts beyond the limit
+  double from = kNone, to = kNone;  ///< s, time interval in which the worst part reached `value`
+  double first = kNone;             ///< s, time when a part was first beyond the limit
+  std::string first_part = {};      ///< part that was first beyond the limit; empty if none is known
+  std::string definition;           ///< definition of the value
+  std::string source = {};          ///< source of the limit
+  std::string text = {};            ///< sentence about the result, printed for the user
+  std::string remedy = {};          ///< change of a setting that helps: `take a smaller amplitude`; empty if none is known
+  std::string retry = {};           ///< setting that decides a check that is too close, in the form of --set; else empty
+  std::string missing = {};         ///< shortfall of the motor, for example `11 V`; empty if not known
+  SourceLocation place = {};        ///< line of the scenario with the setting that the check concerns
 
   /// `text`, followed by the time if the value belongs to one instant, and by the shortfall.
   [[nodiscard]] std::string sentence() const;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/laws/dc_motor.h"
 #include "core/plugin/robot_info.h"
 #include "core/scenario/built_robot.h"
 #include "core/scenario/change_section.h"
@@ -133,19 +132,16 @@ std::string changed_limits(const Limits& limits) {
   return changed.empty() ? "" : fmt::format("limits: {}", fmt::join(changed, "; "));
 }
 
-/// Sentence on a motor that creates energy; empty if there is none.
-std::string makes_energy(const Scenario& s) {
+/// The first such sentence of the driven joints.
+std::string first_that_makes_energy(const Scenario& s) {
   if (s.actuator.entry == nullptr || s.robot->joints.empty()) return "";
   const std::unique_ptr<Actuator> actuator = make_motors(s);
   const DcMotor* const motors = actuator->dc_motors();
-  for (std::size_t j = 0; motors != nullptr && j < s.robot->joints.size(); ++j) {
-    const DcMotor& m = motors[j];
-    if (!s.robot->joints[j].driven() || !(m.efficiency * m.Kt > (1 + kRelative) * m.Ks)) continue;
-    return fmt::format(
-        "the motor of joint {} makes energy: efficiency x Kt {:.4g} N m/A exceeds Ks {:.4g} V s/rad; take Kt = Ks",
-        s.robot->joints[j].name, m.efficiency * m.Kt, m.Ks);
+  std::string text;
+  for (std::size_t j = 0; motors != nullptr && text.empty() && j < s.robot->joints.size(); ++j) {
+    if (s.robot->joints[j].driven()) text = makes_energy(motors[j], s.robot->joints[j].name);
   }
-  return "";
+  return text;
 }
 
 void judge_trust(const Scenario& s, const Recording& r, Evidence& made, std::vector<std::string>& unknown) {
@@ -155,7 +151,7 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made, std::vec
   const bool driven = s.actuator.entry != nullptr && driven_joints(*s.robot) > 0;
   const bool chaotic = predictability(s, r) == Predictability::chaotic;
   const double most_error = s.limits.most_torque_error();
-  if (made.not_trusted = {makes_energy(s), "actuator.Kt"}; !made.not_trusted.empty()) return;
+  if (made.not_trusted = {first_that_makes_energy(s), "actuator.Kt"}; !made.not_trusted.empty()) return;
   const char* const steps = s.physics.adapts() ? "physics.accuracy" : "physics.step";
   if (chaotic && r.spread.rows() == 0) {
     made.not_trusted = {predictability_text(s, r) + "; `gaitlab run` computes the spread of its numbers", "physics"};
@@ -192,6 +188,12 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made, std::vec
 }
 
 }  // namespace
+
+std::string makes_energy(const DcMotor& m, const std::string& joint) {
+  if (!(m.efficiency * m.Kt > (1 + kRelative) * m.Ks)) return "";
+  return fmt::format("the motor of joint {} makes energy: efficiency x Kt {:.4g} N m/A exceeds Ks {:.4g} V s/rad; take Kt = Ks",
+                     joint, m.efficiency * m.Kt, m.Ks);
+}
 
 Evidence evidence(const Scenario& s, const Recording& r, const Summary& summary) {
   Evidence made;

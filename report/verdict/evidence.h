@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/laws/dc_motor.h"
 #include "core/scenario/scenario.h"
 #include "report/analysis/gait.h"
 #include "report/analysis/summary.h"
@@ -14,7 +15,7 @@ namespace gaitlab::report {
 /// when even the shortest steps miss the accuracy.
 inline constexpr double kTrustedResidual = 0.05, kTrustedCoarse = 0.1;
 /// Largest error of a limit cycle for which one period is enough. With a larger error, kPeriodsNeeded periods of the set points
-/// are required after the start of the gait (cpg_alone.h); the judged window leaves out the first of them.
+/// are required after the start of the gait (core/recording/limit_cycle.h); the judged window leaves out the first of them.
 inline constexpr double kSettled = 0.01;
 inline constexpr double kLeastTime = 2;  ///< s, least duration if the set points do not repeat
 /// Share of its range by which a set point changes in a gait, a little more than the rest of a rise (SetPointTimes::full_size).
@@ -57,6 +58,9 @@ struct Evidence {
     return all;
   }
 };
+
+/// Sentence on a motor that creates energy; empty if it does not.
+std::string makes_energy(const DcMotor& motor, const std::string& joint);
 
 /// Collects the evidence. Throws PluginError.
 Evidence evidence(const Scenario& scenario, const Recording& record, const Summary& summary);

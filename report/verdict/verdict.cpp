@@ -199,26 +199,20 @@ void leave_passes_out(Verdict& made) {
   for (Check& check : made.checks) {
     if (check.status != CheckStatus::pass) continue;
     check.status = CheckStatus::not_judged;
-    check.margin = std::numeric_limits<double>::quiet_NaN();
+    check.margin = Check::kNone;
     check.text = "the controller is unstable";
   }
 }
 
 /// Computes the check of a kind for the run.
 Check judged_check(const CheckKind& kind, const CheckedRun& run) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   Check check{.id = kind.id,
               .group = kind.group,
               .title = kind.title,
               .span = kind.span,
               .can_fail = kind.can_fail(),
               .least = kind.least,
-              .value = kNone,
-              .limit = kNone,
               .unit = kind.unit,
-              .from = kNone,
-              .to = kNone,
-              .first = kNone,
               .definition = kind.definition,
               .place = run.scenario.nearest_place(kind.key)};
   if (run.record.rows_alone()) {
@@ -229,7 +223,7 @@ Check judged_check(const CheckKind& kind, const CheckedRun& run) {
   take_spread(run.record.spread, check);
   if (check.criteria.empty()) check.margin = Criterion{check.value, check.limit, check.unit, check.least}.margin();
   if (check.status == CheckStatus::not_judged || check.id == "outcome" || (kind.can_fail() && !check.can_fail))
-    check.margin = kNone;
+    check.margin = Check::kNone;
   check.text = without_folders(std::move(check.text), run.scenario);
   return check;
 }

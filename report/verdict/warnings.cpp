@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/laws/dc_motor.h"
 #include "core/scenario/built_robot.h"
 #include "core/settings/wording.h"
 #include "report/analysis/own_overlap.h"
+#include "report/verdict/evidence.h"
 #include "report/verdict/plausible/plausibility.h"
 #include "report/verdict/position_loop.h"
 
@@ -49,11 +49,8 @@ void check_constants(const Scenario& s, const DcMotor* motors, std::vector<Warni
                        m.Kt, m.Ks, name, apart, 60 / kTurn)});
       return;
     }
-    if (m.efficiency * m.Kt > kRounding * m.Ks) {
-      out.push_back({s.nearest_place("actuator.Kt"),
-                     fmt::format("the motor of joint {} makes energy: efficiency x Kt {:.4g} N m/A exceeds Ks {:.4g} V s/rad; "
-                                 "take Kt = Ks",
-                                 name, m.efficiency * m.Kt, m.Ks)});
+    if (std::string text = makes_energy(m, name); !text.empty()) {
+      out.push_back({s.nearest_place("actuator.Kt"), std::move(text)});
       return;
     }
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/recording/limit_cycle.h"
 #include "core/settings/wording.h"
 #include "studies/study/number.h"
 
@@ -157,7 +158,6 @@ std::vector<Problem> refused_ends(const Plan& plan) {
 }
 
 std::vector<Problem> short_runs(const Plan& plan) {
-  constexpr double kPeriods = 3;  // equal to the number in report/verdict/evidence.h
   std::vector<Problem> notes;
   for (const Parameter& p : plan.study().parameters) {
     if (!p.sets.empty() || p.words || !p.key.starts_with("cpg.") || p.key.find("frequency") == std::string::npos) continue;
@@ -167,12 +167,12 @@ std::vector<Problem> short_runs(const Plan& plan) {
     double shortest = plan.longest();
     for (const StudyScenario& one : plan.scenarios()) shortest = std::min(shortest, one.nominal.duration);
     constexpr double kRounding = 1 - 1e-9;
-    if (!(least > 0) || shortest * least >= kPeriods * kRounding) continue;
+    if (!(least > 0) || shortest * least >= kPeriodsNeeded * kRounding) continue;
     notes.push_back(
         {p.place, fmt::format("a gait of {} Hz has {:.2g} periods in {} s; without a limit cycle a verdict needs {:g}: "
                               "take duration={:.4g}, or a low of {:.3g}",
-                              number_text(least), shortest * least, number_text(shortest), kPeriods, kPeriods / least,
-                              kPeriods / shortest)});
+                              number_text(least), shortest * least, number_text(shortest), kPeriodsNeeded,
+                              kPeriodsNeeded / least, kPeriodsNeeded / shortest)});
   }
   return notes;
 }

@@ -1,4 +1,4 @@
-// What the file of a check needs: the run that is judged, the list of checks, and what their judges share.
+// Contents of every file of a check: the judged run, the list of checks, and the functions that their judges share.
 #pragma once
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "report/analysis/cpg_alone.h"
+#include "core/recording/limit_cycle.h"
 #include "report/verdict/checks/checked_run.h"
 
 namespace gaitlab::report {
