@@ -74,7 +74,7 @@ std::map<const CLI::Option*, Offered>& offers() {
   return all;
 }
 
-/// Names of the offered kinds. For the kind "": the names of the kind that was typed before, or else the kinds.
+/// Names of the offered kinds. The kind "" represents the kind that was typed before, or else all kinds.
 Words listed_names(const Offered& offered, const Words& arguments) {
   static const Catalog catalog = kit::standard_catalog();
   Words names;

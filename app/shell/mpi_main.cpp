@@ -263,7 +263,7 @@ struct Served {};
   throw Served();
 }
 
-std::string said;  ///< text of the error, sent to rank 0, which prints it behind a `gaitlab: error: ` of its own
+std::string said;  ///< text of the error, sent to rank 0, which prints it after `gaitlab: error: `
 
 }  // namespace
 

@@ -11,8 +11,8 @@ namespace gaitlab::app {
 void say_error(const char* before, const char* text, const char* remark);
 
 /// Runs `command` and returns its exit code, or 2 for bad arguments and bad input, or 1 for a failed run. No exception escapes.
-/// `tell` receives the error message: what the line begins with, such as `gaitlab: error: `, the text, and a remark. By default
-/// it is printed.
+/// `tell` receives the parts of the error message: the beginning of the line, such as `gaitlab: error: `, text and remark. The
+/// default prints them.
 int guarded(const std::function<int()>& command,
             void (*tell)(const char* before, const char* text, const char* remark) = say_error);
 

@@ -394,13 +394,5 @@ TEST(Recipe, TheShippedOnesAreRight) {
   EXPECT_EQ(recipes, 7U);
 }
 
-TEST(Recipe, HasAManual) {
-  const Result curves = gaitlab("explain figure curves", ".");
-  EXPECT_EQ(curves.code, 0) << curves.err;
-  for (const char* key : {"panels[].left.columns", "panels[].stance", "size (mm)", "runs"})
-    EXPECT_TRUE(contains(curves.out, key)) << key;
-  EXPECT_TRUE(contains(gaitlab("explain figure views", ".").out, "panels[].times"));
-}
-
 }  // namespace
 }  // namespace gaitlab::test

@@ -17,7 +17,7 @@ struct DockCheck {
 };
 constexpr const char* kSofter = "a softer landing, or stronger connectors";
 constexpr const char* kFewer = "fewer modules in the air at a time, or stronger connectors";
-/// In the order of DockQuantity.
+/// The checks of docks, in the order of DockQuantity.
 constexpr DockCheck kDockChecks[] = {
     {"dock_tension", "N", "Docks are not pulled apart", "tension", "pulled apart", kSofter, &Connector::tension},
     {"dock_shear", "N", "Docks do not shear", "shear force", "sheared", kSofter, &Connector::shear},

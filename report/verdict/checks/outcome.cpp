@@ -1,4 +1,4 @@
-// The check `outcome`: the run comes to its end.
+// The check `outcome`: the run is complete.
 #include "report/verdict/checks/checked_run.h"
 
 namespace gaitlab::report {
