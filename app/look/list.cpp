@@ -74,7 +74,6 @@ void add_manuals(Commands& commands) {
         offering(command.add_option("KIND", arguments.kind), "list only this kind of {}", {.kinds = {""}, .files = false});
         add_plugins(command, arguments);
       });
-  add_explain(commands);
   add_command<SchemaArguments>(
       commands, "schema", "Print the JSON Schema of the scenario file, for editors.", schema,
       [](CLI::App& command, SchemaArguments& arguments) {
