@@ -1,6 +1,7 @@
 // Robot for tests of drawings. Its modules are similar to M-TRAN and defined in this file, so that the tests read no scenario.
 #pragma once
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "core/model/kinematics.h"
@@ -98,6 +99,13 @@ inline report::View view(const Robot& robot, RobotState state, double time) {
     view.joint = report::Point{hinge.x(), hinge.z()};
   }
   return view;
+}
+
+/// Number of places at which a text contains a part.
+inline std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
 }
 
 }  // namespace gaitlab::sample

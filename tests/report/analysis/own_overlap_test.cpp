@@ -6,6 +6,7 @@
 
 #include "core/scenario/resolved.h"
 #include "core/simulation/start.h"
+#include "report/verdict/plausible/plausibility.h"
 #include "report/verdict/warnings.h"
 #include "tests/report/verdict/verdict_case.h"
 

@@ -14,14 +14,9 @@ namespace gaitlab::test {
 namespace {
 
 using namespace report;
+using sample::count;
 
 constexpr std::size_t kJoint = 7;  // m3/passive
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-  return found;
-}
 
 // True if all tags are closed in the correct order and all attributes are quoted. The writer cannot make other errors.
 bool well_formed(const std::string& xml) {

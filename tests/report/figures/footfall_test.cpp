@@ -17,12 +17,7 @@ namespace {
 const Label kFootfalls("Footfall.*", "long;unsanitized");
 
 using namespace report;
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-  return found;
-}
+using sample::count;
 
 TEST(Footfall, StancesLastFromOneSampleToTheNext) {
   const std::vector<double> time{0, 1, 2, 3, 4, 5};
