@@ -94,8 +94,9 @@ class Expression:
         return [(group.rpartition("__")[0], kind, match[group]) for group, kind in self.kinds.items() if match[group] is not None]
 
 
-WITHIN = (r"(?:; with the error of the torques {low:pct} to {high:pct} of the limit"
-          r"|; joint {other} takes, with the error of its torque, {other_low:pct} to {other_high:pct} of its limit)?")
+WITHIN = (r"(?:; with the error of the torques (?:{low:pct} to {high:pct}|slightly less or slightly more than {low:pct}) of the limit"
+          r"|; joint {other} takes, with the error of its torque, "
+          r"(?:{other_low:pct} to {other_high:pct}|slightly less or slightly more than {other_low:pct}) of its limit)?")
 LIMITED = (r"no joint is at the limit of its (?:voltage|current|actuator)"
            r"|{parts:d} of {driven:d} joints? reach(?:es)? the limit of (?:its|their) (?:voltage|current|actuator): first {first_part}, "
            r"at {first:.2f} s; (?:worst {worst}, )?(?:{share:part} of the judged time, up to {stretch:brief} on end from {from:.2f} s"
