@@ -85,8 +85,8 @@ class CurvesOfPanel final : public PaperPanel {
 
   [[nodiscard]] Margins margins() const override {
     const double half_label = 0.5 * regular_width(time_axis(from_, to_).ticks.marks.back().text, kPrint.text) + 1;
-    const double left = beside(Side::left) + (title(Side::left).empty() ? 0 : kTitleAway + kAscent + 2);
-    const double right = beside(Side::right) + (title(Side::right).empty() ? 0 : kTitleAway + kAscent + 2) + 2;
+    const double left = beside(Side::left) + (axis_title(Side::left).empty() ? 0 : kTitleAway + kAscent + 2);
+    const double right = beside(Side::right) + (axis_title(Side::right).empty() ? 0 : kTitleAway + kAscent + 2) + 2;
     return {left, has(Side::right) ? right : std::max(8.0, half_label)};
   }
   [[nodiscard]] double head(const Edges& edges) const override { return legend_head(legend(), edges); }
@@ -95,7 +95,7 @@ class CurvesOfPanel final : public PaperPanel {
   void draw(Canvas& canvas, const PlotArea& area) const override {
     const auto side_axis = [&](Side side) -> Axis {
       const double away = beside(side) + kTitleAway + (side == Side::left ? 0 : kAscent);
-      return {.ticks = side == Side::left ? ticks_.a : ticks_.b, .title = title(side), .away = away};
+      return {.ticks = side == Side::left ? ticks_.a : ticks_.b, .title = axis_title(side), .away = away};
     };
     Plot plot(canvas, area, time_axis(from_, to_), has(Side::left) ? side_axis(Side::left) : Axis{}, kPrint);
     if (has(Side::right)) {
@@ -316,7 +316,7 @@ class CurvesOfPanel final : public PaperPanel {
   [[nodiscard]] double beside(Side side) const { return texts_beside(side == Side::left ? ticks_.a : ticks_.b); }
 
   /// Title of an axis: the unit, preceded by the quantities if there are one or two.
-  [[nodiscard]] std::string title(Side side) const {
+  [[nodiscard]] std::string axis_title(Side side) const {
     if (!axis(side).label.empty() || !has(side)) return axis(side).label;
     std::vector<std::string> quantities;
     std::string unit;
