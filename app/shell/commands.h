@@ -38,7 +38,7 @@ struct Offered {
   bool files = true;                    ///< false if it accepts no file
   bool several = false;                 ///< names, separated by commas
 };
-/// Describes an option by a text in which each `{}` is replaced by the next of the offered values. Returns the option.
+/// Describes an option by a text. The offered values replace its `{}`, in their order. Returns the option.
 CLI::Option* offering(CLI::Option* option, std::string text, const Offered& offered);
 
 /// Adds the commands `new module` and `new scenario`.

@@ -73,7 +73,7 @@ std::vector<Tick> log_marks(double lo, double hi, int count) {
     }
   }
   constexpr std::size_t kFew = 3;
-  if (marks.size() >= kFew) return marks;
+  if (many || marks.size() >= kFew) return marks;
   // If the range is below a factor of 10, ticks may be round numbers as on a linear axis.
   marks = ticks_within(power_of_ten(lo), power_of_ten(hi), count).marks;
   for (Tick& mark : marks) mark.at = log10_of(mark.at);

@@ -18,7 +18,8 @@ inline constexpr double kTrustedResidual = 0.05, kTrustedCoarse = 0.1;
 /// are required after the start of the gait (core/recording/limit_cycle.h); the judged window leaves out the first of them.
 inline constexpr double kSettled = 0.01;
 inline constexpr double kLeastTime = 2;  ///< s, least duration if the set points do not repeat
-/// Share of its range by which a set point changes in a gait, a little more than the rest of a rise (SetPointTimes::full_size).
+/// Least change of a set point in a gait, as a share of its range: a little more than the rest of a rise
+/// (SetPointTimes::full_size).
 inline constexpr double kMoves = 0.025;
 /// Largest torque error of a run that a failure beyond its error bar (Check::certain) still decides.
 inline constexpr double kMostError = 0.5;

@@ -137,7 +137,9 @@ TEST_F(PaperFigure, TitlesMarksMotorsAndLogarithms) {
   EXPECT_TRUE(contains(svg, mark));
   EXPECT_EQ(svg.find(mark), svg.rfind(mark));
   refused(kRuns + "panels: [{left: {columns: [joint.1.speed], log: true, range: [0, 10]}}]\n",
-          "figure.yaml:2:62: error: range of a logarithmic axis is not above 0");
+          "figure.yaml:2:62: error: range begins at 0; expected numbers above 0 on a logarithmic axis");
+  refused(kRuns + "panels: [{left: {columns: [joint.1.speed], log: true, least: 3}}]\n",
+          "figure.yaml:2:62: error: least extends a linear axis; remove least, or log");
 }
 
 TEST_F(PaperFigure, SameBytesTwice) {

@@ -101,7 +101,7 @@ inline report::View view(const Robot& robot, RobotState state, double time) {
   return view;
 }
 
-/// Number of places at which a text contains a part.
+/// Number of occurrences of a part in a text.
 inline std::size_t count(const std::string& text, const std::string& part) {
   std::size_t found = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;

@@ -287,8 +287,7 @@ class CurvesOfPanel final : public PaperPanel {
       if (curve.side == side) bounds.add(drawn(curve));
     }
     if (side == torque_side_) bounds.add(limits_.rest);
-    if (const double least = axis(side).least; least > 0 && !axis(side).log && !bounds.empty())
-      bounds.add(std::vector{-least, least});
+    if (const double least = axis(side).least; least > 0 && !bounds.empty()) bounds.add(std::vector{-least, least});
     return bounds;
   }
 

@@ -95,11 +95,14 @@ void AxisRecipe::fields(Fields& f) {
   f.texts("names", names, "Names in the legend, one per curve; default: the names of the columns.");
   f.text("label", label, "Title of the axis; default: quantity and unit of the columns.");
   f.numbers("range", range, {"", -1e300, 1e300, "Ends of the axis, [from, to]; default: chosen to fit the curves."});
-  f.number("least", least, {"", 0, 1e300, "The axis extends at least this far below and above zero."});
+  f.number("least", least, {"", 0, 1e300, "The axis extends at least this far below and above zero; not with log."});
   f.flag("log", log, "Logarithmic axis; values that are not above 0 leave a gap.");
   if (!range.empty() && (range.size() != 2 || !(range[0] < range[1])))
     f.problem("range", "range is not [from, to] with from below to");
-  if (log && !range.empty() && !(range[0] > 0)) f.problem("range", "range of a logarithmic axis is not above 0");
+  if (log && !range.empty() && !(range[0] > 0))
+    f.problem("range",
+              fmt::format("range begins at {}; expected numbers above 0 on a logarithmic axis", number_text(range[0])));
+  if (log && least > 0) f.problem("least", "least extends a linear axis; remove least, or log");
 }
 
 PanelRecipe::PanelRecipe() : kind(kPanelKinds[0]) {}

@@ -35,7 +35,7 @@ struct Edges {
   double left = 0, right = 0;
 };
 
-/// Legend of what the views show.
+/// Legend of the views.
 std::vector<LegendEntry> views_legend(const std::vector<View>& views);
 
 /// Height of the views with their axis, px.

@@ -19,7 +19,7 @@ std::string unknown_of_feet(const CheckedRun& run) {
 }
 
 bool walks(double way, Check& made) {
-  constexpr double kLeastWay = 0.01;  // m: below it shares of slip and creep have no meaning
+  constexpr double kLeastWay = 0.01;  // m: shares of slip and creep need a longer way
   made.text = fmt::format("the robot goes {}: less than {} is not walking", texts::length(way), texts::length(kLeastWay));
   return way >= kLeastWay;
 }

@@ -1,4 +1,4 @@
-// The check `stability`: the robot stands on its feet.
+// The check `stability`: margin of the stance against tipping.
 #include "report/verdict/checks/loads.h"
 
 namespace gaitlab::report {

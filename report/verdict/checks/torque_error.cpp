@@ -15,7 +15,7 @@ std::vector<CheckKind> checks::torque_error() {
                             texts::rough_percent(made.value),
                             run.scenario.physics.adapts() ? "" : " in windows; `gaitlab converge` compares whole runs");
     if (passes(made, std::min(torque_error_limit(run.scenario), made.limit))) return;
-    // In a chaotic motion a shorter step does not help.
+    // A shorter step does not help in a chaotic motion.
     if (predictability(run.scenario, run.record) != Predictability::chaotic)
       made.remedy = "take " + torque_remedy(run.scenario, error.share);
     const Parting& event = run.record.tally.event;

@@ -107,6 +107,7 @@ TEST(Axes, LogarithmicTicksAreOneTwoFive) {
   EXPECT_EQ(over(0.1, 5, 8), (std::vector<std::string>{"0.1", "0.2", "0.5", "1", "2", "5"}));
   EXPECT_EQ(over(1, 1e5, 6), (std::vector<std::string>{"1", "10", "100", "1000", "10000", "100000"}));
   EXPECT_EQ(over(1, 1e5, 4), (std::vector<std::string>{"1", "100", "10000"}));
+  EXPECT_EQ(over(8e-6, 0.13, 4), (std::vector<std::string>{"0.0001", "0.01"}));  // 4.2 decades: two ticks, not linear ones
   // Fewer than three of these numbers are in the range: linear ticks.
   EXPECT_EQ(over(1.1, 1.3, 3), (std::vector<std::string>{"1.1", "1.2", "1.3"}));
   EXPECT_EQ(over(0.19, 0.52, 4), (std::vector<std::string>{"0.2", "0.3", "0.4", "0.5"}));
