@@ -99,9 +99,10 @@ void AxisRecipe::fields(Fields& f) {
   f.flag("log", log, "Logarithmic axis; values that are not above 0 leave a gap.");
   if (!range.empty() && (range.size() != 2 || !(range[0] < range[1])))
     f.problem("range", "range is not [from, to] with from below to");
-  if (log && !range.empty() && !(range[0] > 0))
+  if (log && !range.empty() && !(range[0] > 0)) {
     f.problem("range",
               fmt::format("range begins at {}; expected numbers above 0 on a logarithmic axis", number_text(range[0])));
+  }
   if (log && least > 0) f.problem("least", "least extends a linear axis; remove least, or log");
 }
 
