@@ -96,10 +96,9 @@ void print_summary(const Scenario& scenario, const Recording& recording, const r
 /// Prints the command whose run is expected to have a verdict, if there is one (Verdict::retry). `arguments` name the scenario
 /// of this run.
 void print_retry(const ScenarioArguments& arguments, const report::Verdict& verdict);
-/// Verdict on a run. With `shown.demand` the demand twin is simulated too, with its progress unless `quiet`, and its results
-/// are added.
-report::Verdict judged(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
-                       const report::Overlaps& overlaps, const SummaryOptions& shown, bool quiet = false);
+/// Simulates the demand twin of a run, with its progress unless `quiet`, and adds its results to the verdict.
+void take_demand(const Scenario& scenario, const Recording& recording, const report::Summary& summary, report::Verdict& verdict,
+                 bool quiet = false);
 /// Exit code of a run. If `shown.fail_infeasible`, it is 1 for a failed run, and 3 unless this run and every draw are feasible;
 /// otherwise it is 0, also for a run that was not judged.
 [[nodiscard]] int exit_code(const report::Verdict& verdict, const SummaryOptions& shown);

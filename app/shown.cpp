@@ -92,24 +92,21 @@ void print_retry(const ScenarioArguments& arguments, const report::Verdict& verd
   fmt::print("  {:<9} {}\n", "judge by", printed(command));  // in one line, to be copied
 }
 
-report::Verdict judged(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
-                       const report::Overlaps& overlaps, const SummaryOptions& shown, bool quiet) {
-  report::Verdict verdict = report::verdict(scenario, recording, summary, overlaps);
-  if (!shown.demand) return verdict;
+void take_demand(const Scenario& scenario, const Recording& recording, const report::Summary& summary, report::Verdict& verdict,
+                 bool quiet) {
   if (Judged::limited(summary.judged.joints) == 0) {
     verdict.demand_doubt = "no motor reaches a limit, so that the gait demands what this run shows";
-    return verdict;
+    return;
   }
   Catalog catalog = standard_catalog();  // the plugins of the run are already loaded
   const StoredScenario same{"", scenario.file + " (its demand twin)", resolved(scenario, FilePaths::whole)};
   Scenario twin = read_stored(same, catalog, OtherPlugins::taken);
   if (!report::raise_limits(twin)) {
     verdict.demand_doubt = "the actuator declares no limits above 0 that could be raised";
-    return verdict;
+    return;
   }
   Progress progress(quiet);
   report::add_demand(verdict, scenario, summary, report::demand(twin, recording, summary, std::ref(progress)));
-  return verdict;
 }
 
 int exit_code(const report::Verdict& verdict, const SummaryOptions& shown) {

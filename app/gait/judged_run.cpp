@@ -11,7 +11,7 @@ JudgedRun judged_run(const std::string& name, Catalog& catalog, const std::vecto
   run.all.reset();
   draw_joints(run.read.scenario, joints);
   if (shown.demand) {
-    run.verdict = judged(run.read.scenario, run.recording(), run.summary, run.overlaps, shown);
+    take_demand(run.read.scenario, run.recording(), run.summary, run.verdict);
   } else {
     run.keep_demand();
   }

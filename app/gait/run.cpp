@@ -31,6 +31,13 @@ namespace gaitlab::app {
 
 namespace {
 
+/// Summary and verdict of a recording, with the numbers that the verdict needs.
+struct Judgement {
+  report::Summary summary;
+  report::Overlaps overlaps;
+  report::Verdict verdict;
+};
+
 /// Prints the estimated time of a long run, and the faster engine. A run without a file is a repeated run of a study, which has
 /// printed them.
 void note_time(const Scenario& scenario, const RunArguments& arguments, const RowsNeeded& rows) {
@@ -43,16 +50,16 @@ void note_time(const Scenario& scenario, const RunArguments& arguments, const Ro
 
 /// Simulates the rollouts for Recording::spread if the motion is unpredictable. If memory is short or a plugin throws, the run
 /// is written without them.
-void take_spread(const Scenario& scenario, Recording& recording, const report::Summary& summary, bool quiet) try {
+void take_spread(const Scenario& scenario, Recording& recording, const Judgement& own, bool quiet) try {
   if (!needs_spread(scenario, recording)) return;
   if (!quiet) {
     say(scenario.file, "note",
         report::predictability_text(scenario, recording) +
             "; three more rollouts are simulated to show the spread of the results");
   }
-  const report::Verdict own = report::verdict(scenario, recording, summary, report::overlaps(scenario, recording));
   AgainProgress progress(quiet, "spread");
-  recording.spread = report::spread(scenario, recording, summary, own, stopped(), [&] { progress.add(1, report::kSpread); });
+  recording.spread =
+      report::spread(scenario, recording, own.summary, own.verdict, stopped(), [&] { progress.add(1, report::kSpread); });
 } catch (const std::bad_alloc&) {  // NOLINT(bugprone-empty-catch)
 } catch (const PluginError&) {     // NOLINT(bugprone-empty-catch)
 }
@@ -80,15 +87,14 @@ std::vector<Scenario> other_draws(const Scenario& scenario, const RunArguments& 
 /// Simulates the draws for Recording::draws. Returns false if they are incomplete. If memory is short or a plugin throws, the
 /// run is written without them.
 bool take_draws(const Scenario& scenario, std::span<const Scenario> draws, const RunArguments& arguments, Recording& recording,
-                const report::Summary& summary) try {
+                const Judgement& own) try {
   if (draws.empty()) return true;
   if (!recording.outcome.done()) {
     say("--draws", "warning", "the other seeds are not simulated, because the run ended early");
     return false;
   }
-  const report::Verdict own = report::verdict(scenario, recording, summary, report::overlaps(scenario, recording));
   AgainProgress progress(arguments.quiet, "draws");
-  report::Drawn drawn = report::draws(scenario, {recording, summary, own}, draws, {arguments.jobs, 0}, stopped(),
+  report::Drawn drawn = report::draws(scenario, {recording, own.summary, own.verdict}, draws, {arguments.jobs, 0}, stopped(),
                                       [&] { progress.add(1, draws.size()); });
   recording.draws = std::move(drawn.table);
   for (const std::string& refused : drawn.refused) say("--draws", "warning", refused);
@@ -121,13 +127,10 @@ void print_files(const RunArguments& arguments, const std::filesystem::path& fol
 }
 
 /// Arguments of the more accurate run that replaces the `first` run without a verdict, if it is cheap. Runs of a study are
-/// not replaced, because they have no file, and neither is a run whose file has changed since. `seen` is `first` with the rows
-/// that the recording has kept.
-std::optional<RunArguments> more_accurate(const Scenario& first, const Scenario& seen, const Recording& recording,
-                                          const report::Summary& summary, const RowsNeeded& rows,
-                                          const RunArguments& arguments) {
+/// not replaced, because they have no file, and neither is a run whose file has changed since.
+std::optional<RunArguments> more_accurate(const Scenario& first, const Recording& recording, const report::Verdict& own,
+                                          const RowsNeeded& rows, const RunArguments& arguments) {
   if (arguments.no_retry || arguments.file.empty() || !recording.outcome.done()) return {};
-  const report::Verdict own = report::verdict(seen, recording, summary, report::overlaps(seen, recording));
   if (!own.retry_is_finer) return {};
   RunArguments again = arguments;
   again.no_retry = true;
@@ -180,13 +183,18 @@ int run_into(RunFolder& folder, const Scenario& scenario, const RunArguments& ar
   const Scenario seen = with_row_stride(scenario, all ? all->stride : 1);
   if (!arguments.quiet) note_row_stride(seen, all ? all->stride : 1);
   RunWriter files(folder.path(), [](const std::string& why) { say("gaitlab", "error", why); });
-  const auto summarised = [&] { return report::summarise(seen, recording, wall.count()); };
-  std::optional<report::Summary> made;  // kept, because the memory of a failed trace.h5 may not be freed
+  const auto judge = [&] {
+    Judgement of{report::summarise(seen, recording, wall.count()), report::overlaps(seen, recording), {}};
+    of.verdict = report::verdict(seen, recording, of.summary, of.overlaps);
+    return of;
+  };
+  std::optional<Judgement> made;  // kept, because the memory of a failed trace.h5 may not be freed
   try {
-    made = summarised();
-  } catch (const std::bad_alloc&) {  // the trace is written first, then the summary is computed again
+    made = judge();
+  } catch (const std::bad_alloc&) {  // NOLINT(bugprone-empty-catch): the trace is written first, then the run is judged
+  } catch (const PluginError&) {     // NOLINT(bugprone-empty-catch)
   }
-  if (const auto again = made ? more_accurate(scenario, seen, recording, *made, rows, arguments) : std::nullopt) {
+  if (const auto again = made ? more_accurate(scenario, recording, made->verdict, rows, arguments) : std::nullopt) {
     recording = {};
     all.reset();
     return with_scenario(*again, [&](const Scenario& finer, const std::vector<Scenario>& others) {
@@ -199,10 +207,13 @@ int run_into(RunFolder& folder, const Scenario& scenario, const RunArguments& ar
   files.write_run(arguments.format, scenario, recording);
   if (all) all->swap(recording);
   all.reset();
-  const report::Summary summary = made ? std::move(*made) : summarised();
+  Judgement run = made ? std::move(*made) : judge();
+  const report::Summary& summary = run.summary;
+  report::Verdict& verdict = run.verdict;
   if (files.lost_any()) files.write_text("summary.json", [&] { return report::to_json(summary, scenario, recording); });
-  const report::Overlaps overlaps = report::overlaps(seen, recording);
-  report::Verdict verdict = judged(seen, recording, summary, overlaps, arguments.shown, arguments.quiet);
+  if (recording.spread.rows() > 0 || recording.draws.rows() > 0)
+    verdict = report::verdict(seen, recording, summary, run.overlaps);
+  if (arguments.shown.demand) take_demand(seen, recording, summary, verdict, arguments.quiet);
   files.write_report(seen, recording, summary, verdict, !arguments.no_page);
   if (files.wrote_any()) folder.keep();
   if (!arguments.quiet) print_summary(scenario, recording, summary, verdict, arguments.shown);

@@ -1,14 +1,18 @@
 #include "report/analysis/cpg_alone.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 #include "core/math/periods.h"
 #include "core/plugin/plugin_instance.h"
+#include "core/scenario/sections.h"
 #include "core/scenario/sensor_section.h"
 #include "core/settings/settings_numbers.h"
-#include "core/simulation/cpg_integrator.h"
+#include "core/settings/writer.h"
 
 namespace gaitlab::report {
 
@@ -19,6 +23,18 @@ constexpr std::int64_t kTicksOfFeedback = 400;
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 thread_local const std::atomic<bool>* stop_of_thread = nullptr;
+
+/// The object that was left last, and all that it depends on.
+struct Left {
+  std::mutex mutex;
+  std::string key;
+  std::weak_ptr<const Robot> robot;
+  std::optional<CpgAlone> alone;
+};
+Left& left_alone() {
+  static auto* const made = new Left;  // never destroyed: threads may judge runs at exit
+  return *made;
+}
 
 }  // namespace
 
@@ -49,33 +65,68 @@ std::vector<double> frequencies(const Scenario& s, const PluginSelection& cpg) {
   return all;
 }
 
-std::vector<double> set_points_alone(const Scenario& s, std::int64_t ticks, const Feedback& feedback) {
+std::string key_of_cpg(const Scenario& s) {
+  const std::vector<std::string> joints = joint_names(*s.robot);
+  Writer writer(joints);
+  visit_settings(*s.cpg.entry, s.cpg.settings.get(), writer);
+  std::string key =
+      fmt::format("{} {} {} {} {}", s.cpg.entry->origin, s.cpg.entry->name, s.control_period, s.cpg_step, s.sensors.size());
+  for (std::size_t j = 0; j < joints.size(); ++j) key += fmt::format(" {}", s.initial.angles[j]);
+  return key + "\n" + print_yaml(writer.take());
+}
+
+CpgAlone::CpgAlone(const Scenario& s, const Feedback& feedback)
+    : period_(s.control_period),
+      step_(s.cpg_step),
+      speed_(s.robot->joints.size(), feedback.speed),
+      torque_(s.robot->joints.size(), feedback.torque),
+      touching_(s.robot->modules.size(), feedback.touching),
+      setpoint_(s.robot->joints.size()),
+      integrator_(0) {
   const RobotInfo robot = plugin_info(s);
-  const std::unique_ptr<Cpg> cpg = make_cpg(s.cpg, robot);
-  const std::size_t joints = s.robot->joints.size();
-  std::vector<double> angle;
-  for (std::size_t j = 0; j < joints; ++j) angle.push_back(s.initial.angles[j] + feedback.angle);
-  const std::vector<double> speed(joints, feedback.speed);
-  const std::vector<double> torque(joints, feedback.torque);
-  const std::vector<double> channels(robot.channels.size(), feedback.speed);
-  const std::vector<double> touching(s.robot->modules.size(), feedback.touching);
-  const auto measured = [&](double t) { return Measured{t, s.control_period, angle, speed, torque, touching, channels}; };
-  std::vector<double> state(cpg->states());
-  std::vector<double> setpoint(joints);
-  CpgIntegrator integrator(state.size());
-  cpg->start(state);
-  std::vector<double> all;
-  all.reserve(static_cast<std::size_t>(ticks) * joints);
-  for (std::int64_t k = 0; k < ticks && !StopsCpgAlone::asked(); ++k) {
-    const double t = static_cast<double>(k) * s.control_period;
-    cpg->event(measured(t), state);
-    cpg->output(t, state, setpoint);
-    for (std::size_t j = 0; j < joints; ++j) {
-      if (s.robot->joints[j].driven()) all.push_back(setpoint[j]);
-    }
-    integrator.advance(*cpg, state, t, math::steps_in(s.control_period, s.cpg_step), s.cpg_step, measured);
+  cpg_ = make_cpg(s.cpg, robot);
+  channels_.assign(robot.channels.size(), feedback.speed);
+  for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
+    driven_.push_back(s.robot->joints[j].driven());
+    angle_.push_back(s.initial.angles[j] + feedback.angle);
   }
-  return all;
+  state_.resize(cpg_->states());
+  integrator_ = CpgIntegrator(state_.size());
+  cpg_->start(state_);
+}
+
+Measured CpgAlone::measured(double t) const { return {t, period_, angle_, speed_, torque_, touching_, channels_}; }
+
+const std::vector<double>& CpgAlone::rows(std::int64_t ticks) {
+  rows_.reserve(static_cast<std::size_t>(std::max(ticks, ticks_)) * driven_.size());
+  for (; ticks_ < ticks && !StopsCpgAlone::asked(); ++ticks_) {
+    const double t = static_cast<double>(ticks_) * period_;
+    cpg_->event(measured(t), state_);
+    cpg_->output(t, state_, setpoint_);
+    for (std::size_t j = 0; j < setpoint_.size(); ++j) {
+      if (driven_[j]) rows_.push_back(setpoint_[j]);
+    }
+    integrator_.advance(*cpg_, state_, t, math::steps_in(period_, step_), step_, [this](double at) { return measured(at); });
+  }
+  return rows_;
+}
+
+CpgAlone CpgAlone::found(const Scenario& s) {
+  const std::string key = key_of_cpg(s);
+  Left& left = left_alone();
+  {
+    const std::lock_guard lock(left.mutex);
+    if (left.alone && left.key == key && left.robot.lock() == s.robot) return *std::exchange(left.alone, std::nullopt);
+  }
+  return CpgAlone(s);
+}
+
+void CpgAlone::leave(const Scenario& s, CpgAlone alone) {
+  Left& left = left_alone();
+  const std::lock_guard lock(left.mutex);
+  left.key = key_of_cpg(s);
+  left.robot = s.robot;
+  left.alone = std::move(alone);
 }
 
 std::vector<SetPointRange> set_point_ranges(const Scenario& s) {
@@ -86,8 +137,9 @@ std::vector<SetPointRange> set_point_ranges(const Scenario& s) {
   if (s.cpg.entry == nullptr || all.empty()) return {};
   const double until = s.changes.empty() ? s.duration : s.changes.front().t;
   const auto ticks = static_cast<std::int64_t>(std::min(kTicksOfCpg, std::ceil(until / s.control_period)));
-  const std::vector<double> rows = set_points_alone(s, ticks);
-  const std::vector<double> moved = set_points_alone(s, std::min(ticks, kTicksOfFeedback), {0.1, 0.3, 0.5, 1});
+  CpgAlone alone(s);
+  const std::vector<double>& rows = alone.rows(ticks);
+  const std::vector<double> moved = CpgAlone(s, {0.1, 0.3, 0.5, 1}).rows(std::min(ticks, kTicksOfFeedback));
   if (StopsCpgAlone::asked() || !std::equal(moved.begin(), moved.end(), rows.begin())) return {};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     SetPointRange& one = all[i % all.size()];
@@ -95,6 +147,7 @@ std::vector<SetPointRange> set_point_ranges(const Scenario& s) {
     one.most = std::max(one.most, rows[i]);
     if (i >= all.size()) one.speed = std::max(one.speed, std::abs(rows[i] - rows[i - all.size()]) / s.control_period);
   }
+  if (s.cpg.entry->context == nullptr) CpgAlone::leave(s, std::move(alone));
   return all;
 }
 

@@ -2,10 +2,13 @@
 #pragma once
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/scenario/scenario.h"
+#include "core/simulation/cpg_integrator.h"
 
 namespace gaitlab::report {
 
@@ -28,7 +31,7 @@ struct Feedback {
   double speed = 0, torque = 0, touching = 0;
 };
 
-/// During its lifetime, `stop` ends set_points_alone() in this thread, because a CPG of a user may be slow.
+/// During its lifetime, `stop` ends CpgAlone::rows() in this thread, because a CPG of a user may be slow.
 class StopsCpgAlone {
  public:
   explicit StopsCpgAlone(const std::atomic<bool>& stop);
@@ -38,8 +41,38 @@ class StopsCpgAlone {
   static bool asked();  ///< true if there is a `stop` and it is set
 };
 
-/// Set points of the driven joints at every control tick, rad, row-major; fewer if it was stopped. Throws PluginError.
-std::vector<double> set_points_alone(const Scenario& scenario, std::int64_t ticks, const Feedback& feedback = {});
+/// The first CPG of a scenario, called at the control ticks as in a run.
+class CpgAlone {
+ public:
+  /// Throws PluginError.
+  explicit CpgAlone(const Scenario& scenario, const Feedback& feedback = {});
+
+  /// Set points of the driven joints, rad, row-major, from the first tick to at least `ticks`; fewer if it was stopped. Only
+  /// new ticks are computed. Throws PluginError.
+  const std::vector<double>& rows(std::int64_t ticks);
+  /// The same, moved out of this object.
+  std::vector<double> take() { return std::move(rows_); }
+
+  /// The object of an equal scenario that was left last, or a new one. Warnings before a run and its judgement need the same
+  /// ticks. Throws PluginError.
+  static CpgAlone found(const Scenario& scenario);
+  static void leave(const Scenario& scenario, CpgAlone alone);
+
+ private:
+  [[nodiscard]] Measured measured(double t) const;
+
+  std::unique_ptr<Cpg> cpg_;
+  double period_, step_;  ///< s, of the control and of the CPG
+  std::vector<bool> driven_ = {};
+  std::vector<double> angle_ = {}, speed_, torque_, touching_, channels_;
+  std::vector<double> state_, setpoint_;
+  CpgIntegrator integrator_;
+  std::int64_t ticks_ = 0;
+  std::vector<double> rows_ = {};
+};
+
+/// All numbers that the CPG alone depends on, except for the robot.
+std::string key_of_cpg(const Scenario& scenario);
 
 /// Extremes of the set points of a joint.
 struct SetPointRange {

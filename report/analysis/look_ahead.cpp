@@ -12,10 +12,8 @@
 #include <string>
 
 #include "core/errors.h"
-#include "core/plugin/robot_info.h"
 #include "core/scenario/change_section.h"
 #include "core/scenario/sections.h"
-#include "core/settings/writer.h"
 #include "report/analysis/cpg_alone.h"
 #include "report/analysis/motion.h"
 
@@ -47,17 +45,6 @@ struct Store {
 Store& store() {
   static auto* const made = new Store;  // never destroyed: threads may judge runs at exit
   return *made;
-}
-
-/// All that the CPG alone depends on, except for the robot.
-std::string key_of(const Scenario& s, const Recording& r) {
-  const std::vector<std::string> joints = joint_names(*s.robot);
-  Writer writer(joints);
-  visit_settings(*s.cpg.entry, s.cpg.settings.get(), writer);
-  std::string key = fmt::format("{} {} {} {} {} {}", s.cpg.entry->origin, s.cpg.entry->name, s.control_period, s.cpg_step,
-                                s.sensors.size(), r.simulated);
-  for (std::size_t j = 0; j < joints.size(); ++j) key += fmt::format(" {}", s.initial.angles[j]);
-  return key + "\n" + print_yaml(writer.take());
 }
 
 std::optional<Ahead> kept(const std::string& key, const Scenario& s) {
@@ -162,13 +149,14 @@ std::shared_ptr<const LookAhead> look_ahead(const Scenario& s, const Recording& 
   if (recorded.empty() || s.cpg.entry->context != nullptr || last_change(s, r.simulated) > 0) return {};
   const Lengths of = lengths(s, r.simulated, period, stated);
   if (of.run > kMostOfRun) return {};
-  const std::string key = key_of(s, r);
+  const std::string key = fmt::format("{} {}", r.simulated, key_of_cpg(s));
   if (const std::optional<Ahead> before = kept(key, s)) {
     return *before && recorded_so(s, r, (*before)->in_run, recorded) ? *before : nullptr;
   }
   LookAhead made;
+  CpgAlone cpg = CpgAlone::found(s);
   for (std::int64_t ticks = of.run + of.after;; ticks = std::min(2 * ticks, of.most)) {
-    std::vector<double> alone = set_points_alone(s, ticks);
+    const std::vector<double>& alone = cpg.rows(ticks);
     if (StopsCpgAlone::asked()) return {};
     if (!recorded_so(s, r, alone, recorded)) {
       keep({key, s.robot, nullptr});
@@ -179,8 +167,8 @@ std::shared_ptr<const LookAhead> look_ahead(const Scenario& s, const Recording& 
     const std::int64_t after = made.cycle.found ? ticks_of(kPeriodsNeeded * made.cycle.period, s) : of.after;
     made.after_run = after_run(s, alone, of.run, std::min(of.run + after, ticks));
     made.until = static_cast<double>(ticks) * s.control_period;
-    alone.resize(static_cast<std::size_t>(of.run) * recorded.size());
-    made.in_run = std::move(alone);
+    made.in_run = cpg.take();
+    made.in_run.resize(static_cast<std::size_t>(of.run) * recorded.size());
     std::shared_ptr<const LookAhead> found = std::make_shared<const LookAhead>(std::move(made));
     keep({key, s.robot, found});
     return found;

@@ -12,7 +12,7 @@ namespace {
 /// else a list. Joints without motor keep their angles. Empty for a CPG of another language, which is called in the run alone.
 std::string first_angles(const Scenario& s) try {
   if (s.cpg.entry->context != nullptr) return "";
-  const std::vector<double> first = set_points_alone(s, 1);
+  const std::vector<double> first = CpgAlone(s).rows(1);
   std::vector<std::string> all;
   std::size_t driven = 0;
   for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {

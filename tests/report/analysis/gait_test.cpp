@@ -50,14 +50,14 @@ class LookAhead : public ::testing::Test {
   Catalog catalog_;
 };
 
-/// 9 s, two periods and an eighth, are 600 ticks. Doubling from two lengths of the run calls the CPG at 134, 268, 536 and 1072
-/// of them; 120 s are 8000.
+/// 9 s, two periods and an eighth, are 600 ticks. Doubling from two lengths of the run ends at 1072 of them, and each calls the
+/// CPG once; 120 s are 8000.
 TEST_F(LookAhead, IsAsShortAsThePeriodAllowsAndIsDoneOnce) {
   const Scenario s = read({"cpg.amplitude=0.31"});
   const Recording r = run(s);
   const int first = calls(s, r, 4);
   EXPECT_GT(first, 500);
-  EXPECT_LT(first, 2100);
+  EXPECT_LT(first, 1100);
   EXPECT_EQ(calls(s, r, 4), 0);
   Scenario other = s;
   other.ground.friction = 0.4;
