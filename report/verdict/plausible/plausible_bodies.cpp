@@ -13,6 +13,8 @@ namespace gaitlab::report {
 
 namespace {
 
+constexpr double kWater = 1000;  // kg/m^3
+
 double kilo_cubed(double value) { return value * 1e9; }   // of a density, for lengths in mm
 double centi_cubed(double value) { return value * 1e6; }  // of a density, for lengths in cm
 double gram_square_mm(double value) { return value * 1e-9; }
@@ -70,7 +72,6 @@ void each_solid_body(const Subject& subject, Use use) {
 }
 
 std::vector<Finding> densities(const Subject& subject) {
-  constexpr double kWater = 1000;  // kg/m^3
   std::vector<Finding> found;
   each_solid_body(subject, [&](const TypeBody& one) {
     const double volume = one.size.solid.volume;
@@ -299,7 +300,7 @@ bool shapes_are_all(const ModuleType& type, std::size_t b) {
   low = low.cwiseMin(body.com);
   high = high.cwiseMax(body.com);
   const double room = kLeastShare * (most - least).norm();
-  return ((low - least).array() >= -room).all() && ((most - high).array() >= -room).all();
+  return (low - least).minCoeff() >= -room && (most - high).minCoeff() >= -room;
 }
 
 /// Densities above any metal's.
