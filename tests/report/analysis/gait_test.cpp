@@ -66,6 +66,23 @@ TEST_F(LookAhead, IsAsShortAsThePeriodAllowsAndIsDoneOnce) {
   EXPECT_EQ(calls(amplitude, run(amplitude), 4), first);
 }
 
+/// The warnings before a run need the set points of its ticks (67 in 1 s); the look-ahead continues from there.
+TEST_F(LookAhead, ContinuesFromTheWarnings) {
+  for (const char* type : {"counted", "phase_oscillator"}) {
+    const Scenario s = read({std::string("cpg.type=") + type});
+    const std::vector<double> whole = CpgAlone(s).rows(200);
+    EXPECT_FALSE(set_point_ranges(s).empty());
+    Counted::calls = 0;
+    CpgAlone alone = CpgAlone::found(s);
+    EXPECT_EQ(alone.rows(200), whole) << type;
+    EXPECT_EQ(Counted::calls, *type == 'c' ? 200 - 67 : 0);
+    EXPECT_EQ(CpgAlone::found(s).rows(200), whole) << type;
+    const Scenario other = read({std::string("cpg.type=") + type, "initial.angles=0.1"});
+    (void)set_point_ranges(s);
+    EXPECT_EQ(CpgAlone::found(other).rows(200), CpgAlone(other).rows(200)) << type;
+  }
+}
+
 TEST_F(LookAhead, AsksItsFlag) {
   const Scenario s = read({"cpg.amplitude=0.33"});
   const Recording r = run(s);
