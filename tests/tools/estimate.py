@@ -53,7 +53,6 @@ def tree(draw):
         contacts.append({"body": name, "point": place(0.1)})
         contacts.append({"body": name, "sphere": place(0.08), "radius": draw.uniform(0.02, 0.05)})
     module = {"name": "odd", "bodies": bodies, "hinges": hinges, "faces": [], "contacts": {"feet": contacts, "all": contacts}}
-    if any("drive" in hinge for hinge in hinges):
     return {"robot": {"modules": {0: "odd"}, "types": {"odd": module}, "docks": []}, "contact": {"on": "all"}}
 
 
