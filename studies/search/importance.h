@@ -31,11 +31,11 @@ struct Importance {
   std::vector<ParameterImportance> parameters;  ///< the most influential on the objective first
 };
 
-/// Share of the variance of `output` explained by a parameter alone, of n points each: the variance of the means of k classes
-/// of equally many points in the order of the parameter (points of equal value in one class) over the variance (first-order
-/// index from given data: Plischke, Borgonovo, Smith 2013), less the share 1 - (1 - r) (n - 1) / (n - k) that chance
-/// contributes (Kelley 1935). At most 20 classes, of at least 20 points each. NaN for fewer than 60 points, or if nothing
-/// varies.
+/// Share of the variance of `output` that a parameter alone explains, from n points: 1 - (1 - r) (n - 1) / (n - k), which
+/// removes the contribution of chance (Kelley 1935). For r, the points are sorted by the parameter and divided into k classes
+/// of equal size, with points of equal value in one class; r is the variance of the class means over the variance (first-order
+/// index from given data: Plischke, Borgonovo, Smith 2013). At most 20 classes, of at least 20 points each. NaN for fewer than
+/// 60 points, or if nothing varies.
 double explained(std::span<const double> parameter, std::span<const double> output);
 
 /// Importance of the parameters with a range or listed values. Sensitivity studies have better estimates (sensitivities()).

@@ -1,4 +1,4 @@
-// A study as written by the user: a scenario's points to run, their number of runs, and their objectives.
+// A study as written by the user: the points of a scenario to run, the number of runs, and the objectives.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -50,7 +50,8 @@ struct Variation {
   SourceLocation place = {};
 };
 
-/// `robust` is `share`, where the nominal run of each scenario must also break no limit; only `robust: true` selects it.
+/// `robust` is `share` with a further condition: the nominal run of each scenario breaks no limit. Only the key `robust: true`
+/// selects it.
 enum class Combine { mean, worst, median, quantile, share, robust };
 
 struct Replicates {
@@ -110,7 +111,7 @@ struct StartPoint {
   SourceLocation place = {};
 };
 
-/// Faults of repeated runs of the winner: none, or each joint with a motor dead in turn.
+/// Faults in repeated runs of the winner: `none`, or `each` joint with a motor dead in turn.
 enum class VerifyFaults { none, each };
 
 /// Settings for the verification of the best points.
