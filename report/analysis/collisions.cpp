@@ -208,8 +208,9 @@ class Row {
   std::vector<Near> near_ = {};
   struct Met {
     Key a, b;
-    double depth;                                  ///< m
-    auto operator<=>(const Met&) const = default;  // NOLINT(modernize-use-nullptr): the comparison with 0 is of the compiler
+    double depth;  ///< m
+    auto operator<=>(const Met&) const =
+        default;  // NOLINT(modernize-use-nullptr): the compiler generates the comparison with 0
   };
   std::vector<Met> met_ = {};
 };

@@ -16,12 +16,12 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kStill = 2e-3;       // rad or rad/s: a smaller range is none (core/recording/limit_cycle.h)
+constexpr double kStill = 2e-3;       // rad or rad/s: a smaller range counts as 0 (core/recording/limit_cycle.h)
 constexpr double kTwoPeriods = 2.25;  // least length that shows a period
-constexpr double kLeastSamples = 20;  // in the stretches whose means are compared
+constexpr double kLeastSamples = 20;  // in each of the stretches that are compared
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// True if the set points of the run's last period equal the period before it, or if less than two periods follow
+/// True if the set points of the run's last period equal those of the period before, or if less than two periods follow
 /// `full_size`, s. A chirp may seem to repeat after the run.
 bool repeats_in_run(const LookAhead& ahead, double period, double full_size, double spacing) {
   const std::size_t columns = ahead.after_run.size();
@@ -44,7 +44,7 @@ bool repeats_in_run(const LookAhead& ahead, double period, double full_size, dou
     largest = std::max(largest, (high - low) / 2);
     misfit.push_back(std::sqrt(squares / static_cast<double>(lag)));
   }
-  // A period of a fraction of a tick more shifts the samples.
+  // If the period is not a whole number of ticks, the samples are shifted by a fraction of a tick.
   const double shift = std::numbers::pi * spacing / period;
   return *std::ranges::max_element(misfit) <= (kMostCycleError + shift) * std::max(largest, kStill);
 }
@@ -189,10 +189,10 @@ class Periods {
   struct Change {
     std::size_t column = 0;  ///< of the joint that changes most
     double mean = 0, rms = 0, range = 0;
-    double over = 0;  ///< largest change over that allowed
+    double over = 0;  ///< largest change / allowed change
   };
-  /// Change from the stretch ending `back` s earlier to the stretch ending at `to`. `share` of the range from `from` on is
-  /// allowed; a jump counts in one period for a row more than in another.
+  /// Change between the stretch that ends at `to` and the one that ends `back` s earlier. `share` of the range from `from` on
+  /// is allowed, and in addition one row of the largest jump, because a period may not be a whole number of rows.
   [[nodiscard]] Change change(double back, double from, double to, double share) const {
     Change most;
     for (std::size_t c = 0; c < joints_.size(); ++c) {
@@ -233,9 +233,10 @@ std::string drifts(const Scenario& s, const Recording& r, double from, double to
                      most.range);
 }
 
-/// Start of the recorded set points with the size of their last period, s, for a CPG that states none: equations that lower the
-/// robot, then repeat. 0 if they have it from `start` on, or change until the end. Not of a slow drift: later periods are equal
-/// within a tenth of Gait::kMostDrift, and one of the two periods before them differs by more than Gait::kMostDrift.
+/// Time from which the recorded set points have the size of their last period, s. It is for CPGs that state none, such as
+/// equations that lower the robot and then repeat. 0 if they have this size from `start` on, or change until the end. A slow
+/// drift does not count: later periods are equal within a tenth of Gait::kMostDrift, and one of the two periods before them
+/// differs by more than Gait::kMostDrift.
 double settled_from(const Scenario& s, const Recording& r, double start, double period) {
   const Periods periods(s, r, period);
   const double unit = periods.unit();

@@ -1,4 +1,4 @@
-// Changes of single settings that make a gait feasible or, for a feasible gait, those that it bears.
+// Changes of single settings that make a gait feasible or, for a feasible gait, keep it feasible.
 #pragma once
 #include <atomic>
 #include <functional>
@@ -65,7 +65,7 @@ struct Remedy {
   RemedySettings settings;       ///< of the run
   std::string scenario;          ///< hash of the resolved scenario
   Word word = Word::not_judged;  ///< of the run, or of the finer run
-  /// Settings of the finer run. The search begins there where the run itself is `not judged` only for its accuracy. They are
+  /// Settings of the finer run, with which the search begins if the run itself is `not judged` only for its accuracy. They are
   /// also the first settings of each answer.
   std::vector<std::string> finer = {};
   std::string engine = {}, own_engine = {};  ///< engines of the search and of the scenario
@@ -90,13 +90,14 @@ struct RemedyTask {
   std::function<void(double)> progress = {};  ///< called with the share of the work that is done, from several threads
 };
 
-/// Multiplies one setting at a time: eight factors from a fifth to five times, then bisection of the change of the verdict that
-/// is nearest to 1 in each direction, to 2 % of the change, rounded to the safe side. Runs of the search use the engine
-/// `articulated` without an estimate of their torque error, unless that engine has another verdict on the run itself. The
-/// answers are confirmed by the scenario's own engine, step and estimate: feasible with the change, and not with nine tenths of
-/// it. If no setting alone helps, the fastest feasible pair of frequency and amplitude on a grid of 13 x 13 is taken. Results
-/// do not depend on threads or lanes. If `stop` is set, the search ends with the answers so far (Remedy::interrupted). Throws
-/// InputError if the verdict is `not judged` and not only for the accuracy of the run, and PluginError.
+/// Multiplies one setting at a time by eight factors from a fifth to five. In each direction, it then narrows the interval
+/// nearest to 1 in which the verdict changes to 2 % of the change, and rounds the result to the safe side. Runs of the search
+/// use the engine `articulated` without an estimate of their torque error, unless that engine has another verdict on the run
+/// itself. The answers are confirmed with the scenario's own engine, step and estimate: the gait is feasible with the change,
+/// and not with nine tenths of it. If no setting alone helps, the fastest feasible pair of frequency and amplitude on a grid of
+/// 13 x 13 is taken. Results do not depend on threads or lanes. If `stop` is set, the search ends with the answers so far
+/// (Remedy::interrupted). Throws InputError if the verdict is `not judged` and not only for the accuracy of the run, and
+/// PluginError.
 Remedy remedy(const RemedyTask& task, std::atomic<bool>& stop);
 
 }  // namespace gaitlab::report

@@ -84,7 +84,7 @@ std::string alternatives(const std::vector<std::string>& names) {
 /// First clause of a text, for a line.
 std::string clause(const std::string& text) { return text.substr(0, text.find(';')); }
 
-/// Settings whose verdict changes in no direction, and that were simulated up to both ends of the range.
+/// Settings that do not change the verdict in either direction, and that were simulated up to both ends of the range.
 std::vector<std::string> unmoved(const Remedy& remedy) {
   std::vector<std::string> names;
   for (const RemedyAnswer& answer : remedy.answers) {

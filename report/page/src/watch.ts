@@ -7,7 +7,7 @@ import type { Pose } from "./scene/view";
 
 /** View that a renewed page keeps. Joint and time are in its address. */
 interface Kept {
-  run: number; // for which the page was loaded again
+  run: number; // run for which the page was loaded again
   pose: Pose | null;
   playing: boolean;
 }

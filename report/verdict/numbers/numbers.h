@@ -18,8 +18,8 @@ struct RunData {
   const Summary& summary;
 };
 
-/// A summary number. The terminal, `compare`, goldens and `swap` show the numbers whose `place` in the member of that name
-/// (`line`, `compare`, `golden`, `swap`) is above 0, in ascending order of `place`. This order differs from that of the list.
+/// A summary number. Each output has a member here: `line` for the terminal, `compare`, `golden`, `swap`. It shows the numbers
+/// whose `place` in this member is above 0, in ascending order of `place`, which differs from the order of the list.
 struct SummaryNumber {
   /// Path in summary.json, separated by `.`. `J` represents the name of a joint; `x` and `y` are the elements of an array.
   const char* key = "";

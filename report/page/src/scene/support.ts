@@ -100,7 +100,7 @@ export class Support {
       if (!load || this.recording.at(load, t) <= share * meta.weight) return [];
       const placed = elements.map(([x, y, z]) => new Vector3(x, y, z).applyMatrix4(this.pose(body)));
       const low = placed.map((p, k) => p.z - elements[k][3]);
-      // A foot with load touches at least with its lowest element.
+      // The lowest element of a loaded foot always counts as touching.
       const limit = Math.max(this.height + touch, Math.min(...low));
       return placed.filter((_, k) => low[k] <= limit).map((p): Point => [p.x, p.y]);
     });

@@ -1,4 +1,4 @@
-// Settings that would make the gait feasible, or the reserves of a feasible gait; with a map of its verdicts.
+// Settings that would make the gait feasible, or the reserves of a feasible gait, and a map of the verdicts.
 import { element, make, svg } from "../dom";
 import type { Remedy, RemedyMap } from "../data/format";
 import { capital, number, percent } from "../data/numbers";
