@@ -208,9 +208,8 @@ class Row {
   std::vector<Near> near_ = {};
   struct Met {
     Key a, b;
-    double depth;  ///< m
-    auto operator<=>(const Met&) const =
-        default;  // NOLINT(modernize-use-nullptr): the compiler generates the comparison with 0
+    double depth;                                  ///< m
+    auto operator<=>(const Met&) const = default;  // NOLINT(modernize-use-nullptr): the compiler compares with 0
   };
   std::vector<Met> met_ = {};
 };

@@ -109,7 +109,7 @@ class ToldPoses {
 };
 
 constexpr double kLeastStance =
-    0.01;  // share of the standing height; least height of a pose, which may have its feet above its centre of mass
+    0.01;  // share of the standing height; used if a pose is lower or has its feet above its centre of mass
 constexpr double kFallRounding = 1e-9;  // relative
 
 }  // namespace

@@ -26,9 +26,8 @@ constexpr double kMore = 1.08;         // factor on the logarithm of a change th
 constexpr int kMostRounds = 8;         // attempts to confirm an answer
 constexpr int kMapEachWay = 6;         // cells of the map on either side of the run
 constexpr std::size_t kMostPairs = 5;  // pairs to confirm, the fastest first
-// Only for the estimate of the work: number of rounds that confirm an answer, and computing time of a simulated second in them
-// / in the search. The ratio is kEngineRatio if they use another engine, kEstimateRatio if they only add the estimate of the
-// error.
+// Only for the estimate of the work: number of rounds that confirm an answer, and ratios of the computing times of a simulated
+// second in these rounds and in the search. The rounds use another engine and the estimate, or only add the estimate.
 constexpr double kLikelyRounds = 1.5, kEngineRatio = 8, kEstimateRatio = 2;
 constexpr const char* kFastEngine = "articulated";
 

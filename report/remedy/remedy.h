@@ -91,13 +91,13 @@ struct RemedyTask {
 };
 
 /// Multiplies one setting at a time by eight factors from a fifth to five. In each direction, it then narrows the interval
-/// nearest to 1 in which the verdict changes to 2 % of the change, and rounds the result to the safe side. Runs of the search
-/// use the engine `articulated` without an estimate of their torque error, unless that engine has another verdict on the run
-/// itself. The answers are confirmed with the scenario's own engine, step and estimate: the gait is feasible with the change,
-/// and not with nine tenths of it. If no setting alone helps, the fastest feasible pair of frequency and amplitude on a grid of
-/// 13 x 13 is taken. Results do not depend on threads or lanes. If `stop` is set, the search ends with the answers so far
-/// (Remedy::interrupted). Throws InputError if the verdict is `not judged` and not only for the accuracy of the run, and
-/// PluginError.
+/// nearest to 1 in which the verdict changes, until its width is 2 % of the change, and rounds the result to the safe side.
+/// Runs of the search use the engine `articulated` without an estimate of their torque error, unless that engine has another
+/// verdict on the run itself. The answers are confirmed with the scenario's own engine, step and estimate: the gait is feasible
+/// with the change, and not with nine tenths of it. If no setting alone helps, the fastest feasible pair of frequency and
+/// amplitude on a grid of 13 x 13 is taken. Results do not depend on threads or lanes. If `stop` is set, the search ends with
+/// the answers so far (Remedy::interrupted). Throws InputError if the verdict is `not judged` and not only for the accuracy of
+/// the run, and PluginError.
 Remedy remedy(const RemedyTask& task, std::atomic<bool>& stop);
 
 }  // namespace gaitlab::report

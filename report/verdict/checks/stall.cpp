@@ -9,8 +9,7 @@ namespace {
 constexpr double kAtRest = 0.05;           // share of the no-load speed
 constexpr double kLeastRest = 0.1;         // s, time at rest that counts
 constexpr double kRoundedDown = 1 - 1e-9;  // tolerance of a time that is a difference
-constexpr double kMostAtRest =
-    0.5;  // largest RMS without a warning, as a share of the stall torque (chosen: as at largest power)
+constexpr double kMostAtRest = 0.5;  // largest RMS without a warning, share of the stall torque (chosen: as at largest power)
 
 /// Torque of a joint at rest, N m.
 struct Held {

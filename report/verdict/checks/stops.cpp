@@ -35,8 +35,8 @@ std::string beyond_text(const Check& made, const BeyondRange& worst, bool by_ang
 // A hinge without a motor is meant to touch its stop.
 constexpr double kRestsBeyond = 0.05;  // rad
 
-/// Judges hinges without a motor, only by their angle beyond the stop, after the joints with a motor. Hinges decide if they
-/// fail by more than the joints, or if no joint is beyond its range.
+/// Judges hinges without a motor after the joints with a motor, and only by their angle beyond the stop. These hinges decide
+/// the check if they fail by more than the joints with a motor, or if no joint with a motor is beyond its range.
 void judge_rests(const CheckedRun& run, const std::vector<BeyondRange>& joints, Check& made) {
   const auto beyond = [&](std::size_t j) { return run.scenario.robot->joints[j].driven() ? 0 : joints[j].worst; };
   const Criterion most{0, std::max(kRestsBeyond, run.limits().beyond_range), "rad"};
