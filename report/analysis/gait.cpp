@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kStill = 2e-3;       // rad or rad/s: a smaller range counts as 0 (core/recording/limit_cycle.h)
 constexpr double kTwoPeriods = 2.25;  // least length that shows a period
-constexpr double kLeastSamples = 20;  // in each of the stretches that are compared
+constexpr double kLeastSamples = 20;  // least number of rows in a stretch that is compared
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// True if the set points of the run's last period equal those of the period before, or if less than two periods follow
@@ -151,7 +151,7 @@ std::string grows(const Scenario& s, const Judged& judged, const Gait& gait) {
   const LookAhead& ahead = *gait.ahead;
   const std::size_t columns = ahead.after_run.size();
   const std::vector<bool> free = turning_freely(*s.robot);
-  // Samples of three periods are nearer to a peak than samples of one.
+  // The samples of three periods may be nearer to a peak than those of one period, which is not growth.
   const double sampled =
       gait.period > 0 ? (1 - std::cos(std::min(std::numbers::pi, std::numbers::pi * s.control_period / gait.period))) / 2 : 0;
   const auto first = static_cast<std::size_t>(std::ceil(judged.from / s.control_period - 1e-6));
@@ -173,7 +173,7 @@ std::string grows(const Scenario& s, const Judged& judged, const Gait& gait) {
   return text;
 }
 
-/// Recorded set points of the joints (speeds, for hinges without range) whose periods are compared.
+/// Recorded set points of the joints, or their speeds for hinges without range, for a comparison of periods.
 class Periods {
  public:
   Periods(const Scenario& s, const Recording& r, double period) : t_(motion(r).t), free_(turning_freely(*s.robot)) {

@@ -79,7 +79,7 @@ bool recorded_so(const Scenario& s, const Recording& r, const std::vector<double
 
 /// Cycle at the end of the first `ticks` rows of the CPG alone.
 MotionCycle cycle_of(const std::vector<double>& alone, std::size_t columns, std::int64_t ticks, double period) {
-  // Fast gaits need every tick, slow ones the whole duration.
+  // The search first takes every tick, for fast gaits, and then the whole duration, for slow gaits.
   for (const std::int64_t every : {std::int64_t{1}, (ticks + kMostRows - 1) / kMostRows}) {
     std::vector<double> rows;
     for (std::int64_t k = std::max<std::int64_t>(0, ticks - kMostRows * every); k < ticks; k += every) {

@@ -54,8 +54,8 @@ class HingeOverlap {
   std::map<double, double> clear_ = {};  ///< end of each interval of clear angles by its start, rad
 };
 
-/// Deepest overlap of the bodies of a hinge within its range (or within a turn for a free hinge) beyond that by design, m, at
-/// angles at most 0.05 rad apart.
+/// Largest overlap of the bodies of a hinge beyond that by design, m, at angles at most 0.05 rad apart within the range of the
+/// hinge, or within a turn of a free hinge.
 double deepest_in_range(const ModuleType& type, std::size_t hinge);
 
 /// Names of the bodies of a type, for ModuleType::may_overlap.

@@ -23,7 +23,7 @@ struct Upright {
 
 /// Tilt of a robot with a floating base; nothing for other bases or without poses. `rolls` is decided over the periods of the
 /// limit cycle in the judged window. Without a limit cycle, the last period of the set points, of length `set_points` (s,
-/// gait.h), is used; if that is 0, the two halves of the window.
+/// gait.h), is used or, if `set_points` is 0, the two halves of the window.
 std::optional<Upright> upright(const Scenario& scenario, const Recording& record, const Judged& judged, double set_points);
 
 }  // namespace gaitlab::report

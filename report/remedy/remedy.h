@@ -25,7 +25,7 @@ struct RemedyAnswer {
   /// Farthest factor that was tried, up to which all tried runs have the verdict of the answer.
   double until = 1;
   RemedyRun run = {};          ///< with `factor` and the scenario's own engine
-  RemedyRun beyond = {};       ///< of a feasible gait: a run beyond the reserve, within 2 % of the change
+  RemedyRun beyond = {};       ///< for a feasible gait, a run beyond the reserve, within 2 % of the change
   bool less_suffices = false;  ///< true if nine tenths of the change also make the gait feasible, so that `factor` is too large
   std::string refused = {};    ///< message of the reader about the first value beyond `until`; empty if it was simulated
   double refused_at = 1;       ///< factor of that value

@@ -26,7 +26,7 @@ Question read_question(const std::string& line, const SourceLocation& place, con
 /// it contains their number, so that the other program need not read the study.
 std::string question_text(std::uint64_t id, const Study& study, std::span<const std::string> values);
 
-/// Answer for a point. `margins` contains, by the id of its check, each guard's margin less the least margin that the study
+/// Answer for a point. `margins` contains, by the id of its check, each guard's margin minus the least margin that the study
 /// requires: 0 or more satisfies the guard. `runs` are in the order of replicates, and `quantities` contains their values by
 /// column. An empty `runs` means that the point is refused. With several replicates, each quantity is a list. A number is the
 /// shortest text that gives the same double, and an unknown number is null.

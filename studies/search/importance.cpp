@@ -65,7 +65,7 @@ Sample sample_of(Journal& journal, const Results& results, const std::vector<std
       const JournalParameter& p = head.parameters[chosen[c]];
       const auto word = static_cast<double>(std::ranges::find(p.values, row[c + 1]) - p.values.begin());
       const double number = p.words ? word : number_of(row[c + 1]);
-      sample.parameters[c].push_back(std::isfinite(number) ? number : 0);  // a forged journal can hold others
+      sample.parameters[c].push_back(std::isfinite(number) ? number : 0);  // a forged journal can contain other texts
     }
     sample.objective.push_back(point->failed > 0 ? kUnknown : point->score.objective());
     sample.kept.push_back(point->kept() ? 1 : 0);

@@ -14,7 +14,7 @@ enum class End { none, low, high };
 /// Influence of a parameter of a study, and the part of its range with kept points. NaN if not known.
 struct ParameterImportance {
   std::string key;
-  double objective = 0;      ///< share of the variance of the rank of the first objective, over the completed points
+  double objective = 0;      ///< share of the variance in rank of the first objective, over the completed points
   double kept = 0;           ///< share of the variance of `kept` (1 or 0), over all points
   double low = 0, high = 0;  ///< 2nd and 98th percentile of the kept points, in the parameter's unit
   double width = 0;          ///< share of the range between these two (log: of the logarithm)

@@ -80,7 +80,8 @@ std::vector<Rest> rests(const CheckedRun& run, Check& made) {
   return all;
 }
 
-/// The joint that decides: the one with the least margin if it fails, else the one with the largest RMS if that warns.
+/// The joint that decides the check: the joint with the least margin or, if this joint passes, the joint with the largest RMS
+/// if this RMS causes a warning.
 const Rest& decisive(const std::vector<Rest>& all) {
   const Rest& worst = *std::ranges::max_element(all, {}, &Rest::most);
   const Rest& warmest = *std::ranges::max_element(all, {}, &Rest::rms);

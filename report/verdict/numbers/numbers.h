@@ -39,7 +39,7 @@ struct SummaryNumber {
     std::vector<std::string> (*text)(const RunData& run) = nullptr;  ///< lines of text; if empty, nothing is printed
   } line = {};
   struct Compare {
-    int place = 0;                ///< position in the output; a number of every joint is that of the most loaded joint
+    int place = 0;                ///< position in the output; numbers of every joint are shown for the most loaded joint
     bool if_different = false;    ///< left out if runs A and B have equal values
     const char* label = nullptr;  ///< row title with unit; if nullptr, it is made from key and unit
   } compare = {};

@@ -305,7 +305,7 @@ bool shapes_are_all(const ModuleType& type, std::size_t b) {
   return (low - least).minCoeff() >= -room && (most - high).minCoeff() >= -room;
 }
 
-/// Densities above any metal's.
+/// Densities that no metal has.
 std::vector<Impossible> impossible_densities(const Scenario& s) {
   constexpr double kMost = 23000;  // kg/m^3; osmium: 22590
   std::vector<Impossible> found;

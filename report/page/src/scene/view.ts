@@ -127,7 +127,7 @@ export class View {
     const at = spot({ meta: this.recording.meta, kinematics, rings }, part, name);
     const r = 2.6 * this.robot.unit;
     if (!at || this.size < 3 * r) return false;
-    // The camera comes from the first of four sides from which no other body hides the part.
+    // The camera is on the first of four sides from which no other body hides the part.
     const { x, y, z } = directions.iso;
     const sides = [
       [x, y],
