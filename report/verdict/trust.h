@@ -23,8 +23,8 @@ TorqueError torque_error(const Recording& record);
 std::vector<double> torque_errors(const Recording& record);
 
 /// Sensitivity of the torques to a relative change of gravity. `chaotic`: a change of 1e-9 alters a torque by more than
-/// predictability_limit. `ill` (ill-conditioned): a change of 1e-6 alters it by more, computed in proportion from 1e-9.
-/// `predictable`: neither change alters it by more. `unknown`: not tested, or gravity has no effect on the torques.
+/// predictability_limit. `ill` (ill-conditioned): a change of 1e-6 does so, computed in proportion from 1e-9. `predictable`:
+/// neither change does so. `unknown`: not tested, or gravity has no effect on the torques.
 enum class Predictability { unknown, predictable, ill, chaotic };
 Predictability predictability(const Scenario& scenario, const Recording& record);
 /// Difference between the run and the rollout with changed gravity that decided predictability().

@@ -85,8 +85,8 @@ struct Verdict {
   double first_time = 0;         ///< s, time when `first_joint` was at its limit
   std::vector<JointDemand> demands = {};  ///< empty if no joint reaches a limit, or if the demand was not computed
   std::string demand_doubt = {};          ///< reason why the demands are unknown or doubtful; empty otherwise
-  /// Id of the deciding check of `failed` and `infeasible`. Of the checks that cause the word, it is a check of the robot as a
-  /// whole (group `run`) or, without such a check, the one with the least margin.
+  /// Id of the deciding check of `failed` and `infeasible`. If a check of the robot as a whole (group `run`) causes the word,
+  /// it is this check; otherwise the check with the least margin among those that cause it.
   std::string decided_by = {};
   /// Draws of `gaitlab run --draws`, this run first; empty if there are none. `word` belongs to this run alone.
   std::vector<Draw> draws = {};

@@ -162,7 +162,7 @@ std::vector<Finding> hinges(const Subject& subject) {
 }
 
 std::vector<Finding> centres(const Subject& subject) {
-  constexpr double kRough = 100;  // a body may be an edge larger than the box about its points
+  constexpr double kRough = 100;  // a body may extend by an edge beyond the box about its points
   std::vector<Finding> found;
   each_solid_body(subject, [&](const TypeBody& one) {
     const double edge = one.size.largest_edge();
