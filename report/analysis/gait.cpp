@@ -215,7 +215,7 @@ class Periods {
   double spacing_ = 0, unit_ = 0;
 };
 
-/// Difference between the first and the last period of the window, of the joint that changes most.
+/// Difference between the first and the last period of the window, column of the joint that changes most.
 std::string drifts(const Scenario& s, const Recording& r, double from, double to, double period) {
   const Periods periods(s, r, period);
   const double unit = periods.unit();

@@ -17,7 +17,7 @@ struct LookAhead {
   /// Extremes of each driven joint's set points, rad, in three periods after the run, or in the length of the run if no period
   /// is known. For a hinge without range, extremes of their rates, rad/s.
   std::vector<std::pair<double, double>> after_run;
-  MotionCycle cycle;  ///< at the end of this time; not searched if a period is known
+  MotionCycle cycle;  ///< cycle at the end of the simulated time; not searched if a period is known
   double until = 0;   ///< s, end of the CPG alone
 };
 

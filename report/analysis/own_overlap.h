@@ -27,7 +27,7 @@ class DesignOverlap {
 
  private:
   struct Placed {
-    std::vector<Convex> shapes;  ///< in the frame of the root
+    std::vector<Convex> shapes;  ///< shapes in the frame of the root
     Vec3 centre = Vec3::Zero();  ///< m, centre of a ball around the shapes
     double reach = 0;            ///< m, radius of the ball
   };

@@ -20,11 +20,11 @@ struct RemedyAnswer {
   bool up = false;         ///< true for larger values
   bool stopped = false;    ///< the search was stopped before it had tried this direction to its end
   bool crosses = false;    ///< the verdict changes between a fifth and five times the value
-  bool confirmed = false;  ///< by runs with the engine, step and duration of the scenario
-  double factor = 1;       ///< of the answer: the nearest feasible value or, for a feasible gait, the farthest
+  bool confirmed = false;  ///< true if runs with the scenario's engine, step and estimate confirm it
+  double factor = 1;       ///< factor of the answer: the nearest feasible value or, for a feasible gait, the farthest
   /// Farthest factor that was tried, up to which all tried runs have the verdict of the answer.
   double until = 1;
-  RemedyRun run = {};          ///< with `factor` and the scenario's own engine
+  RemedyRun run = {};          ///< run with `factor` and the scenario's own engine
   RemedyRun beyond = {};       ///< for a feasible gait, a run beyond the reserve, within 2 % of the change
   bool less_suffices = false;  ///< true if nine tenths of the change also make the gait feasible, so that `factor` is too large
   std::string refused = {};    ///< message of the reader about the first value beyond `until`; empty if it was simulated
@@ -44,7 +44,7 @@ struct RatingNeeded {
 
 /// Verdicts over frequency and amplitude, by row (amplitude) and column (frequency).
 struct RemedyMap {
-  std::vector<double> factors;  ///< of both settings
+  std::vector<double> factors;  ///< factors of both settings
   std::vector<RemedyRun> runs;
 };
 
@@ -62,9 +62,9 @@ struct RemedyLack {
 };
 
 struct Remedy {
-  RemedySettings settings;       ///< of the run
+  RemedySettings settings;       ///< settings of the run
   std::string scenario;          ///< hash of the resolved scenario
-  Word word = Word::not_judged;  ///< of the run, or of the finer run
+  Word word = Word::not_judged;  ///< word of the run, or of the finer run
   /// Settings of the finer run, with which the search begins if the run itself is `not judged` only for its accuracy. They are
   /// also the first settings of each answer.
   std::vector<std::string> finer = {};
@@ -81,7 +81,7 @@ struct Remedy {
 
 struct RemedyTask {
   const Scenario& scenario;
-  const Verdict& verdict;  ///< of the run
+  const Verdict& verdict;  ///< verdict on the run
   /// The scenario with further settings in the form of --set. Throws InputError.
   std::function<Scenario(const std::vector<std::string>& sets)> with;
   bool map = false;

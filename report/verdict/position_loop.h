@@ -37,7 +37,7 @@ struct PositionLoop {
   double stiffness = 0;   ///< k, N m/rad
   double stall = 0;       ///< largest torque at rest, N m
   double step = 0;        ///< torque that one step of the encoder commands, N m
-  double resolution = 0;  ///< that step, rad; 0 without an encoder
+  double resolution = 0;  ///< step of the encoder, rad; 0 without an encoder
   /// True if the bound holds: the motor has back-EMF, and the responses of the derivative and the integral part to a step of
   /// the error, Kd N / (Kd + N T) and Ki T, are at most a quarter of Kp.
   bool bounded = false;

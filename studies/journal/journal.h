@@ -116,7 +116,7 @@ struct Verification {
   std::string name;  ///< the engine, joint or world; empty for the other kinds
   std::vector<double> objectives;
   double violation = 0;
-  Word verdict = Word::failed;  ///< of the first infeasible replicate, or else of the first replicate
+  Word verdict = Word::failed;  ///< verdict of an infeasible replicate if there is one, else of the first replicate
   std::string reason;           ///< reason why the run does not verify the point; "" if the point is verified
   std::string check = {};       ///< id of the check that decided the verdict in a world where the point falls; "" if none did
   /// Kind and name: `half step`, `bullet at a quarter of its step`, `m3/active dead`, `world supply -10 % (6.66 V)`.

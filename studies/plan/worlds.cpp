@@ -27,7 +27,7 @@ struct Uncertain {
   bool both;                            ///< false if only less than the nominal value is tried
   double DcMotor::*of_motor = nullptr;  ///< the number, for those of motors
   const char* unit = "";
-  [[nodiscard]] double deviation() const { return end / 2; }  ///< of a draw, chosen: 19 in 20 draws are within the ends
+  [[nodiscard]] double deviation() const { return end / 2; }  ///< for draws; chosen so that 19 in 20 are within the ends
 };
 
 constexpr std::array kUncertain{

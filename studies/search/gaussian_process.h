@@ -23,7 +23,7 @@ class GaussianProcess {
   [[nodiscard]] Eigen::MatrixXd samples(const Eigen::MatrixXd& at, std::size_t count, std::uint64_t stream) const;
 
   struct Hyper {
-    Eigen::VectorXd length;  ///< by coordinate
+    Eigen::VectorXd length;  ///< lengths by coordinate
     double noise;            ///< variance of e
   };
   [[nodiscard]] const Hyper& hyper() const { return hyper_; }
@@ -38,7 +38,7 @@ class GaussianProcess {
   double mean_ = 0, scale_ = 1;
   Eigen::VectorXd values_;  ///< values with mean 0 and deviation 1
   Hyper hyper_;
-  Eigen::LLT<Eigen::MatrixXd> factor_;  ///< of the covariance of the values
+  Eigen::LLT<Eigen::MatrixXd> factor_;  ///< factor of the covariance of the values
   Eigen::VectorXd weights_;             ///< inverse of this covariance times the values
 };
 

@@ -129,14 +129,14 @@ struct Verify {
 /// One of several scenarios of a study. Every point runs in each of them.
 struct NamedScenario {
   std::string name, file;
-  SourceLocation place = {};  ///< at which the study names the file
+  SourceLocation place = {};  ///< place at which the study names the file
 };
 
 struct Study {
   std::string name, file;  ///< name of the study, and path of its file; the path is empty for a study from the command line
   std::string scenario;    ///< file of the scenario, if there is only one
-  SourceLocation place;    ///< of problems of the whole study: its file, or the option that changes it
-  SourceLocation scenario_place = {};    ///< at which the study names it; empty for one from the command line
+  SourceLocation place;    ///< place for problems of the whole study: its file, or the option that changes it
+  SourceLocation scenario_place = {};    ///< place at which the study names the scenario; empty if the command line names it
   std::vector<NamedScenario> scenarios;  ///< scenarios, if there are several
   std::vector<std::string> sets;
   std::vector<SourceLocation> set_places;  ///< places of settings that a study file contains

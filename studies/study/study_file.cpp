@@ -223,7 +223,7 @@ void choose_method(Study& study, bool named, Purpose purpose) {
 /// Replicates of a robust study: the nominal run, and at most all worlds. The plan leaves out worlds that do not apply.
 Replicates in_worlds() {
   constexpr std::int64_t kMost = 17;
-  constexpr double kShare = 0.75;  // of the runs must break no limit: the lower quartile of their least margins is a constraint
+  constexpr double kShare = 0.75;  // share of runs that must break no limit, so that the lower quartile of margins is limited
   return {.count = kMost, .vary = {}, .combine = Combine::robust, .quantile = kShare};
 }
 

@@ -99,7 +99,7 @@ struct HingeEnd {
   TypeBody one;
   const HingeType& hinge;
   bool parent;
-  const Node* map;  ///< of the hinge
+  const Node* map;  ///< map of the hinge in the module type
   [[nodiscard]] Vec3 origin() const { return parent ? hinge.in_parent.p : Vec3::Zero(); }
   /// Largest edge of any single shape, regardless of its place.
   [[nodiscard]] double edge() const {
@@ -124,7 +124,7 @@ double from_axis(const HingeEnd& end, double of_hinge, double of_shapes) {
 
 Finding hinge_end(const HingeEnd& end) {
   const TypeBody& one = end.one;
-  double farthest_shape = 0;  // from the origin of the body
+  double farthest_shape = 0;  // distance from the origin of the body
   for (const Shape& shape : one.size.shapes) farthest_shape = std::max(farthest_shape, shape.in_body.p.norm());
   const double edge = end.edge();
   const double away = from_axis(end, 1, 1);

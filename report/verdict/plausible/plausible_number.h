@@ -34,13 +34,13 @@ struct Subject {
   const Scenario& scenario;
   /// Size of a body, by which its numbers are judged.
   struct Size {
-    std::vector<Shape> shapes;  ///< of the body, or a box about its points; empty if it has neither
+    std::vector<Shape> shapes;  ///< shapes of the body, or a box about its points; empty if it has neither
     bool of_points = false;     ///< true for a box about contact elements, faces and hinges
     Solid solid = {};           ///< union of the shapes; volume 0 for a body without mass, or with too many shapes, and no
                                 ///< moments if the body's inertia is that of its shapes
     [[nodiscard]] double largest_edge() const;
   };
-  std::vector<std::vector<Size>> sizes;  ///< by type and body
+  std::vector<std::vector<Size>> sizes;  ///< sizes by type and body
   /// Set points of the CPG alone, computed at the first call.
   [[nodiscard]] const std::vector<SetPointRange>& set_points() const;
 
@@ -63,7 +63,7 @@ struct GivenNumber {
 
 /// One measured number.
 struct Finding {
-  SourceLocation place;  ///< of the value that is likely wrong
+  SourceLocation place;  ///< place of the value that is likely wrong
   /// Body `emerge/head`, joint `m0/hinge` or section `cpg` with the number, for PlausibleNumber::unless.
   std::vector<std::string> parts;
   std::string text;  ///< what was found, with the number
@@ -84,7 +84,7 @@ struct Impossible {
 
 /// A row of the list of plausible numbers.
 struct PlausibleNumber {
-  const char* name;      ///< for `unless`
+  const char* name;      ///< name of the row, for `unless`
   double least, most;    ///< the usual range
   const char* expected;  ///< the range and its reason in words
   std::vector<Slip> slips;
@@ -102,8 +102,8 @@ struct PlausibleNumber {
 inline double of_milli(double value) { return value * 1e-3; }
 inline double of_centi(double value) { return value * 1e-2; }
 inline double turned_round(double value) { return -value; }
-inline double of_square_cm(double value) { return value * 1e-4; }       ///< of kg cm^2
-inline double of_gram_square_cm(double value) { return value * 1e-7; }  ///< of g cm^2
+inline double of_square_cm(double value) { return value * 1e-4; }       ///< for numbers in kg cm^2
+inline double of_gram_square_cm(double value) { return value * 1e-7; }  ///< for numbers in g cm^2
 inline double of_degrees(double value) { return value * std::numbers::pi / 180; }
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();

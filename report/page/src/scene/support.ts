@@ -18,7 +18,7 @@ import { room } from "./shapes";
 
 type Corner = [x: number, y: number, z: number];
 
-const share = 0.005; // of the weight, which a foot of the polygon carries at least (column `stability` of the trace)
+const share = 0.005; // least load of a foot of the polygon, as a share of the weight (column `stability` of the trace)
 const touch = 1e-4; // m, above the ground: a contact element that is lower touches it; the page rounds positions
 const most = 64; // largest number of corners that are drawn
 

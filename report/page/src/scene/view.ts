@@ -63,7 +63,7 @@ export class View {
   private readonly sun = new DirectionalLight(0xffffff, 1.75);
   private readonly gauges: Gauges;
   private readonly size: number;
-  private height = 1; // of the picture, CSS px
+  private height = 1; // height of the picture, CSS px
   private readonly recording: Recording;
   /** Translucent robot of the second run. */
   readonly second: { ghost: Ghost; kinematics: Kinematics; robot: Robot } | null = null;
