@@ -183,11 +183,11 @@ class Periods {
     unit_ = std::ceil(kLeastSamples * spacing_ / period) * period;
     for (std::size_t c = 0; c < recorded.size(); ++c) joints_.emplace_back(t_, recorded[c], free_[c]);
   }
-  /// Whole periods with kLeastSamples rows at least, s; 0 if nothing is known.
+  /// Length of whole periods with at least kLeastSamples rows, s; 0 if nothing is known.
   [[nodiscard]] double unit() const { return unit_; }
 
   struct Change {
-    std::size_t column = 0;  ///< of the joint that changes most
+    std::size_t column = 0;  ///< column of the joint that changes most
     double mean = 0, rms = 0, range = 0;
     double over = 0;  ///< largest change / allowed change
   };
@@ -215,7 +215,7 @@ class Periods {
   double spacing_ = 0, unit_ = 0;
 };
 
-/// Difference between the first and the last period of the window, column of the joint that changes most.
+/// Difference between the first and the last period of the window, for the joint that changes most.
 std::string drifts(const Scenario& s, const Recording& r, double from, double to, double period) {
   const Periods periods(s, r, period);
   const double unit = periods.unit();

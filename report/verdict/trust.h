@@ -60,9 +60,9 @@ double least_energy(const Scenario& scenario);
 
 /// Energy to which the residual of the ledger is compared, J: the largest of energy drawn, energy stored, and least_energy.
 double energy_scale(const Scenario& scenario, const Recording& record);
-/// Magnitude of the residual of the ledger over that energy.
+/// Magnitude of the residual of the ledger / energy_scale.
 double residual_share(const Scenario& scenario, const Recording& record);
-/// Energy that the gears create over that energy.
+/// Energy that the gears create / energy_scale.
 double created_share(const Scenario& scenario, const Recording& record);
 
 }  // namespace gaitlab::report

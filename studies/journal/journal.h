@@ -146,7 +146,7 @@ Enum named_cell(const std::string& text, const char* what, const std::filesystem
 /// Name of the column of an objective: `objective.1` for number 0.
 std::string objective_column(std::size_t number);
 
-/// The columns of table `run` in their order, by their names in SQL.
+/// The SQL names of the columns of table `run`, in order.
 struct RunColumns {
   explicit RunColumns(const JournalHead& head);
   std::vector<std::string> parameters, quantities, objectives;

@@ -51,7 +51,7 @@ class Guards {
   /// not `feasible` although no margin is too small, and 0 if all guards are satisfied. Without `reserve`, a margin of 0
   /// suffices if the study requires more, because the reserve may be used up.
   [[nodiscard]] double violation(std::span<const double> quantities, Word verdict, bool reserve = true) const;
-  /// Texts of the guards that a run violates. `why` is the sentence after its verdict.
+  /// Texts of the guards that a run violates. `why` is the sentence after the run's verdict.
   [[nodiscard]] std::vector<std::string> broken(std::span<const double> quantities, Word verdict, const std::string& why,
                                                 bool reserve = true) const;
   /// Relations over columns, as in `margin.stops >= 0`. For a verdict with checks that the study replaces, the text is a

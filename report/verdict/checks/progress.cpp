@@ -1,4 +1,4 @@
-// The check `progress`: the robot goes somewhere by its own motors.
+// The check `progress`: the robot travels or turns by its own motors.
 #include "core/model/extent.h"
 #include "core/settings/wording.h"
 #include "report/analysis/motion.h"

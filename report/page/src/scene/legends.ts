@@ -29,7 +29,7 @@ export class Legends {
     this.set();
   }
 
-  /** Shows the legends of what is switched on. */
+  /** Shows the legends of the parts that are switched on. */
   set(): void {
     const { view, desk } = this;
     const { recording, loads } = desk;
