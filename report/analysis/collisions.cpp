@@ -209,7 +209,7 @@ class Row {
   struct Met {
     Key a, b;
     double depth;                                  ///< m
-    auto operator<=>(const Met&) const = default;  // NOLINT(modernize-use-nullptr): the comparison with 0 is of the compiler
+    auto operator<=>(const Met&) const = default;  // NOLINT(modernize-use-nullptr): the compiler compares with 0
   };
   std::vector<Met> met_ = {};
 };

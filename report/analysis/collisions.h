@@ -1,5 +1,5 @@
-// Collisions: bodies of a robot that overlap one another or the ground. They can occur because contact.law penalty keeps only
-// the contact elements of contact.on above the ground.
+// Collisions: bodies of a robot that overlap one another or the ground. They can occur because `contact.law: penalty` keeps
+// only the contact elements of contact.on above the ground.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -9,9 +9,8 @@
 
 namespace gaitlab::report {
 
-/// Collisions of pairs of bodies that can move relative to each other, and that no `may_overlap` names. The depth of two bodies
-/// of one module is that beyond their overlap by design (own_overlap.h). Bodies are given by their index in
-/// Robot::bodies.
+/// Collisions of pairs of bodies that can move relative to each other, and that no `may_overlap` names. For two bodies of one
+/// module, their overlap by design (own_overlap.h) does not count. Bodies are given by their index in Robot::bodies.
 struct Collision {
   double time = 0;                                    ///< s, first tick with an overlap
   std::size_t first = 0, second = 0;                  ///< the pair with the deepest overlap at that tick
@@ -37,7 +36,7 @@ struct Overlaps {
 };
 
 /// Overlaps of the shapes of all bodies at control ticks (States::at_ticks) that are deeper than Limits::touch or Limits::sink.
-/// Not known under contact.law bullet, whose solver keeps bodies apart.
+/// Not known under `contact.law: bullet`, because its solver keeps bodies apart.
 Overlaps overlaps(const Scenario& scenario, const Recording& record);
 
 /// Overlaps of bodies of a robot in this state that are deeper than Limits::touch, at time 0; nothing if there are none.

@@ -43,7 +43,7 @@ Convex prism(double radius, double length, bool half) {
   return made;
 }
 
-/// Least and largest coordinate of a convex along a unit axis.
+/// Least and largest coordinate of a convex polyhedron or sphere along a unit axis.
 std::pair<double, double> range(const Convex& of, const Vec3& axis) {
   double lo = std::numeric_limits<double>::infinity();
   double hi = -lo;

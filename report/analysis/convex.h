@@ -29,8 +29,8 @@ void move(const Convex& local, const Pose& pose, Convex& there);
 double penetration(const Convex& a, const Convex& b, double ignored, Vec3& apart);
 double penetration(const Convex& a, const Convex& b, double ignored);
 
-/// Extent of a convex along any axis. If the vertices are pairs with equal connecting vectors, it is computed from the
-/// midpoints of the pairs, which are half as many.
+/// Extent of a convex along any axis. If the vertices form pairs with equal connecting vectors, it is computed from the
+/// midpoints of the pairs, because these are half as many.
 class Extent {
  public:
   explicit Extent(const Convex& of);

@@ -90,7 +90,7 @@ class ToldPoses {
   }
 
  private:
-  /// Turn of the base from k_ on that brings the links nearest to their orientations at the start, by least squares.
+  /// Rotation of the base in k_ that brings the links nearest to their orientations at the start, by least squares.
   [[nodiscard]] Mat3 upright() const {
     Mat3 sum = Mat3::Zero();
     for (std::size_t i = 0; i < robot_.links.size(); ++i) sum += robot_.links[i].mass * start_.R[i] * k_.R[i].transpose();
@@ -108,7 +108,8 @@ class ToldPoses {
   std::vector<Series> setpoints_;
 };
 
-constexpr double kLeastStance = 0.01;   // share of the standing height; a pose with its feet above its centre of mass has none
+constexpr double kLeastStance =
+    0.01;  // share of the standing height; used if a pose is lower or has its feet above its centre of mass
 constexpr double kFallRounding = 1e-9;  // relative
 
 }  // namespace
@@ -134,8 +135,8 @@ std::optional<Fall> fall(const Scenario& scenario, const Recording& r) {
   if (height.empty() || !(standing > 0)) return {};
   const States states = States::at_ticks(r, *scenario.robot);
   ToldPoses told(scenario, r);
-  // The set points' pose is needed only at ticks that would be the lowest, or a fall, of the start pose: the other share is
-  // never less.
+  // The set points' pose is computed only at ticks that are the lowest, or a fall, compared with the start pose. It can only
+  // increase the share.
   const auto share = [&](std::size_t row) {
     const double own = height[row] / standing;
     if (!told.known()) return own;

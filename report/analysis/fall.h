@@ -17,9 +17,9 @@ struct Fall {
   double lowest = 0;                ///< m, height at the tick with the least share
   double lowest_time = 0;           ///< s, time of that tick
   double share = 0;                 ///< lowest over the height it is compared with
-  bool told = false;                ///< true if that is the height of the set points' pose
+  bool told = false;                ///< true if it is compared with the height of the set points' pose
   std::optional<double> time = {};  ///< s, first tick with a share below Limits::height; empty if the robot did not fall
-  bool stays = false;               ///< true if it is also below that limit at the last tick
+  bool stays = false;               ///< true if the share is also below this limit at the last tick
 };
 
 /// Heights at control ticks (States::at_ticks), m. Empty if the folder has no poses.

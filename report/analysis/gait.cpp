@@ -16,12 +16,12 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kStill = 2e-3;       // rad or rad/s: a smaller range is none (core/recording/limit_cycle.h)
+constexpr double kStill = 2e-3;       // rad or rad/s: a smaller range counts as 0 (core/recording/limit_cycle.h)
 constexpr double kTwoPeriods = 2.25;  // least length that shows a period
-constexpr double kLeastSamples = 20;  // in the stretches whose means are compared
+constexpr double kLeastSamples = 20;  // least number of rows in a stretch that is compared
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// True if the set points of the run's last period equal the period before it, or if less than two periods follow
+/// True if the set points of the run's last period equal those of the period before, or if less than two periods follow
 /// `full_size`, s. A chirp may seem to repeat after the run.
 bool repeats_in_run(const LookAhead& ahead, double period, double full_size, double spacing) {
   const std::size_t columns = ahead.after_run.size();
@@ -44,7 +44,7 @@ bool repeats_in_run(const LookAhead& ahead, double period, double full_size, dou
     largest = std::max(largest, (high - low) / 2);
     misfit.push_back(std::sqrt(squares / static_cast<double>(lag)));
   }
-  // A period of a fraction of a tick more shifts the samples.
+  // If the period is not a whole number of ticks, the samples are shifted by a fraction of a tick.
   const double shift = std::numbers::pi * spacing / period;
   return *std::ranges::max_element(misfit) <= (kMostCycleError + shift) * std::max(largest, kStill);
 }
@@ -151,7 +151,7 @@ std::string grows(const Scenario& s, const Judged& judged, const Gait& gait) {
   const LookAhead& ahead = *gait.ahead;
   const std::size_t columns = ahead.after_run.size();
   const std::vector<bool> free = turning_freely(*s.robot);
-  // Samples of three periods are nearer to a peak than samples of one.
+  // The samples of three periods may be nearer to a peak than those of one period, which is not growth.
   const double sampled =
       gait.period > 0 ? (1 - std::cos(std::min(std::numbers::pi, std::numbers::pi * s.control_period / gait.period))) / 2 : 0;
   const auto first = static_cast<std::size_t>(std::ceil(judged.from / s.control_period - 1e-6));
@@ -173,7 +173,7 @@ std::string grows(const Scenario& s, const Judged& judged, const Gait& gait) {
   return text;
 }
 
-/// Recorded set points of the joints (speeds, for hinges without range) whose periods are compared.
+/// Recorded set points of the joints, or their speeds for hinges without range, for a comparison of periods.
 class Periods {
  public:
   Periods(const Scenario& s, const Recording& r, double period) : t_(motion(r).t), free_(turning_freely(*s.robot)) {
@@ -183,16 +183,16 @@ class Periods {
     unit_ = std::ceil(kLeastSamples * spacing_ / period) * period;
     for (std::size_t c = 0; c < recorded.size(); ++c) joints_.emplace_back(t_, recorded[c], free_[c]);
   }
-  /// Whole periods with kLeastSamples rows at least, s; 0 if nothing is known.
+  /// Length of whole periods with at least kLeastSamples rows, s; 0 if nothing is known.
   [[nodiscard]] double unit() const { return unit_; }
 
   struct Change {
-    std::size_t column = 0;  ///< of the joint that changes most
+    std::size_t column = 0;  ///< column of the joint that changes most
     double mean = 0, rms = 0, range = 0;
-    double over = 0;  ///< largest change over that allowed
+    double over = 0;  ///< largest change / allowed change
   };
-  /// Change from the stretch ending `back` s earlier to the stretch ending at `to`. `share` of the range from `from` on is
-  /// allowed; a jump counts in one period for a row more than in another.
+  /// Change between the stretch that ends at `to` and the one that ends `back` s earlier. `share` of the range from `from` on
+  /// is allowed, and in addition one row of the largest jump, because a period may not be a whole number of rows.
   [[nodiscard]] Change change(double back, double from, double to, double share) const {
     Change most;
     for (std::size_t c = 0; c < joints_.size(); ++c) {
@@ -215,7 +215,7 @@ class Periods {
   double spacing_ = 0, unit_ = 0;
 };
 
-/// Difference between the first and the last period of the window, of the joint that changes most.
+/// Difference between the first and the last period of the window, for the joint that changes most.
 std::string drifts(const Scenario& s, const Recording& r, double from, double to, double period) {
   const Periods periods(s, r, period);
   const double unit = periods.unit();
@@ -233,9 +233,10 @@ std::string drifts(const Scenario& s, const Recording& r, double from, double to
                      most.range);
 }
 
-/// Start of the recorded set points with the size of their last period, s, for a CPG that states none: equations that lower the
-/// robot, then repeat. 0 if they have it from `start` on, or change until the end. Not of a slow drift: later periods are equal
-/// within a tenth of Gait::kMostDrift, and one of the two periods before them differs by more than Gait::kMostDrift.
+/// Time from which the recorded set points have the size of their last period, s. It is for CPGs that state none, such as
+/// equations that lower the robot and then repeat. 0 if they have this size from `start` on, or change until the end. A slow
+/// drift does not count: later periods are equal within a tenth of Gait::kMostDrift, and one of the two periods before them
+/// differs by more than Gait::kMostDrift.
 double settled_from(const Scenario& s, const Recording& r, double start, double period) {
   const Periods periods(s, r, period);
   const double unit = periods.unit();

@@ -17,12 +17,12 @@ struct Gait {
   /// Largest growth of a set point's range after the run; largest drift of its mean and RMS within the window. Shares of the
   /// range.
   static constexpr double kMostGrowth = 0.02, kMostDrift = 0.01;
-  /// s; 0 if the set points do not repeat, or by no known period. That of the recorded set points; of the CPG alone, if the run
-  /// is too short for it; or the stated one.
+  /// Period of the recorded set points, s; if the run is too short, that of the CPG alone, or the stated one. 0 if the set
+  /// points do not repeat or the period is not known.
   double period = 0;
-  /// s, start of the full size of the set points by the statement of the CPG (SetPointTimes::full_size).
+  /// s, time from which the set points have their full size, as the CPG states (SetPointTimes::full_size).
   double full_size = 0;
-  /// s, start of the gait: the latest of the end of a ramp (or of what precedes repeating set points), the last change (section
+  /// s, start of the gait: the latest of the end of a ramp (or of the set points before they repeat), the last change (section
   /// `at`), and the landing, after which the ground carries half of the robot's weight in the mean of each period.
   double start = 0;
   std::shared_ptr<const LookAhead> ahead = {};  ///< null if it is not known (look_ahead.h)
@@ -32,9 +32,9 @@ struct Gait {
 Gait gait(const Scenario& scenario, const Recording& record);
 
 /// Sentence on set points that do not yet have, or do not keep, the size that they have in the judged window; empty if they do.
-/// A range after the run (LookAhead) is at most 2 % larger than in the window, and mean and RMS of the window's first and last
-/// period differ by at most 1 % of the range. A stated full size has the place of the former, and the latter begins there. The
-/// speed of the set point takes its place for a hinge without range.
+/// The range after the run (LookAhead) may be at most 2 % larger than in the window; if the CPG states the time of the full
+/// size, that time must be within the run instead. Mean and RMS of the first and last period, in the window from the full size
+/// on, may differ by at most 1 % of the range. For a hinge without range, the speed of the set point is compared.
 std::string growth(const Scenario& scenario, const Recording& record, const Judged& judged, const Gait& gait);
 
 }  // namespace gaitlab::report

@@ -31,7 +31,7 @@ constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
 using Ahead = std::shared_ptr<const LookAhead>;
 
-/// A result, and all that it depends on. It is null if feedback changes the set points.
+/// A result, and the data that it depends on. The result is null if feedback changes the set points.
 struct Kept {
   std::string key;
   std::weak_ptr<const Robot> robot;
@@ -79,7 +79,7 @@ bool recorded_so(const Scenario& s, const Recording& r, const std::vector<double
 
 /// Cycle at the end of the first `ticks` rows of the CPG alone.
 MotionCycle cycle_of(const std::vector<double>& alone, std::size_t columns, std::int64_t ticks, double period) {
-  // Fast gaits need every tick, slow ones the whole duration.
+  // The search first takes every tick, for fast gaits, and then the whole duration, for slow gaits.
   for (const std::int64_t every : {std::int64_t{1}, (ticks + kMostRows - 1) / kMostRows}) {
     std::vector<double> rows;
     for (std::int64_t k = std::max<std::int64_t>(0, ticks - kMostRows * every); k < ticks; k += every) {
@@ -92,11 +92,11 @@ MotionCycle cycle_of(const std::vector<double>& alone, std::size_t columns, std:
   return {};
 }
 
-/// Ticks of the CPG alone.
+/// Numbers of ticks of the CPG alone.
 struct Lengths {
-  std::int64_t run = 0;    ///< of the run
-  std::int64_t after = 0;  ///< after it, if no other period is found
-  std::int64_t most = 0;   ///< both, in the search for a period
+  std::int64_t run = 0;    ///< during the run
+  std::int64_t after = 0;  ///< after the run, if no other period is found
+  std::int64_t most = 0;   ///< largest number in the search for a period, with the run
 };
 
 /// Number of ticks, at most kMostTicks.

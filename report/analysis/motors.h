@@ -30,8 +30,8 @@ std::string silent_defaults(const Scenario& scenario);
 /// the actuator does not have this setting.
 std::string no_created_energy(const Scenario& scenario);
 
-/// True if the source means that values were chosen and are not a maker's: it is empty or contains the word `chosen`, in any
-/// case.
+/// True if the source means that values were chosen and are not a maker's: it is empty or contains the word `chosen`, in upper
+/// or lower case.
 bool chosen(const std::string& source);
 
 inline const std::string kNoSource = "chosen: no source stated";

@@ -1,6 +1,6 @@
 // Overlap of two bodies of one module. Their overlap with all hinges at angle 0 is by design, for example that of an axle in
-// its bearing, and so is a larger one up to the square root of 2: a square part that turns by 45 degrees reaches so much
-// farther. Only the depth beyond that counts.
+// its bearing. An overlap up to the square root of 2 times as deep is also by design, because a square part that turns by 45
+// degrees reaches that much farther. Only a larger depth counts.
 #pragma once
 #include <cstddef>
 #include <map>
@@ -14,7 +14,7 @@
 
 namespace gaitlab::report {
 
-inline constexpr double kTurned = std::numbers::sqrt2;  ///< overlap by design over that with all hinges at 0
+inline constexpr double kTurned = std::numbers::sqrt2;  ///< overlap by design / overlap with all hinges at 0
 
 /// The bodies of a module type with all hinges at 0.
 class DesignOverlap {
@@ -27,17 +27,18 @@ class DesignOverlap {
 
  private:
   struct Placed {
-    std::vector<Convex> shapes;  ///< in the frame of the root
-    Vec3 centre = Vec3::Zero();  ///< m, of a ball around them
-    double reach = 0;            ///< m, its radius
+    std::vector<Convex> shapes;  ///< shapes in the frame of the root
+    Vec3 centre = Vec3::Zero();  ///< m, centre of a ball around the shapes
+    double reach = 0;            ///< m, radius of the ball
   };
   const ModuleType& type_;
   std::vector<Placed> bodies_;
   std::map<std::pair<std::size_t, std::size_t>, double> known_ = {};
 };
 
-/// The two bodies of a hinge, whose overlap follows from the angle. Angles found clear are kept, with all angles so near to
-/// them that no point of the child can move into the parent: a gait needs a few hundred evaluations for all modules of a type.
+/// The two bodies of a hinge, whose overlap follows from the angle. A clear angle is stored with the interval around it in
+/// which no point of the child can reach the parent. A gait therefore needs only a few hundred evaluations for all modules of a
+/// type.
 class HingeOverlap {
  public:
   /// Overlaps of at most `ignored` more than `by_design` (m) do not count.
@@ -50,11 +51,11 @@ class HingeOverlap {
   double by_design_, ignored_;           ///< m
   std::vector<Convex> parent_, child_;   ///< shapes in the frame of the hinge at angle 0
   double reach_ = 0;                     ///< m, largest distance of a point of the child from the axis
-  std::map<double, double> clear_ = {};  ///< ends of intervals of clear angles by their begins, rad
+  std::map<double, double> clear_ = {};  ///< end of each interval of clear angles by its start, rad
 };
 
-/// Deepest overlap of the bodies of a hinge within its range (of a free hinge: in a turn) beyond that by design, m, at angles
-/// at most 0.05 rad apart.
+/// Largest overlap of the bodies of a hinge beyond that by design, m, at angles at most 0.05 rad apart within the range of the
+/// hinge, or within a turn of a free hinge.
 double deepest_in_range(const ModuleType& type, std::size_t hinge);
 
 /// Names of the bodies of a type, for ModuleType::may_overlap.

@@ -8,7 +8,7 @@
 
 namespace gaitlab::report {
 
-/// Share of the weight below which a robot is airborne: its ground carries less.
+/// A robot is airborne if the ground carries less than this share of its weight.
 inline constexpr double kAirborne = 0.05;
 
 /// Posture of the base. Values that are not known are NaN.

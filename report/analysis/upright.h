@@ -8,12 +8,13 @@
 namespace gaitlab::report {
 
 /// Tilt of the robot at control ticks (States::at_ticks). At the start each link has an axis that points upwards. The tilt is
-/// the angle from the vertical of the base's axis or of the mean of all axes, weighted by the masses of the links, whichever is
-/// smaller: the end of a snake may turn over in its wave while the snake does not, and wheels turn while the base does not.
+/// the smaller of two angles from the vertical: that of the base's axis, and that of the mean of all axes, weighted by the
+/// masses of the links. The end of a snake may turn over in its wave while the snake does not, and wheels turn while the base
+/// does not.
 struct Upright {
   double tilt = 0;                  ///< rad, largest tilt
   double tilt_time = 0;             ///< s, time of the largest tilt
-  std::optional<double> over = {};  ///< s, of the first tick at which both axes point below the horizontal
+  std::optional<double> over = {};  ///< s, time of the first tick at which both axes point below the horizontal
   /// True if the base rolls over in every period. In each period, its turns about horizontal axes add up to at least one whole
   /// turn (rounded), and its axis comes within 45 degrees of upwards and of downwards. False for a base that rocks, tumbles or
   /// is on its back.
@@ -22,7 +23,7 @@ struct Upright {
 
 /// Tilt of a robot with a floating base; nothing for other bases or without poses. `rolls` is decided over the periods of the
 /// limit cycle in the judged window. Without a limit cycle, the last period of the set points, of length `set_points` (s,
-/// gait.h), is used; if that is 0, the two halves of the window.
+/// gait.h), is used or, if `set_points` is 0, the two halves of the window.
 std::optional<Upright> upright(const Scenario& scenario, const Recording& record, const Judged& judged, double set_points);
 
 }  // namespace gaitlab::report

@@ -6,7 +6,7 @@ import process from "node:process";
 import { fileURLToPath } from "node:url";
 import ts from "typescript";
 
-// Folders of src, files of src itself, and packages that the files of each may import besides their own folder.
+// For each folder of src: the other folders, files of src itself, and packages that its files may import.
 const table = {
   colour: [],
   dom: [],
@@ -28,7 +28,7 @@ const table = {
 const src = fileURLToPath(new URL("src", import.meta.url));
 const roomOf = (path) => path.split("/")[0].replace(/\.ts$/, "");
 
-/** What a file imports: paths in src, and names of packages. */
+/** Imports of a file: paths in src, and names of packages. */
 function importsOf(file) {
   const { importedFiles } = ts.preProcessFile(readFileSync(join(src, file), "utf8"));
   const inSrc = (name) => `${relative(src, resolve(src, file, "..", name))}.ts`;

@@ -11,7 +11,8 @@ export default tseslint.config(
   {
     rules: {
       eqeqeq: "error",
-      // One statement a line, and no line over 120 characters: strings and comments too, which prettier does not break.
+      // One statement per line, and no line over 120 characters, also in strings and comments, which prettier does not
+      // break.
       curly: ["error", "multi-line"],
       "one-var": ["error", "never"],
       "no-restricted-syntax": [

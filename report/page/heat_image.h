@@ -1,4 +1,4 @@
-// Overview picture of a run, which shows over time how much of the available torque each joint uses.
+// Overview picture of a run: the share of the available torque that each joint uses over time.
 #pragma once
 #include <string>
 

@@ -151,7 +151,7 @@ Json verdict_json(const Verdict& verdict, const Robot& robot, const Judged& judg
   all.emplace("checks", Json::array());
   for (Json& check : all["checks"]) {
     for (const CheckKind& kind : check_kinds()) {
-      if (check["id"] == kind.id) check["advice"] = verdict.remedy.empty() ? kind.remedy : "";  // a search says more
+      if (check["id"] == kind.id) check["advice"] = verdict.remedy.empty() ? kind.remedy : "";  // a search is more precise
     }
   }
   all["why"] = verdict.why();

@@ -12,18 +12,18 @@ nlohmann::ordered_json json_of(const Vec3& v);
 /// Array [x, y, z, qw, qx, qy, qz].
 nlohmann::ordered_json json_of(const Pose& pose);
 
-/// The bodies of a robot in an order in which each parent precedes its children. The members `parent` and `body` in the page
-/// are indices in this order.
+/// The bodies of a robot, sorted so that each parent precedes its children. The members `parent` and `body` in the page are
+/// indices in this order.
 class RobotTree {
  public:
   explicit RobotTree(const Robot& robot);
-  /// Index in the page of a body, given by its index in Robot::bodies.
+  /// Index that the page uses for a body; `body` is its index in Robot::bodies.
   [[nodiscard]] std::size_t place(std::size_t body) const { return place_[body]; }
   /// Index in Robot::bodies of the body that a joint moves.
   [[nodiscard]] std::size_t moved_by(std::size_t joint) const;
 
-  /// List of bodies. The pose of a body is parent's pose * pre * turn(axis, joint angle) * post, or without the parent's pose
-  /// for the base.
+  /// List of bodies. The pose of a body is parent's pose * pre * turn(axis, joint angle) * post. For the base, the parent's
+  /// pose is left out.
   [[nodiscard]] nlohmann::ordered_json bodies() const;
   /// Shapes and faces, as objects by `type/body`, with the members of BodyType and FaceType.
   [[nodiscard]] nlohmann::ordered_json geometry() const;

@@ -32,7 +32,7 @@ class Font {
   std::string_view file_;
   double unit_ = 1;                          ///< units of the file per font size
   std::size_t widths_ = 0, characters_ = 0;  ///< places of tables in the file
-  std::size_t last_width_ = 0;               ///< the glyphs behind this one have its width
+  std::size_t last_width_ = 0;               ///< the glyphs after this one have its width
   std::array<double, 4> box_{};
   double ascent_ = 0, descent_ = 0, capital_ = 0;
 };

@@ -8,7 +8,7 @@
 
 namespace gaitlab::report {
 
-/// Glyphs that a page uses, each with its character. If several characters have one glyph, the lowest of them.
+/// Glyphs that a page uses, each with its character. If several characters have one glyph, the lowest of them is used.
 using UsedGlyphs = std::map<unsigned, char32_t>;
 
 /// Objects of a font of type Type0 with a TrueType file (CIDFontType2), in which a character code is the glyph's number in two

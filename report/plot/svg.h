@@ -25,7 +25,7 @@ class Svg final : public Canvas {
   std::string head_, body_;
 };
 
-/// `text` with the characters that XML reserves replaced, for content and attributes.
+/// `text` for XML content and attributes, with reserved characters replaced.
 std::string xml_escaped(std::string_view text);
 
 }  // namespace gaitlab::report

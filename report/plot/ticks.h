@@ -51,8 +51,8 @@ Ticks row_ticks(std::span<const std::string> words, std::size_t every = 1);
 
 /// Two axes of one plot, for the ranges [lo, hi] of a and of b. Both axes have equally many steps below and above zero, so that
 /// their zeros and grid lines coincide. Among several divisions, the one that wastes the least area is chosen. The axes have
-/// separate ticks if the range of a is far from zero, or if the ranges would use less than a third of the height on average (if
-/// one curve is above zero and the other below).
+/// separate ticks if the range of a is far from zero, or if the ranges would use less than a third of the height on average, as
+/// with one curve above zero and the other below.
 struct TwinTicks {
   Ticks a, b;
 };

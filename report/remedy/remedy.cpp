@@ -17,7 +17,7 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kFarthest = 5;        // largest factor; its inverse is the smallest
-constexpr int kPointsEachWay = 4;      // geometric points of a setting in a direction
+constexpr int kPointsEachWay = 4;      // factors of a setting in each direction, evenly spaced in their logarithm
 constexpr int kCuts = 3;               // interior points of a bracket that are tried at once
 constexpr double kTolerance = 0.02;    // width of the last bracket, as a share of the change
 constexpr double kLess = 0.9;          // share of the change that must not suffice
@@ -26,8 +26,8 @@ constexpr double kMore = 1.08;         // factor on the logarithm of a change th
 constexpr int kMostRounds = 8;         // attempts to confirm an answer
 constexpr int kMapEachWay = 6;         // cells of the map on either side of the run
 constexpr std::size_t kMostPairs = 5;  // pairs to confirm, the fastest first
-// For the estimate of the work only: rounds that confirm an answer, and computing time of a simulated second of these over one
-// of the search, with the scenario's own engine and its estimate or with the estimate alone.
+// Only for the estimate of the work: number of rounds that confirm an answer, and ratios of the computing times of a simulated
+// second in these rounds and in the search. The rounds use another engine and the estimate, or only add the estimate.
 constexpr double kLikelyRounds = 1.5, kEngineRatio = 8, kEstimateRatio = 2;
 constexpr const char* kFastEngine = "articulated";
 
@@ -74,7 +74,7 @@ class Search {
     RemedyAnswer* answer;
     double inner, outer;
     [[nodiscard]] bool wide() const { return std::abs(outer - inner) > std::max(kNarrowest, kTolerance * std::abs(outer - 1)); }
-    /// Number of rounds that a bracket takes to be narrow.
+    /// Number of rounds until the bracket is narrow.
     [[nodiscard]] double rounds() const {
       const double narrow = std::max(kNarrowest, kTolerance * std::abs(outer - 1));
       return std::max(0.0, std::ceil(std::log2(std::abs(outer - inner) / narrow) / std::log2(kCuts + 1)));
@@ -99,7 +99,7 @@ class Search {
   [[nodiscard]] bool grid() const {
     return made_.settings.missing(key("frequency")).empty() && made_.settings.missing(key("amplitude")).empty();
   }
-  /// True if a pair of frequency and amplitude is searched where no setting alone helps.
+  /// True if a pair of frequency and amplitude is to be searched when no setting alone helps.
   [[nodiscard]] bool pairs_matter() const { return grid() && !feasible() && task_.by.empty() && !made_.ratings_suffice; }
   static const RemedyKey& key(const std::string& name) {
     return *std::ranges::find_if(remedy_keys(), [&](const RemedyKey& k) { return k.name == name; });
@@ -152,8 +152,8 @@ class Search {
     if (stop_) throw Stopped{};
   }
 
-  /// Expected simulated time of the search in the brackets after this round, and of what follows it. `half`: of brackets that
-  /// half of the answers will have.
+  /// Expected simulated time after this round, of the search in the brackets and of the confirming runs. With `half`, half of
+  /// the answers are expected to get a bracket later.
   [[nodiscard]] RemedyWork::Simulated of_brackets(bool half) const {
     RemedyWork::Simulated time{};
     const auto add = [&](const RemedyAnswer& answer, double share, double factor, double rounds) {
@@ -182,7 +182,7 @@ class Search {
     return factors;
   }
 
-  /// Takes engine `articulated` for the search if it can run the scenario and has the same verdict on the run itself.
+  /// Selects the engine `articulated` for the search if it can run the scenario and gives the same verdict on the run itself.
   void choose_engine() {
     if (made_.own_engine == kFastEngine) return;
     faster_ = {std::string("physics.engine=") + kFastEngine, "physics.integrator=adaptive", "physics.step=auto",
@@ -258,7 +258,7 @@ class Search {
     }
   }
 
-  /// Takes the runs of the interior points of a bracket, from inside to outside.
+  /// Narrows a bracket by the runs at its interior points, which are given from inside to outside.
   void shrink(Bracket& bracket, const RemedyRun* runs) const {
     const Bracket old = bracket;
     for (int k = 1; k <= kCuts && runs->known(); ++k, ++runs) {
@@ -279,7 +279,7 @@ class Search {
     return std::isnan(now) ? rounded_setting(factor, 1, up) : rounded_setting(now * factor, now, up) / now;
   }
 
-  /// Takes the factors of the brackets. Returns the answers that runs can confirm.
+  /// Sets the factors of the answers from the brackets. Returns the answers that runs can confirm.
   std::vector<RemedyAnswer*> placed() {
     std::vector<RemedyAnswer*> open;
     for (const Bracket& bracket : brackets_) {
@@ -315,7 +315,7 @@ class Search {
     for (RemedyAnswer& answer : made_.answers) answer.stopped = false;
   }
 
-  /// Takes the result of the first round for answers that no round has confirmed, and finds the settings of all.
+  /// Restores the result of the first round in answers that no round has confirmed, and sets the settings of all answers.
   void settle() {
     for (RemedyAnswer& answer : made_.answers) {
       if (!answer.crosses) continue;

@@ -1,4 +1,4 @@
-// Changes of single settings that make a gait feasible or, for a feasible gait, those that it bears.
+// Changes of single settings that make a gait feasible or, for a feasible gait, keep it feasible.
 #pragma once
 #include <atomic>
 #include <functional>
@@ -20,12 +20,12 @@ struct RemedyAnswer {
   bool up = false;         ///< true for larger values
   bool stopped = false;    ///< the search was stopped before it had tried this direction to its end
   bool crosses = false;    ///< the verdict changes between a fifth and five times the value
-  bool confirmed = false;  ///< by runs with the engine, step and duration of the scenario
-  double factor = 1;       ///< of the answer: the nearest feasible value or, for a feasible gait, the farthest
+  bool confirmed = false;  ///< true if runs with the scenario's engine, step and estimate confirm it
+  double factor = 1;       ///< factor of the answer: the nearest feasible value or, for a feasible gait, the farthest
   /// Farthest factor that was tried, up to which all tried runs have the verdict of the answer.
   double until = 1;
-  RemedyRun run = {};          ///< with `factor` and the scenario's own engine
-  RemedyRun beyond = {};       ///< of a feasible gait: a run beyond the reserve, within 2 % of the change
+  RemedyRun run = {};          ///< run with `factor` and the scenario's own engine
+  RemedyRun beyond = {};       ///< for a feasible gait, a run beyond the reserve, within 2 % of the change
   bool less_suffices = false;  ///< true if nine tenths of the change also make the gait feasible, so that `factor` is too large
   std::string refused = {};    ///< message of the reader about the first value beyond `until`; empty if it was simulated
   double refused_at = 1;       ///< factor of that value
@@ -44,7 +44,7 @@ struct RatingNeeded {
 
 /// Verdicts over frequency and amplitude, by row (amplitude) and column (frequency).
 struct RemedyMap {
-  std::vector<double> factors;  ///< of both settings
+  std::vector<double> factors;  ///< factors of both settings
   std::vector<RemedyRun> runs;
 };
 
@@ -62,10 +62,10 @@ struct RemedyLack {
 };
 
 struct Remedy {
-  RemedySettings settings;       ///< of the run
+  RemedySettings settings;       ///< settings of the run
   std::string scenario;          ///< hash of the resolved scenario
-  Word word = Word::not_judged;  ///< of the run, or of the finer run
-  /// Settings of the finer run. The search begins there where the run itself is `not judged` only for its accuracy. They are
+  Word word = Word::not_judged;  ///< word of the run, or of the finer run
+  /// Settings of the finer run, with which the search begins if the run itself is `not judged` only for its accuracy. They are
   /// also the first settings of each answer.
   std::vector<std::string> finer = {};
   std::string engine = {}, own_engine = {};  ///< engines of the search and of the scenario
@@ -81,7 +81,7 @@ struct Remedy {
 
 struct RemedyTask {
   const Scenario& scenario;
-  const Verdict& verdict;  ///< of the run
+  const Verdict& verdict;  ///< verdict on the run
   /// The scenario with further settings in the form of --set. Throws InputError.
   std::function<Scenario(const std::vector<std::string>& sets)> with;
   bool map = false;
@@ -90,13 +90,14 @@ struct RemedyTask {
   std::function<void(double)> progress = {};  ///< called with the share of the work that is done, from several threads
 };
 
-/// Multiplies one setting at a time: eight factors from a fifth to five times, then bisection of the change of the verdict that
-/// is nearest to 1 in each direction, to 2 % of the change, rounded to the safe side. Runs of the search use the engine
-/// `articulated` without an estimate of their torque error, unless that engine has another verdict on the run itself. The
-/// answers are confirmed by the scenario's own engine, step and estimate: feasible with the change, and not with nine tenths of
-/// it. If no setting alone helps, the fastest feasible pair of frequency and amplitude on a grid of 13 x 13 is taken. Results
-/// do not depend on threads or lanes. If `stop` is set, the search ends with the answers so far (Remedy::interrupted). Throws
-/// InputError if the verdict is `not judged` and not only for the accuracy of the run, and PluginError.
+/// Multiplies one setting at a time by eight factors from a fifth to five. In each direction, it then narrows the interval
+/// nearest to 1 in which the verdict changes, until its width is 2 % of the change, and rounds the result to the safe side.
+/// Runs of the search use the engine `articulated` without an estimate of their torque error, unless that engine has another
+/// verdict on the run itself. The answers are confirmed with the scenario's own engine, step and estimate: the gait is feasible
+/// with the change, and not with nine tenths of it. If no setting alone helps, the fastest feasible pair of frequency and
+/// amplitude on a grid of 13 x 13 is taken. Results do not depend on threads or lanes. If `stop` is set, the search ends with
+/// the answers so far (Remedy::interrupted). Throws InputError if the verdict is `not judged` and not only for the accuracy of
+/// the run, and PluginError.
 Remedy remedy(const RemedyTask& task, std::atomic<bool>& stop);
 
 }  // namespace gaitlab::report

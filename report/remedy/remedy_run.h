@@ -1,4 +1,4 @@
-// A run of a remedy, judged.
+// A judged run in the search of a remedy.
 #pragma once
 #include <string>
 

@@ -25,7 +25,7 @@ std::string subject(const RemedyKey& key) {
   return fmt::format("{} together", fmt::join(names, " and "));
 }
 
-/// True if the setting has one value, which lines state. If joints or keys differ, lines state the factor.
+/// True if the setting has a single value, which the lines state. If joints or keys differ, the lines state the factor.
 bool has_value(const Remedy& remedy, const RemedyKey& key) { return !std::isnan(remedy.settings.value(key)); }
 
 /// `0.719 A`; `1.388 times the present value` if joints or keys differ.
@@ -84,7 +84,7 @@ std::string alternatives(const std::vector<std::string>& names) {
 /// First clause of a text, for a line.
 std::string clause(const std::string& text) { return text.substr(0, text.find(';')); }
 
-/// Settings whose verdict changes in no direction, and that were simulated up to both ends of the range.
+/// Settings that do not change the verdict in either direction, and that were simulated up to both ends of the range.
 std::vector<std::string> unmoved(const Remedy& remedy) {
   std::vector<std::string> names;
   for (const RemedyAnswer& answer : remedy.answers) {
@@ -173,7 +173,8 @@ std::string refusal(const Remedy& remedy, const RemedyAnswer& answer) {
                      value_text(remedy, key, answer.refused_at), reason(answer.refused));
 }
 
-/// Lines on a search that was interrupted: the answers without a confirming run, and what was not tried to its end.
+/// Lines on a search that was interrupted: the answers without a confirming run, and the settings that were not tried to the
+/// end.
 void add_interruption(const Remedy& remedy, Lines& lines) {
   std::vector<std::string> untried;
   for (const RemedyAnswer& answer : remedy.answers) {

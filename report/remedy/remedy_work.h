@@ -1,4 +1,4 @@
-// Work of a remedy that is done and to come, for its progress.
+// Finished and expected work of a remedy, for its progress.
 #pragma once
 #include <array>
 #include <chrono>
@@ -16,7 +16,7 @@ class RemedyWork {
   /// Simulated time in s, by RemedyRuns.
   using Simulated = std::array<double, 2>;
 
-  /// `ratio`: computing time of a simulated second that confirms over that of one that searches, until both are measured.
+  /// `ratio`: computing time of a simulated second in confirming runs / in the search, used until both are measured.
   explicit RemedyWork(double ratio) : ratio_(ratio) {}
   /// Begins runs of a kind. `to_come` is the expected time of these runs and of all after them.
   void begin(RemedyRuns kind, const Simulated& to_come, Time now);

@@ -20,8 +20,7 @@ enum class CheckSpan { window, whole_run };
 /// Kind of the robot's part with the least margin, named in Check::worst.
 enum class Part { none, joint, body, dock, foot };
 
-/// A number of the run and its limit, both in `unit`. Beyond the limit the check fails, or it warns if it is a check that never
-/// fails.
+/// A number of the run and its limit, both in `unit`. Beyond the limit the check fails or, if it never fails, warns.
 struct Criterion {
   double value, limit;
   std::string unit = {};  ///< "" for shares and counts
@@ -79,7 +78,7 @@ struct Check {
   double margin = kNone;
   std::vector<Criterion> criteria = {};  ///< all criteria of a check that has several, the main criterion first
   double error = 0;                      ///< relative error of the value; 0 if not estimated
-  bool certain = false;             ///< true if it fails by more than the error of the torques; only of checks with error bars
+  bool certain = false;             ///< true if it fails by more than the error of the torques; only for checks with error bars
   Part part = Part::none;           ///< kind of the part `worst`
   std::string worst = {};           ///< the part with the least margin, for example `m3/passive` or `m5`
   std::size_t parts = 0;            ///< number of parts beyond the limit
@@ -109,7 +108,7 @@ struct CheckKind {
   CheckGroup group;
   const char *unit, *title;
   std::string definition;    ///< definition of the number that the main criterion compares
-  std::string fails, warns;  ///< texts of their limits; empty if it never does
+  std::string fails, warns;  ///< texts of the limits beyond which it fails or warns; empty if it never does
   CheckSpan span;
   const char* key;     ///< key of the scenario setting at which messages about the check are placed
   const char* remedy;  ///< advice printed by `gaitlab explain`

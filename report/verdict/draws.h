@@ -31,8 +31,8 @@ std::vector<Draw> draws_of(const Recording& record, const Scenario& scenario);
 /// Text `feasible in 14 of 16 robots; voltage fails in 2 (m6/active)`; empty without draws. `robots` is false if the draws
 /// differ in their sensors only.
 std::string draws_text(std::span<const Draw> draws, bool robots);
-/// Table of the draws for the terminal. If there are more than `most`, it has up to `most` rows, of draws that are not
-/// feasible.
+/// Table of the draws for the terminal. If there are more than `most` draws, it lists only draws that are not feasible, at most
+/// `most`.
 std::string draws_table(std::span<const Draw> draws, std::size_t most);
 
 }  // namespace gaitlab::report

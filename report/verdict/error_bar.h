@@ -32,8 +32,8 @@ inline bool too_close(std::span<const ErrorBar> bars) {
 inline bool certain(std::span<const ErrorBar> bars) { return std::ranges::any_of(bars, &ErrorBar::beyond); }
 
 /// Sets Check::certain, and Check::error to the error of the worst part. If too_close(bars), also sets the status `too close`,
-/// adds the range of a part to the text, and sets the remedy. The range printed is that of the worst part if its limit lies
-/// within its error bar; otherwise that of the joint with the largest upper end among those whose limit lies within their bars.
+/// adds the range of a part to the text, and sets the remedy. The range is that of the worst part if its limit lies within its
+/// error bar. Otherwise it is the range with the largest upper end among joints whose error bars contain their limits.
 void widen(const Scenario& scenario, std::span<const ErrorBar> bars, Check& made);
 
 }  // namespace gaitlab::report

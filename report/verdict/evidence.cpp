@@ -88,13 +88,13 @@ void judge_gait(const Scenario& s, const Recording& r, const Summary& summary, E
   } else if (driven && !asked.empty() && !moves(asked, motion(r).t, full)) {
     const std::string cause =
         s.cpg.entry == nullptr ? "there is no cpg" : fmt::format("cpg {} moves no joint", s.cpg.entry->name);
-    const bool warns = s.cpg.entry != nullptr && !moves(asked, motion(r).t, 0);  // not of a ramp that ends in a pose
+    const bool warns = s.cpg.entry != nullptr && !moves(asked, motion(r).t, 0);  // no warning for a ramp that ends in a pose
     made.not_shown = {fmt::format("no set point changes{}: {}", after(full), cause), "cpg",
                       warns ? "check its frequency, amplitudes, frames or equations" : ""};
   }
 }
 
-/// Judges whether the ground carries the robot. Names of numbers that are not known are added to `unknown`.
+/// Judges the support of the robot by the ground. Names of numbers that are not known are added to `unknown`.
 void judge_support(const Scenario& s, const Summary& summary, Evidence& made, std::vector<std::string>& unknown) {
   if (s.base != Base::floating) return;
   if (!(s.physics.gravity.norm() > 0)) {
@@ -132,7 +132,7 @@ std::string changed_limits(const Limits& limits) {
   return changed.empty() ? "" : fmt::format("limits: {}", fmt::join(changed, "; "));
 }
 
-/// The first such sentence of the driven joints.
+/// Sentence on the first driven joint whose motor creates energy.
 std::string first_that_makes_energy(const Scenario& s) {
   if (s.actuator.entry == nullptr || s.robot->joints.empty()) return "";
   const std::unique_ptr<Actuator> actuator = make_motors(s);

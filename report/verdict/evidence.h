@@ -18,10 +18,10 @@ inline constexpr double kTrustedResidual = 0.05, kTrustedCoarse = 0.1;
 /// are required after the start of the gait (core/recording/limit_cycle.h); the judged window leaves out the first of them.
 inline constexpr double kSettled = 0.01;
 inline constexpr double kLeastTime = 2;  ///< s, least duration if the set points do not repeat
-/// Least change of a set point in a gait, as a share of its range: a little more than the rest of a rise
-/// (SetPointTimes::full_size).
+/// Least change of a set point in a gait, as a share of its range: a little more than a set point still rises after
+/// SetPointTimes::full_size.
 inline constexpr double kMoves = 0.025;
-/// Largest torque error of a run that a failure beyond its error bar (Check::certain) still decides.
+/// Largest torque error at which a failure beyond its error bar (Check::certain) still decides the verdict.
 inline constexpr double kMostError = 0.5;
 
 /// A missing piece of evidence.
@@ -30,7 +30,7 @@ struct Lack {
                             ///< is empty
   std::string key = {};     ///< key of the setting at which messages are placed
   std::string remedy = {};  ///< advice; set only if no other message is printed at the same setting
-  std::string set = {};     ///< setting that supplies it, in the form of --set; empty if none is known
+  std::string set = {};     ///< setting that supplies the evidence, in the form of --set; empty if none is known
   [[nodiscard]] bool empty() const { return text.empty(); }
   [[nodiscard]] std::string sentence() const { return text + (remedy.empty() ? "" : "; " + remedy); }
 };
@@ -42,14 +42,15 @@ struct Evidence {
   Lack not_possible;          ///< a number of the scenario is impossible and not accepted (plausibility.h)
   Lack not_borne;             ///< the ground carries less than half of the weight
   Lack not_trusted;           ///< an error exceeds one of the constants above, or a motor creates energy
-  bool inexact = false;       ///< true if all of not_trusted is a torque error of at most kMostError
+  bool inexact = false;       ///< true if not_trusted is only a torque error of at most kMostError
   bool falls_freely = false;  ///< true if nothing can carry the robot: no ground, no gravity, or no contact elements
   bool repeats = false;       ///< true if the set points repeat
   std::string rests_on;       ///< extent of the run: `3 periods of 4 s`, or `these 18 s; the set points do not repeat`
   /// Limits that the scenario changes, and implausible numbers that it accepts: `limits: torque_error 1 of the scenario, 0.05
   /// by default`. Empty without them.
   std::string conditions;
-  /// The missing pieces of evidence, the most important one first. No accuracy and no time helps a robot that falls freely.
+  /// The missing pieces of evidence, the most important one first. An impossible number is returned alone, and so is a free
+  /// fall, because neither accuracy nor time helps then.
   [[nodiscard]] std::vector<const Lack*> lacks() const {
     if (!not_possible.empty()) return {&not_possible};
     std::vector<const Lack*> all;
@@ -60,7 +61,7 @@ struct Evidence {
   }
 };
 
-/// Sentence on a motor that creates energy; empty if it does not.
+/// Sentence on a motor that creates energy; empty for other motors.
 std::string makes_energy(const DcMotor& motor, const std::string& joint);
 
 /// Collects the evidence. Throws PluginError.

@@ -14,7 +14,7 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kBeyond = 1;  // rad beyond a range, 50 N m of its stop
+constexpr double kBeyond = 1;  // rad beyond a range, at which the stop exerts 50 N m
 constexpr double kFast = 10;   // m/s
 constexpr double kFalls = 2;   // multiple of the speed of a fall
 
@@ -38,7 +38,7 @@ Excess beyond(const Scenario& s, const Recording& r, std::size_t joint) {
   return made;
 }
 
-/// Speed of the base where it is faster than kFast and than its fall explains, m/s.
+/// Speed of the base, m/s, at times when it exceeds kFast and kFalls times the speed of a fall.
 Excess thrown(const Scenario& s, const Recording& r) {
   const Series t = r.pose("t");
   const std::vector<Series> at{r.pose("base.x"), r.pose("base.y"), r.pose("base.z")};
@@ -56,7 +56,7 @@ Excess thrown(const Scenario& s, const Recording& r) {
   return made;
 }
 
-/// `Kp 600 V/rad, Kd 0.6 V s/rad, ` of a joint, in the unit of the commands; empty without such gains.
+/// Gains of a joint in the unit of the commands, `Kp 600 V/rad, Kd 0.6 V s/rad, `; empty without such gains.
 std::string gains(const Scenario& s, std::size_t joint) {
   const SettingsNumbers settings(s.controller);
   const std::string unit(make_controller(s.controller, plugin_info(s))->command_unit());

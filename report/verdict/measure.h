@@ -28,7 +28,7 @@ std::optional<Quantity> find_quantity(const std::string& name, const Robot& robo
 std::optional<QuantityText> describe_quantity(const std::string& name, const Robot& robot);
 
 /// Result of a run: its quantities (NaN if not known), the word of its verdict, the reason for that word as a sentence, and the
-/// id of the deciding check with its part, both empty without one.
+/// id of the deciding check with its part. The last two are empty if no check decides.
 struct MeasuredRun {
   std::vector<double> quantities;
   Word verdict = Word::not_judged;

@@ -21,11 +21,11 @@ namespace gaitlab::report {
 ///
 ///     g < 2 / (2 d + 1)
 ///
-/// without contact, springs and friction, whatever inertia J it moves (tests/report/verdict/position_loop_test.cpp). D and a
-/// delay make up for one another: with a delay, D is 0 if Kd / N is at most 4 T (to 2 %), else the response to a step, Kd N /
-/// (Kd + N T). The bound is reached for tau >> T, tau = J R / (eta Kt Ks n^2), and without delay for tau = 0, too. In between a
-/// joint bears more: up to 4.1 without delay and D (tau = T / 3.7), up to 8.7 with D = Kp / 4, and never more. Measured on
-/// eight robots: docs/paper.md.
+/// without contact, springs and friction, whatever inertia J it moves (tests/report/verdict/position_loop_test.cpp). D
+/// compensates for a part of the delay. With a delay, D is therefore 0 if Kd / N is at most 4 T (to 2 %), else the response to
+/// a step, Kd N / (Kd + N T). The bound is exact for tau >> T, with tau = J R / (eta Kt Ks n^2), and without delay also for tau
+/// = 0. For tau in between, a joint settles up to a larger g: up to 4.1 without delay and D (tau = T / 3.7), up to 8.7 with D =
+/// Kp / 4, and never above that. Measured on eight robots: docs/paper.md.
 struct PositionLoop {
   std::size_t joint = 0;
   double Kp = 0, Kd = 0;  ///< V/rad, V s/rad
@@ -37,7 +37,7 @@ struct PositionLoop {
   double stiffness = 0;   ///< k, N m/rad
   double stall = 0;       ///< largest torque at rest, N m
   double step = 0;        ///< torque that one step of the encoder commands, N m
-  double resolution = 0;  ///< that step, rad; 0 without an encoder
+  double resolution = 0;  ///< step of the encoder, rad; 0 without an encoder
   /// True if the bound holds: the motor has back-EMF, and the responses of the derivative and the integral part to a step of
   /// the error, Kd N / (Kd + N T) and Ki T, are at most a quarter of Kp.
   bool bounded = false;
@@ -53,7 +53,7 @@ struct PositionLoop {
   bool operator==(const PositionLoop&) const = default;
 };
 
-/// Gain that no joint bears (PositionLoop).
+/// Gain with which no joint settles (PositionLoop).
 inline constexpr double kNeverSettles = 9;
 
 /// Loops of all driven joints, in their order, without joints that make no torque; none if motors or controller are of another

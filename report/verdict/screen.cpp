@@ -35,7 +35,7 @@ class Screen {
   std::size_t columns_;
 };
 
-/// Ids of checks. Those of the loads of docks are one word if none of them is judged.
+/// Ids of checks. The four checks of dock loads are replaced by one word if none of them is judged.
 std::string names(const std::vector<const Check*>& checks, std::size_t from = 0) {
   constexpr std::ptrdiff_t kOfDocks = 4;  // tension, shear, bending, torsion
   const auto open_dock = [](const Check* check) {

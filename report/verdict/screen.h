@@ -29,7 +29,7 @@ struct ScreenLine {
   Tone tone = Tone::plain;
 };
 
-/// Lines of at most `columns` columns, at least 40, except for longer words, in this order: the word with its reason; the
+/// Lines of at most `columns` columns (40 or more) unless a word is longer, in this order: the word with its reason; the
 /// tightest check; a line for each check that fails, is too close or warns; the ids of the checks that were not judged; the
 /// gait; the sources of the limits. If more than `most` checks of one status exist, the further ones are listed by id.
 std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict, std::size_t most,

@@ -11,9 +11,9 @@
 namespace gaitlab::report {
 
 /// Table Recording::spread for a run that is chaotic or ill-conditioned (report/verdict/trust.h), with one row per rollout. The
-/// first row is the run. The others are simulated here: with gravity times 1 + d and 1 - d (d = 1e-9 if chaotic, else 1e-6),
-/// and with half the accuracy. The table has no rows if the run is predictable or ended early, or if `stop` was set. `ended` is
-/// called after each of the kSpread rollouts. Throws InputError and PluginError.
+/// first row is that of the run itself. The others are simulated here: with gravity times 1 + d and 1 - d (d = 1e-9 if chaotic,
+/// else 1e-6), and with half the accuracy. The table has no rows if the run is predictable or ended early, or if `stop` was
+/// set. `ended` is called after each of the kSpread rollouts. Throws InputError and PluginError.
 Trace spread(const Scenario& scenario, const Recording& record, const Summary& summary, const Verdict& verdict,
              std::atomic<bool>& stop, const std::function<void()>& ended = {});
 inline constexpr std::size_t kSpread = 3;  ///< number of rollouts that spread() simulates

@@ -23,8 +23,8 @@ TorqueError torque_error(const Recording& record);
 std::vector<double> torque_errors(const Recording& record);
 
 /// Sensitivity of the torques to a relative change of gravity. `chaotic`: a change of 1e-9 alters a torque by more than
-/// predictability_limit. `ill` (ill-conditioned): a change of 1e-6 does, computed in proportion from 1e-9. `predictable`:
-/// neither does. `unknown`: not tested, or gravity has no effect on the torques.
+/// predictability_limit. `ill` (ill-conditioned): a change of 1e-6 does so, computed in proportion from 1e-9. `predictable`:
+/// neither change does so. `unknown`: not tested, or gravity has no effect on the torques.
 enum class Predictability { unknown, predictable, ill, chaotic };
 Predictability predictability(const Scenario& scenario, const Recording& record);
 /// Difference between the run and the rollout with changed gravity that decided predictability().
@@ -60,9 +60,9 @@ double least_energy(const Scenario& scenario);
 
 /// Energy to which the residual of the ledger is compared, J: the largest of energy drawn, energy stored, and least_energy.
 double energy_scale(const Scenario& scenario, const Recording& record);
-/// Magnitude of the residual of the ledger over that energy.
+/// Magnitude of the residual of the ledger / energy_scale.
 double residual_share(const Scenario& scenario, const Recording& record);
-/// Energy that the gears create over that energy.
+/// Energy that the gears create / energy_scale.
 double created_share(const Scenario& scenario, const Recording& record);
 
 }  // namespace gaitlab::report

@@ -194,7 +194,7 @@ std::string left_out_sentence(const Scenario& scenario) {
   return fmt::format("may_overlap leaves out {}{}", fmt::join(pairs, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
-/// Takes `pass` from the checks of a run whose controller is unstable: they pass by chance.
+/// Changes `pass` to `not judged` in all checks, because checks pass by chance if the controller is unstable.
 void leave_passes_out(Verdict& made) {
   for (Check& check : made.checks) {
     if (check.status != CheckStatus::pass) continue;

@@ -1,4 +1,4 @@
-// The verdict on a run: whether the actual robot can perform the gait. It compares every known limit with the judged window or
+// The verdict on a run, a judgement of the gait on the actual robot. It compares every known limit with the judged window or
 // the whole run.
 #pragma once
 #include <cstdint>
@@ -14,7 +14,7 @@
 namespace gaitlab {
 
 namespace report {
-/// Why a verdict is `not judged`.
+/// Reason why a verdict is `not judged`.
 enum class ReasonCode { none, rows_alone, impossible, lacks, too_close, no_limit, not_driven, open };
 }  // namespace report
 
@@ -55,7 +55,7 @@ struct Draw {
 /// Reason of `not judged`.
 struct Reason {
   ReasonCode code = ReasonCode::none;
-  std::string text = {};   ///< sentence with all missing evidence, and the settings to change; empty if there is a word
+  std::string text = {};   ///< sentence with all missing evidence, and the settings to change; empty for other words
   std::string check = {};  ///< id of the check that the sentence names: too close to its limit, failing so far, or not judged
 };
 
@@ -63,8 +63,8 @@ struct Verdict {
   /// - failed: the run ended early.
   /// - infeasible: no number of the scenario is impossible (plausibility.h), and a check fails; if the torque error exceeds its
   ///   limit, by more than that error (Check::certain).
-  /// - feasible: no check fails or is too close to its limit, at least one motor limit was judged, for a robot on a ground also
-  ///   `fall` and `in_ground`, and the evidence is complete (evidence.h).
+  /// - feasible: no check fails or is too close to its limit, and the evidence is complete (evidence.h). At least one motor
+  ///   limit was judged and, for a robot on a ground, also the checks `fall` and `in_ground`.
   /// - not judged: none of these, or the run is too short and each failing check could pass in a longer run.
   Word word = Word::not_judged;
   Reason reason = {};
@@ -85,8 +85,8 @@ struct Verdict {
   double first_time = 0;         ///< s, time when `first_joint` was at its limit
   std::vector<JointDemand> demands = {};  ///< empty if no joint reaches a limit, or if the demand was not computed
   std::string demand_doubt = {};          ///< reason why the demands are unknown or doubtful; empty otherwise
-  /// Id of the deciding check of `failed` and `infeasible`. Among the checks that cause the word it is one of the robot as a
-  /// whole (group run), else the one with the least margin.
+  /// Id of the deciding check of `failed` and `infeasible`. If a check of the robot as a whole (group `run`) causes the word,
+  /// it is this check; otherwise the check with the least margin among those that cause it.
   std::string decided_by = {};
   /// Draws of `gaitlab run --draws`, this run first; empty if there are none. `word` belongs to this run alone.
   std::vector<Draw> draws = {};

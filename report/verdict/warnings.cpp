@@ -65,7 +65,7 @@ void check_gain(const Scenario& s, const std::vector<PositionLoop>& loops, std::
   std::vector<std::string> remedies;
   if (const double Kp = nearest->Kp_of(most); Kp > 0) remedies.push_back(fmt::format("Kp: {:.4g} or less", two_digits(Kp)));
   const double period = nearest->period_of(most);
-  const bool own_period = nearest->delay > 0 || nearest->period > s.control_period;  // of the encoder
+  const bool own_period = nearest->delay > 0 || nearest->period > s.control_period;  // the period is that of the encoder
   if (period > 0 && !own_period) remedies.push_back(fmt::format("controller.period: {:.4g} or less", two_digits(period)));
   out.push_back(
       {s.nearest_place("controller.Kp"),

@@ -34,7 +34,7 @@ bool on_network(const std::filesystem::path& file) {
 }
 
 /// True if the rollback journal ends with the name of a super-journal, which a transaction over several databases leaves. This
-/// program never writes a super-journal. SQLite would delete the file of that name anywhere.
+/// program never writes a super-journal. SQLite would delete the file with that name in any folder.
 bool names_another_file(const std::filesystem::path& journal) {
   constexpr std::string_view kMagic = "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7";
   std::ifstream file(journal, std::ios::binary);
@@ -94,11 +94,11 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
   log += "-wal";
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   const bool fixed = !write && ::access(folder.c_str(), W_OK) != 0 && !std::filesystem::exists(log);
-  // Without locks, SQLite would refuse every access. One process then writes, as the note asks, and others only read. The layer
-  // unix-none locks nothing; the option nolock=1, which does the same, would also exclude the write-ahead log.
+  // Without locks, SQLite would refuse every access. Then only one process may write, as the note demands. The layer unix-none
+  // locks nothing. The option nolock=1 is not used, because it also excludes the write-ahead log.
   const bool locks = fixed || has_record_locks(folder, write);
-  // A reader of an empty file would take the rollback journal of the process that makes the database for a remnant, and delete
-  // it.
+  // A reader of an empty file would mistake the rollback journal of the process that creates the database for a remnant, and
+  // delete it.
   std::error_code none;
   if (!locks && !write && std::filesystem::file_size(file, none) == 0)
     throw InputError(SourceLocation{file.string()}, "is empty: no process has written a study here yet");

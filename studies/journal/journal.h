@@ -34,7 +34,7 @@ struct Row {
   std::vector<double> quantities;   ///< quantities by column; empty if not known
   Word verdict = Word::failed;
   std::optional<Score> score = {};
-  Cause cause = {};  ///< the check that decided the verdict; the journal does not hold it
+  Cause cause = {};  ///< the check that decided the verdict; not stored in the journal
 };
 
 /// A parameter, or a key that is drawn for every replicate, as stored in the journal.
@@ -70,14 +70,14 @@ struct JournalHead {
   bool guarded = true;
   std::string method;                                  ///< name of the method, or `asked`
   bool told = false;                                   ///< true if another program gives the results
-  double torque_error = Limits().most_torque_error();  ///< Limits::most_torque_error() of the scenarios, the least
+  double torque_error = Limits().most_torque_error();  ///< least Limits::most_torque_error() of the scenarios
   std::vector<std::string> worlds;  ///< names of the worlds of a robust study, one for each replicate from 1 on
 };
 
 /// A generation of a search whose points have all ended.
 struct Generation {
   std::uint64_t search = 0, generation = 0, restart = 0;
-  std::uint64_t first_run = 0, runs = 0;  ///< runs of the points that no earlier generation requested
+  std::uint64_t first_run = 0, runs = 0;  ///< first run and number of runs of the newly requested points
   std::uint64_t points = 0, kept = 0;
   /// Best and median of the kept points, by the first objective.
   double best = std::numeric_limits<double>::quiet_NaN(), median = best;
@@ -116,7 +116,7 @@ struct Verification {
   std::string name;  ///< the engine, joint or world; empty for the other kinds
   std::vector<double> objectives;
   double violation = 0;
-  Word verdict = Word::failed;  ///< of the first infeasible replicate, or else of the first replicate
+  Word verdict = Word::failed;  ///< verdict of an infeasible replicate if there is one, else of the first replicate
   std::string reason;           ///< reason why the run does not verify the point; "" if the point is verified
   std::string check = {};       ///< id of the check that decided the verdict in a world where the point falls; "" if none did
   /// Kind and name: `half step`, `bullet at a quarter of its step`, `m3/active dead`, `world supply -10 % (6.66 V)`.
@@ -132,8 +132,8 @@ struct Effort {
   std::int64_t process = 0;
 };
 
-/// The value of an enum whose name a cell of the journal `file` contains; `what` is its noun. Throws InputError for another
-/// text.
+/// Value of an enum by its name in a cell of the journal `file`. Messages call the value `what`. Throws InputError for other
+/// texts.
 template <NamedEnum Enum>
 Enum named_cell(const std::string& text, const char* what, const std::filesystem::path& file) {
   if (const std::optional<Enum> found = named<Enum>(text)) return *found;
@@ -146,7 +146,7 @@ Enum named_cell(const std::string& text, const char* what, const std::filesystem
 /// Name of the column of an objective: `objective.1` for number 0.
 std::string objective_column(std::size_t number);
 
-/// The columns of table `run` in their order, by their names in SQL.
+/// The SQL names of the columns of table `run`, in order.
 struct RunColumns {
   explicit RunColumns(const JournalHead& head);
   std::vector<std::string> parameters, quantities, objectives;

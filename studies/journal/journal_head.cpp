@@ -1,4 +1,4 @@
-// Description of the study in a journal: write, read and comparison of its tables.
+// Description of the study in a journal: writing, reading and comparison of its tables.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -92,7 +92,7 @@ double combined(std::vector<double> values, const std::string& how, double quant
     return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
   }
   if (how == "quantile") {
-    constexpr double kRounding = 1e-9;  // 0.07 * 100 is more than 7
+    constexpr double kRounding = 1e-9;  // as doubles, 0.07 * 100 is above 7
     const double at = std::ceil(quantile * static_cast<double>(values.size()) - kRounding) - 1;
     return values[static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(values.size() - 1)))];
   }
@@ -156,7 +156,7 @@ std::vector<BrokenLimit> broken_limits(Journal& journal) {
     Problems problems;
     Formula formula({limit.text, {}}, names, problems);
     const bool relation = formula.compares("<=") || formula.compares(">=") || formula.compares("==");
-    if (!problems.empty() || !relation) continue;  // the text in the journal is not a relation, as if forged
+    if (!problems.empty() || !relation) continue;  // a forged journal can contain other texts
     formulas.emplace_back(std::move(formula), limit.guard);
     limits.push_back({limit.text});
   }

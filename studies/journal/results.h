@@ -40,12 +40,12 @@ PointResult point_result(const JournalHead& head, std::span<const Brief> runs);
 
 Results results(Journal& journal);
 
-/// Number of runs with an estimated torque error, and number of estimates above 1 % and above the largest error of a run that
-/// is judged. If `estimate_every` is 1, every run has an estimate, provided that the engine offers it.
+/// Numbers of runs with and without an estimated torque error, and of estimates above 1 % and above the largest error with
+/// which a run is judged. If `estimate_every` is 1, every run has an estimate, provided that the engine offers it.
 struct Estimated {
   explicit Estimated(const JournalHead& head) : most(head.torque_error) {}
   static constexpr double kSmall = 0.01;
-  double most;                         ///< largest torque error of a run that is judged
+  double most;                         ///< largest torque error with which a run is judged
   std::uint64_t runs = 0, others = 0;  ///< number of runs with an estimate, and number of runs without
   std::uint64_t beyond_small = 0, beyond_most = 0;
   double worst = 0;

@@ -41,7 +41,7 @@ std::optional<ShardName> shard_name(const std::string& name) {
 
 /// Shard with a given name; nothing if such a shard is impossible.
 std::optional<Shard> shard_of(const ShardName& name) {
-  constexpr std::size_t kDigits = 7;  // limit that --shard also has
+  constexpr std::size_t kDigits = 7;  // the same limit as for --shard
   for (const std::string& text : {name.index, name.count}) {
     if (text.size() > kDigits || (text.size() > 1 && text.front() == '0')) return {};
   }

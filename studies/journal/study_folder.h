@@ -18,10 +18,10 @@ struct Shard {
   [[nodiscard]] bool has(std::uint64_t run) const { return run % count == index; }
 };
 
-/// Folder of a study, created if needed. With `out` it is that folder. Without `out` it is runs/NAME, or else the first of
-/// NAME-2, NAME-3 ... that does not exist or for which `is_it` returns true. Throws InputError if the folder cannot be created.
-/// Throws InputError also if it contains foreign files: neither study.db nor a shard is a journal, and the files are not those
-/// that a sweep leaves when it is killed at its start.
+/// Folder of a study, created if needed. With `out`, this is the folder `out`. Without `out`, it is runs/NAME, or else the
+/// first of NAME-2, NAME-3 ... that does not exist or for which `is_it` returns true. Throws InputError if the folder cannot be
+/// created. Throws InputError also if it contains foreign files: neither study.db nor a shard is a journal, and the files are
+/// not those that a sweep leaves when it is killed at its start.
 std::filesystem::path study_folder(const std::optional<std::filesystem::path>& out, const std::string& name,
                                    const std::function<bool(const std::filesystem::path&)>& is_it);
 

@@ -31,7 +31,7 @@ std::vector<std::string> other_engine_of(const Verify& verify, const Scenario& s
   }
   const bool own_step = scenario.contact.model().has_step_of_its_own;
   const bool adapts = engine->adaptive() != nullptr;
-  const bool chooses = engine->choose_step != nullptr && !own_step;  // by its stability, up to its longest step
+  const bool chooses = engine->choose_step != nullptr && !own_step;  // a stable step, up to the longest of the engine
   const Integrator& integrator = adapts ? engine->integrators.front() : engine->fixed();
   const std::string step = adapts || chooses ? "auto" : number_text(engine->given_step(own_step));
   return engine_settings(scenario, name, integrator, step);
@@ -75,7 +75,7 @@ BoundStudy::BoundStudy(Study study, const QuantityOffer& offer, Catalog& catalog
   make_scorers(offer, catalog);
 }
 
-/// The study, with a possible budget if its own is not.
+/// The study. If its budget is impossible, it is replaced by a possible one.
 Study BoundStudy::with_budget(Study study) {
   check_budget(study, problems_);
   return study;
@@ -122,8 +122,8 @@ void BoundStudy::find_nominal(StudyScenario& scenario, Problems& problems) const
   }
 }
 
-/// First points of a search. In the own point, a listed parameter has its first value if the scenario's is not among its
-/// values, because each value has a search that begins at the others.
+/// First points of a search. If the scenario's value of a listed parameter is not listed, the scenario's own point has the
+/// first listed value instead, because each listed value has a separate search.
 void BoundStudy::find_starts() {
   if (!is_search(study_.method)) return;
   const std::vector<OwnValue> own = own_values(study_, scenarios_.front());
@@ -212,7 +212,8 @@ void BoundStudy::check_stops() {
   }
 }
 
-/// Refuses an engine of `verify` that the study already uses, and its faults if the scenario has a section `at`.
+/// Refuses an engine of `verify` that the study already uses. Refuses faults of `verify` if there are several scenarios, or if
+/// a scenario has a section `at`.
 void BoundStudy::check_engines(const Catalog& catalog, std::vector<Problems>& found) const {
   const std::string& engine = study_.verify.engine;
   if (study_.verify.faults == VerifyFaults::each && scenarios_.size() > 1) {

@@ -15,13 +15,13 @@ namespace gaitlab::studies {
 
 class BoundStudy {
  public:
-  /// Reads the scenarios and checks the study against each. Throws InputError with every problem found, if no other check is
-  /// possible with these; otherwise they are in problems().
+  /// Reads the scenarios and checks the study against each. Throws InputError with every problem found if these prevent further
+  /// checks; otherwise problems() returns them.
   BoundStudy(Study study, const QuantityOffer& offer, Catalog& catalog);
   BoundStudy(const BoundStudy&) = delete;  // scorer and stop rules refer to the study
   BoundStudy& operator=(const BoundStudy&) = delete;
 
-  /// Problems that leave the settings of the runs known, so that Plan can add those of the settings.
+  /// Problems that do not prevent a check of the runs' settings. Plan adds the problems of the settings.
   [[nodiscard]] const Problems& problems() const { return problems_; }
   [[nodiscard]] const Study& study() const { return study_; }
   void set_runs(std::int64_t runs) { study_.runs = runs; }

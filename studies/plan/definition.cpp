@@ -33,7 +33,7 @@ std::string law_text(const Variation& v) {
 
 std::string method_name(const Study& study) { return study.asked ? "asked" : name_of(study.method); }
 
-/// Names of the worlds of a robust study; none of another.
+/// Names of the worlds of a robust study; empty for other studies.
 std::vector<std::string> robust_names(const BoundStudy& bound) {
   std::vector<std::string> names;
   if (!bound.study().robust) return names;
@@ -42,7 +42,7 @@ std::vector<std::string> robust_names(const BoundStudy& bound) {
   return names;
 }
 
-/// Name of an objective whose values another program gives: they need not be those of the expression in the study.
+/// Name of an objective whose values another program gives. These may differ from the values of the study's expression.
 std::string told_objective(const Study& study, std::size_t number) {
   return study.objectives.size() == 1 ? "result" : fmt::format("result {}", number + 1);
 }

@@ -10,9 +10,9 @@ namespace gaitlab::studies {
 /// trajectory k / (n + 1).
 std::vector<double> morris_shares(std::uint64_t seed, std::size_t parameters, std::uint64_t point);
 
-/// Point of a design by Saltelli et al. (2010). Rows A and B are the halves of one row of a Sobol sequence in 2n dimensions,
-/// without the middle of the box, where A, B and all AB_k would be the same point. AB_k is A with parameter k taken from B.
-/// Point number k belongs to row k / (n + 2), in the order A, B, AB_1 ... AB_n.
+/// Point of a design by Saltelli et al. (2010). Rows A and B are the halves of one row of a Sobol sequence in 2n dimensions.
+/// The middle of the box is left out, because A, B and all AB_k would be the same point there. AB_k is A with parameter k taken
+/// from B. Point number k belongs to row k / (n + 2), in the order A, B, AB_1 ... AB_n.
 std::vector<double> saltelli_shares(std::size_t parameters, std::uint64_t point);
 
 }  // namespace gaitlab::studies

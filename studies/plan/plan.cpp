@@ -75,7 +75,7 @@ std::string Plan::point_name(const std::vector<std::string>& values) const {
   std::string name = scenario_digest_;
   for (std::size_t k = 0; k < values.size(); ++k) name += fmt::format("{}={}\n", study().parameters[k].key, values[k]);
   const auto own = [](const Parameter& p) { return !p.sets.empty(); };
-  if (std::ranges::any_of(study().parameters, own)) {  // the followers may differ in another study
+  if (std::ranges::any_of(study().parameters, own)) {  // followers may differ between studies
     for (const auto& [key, value] : bound_.followers().settings(values)) name += fmt::format("{}={}\n", key, value);
   }
   return hash128(name);

@@ -61,8 +61,8 @@ class Plan {
   void finish(Row& row, const Scenario& scenario, const Recording& recording, const Measure& measure) const;
 
  private:
-  /// Settings of a world in a robust study, for a run with these settings. Empty for the nominal run, and if the scenario
-  /// refuses the settings of the run.
+  /// Settings of the run's world in a robust study. `sets` are those of the run itself. Empty for the nominal run, and if the
+  /// scenario refuses `sets`.
   [[nodiscard]] std::vector<std::string> of_world(const std::vector<std::string>& sets, std::uint64_t run) const;
   /// Seed of a run.
   [[nodiscard]] std::int64_t seed(std::uint64_t run) const;

@@ -76,7 +76,7 @@ class ValueTrial {
 
   const Plan& plan_;
   std::size_t scenario_;
-  std::optional<Problem> why_;  ///< the first problem, but one of the value before one of a key that other values need
+  std::optional<Problem> why_;  ///< the first problem other than an unknown key, or else the first one
 };
 
 void check_corner(const Plan& plan, std::size_t scenario, Problems& problems) {
@@ -114,7 +114,7 @@ Problems wrong_values(const Plan& plan) {
     for (std::size_t k = 0; k < parameters.size(); ++k) {
       for (std::size_t v = 0; v < parameters[k].values.size(); ++v) {
         const std::optional<Problem> why = trial.refused(k, v);
-        if (why && why->unknown_key.empty()) {  // check_corner() reports a key that is unknown, at the place of the key
+        if (why && why->unknown_key.empty()) {  // check_corner() reports unknown keys at their places
           const std::vector<SourceLocation>& places = parameters[k].value_places;
           refused[s].add(v < places.size() ? places[v] : parameters[k].place, why->text);
         }

@@ -28,7 +28,7 @@ class Points {
 
   /// Value of each parameter in the form of --set. In a grid, the last parameter changes fastest.
   [[nodiscard]] std::vector<std::string> values(std::uint64_t point) const;
-  /// Draw of each variation in the form of --set. `nominal` contains the numbers of the point by key.
+  /// Draw of each variation in the form of --set. `nominal` contains the point's number for each key.
   [[nodiscard]] std::vector<std::string> drawn(std::uint64_t replicate, const std::map<std::string, double>& nominal) const;
   /// Seed for the random numbers of the scenario in this replicate, 53 bits.
   [[nodiscard]] std::int64_t seed(std::uint64_t replicate) const;

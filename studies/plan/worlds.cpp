@@ -27,7 +27,7 @@ struct Uncertain {
   bool both;                            ///< false if only less than the nominal value is tried
   double DcMotor::*of_motor = nullptr;  ///< the number, for those of motors
   const char* unit = "";
-  [[nodiscard]] double deviation() const { return end / 2; }  ///< of a draw; chosen: nineteen in twenty are within the ends
+  [[nodiscard]] double deviation() const { return end / 2; }  ///< for draws; chosen so that 19 in 20 are within the ends
 };
 
 constexpr std::array kUncertain{
@@ -39,7 +39,7 @@ constexpr std::array kUncertain{
 };
 constexpr std::int64_t kDraws = 7;
 constexpr std::array kSigns{-1, 1};
-constexpr double kMostDeviations = 3;  // as for a draw within tolerances
+constexpr double kMostDeviations = 3;  // limit of a draw, the same as for tolerances
 
 /// Makes the worlds of a scenario from its robot, motors and ground.
 class WorldMaker {
@@ -87,7 +87,7 @@ class WorldMaker {
   /// True if the contact law has one coefficient of friction for each solid, and none for the parts of the robot.
   [[nodiscard]] bool one_coefficient() const { return !own_.contact.model().penalty_settings; }
 
-  /// True if the actuator has an efficiency model, and no gear without efficiency, by which a directional one would divide.
+  /// True if the actuator has an efficiency model and no efficiency is 0, because the directional model divides by it.
   [[nodiscard]] bool directional() const {
     if (driven_.empty()) return false;
     Explainer settings;

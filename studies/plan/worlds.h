@@ -7,23 +7,24 @@
 
 namespace gaitlab::studies {
 
-/// A world (docs/decisions/0039-worlds.md). In each, gears create no energy (`efficiency_model: directional`).
+/// A world (docs/decisions/0039-worlds.md). In each world, gears create no energy (`efficiency_model: directional`).
 struct World {
   std::string name;         ///< `supply -10 %`, or `draw 3`
-  std::string number = {};  ///< the changed number, as in `6.66 V`, or `seed 4`; empty if parts of the robot have others
+  std::string number = {};  ///< the changed number, as in `6.66 V`, or `seed 4`; empty if it differs from part to part
   bool drawn = false;       ///< true if all numbers are drawn within tolerances
   bool applies = true;      ///< false if the scenario has no such number; only the gears then differ
-  std::int64_t seed = 0;    ///< the scenario's, or that of the draw
+  std::int64_t seed = 0;    ///< seed of the scenario, or of the draw
   std::vector<std::string> sets = {};  ///< settings in the form of --set
   /// Name and number: `supply -10 % (6.66 V)`.
   [[nodiscard]] std::string text() const;
 };
 
-/// The worlds of a scenario, in the same order for each. Worlds 1 to 9 change one number each to one of its ends: friction by
-/// 25 %, R and Kt by 5 %, mass by 3 %, supply by -10 %. Numbers of `as_built`, stated or drawn, are multiplied by that factor.
-/// In worlds 10 to 16 all numbers are drawn: within the scenario's own `tolerances` or, if it has none, with half of these
-/// shares as deviation, and with the seven seeds behind the scenario's. Under `contact.law: bullet` friction is that of the
-/// ground and its boxes, which have no factors by part. Throws PluginError.
+/// The worlds of a scenario, in the same order for each. Each of worlds 1 to 9 changes one number to one end of its usual
+/// error: friction by 25 %, R and Kt by 5 %, mass by 3 %, supply by -10 %. The factors of `as_built`, stated or drawn, are
+/// multiplied by this change. In worlds 10 to 16 all numbers are drawn: within the scenario's own `tolerances` or, if it has
+/// none, with half of the errors above as standard deviations. Their seeds are the seven after the scenario's seed. Under
+/// `contact.law: bullet`, the friction of the ground and its boxes changes, because this law has no factors by part. Throws
+/// PluginError.
 std::vector<World> worlds(const Scenario& own);
 inline constexpr std::size_t kWorlds = 16;
 

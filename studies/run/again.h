@@ -1,4 +1,4 @@
-// Second runs of a study's runs, as a rule with an estimate of the torque error.
+// Second simulations of a study's runs, usually with an estimate of the torque error.
 #pragma once
 #include <atomic>
 #include <cstdint>

@@ -79,7 +79,7 @@ class Remembering {
  private:
   struct Known {
     std::optional<Row> row;    ///< nothing until the run has ended
-    std::vector<Row> waiting;  ///< rows that ask for the same run, and get its result
+    std::vector<Row> waiting;  ///< rows of the same run, which get its result
   };
 
   /// Row of another run with the same values, renumbered for the run `wanted`.

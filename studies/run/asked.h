@@ -9,7 +9,7 @@
 namespace gaitlab::studies {
 
 /// Numbers points in the order of their first request. If a program repeats its requests after a restart, it finds their rows.
-/// With other requests it finds the rows of points that ran before, and the remaining points get unused numbers.
+/// If the requests differ, it finds the rows of points that ran before; the other points get unused numbers.
 class Asked {
  public:
   /// Plan and journal must outlive this object.

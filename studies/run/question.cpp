@@ -36,7 +36,7 @@ std::string value_of(const Json& value, const Parameter& p, Question& question, 
   return text;
 }
 
-/// Value of a column less `least`; with several runs of a point a list of their values.
+/// Value of a column minus `least`; for a point with several runs, a list of these values.
 std::string of_runs(std::span<const std::vector<std::string>> quantities, std::size_t column, double least, bool several) {
   std::string values;
   for (const std::vector<std::string>& row : quantities) {

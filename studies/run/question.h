@@ -18,15 +18,15 @@ struct Question {
 };
 
 /// Reads a question from `line` at `place`. Throws InputError if the line is not JSON, or if a parameter is missing, unknown or
-/// of the wrong type; `objectives`, which question_text() adds, is not read. A value outside the study's range gives a refused
-/// point.
+/// of the wrong type; The member `objectives`, which question_text() adds, is ignored. A value outside the study's range gives
+/// a refused point.
 Question read_question(const std::string& line, const SourceLocation& place, const std::vector<Parameter>& parameters);
 
-/// The question for a point by its values in the form of --set, as read_question() reads it. It has the number of objectives,
-/// so that the asked program need not read the study, if there are several.
+/// The question for a point by its values in the form of --set, as read_question() reads it. If there are several objectives,
+/// it contains their number, so that the other program need not read the study.
 std::string question_text(std::uint64_t id, const Study& study, std::span<const std::string> values);
 
-/// Answer for a point. `margins` contains, by the id of its check, each guard's margin less the least margin that the study
+/// Answer for a point. `margins` contains, by the id of its check, each guard's margin minus the least margin that the study
 /// requires: 0 or more satisfies the guard. `runs` are in the order of replicates, and `quantities` contains their values by
 /// column. An empty `runs` means that the point is refused. With several replicates, each quantity is a list. A number is the
 /// shortest text that gives the same double, and an unknown number is null.

@@ -22,7 +22,7 @@ constexpr const char* kExpected =
 constexpr std::array kKeys{"id",      "objective", "violation", "outcome", "message",  "simulated",
                            "verdict", "figures",   "margins",   "kept",    "feasible", "run"};
 
-constexpr std::string_view kNotRun = "not run";  // of tables of rollouts: an interrupt, and no failure of the gait
+constexpr std::string_view kNotRun = "not run";  // outcome in tables of rollouts: an interrupt, not a failure of the gait
 
 class ToldReader {
  public:
@@ -116,7 +116,7 @@ class ToldReader {
   void read_violation(Score& score) {
     double violation = 0;
     number("violation", violation);
-    score.violation = std::max(score.violation, violation);  // an answer counts unknown objectives in its violation
+    score.violation = std::max(score.violation, violation);  // the violation of an answer includes unknown objectives
   }
 
   void read_figures(std::map<std::string, double>& quantities) {

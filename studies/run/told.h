@@ -20,9 +20,9 @@ struct Told {
 };
 
 /// Reads a result from `line` at `place`: `{"id": 7, "objective": 0.031, "violation": 0}`, or an answer of answer(). An unknown
-/// objective (null) adds 1 to the violation. A text that is null or empty counts as left out, because tables are filled so.
-/// Throws InputError with every problem found: no JSON, an unknown key, a value of the wrong type, the outcome `not run`, or
-/// another number of objectives than `objectives`.
+/// objective (null) adds 1 to the violation. A text that is null or empty counts as missing, because tables are filled in this
+/// way. Throws InputError with every problem found: no JSON, an unknown key, a value of the wrong type, the outcome `not run`,
+/// or another number of objectives than `objectives`.
 Told read_told(const std::string& line, const SourceLocation& place, std::size_t objectives);
 
 }  // namespace gaitlab::studies

@@ -7,9 +7,9 @@
 
 namespace gaitlab::studies {
 
-/// Points to verify in a round, the best first: `verify.best` kept points that are not among `tried`. They are niches, 10 % of
-/// the box apart from each other and from `tried` in some coordinate; if there are fewer, the best of the others that are 1 %
-/// apart. With several objectives these are points that divide the front evenly, including its ends, and there is one round.
+/// Points to verify in a round, best first: up to `verify.best` kept points. Each differs from the others and from those in
+/// `tried` by more than 10 % of the range in some coordinate. If there are too few, the best points that differ by more than 1
+/// % follow. With several objectives there is only one round, of points that divide the front evenly, including its ends.
 std::vector<std::size_t> candidates(const Plan& plan, const Results& results, const std::vector<std::size_t>& tried = {});
 
 }  // namespace gaitlab::studies

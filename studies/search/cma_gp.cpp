@@ -14,7 +14,7 @@ namespace gaitlab::studies {
 namespace {
 
 constexpr std::size_t kOffspring = 6;     // per point of a generation
-constexpr std::size_t kFewestRated = 30;  // points below which nothing is preselected
+constexpr std::size_t kFewestRated = 30;  // least number of rated points for a preselection
 constexpr double kMostSigma = 0.5;        // share of the box
 
 enum class CmaDraw : std::uint64_t { offspring = 211, rest };
@@ -34,7 +34,7 @@ struct Rates {
     c_1 = 2 / ((n + 1.3) * (n + 1.3) + effective);
     c_mu = std::min(1 - c_1, 2 * (effective - 2 + 1 / effective) / ((n + 2) * (n + 2) + effective));
     damping = 1 + 2 * std::max(0.0, std::sqrt((effective - 1) / (n + 1)) - 1) + c_sigma;
-    expected = std::sqrt(n) * (1 - 1 / (4 * n) + 1 / (21 * n * n));  // of the length of a normal vector
+    expected = std::sqrt(n) * (1 - 1 / (4 * n) + 1 / (21 * n * n));  // expected length of a normal vector
   }
 };
 
@@ -88,7 +88,7 @@ class CmaGp final : public Evolution {
     return {point.begin(), point.end()};
   }
 
-  /// The generation out of `drawn`.
+  /// The generation, chosen from `drawn`.
   [[nodiscard]] std::vector<Vector> preselected(const std::vector<Vector>& drawn) const {
     std::vector<Vector> inside;
     for (const Vector& point : drawn) inside.push_back(within_box(point));
@@ -106,7 +106,7 @@ class CmaGp final : public Evolution {
     return chosen;
   }
 
-  /// Moves mean, covariance and step size by the steps of the best points, in the unit of the step size.
+  /// Updates mean, covariance and step size from the steps of the best points, in multiples of the step size.
   void move(const Eigen::MatrixXd& best) {
     const Rates& r = rates_;
     const Eigen::VectorXd step = best.transpose() * r.weights;

@@ -16,7 +16,7 @@ struct EvolutionSettings {
   double sigma = 0.25;  ///< first step of cma and xnes, as a share of the box
   /// The first population with its objective values. A smaller value is better, and no value is NaN.
   std::vector<Vector> points, values;
-  /// All points of the search so far, for methods with models; the number of those before the present restart.
+  /// For methods with models: all points of the search so far, and the number of points before the present restart.
   const std::vector<Rated>* rated = nullptr;
   std::size_t since = 0;
 };

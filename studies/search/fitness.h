@@ -1,4 +1,4 @@
-// Fitness of a point: finite numbers in the order of the points.
+// Fitness of a point: finite numbers by which a search ranks points.
 #pragma once
 #include "studies/journal/results.h"
 #include "studies/search/rating.h"
@@ -13,7 +13,8 @@ std::vector<double> fitness(const PointResult& point, const std::vector<JournalO
 /// Rating of a point, with the fitness above.
 Rating rating(const PointResult& point, const std::vector<JournalObjective>& objectives, double duration);
 
-/// Relative improvement of a value over a former best value. It is 1 if the point is of a better kind (failed, not kept, kept).
+/// Relative improvement of a value over a former best value. It is 1 if the point is of a better kind (from worst to best:
+/// failed, not kept, kept).
 double fitness_gain(double former, double value);
 
 }  // namespace gaitlab::studies

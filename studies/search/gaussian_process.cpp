@@ -28,8 +28,8 @@ double matern(double squared) {
   return (1 + r + r * r / 3) * math::exp(-r);
 }
 
-/// Sets the sizes of the caches by which Eigen divides products into blocks. With the sizes of the processor, the sums of a
-/// product, and with them the points of a search, would have other rounding errors on another machine.
+/// Sets the cache sizes from which Eigen computes the blocks of a product. With the sizes of the processor's caches, the
+/// rounding errors of products, and thus the points of a search, would depend on the machine.
 void fix_blocks() {
   constexpr std::ptrdiff_t kFirst = 32 << 10;
   constexpr std::ptrdiff_t kSecond = 256 << 10;

@@ -9,8 +9,9 @@ namespace gaitlab::studies {
 /// Model of a function of d coordinates from its values at n points (Rasmussen and Williams 2006, eq. 2.22 to 2.30, 4.17):
 ///     f = m + s g,  g ~ GP(0, k),  value = f + s e,  e ~ N(0, noise)
 ///     k(a, b) = (1 + r + r^2 / 3) exp(-r),  r^2 = 5 sum_i (a_i - b_i)^2 / length_i^2     (Matern 5/2)
-/// m and s are mean and standard deviation of the values. Lengths (0.05 to 2) and noise (1e-4 to 0.3) have the largest
-/// likelihood among some 8 + 4 (d + 1) tries: equal lengths, then steps of a factor in each. The time is O(n^3) per try.
+/// m and s are mean and standard deviation of the values. Lengths (0.05 to 2) and noise (1e-4 to 0.3) are those with the
+/// largest likelihood among at most 8 + 4 (d + 1) tries: first with equal lengths, then with one number at a time multiplied or
+/// divided by a factor. The time is O(n^3) per try.
 class GaussianProcess {
  public:
   /// `points` is n x d with n >= 1, `values` has n finite numbers.
@@ -18,11 +19,11 @@ class GaussianProcess {
 
   /// Expected values of f at the rows of `at`.
   [[nodiscard]] Eigen::VectorXd mean(const Eigen::MatrixXd& at) const;
-  /// `count` functions drawn from the posterior of f: a column each, with a row per row of `at`.
+  /// `count` functions drawn from the posterior of f: one column per function, one row per row of `at`.
   [[nodiscard]] Eigen::MatrixXd samples(const Eigen::MatrixXd& at, std::size_t count, std::uint64_t stream) const;
 
   struct Hyper {
-    Eigen::VectorXd length;  ///< by coordinate
+    Eigen::VectorXd length;  ///< lengths by coordinate
     double noise;            ///< variance of e
   };
   [[nodiscard]] const Hyper& hyper() const { return hyper_; }
@@ -37,7 +38,7 @@ class GaussianProcess {
   double mean_ = 0, scale_ = 1;
   Eigen::VectorXd values_;  ///< values with mean 0 and deviation 1
   Hyper hyper_;
-  Eigen::LLT<Eigen::MatrixXd> factor_;  ///< of the covariance of the values
+  Eigen::LLT<Eigen::MatrixXd> factor_;  ///< factor of the covariance of the values
   Eigen::VectorXd weights_;             ///< inverse of this covariance times the values
 };
 

@@ -65,7 +65,7 @@ Sample sample_of(Journal& journal, const Results& results, const std::vector<std
       const JournalParameter& p = head.parameters[chosen[c]];
       const auto word = static_cast<double>(std::ranges::find(p.values, row[c + 1]) - p.values.begin());
       const double number = p.words ? word : number_of(row[c + 1]);
-      sample.parameters[c].push_back(std::isfinite(number) ? number : 0);  // a forged journal can hold others
+      sample.parameters[c].push_back(std::isfinite(number) ? number : 0);  // a forged journal can contain other texts
     }
     sample.objective.push_back(point->failed > 0 ? kUnknown : point->score.objective());
     sample.kept.push_back(point->kept() ? 1 : 0);
@@ -74,7 +74,7 @@ Sample sample_of(Journal& journal, const Results& results, const std::vector<std
   return sample;
 }
 
-/// Share explained of the rank of the objective, over the points that have one. One extreme value would otherwise decide.
+/// Share explained of the objective's rank, over the points with an objective. Without ranks, one extreme value could decide.
 double of_objective(const std::vector<double>& parameter, const std::vector<double>& objective) {
   std::vector<double> x;
   std::vector<double> y;
@@ -123,8 +123,8 @@ void find_end(const JournalParameter& p, double best, ParameterImportance& found
 
 bool ParameterImportance::narrow() const {
   constexpr double kNarrow = 0.2;
-  constexpr std::uint64_t kFewest = 20;  // points beyond, as evidence
-  constexpr std::uint64_t kOneIn = 20;   // kept points beyond, at most
+  constexpr std::uint64_t kFewest = 20;  // least number of points beyond
+  constexpr std::uint64_t kOneIn = 20;   // at most one in this number of points beyond is kept
   return width < kNarrow && beyond >= kFewest && kOneIn * kept_beyond <= beyond;
 }
 

@@ -14,7 +14,7 @@ enum class End { none, low, high };
 /// Influence of a parameter of a study, and the part of its range with kept points. NaN if not known.
 struct ParameterImportance {
   std::string key;
-  double objective = 0;      ///< share of the variance of the rank of the first objective, over the completed points
+  double objective = 0;      ///< share of the variance in rank of the first objective, over the completed points
   double kept = 0;           ///< share of the variance of `kept` (1 or 0), over all points
   double low = 0, high = 0;  ///< 2nd and 98th percentile of the kept points, in the parameter's unit
   double width = 0;          ///< share of the range between these two (log: of the logarithm)
@@ -31,11 +31,11 @@ struct Importance {
   std::vector<ParameterImportance> parameters;  ///< the most influential on the objective first
 };
 
-/// Share of the variance of `output` explained by a parameter alone, of n points each: the variance of the means of k classes
-/// of equally many points in the order of the parameter (points of equal value in one class) over the variance (first-order
-/// index from given data: Plischke, Borgonovo, Smith 2013), less the share 1 - (1 - r) (n - 1) / (n - k) that chance
-/// contributes (Kelley 1935). At most 20 classes, of at least 20 points each. NaN for fewer than 60 points, or if nothing
-/// varies.
+/// Share of the variance of `output` that a parameter alone explains, from n points: 1 - (1 - r) (n - 1) / (n - k), which
+/// removes the contribution of chance (Kelley 1935). For r, the points are sorted by the parameter and divided into k classes
+/// of equal size, with points of equal value in one class; r is the variance of the class means over the variance (first-order
+/// index from given data: Plischke, Borgonovo, Smith 2013). At most 20 classes, of at least 20 points each. NaN for fewer than
+/// 60 points, or if nothing varies.
 double explained(std::span<const double> parameter, std::span<const double> output);
 
 /// Importance of the parameters with a range or listed values. Sensitivity studies have better estimates (sensitivities()).

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t kMostPoints = 200;
 constexpr double kAllBroken = 10;    // violation of a failed point
-constexpr double kSmall = 0.01;      // violation at which its logarithm bends
-constexpr double kAcceptable = 1.7;  // factor on kSmall up to which a modelled violation counts as none
+constexpr double kSmall = 0.01;      // added to a violation before its logarithm is taken
+constexpr double kAcceptable = 1.7;  // kSmall + violation up to this multiple of kSmall counts as no violation
 
 double log_violation(double violation) {
   return math::log(kSmall + (std::isnan(violation) ? kAllBroken : std::min(violation, kAllBroken)));
@@ -33,8 +33,8 @@ std::vector<const Rated*> nearest(std::span<const Rated> points, const Vector& c
   return all;
 }
 
-/// Objectives within reach of the best kept one (or of the best tenth): no further above the median than three times their
-/// distance, and no further below the best than once. Smaller is better.
+/// Objectives clipped to the range from best - d to median + 2 d, with d = median - best. Smaller is better; `best` is the best
+/// kept objective or the limit of the best tenth, whichever is smaller.
 Eigen::VectorXd clipped_objectives(const std::vector<const Rated*>& points) {
   std::vector<double> sorted;
   double best = std::numeric_limits<double>::infinity();
@@ -85,7 +85,7 @@ struct PointModels::Data {
       violation[k] = log_violation(near[static_cast<std::size_t>(k)]->rating.violation);
     std::vector<const Rated*> with;
     std::ranges::copy_if(near, std::back_inserter(with), [](const Rated* one) { return std::isfinite(one->rating.objective); });
-    if (with.empty()) {  // the nearest have all failed
+    if (with.empty()) {  // all of the nearest have failed
       for (const Rated& one : points) {
         if (std::isfinite(one.rating.objective) && with.size() < kMostPoints) with.push_back(&one);
       }

@@ -7,16 +7,16 @@
 
 namespace gaitlab::studies {
 
-/// Two Gaussian processes, of the objective and of log(0.01 + violation), from at most 200 points: those that are nearest to a
-/// centre by their largest difference in a coordinate. Objectives far from those of kept points are clipped, so that a robot
-/// that is thrown does not decide the scale. A failed point has no objective, and a violation of 10.
+/// Two Gaussian processes, of the objective and of log(0.01 + violation), from the 200 points nearest to a centre. The distance
+/// is the largest difference in a coordinate. Objectives far from those of kept points are clipped, so that a robot that is
+/// thrown does not decide the scale. A failed point has no objective, and a violation of 10.
 class PointModels {
  public:
   /// `centre` has d coordinates. At least one point has a known objective.
   PointModels(std::span<const Rated> points, const Vector& centre);
 
-  /// Order of candidates, best first, for a value of the objective and of the violation's logarithm each: those with an
-  /// acceptable violation by their objective, then the others by their violation.
+  /// Order of candidates, best first, from the objective and the violation's logarithm of each: first those with an acceptable
+  /// violation, sorted by objective, then the others, sorted by violation.
   [[nodiscard]] static std::vector<std::size_t> order(const Eigen::VectorXd& objective, const Eigen::VectorXd& violation);
 
   [[nodiscard]] const GaussianProcess& objective() const { return objective_; }

@@ -1,4 +1,4 @@
-// Rating of a point for a search: its fitness, and the numbers of which models are made.
+// Rating of a point for a search: its fitness, and the numbers from which models are computed.
 #pragma once
 #include <limits>
 #include <vector>
@@ -9,7 +9,7 @@ namespace gaitlab::studies {
 using Vector = std::vector<double>;
 
 struct Rating {
-  Vector fitness;  ///< finite numbers in the order of the points, by objective; smaller is better
+  Vector fitness;  ///< finite numbers by objective; smaller is better
   /// First objective, negated for maximisation. NaN if not known.
   double objective = std::numeric_limits<double>::quiet_NaN();
   double violation = std::numeric_limits<double>::quiet_NaN();  ///< NaN for a failed point

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kCandidates = 400;
 constexpr double kMoved = 0.4;   // probability that a coordinate of a candidate differs from the centre's
-constexpr double kOfBest = 0.7;  // share of the candidates that are made of the best points
+constexpr double kOfBest = 0.7;  // share of the candidates that are made from the best points
 constexpr std::size_t kBest = 16;
 constexpr double kMostSteps = 1.5;  // largest multiple of the difference of two points
 constexpr double kSpread = 0.02;    // largest random change of a coordinate

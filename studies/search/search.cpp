@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kConverged = 1e-4;
 
-/// Indices in the order of the number of points that dominate each. Points with equal numbers keep their order.
+/// Indices sorted by the number of points that dominate each point. Points with equal numbers keep their order.
 std::vector<std::size_t> best_first(const std::vector<Vector>& values) {
   std::vector<std::size_t> behind(values.size());
   for (std::size_t k = 0; k < values.size(); ++k) {

@@ -132,7 +132,7 @@ std::vector<double> saltelli(std::span<const double> values, std::size_t n, cons
       const double b = values[row * (n + 2) + 1];
       const double changed = values[row * (n + 2) + 2 + p] - a;
       total += changed * changed;
-      first += (b - mean) * changed;  // without the mean, its square would be part of the noise
+      first += (b - mean) * changed;  // the mean is subtracted, because it would add noise
     }
     measures[p] = total / (2 * rows) / variance;
     measures[n + p] = first / rows / variance;

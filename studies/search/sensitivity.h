@@ -39,7 +39,7 @@ Sensitivity morris(std::uint64_t seed, std::size_t parameters, std::span<const d
 
 /// Shares of the output's variance V (Saltelli et al. 2010, table 2). `total` is a parameter's share including its
 /// interactions, mean (f(A) - f(AB_i))^2 / 2V (Jansen 1999); `first` is its share alone, mean f(B) (f(AB_i) - f(A)) / V, with
-/// the mean of f taken off first. `values` are in the order of saltelli_shares. A row with a value that is not finite is
+/// the mean of f subtracted first. `values` are in the order of saltelli_shares. A row with a value that is not finite is
 /// omitted. The shares are not known if fewer than two rows remain or if the output does not vary.
 Sensitivity sobol_indices(std::size_t parameters, std::span<const double> values);
 
@@ -48,7 +48,7 @@ std::string method_of(const JournalHead& head);
 /// True for the methods `morris` and `sobol_indices`.
 bool of_sensitivity(const JournalHead& head);
 
-/// Sensitivities from a journal with the method `morris` or `sobol_indices`. Their outputs are the objectives, with replicates
+/// Sensitivities from a journal with the method `morris` or `sobol_indices`. The outputs are the objectives, with replicates
 /// combined as the study defines, and the other quantities shown, as means over the replicates. Empty for any other method.
 std::vector<Sensitivity> sensitivities(Journal& journal, const Results& results);
 

@@ -4,7 +4,7 @@
 
 namespace gaitlab::studies {
 
-/// The value at vanishing step of a method of this order (Richardson 1911):
+/// Value extrapolated to a vanishing step, for a method of this order (Richardson 1911):
 ///     x = x(h/2) + (x(h/2) - x(h)) / (2^order - 1)
 /// It is exact if the error is proportional to h^order.
 inline double step_limit(double at_step, double at_half, int order) {

@@ -28,14 +28,13 @@ using TrialsTold = std::function<void(std::size_t done, std::size_t of)>;
 bool run_trials(const Plan& plan, std::vector<Trial>& trials, bool estimate, const Executor& executor, const TrialsTold& told,
                 std::atomic<bool>& stop);
 
-/// Result of a trial, combined over its runs as the study does.
+/// Result of a trial, combined over its runs as the study defines.
 PointResult result_of(const Journal& journal, const Trial& trial);
 
 /// Row of the table `verification` for a trial, without a reason.
 Verification without_reason(const Plan& plan, const Journal& journal, const Trial& trial);
 
-/// True if the verdict on a run rejects its point, whatever the guards: it is `infeasible`, or `not judged` for lack of
-/// evidence.
+/// True if the verdict on a run rejects its point regardless of the guards: `infeasible`, or `not judged` for lack of evidence.
 bool speaks_against(Word verdict, double evidence);
 inline constexpr const char* kEvidence = "margin.evidence";  ///< negative if evidence is missing
 /// A quantity of a run by name; NaN if the journal lacks it.

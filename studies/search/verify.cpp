@@ -13,7 +13,7 @@ namespace gaitlab::studies {
 
 namespace {
 
-/// Setting that divides the step or, where the integrator chooses its steps, the accuracy.
+/// Setting that divides the step or, if the integrator chooses its steps, the accuracy.
 std::string divided(const Physics& physics, double by) {
   if (physics.adaptive_step) return "physics.accuracy=" + number_text(physics.accuracy / by);
   return "physics.step=" + number_text(physics.step / by);
@@ -31,7 +31,7 @@ std::vector<std::string> quartered(const Plan& plan, std::uint64_t run) {
   return other;
 }
 
-/// The ways in which the study runs a point again.
+/// Trials that run a point again as the study defines.
 std::vector<Trial> ways(const Plan& plan, const PointResult& point) {
   std::vector<Trial> ways;
   const Verify& verify = plan.study().verify;
@@ -44,24 +44,24 @@ std::vector<Trial> ways(const Plan& plan, const PointResult& point) {
   return ways;
 }
 
-/// Reason in a verdict not to verify a point, even if the check is not a guard; "" without a reason. `why` is the sentence
-/// after the word.
+/// Reason why a verdict rejects a point, even if the check is not a guard; "" without a reason. `why` is the sentence after the
+/// word.
 std::string doubt(Word word, double evidence, const std::string& why) {
   const std::string end = why.empty() ? "" : ": " + why;
   if (!speaks_against(word, evidence)) return "";
   return (word == Word::infeasible ? "the verdict is infeasible" : name_of(word)) + end;
 }
 
-/// True if the verdict on a single run counts. In a robust study, runs in worlds count together.
+/// True if the verdict on a single run counts. In a robust study, runs in worlds only count together.
 bool counts_alone(const Plan& plan, std::uint64_t replicate) { return !plan.study().robust || replicate == 0; }
 
-/// Texts that a reason consists of.
+/// A reason made of several texts.
 struct Reason {
   std::string text;
   void add(const std::string& one) { text += (text.empty() ? "" : "; ") + one; }
 };
 
-/// Objectives that changed too much; "" if there are none. The first values are those to compare with.
+/// Objectives that differ too much from those of `was`; "" if there are none.
 std::string changes(const Plan& plan, const Score& was, const Score& is) {
   Reason why;
   for (std::size_t k = 0; k < plan.study().objectives.size(); ++k) {
@@ -129,7 +129,7 @@ Verification as_run(const Plan& plan, Journal& journal, const PointResult& point
   return own;
 }
 
-/// Order of the integrator with which all runs of a point have a given step; 0 if there is none.
+/// Order of the integrator, if it is equal in all runs of a point and all steps are given; otherwise 0.
 int order_of_steps(const Plan& plan, const PointResult& point) {
   int order = 0;
   for (std::uint64_t run = point.first_run; run < point.first_run + point.runs; ++run) {
@@ -142,8 +142,8 @@ int order_of_steps(const Plan& plan, const PointResult& point) {
   return order;
 }
 
-/// The point at vanishing step, if it agrees with the other engine. `half` and `other` are results of runs without a failure
-/// and broken limits.
+/// Score of the point at a vanishing step, if it agrees with the other engine. `half` and `other` must be results of runs
+/// without failures and broken limits.
 std::optional<Score> explained(const Plan& plan, const PointResult& point, const Score& half, const Score& other) {
   const int order = order_of_steps(plan, point);
   if (order == 0) return {};
@@ -153,7 +153,7 @@ std::optional<Score> explained(const Plan& plan, const PointResult& point, const
   return changes(plan, limit, other).empty() ? std::optional(limit) : std::nullopt;
 }
 
-/// Reasons of a trial not to verify its point, by kind; empty texts where there are none.
+/// Reasons why a trial rejects its point, by kind; a text is empty without such a reason.
 struct Objections {
   std::string failed;
   std::string changed;
@@ -171,8 +171,8 @@ Objections objections(const Plan& plan, const Journal& journal, const Trial& tri
   return found;
 }
 
-/// Adds a trial with a quarter of the step behind each trial in the other engine that does not verify its point and had steps
-/// that were too long. The quarter then counts instead. Returns false if interrupted.
+/// After each trial in the other engine that rejects its point and had too long steps, adds a trial with a quarter of the step.
+/// The added trial then counts instead. Returns false if interrupted.
 bool add_quarters(const Plan& plan, const Journal& journal, std::vector<Trial>& trials, const Executor& executor,
                   const TrialsTold& told, std::atomic<bool>& stop) {
   std::vector<Trial> quarters;

@@ -7,7 +7,7 @@ namespace gaitlab::studies {
 /// Runs each point again as the study's `verify` defines: with half the step, and in another engine with the default step of
 /// that engine. A run verifies its point if it ends normally, is kept, and changes the objectives by at most `change`. In
 /// addition, no verdict, including those of the original runs, may be `infeasible`, or `not judged` for lack of evidence. (In a
-/// robust study these are the verdicts of the nominal runs.)
+/// robust study, only the verdicts of the nominal runs count.)
 ///
 /// A larger change of an objective does not reject a point if the study's step explains it: its limit of vanishing steps
 /// (step_limit.h) differs from the value in the other engine by at most `change`. The point then has an entry `limit` with that
@@ -22,9 +22,9 @@ std::optional<std::vector<Verification>> verify(const Plan& plan, Journal& journ
                                                 const std::vector<std::size_t>& points, const Executor& executor,
                                                 const TrialsTold& told, std::atomic<bool>& stop);
 
-/// Runs a point again with each joint that has a motor dead in turn, from t = 0, so that the whole run is that of the broken
-/// robot. The result has an entry for each joint, `m3/active dead`, which neither verifies nor rejects the point. Returns
-/// nothing if `stop` was set.
+/// Runs a point again once for each joint with a motor. This joint is dead from t = 0, so that the whole run is that of the
+/// broken robot. The result has an entry for each joint, `m3/active dead`, which neither verifies nor rejects the point.
+/// Returns nothing if `stop` was set.
 std::optional<std::vector<Verification>> with_dead_joints(const Plan& plan, Journal& journal, const PointResult& point,
                                                           const Executor& executor, const TrialsTold& told,
                                                           std::atomic<bool>& stop);

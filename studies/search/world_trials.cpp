@@ -13,7 +13,7 @@ namespace gaitlab::studies {
 
 namespace {
 
-/// The worlds of a point, one trial for each that applies in a scenario.
+/// One trial of a point for each world that applies in any scenario.
 std::vector<Trial> world_trials(const Plan& plan, const PointResult& point) {
   std::map<std::uint64_t, std::vector<World>> of_run;
   for (std::uint64_t run = point.first_run; run < point.first_run + point.runs; ++run) {
@@ -31,13 +31,13 @@ std::vector<Trial> world_trials(const Plan& plan, const PointResult& point) {
   return trials;
 }
 
-/// Why a point falls in a world.
+/// Reason why a point falls in a world.
 struct Fall {
-  std::string text = {};   ///< in few words; "" if it stands
+  std::string text = {};   ///< reason in few words; "" if the point stands
   std::string check = {};  ///< id of the check that decided the verdict; "" if none did
 };
 
-/// Only the first failing scenario is described.
+/// Reason in the first scenario in which the point falls.
 Fall fall(const Plan& plan, Trial& trial) {
   for (Row& row : trial.rows) {
     if (row.outcome != "done") return {in_scenario(row) + row.outcome + (row.message.empty() ? "" : ": " + row.message)};
@@ -64,7 +64,7 @@ std::vector<std::uint64_t> points_of(const std::vector<Verification>& tried) {
   return runs;
 }
 
-/// Value by which a point is ranked: its limit where one is known, else that of its first entry.
+/// Value by which a point is ranked: the limit of vanishing steps if it is known, else that of its first entry.
 double value_of(const std::vector<Verification>& tried, std::uint64_t run) {
   double value = std::nan("");
   for (const Verification& v : tried) {
@@ -74,7 +74,7 @@ double value_of(const std::vector<Verification>& tried, std::uint64_t run) {
   return value;
 }
 
-/// The entry that states in how many worlds a point stands.
+/// Entry with the number of worlds in which a point stands.
 Verification share_entry(const Plan& plan, const std::vector<Verification>& tried, std::uint64_t run) {
   const WorldCount count = counted_worlds(tried, run);
   const std::size_t least = needed(plan.study().verify.share, count.of);
@@ -90,7 +90,7 @@ Verification share_entry(const Plan& plan, const std::vector<Verification>& trie
 bool is_world(const Verification& v) { return v.kind == TrialKind::world || v.kind == TrialKind::drawn_world; }
 
 std::size_t needed(double share, std::size_t of) {
-  constexpr double kRounding = 1e-9;  // 0.07 * 100 is more than 7
+  constexpr double kRounding = 1e-9;  // as doubles, 0.07 * 100 is above 7
   return static_cast<std::size_t>(std::max(0.0, std::ceil(share * static_cast<double>(of) - kRounding)));
 }
 

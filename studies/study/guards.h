@@ -48,10 +48,10 @@ class Guards {
          Problems& problems);
 
   /// Sum over the guards of limited_violation() of the amount by which each margin is too small. It is 0.5 if the verdict is
-  /// not `feasible` although no margin is too small, and 0 if all guards are satisfied. Without `reserve`, a margin that the
-  /// study requires above 0 counts as 0: the reserve may be used up.
+  /// not `feasible` although no margin is too small, and 0 if all guards are satisfied. Without `reserve`, a margin of 0
+  /// suffices if the study requires more, because the reserve may be used up.
   [[nodiscard]] double violation(std::span<const double> quantities, Word verdict, bool reserve = true) const;
-  /// Texts of the guards that a run violates. `why` is the sentence after its verdict.
+  /// Texts of the guards that a run violates. `why` is the sentence after the run's verdict.
   [[nodiscard]] std::vector<std::string> broken(std::span<const double> quantities, Word verdict, const std::string& why,
                                                 bool reserve = true) const;
   /// Relations over columns, as in `margin.stops >= 0`. For a verdict with checks that the study replaces, the text is a

@@ -19,9 +19,9 @@ struct MethodRow {
   bool searches = false;        ///< true if the method chooses points by previous results (`gaitlab optimize`)
   std::int64_t population = 0;  ///< least population of a search
   std::int64_t most = 10000;    ///< largest population
-  std::int64_t multiple = 1;    ///< of which the population is a multiple
+  std::int64_t multiple = 1;    ///< the population is a multiple of this number
   bool several = false;         ///< true for several objectives, false for one
-  bool of_pagmo = true;         ///< true if the method is one of the library pagmo
+  bool of_pagmo = true;         ///< true if the method is part of the library pagmo
   bool sigma = false;           ///< true if the method has a first step
 };
 

@@ -261,7 +261,7 @@ Node scalar(const std::string& text, const SourceLocation& place) {
   return node;
 }
 
-/// True for a text such as 0.1-1 or 0.1..1: two numbers that another sign than : joins.
+/// True for a text such as 0.1-1 or 0.1..1: two numbers joined by another sign than `:`.
 bool joins_numbers(const std::string& text) {
   const auto number = [](const std::string& part) { return read_number(scalar(part, {}), "").ok(); };
   if (number(text)) return false;

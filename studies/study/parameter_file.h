@@ -11,7 +11,7 @@ namespace gaitlab::studies {
 void read_parameters(const Node& node, Study& study, Problems& problems);
 void read_replicates(const Node& node, Replicates& replicates, Problems& problems);
 
-/// Reads `start`: points by values of the study's parameters, which are read before.
+/// Reads `start`: points given by values of the study's parameters, which must have been read before.
 void read_starts(const Node& node, Study& study, Problems& problems);
 
 /// Reads the value of an option: `--random` (KEY=A:B, KEY=log:A:B or KEY=v,v,v) if `drawn`, otherwise `--grid` (KEY=A:B:N,

@@ -38,7 +38,7 @@ InputError without_quotes(const InputError& error, const std::filesystem::path& 
   return InputError(told.list());
 }
 
-/// True, with a problem at the place in the study, if a scenario that a study file names cannot be read.
+/// True if a scenario that a study file names cannot be read. Then adds a problem at its place in the study.
 bool is_unreadable(const NamedScenario& named, Problems& problems) {
   if (named.place.file.empty()) return false;
   try {

@@ -1,4 +1,4 @@
-// The scenarios of a study, in each of which every point runs.
+// The scenarios of a study. Every point runs in each of them.
 #pragma once
 #include <map>
 #include <memory>
@@ -21,14 +21,14 @@ struct StudyScenario {
   std::vector<std::string> other_engine = {};         ///< settings that select the engine of `verify`, with its default step
 };
 
-/// Reads the scenarios with the study's settings. Throws InputError with every problem found, after those `before`.
+/// Reads the scenarios with the study's settings. If problems are found, throws InputError with `before` and these problems.
 std::vector<StudyScenario> read_scenarios(const Study& study, const Problems& before, Catalog& catalog);
 
 /// Reports an error in a setting as an error of the parameter or variation that defines the setting, at its place in the study.
 void add_as_written(const InputError& error, const Study& study, Problems& problems);
 
-/// Adds the problems found in each scenario. A problem of all scenarios is added once. A problem of only some scenarios is
-/// added with their names.
+/// Adds the problems found in each scenario. A problem found in all scenarios is added once. A problem found in only some is
+/// added once per scenario, with that scenario's name.
 void add_of_each(const std::vector<StudyScenario>& scenarios, const std::vector<Problems>& found, Problems& problems);
 
 /// A resolved scenario with its name.
@@ -36,8 +36,8 @@ struct ScenarioText {
   std::string name, text;
 };
 
-/// Text in a journal. A single scenario is its resolved text. Several scenarios are one document each, below a line `--- #
-/// scenario NAME`.
+/// Text of the scenarios in a journal. For a single scenario it is the resolved text. For several, each resolved text follows a
+/// line `--- # scenario NAME`.
 std::string scenarios_text(const std::vector<StudyScenario>& scenarios);
 /// The scenarios of a text by scenarios_text(). Empty if the text is that of a single scenario.
 std::vector<ScenarioText> scenario_texts(const std::string& text);

@@ -31,7 +31,7 @@ struct QuantityOffer {
       value_so_far = {};
 };
 
-/// The check that decided a verdict, and its part. Both are empty if no check did.
+/// The check that decided a verdict, and its part. Both are empty if no check decided it.
 struct Cause {
   std::string check, part;
   /// Text such as `dock bending of m5`.
@@ -68,7 +68,7 @@ struct Score {
   [[nodiscard]] bool kept() const { return violation == 0; }
 };
 
-/// Scores the runs of one study. A constraint with an unknown quantity counts as a violation of 1. A guard does not count if
+/// Scores the runs of one study. A constraint with an unknown quantity has a relative violation of 1. A guard does not count if
 /// the run lacks its margin, such as a motor's margin in a robot without motors.
 class Scorer {
  public:
@@ -76,7 +76,7 @@ class Scorer {
   Scorer(const Study& study, const std::vector<Quantity>& columns, const QuantityOffer& offer,
          const std::vector<std::string>& joints, Problems& problems);
 
-  /// Score of a run. Without `reserve`, margins that the study requires above 0 count as 0.
+  /// Score of a run. Without `reserve`, a margin of 0 suffices if the study requires more.
   [[nodiscard]] Score score(std::span<const double> quantities, Word verdict, bool reserve = true) const;
   /// Constraints and guards that a run violates, as in `torque.rms <= 0.6 (0.7)`. `why` is the sentence after the verdict.
   [[nodiscard]] std::vector<std::string> broken(std::span<const double> quantities, Word verdict, const std::string& why,

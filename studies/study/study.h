@@ -1,4 +1,4 @@
-// A study as written by the user: a scenario's points to run, their number of runs, and their objectives.
+// A study as written by the user: the points of a scenario to run, the number of runs, and the objectives.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -50,7 +50,8 @@ struct Variation {
   SourceLocation place = {};
 };
 
-/// `robust` is `share`, where the nominal run of each scenario must also break no limit; only `robust: true` selects it.
+/// `robust` is `share` with a further condition: the nominal run of each scenario breaks no limit. Only the key `robust: true`
+/// selects it.
 enum class Combine { mean, worst, median, quantile, share, robust };
 
 struct Replicates {
@@ -110,7 +111,7 @@ struct StartPoint {
   SourceLocation place = {};
 };
 
-/// Faults of repeated runs of the winner: none, or each joint with a motor dead in turn.
+/// Faults in repeated runs of the winner: `none`, or `each` joint with a motor dead in turn.
 enum class VerifyFaults { none, each };
 
 /// Settings for the verification of the best points.
@@ -128,14 +129,14 @@ struct Verify {
 /// One of several scenarios of a study. Every point runs in each of them.
 struct NamedScenario {
   std::string name, file;
-  SourceLocation place = {};  ///< at which the study names the file
+  SourceLocation place = {};  ///< place at which the study names the file
 };
 
 struct Study {
   std::string name, file;  ///< name of the study, and path of its file; the path is empty for a study from the command line
   std::string scenario;    ///< file of the scenario, if there is only one
-  SourceLocation place;    ///< of problems of the whole study: its file, or the option that changes it
-  SourceLocation scenario_place = {};    ///< at which the study names it; empty for one from the command line
+  SourceLocation place;    ///< place for problems of the whole study: its file, or the option that changes it
+  SourceLocation scenario_place = {};    ///< place at which the study names the scenario; empty if the command line names it
   std::vector<NamedScenario> scenarios;  ///< scenarios, if there are several
   std::vector<std::string> sets;
   std::vector<SourceLocation> set_places;  ///< places of settings that a study file contains

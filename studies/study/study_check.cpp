@@ -104,7 +104,7 @@ void check_size(const Study& study, Problems& problems) {
     problems.add(study.place, fmt::format("the grid has {:.3g} runs; allowed are up to {:g}", runs, kMostRuns));
 }
 
-/// Reason why a study cannot have its number of runs; empty if it can.
+/// Reason why the number of runs of a study is impossible; empty if it is possible.
 std::string wrong_budget(const Study& study) {
   const std::string method = std::string("method ") + name_of(study.method);
   const auto runs = static_cast<std::uint64_t>(study.runs);

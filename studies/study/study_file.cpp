@@ -196,7 +196,7 @@ void check_name(const Study& study, const Node& root, Problems& problems) {
                "name " + in_quotes(study.name) + " is not allowed; expected letters, digits, _ . and -, not a . first");
 }
 
-/// Takes over the places of keys to which later messages refer.
+/// Stores the places of keys to which later messages refer.
 void take_places(const Node& root, Study& study) {
   if (const Node* sets = root.find("set")) {
     for (const Node& set : sets->items) study.set_places.push_back(set.place);
@@ -223,7 +223,7 @@ void choose_method(Study& study, bool named, Purpose purpose) {
 /// Replicates of a robust study: the nominal run, and at most all worlds. The plan leaves out worlds that do not apply.
 Replicates in_worlds() {
   constexpr std::int64_t kMost = 17;
-  constexpr double kShare = 0.75;  // of the runs must break no limit: the lower quartile of their least margins is a constraint
+  constexpr double kShare = 0.75;  // share of runs that must break no limit, so that the lower quartile of margins is limited
   return {.count = kMost, .vary = {}, .combine = Combine::robust, .quantile = kShare};
 }
 
@@ -240,7 +240,7 @@ void read_scenario_keys(Reader& reader, const Node& root, Study& study, Problems
   if (reader.has("scenario")) problems.add(node->place, "the study has scenario and scenarios; expected one or the other");
 }
 
-/// Reads the replicates, which a robust study has by itself.
+/// Reads the replicates, which a robust study sets itself.
 void read_worlds(Reader& reader, Study& study, Problems& problems) {
   if (const Node* node = reader.take("replicates")) {
     read_replicates(*node, study.replicates, problems);

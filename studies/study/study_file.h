@@ -29,8 +29,8 @@ std::string study_schema(std::span<const CheckOffer> checks);
 /// Adds a problem for each pair of settings that contradict one another, except the number of runs.
 void check_study(const Study& study, Problems& problems);
 
-/// Adds a problem if the study cannot have its number of runs, and takes the least possible one instead. The other checks of
-/// the study go on with it, so that all problems are printed together.
+/// If the number of runs is impossible, adds a problem and takes the least possible number instead, so that the other checks
+/// continue and all problems are printed together.
 void check_budget(Study& study, Problems& problems);
 
 }  // namespace gaitlab::studies

@@ -1,4 +1,4 @@
-// Panel kind `heat`, which shows over time how much of its motor's torque each joint uses, as a colour.
+// Panel kind `heat`, which shows over time the share of its motor's torque that each joint uses, as a colour.
 #include <fmt/format.h>
 
 #include <algorithm>

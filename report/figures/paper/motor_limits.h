@@ -13,7 +13,7 @@ struct MotorLimits {
     double from, to;  ///< s
   };
   std::vector<Reached> reached;  ///< from the first row at the limit to the row after the last
-  std::vector<double> rest;      ///< N m, torque of the motor at rest, with each sign that its torque comes near
+  std::vector<double> rest;      ///< N m, plus or minus the torque at rest, if the joint's torque comes near
 
   void shade(const Plot& plot) const;
   /// Lines at the torque at rest.

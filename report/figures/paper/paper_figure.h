@@ -30,7 +30,7 @@ class PaperFigure {
     std::unique_ptr<PaperPanel> panel;
     PlotArea area = {};
     double top = 0;          ///< px, upper edge of the part above the frame
-    std::string title = {};  ///< in bold above the panel
+    std::string title = {};  ///< title in bold above the panel
   };
   /// Left and right edge of all frames. Throws InputError if the width is too small.
   [[nodiscard]] Edges edges(const Recipe& recipe) const;

@@ -1,5 +1,5 @@
-// The recipe of a figure for a paper, which is a YAML file with runs, panels and size. The reader rejects unknown keys, as that
-// of scenarios does.
+// The recipe of a figure for a paper, which is a YAML file with runs, panels and size. The reader rejects unknown keys, like
+// the reader of scenarios.
 #pragma once
 #include <span>
 #include <string>

@@ -34,8 +34,8 @@ double periods_from(const Summary& s) {
   return std::max(0.0, s.simulated - std::floor(shown / period + 1e-3) * period);
 }
 
-/// Sides of the view at which the robot's front is and to which the robot moves: `, front at the right, moves to the left`.
-/// Empty if neither is along the axis.
+/// Text with the robot's front and its direction of motion in the view: `, front at the right, moves to the left`. Empty if
+/// neither is along the axis.
 std::string directions(const Robot& robot, const Recording& r, const Sight& from) {
   constexpr double kAlong = 0.7;   // a smaller component means that the robot is seen from the front rather than from the side
   constexpr double kMoved = 0.02;  // m
@@ -51,8 +51,8 @@ std::string directions(const Robot& robot, const Recording& r, const Sight& from
   return text;
 }
 
-/// Five views from the start of the last period on (a view at its end would be equal to the first one), or else one second
-/// apart up to the end.
+/// Five views from the start of the last period on (a view at its end would be equal to the first one). Without a period, the
+/// views are one second apart up to the end of the run.
 PanelRecipe views(const Scenario& scenario, const Recording& r, const Summary& s, bool walks, const Joint* pointed) {
   const Sight from = sight(scenario, r);
   const MotionCycle& cycle = s.limit_cycle;
@@ -103,7 +103,7 @@ std::vector<Drawn> drawn_joints(const Scenario& scenario, const Summary& summary
   return drawn;
 }
 
-/// Angle and set point of a joint with its torque at the right.
+/// Angle and set point of a joint, with its torque on the right axis.
 PanelRecipe chart(const Scenario& scenario, const Recording& r, const Summary& summary, const Drawn& drawn, double from) {
   const Joint& joint = scenario.robot->joints[drawn.joint];
   PanelRecipe panel;

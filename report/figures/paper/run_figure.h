@@ -8,10 +8,10 @@
 
 namespace gaitlab::report {
 
-/// SVG of a run's figure. It shows the joints of `figure.joints`, or else the most loaded joint, with their motors' limits,
-/// over the whole periods in the last 8 s (without a limit cycle, or with a longer period, over the last 8 s), and five views
-/// of the robot from the side of its path (from above if its joints turn about the vertical). The views are one second apart at
-/// the end of the run. With a limit cycle they are a fifth of its last period apart, at most 0.8 s.
+/// SVG of a run's figure. It shows the joints of `figure.joints`, or else the most loaded joint, with their motors' limits. The
+/// time shown is the whole periods in the last 8 s, or the last 8 s without a limit cycle or with a longer period. Five views
+/// show the robot from the side of its path, or from above if its joints turn about the vertical. The views are one second
+/// apart at the end of the run. With a limit cycle they are a fifth of its last period apart, at most 0.8 s.
 ///
 /// For a robot that walks (four or more legs by find_legs, contact elements, a ground) the figure also contains the central
 /// spine joint (the paper's figure 14) and the footfalls of the legs. Without a limit cycle its views cover the last 2 s.

@@ -30,8 +30,8 @@ struct ManyFigure {
 };
 
 /// SVG with parallel coordinates: one axis per parameter, at most 16, and one line per point. Kept points are coloured by their
-/// value, others are grey, the best is black. Above 20 000 line segments, a histogram of the lines is drawn instead. The note
-/// lists the parameters that were left out.
+/// value, others are grey, the best point is black. Above 20 000 line segments, a histogram of the lines is drawn instead. The
+/// note lists the parameters that were left out.
 std::string parallel_svg(const ManyFigure& figure);
 /// SVG with a panel for each of at most 24 parameters, which shows the value over the parameter. Above 20 000 dots, a histogram
 /// of the dots is drawn instead.

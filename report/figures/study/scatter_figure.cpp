@@ -24,7 +24,7 @@ constexpr Style kBeyondDot{.stroke = kUnfitDot, .fill = colour::kWhite, .width =
 
 constexpr double kEdge = 0.04;  // share of an axis beyond the outermost dots
 
-/// Panels per row: three, or the number with which no panel is in a row of its own.
+/// Panels per row: three, or another number that leaves no panel alone in a row.
 std::size_t panels_in_row(std::size_t panels) {
   if (panels == 4) return 2;
   return panels % 3 == 1 && panels % 4 != 1 ? 4 : 3;

@@ -22,7 +22,7 @@ struct ConvergenceFigure {
   StudyAxis value;
   bool maximize = true;
   std::vector<std::vector<ConvergencePoint>> searches;  ///< one list per search, in the order of the generations
-  std::vector<Improvement> best;                        ///< of all searches together, in the order of the runs
+  std::vector<Improvement> best;                        ///< improvements of all searches together, in the order of the runs
   double runs = 0;                                      ///< number of runs of the study
 };
 

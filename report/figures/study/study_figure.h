@@ -64,8 +64,8 @@ struct StudyFigure {
 };
 
 /// SVG with at most 20 000 marks. For more points it is a histogram, whose cells show the mean of their kept points. Kept
-/// points decide the range of the values: others beyond it are arrows at the edge, or have the last colour of a bar with an
-/// arrow.
+/// points decide the range of the values. Other points beyond this range are arrows at the edge, or have the last colour of a
+/// colour bar with an arrow.
 std::string study_svg(const StudyFigure& figure);
 /// CSV table of the points.
 std::string study_csv(const StudyFigure& figure);

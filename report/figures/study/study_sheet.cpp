@@ -15,7 +15,7 @@ namespace {
 
 constexpr Style kCross{.stroke = colour::kVermillion, .width = 1.4};
 
-/// Largest number of bytes, at most `bytes`, that contains whole UTF-8 characters.
+/// Largest number of bytes, at most `bytes`, that does not split a UTF-8 character.
 std::size_t whole_characters(std::string_view text, std::size_t bytes) {
   while (bytes > 0 && bytes < text.size() && (static_cast<unsigned char>(text[bytes]) & 0xC0U) == 0x80U) --bytes;
   return std::min(bytes, text.size());

@@ -73,7 +73,7 @@ function plots(desk: Desk): Panel[] {
   ];
 }
 
-/** Hides the rows of which all panels are hidden. */
+/** Hides rows in which all panels are hidden. */
 function closeRows(): void {
   for (const row of document.querySelectorAll<HTMLElement>(".row")) {
     const shown = [...row.children].filter((c) => !(c as HTMLElement).hidden).length;

@@ -67,7 +67,7 @@ export class Page implements Desk {
     this.choose(joint);
     view?.look((link.get("look") as Look | null) ?? "iso");
     if (check) run.mark(dockAt(run.recording.meta, check.part, check.worst));
-    // The camera comes near the part of a failed check, unless the reader has asked for another place.
+    // The camera moves to the part of a failed check, unless the link selects a view, joint or time.
     const free = !["look", "joint", "t"].some((key) => link.has(key));
     if (check && ["fail", "too close"].includes(check.status) && free) near(check);
     new Problems(run, near);

@@ -7,7 +7,7 @@ import type { Pose } from "./scene/view";
 
 /** View that a renewed page keeps. Joint and time are in its address. */
 interface Kept {
-  run: number; // for which the page was loaded again
+  run: number; // run for which the page was loaded again
   pose: Pose | null;
   playing: boolean;
 }
@@ -16,7 +16,7 @@ const often = 500; // ms between looks at the stamp
 const failed = "The scenario has an error, which the terminal shows. This is the run before it.";
 const lost = "This page does not follow the scenario: stamp.svg, beside it, cannot be loaded.";
 
-/** Looks for a newer run from now on, if the page is watched. Shows the view that the page had before. */
+/** Checks regularly for a newer run, if the page is watched. Shows the view that the page had before. */
 export function watch(page: Page): void {
   const run = Number(document.documentElement.dataset.watch ?? 0);
   if (!run) return;

@@ -1,4 +1,4 @@
-// Contents of every file of a check: the judged run, the list of checks, and the functions that their judges share.
+// Common parts of the files of checks: the judged run, the list of checks, and the functions that their judges share.
 #pragma once
 #include <fmt/format.h>
 
@@ -41,7 +41,7 @@ struct CheckedRun {
 
   [[nodiscard]] const std::string& joint(std::size_t j) const { return scenario.robot->joints[j].name; }
   [[nodiscard]] const Limits& limits() const { return scenario.limits; }
-  /// True if the joint has a fault in the span of a check, which does not judge it then.
+  /// True if the joint has a fault in the span of a check. The check then does not judge the joint.
   [[nodiscard]] bool faulty(std::size_t joint, CheckSpan span) const;
   /// True for a joint with a motor and without a fault.
   [[nodiscard]] bool judges(std::size_t joint, CheckSpan span) const {
@@ -68,8 +68,8 @@ inline constexpr const char* kGentler =
 inline constexpr const char* kSmaller = "smaller amplitudes or offsets";
 inline constexpr const char* kShorter = "a smaller physics.accuracy, or a smaller physics.step where one is given";
 
-// A judge is passed its check with id, title and unit, the status `not judged`, and neither number nor text. If it cannot
-// judge, it keeps this status and sets the text to the reason.
+// A judge receives its check with id, title and unit, with the status `not judged`, and without numbers and text. A judge that
+// cannot judge the run keeps this status and sets the text to the reason.
 
 /// Sets the text to the reason why the check is not judged. Returns true if there is one.
 bool left_open(Check& made, std::string reason);

@@ -1,4 +1,4 @@
-// The check `creep`: feet that a real ground holds stay.
+// The check `creep`: feet that a real ground would hold do not move.
 #include "report/analysis/motion.h"
 #include "report/verdict/checks/loads.h"
 

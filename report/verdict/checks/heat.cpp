@@ -1,4 +1,4 @@
-// The check `heat`: currents that motors bear for ever.
+// The check `heat`: currents that motors bear permanently.
 #include "report/verdict/checks/rated.h"
 
 namespace gaitlab::report {

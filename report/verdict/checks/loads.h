@@ -27,13 +27,14 @@ struct LoadWindow {
 
 /// Reason why the loads of feet and docks are not known. Empty if they are.
 std::string unknown_loads(const Scenario& scenario, const Recording& record);
-/// The same of feet, which are judged on a ground only.
+/// The same for feet, which are judged only on a ground.
 std::string unknown_of_feet(const CheckedRun& run);
-/// True if the robot goes that far (m) in the judged window. If it does not, the check says so and is not judged.
+/// True if the robot travels far enough in the judged window; `way` is its distance, m. If not, the check states this and is
+/// not judged.
 bool walks(double way, Check& made);
 
 enum class DockQuantity { tension, shear, bending, torsion };
-/// The quantity of a check, such as `dock_shear`; nothing of other checks.
+/// The quantity of a check, such as `dock_shear`; nothing for other checks.
 std::optional<DockQuantity> dock_quantity(std::string_view check);
 
 /// Load limits of the docks, indexed by module, in N or N m: the smaller limit of the two connectors. NaN if it is not stated.

@@ -1,4 +1,4 @@
-// The check `predictable`: a change of gravity by next to nothing changes no torque.
+// The check `predictable`: a tiny change of gravity does not change the torques.
 #include "core/simulation/step_error.h"
 #include "report/verdict/checks/checked_run.h"
 #include "report/verdict/spread.h"

@@ -1,4 +1,4 @@
-// The check `progress`: the robot goes somewhere by its own motors.
+// The check `progress`: the robot travels or turns by its own motors.
 #include "core/model/extent.h"
 #include "core/settings/wording.h"
 #include "report/analysis/motion.h"
@@ -52,8 +52,8 @@ Halves halves(const CheckedRun& run) {
   return from >= -kMissing * unit ? Halves{from, std::ceil(held / 2) * unit} : Halves{};
 }
 
-/// Work of gravity along the ground from the start of the first half on, J, by the heights of the ground below the
-/// robot. A robot that comes down onto the ground, as after a drop at the start, does not slide.
+/// Work of gravity along the ground from the start of the first half on, J. It is computed from the heights of the ground below
+/// the robot, because a drop onto the ground, for example at the start, is not a slide.
 double gravity_work(const Scenario& s, const Recording& r, const Motion& m, const Halves& of) {
   std::size_t first = 0;
   while (first + 1 < m.t.size() && m.t[first] < of.from) ++first;

@@ -90,7 +90,8 @@ AtLimit at_limit(const CheckedRun& run, std::size_t joint, double error, MotorLi
   return made;
 }
 
-/// Error bar of a joint. Its lower end is from `at` with times shorter by the share `error`, its upper end from `widest`.
+/// Error bar of a joint. Its lower end is computed from `at`, with times shorter by the share `error`, and its upper end from
+/// `widest`.
 ErrorBar bar_of(const AtLimit& at, double error, const AtLimit& widest) {
   ErrorBar bar{"", error, 0, 1 - widest.margin()};
   for (const Criterion& one : at.criteria)

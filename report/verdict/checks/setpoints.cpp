@@ -9,7 +9,8 @@ namespace gaitlab::report {
 namespace {
 
 /// First set points of all joints, within the ranges of the hinges, as text for `initial.angles`: a number if they are equal,
-/// else a list. Joints without motor keep their angles. Empty for a CPG of another language, which is called in the run alone.
+/// else a list. Joints without motor keep their angles. Empty for a CPG of another language, which is called only during the
+/// run.
 std::string first_angles(const Scenario& s) try {
   if (s.cpg.entry->context != nullptr) return "";
   const std::vector<double> first = CpgAlone(s).rows(1);

@@ -8,8 +8,8 @@ std::vector<CheckKind> checks::speed() {
     const char* const none = "the actuator has torque at any speed, and states no largest speed";
     const auto no_load = [&](std::size_t j) { return run.motors.joint(j).no_load.value_or(kNever); };
     const auto rating = [&](std::size_t j) { return run.motors.joint(j).speed_max.value_or(kNever); };
-    // A landing may exceed the no-load speed, so that speed is compared with the judged window only. A maker's rating must be
-    // kept from the first step on.
+    // A landing may exceed the no-load speed, so that only speeds in the judged window are compared with it. A maker's rating
+    // must not be exceeded from the first step on.
     const double share = run.limits().warn_share;
     Check broken = made;
     broken.span = CheckSpan::whole_run;

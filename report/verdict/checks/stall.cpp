@@ -9,12 +9,12 @@ namespace {
 constexpr double kAtRest = 0.05;           // share of the no-load speed
 constexpr double kLeastRest = 0.1;         // s, time at rest that counts
 constexpr double kRoundedDown = 1 - 1e-9;  // tolerance of a time that is a difference
-constexpr double kMostAtRest = 0.5;  // share of the stall torque, RMS, without a warning (chosen: as at the largest power)
+constexpr double kMostAtRest = 0.5;  // largest RMS without a warning, share of the stall torque (chosen: as at largest power)
 
 /// Torque of a joint at rest, N m.
 struct Held {
   double rms = 0;           ///< over all its time at rest in the window; 0 if that is below kLeastRest
-  double stretch = 0;       ///< largest RMS over kLeastRest on end at rest
+  double stretch = 0;       ///< largest RMS over kLeastRest without interruption at rest
   double from = 0, to = 0;  ///< s, of this stretch
   double first = kNever;    ///< s, end of the first stretch beyond the stall torque
   [[nodiscard]] double most() const { return std::max(rms, stretch); }
@@ -58,7 +58,7 @@ struct Rest {
   [[nodiscard]] double rms() const { return held.rms / stall; }
 };
 
-/// Every joint with a stall torque; without an error bar if the motor's own law stays within it.
+/// Every joint with a stall torque. It has no error bar if its motor cannot exceed this torque.
 std::vector<Rest> rests(const CheckedRun& run, Check& made) {
   constexpr double kEqual = 1 + 1e-9;
   std::vector<Rest> all;
@@ -80,7 +80,8 @@ std::vector<Rest> rests(const CheckedRun& run, Check& made) {
   return all;
 }
 
-/// The joint that decides: the one with the least margin if it fails, else the one with the largest RMS if that warns.
+/// The joint that decides the check: the joint with the least margin or, if this joint passes, the joint with the largest RMS
+/// if this RMS causes a warning.
 const Rest& decisive(const std::vector<Rest>& all) {
   const Rest& worst = *std::ranges::max_element(all, {}, &Rest::most);
   const Rest& warmest = *std::ranges::max_element(all, {}, &Rest::rms);

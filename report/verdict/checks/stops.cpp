@@ -1,4 +1,4 @@
-// The check `stops`: joints keep the ranges of their hinges.
+// The check `stops`: joints stay within the ranges of their hinges.
 #include "core/laws/hinge_stop.h"
 #include "core/settings/wording.h"
 #include "report/verdict/checks/checked_run.h"
@@ -12,7 +12,7 @@ struct BeyondRange {
   double worst = 0, share = 0;  ///< largest excess, rad; share of the time beyond the range
 };
 
-/// Clears the joints that have a fault. Returns true if all have one.
+/// Clears the joints that have a fault. Returns true if all joints have a fault.
 bool leave_faulty_out(const CheckedRun& run, std::vector<BeyondRange>& joints) {
   std::size_t faulty = 0;
   for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -35,8 +35,8 @@ std::string beyond_text(const Check& made, const BeyondRange& worst, bool by_ang
 // A hinge without a motor is meant to touch its stop.
 constexpr double kRestsBeyond = 0.05;  // rad
 
-/// Judges hinges without a motor, by their angle beyond the stop alone, after the joints with a motor: they decide if they fail
-/// by more than these, or if none of these is beyond its range.
+/// Judges hinges without a motor after the joints with a motor, and only by their angle beyond the stop. These hinges decide
+/// the check if they fail by more than the joints with a motor, or if no joint with a motor is beyond its range.
 void judge_rests(const CheckedRun& run, const std::vector<BeyondRange>& joints, Check& made) {
   const auto beyond = [&](std::size_t j) { return run.scenario.robot->joints[j].driven() ? 0 : joints[j].worst; };
   const Criterion most{0, std::max(kRestsBeyond, run.limits().beyond_range), "rad"};

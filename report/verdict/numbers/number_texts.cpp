@@ -235,7 +235,7 @@ Lines limits(const RunData& run) {
 namespace {
 
 /// Line for the joint whose torque peak is nearest to, or beyond, its motor's torque at rest. Empty if a joint is at a limit,
-/// because that is printed instead.
+/// because the limit is printed instead.
 Lines nearest_to_rest(const RunData& run) {
   const std::vector<double> rest = rest_torques(run.scenario);
   const std::vector<JudgedJoint>& joints = run.summary.judged.joints;

@@ -51,8 +51,8 @@ Lines tracking(const RunData& run);
 Lines drawn(const RunData& run);
 Lines ledger(const RunData& run);
 Lines created_energy(const RunData& run);
-/// True if the cost of transport belongs to motors that do not exist. They lose less than 1 % of the energy drawn, in windings,
-/// gears and friction, or the cost is below the rolling resistance of steel wheels on rails, 0.001 of the weight.
+/// True if no real motors can have this cost of transport: they lose less than 1 % of the energy drawn, in windings, gears and
+/// friction, or the cost is below the rolling resistance of steel wheels on rails, 0.001 of the weight.
 bool lossless(const RunData& run);
 /// Text `the gears create 17 % of the energy drawn (eq. 2)`, printed beside a cost of transport. Empty up to 5 %.
 std::string much_created(const RunData& run);

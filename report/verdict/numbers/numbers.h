@@ -18,8 +18,8 @@ struct RunData {
   const Summary& summary;
 };
 
-/// A summary number. The terminal, `compare`, goldens and `swap` show the numbers whose `place` in the member of that name
-/// (`line`, `compare`, `golden`, `swap`) is above 0, in ascending order of `place`. This order differs from that of the list.
+/// A summary number. Each output has a member here: `line` for the terminal, `compare`, `golden`, `swap`. It shows the numbers
+/// whose `place` in this member is above 0, in ascending order of `place`, which differs from the order of the list.
 struct SummaryNumber {
   /// Path in summary.json, separated by `.`. `J` represents the name of a joint; `x` and `y` are the elements of an array.
   const char* key = "";
@@ -39,7 +39,7 @@ struct SummaryNumber {
     std::vector<std::string> (*text)(const RunData& run) = nullptr;  ///< lines of text; if empty, nothing is printed
   } line = {};
   struct Compare {
-    int place = 0;                ///< position in the output; a number of every joint is that of the most loaded joint
+    int place = 0;                ///< position in the output; numbers of every joint are shown for the most loaded joint
     bool if_different = false;    ///< left out if runs A and B have equal values
     const char* label = nullptr;  ///< row title with unit; if nullptr, it is made from key and unit
   } compare = {};

@@ -55,8 +55,8 @@ std::string csv_cell(const Json& value) {
   return std::isfinite(value.get<double>()) ? number_text(value) : "";
 }
 
-/// Line below a table on the energy that gears create in a run, which makes the run's cost of transport too low. Empty if it is
-/// little.
+/// Line below a table on the energy that gears create in a run, which makes the run's cost of transport too low. Empty if this
+/// energy is small.
 std::string created_line(const std::string& name, const NamedRun& one) {
   const std::string much = broke_off(one) ? "" : texts::much_created(one.run);
   return much.empty() ? "" : fmt::format("{}: {}\n", name, much);
@@ -80,7 +80,7 @@ std::string swap_table(const std::vector<NamedRun>& runs) {
 
 namespace {
 
-/// CSV line: `text`, then a cell for each entry of the summary that is one number or one text, no list, and no time of the
+/// CSV line: `text`, then a cell for each entry of the summary that is a single number or text and is not measured by the
 /// clock.
 template <class Cell>
 std::string csv_row(std::string text, const Cell& cell) {

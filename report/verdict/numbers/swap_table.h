@@ -41,9 +41,9 @@ std::string why_not(const MatrixRun& one);
 /// Table for the terminal: two header lines, then one row per run with speed, cost of transport, feasible (y, n, or - if not
 /// judged), and the reason. Below the table are the runs with created energy, as in swap_table.
 std::string matrix_table(const std::vector<MatrixRun>& runs);
-/// CSV table as that of swap_csv; its first columns are `cpg,scenario,verdict,why`.
+/// CSV table like that of swap_csv; its first columns are `cpg,scenario,verdict,why`.
 std::string matrix_csv(const std::vector<MatrixRun>& runs);
-/// JSON object by CPG, then by scenario, of the content that swap_json writes for a run, and `verdict` and `why`.
+/// JSON object by CPG, then by scenario. Each entry is the content that swap_json writes for a run, with `verdict` and `why`.
 std::string matrix_json(const std::vector<MatrixRun>& runs);
 
 }  // namespace gaitlab::report

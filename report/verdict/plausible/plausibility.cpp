@@ -15,8 +15,8 @@ namespace {
 
 bool usual(const PlausibleNumber& row, double value) { return value >= row.least && value <= row.most; }
 
-/// The mistake that brings a number nearest to the middle of its range, in the sense of ratios; the first one in a range
-/// without a lower or upper end. Null if none brings it into the range.
+/// The mistake that brings a number nearest to the geometric middle of its range. If the range lacks a lower or upper end, the
+/// first mistake that brings the number into the range. Null if there is none.
 const Slip* likely(const PlausibleNumber& row, const Finding& finding) {
   const Slip* best = nullptr;
   double least = kNoLimit;
@@ -74,7 +74,7 @@ std::string first_unusual(const Scenario& s, const PlausibleNumber& row) {
   return "";
 }
 
-/// Warnings of one row, with one for all parts that have the same mistake, or none that is known.
+/// Warnings of one row. Parts with the same mistake share a warning, and so do parts without a known mistake.
 class Warnings {
  public:
   explicit Warnings(const PlausibleNumber& row) : row_(row) {}

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kWater = 1000;  // kg/m^3
 
-double kilo_cubed(double value) { return value * 1e9; }   // of a density, for lengths in mm
-double centi_cubed(double value) { return value * 1e6; }  // of a density, for lengths in cm
+double kilo_cubed(double value) { return value * 1e9; }   // corrects a density for lengths in mm
+double centi_cubed(double value) { return value * 1e6; }  // corrects a density for lengths in cm
 double gram_square_mm(double value) { return value * 1e-9; }
 double square_mm(double value) { return value * 1e-6; }
 
@@ -99,9 +99,9 @@ struct HingeEnd {
   TypeBody one;
   const HingeType& hinge;
   bool parent;
-  const Node* map;  ///< of the hinge
+  const Node* map;  ///< map of the hinge in the module type
   [[nodiscard]] Vec3 origin() const { return parent ? hinge.in_parent.p : Vec3::Zero(); }
-  /// Largest edge of a shape, wherever it is.
+  /// Largest edge of any single shape, regardless of its place.
   [[nodiscard]] double edge() const {
     double largest = 0;
     for (const Shape& shape : one.size.shapes) largest = std::max(largest, Subject::Size{{shape}}.largest_edge());
@@ -117,13 +117,14 @@ double from_axis(const HingeEnd& end, double of_hinge, double of_shapes) {
   const Vec3 origin = of_hinge * end.origin();
   const Vec3 axis = end.parent ? Vec3(end.hinge.in_parent.R * end.hinge.axis) : end.hinge.axis;
   const auto [low, high] = bounds(shapes);
-  const Vec3 nearest = origin + axis * axis.dot((low + high) / 2 - origin);  // to the middle of the shapes
+  const Vec3 nearest =
+      origin + axis * axis.dot((low + high) / 2 - origin);  // point of the axis nearest to the middle of the shapes
   return std::min(outside_hull(shapes, nearest), outside_hull(shapes, origin));
 }
 
 Finding hinge_end(const HingeEnd& end) {
   const TypeBody& one = end.one;
-  double farthest_shape = 0;  // from the origin of the body
+  double farthest_shape = 0;  // distance from the origin of the body
   for (const Shape& shape : one.size.shapes) farthest_shape = std::max(farthest_shape, shape.in_body.p.norm());
   const double edge = end.edge();
   const double away = from_axis(end, 1, 1);
@@ -161,7 +162,7 @@ std::vector<Finding> hinges(const Subject& subject) {
 }
 
 std::vector<Finding> centres(const Subject& subject) {
-  constexpr double kRough = 100;  // a body may be an edge larger than the box about its points
+  constexpr double kRough = 100;  // a body may extend by an edge beyond the box about its points
   std::vector<Finding> found;
   each_solid_body(subject, [&](const TypeBody& one) {
     const double edge = one.size.largest_edge();
@@ -272,7 +273,7 @@ double body_extent(const ModuleType& type, std::size_t b) {
   return (high.cwiseMax(body.com) - low.cwiseMin(body.com)).norm();
 }
 
-/// Moments above the moment of the whole mass at twice the body's extent from its centre.
+/// Moments of inertia above that of the whole mass at twice the body's extent from its centre.
 std::vector<Impossible> impossible_moments(const Scenario& s) {
   constexpr double kAway = 2;
   std::vector<Impossible> found;
@@ -291,7 +292,8 @@ std::vector<Impossible> impossible_moments(const Scenario& s) {
   return found;
 }
 
-/// True if the shapes are all of a body: its contact elements, faces, hinges and centre of mass are within the box about them.
+/// True if the shapes represent the whole body: its contact elements, faces, hinges and centre of mass are within the box about
+/// the shapes.
 bool shapes_are_all(const ModuleType& type, std::size_t b) {
   const BodyType& body = type.bodies[b];
   if (body.shapes.empty() || body.shapes.size() > kMostShapes) return false;
@@ -303,14 +305,14 @@ bool shapes_are_all(const ModuleType& type, std::size_t b) {
   return (low - least).minCoeff() >= -room && (most - high).minCoeff() >= -room;
 }
 
-/// Densities above any metal's.
+/// Densities that no metal has.
 std::vector<Impossible> impossible_densities(const Scenario& s) {
   constexpr double kMost = 23000;  // kg/m^3; osmium: 22590
   std::vector<Impossible> found;
   each_heavy_body(s, [&](const ModuleType& type, std::size_t b) {
     const BodyType& body = type.bodies[b];
     if (!shapes_are_all(type, b)) return;
-    double least = body.volume;  // of the union, which takes time
+    double least = body.volume;  // lower bound for the volume of the union, which takes time to compute
     for (const Shape& shape : body.shapes) least = std::max(least, solid(shape).volume);
     if (!(body.mass > kMost * least)) return;
     const double volume = body.volume > 0 ? body.volume : united(body.shapes).volume;

@@ -36,7 +36,7 @@ SourceLocation connector_place(const Scenario& s, std::size_t type, const std::s
   return place;
 }
 
-/// `own`, and the bodies of all module types, whose masses make the weight.
+/// `own` and the bodies of all module types, because their masses make up the weight.
 std::vector<std::string> with_bodies(const Scenario& s, const std::string& own) {
   std::vector<std::string> parts{own};
   for (const ModuleType& type : s.robot->types) {

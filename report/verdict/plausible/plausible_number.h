@@ -1,5 +1,5 @@
-// Plausible numbers: what is measured of a scenario and its module types, in which range it usually lies, and the units in
-// which a number outside may have been given.
+// Plausible numbers of a scenario and its module types: their measurement, their usual range, and the units in which a number
+// outside the range may have been given.
 #pragma once
 #include <functional>
 #include <initializer_list>
@@ -17,8 +17,8 @@
 
 namespace gaitlab::report {
 
-/// Largest Kt / Ks or Ks / Kt without a warning. The two are one constant in SI units, and measured ones of one motor agree to
-/// 10 %.
+/// Largest Kt / Ks or Ks / Kt without a warning. The two are one constant in SI units, and values measured on one motor agree
+/// within 10 %.
 inline constexpr double kConstantsApart = 1.3;
 
 struct Warning {
@@ -28,19 +28,19 @@ struct Warning {
   bool of_gait = false;  ///< the warning is on the scenario's own gait, which a study varies
 };
 
-/// A scenario, with what several rows need and takes time.
+/// A scenario, with results that several rows need and that take time to compute.
 struct Subject {
   explicit Subject(const Scenario& s);
   const Scenario& scenario;
   /// Size of a body, by which its numbers are judged.
   struct Size {
-    std::vector<Shape> shapes;  ///< of the body, or a box about its points; empty if it has neither
+    std::vector<Shape> shapes;  ///< shapes of the body, or a box about its points; empty if it has neither
     bool of_points = false;     ///< true for a box about contact elements, faces and hinges
     Solid solid = {};           ///< union of the shapes; volume 0 for a body without mass, or with too many shapes, and no
                                 ///< moments if the body's inertia is that of its shapes
     [[nodiscard]] double largest_edge() const;
   };
-  std::vector<std::vector<Size>> sizes;  ///< by type and body
+  std::vector<std::vector<Size>> sizes;  ///< sizes by type and body
   /// Set points of the CPG alone, computed at the first call.
   [[nodiscard]] const std::vector<SetPointRange>& set_points() const;
 
@@ -63,54 +63,54 @@ struct GivenNumber {
 
 /// One measured number.
 struct Finding {
-  SourceLocation place;  ///< of the value that is likely wrong
+  SourceLocation place;  ///< place of the value that is likely wrong
   /// Body `emerge/head`, joint `m0/hinge` or section `cpg` with the number, for PlausibleNumber::unless.
   std::vector<std::string> parts;
   std::string text;  ///< what was found, with the number
   double value = 0;  ///< the number that is compared with the range
-  /// The measured number without a mistake. Empty if `corrected` applies to the number itself.
+  /// Measures the number again without a mistake. Empty if `corrected` applies to the number itself.
   std::function<double(const Slip&)> again = {};
-  /// False for a mistake whose correction would make no sense otherwise, such as a length far below all others.
+  /// False for a mistake whose correction gives another implausible number, such as a length far below all others.
   std::function<bool(const Slip&)> sensible = {};
   std::vector<GivenNumber> inputs = {};
-  std::string remedy = {};  ///< text in the place of the questions
+  std::string remedy = {};  ///< text that replaces the questions
 };
 
 /// A number that no robot can have.
 struct Impossible {
   double times;      ///< the number over the largest possible one, above 1
-  std::string text;  ///< `body 'a' of link has 1 kg m^2 and 0.1 kg: that of a ring of radius 3.16 m`
+  std::string text;  ///< the number, its part, and the reason why it is impossible
 };
 
 /// A row of the list of plausible numbers.
 struct PlausibleNumber {
-  const char* name;      ///< for `unless`
+  const char* name;      ///< name of the row, for `unless`
   double least, most;    ///< the usual range
   const char* expected;  ///< the range and its reason in words
   std::vector<Slip> slips;
-  /// Names of rows above, or their questions. A part for which one of them was reported or asked is not judged.
+  /// Names or questions of rows above. A part is not judged if such a row was reported, or such a question printed, for it.
   std::vector<std::string_view> unless;
   std::vector<Finding> (*measure)(const Subject&);
   bool of_gait = false;  ///< a number of the scenario's own gait, which a study varies
   double likely = 0;     ///< least number that a correction may give: a number below is as odd as the given one
-  /// Numbers beyond the second, wider range; a verdict waits until they are corrected or accepted (kAcceptable). Null for a row
-  /// with one range.
+  /// Numbers beyond a second, wider range, which prevent a verdict until they are corrected or accepted (kAcceptable). Null for
+  /// a row with only one range.
   std::vector<Impossible> (*impossible)(const Scenario&) = nullptr;
 };
 
-/// Numbers that were given in thousandths, hundredths, with the other sign, and so on.
+/// Corrections of numbers that were given in thousandths, in hundredths, with the opposite sign, and so on.
 inline double of_milli(double value) { return value * 1e-3; }
 inline double of_centi(double value) { return value * 1e-2; }
 inline double turned_round(double value) { return -value; }
-inline double of_square_cm(double value) { return value * 1e-4; }       ///< of kg cm^2
-inline double of_gram_square_cm(double value) { return value * 1e-7; }  ///< of g cm^2
+inline double of_square_cm(double value) { return value * 1e-4; }       ///< for numbers in kg cm^2
+inline double of_gram_square_cm(double value) { return value * 1e-7; }  ///< for numbers in g cm^2
 inline double of_degrees(double value) { return value * std::numbers::pi / 180; }
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-inline constexpr double kGravity = 9.81;  ///< m/s^2, of ratios to a weight, for any physics.gravity
+inline constexpr double kGravity = 9.81;  ///< m/s^2, for ratios to a weight, regardless of physics.gravity
 
-/// Least length of a correction, relative to a body's largest edge: shorter ones are as odd as the given one.
+/// Least length that a correction may give, relative to a body's largest edge. A shorter length is as odd as the given one.
 inline constexpr double kLeastShare = 0.02;
 
 /// Least and largest coordinates of the contact elements, faces and hinges of a body, body frame, m. Least above largest if it

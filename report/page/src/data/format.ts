@@ -155,7 +155,7 @@ export interface Verdict {
 export interface Remedy {
   verdict: Verdict["verdict"];
   text: string[]; // lines as on the terminal
-  tones: ("good" | "plain" | "doubtful" | "bad")[]; // of the lines
+  tones: ("good" | "plain" | "doubtful" | "bad")[]; // tones of the lines
   runs: number;
   map?: RemedyMap;
 }

@@ -48,7 +48,7 @@ interface Ticks {
   text: (v: number) => string;
 }
 
-/** Ticks 1, 2 or 5 apart times a power of ten, about `count` of them. */
+/** About `count` ticks at a distance of 1, 2 or 5 times a power of ten. */
 export function ticks(lo: number, hi: number, count: number): Ticks {
   const raw = Math.max(hi - lo, 1e-12) / Math.max(count, 1);
   const power = 10 ** Math.floor(Math.log10(raw));

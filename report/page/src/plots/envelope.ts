@@ -64,7 +64,7 @@ export class Envelope implements Panel {
     this.dot.style.transform = `translate(${this.scale.X(now("speed"))}px,${this.scale.Y(now("torque"))}px)`;
   }
 
-  // Signals of the joint in the second run that has the name of the chosen joint; null if there is none.
+  // Signals of the joint of the same name in the second run; null if there is none.
   private second(): Second | null {
     const { ghost, state } = this.desk;
     const j = ghost?.number("joint", state.joint) ?? -1;

@@ -1,4 +1,4 @@
-// Plot of the footfalls: load of each foot over time, and the duty factor in the judged window. A darker colour is a
+// Plot of the footfalls: load of each foot over time, and the duty factor in the judged window. A darker colour means a
 // larger load.
 import { Board, fitted, font, type Pen } from "./board";
 import type { Values } from "../data/channels";

@@ -1,5 +1,5 @@
-// Heat map of the load of every joint over time. A darker colour is a larger load. A pixel shows the largest value of
-// the rows that it covers, so that no peak is lost.
+// Heat map of the load of every joint over time. A darker colour means a larger load. A pixel shows the largest value
+// of the rows that it covers, so that no peak is lost.
 import { Board, fitted, font, type Pen } from "./board";
 import type { Values } from "../data/channels";
 import { difference, differenceGradient, gradient, load } from "../colour";

@@ -7,10 +7,10 @@ import type { Desk, Panel } from "../panel";
 const low = -Math.PI / 2 - 0.25; // lower end of the axis of the lag, rad; the frequent lag pi is far from the ends
 const wrap = (a: number): number => a - 2 * Math.PI * Math.floor((a - low) / (2 * Math.PI));
 
-/** A lag moved by whole turns to the side of another, so that two that differ little never lie at opposite borders. */
+/** A lag shifted by whole turns next to another, so that similar lags are never at opposite ends of the axis. */
 const beside = (lag: number, other: number): number => lag - 2 * Math.PI * Math.round((lag - other) / (2 * Math.PI));
 
-/** Lags of set point and angle beside each other, with the middle of both within the axis. */
+/** Lags of set point and angle, shifted next to each other, with their mean within the axis. */
 function pair(setpoint: number, angle: number): [number, number] {
   const middle = (setpoint + beside(angle, setpoint)) / 2;
   return [beside(setpoint, wrap(middle)), beside(angle, wrap(middle))];

@@ -30,8 +30,8 @@ export class Forces {
   /** Length of an arrow per force, m/N. */
   readonly scale: number;
   private readonly arrows: Arrow[];
-  // Arrows are lighter behind bodies. Dots are visible through all bodies, because a foot covers its contact. Two sides
-  // of opaque faces need no shader that the shadows do not need.
+  // Arrows are lighter behind bodies. Dots are visible through all bodies, because a foot covers its contact. Opaque
+  // two-sided faces use the shader of the shadows, so that no further shader is compiled.
   private readonly materials = [
     new MeshBasicMaterial({ side: DoubleSide, depthFunc: GreaterDepth, depthWrite: false }),
     new MeshBasicMaterial({ side: DoubleSide }),
@@ -40,7 +40,7 @@ export class Forces {
   private readonly shafts: InstancedMesh[];
   private readonly tips: InstancedMesh[];
   private readonly dots: InstancedMesh[];
-  private readonly ends: (Vector3 | null)[] = []; // of the arrows at the present time; null without an arrow
+  private readonly ends: (Vector3 | null)[] = []; // tips of the arrows at the present time; null without an arrow
 
   constructor(
     private readonly recording: Recording,

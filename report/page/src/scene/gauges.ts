@@ -17,7 +17,7 @@ import { bodyColours, rim, ringLoad, type Theme } from "../colour";
 import type { Kinematics } from "../data/kinematics";
 import { coloured } from "./shapes";
 
-const radius = 0.2; // of a ring, in sizes of a body
+const radius = 0.2; // radius of a ring, in sizes of a body
 const least = 4.5; // smallest radius of a ring, in a picture of the whole of a long robot, px
 const most = 17; // largest radius of a ring, px
 const depth = 0.85; // distance by which a ring is in front of its pivot, in sizes of a body

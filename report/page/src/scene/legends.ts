@@ -10,7 +10,7 @@ import type { View } from "./view";
 const longest = 92; // px, of the bar that shows a force
 
 export class Legends {
-  private width = ""; // of the bar that shows a force
+  private width = ""; // width of the bar that shows a force
   constructor(
     private readonly desk: Desk,
     private readonly view: View,
@@ -29,7 +29,7 @@ export class Legends {
     this.set();
   }
 
-  /** Shows the legends of what is switched on. */
+  /** Shows the legends of the parts that are switched on. */
   set(): void {
     const { view, desk } = this;
     const { recording, loads } = desk;

@@ -1,5 +1,5 @@
 // Shapes that the parts of the 3D picture share: points, lines, and copies of one geometry. None is culled, because
-// three does not know where shapes are that change.
+// three does not compute the extent of shapes that change.
 import {
   BufferAttribute,
   BufferGeometry,
@@ -52,7 +52,7 @@ export function copies(
   return made;
 }
 
-/** Sets a colour to bytes. In an empty colour space, they reach the screen of an unlit material as they are. */
+/** Sets a colour from bytes. In an empty colour space, an unlit material shows these bytes unchanged. */
 export const coloured = ([r, g, b]: Rgb, colour = new Color(), space: string = SRGBColorSpace): Color =>
   colour.setRGB(r / 255, g / 255, b / 255, space);
 

@@ -18,7 +18,7 @@ import { room } from "./shapes";
 
 type Corner = [x: number, y: number, z: number];
 
-const share = 0.005; // of the weight, which a foot of the polygon carries at least (column `stability` of the trace)
+const share = 0.005; // least load of a foot of the polygon, as a share of the weight (column `stability` of the trace)
 const touch = 1e-4; // m, above the ground: a contact element that is lower touches it; the page rounds positions
 const most = 64; // largest number of corners that are drawn
 
@@ -100,7 +100,7 @@ export class Support {
       if (!load || this.recording.at(load, t) <= share * meta.weight) return [];
       const placed = elements.map(([x, y, z]) => new Vector3(x, y, z).applyMatrix4(this.pose(body)));
       const low = placed.map((p, k) => p.z - elements[k][3]);
-      // A foot with load touches at least with its lowest element.
+      // The lowest element of a loaded foot always counts as touching.
       const limit = Math.max(this.height + touch, Math.min(...low));
       return placed.filter((_, k) => low[k] <= limit).map((p): Point => [p.x, p.y]);
     });

@@ -63,7 +63,7 @@ export class View {
   private readonly sun = new DirectionalLight(0xffffff, 1.75);
   private readonly gauges: Gauges;
   private readonly size: number;
-  private height = 1; // of the picture, CSS px
+  private height = 1; // height of the picture, CSS px
   private readonly recording: Recording;
   /** Translucent robot of the second run. */
   readonly second: { ghost: Ghost; kinematics: Kinematics; robot: Robot } | null = null;
@@ -127,7 +127,7 @@ export class View {
     const at = spot({ meta: this.recording.meta, kinematics, rings }, part, name);
     const r = 2.6 * this.robot.unit;
     if (!at || this.size < 3 * r) return false;
-    // The camera comes from the first of four sides from which no other body hides the part.
+    // The camera is on the first of four sides from which no other body hides the part.
     const { x, y, z } = directions.iso;
     const sides = [
       [x, y],

@@ -179,7 +179,7 @@ function explanation(desk: Desk, row: Row): Node[] {
 
 /**
  * Sentences under a check. `tried` contains the advice of earlier rows, which is not repeated. A check of an unstable
- * run has no advice, because it fails by the controller.
+ * run has no advice, because the controller is the cause of its failure.
  */
 function findings(c: Check, { unstable }: Verdict, label: string, tried: Set<string>): HTMLElement[] {
   const found: HTMLElement[] = [];

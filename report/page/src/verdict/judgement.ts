@@ -144,7 +144,7 @@ export function aside(meta: Meta, own = true): (string | Node)[] {
     meta.verdict.checks.filter((c) => status.includes(c.status) && (c.group === "trust") === trust);
   const warned = of(false, "warn");
   const doubtful = of(true, "warn");
-  const open = meta.verdict.checks.filter((c) => c.status === "not judged"); // as many as the list folds
+  const open = meta.verdict.checks.filter((c) => c.status === "not judged"); // the checks that the list folds
   const gait = of(false, "fail");
   const limited = gait.some((c) => c.id === "voltage" || c.id === "current");
   return [

@@ -1,11 +1,11 @@
-// Settings that would make the gait feasible, or the reserves of a feasible gait; with a map of its verdicts.
+// Settings that would make the gait feasible, or the reserves of a feasible gait, and a map of the verdicts.
 import { element, make, svg } from "../dom";
 import type { Remedy, RemedyMap } from "../data/format";
 import { capital, number, percent } from "../data/numbers";
 
 type Setting = RemedyMap["frequency"];
 
-const pitch = 20; // of the cells, px
+const pitch = 20; // distance of the cells, px
 const left = 46;
 const top = 4;
 const bottom = 34;
