@@ -41,9 +41,9 @@ struct StoredRun {
 /// recording does not fit the scenario.
 StoredRun read_run(const std::string& run, Catalog& catalog);
 
-/// The scenario as readers of every `stride`-th row need it: its trace period is `stride` times as long.
+/// The scenario for readers of every `stride`-th row, with a trace period that is `stride` times as long.
 Scenario with_row_stride(const Scenario& scenario, std::size_t stride);
-/// Prints the note on that, if `stride` is above 1.
+/// Prints a note that only every `stride`-th row is used, if `stride` is above 1.
 void note_row_stride(const Scenario& seen, std::size_t stride);
 
 }  // namespace gaitlab::kit

@@ -6,7 +6,7 @@
 
 namespace gaitlab::articulated {
 
-/// Motors and works at one time within a step, with the weights of this time.
+/// Motors and works at one time within a step, with their weights in sums over the step.
 template <class T>
 struct Part : StepResult<T> {
   using StepResult<T>::StepResult;
@@ -43,8 +43,8 @@ struct Limits {
   math::Mask<T> slide;
 };
 
-/// Steps tried at one level: one, two and four that together have the length of the level. The first half, the first quarter
-/// and the first two quarters are the first trials of the next level.
+/// Steps tried at one level: one whole step, two halves and four quarters of it. The first half, the first quarter and the
+/// first two quarters are also the first trials of the next level.
 template <class T>
 struct Level {
   std::vector<T> start;

@@ -211,8 +211,8 @@ class BulletPlant final : public Plant, private InverseMass {
   RateMonitor monitor_;
 };
 
-/// Throws TooManyJoints. Bullet allocates a number for every pair of joints (btMultiBody::finalizeMultiDof), whose count is an
-/// int. Rotors need three more matrices, and a Cholesky factor at every step.
+/// Throws TooManyJoints. Bullet allocates a number for every pair of joints (btMultiBody::finalizeMultiDof) and counts the
+/// pairs in an int. Rotors need three more matrices, and a Cholesky factor at every step.
 void check_joints(const PlantSettings& s) {
   constexpr std::size_t kMost = 10000;           // needs 0.8 GB
   constexpr std::size_t kMostWithRotors = 2000;  // needs a second per step, and more with the third power

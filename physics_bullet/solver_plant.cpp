@@ -125,8 +125,8 @@ class SolverPlant final : public Plant {
     }
   }
 
-  /// Sets the row of the missing motor to the torque of a passive hinge at the end of the step, linearised at the speed at the
-  /// start.
+  /// Uses the row of the missing motor for the torque of a passive hinge at the end of the step. The torque is linearised at
+  /// the initial speed.
   void hang(std::size_t j, double h) {
     const PassiveHinge hinge = law(*robot_.joints[j].passive);
     const double qd = state_.qd[j];
