@@ -21,7 +21,7 @@ namespace {
 // a twentieth of the inertia there, and MuJoCo's solver converges within its tolerance.
 constexpr double kLeastImpedance = 0.05;
 constexpr double kMostImpratio = 100;
-constexpr double kUsualGravity = 9.81;  // m/s^2, for the standing depth where gravity does not press the robot on the ground
+constexpr double kUsualGravity = 9.81;  // m/s^2, for the standing depth if gravity does not press the robot on the ground
 constexpr int kHalvings = 60;           // from the first bracket to the rounding of a double
 
 /// Total force of the springs of the contact elements if the robot sinks by `sunk` from its start on the ground; and the mean

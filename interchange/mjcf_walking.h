@@ -19,7 +19,7 @@ class MjcfWalking {
   void write_motors(Xml& root) const;
   /// Adds the controls that hold the pose at the start.
   void write_controls(Xml& key) const;
-  /// Sentences on what the file has and lacks.
+  /// Sentences on the parts that the file contains and lacks.
   [[nodiscard]] std::string comment() const;
 
  private:

@@ -1,4 +1,4 @@
-// Bodies and hinges of a robot in URDF: the links, of which those that fixed joints connect are one body.
+// Bodies and hinges of a robot in URDF. Links that fixed joints connect form one body.
 #pragma once
 #include <string>
 #include <vector>

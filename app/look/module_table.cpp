@@ -96,7 +96,7 @@ std::string hinges(const Robot& robot, const Motors& known) {
   return rows.size() > 1 ? aligned(rows) : "  no hinges\n";
 }
 
-/// Centre of mass, m, with 0 for coordinates that only rounding made.
+/// Centre of mass, m, with 0 in place of coordinates that are only rounding errors.
 Vec3 clean_com(const BodyType& body) {
   constexpr double kNoise = 1e-9;  // of the body's largest edge
   Vec3 com = body.com;

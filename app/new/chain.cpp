@@ -10,7 +10,7 @@ namespace gaitlab::app {
 
 namespace {
 
-/// Smallest number of quarter turns that both faces allow, if they dock.
+/// Smallest number of quarter turns that both faces allow; nothing if they cannot dock.
 std::optional<int> orientation(const FaceType& child, const FaceType& parent) {
   const bool alike = child.gender == parent.gender;
   const bool none = child.gender == Gender::none || parent.gender == Gender::none;
@@ -35,7 +35,7 @@ PlacedFace placed(const FaceType& face, const Robot& robot, const Kinematics& ze
 
 std::vector<Dock> chain(const Scenario& one, int count) {
   constexpr double kStraight = 0.99;  // cosine of the largest bend at a module of a straight row, 8 degrees
-  constexpr double kBetter = 1e-9;    // of cosines, and m: above the rounding of equal pairs
+  constexpr double kBetter = 1e-9;    // for cosines and for m; above the rounding errors of equal pairs
   const Robot& robot = *one.robot;
   const Kinematics zero = at_zero(robot);
   const std::vector<FaceType>& faces = robot.types[0].faces;

@@ -95,7 +95,8 @@ fs::path folder_of(const NewFileArguments& arguments) {
   return folder.empty() ? fs::path(".") : folder;
 }
 
-/// The module type by the order of every name: a file of that name, one that the scenario would find, the shipped one.
+/// The module type, sought in the order that applies to every name: a file of that name, one that the scenario would find, the
+/// shipped one.
 NamedModule named_module(const NewFileArguments& arguments) {
   const std::string& name = arguments.module;
   const std::map<std::string, std::string> shipped = shipped_files("module");
@@ -198,7 +199,7 @@ std::string scenario_text(const NewFileArguments& arguments, const NewRobot& rob
   return text;
 }
 
-/// The reason why the scenario in the file is not feasible; empty if it is, or if a run would take long.
+/// The reason why the scenario in the file is not feasible; empty if it is feasible, or if a run would take long.
 std::string shortfall(const std::string& file, Catalog& catalog) try {
   constexpr double kLong = 3;  // s, of one of three runs
   const Scenario s = read_scenario(file, {}, catalog);
@@ -213,8 +214,8 @@ std::string shortfall(const std::string& file, Catalog& catalog) try {
   return error.problems().front().text;
 }
 
-/// Writes the scenario with the largest of some amplitudes that is feasible. If none is, the first remains, and the file states
-/// the reason.
+/// Writes the scenario with the largest feasible one of some amplitudes. If none is feasible, the first remains, and the file
+/// states the reason.
 std::string write_scenario(const NewFileArguments& arguments, const NewRobot& robot, Catalog& catalog) {
   constexpr double kAmplitudes[] = {0.4, 0.2, 0.1};  // rad
   const auto text = [&](double amplitude) {

@@ -33,7 +33,8 @@ void add_command(Commands& commands, const char* name, const char* about, int (*
 
 /// Values of an option or argument. Its help names the kinds, and the completion of a shell offers their items.
 struct Offered {
-  std::vector<std::string> kinds = {};  ///< of `gaitlab list`; "": the kinds, or the names of the kind that was typed before
+  std::vector<std::string> kinds = {};  ///< kinds of `gaitlab list`; "": the kinds, or the names of the kind that was typed
+                                        ///< before
   bool settings = false;                ///< settings of a scenario; then nothing else
   bool files = true;                    ///< false if it accepts no file
   bool several = false;                 ///< names, separated by commas

@@ -1,5 +1,5 @@
-// `gaitlab optimize`, which searches the best point of a study and verifies it with half the step, in another engine, and in
-// worlds.
+// `gaitlab optimize`, which searches for the best point of a study and verifies it with half the step, in another engine, and
+// in worlds.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -125,7 +125,7 @@ SearchEnd run_study(Plan& plan, Journal& journal, const studies::Executor& execu
   return true;
 }
 
-/// Runs points again, and those that stand also in worlds. Nothing if interrupted.
+/// Runs points again, then those that stand also in worlds. Returns nothing if interrupted.
 std::optional<std::vector<studies::Verification>> verify_points(const Plan& plan, Journal& journal,
                                                                 const studies::Results& results,
                                                                 const std::vector<std::size_t>& points, const std::string& what,

@@ -28,8 +28,8 @@ void add_study_sets(CLI::App& command, std::vector<std::string>& sets);
 void add_sets(studies::Study& study, const std::vector<std::string>& sets);
 /// The options --set of a command line, with a space before each.
 std::string set_words(const std::vector<std::string>& sets);
-/// A path in a command line that a journal keeps, which tells no folder of this machine: the name of a shipped file, or the
-/// path relative to the current folder.
+/// A path for a command line that a journal keeps. It contains no folder of this machine: it is the name of a shipped file, or
+/// relative to the current folder.
 std::string told_path(const std::string& path);
 
 /// Function that returns an executor for a team of processes.

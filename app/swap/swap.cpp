@@ -1,4 +1,4 @@
-// `gaitlab swap`, which runs scenarios under several CPGs: a table, a figure for each scenario, and the numbers as CSV and
+// `gaitlab swap`, which compares CPGs in the same scenarios: by a table, a figure for each scenario, and numbers as CSV and
 // JSON.
 #include <fmt/format.h>
 
