@@ -44,8 +44,8 @@ inline constexpr double kWidestColumn = 0.002;
 /// Range below which a column is constant, and least band of a constant column, as shares of its natural scale. The band is
 /// above the effect of rounding on a robot at rest, and a torque of 1e-5 of the motor's is negligible.
 inline constexpr double kConstantRange = 1e-6, kConstantBand = 1e-5;
-/// Share of the natural scale below which a band is narrow enough for any range: a robot that stands on several faces bears its
-/// weight with small torques, which a start that differs by rounding changes by 6e-6 of those of its motors, for good.
+/// Share of the natural scale below which a band is narrow enough for any range. A robot that stands on several faces bears its
+/// weight with small torques. A start that differs by rounding changes them permanently, by 6e-6 of the motors' torques.
 inline constexpr double kNarrowBand = 1e-4;
 /// Band of a mean over starts, in standard errors of the difference of two such means. Student's t with 15 degrees of freedom
 /// exceeds 6 once in 40 000 numbers.

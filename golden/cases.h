@@ -51,8 +51,8 @@ struct GoldenCase {
 /// share it.
 std::filesystem::path own_golden(const std::filesystem::path& scenario);
 
-/// Throws InputError if `golden` belongs to another scenario, which has another name and whose run is outside the bands. A
-/// scenario that was only renamed keeps its golden.
+/// Throws InputError if `golden` belongs to another scenario: it has another name, and the run is outside the bands. A scenario
+/// that was only renamed keeps its golden.
 void check_own(const Golden& golden, const std::filesystem::path& folder, const Scenario& scenario,
                const GoldenDifference& difference);
 

@@ -73,8 +73,8 @@ Works& works() {
   return *made;
 }
 
-/// A work under way. Beyond the end of the interpreter its thread waits for the end of the process. Without the interpreter's
-/// lock.
+/// A work under way, without the interpreter's lock. After the end of the interpreter, its thread waits for the end of the
+/// process.
 class UnderWay {
  public:
   explicit UnderWay(std::atomic<bool>& stop) : stop_(&stop) {

@@ -40,7 +40,7 @@ void add_spread(PyRun& run, std::atomic<bool>& stop) try {
 }
 
 void judge_run(PyRun& run, double wall, std::atomic<bool>& stop) {
-  const report::StopsCpgAlone stops(stop);  // a run that was stopped is not given
+  const report::StopsCpgAlone stops(stop);  // a stopped run is not returned
   try {
     run.all = thin_rows(run.recording);
   } catch (const std::bad_alloc&) {  // NOLINT(bugprone-empty-catch): the rows stay as they are

@@ -38,13 +38,13 @@ struct ReadFile {
 };
 
 struct PyScenario {
-  std::shared_ptr<ReadFile> file;  ///< ends after the scenario, whose plugins are entries of its catalog
+  std::shared_ptr<ReadFile> file;  ///< destroyed after the scenario, whose plugins are entries of this catalog
   Texts own;                       ///< settings beyond those of the file
   Scenario scenario;
 };
 
-/// The trust of a catalog. `call` is the function of Python whose argument `plugins` a refusal names. Throws InputError if a
-/// file does not exist.
+/// The trust of a catalog. A message of refusal names the argument `plugins` of the Python function `call`. Throws InputError
+/// if a file does not exist.
 PluginTrust trust_of(const Trusted& trusted, const std::string& call);
 
 std::shared_ptr<PyScenario> read_python(const std::string& file, const Texts& sets, const Trusted& trusted);

@@ -1,4 +1,4 @@
-"""The module as a part of a process that belongs to others: signals, locks, locale, floating-point modes, forks, libraries."""
+"""The module in a process of other software: signals, locks, locale, floating-point modes, forks, libraries."""
 import ctypes
 import glob
 import locale
