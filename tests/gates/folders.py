@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Files that are passed on tell no folder of their author: each command writes into a folder with a name of its own, and no file contains
-that name, nor any part of a file that is compressed (gzip, zlib, also in base64) or a row of a database. Then the folder is gone, and what
-it wrote is still read: reports, reruns, exports, runs of a study.
+"""Files that are passed on do not reveal their author's folder. Each command writes into a folder with a unique name, which
+must be in no file, in no compressed part of one (gzip, zlib, also in base64) and in no row of a database. Then the folder is
+gone, and its files are still read: reports, reruns, exports, runs of a study.
 usage: folders.py PROGRAM BUILD_FOLDER (the plugins of the tests)"""
 import array
 import base64

@@ -52,7 +52,8 @@ check_installation() {
   # The gate checks the folder, because the program would otherwise use the scenarios next to the sources.
   [[ -d $prefix/share/gaitlab/scenarios/modules ]] || fail "the shipped scenarios are not installed"
   expect 0 "$program" check "$prefix/share/gaitlab/scenarios/caterpillar.yaml"
-  # Neither a path of the build machine nor the source tree: module types and robots come from beside the program, also by a link.
+  # The program uses no path of the build machine and no source tree: it finds module types and robots beside itself, also
+  # through a link.
   ! grep -qaF -- "$root" "$program" || fail "the program contains the path of the source tree"
   ln -s -- "$program" "$work/linked"
   expect 0 "$work/linked" check "$prefix/share/gaitlab/scenarios/library/dtto-caterpillar.yaml"

@@ -11,7 +11,7 @@ RANDOM=${KILL_SEED:-1}
 # The reader of each file must accept every file under a final name.
 read_it() {
   case $1 in
-    */recording.h5) true ;; # `whole` compares it; it is not a trace
+    */recording.h5) true ;; # no trace; compared by `whole`
     *.h5 | *.csv) "$program" compare "$1" "$1" ;;
     *.json) python3 -m json.tool "$1" ;;
     *.yaml) "$program" check "$1" ;;

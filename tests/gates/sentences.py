@@ -6,7 +6,7 @@ usage: sentences.py PROGRAM SCENARIOS_FOLDER [--keep FOLDER] [--seed N] [NAME...
 For each run: the part, the time and the number of each sentence, the limit, the margin, the status and the word, by code in told/
 that shares nothing with the program and is written from docs/reference/verdict.md and docs/numbers.md. A sentence that no
 expression of told/sentences.py reads fails. What must have occurred (checks that fail, warn, are kept, are too close) is counted.
-KNOWN lists what the program says wrongly today; an entry that no run shows any more fails, too."""
+KNOWN lists sentences that are wrong at present; an entry that no run shows any more fails, too."""
 import argparse
 import collections
 import csv

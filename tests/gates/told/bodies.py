@@ -81,7 +81,7 @@ def standing(record):
 
 def stance(record):
     """Heights of the centre of mass above the lowest point of the contact elements, in the poses of the set points (within the ranges of
-    the hinges), with the mean orientation of all bodies, by mass, of the start. NaN without contact elements."""
+    the hinges), with the initial mean orientation of all bodies, weighted by mass. NaN without contact elements."""
     rows, count, robot = len(record.poses), record.count, record.robot
     found = elements(record)
     if not found:
