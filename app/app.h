@@ -18,7 +18,7 @@
 
 namespace gaitlab::app {
 
-using namespace kit;  // what the Python module needs, too
+using namespace kit;  // these functions are also needed by the Python module
 
 /// Plugins that the command line allows a scenario or a recorded run to load. Used by commands that may read files from unknown
 /// sources.

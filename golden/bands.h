@@ -56,9 +56,9 @@ struct Bands {
 };
 
 /// Bands of the run `base`. For a column the band is the maximum of kEnsembleFactor x the largest RMS difference of a run of
-/// the ensemble, kHalvingFactor x the RMS difference of the run with half the step, and 1e-6 of the range. For a number the
-/// band follows likewise from its differences; if `base` has means over starts, the ensemble is not needed, and that part of
-/// the band is kStandardErrors of the difference of two means. A band may be narrower than the precision of the stored golden,
+/// the ensemble, kHalvingFactor x the RMS difference of the run with half the step, and 1e-6 of the range. The band of a number
+/// follows from its differences in the same way. If `base` has means over starts, the ensemble is not needed: its part of the
+/// band is kStandardErrors of the difference of two means. A band may be narrower than the precision of the stored golden,
 /// because its rounding error is known exactly (Golden::rounding) and is subtracted. A column is constant if its range is below
 /// kConstantRange of its natural scale, or if its band is wider than kWidestColumn of its range, but at most kNarrowBand of
 /// that scale: its band is a share of the natural scale, at least kConstantBand. All runs must have at least the columns, rows

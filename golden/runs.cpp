@@ -139,7 +139,7 @@ std::vector<Attempt> attempts(const std::vector<Scenario>& scenarios, int jobs, 
   return outcomes;
 }
 
-/// Result of a scenario from those of its starts: the mean of the runs, or the first error.
+/// Result of a scenario from the results of its starts: the mean of the runs, or the first error.
 Attempt mean_of_attempts(std::span<const Attempt> attempts) {
   Attempt mean;
   std::vector<GoldenRun> runs;

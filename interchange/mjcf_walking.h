@@ -33,7 +33,7 @@ class MjcfWalking {
   const Scenario& s_;
   const std::vector<MotorLimits>& limits_;
   double step_;
-  std::vector<double> angles_;  ///< at the start, rad
+  std::vector<double> angles_;  ///< initial joint angles, rad
   Kinematics at_start_;
   InverseWeights weights_;
   ContactLine line_;

@@ -63,7 +63,7 @@ std::vector<std::string> allowed_names(const std::vector<std::string>& names) {
   std::set<std::string> seen;
   for (const std::string& name : names) seen.insert(name.substr(name.rfind('/') + 1));
   const bool unique = seen.size() == names.size();
-  seen = {"dock"};  // the name of docks, which no hinge may have
+  seen = {"dock"};  // name reserved for docks
   std::vector<std::string> allowed;
   for (const std::string& name : names) {
     std::string text = unique ? name.substr(name.rfind('/') + 1) : name;
@@ -94,7 +94,7 @@ class BodyWalk {
   }
 
  private:
-  /// A link, the body that contains it, and its pose in that body.
+  /// A link, its body, and its pose in that body.
   struct Placed {
     const urdf::Link* link;
     std::size_t body;

@@ -6,9 +6,9 @@
 namespace gaitlab::interchange {
 
 struct UrdfModule {
-  std::string text;                ///< of a module file
+  std::string text;                ///< content of the module file
   bool driven = false;             ///< true if a hinge has a motor
-  std::vector<std::string> notes;  ///< parts of the URDF that the module file lacks, and that the motion does not need
+  std::vector<std::string> notes;  ///< parts of the URDF that the module file lacks and that have no effect on the motion
 };
 
 /// Module file, named `name`, of the robot in the URDF file `file`, read by urdfdom. Revolute and continuous joints are its

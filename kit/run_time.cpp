@@ -36,7 +36,7 @@ constexpr std::array kStepCosts{
     StepCost{"articulated", "implicit", ContactLaw::penalty, 1.1, 0.4, 0.025, 0, 0, kAny, false},
     StepCost{"articulated", "extrapolated", ContactLaw::penalty, 2.8, 1, 0.06, 0, 0, kAny, false},
     StepCost{"articulated", "rk4", ContactLaw::penalty, 0, 1.3, 0.05, 0, 0, kAny, true},
-    StepCost{"articulated", "adaptive", ContactLaw::penalty, 1.1, 0.4, 0.025, 0, 0, kAny, false},  // of a solve, not of a step
+    StepCost{"articulated", "adaptive", ContactLaw::penalty, 1.1, 0.4, 0.025, 0, 0, kAny, false},  // cost of a solve
 };
 constexpr double kOnBoxes = 0.1;  // us per contact element and step, on ground with boxes
 constexpr double kUnknown = 1e3;  // us per step of an engine that the table lacks
@@ -106,14 +106,14 @@ double steps_with_twin(const StepCost& cost, const Scenario& s, double steps) {
 /// trials, because few robots walk through a heap.
 double heap_us(const Scenario& s) {
   constexpr double kSearch = 4;           // us per box of the heap and contact element
-  constexpr std::size_t kFewInPlace = 3;  // boxes whose searches take as long as those of one
+  constexpr std::size_t kFewInPlace = 3;  // up to this number of boxes, searches take as long as for one box
   const std::size_t boxes = most_in_one_place(s.ground.boxes());
   return boxes <= kFewInPlace ? 0 : kSearch * static_cast<double>(boxes) * contacts(s);
 }
 
 std::int64_t steps_in_trial(const Scenario& s) {
   constexpr double kPeriods = 100;
-  constexpr std::size_t kManyBoxes = 100;  // if they overlap, a step may take seconds, which the table of costs lacks
+  constexpr std::size_t kManyBoxes = 100;  // overlapping boxes may take seconds per step, unlike in the table of costs
   if (s.ground.boxes().size() > kManyBoxes) return 1;
   return std::max<std::int64_t>(2, std::llround(kPeriods * s.control_period / s.physics.step));
 }

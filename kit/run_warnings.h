@@ -8,7 +8,7 @@
 
 namespace gaitlab::kit {
 
-/// Warnings about a scenario before it runs: a robot that starts below the ground, and those of report::setup_warnings.
+/// Warnings about a scenario before it runs: a robot that starts below the ground, and the warnings of report::setup_warnings.
 std::vector<report::Warning> start_warnings(const Scenario& scenario);
 
 /// Warnings about a run. If Verdict::unstable is not empty, it is the only one. Otherwise they are the checks that do not pass

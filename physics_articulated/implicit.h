@@ -94,7 +94,7 @@ class Implicit {
     holds.change(hold, since, lanes);
   }
 
-  /// Takes the results of a step of the lane `l` alone; `which` contains this lane only.
+  /// Takes the results of a solo's step in the lane `l`; `which` contains only this lane.
   void take(const Solo& solo, std::size_t l, const math::Mask<T>& which) {
     for (std::size_t j = 0; j < joints_; ++j) {
       math::lane(done.torque[j], l) = math::lane(now_.torque[j], l) = solo.torque[j];

@@ -388,7 +388,7 @@ class Stepper {
   std::vector<double> of_solo_, command_of_solo_;
   Eighths<T> eighths_;
   math::Mask<T> apart_{};  ///< lanes whose last step was taken by a solo
-  math::Mask<T> slide_{};  ///< of these, lanes where most of the load slides
+  math::Mask<T> slide_{};  ///< lanes of these in which most of the load slides
   std::vector<std::vector<T>> halved_;
   std::vector<Part<T>> parts_;
   std::size_t used_ = 0;

@@ -203,7 +203,7 @@ class BulletPlant final : public Plant, private InverseMass {
   ExplicitIntegrator integrator_;
   Acceleration acceleration_;
   std::vector<double> torque_, slope_, applied_, at_rest_, start_speed_, start_angle_;
-  std::vector<double> since_, grip_;  ///< by joint: time that it has been stuck at the start of the step, s; grip in its middle
+  std::vector<double> since_, grip_;  ///< by joint: s, time stuck at the start of the step; grip in the middle of the step
   OnePart part_;
   std::array<double, 2> power_ = {};  ///< power given to the ground along its normal and along its surface, W
   std::array<double, 4> work_ = {};   ///< works of the last step, J: contact, friction, stops, hinges

@@ -26,8 +26,8 @@ namespace {
 
 std::string_view plugin_name(const PluginSelection& choice) { return choice.entry == nullptr ? "none" : choice.entry->name; }
 
-/// Makes the simulation, which checks the trace columns, the step and the memory. An error message about a long run also states
-/// its estimated duration.
+/// Makes the simulation, which checks the trace columns, the step and the memory. If the run would be long, an error message
+/// also states its estimated duration.
 std::unique_ptr<Simulation> made(const Scenario& s) try {
   return std::make_unique<Simulation>(std::span<const Scenario>(&s, 1));
 } catch (const TooManyRows& error) {

@@ -40,7 +40,7 @@ std::vector<Dock> chain(const Scenario& one, int count) {
   const Kinematics zero = at_zero(robot);
   const std::vector<FaceType>& faces = robot.types[0].faces;
   Dock best;
-  double straight = 0, longest = 0;  // of the best pair: cosine of its bend; distance of the two planes, m
+  double straight = 0, longest = 0;  // values of the best pair: cosine of the bend; distance of the two planes, m
   for (const FaceType& child : faces) {
     for (const FaceType& parent : faces) {
       const std::optional<int> turn = orientation(child, parent);

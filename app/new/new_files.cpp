@@ -166,7 +166,7 @@ struct NewRobot {
 };
 
 NewRobot new_robot(const NewFileArguments& arguments, Catalog& catalog) {
-  constexpr int kMost = 4;  // modules, if the user asks for no number
+  constexpr int kMost = 4;  // number of modules, if the user gives none
   NewRobot robot{named_module(arguments), {}, {}};
   robot.one = read_module(robot.module.file, catalog);
   check_driven(robot.type(), robot.module.file);

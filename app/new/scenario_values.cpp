@@ -52,7 +52,7 @@ std::optional<double> least_of_motors(const Scenario& one, std::optional<double>
 
 /// Rounds down to two digits.
 double two_digits_down(double value) {
-  constexpr double kRounding = 1e-9;  // so that 0.5 stays 0.5
+  constexpr double kRounding = 1e-9;  // keeps 0.5 at 0.5
   const double per_one = std::pow(10, 1 - std::floor(std::log10(value)));
   return std::floor(value * per_one + kRounding) / per_one;
 }

@@ -7,8 +7,8 @@
 namespace gaitlab::app {
 
 struct Candidates {
-  std::vector<std::string> words;  ///< in the place of the last word that was typed
-  bool files = false;              ///< a file or folder may follow, too
+  std::vector<std::string> words;  ///< words that may replace the last typed word
+  bool files = false;              ///< true: the last word may also be a file or folder
 };
 
 /// Words that may take the place of the last of `words`, which are those after the program's name. A `=` may be a word of its

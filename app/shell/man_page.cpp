@@ -29,7 +29,7 @@ std::string troff(const std::string& text) {
   return out.starts_with(".") || out.starts_with("'") ? "\\&" + out : out;
 }
 
-/// An entry of a list: its name in bold, and the text behind it.
+/// An entry of a list: its name in bold, then its text.
 std::string entry(const std::string& name, const std::string& text) {
   return fmt::format(".TP\n\\fB{}\\fR\n{}\n", troff(name), troff(text));
 }

@@ -193,7 +193,7 @@ int finish_search(const Plan& plan, Journal& journal, const studies::Results& re
   return 3;
 }
 
-/// Simulates the winner with each joint dead in turn if the study wants it. Returns false if interrupted.
+/// Simulates the winner with each joint dead in turn if the study requests it. Returns false if interrupted.
 bool add_faults(const Plan& plan, Journal& journal, const studies::Results& results,
                 const std::vector<studies::Verification>& tried, const studies::Executor& executor, bool quiet) {
   const std::vector<std::uint64_t> stood = studies::verified(tried);

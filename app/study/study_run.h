@@ -24,7 +24,7 @@ void add_study_run(CLI::App& command, StudyRunArguments& arguments, const char* 
 /// Adds the repeatable option --set of a command whose input is a study file.
 void add_study_sets(CLI::App& command, std::vector<std::string>& sets);
 /// Adds settings of the command line to those that a study applies to all runs. Throws InputError if one sets a parameter, or a
-/// key that is computed from a parameter, because the study sets it anew for every run.
+/// key that is computed from a parameter, because the study sets this key in every run.
 void add_sets(studies::Study& study, const std::vector<std::string>& sets);
 /// The options --set of a command line, with a space before each.
 std::string set_words(const std::vector<std::string>& sets);

@@ -59,8 +59,8 @@ class Worker {
   std::thread thread_;
 };
 
-/// Works under way, each by its flag, and the end of the interpreter. A thread that asks for the interpreter's lock after that
-/// end is unwound by Python, which C++ does not survive.
+/// Works under way, each with its flag, and the end of the interpreter. A thread that asks for the interpreter's lock after
+/// that end is unwound by Python, which C++ does not survive.
 struct Works {
   std::mutex mutex;
   std::condition_variable left;

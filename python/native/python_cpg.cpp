@@ -109,7 +109,7 @@ py::object attribute(const py::object& self, const char* name) {
 std::size_t states_of(const py::object& given) {
   if (given.is_none()) return 0;
   constexpr Py_ssize_t kMost = 1000000;
-  const Py_ssize_t states = PyNumber_AsSsize_t(given.ptr(), nullptr);  // -1 where the number is not whole
+  const Py_ssize_t states = PyNumber_AsSsize_t(given.ptr(), nullptr);  // -1 if the number is not whole
   if (PyErr_Occurred() != nullptr) PyErr_Clear();
   if (states < 0 || states > kMost)
     throw std::runtime_error("states is " + text_of(py::repr(given)) + "; expected a whole number from 0 to 1000000");

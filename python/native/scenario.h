@@ -30,7 +30,7 @@ struct ReadFile {
   std::size_t classes = 0;  ///< classes_added() when the catalog was made
   Catalog catalog;
   std::unique_ptr<ScenarioTemplate> common;
-  std::mutex one_at_a_time;  ///< of `common`
+  std::mutex one_at_a_time;  ///< guards `common`
   [[nodiscard]] Scenario with(const Texts& own) {
     const std::lock_guard lock(one_at_a_time);
     return common->with(own);
@@ -39,7 +39,7 @@ struct ReadFile {
 
 struct PyScenario {
   std::shared_ptr<ReadFile> file;  ///< destroyed after the scenario, whose plugins are entries of this catalog
-  Texts own;                       ///< settings beyond those of the file
+  Texts own;                       ///< settings in addition to those of `file`
   Scenario scenario;
 };
 

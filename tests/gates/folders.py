@@ -102,7 +102,7 @@ def search(folder):
 
 
 def write():
-    """Every command that writes files, called with whole paths."""
+    """Every command that writes files, called with absolute paths."""
     walk, study, golden = AUTHOR / "own/walk.yaml", AUTHOR / "own/study.yaml", AUTHOR / "own/walk.golden"
     out = AUTHOR / "passed-on"
     trust = "--plugin", AUTHOR / "lib/wave.so"
@@ -139,7 +139,7 @@ def read(moved):
     call("export", moved / "run", "--to", "gltf", here / "again.glb", *trust, folder=here)
     for name in "sweep", "optimize", "evaluate":
         call("study", "rerun", moved / name, "0", "--out", here / name, *trust, folder=here)
-    # Without --plugin: a library beside the file that names it, if one allows it.
+    # Without --plugin, a library in the folder of the file that names it is loaded if it is allowed.
     shutil.copy(here / "wave.so", moved / "run/wave.so")
     call("rerun", moved / "run", "--verify", "--plugins-from-scenario", folder=here)
 

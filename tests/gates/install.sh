@@ -28,7 +28,7 @@ project(my_gaits NONE)
 enable_testing()
 
 find_package(gaitlab 0.1 REQUIRED)
-enable_language(CXX) # for the plugin alone
+enable_language(CXX) # needed only for the plugin
 gaitlab_add_plugin(wave plugin/wave.cpp)
 add_test(NAME walk.runs COMMAND gaitlab::gaitlab run ${CMAKE_CURRENT_SOURCE_DIR}/scenarios/walk.yaml --quiet)
 gaitlab_add_golden_test(walk scenarios/walk.yaml)

@@ -204,7 +204,7 @@ class Gate:
             value = float(match[0])
             if 0 < value < 1e-12:
                 continue  # rounding error
-            last = 10.0 ** -len(match[0].partition(".")[2]) if "e" not in match[0] else 0  # of a time on the edge of two digits
+            last = 10.0 ** -len(match[0].partition(".")[2]) if "e" not in match[0] else 0  # unit of the last digit
             larger = max(value * 1.1, value + 2 * last) + (value == 0)
             other = f"{larger:.3g}" if "." in match[0] or value > 100 else f"{value + 1:.0f}"
             changed = check["text"][:match.start()] + other + check["text"][match.end():]

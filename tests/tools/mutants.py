@@ -122,7 +122,7 @@ def main():
     chosen = [k for k, name in mutants.names.items() if any(text in name for text in given.only.split(","))]
     told = {}
 
-    os.environ["GAITLAB_DATA"] = str(ROOT / "scenarios")  # not beside the mutants' program
+    os.environ["GAITLAB_DATA"] = str(ROOT / "scenarios")  # the mutants' program has no data beside it
 
     def run(numbers, tests, environment):
         """Runs the mutants. Returns the first test that fails without a mutant, or an empty text."""
