@@ -24,8 +24,8 @@ constexpr double kMostImpratio = 100;
 constexpr double kUsualGravity = 9.81;  // m/s^2, for the standing depth if gravity does not press the robot on the ground
 constexpr int kHalvings = 60;           // halvings from the first bracket to the rounding of a double
 
-/// Total force of the springs of the contact elements if the robot sinks by `sunk` from its start on the ground; and the mean
-/// depth of those that touch.
+/// Total force of the springs of the contact elements if the robot sinks by `sunk` from its start on the ground, and the mean
+/// depth of the elements that touch.
 struct Press {
   double force = 0, depth = 0;
 };

@@ -71,7 +71,8 @@ std::string explain_keys(const std::string& word, const Catalog& catalog) {
   return rows.empty() ? "" : table(rows);
 }
 
-/// The keys of scenario and module files that a word names, and those whose value it may be.
+/// The keys of scenario and module files with this name, the keys that permit this word as a value, and the engines with an
+/// integrator of this name.
 std::string explain_everywhere(const std::string& word, const Catalog& catalog) {
   const std::vector<ScenarioKey> scenario = all_keys(catalog);
   const std::vector<ScenarioKey> module = module_keys();

@@ -45,7 +45,7 @@ std::string engine_manual(const std::string& name, Catalog& catalog) {
                              engine.integrators.front().name, default_step(engine)));
 }
 
-/// The kind of check with this id.
+/// The CheckKind with this id.
 const report::CheckKind& check_kind(const std::string& id) {
   return *std::ranges::find_if(report::check_kinds(), [&](const report::CheckKind& kind) { return kind.id == id; });
 }

@@ -163,7 +163,7 @@ trace = run.trace["t"]
 
 
     def test_daemon_threads_end_with_the_interpreter(self):
-        """In a run, in a class of Python, and in rollouts."""
+        """Threads in a run, in a class of Python, and in rollouts."""
         script = """
 import gaitlab, threading, warnings
 warnings.simplefilter("ignore")

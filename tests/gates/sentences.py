@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Every sentence of the terminal, of verdict.json and of the page's headline, recomputed from trace.h5 alone.
 usage: sentences.py PROGRAM SCENARIOS_FOLDER [--keep FOLDER] [--seed N] [NAME...]     (pages, too: sentences.sh)
-77 where python3-h5py, python3-numpy or python3-yaml is missing.
+Exit code 77 if python3-h5py, python3-numpy or python3-yaml is missing.
 
 For each run: the part, the time and the number of each sentence, the limit, the margin, the status and the word, by code in told/
 that shares nothing with the program and is written from docs/reference/verdict.md and docs/numbers.md. A sentence that no

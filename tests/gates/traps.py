@@ -3,7 +3,7 @@
 does not change a user's files under the names that it writes. No file of the build and install trees has an empty or relative
 run path. It costs some 25 s of CPU: a thousand starts of the program.
 usage: traps.py PROGRAM BUILD_FOLDER (TRAPS_LONGEST, 600: seconds after which a command counts as waiting for ever)
-77 if strace is missing (Debian: strace) or tracing is not allowed."""
+Exit code 77 if strace is missing (Debian: strace) or tracing is not allowed."""
 import os
 import pathlib
 import re
