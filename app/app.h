@@ -50,7 +50,7 @@ void warn_of_start(const Scenario& scenario, bool quiet);
 
 /// Extent of a printed summary.
 struct SummaryOptions {
-  bool verbose = false;          ///< also print the energy ledger and what limits the step
+  bool verbose = false;          ///< also print the energy ledger and the limits of the step
   bool joints = false;           ///< also print a row for each joint
   bool fail_infeasible = false;  ///< exit code 3 for an infeasible verdict, 1 for a failed run
   bool demand = false;           ///< also run the demand twin, with 20 times the motor limits (report/verdict/demand.h)

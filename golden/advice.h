@@ -22,7 +22,7 @@ std::string narrower_columns(const std::vector<Band>& columns, const Scenario& s
                              const std::function<void(double)>& progress = {});
 
 /// One line per number with a band wider than kWideNumber, widest first: the change that would not be detected, the reason, and
-/// the remedy. After three lines, a last line contains the number of the omitted ones. "" if there is no such number.
+/// the remedy. After three lines, a last line gives the count of the omitted lines. "" if no band is that wide.
 std::string wide_numbers(const Golden& golden, const Scenario& scenario);
 
 /// Names of the numbers in wide_numbers(), as in `m3/active torque peak 42.2 %, ...`. "" if there is none.

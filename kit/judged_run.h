@@ -31,7 +31,7 @@ struct JudgedRun {
   void keep_remedy();
 };
 
-/// Reads and judges a run. `catalog` must outlive the result. Throws InputError as read_run does.
+/// Reads and judges a run. `catalog` must outlive the result. Throws the InputErrors of read_run.
 JudgedRun read_judged(const std::string& name, Catalog& catalog);
 
 }  // namespace gaitlab::kit

@@ -93,8 +93,8 @@ class Contacts {
     }
   }
 
-  /// Fills touching() at the present place of the body, which the body has reached after `ahead` seconds at its velocities.
-  /// With `reach` > 0 (s), elements that may touch within this time are included.
+  /// Fills touching() at the present place of the body, to which it has moved for `ahead` seconds at its velocities. With
+  /// `reach` > 0 (s), elements that may touch within this time are included.
   void find(const Body<T>& body, double ahead, double reach) {
     touching_.clear();
     std::size_t e = 0;

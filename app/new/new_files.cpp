@@ -83,7 +83,7 @@ int new_module(const NewFileArguments& arguments) {
   return 0;
 }
 
-/// A module type as the command line names it.
+/// A module type that the command line names.
 struct NamedModule {
   std::string file;
   bool by_name;  ///< a scenario takes its name; else the path of the file

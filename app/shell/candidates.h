@@ -11,8 +11,8 @@ struct Candidates {
   bool files = false;              ///< true: the last word may also be a file or folder
 };
 
-/// Words that may take the place of the last of `words`, which are those after the program's name. A `=` may be a word of its
-/// own, because bash divides words there; the candidates contain the part before it, too.
+/// Words that may replace the last of `words`, which are the words after the program's name. A `=` may be a word of its own,
+/// because bash divides words there; the candidates contain the part before it, too.
 Candidates candidates(const CLI::App& app, const std::vector<std::string>& words);
 
 }  // namespace gaitlab::app

@@ -57,7 +57,7 @@ std::string command_entries(const CLI::App& command) {
   return text;
 }
 
-/// The commands under the headings of the help, in its order.
+/// The commands in the order and under the headings of the help.
 std::string commands_section(const CLI::App& app) {
   std::vector<std::string> groups;
   for (const CLI::App* command : shown_commands(app)) {

@@ -100,9 +100,9 @@ class UnderWay {
   std::atomic<bool>* stop_;
 };
 
-constexpr std::chrono::milliseconds kOften{50};  // between looks for Ctrl-C
+constexpr std::chrono::milliseconds kOften{50};  // time between checks for Ctrl-C
 
-/// Ends all works: called with the interpreter's lock when its end begins.
+/// Ends all works. Called with the interpreter's lock, when the end of the interpreter begins.
 void end_works() {
   const py::gil_scoped_release released;
   Works& all = works();

@@ -9,7 +9,7 @@ namespace gaitlab::python {
 
 /// Does `work` in a thread of its own, without the interpreter's lock and in the floating-point environment that a program
 /// starts with, because some Python packages make the processor flush subnormal numbers to zero. To be called with the lock
-/// held. The calling thread looks for Ctrl-C about twenty times a second and calls `told`, which may be empty, with the lock
+/// held. The calling thread checks for Ctrl-C about twenty times a second and calls `told`, which may be empty, with the lock
 /// held. If either raises an exception, `stop` is set and the exception is thrown when the work has ended; otherwise an
 /// exception of the work is thrown. At the end of the interpreter `stop` is set, and the call does not return.
 void apart(std::atomic<bool>& stop, const std::function<void()>& told, const std::function<void()>& work);

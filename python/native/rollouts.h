@@ -8,11 +8,12 @@
 
 namespace gaitlab::python {
 
-/// Settings of the simulation of rollouts.
+/// Settings for simulating rollouts.
 struct RolloutSettings {
   int threads = 1;
   std::size_t lanes = 0;            ///< as BatchSettings::lanes
-  std::size_t estimate_every = 16;  ///< the torque error is estimated for one row in this number, from row 0 on; 0: for none
+  std::size_t estimate_every = 16;  ///< one in this number of rows has an estimate of the torque error, beginning with row 0;
+                                    ///< 0: none
 };
 
 /// Simulates the scenario under each of `overrides`, with the bits of `gaitlab sweep`. `quantities` are the columns; the common
