@@ -12,7 +12,7 @@ namespace gaitlab::golden {
 /// Band of a number, as a share of its scale, above which the width is explained.
 inline constexpr double kWideNumber = 0.05;
 
-/// Divisor for the run `halved` of calibrate(): of the step, or of the accuracy if the integrator chooses its steps.
+/// Divisor of the step, or of the accuracy if the integrator chooses its steps, for the run `halved` of calibrate().
 double finer_by(const Physics& physics);
 
 /// Setting that should reduce the widest band of `columns` to less than kWidestColumn, as text for a message. It is a finer

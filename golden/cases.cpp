@@ -43,8 +43,8 @@ fs::path scenario_of(const fs::path& golden) {
   return {};
 }
 
-/// Finds all scenarios of a folder and, in its subfolders, only scenarios with a golden, because other YAML files may be
-/// anything.
+/// Finds all scenarios of a folder and, in its subfolders, only scenarios with a golden, because other YAML files need not be
+/// scenarios.
 void find_in(const fs::path& folder, bool top, Found& found) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {

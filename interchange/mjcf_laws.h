@@ -18,7 +18,7 @@ struct InverseWeights {
 };
 InverseWeights inverse_weights(const Scenario& scenario, const std::vector<MotorLimits>& limits);
 
-/// The contact law at the penetration p0 at which the robot stands: a line through its force there, with its slopes.
+/// The contact law, linearised at the penetration p0 at which the robot stands: the force and the slopes there.
 ///
 /// MuJoCo's constraint is f = (a_ref - a) / R with R = A_0 (1 - d) / d, and with the direct format of solref, a_ref = -(damping
 /// v + stiffness r) / d (MuJoCo's documentation, Computation: constraint model, and Modeling: solver parameters). Therefore

@@ -8,7 +8,7 @@ class MjcfWalking {
  public:
   MjcfWalking(const Scenario& scenario, const RobotState& start, const std::vector<MotorLimits>& limits, double step);
 
-  /// Sets the integrator, which is implicit, because motors damp their joints within a step, and the cone of friction.
+  /// Sets the friction cone and the integrator, which is implicit, because motors damp their joints within a step.
   void write_options(Xml& option) const;
   void write_ground(Xml& geom, double friction) const;
   /// Makes the sphere of a contact element collide. The sphere of a point has its bottom at the point, at the start.

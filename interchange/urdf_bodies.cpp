@@ -57,8 +57,8 @@ UrdfMass united_mass(const std::vector<UrdfMass>& parts) {
   return whole;
 }
 
-/// Names that a module file allows for the names of URDF, in the same order: without a common kind of prefix such as `m0/`,
-/// other characters replaced by _, and numbered if equal.
+/// Names for the module file from the names in URDF, in the same order. Prefixes such as `m0/` are removed if all names then
+/// still differ, characters that are not allowed become _, and equal names are numbered.
 std::vector<std::string> allowed_names(const std::vector<std::string>& names) {
   std::set<std::string> seen;
   for (const std::string& name : names) seen.insert(name.substr(name.rfind('/') + 1));

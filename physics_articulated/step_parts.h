@@ -62,7 +62,7 @@ class Eighths {
   void clear() {
     for (State& one : states_) one.lanes = math::Mask<T>{};
   }
-  /// Keeps the state x of the lanes `which` if `at` of `of` equal parts of the step is an eighth within it.
+  /// Keeps the state x of the lanes `which` if the time `at` / `of` of the step is one of its inner eighths.
   void keep(std::span<const T> x, const math::Mask<T>& which, std::size_t at, std::size_t of) {
     if (at == of || at * kEighths % of != 0) return;
     State& one = states_[at * kEighths / of - 1];

@@ -271,7 +271,7 @@ class Stepper {
     own.quarter.to = own.early.from + of_quarter;
   }
 
-  /// Advances the lanes `which` by a step h, which ends at `end` of the kShortest shortest parts of the whole step. At level
+  /// Advances the lanes `which` by a step h, which ends after `end` of the kShortest shortest parts of the whole step. At level
   /// kLevels the step has second order, regardless of its error.
   void adapt(std::span<T> x, In command, double h, const math::Mask<T>& which, std::size_t level, std::size_t end = kShortest,
              const Level<T>* before = nullptr) {

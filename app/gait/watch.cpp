@@ -83,7 +83,7 @@ int wait_for_child(pid_t child) {
   return status;
 }
 
-/// Runs the scenario into the folder `out`, in another process: a plugin that was compiled again is loaded anew, and one that
+/// Runs the scenario into the folder `out`, in another process, so that a recompiled plugin is loaded again and a plugin that
 /// crashes ends only that process. Returns the exit code of `gaitlab run`.
 int run_apart(const WatchArguments& a, const fs::path& out, const fs::path& told) {
   (void)std::fflush(stdout);
@@ -110,7 +110,7 @@ int run_apart(const WatchArguments& a, const fs::path& out, const fs::path& told
   return 1;
 }
 
-/// The files that the last run has read; after a crash, the files of the run before it, as they are now.
+/// The files that the last run has read. After a crash of that run, the files in `before`, in their present state.
 std::vector<FileRead> files_to_watch(const WatchArguments& a, const fs::path& told, std::vector<FileRead> before) {
   std::vector<FileRead> files;
   std::error_code none;

@@ -100,7 +100,7 @@ std::vector<Strayed> strayed(const GoldenCase& c) {
   if (const ColumnCheck* worst = c.difference.worst_column(); found.empty() && worst != nullptr) found.push_back(worst);
   std::stable_sort(found.begin(), found.end(),
                    [](const ColumnCheck* a, const ColumnCheck* b) { return a->ratio() > b->ratio(); });
-  // Columns of the whole robot that are late by the same time show one fact: the worst of them is drawn.
+  // Columns of the whole robot that are late by the same time show the same fact, so that only the worst of them is drawn.
   std::vector<Strayed> groups;
   for (const ColumnCheck* check : found) {
     const auto same = [&](const Strayed& group) {
@@ -218,8 +218,7 @@ std::string failure(const GoldenCase& c, bool all) {
   return text + (c.figure.empty() ? "" : "  figure: " + c.figure + "\n");
 }
 
-/// Prints notes that are not failures: numbers with wide bands, a changed verdict, and a text that differs from the approved
-/// one, which explains a failure.
+/// Prints notes on cases that passed: numbers with wide bands, a changed verdict, and a changed resolved scenario.
 void print_notes(const std::vector<GoldenCase>& cases) {
   for (const GoldenCase& c : cases) {
     if (c.verdict != Verdict::passed) continue;

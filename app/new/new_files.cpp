@@ -122,7 +122,7 @@ NamedModule named_module(const NewFileArguments& arguments) {
                                      : "; did you mean " + in_quotes(near) + "?"));
 }
 
-/// Value of `robot.modules`: the name of a shipped module, or the path of a file from the folder of the scenario.
+/// Value of `robot.modules`: the name of a shipped module, or the path of a file relative to the folder of the scenario.
 std::string module_value(const NamedModule& module, const NewFileArguments& arguments) {
   if (module.by_name) return arguments.module;
   std::error_code none;

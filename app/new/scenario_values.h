@@ -7,7 +7,7 @@
 namespace gaitlab::app {
 
 /// Largest number of modules in a row, at most `most`, whose weight the weakest motor holds with half its torque at rest. A row
-/// that lies on its ends, or on its middle, is bent by the torque W L / 8 (a beam of length L under its own weight W). Returns
+/// that rests on its ends or on its middle is bent by the torque W L / 8 (a beam of length L under its own weight W). Returns
 /// `most` for modules without shapes or motor data. `one` is a scenario of one module.
 int modules_carried(const Scenario& one, int most);
 

@@ -53,12 +53,12 @@ std::vector<studies::Answers> other_answers(const studies::Plan& plan, const Stu
 /// Prints the number of runs of the plan and their duration, estimated by timing a few of them.
 void print_plan(const studies::Plan& plan, const StudyRunArguments& arguments);
 
-/// Prints the warnings on the scenarios of a plan before they run (report/verdict/warnings.h), each once,
-/// except those on their own gaits.
+/// Prints the warnings on the scenarios of a plan before they run (report/verdict/warnings.h), each once, without the warnings
+/// on the scenarios' own gaits.
 void warn_of_scenarios(const studies::Plan& plan);
 
 /// Prints the warnings on the scenarios, and notes on a plan: files that hide shipped scenarios, parameters whose slowest gait
-/// does not fit the duration, and limits of parameters that the scenario refuses.
+/// does not fit into the duration, and parameter limits that the scenario refuses.
 void print_notes(const studies::Plan& plan, bool quiet);
 
 /// Prints the estimated time of all runs of a study if engine articulated is faster. `arguments` give the number of threads.
