@@ -33,8 +33,8 @@ std::vector<double> scales(const std::vector<Number>& numbers);
 /// Mean square of the difference of a column between two traces with equal rows, in the unit of the column squared.
 double mean_square(const Trace& a, const Trace& b, std::size_t column);
 
-/// Mean square of the difference of every column. Golden::rounding is that of a trace before and after it was written to the
-/// golden's file.
+/// Mean square of the difference of every column. Golden::rounding is the mean square for a trace before and after it was
+/// written to the golden's file.
 std::vector<double> mean_squares(const Trace& a, const Trace& b);
 
 inline constexpr double kEnsembleFactor = 10, kHalvingFactor = 3;  ///< factors from the measured differences to the bands

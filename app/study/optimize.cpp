@@ -208,7 +208,7 @@ bool add_faults(const Plan& plan, Journal& journal, const studies::Results& resu
   return true;
 }
 
-/// Checks that another program can give the results of this study.
+/// Checks that another program can supply the results of this study.
 void prepare_asking(const Plan& plan, const OptimizeArguments& a) {
   std::signal(SIGPIPE, SIG_IGN);  // the failed write reports the closed output instead
   if (team()) throw InputError(SourceLocation{"--ask"}, "is not for gaitlab-mpi; expected gaitlab");

@@ -16,15 +16,15 @@ void apart(std::atomic<bool>& stop, const std::function<void()>& told, const std
 /// The same for work that cannot be stopped.
 void apart(const std::function<void()>& work);
 
-/// Ends the works of daemon threads before the interpreter ends, from now on.
+/// From now on, ends the works of daemon threads before the interpreter ends.
 void end_with_interpreter();
 
-/// Gathers what the program would print on stderr, from now on.
+/// From now on, collects the texts that the program would print on stderr.
 void gather_said();
 /// Texts since the last call, each without the end of its line.
 std::vector<std::string> take_said();
 
-/// Holds the interpreter's lock, and that of h5py if it is imported, around each use of HDF5, from now on.
+/// From now on, holds the interpreter's lock, and that of h5py if it is imported, around each use of HDF5.
 void share_h5();
 
 }  // namespace gaitlab::python
