@@ -1,4 +1,4 @@
-// The model of a gear's efficiency, as settings that all motors with a gear have.
+// Settings for the model of a gear's efficiency, shared by all motors with a gear.
 #pragma once
 #include "core/plugin/actuator.h"
 
@@ -6,7 +6,7 @@ namespace gaitlab::actuators {
 
 enum class EfficiencyModel { paper, directional };
 
-/// Part of a motor's Settings: the efficiency of core/laws/dc_motor.h as printed in eq. 2, or directional.
+/// Part of a motor's Settings: the gear efficiency of core/laws/dc_motor.h, either as printed in eq. 2 or directional.
 struct EfficiencyKeys {
   EfficiencyModel efficiency_model = EfficiencyModel::paper;
   double turn_speed = 0.6;  ///< rad/s, at the joint

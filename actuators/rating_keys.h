@@ -1,10 +1,10 @@
-// Data-sheet ratings of a drive, as settings that all motors with a data sheet have.
+// Settings for the data-sheet ratings of a drive, shared by all motors with a data sheet.
 #pragma once
 #include "core/plugin/actuator.h"
 
 namespace gaitlab::actuators {
 
-/// Part of a motor's Settings. A rating of 0 is not stated.
+/// Part of a motor's Settings. A rating is 0 if the data sheet does not state it.
 struct RatingKeys {
   PerJoint i_continuous, gear_torque_peak, gear_torque_continuous, speed_max;
   void fields(Fields& f);

@@ -14,7 +14,7 @@ constexpr double kUsualEfficiency = 0.7;   // chosen, equal to that of dc_motor
 constexpr double kLeastEfficiency = 0.01;  // chosen, far below any motor with its gear
 constexpr double kRounding = 1e-9;         // tolerance for a data sheet whose numbers give an efficiency of exactly 1
 
-/// Values of `make(joint)` for every joint; only one call if all given values are equal for all joints.
+/// Returns `make(joint)` for every joint. If no given value differs between joints, `make` is called only once.
 template <class Make>
 PerJoint of_each(std::initializer_list<const PerJoint*> values, Make make) {
   PerJoint made;

@@ -18,7 +18,7 @@
 
 namespace gaitlab::app {
 
-using namespace kit;  // what the Python module needs, too
+using namespace kit;  // these functions are also needed by the Python module
 
 /// Plugins that the command line allows a scenario or a recorded run to load. Used by commands that may read files from unknown
 /// sources.
@@ -50,7 +50,7 @@ void warn_of_start(const Scenario& scenario, bool quiet);
 
 /// Extent of a printed summary.
 struct SummaryOptions {
-  bool verbose = false;          ///< also print the energy ledger and what limits the step
+  bool verbose = false;          ///< also print the energy ledger and the limits of the step
   bool joints = false;           ///< also print a row for each joint
   bool fail_infeasible = false;  ///< exit code 3 for an infeasible verdict, 1 for a failed run
   bool demand = false;           ///< also run the demand twin, with 20 times the motor limits (report/verdict/demand.h)
@@ -66,8 +66,8 @@ struct RunArguments : ScenarioArguments {
   int draws = 1;                            ///< number of seeds, starting with the scenario's
   int jobs = 1;                             ///< threads for the draws and the remedy
   std::vector<std::string> libraries = {};  ///< plugin libraries that are not beside the scenario that names them
-  bool no_retry = false;                    ///< true: keep a run that is not judged only for its accuracy
-  bool remedy = false;                      ///< true: search the changes that make the gait feasible, or its reserves
+  bool no_retry = false;                    ///< true: keep a run that lacks a verdict only because of its accuracy
+  bool remedy = false;                      ///< true: search for the changes that make the gait feasible, or for its reserves
   bool map = false;                         ///< true: the remedy has a map of frequency and amplitude
   std::vector<std::string> by;              ///< settings that the remedy tries; empty for all
 };
@@ -76,25 +76,25 @@ struct RunArguments : ScenarioArguments {
 /// Runs a scenario and further `draws` of it, writes the run folder and prints the summary. Returns the exit code.
 [[nodiscard]] int run(const Scenario& scenario, const RunArguments& arguments, std::span<const Scenario> draws = {});
 
-/// Result of take_remedy(): the lines to print, the text of remedy.json, and false if the search was interrupted or impossible,
-/// which was reported.
+/// Result of take_remedy(): the lines to print, the text of remedy.json, and false if the search was interrupted or impossible.
+/// The reason has then been reported.
 struct Remedied {
   std::vector<report::ScreenLine> lines = {};
   std::string json = {};
   bool complete = true;
 };
-/// Searches a remedy for a judged run if the arguments ask for it, and stores what the page shows in the verdict.
+/// Searches for a remedy for a judged run if the arguments ask for it, and stores the results for the page in the verdict.
 Remedied take_remedy(const Scenario& scenario, report::Verdict& verdict, const RunArguments& arguments);
 /// Prints lines of a summary, in colour on a terminal.
 void print_lines(const std::vector<report::ScreenLine>& lines);
-/// Prints a text; on a terminal, lines that are longer than it is wide are wrapped().
+/// Prints a text. On a terminal, lines that are wider than the terminal are wrapped by wrapped().
 void print_fitted(const std::string& text);
 
 /// Prints the summary of a run; the verdict is its first line.
 void print_summary(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
                    const report::Verdict& verdict, const SummaryOptions& shown);
-/// Prints the command whose run is expected to have a verdict, if there is one (Verdict::retry). `arguments` name the scenario
-/// of this run.
+/// Prints the command for another run that is expected to have a verdict, if Verdict::retry has one. `arguments` name the
+/// scenario.
 void print_retry(const ScenarioArguments& arguments, const report::Verdict& verdict);
 /// Simulates the demand twin of a run, with its progress unless `quiet`, and adds its results to the verdict.
 void take_demand(const Scenario& scenario, const Recording& recording, const report::Summary& summary, report::Verdict& verdict,

@@ -1,4 +1,4 @@
-// Table of docs/benchmarks.md: estimated CPU time of `gaitlab run` beside the measured one, for robots of many sizes.
+// Table of docs/benchmarks.md: estimated and measured CPU time of `gaitlab run`, for robots of many sizes.
 //     estimates [--calls N]
 #include <fmt/format.h>
 #include <sys/resource.h>

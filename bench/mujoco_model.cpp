@@ -105,7 +105,7 @@ class SetPoints {
  private:
   const Recording& record_;
   double period_;
-  std::vector<std::size_t> rows_;  ///< by tick
+  std::vector<std::size_t> rows_;  ///< row of each tick
 };
 
 /// Joint of each actuator, by its name.

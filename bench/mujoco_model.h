@@ -35,7 +35,8 @@ struct Walk {
 /// Walk of a run with the columns joint.* and com.*.
 Walk recorded_walk(const Recording& record, double from);
 
-/// Controls between two ticks of the controller: those of the last tick, or on the straight line to those of the next.
+/// Controls between two ticks of the controller: held at the values of the last tick, or interpolated linearly to those of the
+/// next.
 enum class Between { held, line };
 
 /// Walk in MuJoCo of the exported robot, from keyframe `start`, with the set points of a run as controls. Throws RunError if

@@ -99,8 +99,8 @@ class Race {
     return at == references.end() ? nullptr : &*at;
   }
 
-  /// Adds a benchmark for each time step of a contender. Every lane has other motor values, because rollouts also differ in a
-  /// study.
+  /// Adds a benchmark for each time step of a contender. Every lane has different motor values, because rollouts of a study
+  /// differ, too.
   void enter(const std::string& file, const std::string& name, const Contender& c, const std::vector<Converged>& references,
              std::vector<Runner>& runners) {
     const Converged* reference = find(references, c.reference);

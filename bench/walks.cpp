@@ -1,4 +1,4 @@
-// Table of docs/mujoco.md: walks of the exported robots in MuJoCo beside gaitlab's, with the set points of gaitlab as controls.
+// Table of docs/mujoco.md: walks of exported robots in MuJoCo and in gaitlab, with gaitlab's set points as controls.
 //     walks [--seconds S] [SCENARIO...]
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
-# Run at every build: writes build_id.cpp anew only where the commit has changed. At the tag of the release, vVERSION, without changes, the id is
-# the version alone.
+# Run at every build; rewrites build_id.cpp only if the commit has changed. In an unchanged checkout of the release tag
+# vVERSION, the id is the version alone.
 execute_process(COMMAND git -C ${SOURCE_DIR} describe --always --dirty=.dirty --abbrev=10 --exclude=*
   OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 if(NOT commit)

@@ -1,8 +1,8 @@
 # The Debian packages gaitlab, gaitlab-dev and python3-gaitlab, by CPack from the components `program`, `development` and `python`
 # (docs/overview.md): cpack --config BUILD_FOLDER/CPackConfig.cmake -B FOLDER. gaitlab-mpi and CHANGELOG.md are in none of them.
 
-# Notices of everything that is part of a binary: the project, the report page, the fonts, and libraries that are compiled into it, as far as
-# their licences ask for it (Boost's does not, for binaries).
+# Notices of everything that is part of a binary: the project, the report page, the fonts, and libraries that are compiled into
+# it, if their licences require notices (Boost's does not for binaries).
 set(compiled_in libpagmo-dev libcli11-dev nlohmann-json3-dev libeigen3-dev libfmt-dev pybind11-dev)
 set(notice "gaitlab, a gait lab for modular robots. Source: the repository of gaitlab.\n\n")
 set(rule "\n\n------------------------------------------------------------------------------\n")

@@ -1,5 +1,5 @@
-# Run while a package is made: writes changelog.Debian.gz and, of the program, changelog.gz (CHANGELOG.md) into the folder `doc`. The time
-# is SOURCE_DATE_EPOCH, if it is set.
+# Run while a package is made. Writes changelog.Debian.gz and, for the program, changelog.gz (CHANGELOG.md) into the folder
+# `doc`, with the time SOURCE_DATE_EPOCH if it is set.
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 file(WRITE "${doc}/changelog.Debian"
   "${package} (${version}) unstable; urgency=medium\n\n  * Changes of the sources: changelog.gz of the package gaitlab.\n\n"

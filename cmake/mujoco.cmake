@@ -1,8 +1,9 @@
-# Target `mujoco`, where there is one: of MUJOCO_DIR (cache or environment: include/, lib/libmujoco.so*), or else the system's.
+# Target `mujoco`, if a MuJoCo is found: that in MUJOCO_DIR (cache or environment: include/, lib/libmujoco.so*), or else the
+# system's.
 if(NOT MUJOCO_DIR)
   set(MUJOCO_DIR "$ENV{MUJOCO_DIR}")
 endif()
-unset(mujoco_library) # not cached: another MUJOCO_DIR is another library
+unset(mujoco_library) # not cached, because another MUJOCO_DIR has another library
 unset(mujoco_include)
 if(MUJOCO_DIR)
   file(GLOB mujoco_library ${MUJOCO_DIR}/lib/libmujoco.so* ${MUJOCO_DIR}/libmujoco.so*)
@@ -21,7 +22,7 @@ if(mujoco_library AND mujoco_include)
   add_library(mujoco SHARED IMPORTED GLOBAL)
   set_target_properties(mujoco PROPERTIES IMPORTED_LOCATION ${mujoco_library} IMPORTED_NO_SONAME OFF)
   target_include_directories(mujoco SYSTEM INTERFACE ${mujoco_include})
-  if(MUJOCO_DIR) # no folder of the loader
+  if(MUJOCO_DIR) # the loader does not search this folder
     cmake_path(GET mujoco_library PARENT_PATH folder)
     file(REAL_PATH ${folder} folder)
     target_link_options(mujoco INTERFACE -Wl,-rpath,${folder})

@@ -1,11 +1,11 @@
-# What an installation offers beside the program: the headers of a plugin and a CMake package (docs/ci.md).
+# Parts of an installation beside the program: the headers of a plugin and a CMake package (docs/ci.md).
 include(CMakePackageConfigHelpers)
 
 install(DIRECTORY core/plugin DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gaitlab/core COMPONENT development
   FILES_MATCHING PATTERN "*.h"
   PATTERN catalog.h EXCLUDE PATTERN plugin_instance.h EXCLUDE PATTERN sensor.h EXCLUDE) # the program's own side
 
-# The compiler plugins need, as Debian calls it: g++-12, clang++-14.
+# Debian's name for the compiler that plugins need: g++-12, clang++-14.
 string(REGEX MATCH "^[0-9]+" major "${CMAKE_CXX_COMPILER_VERSION}")
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(gaitlab_compiler_name g++-${major})

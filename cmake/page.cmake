@@ -1,4 +1,5 @@
-# The page of a run, made by report/page and committed as one file, becomes a string in the program: whoever builds it needs no node.
+# The page of a run, made by report/page and committed as one file, becomes a string in the program, so that a build needs no
+# node.
 set(page_file ${CMAKE_SOURCE_DIR}/report/page/dist/page.html)
 set(page_source ${CMAKE_BINARY_DIR}/generated/page.cpp)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${page_file})

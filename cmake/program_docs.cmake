@@ -1,4 +1,4 @@
-# What an installation offers to read beside the program: its manual page and completion, which it prints itself, the pages, the notices.
+# Texts of an installation: manual page and completion of the program, which prints them itself, the pages, the notices.
 find_program(GZIP gzip REQUIRED)
 set(man_folder ${CMAKE_BINARY_DIR}/share/man/man1)
 set(completion_folder ${CMAKE_BINARY_DIR}/share/bash-completion/completions)
@@ -11,5 +11,5 @@ install(FILES ${man_folder}/gaitlab.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man
 install(FILES ${completion_folder}/gaitlab DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program PATTERN docs/site EXCLUDE)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
-# A Debian package has both in other forms (cmake/debian.cmake).
+# A Debian package has changelog and notices in other forms (cmake/debian.cmake).
 install(FILES CHANGELOG.md ${CMAKE_BINARY_DIR}/generated/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT notices)

@@ -1,5 +1,5 @@
 # The Python package gaitlab (docs/python.md): the module _native of python/native, and the package of python/gaitlab beside it.
-# Another Python than Debian's, whose numpy and pandas the tests use: -DPython_EXECUTABLE=/its/python3.
+# -DPython_EXECUTABLE=/its/python3 selects another Python than Debian's. The tests use numpy and pandas of the selected Python.
 set(Python_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python for which the module is built")
 find_package(Python 3.11 REQUIRED COMPONENTS Interpreter Development.Module)
 find_package(pybind11 2.10 REQUIRED CONFIG)  # Debian: pybind11-dev
@@ -9,7 +9,7 @@ pybind11_add_module(gaitlab_native MODULE NO_EXTRAS ${native})
 set(package_folder ${CMAKE_BINARY_DIR}/python/gaitlab)
 set_target_properties(gaitlab_native PROPERTIES OUTPUT_NAME _native LIBRARY_OUTPUT_DIRECTORY ${package_folder})
 target_compile_options(gaitlab_native PRIVATE ${cold})
-# What the rooms define stays inside, because another module in the process may contain the same libraries.
+# Symbols of the rooms are hidden, because another module in the process may contain the same libraries.
 set(exports ${CMAKE_SOURCE_DIR}/python/native/exports.map)
 target_link_options(gaitlab_native PRIVATE -Wl,--version-script=${exports} -Wl,--as-needed $<$<CONFIG:Release>:-s>)
 set_target_properties(gaitlab_native PROPERTIES LINK_DEPENDS ${exports})

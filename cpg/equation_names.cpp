@@ -59,7 +59,8 @@ const char* text_of(Where where) {
 }  // namespace
 
 std::string offer_name(const std::string& found, const std::vector<std::string>& known, const std::string& kind) {
-  // Every single letter is similar to one letter. A very long name is similar to none, and its edit distance would take time.
+  // Single letters are skipped, because they are similar to one another. Very long names are skipped, because the edit distance
+  // would take time.
   const std::string near = found.size() < 2 || found.size() > 200 ? std::string() : nearest(found, known);
   if (!near.empty()) return "; did you mean '" + near + "'?";
   std::string all;

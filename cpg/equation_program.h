@@ -51,7 +51,7 @@ class EquationProgram {
   };
   using Bases = std::array<const double*, 8>;
 
-  /// Index set of a place in a text: joints, or couplings within a sum.
+  /// Set over which a place in a text is evaluated: joints or, within a sum, couplings.
   enum class Over { joints, couplings };
   Block compile(const Term& term, Over over);
   Block compile_name(const Term& term, Over over);

@@ -55,7 +55,7 @@ namespace {
 using Kind = EquationNames::Kind;
 using Where = EquationNames::Where;
 
-/// A fault of the model, at a byte of the text under `key` (and `name`), or at the name if the offset is npos.
+/// A fault in the model. It is at a byte of the text under `key` (and `name`), or at the name if the offset is npos.
 struct Fault {
   const char* key;
   std::string name;
@@ -106,7 +106,7 @@ struct Parsed {
     }
   }
 
-  /// Syntax tree of an expression. An empty text has been reported as a fault; its tree is 0.
+  /// Syntax tree of an expression. An empty text, which has been reported as a fault, gives the tree 0.
   Term tree(const char* key, const std::string& name, const std::string& text, Where where, std::size_t slot) {
     if (text.empty()) return {};
     std::vector<expression::Fault> wrong;

@@ -6,9 +6,8 @@
 namespace gaitlab::cpg {
 namespace {
 
-constexpr double kFirstRadius = 0.01;  // the set points grow from nearly zero
-constexpr std::size_t kTableSteps =
-    4096;  // several within the transition from swing to stance at the largest sharpness, 0.01 rad
+constexpr double kFirstRadius = 0.01;      // the set points grow from nearly zero
+constexpr std::size_t kTableSteps = 4096;  // several of them within the shortest transition from swing to stance, 0.01 rad
 
 double sigmoid(double x) { return 1 / (1 + math::exp(-x)); }
 

@@ -41,8 +41,8 @@ struct LimitCycle {
   explicit LimitCycle(const Oscillator& oscillator);
 };
 
-/// The oscillators of a robot's joints, coupled by their pace. The state obeys z_i' = pace_i F(z_i), and the output is X_i +
-/// r_i y(z_i) / (peak of y).
+/// The oscillators of a robot's joints. Couplings make them faster or slower. The state obeys z_i' = pace_i F(z_i), and the
+/// output is X_i + r_i y(z_i) / (peak of y).
 class CycleNetwork : public Cpg {
  public:
   struct Model {

@@ -1,4 +1,4 @@
-// CPG `matsuoka`, pairs of neurons that inhibit each other and adapt, coupled by their pace.
+// CPG `matsuoka`, pairs of neurons that inhibit each other and adapt, with couplings that change their pace.
 #pragma once
 #include "cpg/limit_cycle.h"
 

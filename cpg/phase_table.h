@@ -8,9 +8,8 @@ namespace gaitlab::cpg {
 
 inline constexpr double kTurn = 2 * std::numbers::pi;  ///< one revolution, rad
 
-/// One turn of a closed orbit in a plane. The phase is the time since the orbit's start, as 2 pi times its share of the period.
-/// The angle is that of the orbit's point about the centre, which must increase with the phase. Both are 0 at the start and 2
-/// pi after one turn.
+/// One turn of a closed orbit in a plane. The phase is 2 pi times the time since the orbit's start, divided by the period. The
+/// angle of the point about the centre must increase with the phase. Both are 0 at the start and 2 pi after one turn.
 class PhaseTable {
  public:
   PhaseTable() = default;
@@ -18,7 +17,7 @@ class PhaseTable {
   /// angles do not increase.
   explicit PhaseTable(std::vector<double> angles);
 
-  /// Angle at a phase, and phase at an angle, of any turn. They are linear between the entries of the table.
+  /// Angle at a phase, and phase at an angle, on any turn. Values between the entries of the table are interpolated linearly.
   [[nodiscard]] double angle(double phase) const { return look_up(angles_, phase); }
   [[nodiscard]] double phase(double angle) const { return look_up(phases_, angle); }
 

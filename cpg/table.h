@@ -21,9 +21,9 @@ class Table final : public Cpg {
   };
   static const char* const kManual;
 
-  /// Throws std::invalid_argument with line and column of the text for a missing time column, a column that is repeated or no
-  /// joint, a row with another number of cells, or a cell that is not a finite number. Throws also as the constructor of
-  /// Keyframes.
+  /// Throws std::invalid_argument with line and column of the text for a missing time column, a column that is repeated or
+  /// names no joint, a row with a wrong number of cells, or a cell that is not a finite number. Also throws the errors of the
+  /// constructor of Keyframes.
   Table(const RobotInfo& robot, const Settings& settings);
   void output(double t, In state, Out setpoint) const override { frames_.output(t, state, setpoint); }
   [[nodiscard]] SetPointTimes times() const override { return frames_.times(); }

@@ -59,7 +59,7 @@ Tripod::Tripod(const RobotInfo& robot, const Settings& settings) : joints_(robot
                                 std::to_string(legs.size() - left) +
                                 " on the right (a leg is a chain docked sideways, with two hinges about y and feet below)");
   }
-  std::size_t rank[2] = {0, 0};  // numbers of the next leg from the front, right and left
+  std::size_t rank[2] = {0, 0};  // number of the next leg, counted from the front: right, left
   for (const Leg& leg : legs) {
     const std::size_t at = rank[leg.left ? 1 : 0]++;
     const bool other = (at + (leg.left ? 1 : 0)) % 2 == 1;
@@ -85,8 +85,8 @@ double Tripod::tilt_to_reach(const Leg& leg, double height) {
   return std::clamp(math::asin(std::min(1.0, height / longest)) - flat, 0.0, kSteepest);
 }
 
-/// D of the manual without the foot's part, which differs from leg to leg: the depth that flat feet without lift would reach,
-/// and the lift.
+/// The depth that flat feet without lift would reach, and the lift: D of the manual without the foot's part, which differs from
+/// leg to leg.
 Tripod::Depth Tripod::depth(double cycles, double grown) const {
   Depth d;
   for (const Step& step : steps_) {

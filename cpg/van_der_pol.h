@@ -1,4 +1,4 @@
-// CPG `van_der_pol`, van der Pol oscillators that are coupled by their pace.
+// CPG `van_der_pol`, van der Pol oscillators with couplings that change their pace.
 #pragma once
 #include "cpg/limit_cycle.h"
 

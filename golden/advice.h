@@ -12,7 +12,7 @@ namespace gaitlab::golden {
 /// Band of a number, as a share of its scale, above which the width is explained.
 inline constexpr double kWideNumber = 0.05;
 
-/// Divisor for the run `halved` of calibrate(): of the step, or of the accuracy if the integrator chooses its steps.
+/// Divisor of the step, or of the accuracy if the integrator chooses its steps, for the run `halved` of calibrate().
 double finer_by(const Physics& physics);
 
 /// Setting that should reduce the widest band of `columns` to less than kWidestColumn, as text for a message. It is a finer
@@ -22,7 +22,7 @@ std::string narrower_columns(const std::vector<Band>& columns, const Scenario& s
                              const std::function<void(double)>& progress = {});
 
 /// One line per number with a band wider than kWideNumber, widest first: the change that would not be detected, the reason, and
-/// the remedy. After three lines, a last line contains the number of the omitted ones. "" if there is no such number.
+/// the remedy. After three lines, a last line gives the count of the omitted lines. "" if no band is that wide.
 std::string wide_numbers(const Golden& golden, const Scenario& scenario);
 
 /// Names of the numbers in wide_numbers(), as in `m3/active torque peak 42.2 %, ...`. "" if there is none.

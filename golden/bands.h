@@ -24,7 +24,7 @@ struct GoldenRun {
 /// the largest range among columns of the same unit (base.y of a planar walk is noise), and at least 1e-6 of the unit (a
 /// coordinate at rest).
 std::vector<double> scales(const Trace& trace);
-/// The same for the trace of a golden with these bands: the scale of a constant column is its natural scale.
+/// The same for the trace of a golden with these bands, except that the scale of a constant column is its natural scale.
 std::vector<double> scales(const Trace& trace, const std::vector<Band>& bands);
 
 /// Scales of single numbers, computed as those of columns, but from the absolute value of the number instead of the range.
@@ -33,8 +33,8 @@ std::vector<double> scales(const std::vector<Number>& numbers);
 /// Mean square of the difference of a column between two traces with equal rows, in the unit of the column squared.
 double mean_square(const Trace& a, const Trace& b, std::size_t column);
 
-/// Mean square of the difference of every column. Golden::rounding is that of a trace before and after it was written to the
-/// golden's file.
+/// Mean square of the difference of every column. Golden::rounding is the mean square for a trace before and after it was
+/// written to the golden's file.
 std::vector<double> mean_squares(const Trace& a, const Trace& b);
 
 inline constexpr double kEnsembleFactor = 10, kHalvingFactor = 3;  ///< factors from the measured differences to the bands
@@ -42,10 +42,10 @@ inline constexpr double kEnsembleFactor = 10, kHalvingFactor = 3;  ///< factors 
 /// the goldens must detect change a torque by 0.4 %.
 inline constexpr double kWidestColumn = 0.002;
 /// Range below which a column is constant, and least band of a constant column, as shares of its natural scale. The band is
-/// above the effect of rounding on a robot at rest, and a torque of 1e-5 of the motor's is negligible.
+/// above the effect of rounding on a robot at rest, and a torque of 1e-5 of the motor's torque is negligible.
 inline constexpr double kConstantRange = 1e-6, kConstantBand = 1e-5;
-/// Share of the natural scale below which a band is narrow enough for any range: a robot that stands on several faces bears its
-/// weight with small torques, which a start that differs by rounding changes by 6e-6 of those of its motors, for good.
+/// Share of the natural scale below which a band is narrow enough for any range. A robot that stands on several faces bears its
+/// weight with small torques. A start that differs by rounding changes them permanently, by 6e-6 of the motors' torques.
 inline constexpr double kNarrowBand = 1e-4;
 /// Band of a mean over starts, in standard errors of the difference of two such means. Student's t with 15 degrees of freedom
 /// exceeds 6 once in 40 000 numbers.
@@ -56,9 +56,9 @@ struct Bands {
 };
 
 /// Bands of the run `base`. For a column the band is the maximum of kEnsembleFactor x the largest RMS difference of a run of
-/// the ensemble, kHalvingFactor x the RMS difference of the run with half the step, and 1e-6 of the range. For a number the
-/// band follows likewise from its differences; if `base` has means over starts, the ensemble is not needed, and that part of
-/// the band is kStandardErrors of the difference of two means. A band may be narrower than the precision of the stored golden,
+/// the ensemble, kHalvingFactor x the RMS difference of the run with half the step, and 1e-6 of the range. The band of a number
+/// follows from its differences in the same way. If `base` has means over starts, the ensemble is not needed: its part of the
+/// band is kStandardErrors of the difference of two means. A band may be narrower than the precision of the stored golden,
 /// because its rounding error is known exactly (Golden::rounding) and is subtracted. A column is constant if its range is below
 /// kConstantRange of its natural scale, or if its band is wider than kWidestColumn of its range, but at most kNarrowBand of
 /// that scale: its band is a share of the natural scale, at least kConstantBand. All runs must have at least the columns, rows

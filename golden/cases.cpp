@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 
 bool is_scenario(const fs::path& file) { return file.extension() == ".yaml" || file.extension() == ".yml"; }
 
-/// True if a file exists at a path, also a broken link. If this cannot be determined the result is false, and a later attempt
-/// to read reports the reason.
+/// True if a file or a broken link exists at a path. If this cannot be determined the result is false, and a later attempt to
+/// read reports the reason.
 bool is_there(const fs::path& path) {
   std::error_code error;
   return fs::exists(fs::symlink_status(path, error));
@@ -43,8 +43,8 @@ fs::path scenario_of(const fs::path& golden) {
   return {};
 }
 
-/// Finds all scenarios of a folder and, in its subfolders, only scenarios with a golden, because other YAML files may be
-/// anything.
+/// Finds all scenarios of a folder and, in its subfolders, only scenarios with a golden, because other YAML files need not be
+/// scenarios.
 void find_in(const fs::path& folder, bool top, Found& found) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {

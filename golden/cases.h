@@ -51,17 +51,17 @@ struct GoldenCase {
 /// share it.
 std::filesystem::path own_golden(const std::filesystem::path& scenario);
 
-/// Throws InputError if `golden` belongs to another scenario, which has another name and whose run is outside the bands. A
-/// scenario that was only renamed keeps its golden.
+/// Throws InputError if `golden` belongs to another scenario: it has another name, and the run is outside the bands. A scenario
+/// that was only renamed keeps its golden.
 void check_own(const Golden& golden, const std::filesystem::path& folder, const Scenario& scenario,
                const GoldenDifference& difference);
 
 /// Collects one case per scenario, in the order of the arguments, with the scenarios of a folder sorted by name. Each scenario
-/// occurs once. A folder stands for its scenarios, and for the scenarios with a golden in the folders below it. A scenario
-/// without a golden is skipped, or is a failing case with --strict. The case of a golden without a scenario always fails.
-/// Goldens and scenarios are read here; an error in either is the result of its case. Throws InputError for an argument that is
-/// neither scenario nor folder, for a folder without scenarios, for two scenarios with one golden, and for --golden unless
-/// there is exactly one scenario.
+/// occurs once. A folder means its scenarios, and the scenarios with a golden in the folders below it. A scenario without a
+/// golden is skipped, or is a failing case with --strict. The case of a golden without a scenario always fails. Goldens and
+/// scenarios are read here; an error in either is the result of its case. Throws InputError for an argument that is neither
+/// scenario nor folder, for a folder without scenarios, for two scenarios with one golden, and for --golden unless there is
+/// exactly one scenario.
 std::vector<GoldenCase> golden_cases(const TestArguments& arguments, Catalog& catalog);
 
 /// Runs all cases that can run and compares the results with the goldens. `progress(share)` is as in golden_runs().

@@ -238,7 +238,7 @@ void write_golden(const Golden& golden, const fs::path& folder) {
   try {
     write_file(folder / kJsonFile, json_text(golden, bytes));  // from here on, the new golden is valid
   } catch (...) {
-    // golden.json may have its name already, in a folder that cannot be synced: then the new trace belongs to it.
+    // In a folder that cannot be synced, golden.json may already have its name. The new trace then belongs to it.
     if (!next_belongs(folder)) fs::remove(folder / kNextTraceFile, error);
     throw;
   }

@@ -63,12 +63,12 @@ struct Golden {
 std::filesystem::path golden_folder(const std::filesystem::path& scenario);
 
 /// Writes trace.golden (file.h) and golden.json (all other data) into `folder`, which is created if missing. A process that is
-/// killed at any moment, or that a disk fails, leaves the old or the new golden, never a mixture. Throws RunError if the golden
+/// killed at any moment, or whose disk fails, leaves the old or the new golden, never a mixture. Throws RunError if the golden
 /// cannot be written, and InputError if another process is writing it.
 void write_golden(const Golden& golden, const std::filesystem::path& folder);
 
-/// Reads a golden. Throws InputError with a separate message if either file is missing, truncated, corrupt (by checksum), of
-/// another program, or of another format version, and if the two files are not of one approval.
+/// Reads a golden. Throws InputError with a separate message if either file is missing, truncated, corrupt (by checksum), from
+/// another program, or in another format version, and if the two files come from different approvals.
 Golden read_golden(const std::filesystem::path& folder);
 
 }  // namespace gaitlab::golden

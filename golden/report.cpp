@@ -80,8 +80,8 @@ std::string table(const Checks<NumberCheck>& numbers) {
   return aligned(rows, 2);
 }
 
-/// Number that represents all numbers beside a table of columns: the distance, or else the worst. Null if all numbers are
-/// within their bands.
+/// Number that represents all numbers next to a table of columns: the distance, or else the worst number. Null if all numbers
+/// are within their bands.
 const NumberCheck* first_number(const Checks<NumberCheck>& numbers) {
   const auto distance = std::find_if(numbers.begin(), numbers.end(), [](const auto* n) { return n->name == "distance"; });
   if (distance != numbers.end()) return *distance;

@@ -22,7 +22,7 @@ inline constexpr std::size_t kFewSettings = 5, kAllSettings = 1000;
 std::string since_approval(const Golden& golden);
 
 /// Changes of build and settings since the golden was approved, one line each, indented by two. After `most` settings, a last
-/// line contains the number of the omitted ones.
+/// line gives the count of the omitted ones.
 std::string origin_changes(const GoldenProvenance& then, const GoldenProvenance& now, std::size_t most = kFewSettings);
 
 /// Text `verdict: feasible -> infeasible: ...`, indented by two, in lines of at most `width` characters. "" if both words are

@@ -139,7 +139,7 @@ std::vector<Attempt> attempts(const std::vector<Scenario>& scenarios, int jobs, 
   return outcomes;
 }
 
-/// Result of a scenario from those of its starts: the mean of the runs, or the first error.
+/// Result of a scenario from the results of its starts: the mean of the runs, or the first error.
 Attempt mean_of_attempts(std::span<const Attempt> attempts) {
   Attempt mean;
   std::vector<GoldenRun> runs;
@@ -203,7 +203,7 @@ Scenario with_golden_columns(const Scenario& scenario, const std::vector<std::st
 std::vector<Attempt> golden_runs(const std::vector<Scenario>& scenarios, int jobs, const std::function<void(double)>& progress,
                                  bool judged) {
   std::vector<Scenario> all;
-  std::vector<std::size_t> first{0};  // of the starts of each scenario, and their end
+  std::vector<std::size_t> first{0};  // index of the first start of each scenario, and the number of all starts
   for (const Scenario& scenario : scenarios) {
     for (Scenario& start : starts(scenario)) all.push_back(std::move(start));
     first.push_back(all.size());

@@ -12,8 +12,8 @@ namespace gaitlab::golden {
 
 /// The scenario with the columns of a golden as its `trace.columns`: columns that a pattern of `selected` matches or, if it is
 /// empty, those of the usual columns that the scenario's own `trace.columns` match; and those that `before` has, if the run can
-/// have them. Usual are torque, current and angle of every joint (only the angle without motors) and the pose of the base.
-/// Throws InputError for a pattern that matches no column, and for a `trace.columns` that matches no usual column.
+/// have them. The usual columns are torque, current and angle of every joint (only the angle without motors) and the pose of
+/// the base. Throws InputError for a pattern that matches no column, and for a `trace.columns` that matches no usual column.
 Scenario with_golden_columns(const Scenario& scenario, const std::vector<std::string>& selected, const Trace* before = nullptr);
 
 /// Result of one of the runs of golden_runs().
@@ -31,9 +31,9 @@ struct Attempt {
 std::vector<Attempt> golden_runs(const std::vector<Scenario>& scenarios, int jobs,
                                  const std::function<void(double)>& progress = {}, bool judged = false);
 
-/// Numbers that a golden of this run contains. These are all numbers, without the costs of transport if the robot travels less
-/// than 10 mm, because they are then noise. In a comparison the golden selects the numbers, so that a run on the other side of
-/// that limit is still compared.
+/// Numbers that a golden of this run contains. These are all numbers except the costs of transport if the robot travels less
+/// than 10 mm, because these costs are then noise. In a comparison the golden selects the numbers, so that a run on the other
+/// side of that limit is still compared.
 std::vector<Number> golden_numbers(const GoldenRun& run);
 
 /// Origin of a golden's run, for Golden::origin.

@@ -27,9 +27,9 @@ struct Area {
   double x_lo = 0, x_hi = 0, y_lo = 0, y_hi = 0;
 };
 
-/// A ground of square tiles whose edge is 1, 2 or 5 times a power of ten. At most 40 whole and two partial tiles are along
-/// either side of the drawn area, and a corner of four tiles is at the world's origin. Light and dark tiles alternate as on a
-/// chessboard and use common vertices.
+/// A ground of square tiles whose edge is 1, 2 or 5 times a power of ten. Either side of the drawn area has at most 40 whole
+/// and two partial tiles. A corner of four tiles is at the world's origin. Light and dark tiles alternate as on a chessboard
+/// and use common vertices.
 struct Tiles {
   double edge = 0;  ///< m
   Mesh light;       ///< contains all vertices

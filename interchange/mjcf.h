@@ -18,8 +18,8 @@ enum class MjcfModel { walking, strict };
 /// - Encoders, torque sensors, gyroscopes and accelerometers as sensors without errors.
 /// A walking model (interchange/mjcf_walking.h, docs/mujoco.md) also has contacts of the contact elements with the ground,
 /// stops of the hinges, and motors whose controls are set points, and is integrated implicitly. In a strict model no geom
-/// collides, controls are torques, and the integrator is RK4. A comment at the top lists the parts of the scenario that the
-/// model lacks. Numbers are read back as the same doubles. Throws InputError for a height field.
+/// collides, controls are torques, and the integrator is RK4. A comment at the top lists the parts of the scenario that are not
+/// in the model. Numbers are read back as the same doubles. Throws InputError for a height field.
 std::string to_mjcf(const Scenario& scenario, MjcfModel model);
 
 }  // namespace gaitlab::interchange

@@ -21,11 +21,11 @@ namespace {
 // a twentieth of the inertia there, and MuJoCo's solver converges within its tolerance.
 constexpr double kLeastImpedance = 0.05;
 constexpr double kMostImpratio = 100;
-constexpr double kUsualGravity = 9.81;  // m/s^2, for the standing depth where gravity does not press the robot on the ground
-constexpr int kHalvings = 60;           // from the first bracket to the rounding of a double
+constexpr double kUsualGravity = 9.81;  // m/s^2, for the standing depth if gravity does not press the robot on the ground
+constexpr int kHalvings = 60;           // halvings from the first bracket to the rounding of a double
 
-/// Total force of the springs of the contact elements if the robot sinks by `sunk` from its start on the ground; and the mean
-/// depth of those that touch.
+/// Total force of the springs of the contact elements if the robot sinks by `sunk` from its start on the ground, and the mean
+/// depth of the elements that touch.
 struct Press {
   double force = 0, depth = 0;
 };
@@ -116,7 +116,7 @@ ContactLine contact_line(const Scenario& s) {
 }
 
 DirectReference direct_reference(double stiffness, double damping, double mobility, double step) {
-  const double mass_of_step = step * damping * mobility;  // of the semi-implicit step, times A_0
+  const double mass_of_step = step * damping * mobility;  // m' of a semi-implicit step, times A_0
   const double d = std::max(kLeastImpedance, mass_of_step / (1 + mass_of_step));
   return {(1 - d) * mobility * stiffness, (1 - d) * mobility * damping, d};
 }

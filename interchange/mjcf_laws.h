@@ -18,16 +18,16 @@ struct InverseWeights {
 };
 InverseWeights inverse_weights(const Scenario& scenario, const std::vector<MotorLimits>& limits);
 
-/// The contact law at the penetration p0 at which the robot stands: a line through its force there, with its slopes.
+/// The contact law, linearised at the penetration p0 at which the robot stands: the force and the slopes there.
 ///
 /// MuJoCo's constraint is f = (a_ref - a) / R with R = A_0 (1 - d) / d, and with the direct format of solref, a_ref = -(damping
 /// v + stiffness r) / d (MuJoCo's documentation, Computation: constraint model, and Modeling: solver parameters). Therefore
 ///     f = (stiffness p + damping p') / ((1 - d) A_0) - m' a,   m' = d / ((1 - d) A_0).
-/// With stiffness = (1 - d) A_0 Kn and damping = (1 - d) A_0 C it is Kn p + C p' of the law, exactly, and a mass m' at the
-/// contact while it lasts. A semi-implicit step of the law has such a term, too, with m' = h C: d must not be less than that,
-/// because the step would otherwise be explicit. Friction has R / impratio, the same damping and no stiffness: it is viscous
-/// with the slope impratio C up to f Fn, which is that of the law, f Fn / v_lim, if impratio is the ratio of the two slopes at
-/// p0.
+/// With stiffness = (1 - d) A_0 Kn and damping = (1 - d) A_0 C, f is exactly the law's Kn p + C p', plus the inertia of a mass
+/// m' at the contact while the contact lasts. A semi-implicit step of the law also has such a mass, m' = h C. d must not give a
+/// smaller mass, because the step would otherwise be explicit. Friction has R / impratio, the same damping and no stiffness: it
+/// is viscous with the slope impratio C up to f Fn, which is that of the law, f Fn / v_lim, if impratio is the ratio of the two
+/// slopes at p0.
 struct ContactLine {
   double depth = 0;      ///< p0, m
   double stiffness = 0;  ///< N/m, dFn/dp at p0

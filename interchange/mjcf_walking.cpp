@@ -17,7 +17,7 @@ namespace {
 // (1 - cos a) radii below the point: 8 um at 0.4 rad.
 constexpr double kTouchRadius = 1e-4;
 // m, the same on a ground with boxes. MuJoCo 2.2 takes the radius for the depth of a sphere whose centre is inside a box (3.12
-// does not), so that the radius must be greater than the penetration, 0.6 mm of a hexapod that walks.
+// does not), so that the radius must be greater than the penetration, which is 0.6 mm for a walking hexapod.
 constexpr double kTouchRadiusOnBoxes = 1e-3;
 
 }  // namespace

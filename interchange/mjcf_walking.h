@@ -8,7 +8,7 @@ class MjcfWalking {
  public:
   MjcfWalking(const Scenario& scenario, const RobotState& start, const std::vector<MotorLimits>& limits, double step);
 
-  /// Sets the integrator, which is implicit, because motors damp their joints within a step, and the cone of friction.
+  /// Sets the friction cone and the integrator, which is implicit, because motors damp their joints within a step.
   void write_options(Xml& option) const;
   void write_ground(Xml& geom, double friction) const;
   /// Makes the sphere of a contact element collide. The sphere of a point has its bottom at the point, at the start.
@@ -19,7 +19,7 @@ class MjcfWalking {
   void write_motors(Xml& root) const;
   /// Adds the controls that hold the pose at the start.
   void write_controls(Xml& key) const;
-  /// Sentences on what the file has and lacks.
+  /// Sentences on the parts that the file contains and lacks.
   [[nodiscard]] std::string comment() const;
 
  private:
@@ -33,7 +33,7 @@ class MjcfWalking {
   const Scenario& s_;
   const std::vector<MotorLimits>& limits_;
   double step_;
-  std::vector<double> angles_;  ///< at the start, rad
+  std::vector<double> angles_;  ///< initial joint angles, rad
   Kinematics at_start_;
   InverseWeights weights_;
   ContactLine line_;

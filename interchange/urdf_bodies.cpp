@@ -41,7 +41,7 @@ struct UrdfMass {
   Mat3 inertia;
 };
 
-/// Masses as one; a single one unchanged, to the last digit.
+/// Sum of the masses. A single mass is returned unchanged, to the last digit.
 UrdfMass united_mass(const std::vector<UrdfMass>& parts) {
   if (parts.size() == 1) return parts.front();
   UrdfMass whole{0, Vec3::Zero(), Mat3::Zero()};
@@ -57,13 +57,13 @@ UrdfMass united_mass(const std::vector<UrdfMass>& parts) {
   return whole;
 }
 
-/// Names that a module file allows for the names of URDF, in the same order: without a common kind of prefix such as `m0/`,
-/// other characters replaced by _, and numbered if equal.
+/// Names for the module file from the names in URDF, in the same order. Prefixes such as `m0/` are removed if all names then
+/// still differ, characters that are not allowed become _, and equal names are numbered.
 std::vector<std::string> allowed_names(const std::vector<std::string>& names) {
   std::set<std::string> seen;
   for (const std::string& name : names) seen.insert(name.substr(name.rfind('/') + 1));
   const bool unique = seen.size() == names.size();
-  seen = {"dock"};  // the name of docks, which no hinge may have
+  seen = {"dock"};  // name reserved for docks
   std::vector<std::string> allowed;
   for (const std::string& name : names) {
     std::string text = unique ? name.substr(name.rfind('/') + 1) : name;
@@ -94,7 +94,7 @@ class BodyWalk {
   }
 
  private:
-  /// A link, the body that contains it, and its pose in that body.
+  /// A link, its body, and its pose in that body.
   struct Placed {
     const urdf::Link* link;
     std::size_t body;
@@ -227,7 +227,7 @@ class BodyWalk {
     made_.bodies[at.body].shapes.push_back(shape);
   }
 
-  /// Sums the masses, reports bodies without one, and makes the names such as a module file allows.
+  /// Sums the masses, reports bodies without mass, and makes names that a module file allows.
   void finish() {
     std::vector<bool> inner(made_.bodies.size(), false), moved(made_.bodies.size(), false);
     for (const UrdfHinge& one : made_.hinges) {
@@ -261,7 +261,7 @@ class BodyWalk {
     note_names("joint", made_.joints, hinges);
   }
 
-  /// Adds a note on each name that is not the one in the file, or its end behind a prefix.
+  /// Adds a note on each name that was changed, other than by removing a prefix.
   void note_names(const char* what, const std::vector<std::string>& given, const std::vector<std::string>& allowed) {
     for (std::size_t i = 0; i < given.size(); ++i) {
       if (given[i] == allowed[i] || given[i].ends_with("/" + allowed[i])) continue;

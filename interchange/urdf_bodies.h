@@ -1,4 +1,4 @@
-// Bodies and hinges of a robot in URDF: the links, of which those that fixed joints connect are one body.
+// Bodies and hinges of a robot in URDF. Links that fixed joints connect form one body.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,17 +10,17 @@ namespace gaitlab::interchange {
 
 struct UrdfHinge {
   HingeType hinge;               ///< parent and child: indices of UrdfBodies::bodies
-  double effort = 0, speed = 0;  ///< of its motor: torque at rest, N m, and no-load speed, rad/s; 0 without a motor
+  double effort = 0, speed = 0;  ///< motor's torque at rest, N m, and no-load speed, rad/s; 0 without a motor
 };
 
 struct UrdfBodies {
   std::vector<BodyType> bodies;
   std::vector<UrdfHinge> hinges;
-  std::vector<std::string> links, joints;  ///< names of the bodies and hinges in the URDF file, whose names may differ
+  std::vector<std::string> links, joints;  ///< names in the URDF file, which may differ from those of bodies and hinges
   std::vector<std::string> notes;          ///< parts that were left out
 };
 
-/// Adds a problem for everything that a module cannot hold; bodies and hinges must then not be used.
+/// Adds a problem for everything that a module cannot contain; the bodies and hinges are then not valid.
 UrdfBodies urdf_bodies(const UrdfText& urdf, Problems& problems);
 
 }  // namespace gaitlab::interchange

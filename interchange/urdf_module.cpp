@@ -17,7 +17,7 @@ namespace gaitlab::interchange {
 
 namespace {
 
-constexpr double kVoltage = 12;  // V, chosen: URDF has no voltage; torque and speed hold at it
+constexpr double kVoltage = 12;  // V, chosen, because URDF has no voltage; torque and speed refer to it
 
 std::string list_text(std::span<const double> numbers) {
   std::string text;
@@ -88,7 +88,7 @@ std::string hinge_text(const UrdfHinge& one, const UrdfBodies& parts, const Urdf
   return text;
 }
 
-/// The text of a module, and the lines at which the parts of links and joints begin.
+/// The text of a module, and the lines at which the parts for the links and joints begin.
 struct ModuleText {
   struct Part {
     int line;
@@ -142,7 +142,7 @@ void raise_by_line(const Problems& problems) {
   throw InputError(std::move(list));
 }
 
-/// The problem at the link or joint whose part of the module text has it.
+/// The same problem, placed at the link or joint from which that part of the module text was made.
 Problem at_urdf(const Problem& problem, const ModuleText& made, const UrdfText& urdf, const std::string& file) {
   const auto after = std::ranges::find_if(made.parts, [&](const auto& part) { return part.line > problem.place.line; });
   if (after == made.parts.begin() || std::prev(after)->name.empty()) return {SourceLocation{file}, problem.text};

@@ -41,7 +41,7 @@ void check_elements(const std::string& text, const std::string& file) {
     throw InputError(SourceLocation{file}, fmt::format("has {} elements; expected at most {}", number, kMost));
 }
 
-/// Offset behind the next `end` from `at` on, or the end of the text.
+/// Offset after the first `end` at or after `at`; the end of the text if there is none.
 std::size_t behind(const std::string& text, std::string_view end, std::size_t at) {
   const std::size_t found = text.find(end, at);
   return found == std::string::npos ? text.size() : found + end.size();

@@ -33,7 +33,7 @@ double wall_time(const fs::path& folder) {
   return std::isfinite(seconds) && seconds >= 0 ? seconds : 0;
 }
 
-/// Sentences on the missing parts of a run folder, with the path of the folder removed.
+/// Sentences on the missing parts of a run folder, in which the trace is named without its folder.
 std::vector<std::string> told_missing(std::vector<std::string> missing, const fs::path& trace) {
   for (std::string& sentence : missing) {
     if (sentence.starts_with(trace.string())) sentence.replace(0, trace.string().size(), trace.filename().string());

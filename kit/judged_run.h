@@ -15,7 +15,7 @@ inline constexpr const char* kRemedyFile = "remedy.json";  ///< name of the reme
 struct JudgedRun {
   std::string name;             ///< folder as the user typed it
   std::filesystem::path trace;  ///< path of the trace file
-  StoredRun read;               ///< its scenario has the trace period of the kept rows
+  StoredRun read;               ///< run whose scenario has the trace period of the kept rows
   double period = 0;            ///< trace period of the run, s
   std::string scenario_hash = {};
   std::optional<AllRows> all = {};  ///< all rows, if thin_rows() removed some
@@ -31,7 +31,7 @@ struct JudgedRun {
   void keep_remedy();
 };
 
-/// Reads and judges a run. `catalog` must outlive the result. Throws InputError as read_run does.
+/// Reads and judges a run. `catalog` must outlive the result. Throws the InputErrors of read_run.
 JudgedRun read_judged(const std::string& name, Catalog& catalog);
 
 }  // namespace gaitlab::kit

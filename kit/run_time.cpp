@@ -14,17 +14,18 @@ namespace gaitlab::kit {
 
 namespace {
 
-// CPU time of a run = process + start + steps + companions + rows, each from counts and the constants beside its equation. They
-// were fitted to the times of the parts of runs: chains of 10 to 3000 modules and carts of 4 to 64 wheels, both engines, with
-// and without an estimate, the least of two (docs/benchmarks.md, estimates; bench/estimates.cpp compares whole runs).
+// CPU time of a run = process + start + steps + companions + rows, each computed from counts and the constants beside its
+// equation. The constants were fitted to times of the parts of runs, the smaller of two measurements each: chains of 10 to 3000
+// modules and carts of 4 to 64 wheels, both engines, with and without an estimate (docs/benchmarks.md, estimates;
+// bench/estimates.cpp compares whole runs).
 
 /// Cost of a step of one rollout, us: base + link * links + contact * contact elements + joint * driven joints + box * boxes
-/// that move; times 1 + links / doubled in Bullet, whose data of long robots are no longer in the cache.
+/// that move; times 1 + links / doubled in Bullet, because the data of long robots do not fit in the cache.
 struct StepCost {
   std::string_view engine, integrator;
   ContactLaw law;
   double base, link, contact, joint, box;
-  double doubled;  ///< number of links that double the cost of each; infinity if it is the same for all lengths
+  double doubled;  ///< number of links at which the cost of each link has doubled; infinity if that cost is constant
   bool limited;    ///< an explicit method
 };
 constexpr double kAny = std::numeric_limits<double>::infinity();
@@ -35,7 +36,7 @@ constexpr std::array kStepCosts{
     StepCost{"articulated", "implicit", ContactLaw::penalty, 1.1, 0.4, 0.025, 0, 0, kAny, false},
     StepCost{"articulated", "extrapolated", ContactLaw::penalty, 2.8, 1, 0.06, 0, 0, kAny, false},
     StepCost{"articulated", "rk4", ContactLaw::penalty, 0, 1.3, 0.05, 0, 0, kAny, true},
-    StepCost{"articulated", "adaptive", ContactLaw::penalty, 1.1, 0.4, 0.025, 0, 0, kAny, false},  // of a solve, not of a step
+    StepCost{"articulated", "adaptive", ContactLaw::penalty, 1.1, 0.4, 0.025, 0, 0, kAny, false},  // cost of a solve
 };
 constexpr double kOnBoxes = 0.1;  // us per contact element and step, on ground with boxes
 constexpr double kUnknown = 1e3;  // us per step of an engine that the table lacks
@@ -66,20 +67,21 @@ double step_us(const StepCost& cost, const Scenario& s) {
   return us * (1 + links(s) / cost.doubled);
 }
 
-/// Cost of reading, checking, assembling and judging, s: per link and, for the set points of a CPG alone, per driven joint.
+/// Time for reading, checking, assembling and judging, s: per link and, to compute the set points of a CPG alone, per driven
+/// joint.
 double start_seconds(const Scenario& s, bool in_study) {
   constexpr double kLink = 7e-4, kLinkInStudy = 1.5e-4, kCpg = 4e-4;
   return (in_study ? kLinkInStudy : kLink) * links(s) + (s.cpg.entry == nullptr ? 0 : kCpg * driven_joints(s));
 }
 
-/// Cost of the rows of a trace, s: recorded, summarised, written, drawn.
+/// Time for recording, summarising, writing and drawing the rows of a trace, s.
 double row_seconds(const RowsNeeded& rows) {
   constexpr double kRow = 8e-6, kCell = 2e-7;
   return rows.rows * (kRow + kCell * rows.columns);
 }
 
-/// Factor of the companion rollouts that estimate the torque error of a run with an accuracy, on the cost of a solve. Three in
-/// lanes beside the run need four times as much of the cache.
+/// Factor by which companion rollouts, which estimate the torque error of a run with an accuracy, increase the cost of a solve.
+/// Three companions in lanes beside the run need four times as much of the cache.
 double companions(const Scenario& s) {
   constexpr double kLanes = 1.4, kLinks = 2500, kMost = 5.6;
   if (!estimated_by_rollouts(s)) return 1;
@@ -88,7 +90,7 @@ double companions(const Scenario& s) {
   return in_lanes ? std::min(kMost, kLanes + links(s) / kLinks) : 1.0 + static_cast<double>(kCompanions);
 }
 
-/// Steps of a run of `steps` fixed steps and of its twin.
+/// Number of steps of a run with `steps` fixed steps, including those of its twin.
 double steps_with_twin(const StepCost& cost, const Scenario& s, double steps) {
   const Physics& physics = s.physics;
   const bool possible = physics.integrator->order > 0 && s.contact.model().complete_state && !s.robot->joints.empty();
@@ -100,18 +102,18 @@ double steps_with_twin(const StepCost& cost, const Scenario& s, double steps) {
   return steps + covered * (how.steps < 0 ? -how.steps : 1.0 / how.steps);
 }
 
-/// Cost of the searches in a heap of boxes, us per step, if all contact elements are in it. Only for the length of trials,
-/// because few robots walk through a heap.
+/// Cost of the searches in a heap of boxes, us per step, if all contact elements are in it. It decides only the length of
+/// trials, because few robots walk through a heap.
 double heap_us(const Scenario& s) {
   constexpr double kSearch = 4;           // us per box of the heap and contact element
-  constexpr std::size_t kFewInPlace = 3;  // boxes whose searches take as long as those of one
+  constexpr std::size_t kFewInPlace = 3;  // up to this number of boxes, searches take as long as for one box
   const std::size_t boxes = most_in_one_place(s.ground.boxes());
   return boxes <= kFewInPlace ? 0 : kSearch * static_cast<double>(boxes) * contacts(s);
 }
 
 std::int64_t steps_in_trial(const Scenario& s) {
   constexpr double kPeriods = 100;
-  constexpr std::size_t kManyBoxes = 100;  // one step may take seconds if they overlap, which the table of costs lacks
+  constexpr std::size_t kManyBoxes = 100;  // overlapping boxes may take seconds per step, unlike in the table of costs
   if (s.ground.boxes().size() > kManyBoxes) return 1;
   return std::max<std::int64_t>(2, std::llround(kPeriods * s.control_period / s.physics.step));
 }
@@ -120,11 +122,12 @@ constexpr double kCoarse = 0.1;      // accuracy of the trial, with which a hund
 constexpr double kTrial = 30e3;      // us of work to count solves
 constexpr double kFirstSteps = 4e3;  // us of work to find early failures
 
-/// Solves per second of a walking robot with this accuracy: the geometric mean of the shipped scenarios, with solves of steps
-/// of `step` that need no division and of divided ones.
+/// Solves per simulated second of a walking robot with this accuracy, fitted to the geometric mean of the shipped scenarios.
+/// The first term counts undivided steps of length `step`, the second divided steps.
 double typical_solves(double accuracy, double step) { return 3 / step + 4200 * std::pow(0.001 / accuracy, 0.85); }
 
-/// Solves after each step of a trial of the scenario with a coarse accuracy; only the 0 before the first step if it fails.
+/// Number of solves so far, before the first and after each step of a trial with a coarse accuracy. Only the initial 0 if the
+/// trial fails.
 std::vector<double> coarse_solves(const Scenario& s, double us) {
   std::vector<double> solves{0};
   try {
@@ -145,15 +148,15 @@ std::vector<double> coarse_solves(const Scenario& s, double us) {
   return solves;
 }
 
-/// Solves per step of a robot too large for a long trial: one joint of many decides the step. Chains of 100 to 1000 modules at
-/// accuracy 0.01: 32, 95 and 170.
+/// Solves per step of a robot too large for a long trial. They rise with the number of joints, because any joint can decide the
+/// step. Chains of 100 to 1000 modules need 32, 95 and 170 at accuracy 0.01.
 double solves_of_many(const Scenario& s) {
   constexpr double kJoint = 0.1, kOf = 0.01, kExponent = 0.57;
   return 3 + kJoint * static_cast<double>(s.robot->joints.size()) * std::pow(kOf / s.physics.accuracy, kExponent);
 }
 
-/// Solves of a run of `steps` steps with an integrator that divides them. The start is divided more than the rest, and more the
-/// finer the accuracy (kStart). The rest has the rate of the second half of a trial.
+/// Solves of a run of `steps` steps with an integrator that divides them. Steps at the start are divided more than later ones,
+/// and the more, the finer the accuracy (kStart). Later steps have the rate of the second half of a trial.
 double adaptive_solves(const Scenario& s, double us, double steps) {
   constexpr double kStart = 0.6;    // exponent of the accuracy
   constexpr std::size_t kFew = 32;  // steps of a trial from which a rate can be seen

@@ -13,11 +13,12 @@ namespace gaitlab::kit {
 /// because the number of its steps depends on the gait. `rows` is the size of the trace.
 double estimated_seconds(const Scenario& scenario, const RowsNeeded& rows = {});
 
-/// The same for a run of a study, which writes no files. Its lanes save as much as ticks and statistics of each lane cost.
+/// The same for a run of a study, which writes no files. Lanes are not counted: they save as much as the ticks and statistics
+/// of each lane cost.
 double estimated_seconds_in_study(const Scenario& scenario);
 
 /// Takes the first steps of a simulation, at most a hundred control periods and about 4 ms of work. Returns the message of the
-/// error that ends the run in them; empty if none does.
+/// error that ends the run within these steps, or an empty text.
 std::string early_failure(Simulation& simulation, const Scenario& scenario);
 
 }  // namespace gaitlab::kit

@@ -18,8 +18,7 @@ inline constexpr const char* kPageFile = "report.html";  ///< name of the page i
 /// simulation.
 class RunWriter {
  public:
-  /// `lost` is called at once for each file that cannot be written, with the reason; once if it fails again for the same
-  /// reason.
+  /// `lost` is called immediately with the reason if a file cannot be written. Each reason is reported only once.
   RunWriter(std::filesystem::path folder, std::function<void(const std::string& why)> lost)
       : folder_(std::move(folder)), lost_(std::move(lost)) {}
 
@@ -35,8 +34,8 @@ class RunWriter {
     }
   }
   void write_text(const char* name, const std::function<std::string()>& text);
-  /// Writes trace.h5 or, if `format` is csv, trace.csv and recording.h5; scenario.resolved.yaml; and the file of heights that
-  /// it names, if the ground has one.
+  /// Writes trace.h5 or, if `format` is csv, trace.csv and recording.h5; scenario.resolved.yaml; and, if that file names a file
+  /// of heights, the file of heights.
   void write_run(const std::string& format, const Scenario& scenario, const Recording& recording);
   /// Writes figure.svg, verdict.json, with `page` report.html, and then summary.json, so that a folder with a summary is
   /// complete except for files that failed.

@@ -19,7 +19,7 @@ namespace {
 
 enum class Folders { none, runs, all };
 
-/// Path that a word means if both a file or folder and a shipped scenario or study have this name. Prints a note on the choice.
+/// Path for a word that names both a file or folder and a shipped scenario or study. Prints a note on the choice.
 std::string one_of_two(const std::string& word, const std::string& shipped, Folders taken) {
   std::error_code none;
   const bool folder = fs::is_directory(word, none);

@@ -5,8 +5,8 @@
 namespace gaitlab::kit {
 
 /// File that a user names: a path or, if there is no such file, the name of a shipped scenario or study. A folder is not a
-/// scenario. Prints a note if both exist. Throws InputError for a name that is similar to a shipped one; other names are
-/// returned.
+/// scenario. Prints a note if both exist. Throws InputError for an unknown name that is similar to a shipped one; other names
+/// are returned unchanged.
 std::string named_file(const std::string& word);
 /// The same for commands that take a run folder, and for those that take any folder.
 std::string named_file_or_run(const std::string& word);

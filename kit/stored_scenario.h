@@ -37,13 +37,13 @@ struct StoredRun {
   Scenario scenario;  ///< from the recording, or from scenario.resolved.yaml if the recording is a CSV file alone
 };
 
-/// Reads a run with the present plugin libraries. Throws InputError as read_recording and read_stored do, and if a complete
-/// recording does not fit the scenario.
+/// Reads a run with the present plugin libraries. Throws the InputErrors of read_recording and read_stored, and one if a
+/// complete recording does not fit the scenario.
 StoredRun read_run(const std::string& run, Catalog& catalog);
 
-/// The scenario as readers of every `stride`-th row need it: its trace period is `stride` times as long.
+/// The scenario for readers of every `stride`-th row, with a trace period that is `stride` times as long.
 Scenario with_row_stride(const Scenario& scenario, std::size_t stride);
-/// Prints the note on that, if `stride` is above 1.
+/// Prints a note that only every `stride`-th row is used, if `stride` is above 1.
 void note_row_stride(const Scenario& seen, std::size_t stride);
 
 }  // namespace gaitlab::kit

@@ -14,7 +14,7 @@ namespace gaitlab::articulated {
 /// Solves (M + K) v' = f - c in O(links), with the resistance K = diagonal + sum J^T G J. The vector v' contains the
 /// acceleration of the origin of the base frame, the angular acceleration of the base, and the joint accelerations. A
 /// resistance acts on one joint, or on one body against the world, so that it fits into the recursion. The algorithm is from
-/// Featherstone, Rigid Body Dynamics Algorithms, 2008, 7.3. It is in world axes about the origin of the base frame, in which
+/// Featherstone, Rigid Body Dynamics Algorithms, 2008, 7.3. It uses world axes about the origin of the base frame, so that
 /// inertia and force of a child are added to the parent unchanged. Forces are those at the start of the step. Weight is a force
 /// on each link and not an acceleration of the base, so that dampers act on true velocities.
 ///

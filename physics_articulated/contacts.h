@@ -93,8 +93,8 @@ class Contacts {
     }
   }
 
-  /// Fills touching() at the present place of the body, which the body has reached after `ahead` seconds at its velocities.
-  /// With `reach` > 0 (s), elements that may touch within this time are included.
+  /// Fills touching() at the present place of the body, to which it has moved for `ahead` seconds at its velocities. With
+  /// `reach` > 0 (s), elements that may touch within this time are included.
   void find(const Body<T>& body, double ahead, double reach) {
     touching_.clear();
     std::size_t e = 0;
@@ -176,7 +176,8 @@ class Contacts {
   }
   /// Lanes in which a force at the iterate differs from its law by more than the tolerance. The tolerance of the normal force
   /// is 0.1 % and 1e-5 N. The tolerance of the friction vector is a tenth of f Fn. If an element changes between sticking and
-  /// sliding, the tolerance of friction is 1e-6 of f Fn. Tighter tolerances cost solves and change no error.
+  /// sliding, the tolerance of friction is 1e-6 of f Fn. Tighter tolerances would need more solves and would not reduce the
+  /// error.
   [[nodiscard]] math::Mask<T> off(double h) const {
     using math::mask_or;
     math::Mask<T> all{};
@@ -228,7 +229,7 @@ class Contacts {
 
  private:
   static constexpr double kRoom = 1 + 1e-9;
-  static constexpr double kFar = -1e9;  ///< m; depth that no step closes
+  static constexpr double kFar = -1e9;  ///< m; depth at a gap that no step closes
   static constexpr double kPull = 100;  ///< m/s^2; largest acceleration of an element in the air, by weight and motors
   static constexpr double kNormalTolerance = 1e-3, kNormalFloor = 1e-5, kFrictionTolerance = 0.1, kCornerTolerance = 1e-6;
   static constexpr double kFrictionFloor = 1e-9;  // N

@@ -25,8 +25,8 @@ struct StepResult {
 /// their speed, v+ minimises the strictly convex function
 ///     phi(v+) = (v+ - v_free)^T M (v+ - v_free) / 2 + h sum of the potentials of the laws
 /// and therefore exists and is unique for any h. Newton's method replaces every law by its tangent at the iterate, and the
-/// recursion solves the resulting linear system (Body). If phi rises at the end of the way to that solution, only the part of
-/// the way on which phi falls is taken (decision 17).
+/// recursion solves the resulting linear system (Body). If phi is rising at the end of the Newton step, the step is shortened
+/// to the part along which phi falls (line search, decision 17).
 template <class T>
 class Implicit {
  public:
@@ -94,7 +94,7 @@ class Implicit {
     holds.change(hold, since, lanes);
   }
 
-  /// Takes the results of a step of the lane `l` alone; `which` contains this lane only.
+  /// Takes the results of a solo's step in the lane `l`; `which` contains only this lane.
   void take(const Solo& solo, std::size_t l, const math::Mask<T>& which) {
     for (std::size_t j = 0; j < joints_; ++j) {
       math::lane(done.torque[j], l) = math::lane(now_.torque[j], l) = solo.torque[j];

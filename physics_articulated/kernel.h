@@ -74,7 +74,8 @@ Environment<T> environment(const KernelSettings& s) {
   return all;
 }
 
-/// Solos of the rollouts; none if their motors are not DC motors, which only the actuator evaluates, for all lanes.
+/// Solos of the rollouts. There are none if the motors are not DC motors, because the actuator can evaluate such motors only
+/// for all lanes.
 std::vector<std::unique_ptr<Solo>> make_solos(const KernelSettings&);
 
 std::unique_ptr<Kernel> make_kernel_1(const KernelSettings&);

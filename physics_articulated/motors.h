@@ -12,7 +12,7 @@
 
 namespace gaitlab::articulated {
 
-/// Lanes of the actuator that a kernel has: kLanes from `first` on, of `all`.
+/// Lanes of the actuator that a kernel evaluates: kLanes of its `all` lanes, from `first` on.
 struct LaneRange {
   std::size_t first = 0, all = 0;
 };
@@ -22,8 +22,8 @@ struct LaneRange {
 template <class T>
 class Motors {
  public:
-  /// `passive` lists the joints without a motor, which are treated as DC motors without voltage and torque. Only DC motors may
-  /// be a part of the actuator's lanes.
+  /// `passive` lists the joints without a motor, which are treated as DC motors without voltage and torque. Motors other than
+  /// DC motors require a kernel with all lanes of the actuator.
   Motors(const Actuator* actuator, std::size_t joints, std::span<const std::size_t> passive, const LaneRange& lanes)
       : law(joints),
         law_slope(joints),

@@ -19,7 +19,7 @@ class Solo {
 
   virtual void change(In hold, In since) = 0;  ///< see Plant::change_joints; with all lanes of the kernel
 
-  In torque, speed, angle;  ///< by joint at the end of the step: N m, rad/s, rad
+  In torque, speed, angle;  ///< by joint, at the end of the step: torque, N m; speed, rad/s; angle, rad
   In slope;                 ///< by joint: slope of the motor's tangent in the last solve, N m s/rad
   double contact = 0, friction = 0, stops = 0, hinges = 0;  ///< works, J (StepResult)
   double solves = 0, off = 0;                               ///< number of solves; number of motors and stops off their law

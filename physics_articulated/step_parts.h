@@ -6,7 +6,7 @@
 
 namespace gaitlab::articulated {
 
-/// Motors and works at one time within a step, with the weights of this time.
+/// Motors and works at one time within a step, with their weights in sums over the step.
 template <class T>
 struct Part : StepResult<T> {
   using StepResult<T>::StepResult;
@@ -43,8 +43,8 @@ struct Limits {
   math::Mask<T> slide;
 };
 
-/// Steps tried at one level: one, two and four that together have the length of the level. The first half, the first quarter
-/// and the first two quarters are the first trials of the next level.
+/// Steps tried at one level: one whole step, two halves and four quarters of it. The first half, the first quarter and the
+/// first two quarters are also the first trials of the next level.
 template <class T>
 struct Level {
   std::vector<T> start;
@@ -62,7 +62,7 @@ class Eighths {
   void clear() {
     for (State& one : states_) one.lanes = math::Mask<T>{};
   }
-  /// Keeps the state x of the lanes `which` if `at` of `of` equal parts of the step is an eighth within it.
+  /// Keeps the state x of the lanes `which` if the time `at` / `of` of the step is one of its inner eighths.
   void keep(std::span<const T> x, const math::Mask<T>& which, std::size_t at, std::size_t of) {
     if (at == of || at * kEighths % of != 0) return;
     State& one = states_[at * kEighths / of - 1];

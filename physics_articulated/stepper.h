@@ -137,7 +137,7 @@ class Stepper {
     slide_ = solo.slides ? math::mask_or(slide_, which) : math::fresh(slide_, which);
   }
 
-  /// Takes one implicit step of the lanes `which`, which begins `at` seconds after the whole step, and adds its parts.
+  /// Takes one implicit step in the lanes `which` and adds its parts. It begins `at` seconds after the start of the whole step.
   void settle(std::span<T> x, In command, double h, const math::Mask<T>& which, double at, std::size_t halvings = 0) {
     if (halvings < kHalvings) std::copy(x.begin(), x.end(), halved_[halvings].begin());
     const std::size_t alone = solos_.empty() ? math::kLanes<T> : only_lane(which);
@@ -218,7 +218,8 @@ class Stepper {
     limits.slide = math::mask_or(math::fresh(implicit.contacts.mostly_slide(), apart_), math::mask_and(slide_, apart_));
   }
 
-  /// Takes an implicit step from `start` to way.x. If `start` is itself a way, the parts of both belong to the new one.
+  /// Takes an implicit step from `start` to way.x. If `start` is the end of another way, the new way includes the parts of that
+  /// way.
   void go(Way<T>& way, const std::vector<T>& start, In command, double h, const math::Mask<T>& which, double at) {
     std::copy(start.begin(), start.end(), way.x.begin());
     way.from = used_;
@@ -230,8 +231,8 @@ class Stepper {
     way.from = before.from;
   }
 
-  /// Takes one step and two steps of a level. `before` has them already if this level is the first half of a level whose four
-  /// steps missed the accuracy.
+  /// Takes the whole step and the two halves of a level. If this level is the first half of the level `before`, whose four
+  /// quarters missed the accuracy, it copies the steps that `before` has already taken.
   const Limits<T>& one_and_two(Level<T>& own, In command, double h, const math::Mask<T>& which, const Level<T>* before) {
     if (before != nullptr) {
       own.whole = before->half;
@@ -260,7 +261,7 @@ class Stepper {
     used_ = first;
     const std::size_t of_quarter = own.quarter.to - own.quarter.from;
     for (Way<T>* way : {&own.half, &own.early}) {
-      if (way->from < first) continue;  // of the level before
+      if (way->from < first) continue;  // belongs to the level before
       const std::size_t from = used_;
       for (std::size_t i = way->from; i < way->to; ++i) std::swap(parts_[used_++], parts_[i]);
       way->from = from;
@@ -270,7 +271,7 @@ class Stepper {
     own.quarter.to = own.early.from + of_quarter;
   }
 
-  /// Advances the lanes `which` by a step h, which ends at `end` of the kShortest shortest parts of the whole step. At level
+  /// Advances the lanes `which` by a step h, which ends after `end` of the kShortest shortest parts of the whole step. At level
   /// kLevels the step has second order, regardless of its error.
   void adapt(std::span<T> x, In command, double h, const math::Mask<T>& which, std::size_t level, std::size_t end = kShortest,
              const Level<T>* before = nullptr) {
@@ -386,8 +387,8 @@ class Stepper {
   std::span<const SoloOfLane> solos_;
   std::vector<double> of_solo_, command_of_solo_;
   Eighths<T> eighths_;
-  math::Mask<T> apart_{};  ///< lanes whose last step was that of a solo
-  math::Mask<T> slide_{};  ///< of these, lanes where most of the load slides
+  math::Mask<T> apart_{};  ///< lanes whose last step was taken by a solo
+  math::Mask<T> slide_{};  ///< lanes of these in which most of the load slides
   std::vector<std::vector<T>> halved_;
   std::vector<Part<T>> parts_;
   std::size_t used_ = 0;

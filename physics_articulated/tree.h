@@ -1,4 +1,4 @@
-// Robots of the lanes in the form of the recursion, in which the joint axis is z of the link frame.
+// Robots of the lanes in the form that the recursion needs: the joint axis is z of the link frame.
 #pragma once
 #include <span>
 #include <vector>

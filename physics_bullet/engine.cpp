@@ -203,7 +203,7 @@ class BulletPlant final : public Plant, private InverseMass {
   ExplicitIntegrator integrator_;
   Acceleration acceleration_;
   std::vector<double> torque_, slope_, applied_, at_rest_, start_speed_, start_angle_;
-  std::vector<double> since_, grip_;  ///< by joint: time that it has been stuck at the start of the step, s; grip in its middle
+  std::vector<double> since_, grip_;  ///< by joint: s, time stuck at the start of the step; grip in the middle of the step
   OnePart part_;
   std::array<double, 2> power_ = {};  ///< power given to the ground along its normal and along its surface, W
   std::array<double, 4> work_ = {};   ///< works of the last step, J: contact, friction, stops, hinges
@@ -211,11 +211,11 @@ class BulletPlant final : public Plant, private InverseMass {
   RateMonitor monitor_;
 };
 
-/// Throws TooManyJoints. Bullet allocates a number for every pair of joints (btMultiBody::finalizeMultiDof), whose count is an
-/// int. Rotors need three more matrices, and a Cholesky factor at every step.
+/// Throws TooManyJoints. Bullet allocates a number for every pair of joints (btMultiBody::finalizeMultiDof) and counts the
+/// pairs in an int. Rotors need three more matrices, and a Cholesky factor at every step.
 void check_joints(const PlantSettings& s) {
   constexpr std::size_t kMost = 10000;           // needs 0.8 GB
-  constexpr std::size_t kMostWithRotors = 2000;  // needs a second per step, and more with the third power
+  constexpr std::size_t kMostWithRotors = 2000;  // needs a second per step, which grows with the third power
   const std::size_t joints = s.robot->joints.size();
   if (joints > kMost) {
     throw TooManyJoints(

@@ -125,8 +125,8 @@ class SolverPlant final : public Plant {
     }
   }
 
-  /// Sets the row of the missing motor to the torque of a passive hinge at the end of the step, linearised at the speed at the
-  /// start.
+  /// Uses the row of the missing motor for the torque of a passive hinge at the end of the step. The torque is linearised at
+  /// the initial speed.
   void hang(std::size_t j, double h) {
     const PassiveHinge hinge = law(*robot_.joints[j].passive);
     const double qd = state_.qd[j];
@@ -224,7 +224,7 @@ class SolverPlant final : public Plant {
   std::vector<double> torque_, slope_, limited_, limited_slope_, applied_, start_speed_, least_, most_;
   std::vector<double> hold_;        ///< angles of stuck hinges, rad; NaN for the others
   std::vector<double> since_;       ///< time that each has been stuck, s
-  std::vector<double> off_, fast_;  ///< commands 0, and speeds of find_limits()
+  std::vector<double> off_, fast_;  ///< zero commands, and the speeds at which find_limits() evaluates the motors
   std::vector<ContactSample> samples_;
   std::vector<std::vector<std::size_t>> elements_of_body_;
   std::array<double, 4> work_ = {};  ///< works of the last step, J: contact, friction, stops, hinges

@@ -172,7 +172,7 @@ void World::step(const Kinematics& k, double h) {
       compound.collider->setInterpolationWorldTransform(compound.collider->getWorldTransform());
     }
   }
-  world_.stepSimulation(h, 0);  // with 0 there is one step of exactly h
+  world_.stepSimulation(h, 0);  // 0: one step of exactly h
 }
 
 WorldTouch World::touch(const btPersistentManifold& manifold, const btManifoldPoint& p) {

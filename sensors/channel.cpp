@@ -9,11 +9,11 @@
 namespace gaitlab::sensors {
 namespace {
 
-// Numbers of the draws. Number i of a vector has the draw + i.
+// Numbers of the draws. Component i of a vector uses the draw + i.
 constexpr std::uint32_t kNoise = 0;
 constexpr std::uint32_t kWalk = 8;
 constexpr std::uint32_t kLost = 16;
-constexpr std::uint32_t kZero = 24;  // this and the following ones once a run
+constexpr std::uint32_t kZero = 24;  // this number and those below are drawn once per run
 constexpr std::uint32_t kGain = 32;
 constexpr std::uint32_t kDelay = 40;
 

@@ -16,12 +16,13 @@ namespace gaitlab::sensors {
 ///     b_k = e^(-N Ts / tau) b_(k-N) + walk W w_k         W^2 = tau/2 (1 - e^(-2 N Ts / tau)); tau = walk_time
 ///                                                        tau = 0: b_k = b_(k-N) + walk (N Ts)^1/2 w_k; b = 0 before tick 0
 ///
-/// A lost sample is the one before it. Between samples s is held. The value at tick k is y_k = s_(k-d), and s_0 before tick d;
-/// d is a whole number of control periods, drawn once a run with equal chances. n, m, g and w are normal with deviation 1. All
-/// draws are those of PhiloxStream(seed, name); its tick is k, and 0 for draws once a run. With all errors 0, values are exact.
+/// A lost sample is replaced by the previous one. Between samples s is held. The value at tick k is y_k = s_(k-d), and s_0
+/// before tick d; d is a whole number of control periods, drawn once per run with equal probabilities. n, m, g and w are normal
+/// with deviation 1. All draws come from PhiloxStream(seed, name), at the tick k or, if they are drawn once per run, at the
+/// tick 0. With all errors 0, values are exact.
 ///
-/// Reference for b: first-order Gauss-Markov process, IEEE Std 952-1997, annex B. Quantisation before the delay: chosen, as the
-/// delay is that of a bus behind the converter.
+/// Reference for b: first-order Gauss-Markov process, IEEE Std 952-1997, annex B. Quantisation precedes the delay (chosen),
+/// because the delay is that of a bus behind the converter.
 class Channel {
  public:
   /// A channel of `size` numbers (at most 3) with common losses and delay. Periods and delays of `keys` are whole numbers of
@@ -39,10 +40,11 @@ class Channel {
   }
   [[nodiscard]] std::int64_t delay() const { return delay_; }            ///< d
   [[nodiscard]] double sample_period() const { return sample_period_; }  ///< N Ts, s
-  /// True if the value at this tick is a sample that was not there at the tick before.
+  /// True if a new sample arrives at this tick.
   [[nodiscard]] bool arrives(std::int64_t tick) const { return tick >= delay_ && (tick - delay_) % every_ == 0; }
 
-  /// Computes the value at a control tick. Called at every tick in order; at tick 0 the state is set. Allocates nothing.
+  /// Computes the value at a control tick. It must be called at every tick in order; tick 0 initialises the state. Allocates
+  /// nothing.
   void sense(std::int64_t tick, In truth, Out state, Out value) const;
 
  private:

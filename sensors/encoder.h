@@ -4,9 +4,9 @@
 
 namespace gaitlab::sensors {
 
-/// The speed at a tick with a new sample y is (y - y') / T, where y' is the sample before and T the time between samples; it is
-/// held between samples and 0 until the second sample arrives. With `speed: true` it is a separate channel, whose true value
-/// is the joint speed.
+/// The speed at a tick with a new sample y is (y - y') / T, where y' is the previous sample and T the time between samples. It
+/// is held between samples, and is 0 until the second sample arrives. With `speed: true` it is a separate channel, whose true
+/// value is the joint speed.
 class EncoderSensor final : public Sensor {
  public:
   struct Settings : ChannelKeys {

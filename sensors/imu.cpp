@@ -14,7 +14,7 @@ constexpr const char* kAccelerometer = "accelerometer";
 constexpr const char* kTilt = "tilt";
 constexpr std::array kImuWords{kGyro, kAccelerometer, kTilt};
 
-/// A vector in world axes, in the axes of the body.
+/// Converts a vector from world axes to the axes of the body.
 std::array<double, 3> in_body(const BodyMotion& motion, const std::array<double, 3>& v) {
   const std::array<double, 9>& R = motion.rotation;
   return {R[0] * v[0] + R[3] * v[1] + R[6] * v[2], R[1] * v[0] + R[4] * v[1] + R[7] * v[2],

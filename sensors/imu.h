@@ -9,8 +9,8 @@ namespace gaitlab::sensors {
 ///     gyro = R^T w,    accelerometer = R^T ((v_k - v_(k-1)) / Ts - g),    v_(-1) = v_0
 ///     roll = atan2(R_32, R_33),    pitch = atan2(-R_31, (R_32^2 + R_33^2)^1/2)
 ///
-/// The accelerometer gives the mean specific force over the last control period, not the momentary one, which with stiff
-/// contacts has peaks that no sensor passes.
+/// The accelerometer gives the mean specific force over the last control period, not the momentary one, because no sensor
+/// passes the peaks that stiff contacts cause.
 class ImuSensor final : public Sensor {
  public:
   struct Settings {

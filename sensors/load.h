@@ -4,7 +4,7 @@
 
 namespace gaitlab::sensors {
 
-/// A module touches above `touch`, and until its load is below `release`. In between it keeps its state.
+/// A module begins to touch when its load is above `touch`, and ceases when its load is below `release`.
 class LoadSensor final : public Sensor {
  public:
   struct Settings : ChannelKeys {

@@ -8,7 +8,7 @@
 
 namespace gaitlab::sensors {
 
-/// Ascending numbers of the `names` that match one of the names and patterns in `wanted`.
+/// Indices of the `names` that match one of the names and patterns in `wanted`, in ascending order.
 inline std::vector<std::size_t> matching(const std::vector<std::string>& wanted, const std::vector<std::string>& names) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -44,7 +44,7 @@ inline std::string joint_column(std::size_t joint, const char* quantity) {
   return "joint." + std::to_string(joint) + "." + quantity;
 }
 
-/// True if the list `wanted` has the word.
+/// True if the list `wanted` contains the word.
 inline bool measures(const std::vector<std::string>& wanted, const char* word) {
   for (const std::string& one : wanted) {
     if (one == word) return true;

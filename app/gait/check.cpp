@@ -26,8 +26,8 @@ namespace {
 
 std::string_view plugin_name(const PluginSelection& choice) { return choice.entry == nullptr ? "none" : choice.entry->name; }
 
-/// Makes the simulation, which checks the trace columns, the step and the memory. An error message about a long run also states
-/// its estimated duration.
+/// Makes the simulation, which checks the trace columns, the step and the memory. If the run would be long, an error message
+/// also states its estimated duration.
 std::unique_ptr<Simulation> made(const Scenario& s) try {
   return std::make_unique<Simulation>(std::span<const Scenario>(&s, 1));
 } catch (const TooManyRows& error) {
@@ -80,7 +80,7 @@ void print_joints(const Robot& robot) {
   }
 }
 
-/// Prints the estimated time of a run and, if another engine is faster, that of a run with it.
+/// Prints the estimated time of a run and, if another engine is faster, the estimated time with that engine.
 void print_time(const CheckArguments& arguments, Catalog& catalog, const Scenario& s, const RowsNeeded& rows) {
   const double seconds = estimated_seconds(s, rows);
   if (seconds > 0) print_fitted(fmt::format("  {}\n", time_text(seconds)));
@@ -96,7 +96,7 @@ void note_boxes(const Scenario& s, const CheckArguments& arguments) {
       fmt::format("simulates one step with {} boxes, which takes seconds if many of them are close together", boxes));
 }
 
-/// Notes that a run would end with: gravity that lifts the robot, a gait that stands still.
+/// Notes that a run would print at its end, on gravity that lifts the robot and on a gait that stands still.
 void note_outcome(const Scenario& s) {
   const bool free = s.base != Base::fixed && s.ground.exists();
   if (free && s.physics.gravity.z() > 0) {

@@ -19,7 +19,7 @@ namespace {
 
 struct ConvergeArguments : ScenarioArguments {
   int halvings = 2;
-  std::vector<std::string> columns;  ///< patterns of column names; empty for the torques, or without motors for the angles
+  std::vector<std::string> columns;  ///< patterns of column names; if empty: the torques or, without motors, the angles
   int jobs = 1;                      ///< threads
 };
 
@@ -51,7 +51,7 @@ struct Runs {
   bool quantised = false;                   // a sensor has a resolution
 };
 
-/// Progress of runs side by side, of which each takes twice as long as the one before.
+/// Progress of runs side by side, each of which takes twice as long as the previous one.
 class DoublingProgress {
  public:
   DoublingProgress(bool quiet, std::size_t runs) : progress_(quiet), done_(runs) {}
@@ -115,7 +115,7 @@ std::pair<const ConvergenceRow*, double> worst_at(const std::vector<ConvergenceR
   return worst;
 }
 
-/// Sentence on the step with an error of 1 %, found among the tried steps and by the observed order.
+/// Sentence on the step with an error of 1 %, found from the tried steps and the observed order.
 std::string verdict(const std::vector<ConvergenceRow>& rows, const Runs& runs) {
   const double finest = runs.steps.back();
   if (runs.quantised)

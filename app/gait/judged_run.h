@@ -9,7 +9,7 @@
 namespace gaitlab::app {
 
 /// Reads and judges a run. `joints` are the joints in the figure. `catalog` must outlive the result. Results of an earlier
-/// --demand and of an earlier remedy are read from the folder. Throws InputError as read_run and draw_joints do.
+/// --demand and of an earlier remedy are read from the folder. Throws the InputErrors of read_run and draw_joints.
 JudgedRun judged_run(const std::string& name, Catalog& catalog, const std::vector<std::string>& joints,
                      const SummaryOptions& shown);
 

@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct RemedyArguments : RunArguments {
-  PluginArguments plugins;  ///< that a run folder may load
+  PluginArguments plugins;  ///< plugins that a run folder may load
 };
 
 /// Throws InputError if an option for new runs is given with the folder of a run.

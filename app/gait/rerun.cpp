@@ -203,7 +203,7 @@ int verify(const std::string& run, const PluginArguments& plugins) {
   const std::vector<std::string> changed = changes(stored, past, scenario, again, catalog);
   for (const std::string& line : changed) fmt::print("  {}\n", line);
   if (!same && changed.empty()) {
-    fmt::print("  build, plugins and scenario are those of the recorded run{}\n",  // so the build is this one
+    fmt::print("  build, plugins and scenario are those of the recorded run{}\n",  // here the build is that of the recorded run
                build_is_of_commit()
                    ? "; possible causes: a library that is not in the build id, the machine, or a defect of gaitlab"
                    : ", as far as the build id of a changed source tree shows");

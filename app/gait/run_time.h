@@ -17,7 +17,7 @@ inline constexpr double kLongRun = 10;
 /// Text of a time in two digits: `about 14 s`, `less than 0.1 s`.
 std::string about(double seconds);
 
-/// Text `takes about 14 s`, and the advice of faster_engine behind it if there is one.
+/// Text `takes about 14 s`, followed by the advice of faster_engine if there is any.
 std::string time_text(double seconds, const std::string& advice = "");
 
 /// Reads the scenarios again with further settings, as --set gives them.
@@ -29,8 +29,8 @@ using TimeOf = std::function<double(std::span<const Scenario> scenarios)>;
 /// than 5 s, if none of them has an explicit engine, or if the other engine refuses one or would not be twice as fast.
 std::string faster_engine(std::span<const Scenario> scenarios, double seconds, const TimeOf& time_of, const ReadAgain& again);
 
-/// Prints on stderr, at `place`, the estimated time of all runs that `again` reads without further settings, if it is above
-/// kLongRun, and the advice to take the faster engine.
+/// Prints on stderr, at `place`, the estimated time of all runs that `again` reads without further settings, and the advice to
+/// take the faster engine. Prints nothing if the time is at most kLongRun and there is no advice.
 void note_time(const std::string& place, const TimeOf& time_of, const ReadAgain& again);
 
 /// The advice for a run of one scenario, which `arguments` name, with a trace of this size.

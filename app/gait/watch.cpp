@@ -30,10 +30,10 @@ namespace gaitlab::app {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr const char* kStamp =
-    "stamp.svg";                        // of the run that the folder contains; the page looks at it (report/page/src/watch.ts)
-constexpr const char* kRead = ".read";  // files that the run has read, as its process tells them to this one
-constexpr const char* kNext = ".next";  // folder of a run that has not ended
+constexpr const char* kStamp = "stamp.svg";  // identifies the run in the folder; the page reads it repeatedly
+                                             // (report/page/src/watch.ts)
+constexpr const char* kRead = ".read";       // list of the files that the run has read, written by its process
+constexpr const char* kNext = ".next";       // folder of a run that has not ended
 constexpr std::uintmax_t kMostRead = 1 << 26;
 
 struct WatchArguments : ScenarioArguments {
@@ -58,7 +58,7 @@ std::optional<int> run_in(const fs::path& folder) {
   return run && fs::exists(folder / kPageFile, none) ? run : run ? std::optional(0) : std::nullopt;
 }
 
-/// Folder of the newest run: `--out`, or runs/watch-NAME. Throws InputError if it has files of something else.
+/// Folder of the newest run: `--out`, or runs/watch-NAME. Throws InputError if the folder has other content.
 fs::path watch_folder(const WatchArguments& a) {
   fs::path folder = a.out ? fs::path(*a.out) : fs::path("runs") / ("watch-" + fs::path(a.file).stem().string());
   const SourceLocation place{"--out " + folder.string()};
@@ -83,7 +83,7 @@ int wait_for_child(pid_t child) {
   return status;
 }
 
-/// Runs the scenario into the folder `out`, in another process: a plugin that was compiled again is loaded anew, and one that
+/// Runs the scenario into the folder `out`, in another process, so that a recompiled plugin is loaded again and a plugin that
 /// crashes ends only that process. Returns the exit code of `gaitlab run`.
 int run_apart(const WatchArguments& a, const fs::path& out, const fs::path& told) {
   (void)std::fflush(stdout);
@@ -110,7 +110,7 @@ int run_apart(const WatchArguments& a, const fs::path& out, const fs::path& told
   return 1;
 }
 
-/// The files that the last run has read; after a crash, the files of the run before it, as they are now.
+/// The files that the last run has read. After a crash of that run, the files in `before`, in their present state.
 std::vector<FileRead> files_to_watch(const WatchArguments& a, const fs::path& told, std::vector<FileRead> before) {
   std::vector<FileRead> files;
   std::error_code none;
@@ -162,7 +162,7 @@ void wait_for_change(const std::vector<FileRead>& files) {
   }
 }
 
-/// Runs the scenario, and shows the run if it has a page, or else the error on the page before. Returns the number of the run
+/// Runs the scenario, and shows the run if it has a page, or else the error on the previous page. Returns the number of the run
 /// that the folder contains.
 int renew(const WatchArguments& a, const fs::path& folder, int shown) {
   const fs::path made = folder / kNext;
@@ -183,7 +183,7 @@ int renew(const WatchArguments& a, const fs::path& folder, int shown) {
 }
 
 int watch(const WatchArguments& a) {
-  (void)read_file(a.file, kMostScenario + 1);  // a scenario that has never been there is an error, not a reason to wait
+  (void)read_file(a.file, kMostScenario + 1);  // a scenario that never existed is an error, not a reason to wait
   expect_kind(a.file, FileKind::scenario);
   const fs::path folder = watch_folder(a);
   FolderLock lock;

@@ -214,7 +214,7 @@ void check_law(const Scenario& scenario) {
                                contact.text));
 }
 
-/// Refuses --columns for a golden of means over starts, which holds numbers alone.
+/// Refuses --columns for a golden of means over starts, because such a golden contains only numbers.
 void check_columns(const GoldenRun& base, const ApproveArguments& arguments) {
   if (base.starts == 1 || arguments.columns.empty()) return;
   throw InputError(SourceLocation{"--columns"}, "a sensor has a resolution, so that this golden holds numbers and no columns");

@@ -1,5 +1,5 @@
-// `gaitlab test`, which runs scenarios and compares them with their goldens: a table, the columns outside their bands, a figure
-// and a page of them, JUnit XML.
+// `gaitlab test`, which runs scenarios and compares them with their goldens. It prints a table and the columns outside their
+// bands, and writes a figure and a page of these columns, and JUnit XML.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -90,8 +90,8 @@ struct Strayed {
   std::size_t others = 0;
 };
 
-/// The at most kMostDrawn columns that exceed their bands most, in the order in which they leave their bands. If only numbers
-/// are outside their bands, the column that is nearest to the limit of its band.
+/// At most kMostDrawn columns: those that exceed their bands most, in the order in which they leave their bands. If only
+/// numbers are outside their bands, it is the column nearest to the limit of its band.
 std::vector<Strayed> strayed(const GoldenCase& c) {
   std::vector<const ColumnCheck*> found;
   for (const ColumnCheck& check : c.difference.columns) {
@@ -100,11 +100,11 @@ std::vector<Strayed> strayed(const GoldenCase& c) {
   if (const ColumnCheck* worst = c.difference.worst_column(); found.empty() && worst != nullptr) found.push_back(worst);
   std::stable_sort(found.begin(), found.end(),
                    [](const ColumnCheck* a, const ColumnCheck* b) { return a->ratio() > b->ratio(); });
-  // Columns of the whole robot that are late by the same time show one fact: the worst of them is drawn.
+  // Columns of the whole robot that are late by the same time show the same fact, so that only the worst of them is drawn.
   std::vector<Strayed> groups;
   for (const ColumnCheck* check : found) {
     const auto same = [&](const Strayed& group) {
-      constexpr double kEqual = 0.02;  // share of the shift, which is estimated
+      constexpr double kEqual = 0.02;  // share of the shift; tolerates errors of its estimate
       const double shift = group.check->time_shift;
       return shift != 0 && std::abs(check->time_shift - shift) <= kEqual * std::abs(shift);
     };
@@ -218,8 +218,7 @@ std::string failure(const GoldenCase& c, bool all) {
   return text + (c.figure.empty() ? "" : "  figure: " + c.figure + "\n");
 }
 
-/// Prints notes that are not failures: numbers with wide bands, a changed verdict, and a text that differs from the approved
-/// one, which explains a failure.
+/// Prints notes on cases that passed: numbers with wide bands, a changed verdict, and a changed resolved scenario.
 void print_notes(const std::vector<GoldenCase>& cases) {
   for (const GoldenCase& c : cases) {
     if (c.verdict != Verdict::passed) continue;

@@ -163,7 +163,7 @@ std::string change(const Json& a, const Json& b) {
 }
 
 void print_summaries(const Json& a, const Json& b) {
-  const std::string joint = most_loaded_joint(a);  // the most loaded joint of A, for numbers of a joint
+  const std::string joint = most_loaded_joint(a);  // A's most loaded joint, for numbers that belong to one joint
   std::vector<const report::SummaryNumber*> rows = report::placed(&report::SummaryNumber::compare);
   if (joint.empty()) std::erase_if(rows, [](const report::SummaryNumber* number) { return number->of_joint != nullptr; });
   std::erase_if(rows, [&](const report::SummaryNumber* number) {

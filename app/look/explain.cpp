@@ -18,7 +18,7 @@ namespace gaitlab::app {
 
 namespace {
 
-/// A manual that has no name of its own: of a whole file, or of the verdict.
+/// A manual without a name of its own: that of a whole file, or that of the verdict.
 struct WholeManual {
   const char* name;
   std::string (*text)(const Catalog&);
@@ -36,7 +36,7 @@ std::string plain_path(std::string path) {
   return path;
 }
 
-/// Adds the rows of the keys for which `fits` is true, with their paths, and with the plugin or file that has them.
+/// Adds the rows of the keys for which `fits` is true, with their paths, and with the plugin or file that defines them.
 template <class Fits>
 void add_rows(const std::vector<ScenarioKey>& keys, const char* file, Fits fits, std::vector<KeyRow>& rows) {
   for (const ScenarioKey& key : keys) {
@@ -71,7 +71,8 @@ std::string explain_keys(const std::string& word, const Catalog& catalog) {
   return rows.empty() ? "" : table(rows);
 }
 
-/// The keys of scenario and module files that a word names, and those whose value it may be.
+/// The keys of scenario and module files with this name, the keys that permit this word as a value, and the engines with an
+/// integrator of this name.
 std::string explain_everywhere(const std::string& word, const Catalog& catalog) {
   const std::vector<ScenarioKey> scenario = all_keys(catalog);
   const std::vector<ScenarioKey> module = module_keys();

@@ -114,7 +114,7 @@ std::vector<ReadRun> read_runs(const report::Recipe& recipe, const std::vector<s
   return runs;
 }
 
-/// Throws InputError if the numbers would replace a file of something else: any whose first line is not that of the numbers.
+/// Throws InputError if the numbers would replace another kind of file, that is, one with another first line.
 void check_free(const fs::path& file, const std::string& numbers) {
   const fs::file_type kind = kind_of(file);
   if (kind == fs::file_type::not_found) return;
@@ -147,7 +147,7 @@ std::string picture(const report::PaperFigure& figure, const fs::path& file) {
   return pdf.finish();
 }
 
-/// Path of the figure: -o, or RECIPE.svg in the working folder, which must not exist.
+/// Path of the figure, which must not exist: -o, or RECIPE.svg in the working folder.
 fs::path target(const FigureArguments& arguments) {
   fs::path file = arguments.out ? fs::path(*arguments.out) : fs::path(arguments.recipe).stem().replace_extension(".svg");
   if (file.extension() != ".svg" && file.extension() != ".pdf")
@@ -159,7 +159,7 @@ fs::path target(const FigureArguments& arguments) {
   return file;
 }
 
-/// Path from which the names of the numbers follow: --csv, or that of the figure.
+/// Path from which the names of the CSV files are derived: --csv, or that of the figure.
 fs::path numbers_target(const FigureArguments& arguments, const fs::path& figure) {
   if (!arguments.csv) return figure;
   fs::path file = *arguments.csv;
@@ -168,7 +168,7 @@ fs::path numbers_target(const FigureArguments& arguments, const fs::path& figure
   return file;
 }
 
-/// File of a recipe: the one of that path, or else the shipped one of that name. Throws InputError if there is neither.
+/// File of a recipe: the file at that path, or else the shipped recipe of that name. Throws InputError if there is neither.
 std::string recipe_file(const std::string& named) {
   const fs::file_type kind = kind_of(named);
   if (kind == fs::file_type::directory && kind_of(trace_file(named)) == fs::file_type::regular) {

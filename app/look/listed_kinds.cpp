@@ -45,7 +45,7 @@ std::string engine_manual(const std::string& name, Catalog& catalog) {
                              engine.integrators.front().name, default_step(engine)));
 }
 
-/// The kind of check with this id.
+/// The CheckKind with this id.
 const report::CheckKind& check_kind(const std::string& id) {
   return *std::ranges::find_if(report::check_kinds(), [&](const report::CheckKind& kind) { return kind.id == id; });
 }
@@ -68,7 +68,7 @@ std::string head_sentence(const std::string& text) {
   return comment.ends_with(".") ? comment.substr(0, comment.size() - 1) : comment;
 }
 
-/// Kind of the files of a folder that comes with the program, each shown as it is.
+/// Kind of the files in a folder that comes with the program. Each file is shown as it is.
 ListedKind of_files(const std::string& kind, const std::string& plural, bool about_is_path) {
   return {kind, plural,
           [kind](const Catalog&) {

@@ -1,5 +1,5 @@
-// Kinds of named things that come with the program or with its plugins: `gaitlab list` prints their names, `gaitlab explain`
-// one.
+// Kinds of named things that come with the program or with its plugins. `gaitlab list` prints their names, `gaitlab explain`
+// the manual of one.
 #pragma once
 #include <functional>
 #include <string>

@@ -96,9 +96,9 @@ std::string hinges(const Robot& robot, const Motors& known) {
   return rows.size() > 1 ? aligned(rows) : "  no hinges\n";
 }
 
-/// Centre of mass, m, with 0 for coordinates that only rounding made.
+/// Centre of mass, m, with 0 in place of coordinates that are only rounding errors.
 Vec3 clean_com(const BodyType& body) {
-  constexpr double kNoise = 1e-9;  // of the body's largest edge
+  constexpr double kNoise = 1e-9;  // share of the body's largest edge
   Vec3 com = body.com;
   if (body.shapes.empty()) return com;
   const auto [low, high] = bounds(body.shapes);

@@ -10,7 +10,7 @@ namespace gaitlab::app {
 
 namespace {
 
-/// Smallest number of quarter turns that both faces allow, if they dock.
+/// Smallest number of quarter turns that both faces allow; nothing if they cannot dock.
 std::optional<int> orientation(const FaceType& child, const FaceType& parent) {
   const bool alike = child.gender == parent.gender;
   const bool none = child.gender == Gender::none || parent.gender == Gender::none;
@@ -35,12 +35,12 @@ PlacedFace placed(const FaceType& face, const Robot& robot, const Kinematics& ze
 
 std::vector<Dock> chain(const Scenario& one, int count) {
   constexpr double kStraight = 0.99;  // cosine of the largest bend at a module of a straight row, 8 degrees
-  constexpr double kBetter = 1e-9;    // of cosines, and m: above the rounding of equal pairs
+  constexpr double kBetter = 1e-9;    // for cosines and for m; above the rounding errors of equal pairs
   const Robot& robot = *one.robot;
   const Kinematics zero = at_zero(robot);
   const std::vector<FaceType>& faces = robot.types[0].faces;
   Dock best;
-  double straight = 0, longest = 0;  // of the best pair: cosine of its bend; distance of the two planes, m
+  double straight = 0, longest = 0;  // values of the best pair: cosine of the bend; distance of the two planes, m
   for (const FaceType& child : faces) {
     for (const FaceType& parent : faces) {
       const std::optional<int> turn = orientation(child, parent);

@@ -83,7 +83,7 @@ int new_module(const NewFileArguments& arguments) {
   return 0;
 }
 
-/// A module type as the command line names it.
+/// A module type that the command line names.
 struct NamedModule {
   std::string file;
   bool by_name;  ///< a scenario takes its name; else the path of the file
@@ -95,7 +95,8 @@ fs::path folder_of(const NewFileArguments& arguments) {
   return folder.empty() ? fs::path(".") : folder;
 }
 
-/// The module type by the order of every name: a file of that name, one that the scenario would find, the shipped one.
+/// The module type, sought in the order that applies to every name: a file of that name, one that the scenario would find, the
+/// shipped one.
 NamedModule named_module(const NewFileArguments& arguments) {
   const std::string& name = arguments.module;
   const std::map<std::string, std::string> shipped = shipped_files("module");
@@ -121,7 +122,7 @@ NamedModule named_module(const NewFileArguments& arguments) {
                                      : "; did you mean " + in_quotes(near) + "?"));
 }
 
-/// Value of `robot.modules`: the name of a shipped module, or the path of a file from the folder of the scenario.
+/// Value of `robot.modules`: the name of a shipped module, or the path of a file relative to the folder of the scenario.
 std::string module_value(const NamedModule& module, const NewFileArguments& arguments) {
   if (module.by_name) return arguments.module;
   std::error_code none;
@@ -165,7 +166,7 @@ struct NewRobot {
 };
 
 NewRobot new_robot(const NewFileArguments& arguments, Catalog& catalog) {
-  constexpr int kMost = 4;  // modules, if the user asks for no number
+  constexpr int kMost = 4;  // number of modules, if the user gives none
   NewRobot robot{named_module(arguments), {}, {}};
   robot.one = read_module(robot.module.file, catalog);
   check_driven(robot.type(), robot.module.file);
@@ -198,7 +199,7 @@ std::string scenario_text(const NewFileArguments& arguments, const NewRobot& rob
   return text;
 }
 
-/// The reason why the scenario in the file is not feasible; empty if it is, or if a run would take long.
+/// The reason why the scenario in the file is not feasible; empty if it is feasible, or if a run would take long.
 std::string shortfall(const std::string& file, Catalog& catalog) try {
   constexpr double kLong = 3;  // s, of one of three runs
   const Scenario s = read_scenario(file, {}, catalog);
@@ -213,8 +214,8 @@ std::string shortfall(const std::string& file, Catalog& catalog) try {
   return error.problems().front().text;
 }
 
-/// Writes the scenario with the largest of some amplitudes that is feasible. If none is, the first remains, and the file states
-/// the reason.
+/// Writes the scenario with the largest feasible one of some amplitudes. If none is feasible, the first remains, and the file
+/// states the reason.
 std::string write_scenario(const NewFileArguments& arguments, const NewRobot& robot, Catalog& catalog) {
   constexpr double kAmplitudes[] = {0.4, 0.2, 0.1};  // rad
   const auto text = [&](double amplitude) {

@@ -19,7 +19,7 @@ namespace gaitlab::app {
 namespace {
 
 constexpr double kGravity = 9.81;    // m/s^2
-constexpr double kMotorShare = 0.5;  // of a motor's torque at rest and of its no-load speed
+constexpr double kMotorShare = 0.5;  // share of a motor's torque at rest and of its no-load speed
 
 using PerHinge = std::vector<std::pair<std::string, double>>;
 
@@ -52,7 +52,7 @@ std::optional<double> least_of_motors(const Scenario& one, std::optional<double>
 
 /// Rounds down to two digits.
 double two_digits_down(double value) {
-  constexpr double kRounding = 1e-9;  // so that 0.5 stays 0.5
+  constexpr double kRounding = 1e-9;  // keeps 0.5 at 0.5
   const double per_one = std::pow(10, 1 - std::floor(std::log10(value)));
   return std::floor(value * per_one + kRounding) / per_one;
 }
@@ -90,7 +90,7 @@ int modules_carried(const Scenario& one, int most) {
 
 GaitValues gait_values(const Scenario& one, double amplitude) {
   constexpr double kFrequency = 0.5;  // Hz
-  constexpr double kShare = 0.8;      // of half the range, where it is narrow
+  constexpr double kShare = 0.8;      // share of half the range, if the range is narrow
   constexpr double kDigits = 1000;    // values are rounded to 0.001 rad
   constexpr double kPeriods = 4;      // one to start, and three that are judged
   const ModuleType& type = one.robot->types[0];

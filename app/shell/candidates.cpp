@@ -16,7 +16,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// Joins the words that the shell has divided at `=`.
+/// Joins words that the shell has split at `=`.
 Words joined_words(const Words& words) {
   Words joined;
   bool behind = false;
@@ -37,7 +37,7 @@ Words joined_words(const Words& words) {
 struct Place {
   const CLI::App* command;
   const CLI::Option* option = nullptr;
-  Words arguments = {};  ///< of the command, without options
+  Words arguments = {};  ///< arguments of the command, without options
   bool no_options = false;
 };
 
@@ -53,7 +53,7 @@ const CLI::App* command_of(const CLI::App& command, const std::string& word) {
 }
 
 void step(Place& place, const std::string& word) {
-  if (std::exchange(place.option, nullptr) != nullptr) return;  // its value
+  if (std::exchange(place.option, nullptr) != nullptr) return;  // the word is the value of the option
   if (!place.no_options && word.starts_with("-") && word.size() > 1) {
     place.no_options = word == "--";
     const CLI::Option* option = option_of(*place.command, word);
@@ -68,7 +68,7 @@ void step(Place& place, const std::string& word) {
   }
 }
 
-/// Offered values of the options whose help names them.
+/// Values that the completion offers, by option.
 std::map<const CLI::Option*, Offered>& offers() {
   static std::map<const CLI::Option*, Offered> all;
   return all;
@@ -88,7 +88,7 @@ Words listed_names(const Offered& offered, const Words& arguments) {
   return names;
 }
 
-/// Keys of a scenario with `=`; behind it, the words that the key permits.
+/// Keys of a scenario with `=` or, after the `=`, the words that the key permits.
 Words settings(const std::string& typed) {
   const std::string key = typed.substr(0, typed.find('='));
   Words found;

@@ -7,12 +7,12 @@
 namespace gaitlab::app {
 
 struct Candidates {
-  std::vector<std::string> words;  ///< in the place of the last word that was typed
-  bool files = false;              ///< a file or folder may follow, too
+  std::vector<std::string> words;  ///< words that may replace the last typed word
+  bool files = false;              ///< true: the last word may also be a file or folder
 };
 
-/// Words that may take the place of the last of `words`, which are those after the program's name. A `=` may be a word of its
-/// own, because bash divides words there; the candidates contain the part before it, too.
+/// Words that may replace the last of `words`, which are the words after the program's name. A `=` may be a word of its own,
+/// because bash divides words there; the candidates contain the part before it, too.
 Candidates candidates(const CLI::App& app, const std::vector<std::string>& words);
 
 }  // namespace gaitlab::app

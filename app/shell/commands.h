@@ -33,12 +33,13 @@ void add_command(Commands& commands, const char* name, const char* about, int (*
 
 /// Values of an option or argument. Its help names the kinds, and the completion of a shell offers their items.
 struct Offered {
-  std::vector<std::string> kinds = {};  ///< of `gaitlab list`; "": the kinds, or the names of the kind that was typed before
+  std::vector<std::string> kinds = {};  ///< kinds of `gaitlab list`; "": the kinds, or the names of the kind typed before
   bool settings = false;                ///< settings of a scenario; then nothing else
   bool files = true;                    ///< false if it accepts no file
   bool several = false;                 ///< names, separated by commas
 };
-/// Describes an option by a text. The offered values replace its `{}`, in their order. Returns the option.
+/// Sets the help of an option to a text, in which each `{}` is replaced by the command that lists offered values. Returns the
+/// option.
 CLI::Option* offering(CLI::Option* option, std::string text, const Offered& offered);
 
 /// Adds the commands `new module` and `new scenario`.
@@ -54,8 +55,8 @@ void add_scenario(CLI::App& command, ScenarioArguments& arguments, std::string (
 /// Adds `--plugins-from-scenario` and `--plugin`.
 void add_trust(CLI::App& command, PluginArguments& allowed);
 
-/// Validator for CLI::Option::check that rejects an empty path. An empty shell variable gives such a path, which would name the
-/// working folder.
+/// Validator for CLI::Option::check that rejects an empty path. An empty shell variable gives an empty path, which would mean
+/// the working folder.
 std::string not_empty(const std::string& text);
 
 /// Throws InputError if the file exists or its folder does not.

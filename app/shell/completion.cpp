@@ -14,7 +14,7 @@ struct CompletionArguments {
 };
 
 /// The function calls the program for each completion, so that it knows the names and options of the installed version. If bash
-/// divides words at `=`, only the part behind it is replaced.
+/// divides words at `=`, only the part after it is replaced.
 constexpr const char* kBash = R"SH(# Completion of gaitlab in bash, printed by `gaitlab completion bash`.
 _gaitlab() {
   local program=${COMP_WORDS[0]/#\~/$HOME} current=${COMP_WORDS[COMP_CWORD]} line

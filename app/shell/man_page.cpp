@@ -29,7 +29,7 @@ std::string troff(const std::string& text) {
   return out.starts_with(".") || out.starts_with("'") ? "\\&" + out : out;
 }
 
-/// An entry of a list: its name in bold, and the text behind it.
+/// An entry of a list: its name in bold, then its text.
 std::string entry(const std::string& name, const std::string& text) {
   return fmt::format(".TP\n\\fB{}\\fR\n{}\n", troff(name), troff(text));
 }
@@ -57,7 +57,7 @@ std::string command_entries(const CLI::App& command) {
   return text;
 }
 
-/// The commands under the headings of the help, in its order.
+/// The commands in the order and under the headings of the help.
 std::string commands_section(const CLI::App& app) {
   std::vector<std::string> groups;
   for (const CLI::App* command : shown_commands(app)) {

@@ -28,7 +28,7 @@ std::size_t terminal_columns(int descriptor, std::size_t otherwise) {
 
 std::string progress_line(double share, const std::string& text, std::size_t columns) {
   constexpr std::size_t kLeastBar = 8, kMostBar = 40, kFrame = 3;  // brackets and a blank
-  const std::size_t room = columns - 1;                            // a terminal wraps a line that fills it
+  const std::size_t room = columns - 1;                            // one column less, because a terminal wraps a full line
   if (text.size() + kFrame + kLeastBar > room) return text.substr(0, room);
   const std::size_t bar = std::min(kMostBar, room - kFrame - text.size());
   const auto filled = static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * static_cast<double>(bar));

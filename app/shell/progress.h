@@ -7,7 +7,8 @@
 
 namespace gaitlab::app {
 
-/// Columns of the terminal behind a file descriptor, from 40 to 200; `otherwise` if it is none or does not know its size.
+/// Columns of the terminal behind a file descriptor, from 40 to 200; `otherwise` if there is no terminal or its size is
+/// unknown.
 std::size_t terminal_columns(int descriptor, std::size_t otherwise = 80);
 
 /// Line of less than `columns` columns: a bar with the share that is done, of at most 40 columns, and the text. If the text
@@ -35,12 +36,12 @@ class ProgressLine {
   Clock::time_point next_;
 };
 
-/// Time left of work, at the pace of all of it that is done.
+/// Time left of work, at the mean pace of the work done so far.
 class TimeLeft {
  public:
   using Time = std::chrono::steady_clock::time_point;
   explicit TimeLeft(Time start) : start_(start) {}
-  /// Text such as `12 s left`, `done` and `left` in any unit; empty before a hundredth of the work is done.
+  /// Text such as `12 s left`. `done` and `left` may be in any unit. The text is empty before a hundredth of the work is done.
   [[nodiscard]] std::string text(Time now, double done, double left) const;
 
  private:

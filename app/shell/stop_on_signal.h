@@ -11,7 +11,7 @@ namespace gaitlab::app {
 /// already ignores remains ignored.
 std::atomic<bool>& stopped();
 
-/// Handlers of these signals until the end of the object, which restores those of before.
+/// Handlers of these signals. The destructor restores the previous handlers.
 class StopOnSignal {
  public:
   enum class Second { is_ignored, ends_the_process };

@@ -37,7 +37,7 @@ Row with_result(Row row, Told&& told, const std::vector<studies::Quantity>& colu
 /// The questions of one batch, by number.
 using Open = std::map<std::uint64_t, Row>;
 
-/// Takes the question of a result from `open`.
+/// Removes from `open` the question that a result answers, and returns its row.
 Row asked_row(Open& open, const Told& told, const SourceLocation& place) {
   const auto at = open.find(told.point);
   if (at == open.end()) {

@@ -6,10 +6,10 @@
 namespace gaitlab::app {
 
 /// Executor that prints the points of its jobs on standard output, each as a question of one line, with an empty line after the
-/// last one, and reads a result for each from `lines`, in any order (studies/run/told.h). Results are taken as they arrive, so
-/// that none is kept. It returns false if it was stopped, the lines end before, or the output is closed. It throws InputError
-/// if a line is not the result of an open question, and RunError if the output cannot be written for another reason. Each point
-/// must have one run. Plan and lines must outlive the executor.
+/// last one. It reads a result for each question from `lines`, in any order (studies/run/told.h). Results are processed as they
+/// arrive and are not stored. It returns false if it was stopped, the lines end early, or the output is closed. It throws
+/// InputError if a line is not the result of an open question, and RunError if the output cannot be written for another reason.
+/// Each point must have one run. Plan and lines must outlive the executor.
 studies::Executor asking_executor(const studies::Plan& plan, Lines& lines);
 
 /// Writes a line to standard output at once. Returns false if its reader has closed it, or if `stop` is set while the reader

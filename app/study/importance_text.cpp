@@ -53,7 +53,7 @@ std::string end_sentence(const ParameterImportance& p) {
 }  // namespace
 
 std::string importance_text(studies::Journal& journal, const studies::Results& results) {
-  constexpr std::uint64_t kFewest = 20;  // points, for statements on ranges
+  constexpr std::uint64_t kFewest = 20;  // least number of points for statements on ranges
   if (results.points.size() < kFewest || studies::of_sensitivity(journal.head())) return "";
   const Importance found = studies::importance(journal, results);
   std::string text = table_of_importance(found, clipped(journal.head().objectives.front().expression));

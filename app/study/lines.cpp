@@ -42,7 +42,7 @@ std::string Lines::take(std::size_t size) {
   return line;
 }
 
-/// Waits for input, also if its end is all there is. Returns false if `stop` is set, or the output is closed.
+/// Waits for input or for its end. Returns false if `stop` is set, or the output is closed.
 bool Lines::wait(const std::atomic<bool>& stop) {
   constexpr int kOften = 100;  // ms between checks of `stop`, which a signal may set just before the call
   std::array<pollfd, 2> ends{pollfd{STDIN_FILENO, POLLIN, 0}, pollfd{STDOUT_FILENO, 0, 0}};

@@ -33,14 +33,14 @@ class Lines {
   std::string take(std::size_t size);
 
   Until until_;
-  std::string text_;  ///< input read so far, at most a line and a read; lines before at_ were returned
+  std::string text_;  ///< input read so far, at most one line and one read; lines before at_ were returned
   std::size_t at_ = 0;
-  std::size_t blank_ = 0;  ///< bytes of blank lines since the last other one
+  std::size_t blank_ = 0;  ///< bytes of blank lines since the last line that is not blank
   bool ended_ = false, output_closed_ = false;
   int number_ = 0;
 };
 
-/// True if a line has no other characters than blanks.
+/// True if a line contains only blanks.
 bool is_blank(const std::string& line);
 
 }  // namespace gaitlab::app

@@ -1,5 +1,5 @@
-// `gaitlab optimize`, which searches the best point of a study and verifies it with half the step, in another engine, and in
-// worlds.
+// `gaitlab optimize`, which searches for the best point of a study and verifies it with half the step, in another engine, and
+// in worlds.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -125,7 +125,7 @@ SearchEnd run_study(Plan& plan, Journal& journal, const studies::Executor& execu
   return true;
 }
 
-/// Runs points again, and those that stand also in worlds. Nothing if interrupted.
+/// Runs points again, then those that stand also in worlds. Returns nothing if interrupted.
 std::optional<std::vector<studies::Verification>> verify_points(const Plan& plan, Journal& journal,
                                                                 const studies::Results& results,
                                                                 const std::vector<std::size_t>& points, const std::string& what,
@@ -193,7 +193,7 @@ int finish_search(const Plan& plan, Journal& journal, const studies::Results& re
   return 3;
 }
 
-/// Simulates the winner with each joint dead in turn if the study wants it. Returns false if interrupted.
+/// Simulates the winner with each joint dead in turn if the study requests it. Returns false if interrupted.
 bool add_faults(const Plan& plan, Journal& journal, const studies::Results& results,
                 const std::vector<studies::Verification>& tried, const studies::Executor& executor, bool quiet) {
   const std::vector<std::uint64_t> stood = studies::verified(tried);
@@ -208,7 +208,7 @@ bool add_faults(const Plan& plan, Journal& journal, const studies::Results& resu
   return true;
 }
 
-/// Checks that another program can give the results of this study.
+/// Checks that another program can supply the results of this study.
 void prepare_asking(const Plan& plan, const OptimizeArguments& a) {
   std::signal(SIGPIPE, SIG_IGN);  // the failed write reports the closed output instead
   if (team()) throw InputError(SourceLocation{"--ask"}, "is not for gaitlab-mpi; expected gaitlab");

@@ -24,7 +24,7 @@ int search_seeds(const SeedSearches& searches);
 /// Folder of one seed.
 std::filesystem::path folder_of_seed(const std::filesystem::path& folder, std::int64_t seed);
 
-/// Folder of the folders of all seeds. With `out` it is that folder, which must not exist, or contain only folders
+/// Folder that contains the folders of all seeds. With `out` it is that folder, which must not exist, or contain only folders
 /// seed-N. Without `out` it is runs/NAME, or else the first of NAME-2, NAME-3 ... that does not exist or whose folder of the
 /// first seed satisfies `is_it`. Throws InputError for another folder, or if it cannot be created.
 std::filesystem::path seeds_folder(const std::optional<std::string>& out, const std::string& name, std::int64_t first,

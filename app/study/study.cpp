@@ -134,7 +134,7 @@ Ranges take_shards(std::optional<Journal>& all, const fs::path& folder, const st
   }
   const std::uint64_t runs = all->head().runs;
   Ranges missing;
-  std::uint64_t next = 0;  // number of the next shard to look at
+  std::uint64_t next = 0;  // number of the next shard to check
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const std::uint64_t index = shards.indices[k];
     if (next < index) missing.add(next, index - 1);

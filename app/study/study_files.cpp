@@ -72,7 +72,7 @@ bool contains_word(const std::string& text, const std::string& name) {
   return false;
 }
 
-/// Units of all parameters, by the scenario of the study. Empty for those of plugin libraries.
+/// Units of all parameters, from the scenario of the study. Empty for parameters of plugin libraries.
 std::vector<std::string> units_of(const JournalHead& head) {
   const std::vector<studies::ScenarioText> several = studies::scenario_texts(head.scenario);
   Problems problems;

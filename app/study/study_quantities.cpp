@@ -47,7 +47,7 @@ studies::QuantityOffer quantity_offer() {
   for (const report::SummaryNumber& number : report::summary_numbers()) {
     const std::string name = number.of_joint != nullptr ? report::short_name(number) : "";
     const auto known = [&](const report::Quantity& quantity) { return quantity.name == name; };
-    // False for a name like energy.electrical, which the whole run has too.
+    // False for a name like energy.electrical, which is also a number of the whole run.
     const bool own = std::ranges::none_of(report::quantities(), known);
     if (!name.empty() && own && report::known_so_far({name, &number, report::Quantity::Of::joint}))
       offer.so_far.push_back(name);

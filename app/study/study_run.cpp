@@ -109,7 +109,8 @@ void write_heights(const studies::Plan& plan, const std::filesystem::path& folde
     if (!needs_height_file(relief)) continue;
     const std::filesystem::path file = folder / heights_name(*relief);
     std::error_code none;
-    if (!std::filesystem::exists(file, none)) write_file(file, packed_heights(*relief));  // its name is that of its content
+    // An existing file has the same content, because the name contains a hash of it.
+    if (!std::filesystem::exists(file, none)) write_file(file, packed_heights(*relief));
   }
 }
 

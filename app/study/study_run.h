@@ -24,12 +24,12 @@ void add_study_run(CLI::App& command, StudyRunArguments& arguments, const char* 
 /// Adds the repeatable option --set of a command whose input is a study file.
 void add_study_sets(CLI::App& command, std::vector<std::string>& sets);
 /// Adds settings of the command line to those that a study applies to all runs. Throws InputError if one sets a parameter, or a
-/// key that is computed from a parameter, because the study sets it anew for every run.
+/// key that is computed from a parameter, because the study sets this key in every run.
 void add_sets(studies::Study& study, const std::vector<std::string>& sets);
 /// The options --set of a command line, with a space before each.
 std::string set_words(const std::vector<std::string>& sets);
-/// A path in a command line that a journal keeps, which tells no folder of this machine: the name of a shipped file, or the
-/// path relative to the current folder.
+/// A path for a command line that a journal keeps. It contains no folder of this machine: it is the name of a shipped file, or
+/// relative to the current folder.
 std::string told_path(const std::string& path);
 
 /// Function that returns an executor for a team of processes.
@@ -53,12 +53,12 @@ std::vector<studies::Answers> other_answers(const studies::Plan& plan, const Stu
 /// Prints the number of runs of the plan and their duration, estimated by timing a few of them.
 void print_plan(const studies::Plan& plan, const StudyRunArguments& arguments);
 
-/// Prints the warnings on the scenarios of a plan before they run (report/verdict/warnings.h), each once,
-/// except those on their own gaits.
+/// Prints the warnings on the scenarios of a plan before they run (report/verdict/warnings.h), each once, without the warnings
+/// on the scenarios' own gaits.
 void warn_of_scenarios(const studies::Plan& plan);
 
 /// Prints the warnings on the scenarios, and notes on a plan: files that hide shipped scenarios, parameters whose slowest gait
-/// does not fit the duration, and limits of parameters that the scenario refuses.
+/// does not fit into the duration, and parameter limits that the scenario refuses.
 void print_notes(const studies::Plan& plan, bool quiet);
 
 /// Prints the estimated time of all runs of a study if engine articulated is faster. `arguments` give the number of threads.

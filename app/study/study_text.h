@@ -10,7 +10,7 @@ namespace gaitlab::app {
 
 /// First objective with its unit, if it is a single quantity: `speed, m/s`.
 std::string objective_text(const studies::JournalHead& head);
-/// Unit of the first objective after a space: ` m/s`. Empty if it has none.
+/// Unit of the first objective after a space: ` m/s`. Empty without a unit.
 std::string objective_unit(const studies::JournalHead& head);
 
 /// Summary of a study: counts of runs, best and worst points, failures, and the command that repeats a run. `folder` is the

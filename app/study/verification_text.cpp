@@ -102,7 +102,7 @@ std::string point_text(studies::Journal& journal, const std::vector<Verification
 bool paper_gears(const studies::JournalHead& head) {
   const std::vector<studies::ScenarioText> all = studies::scenario_texts(head.scenario);
   const auto paper = [](const std::string& text) {
-    Problems ignored;  // of a journal whose scenario was changed, whose gears are not known
+    Problems ignored;  // if the journal's scenario was changed, its gears are not known
     const std::optional<Node> root = parse_yaml(text, "scenario", ignored);
     const Node* actuator = root ? root->find("actuator") : nullptr;
     const Node* model = actuator == nullptr ? nullptr : actuator->find("efficiency_model");
@@ -124,7 +124,7 @@ std::string guard_text(const studies::JournalHead& head, const WorldCount& count
 }  // namespace
 
 std::string falls_text(const WorldCount& count) {
-  std::vector<std::pair<std::string, std::string>> causes;  // with the worlds that they are of, each cause once
+  std::vector<std::pair<std::string, std::string>> causes;  // each cause once, with its worlds
   for (const Verification& v : count.falls) {
     const auto at = std::ranges::find(causes, v.reason, [](const auto& one) { return one.first; });
     const std::string name = clipped(v.name);

@@ -1,4 +1,4 @@
-// `gaitlab swap`, which runs scenarios under several CPGs: a table, a figure for each scenario, and the numbers as CSV and
+// `gaitlab swap`, which compares CPGs in the same scenarios: by a table, a figure for each scenario, and numbers as CSV and
 // JSON.
 #include <fmt/format.h>
 
@@ -35,7 +35,7 @@ std::vector<report::NamedRun> named_runs(const std::vector<Swapped>& all) {
 /// Content of the figure: a joint, its curves from a time on, and the CPGs whose curves coincide.
 struct SwapShown {
   std::size_t joint = 0;                   ///< the most loaded one under the first CPG
-  bool driven = false;                     ///< true if it has a motor; otherwise it is not drawn
+  bool driven = false;                     ///< true if the joint has a motor; otherwise it is not drawn
   double from = 0;                         ///< s
   std::vector<std::string> coincide = {};  ///< names of the CPGs of each group
 };

@@ -35,8 +35,8 @@ std::vector<std::string> split(const std::string& list) {
   return names;
 }
 
-/// Adds those problems of an error that have not been added before. Its places at `--set cpg.type=CPG` become --cpg, which the
-/// user typed.
+/// Adds those problems of an error that have not been added before. Their place `--set cpg.type=CPG` is replaced by --cpg,
+/// which the user typed.
 void add_new(const InputError& error, const std::string& cpg, std::vector<Problem>& problems) {
   for (Problem problem : error.problems()) {
     if (problem.place.file == "--set cpg.type=" + cpg) problem.place = SourceLocation{"--cpg"};

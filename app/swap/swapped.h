@@ -32,10 +32,10 @@ struct Swapped {
 std::vector<Swapped> read_swapped(const SwapArguments& arguments, Catalog& catalog);
 
 /// Each scenario of `arguments.files` under each CPG, without runs. Errors of all of them are reported together. Throws
-/// InputError, also where two scenarios have one name.
+/// InputError, also if two scenarios have the same name.
 std::vector<std::vector<Swapped>> read_matrix(const SwapArguments& arguments, Catalog& catalog);
 
-/// Runs all scenarios with so many threads. Returns false if the program was stopped. Throws InputError for the first scenario
+/// Runs all scenarios in `jobs` threads. Returns false if the program was stopped. Throws InputError for the first scenario
 /// that is refused.
 bool run_swapped(const std::vector<Swapped*>& all, int jobs, bool quiet);
 

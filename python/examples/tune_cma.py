@@ -1,4 +1,4 @@
-"""Searches the fastest feasible gait of the shipped caterpillar with a CMA-ES (Hansen 2016, arXiv:1604.00772).
+"""Searches for the fastest feasible gait of the shipped caterpillar with a CMA-ES (Hansen 2016, arXiv:1604.00772).
 
 tune_cma.py [GENERATIONS]: a generation's gaits are simulated side by side.
 """

@@ -1,4 +1,4 @@
-"""Searches the fastest feasible gait of the shipped caterpillar with Optuna (Debian: python3-optuna).
+"""Searches for the fastest feasible gait of the shipped caterpillar with Optuna (Debian: python3-optuna).
 
 tune_optuna.py [BATCHES [SIZE]]: batches of gaits, each simulated side by side.
 """

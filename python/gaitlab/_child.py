@@ -17,7 +17,7 @@ _Self = TypeVar("_Self", bound="Child")
 
 
 def program() -> str:
-    """The program gaitlab: of the environment variable GAITLAB, of the module's own installation, or of PATH."""
+    """Path of the program gaitlab: from the environment variable GAITLAB, the module's own installation, or PATH."""
     import shutil
 
     if given := os.environ.get("GAITLAB"):

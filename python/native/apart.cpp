@@ -59,8 +59,8 @@ class Worker {
   std::thread thread_;
 };
 
-/// Works under way, each by its flag, and the end of the interpreter. A thread that asks for the interpreter's lock after that
-/// end is unwound by Python, which C++ does not survive.
+/// Works under way, each with its flag, and the end of the interpreter. A thread that asks for the interpreter's lock after
+/// that end is unwound by Python, which C++ does not survive.
 struct Works {
   std::mutex mutex;
   std::condition_variable left;
@@ -73,8 +73,8 @@ Works& works() {
   return *made;
 }
 
-/// A work under way. Beyond the end of the interpreter its thread waits for the end of the process. Without the interpreter's
-/// lock.
+/// A work under way, without the interpreter's lock. After the end of the interpreter, its thread waits for the end of the
+/// process.
 class UnderWay {
  public:
   explicit UnderWay(std::atomic<bool>& stop) : stop_(&stop) {
@@ -100,9 +100,9 @@ class UnderWay {
   std::atomic<bool>* stop_;
 };
 
-constexpr std::chrono::milliseconds kOften{50};  // between looks for Ctrl-C
+constexpr std::chrono::milliseconds kOften{50};  // time between checks for Ctrl-C
 
-/// Ends all works: called with the interpreter's lock when its end begins.
+/// Ends all works. Called with the interpreter's lock, when the end of the interpreter begins.
 void end_works() {
   const py::gil_scoped_release released;
   Works& all = works();

@@ -1,4 +1,4 @@
-// The module _native: what the package gaitlab calls. Its stub is python/gaitlab/_native.pyi.
+// The module _native, which the package gaitlab calls. Its stub is python/gaitlab/_native.pyi.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 

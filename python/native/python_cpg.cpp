@@ -27,7 +27,8 @@ struct PythonClass {
   std::vector<NumberSetting> settings;
 };
 
-/// Ends an object that holds objects of Python, under the interpreter's lock. After the interpreter's end, it is left alone.
+/// Destroys an object that holds objects of Python, under the interpreter's lock. After the interpreter's end, it is not
+/// destroyed.
 template <class T>
 void end_locked(T* object) {
   if (Py_IsInitialized() == 0) return;
@@ -61,7 +62,7 @@ std::string told(py::error_already_set& error) {
          text_of(place.attr("tb_lineno")) + ")";
 }
 
-/// Calls Python under the interpreter's lock. An exception becomes one of C++, and what Python keeps of it ends under the lock.
+/// Calls Python under the interpreter's lock. An exception becomes one of C++; Python's exception is released under the lock.
 template <class Call>
 auto under_lock(Call call) {
   const py::gil_scoped_acquire held;
@@ -108,7 +109,7 @@ py::object attribute(const py::object& self, const char* name) {
 std::size_t states_of(const py::object& given) {
   if (given.is_none()) return 0;
   constexpr Py_ssize_t kMost = 1000000;
-  const Py_ssize_t states = PyNumber_AsSsize_t(given.ptr(), nullptr);  // -1 where the number is not whole
+  const Py_ssize_t states = PyNumber_AsSsize_t(given.ptr(), nullptr);  // -1 if the number is not whole
   if (PyErr_Occurred() != nullptr) PyErr_Clear();
   if (states < 0 || states > kMost)
     throw std::runtime_error("states is " + text_of(py::repr(given)) + "; expected a whole number from 0 to 1000000");
@@ -122,7 +123,7 @@ void expect_filled(const char* method, const py::object& returned, const py::obj
                            "; expected that it fills its argument, as in " + name + "[:] = ...");
 }
 
-/// The object, its methods (None if it lacks one) and the arrays that they get.
+/// The object, its methods (None for a missing one) and the arrays that the methods get.
 struct BoundObject {
   py::object self, output, derivative, event, start, measured;
   std::size_t states = 0;

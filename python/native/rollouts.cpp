@@ -42,7 +42,7 @@ class Rows {
   std::vector<std::string> outcome, verdict, message;
 
   [[nodiscard]] std::size_t ended() const { return ended_; }
-  /// Says that rows without an estimate are not reliable, if the estimates show it.
+  /// Warns that rows without an estimate are not reliable, if the estimates show it.
   void doubt() const {
     constexpr std::size_t kOneIn = 10;
     if (estimate_every_ == 1 || large_ * kOneIn <= estimates_) return;
@@ -96,7 +96,7 @@ class Rows {
       }
     }
   }
-  /// As Plan::estimates for a study, but by the number of the row.
+  /// Like Plan::estimates of a study, but by the number of the row.
   [[nodiscard]] bool is_estimated(std::size_t i) const {
     constexpr std::size_t kFewest = 3;
     if (estimate_every_ == 0) return false;

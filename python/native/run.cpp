@@ -40,7 +40,7 @@ void add_spread(PyRun& run, std::atomic<bool>& stop) try {
 }
 
 void judge_run(PyRun& run, double wall, std::atomic<bool>& stop) {
-  const report::StopsCpgAlone stops(stop);  // a run that was stopped is not given
+  const report::StopsCpgAlone stops(stop);  // a stopped run is not returned
   try {
     run.all = thin_rows(run.recording);
   } catch (const std::bad_alloc&) {  // NOLINT(bugprone-empty-catch): the rows stay as they are
@@ -52,7 +52,7 @@ void judge_run(PyRun& run, double wall, std::atomic<bool>& stop) {
   run.verdict = report::verdict(run.seen, run.recording, run.summary, run.overlaps);
 }
 
-/// An error of the folder, at the argument of save() instead of an option of the program.
+/// Moves an error of the folder from an option of the program to the argument of save().
 [[noreturn]] void raise_of_save(const InputError& error) {
   constexpr std::string_view kOption = "--out ";
   std::vector<Problem> problems = error.problems();

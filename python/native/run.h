@@ -16,7 +16,7 @@
 namespace gaitlab::python {
 
 struct PyRun {
-  std::shared_ptr<ReadFile> file;  ///< ends after the scenario
+  std::shared_ptr<ReadFile> file;  ///< destroyed after the scenario
   Scenario scenario;               ///< as it was run
   Scenario seen;                   ///< with the trace period of the kept rows
   Recording recording;             ///< with the kept rows
@@ -26,7 +26,7 @@ struct PyRun {
   report::Verdict verdict;
   std::vector<std::string> missing = {};  ///< sentences on missing parts of the folder
   std::filesystem::path folder = {};      ///< folder that the run was read from; empty if it was simulated here
-  std::mutex one_at_a_time = {};          ///< while a file is written, which needs all rows
+  std::mutex one_at_a_time = {};          ///< locked while a file is written, because that needs all rows
 
   [[nodiscard]] const Trace& trace() const { return all ? all->trace : recording.trace; }
 };
@@ -36,7 +36,8 @@ struct PyRun {
 std::shared_ptr<PyRun> simulate_run(const PyScenario& scenario, const pybind11::object& progress, bool loads);
 std::shared_ptr<PyRun> read_run_folder(const std::string& folder, const Trusted& trusted);
 
-/// A table of the run as a dict of names, units, definitions and values, an array that shares its memory and keeps the run.
+/// A table of the run as a dict of names, units, definitions and values. The values are an array that shares the run's memory
+/// and keeps the run alive.
 pybind11::dict table_of(const std::shared_ptr<PyRun>& run, const std::string& table);
 Texts warnings_of_run(const PyRun& run);
 std::string page_of(PyRun& run);

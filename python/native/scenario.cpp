@@ -53,7 +53,7 @@ std::string without_cpg(Scenario scenario) {
   return resolved(scenario);
 }
 
-/// The file read again, with the classes that were registered meanwhile. Throws InputError if it is another one now.
+/// The file read again, with the classes that were registered meanwhile. Throws InputError if anything but its CPG has changed.
 std::shared_ptr<ReadFile> read_again(ReadFile& before) {
   std::shared_ptr<ReadFile> read = read_python(before.path, before.sets, before.trusted)->file;
   apart([&] {

@@ -30,7 +30,7 @@ struct ReadFile {
   std::size_t classes = 0;  ///< classes_added() when the catalog was made
   Catalog catalog;
   std::unique_ptr<ScenarioTemplate> common;
-  std::mutex one_at_a_time;  ///< of `common`
+  std::mutex one_at_a_time;  ///< guards `common`
   [[nodiscard]] Scenario with(const Texts& own) {
     const std::lock_guard lock(one_at_a_time);
     return common->with(own);
@@ -38,13 +38,13 @@ struct ReadFile {
 };
 
 struct PyScenario {
-  std::shared_ptr<ReadFile> file;  ///< ends after the scenario, whose plugins are entries of its catalog
-  Texts own;                       ///< settings beyond those of the file
+  std::shared_ptr<ReadFile> file;  ///< destroyed after the scenario, whose plugins are entries of this catalog
+  Texts own;                       ///< settings in addition to those of `file`
   Scenario scenario;
 };
 
-/// The trust of a catalog. `call` is the function of Python whose argument `plugins` a refusal names. Throws InputError if a
-/// file does not exist.
+/// The trust of a catalog. A message of refusal names the argument `plugins` of the Python function `call`. Throws InputError
+/// if a file does not exist.
 PluginTrust trust_of(const Trusted& trusted, const std::string& call);
 
 std::shared_ptr<PyScenario> read_python(const std::string& file, const Texts& sets, const Trusted& trusted);

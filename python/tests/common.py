@@ -1,4 +1,4 @@
-"""What the tests share: the program beside the module, scenarios of short runs, and bytes of results."""
+"""Common parts of the tests: the program beside the module, scenarios of short runs, and bytes of results."""
 import hashlib
 import os
 import subprocess

@@ -1,4 +1,4 @@
-"""The module as a part of a process that belongs to others: signals, locks, locale, floating-point modes, forks, libraries."""
+"""The module in a process of other software: signals, locks, locale, floating-point modes, forks, libraries."""
 import ctypes
 import glob
 import locale
@@ -163,7 +163,7 @@ trace = run.trace["t"]
 
 
     def test_daemon_threads_end_with_the_interpreter(self):
-        """In a run, in a class of Python, and in rollouts."""
+        """Threads in a run, in a class of Python, and in rollouts."""
         script = """
 import gaitlab, threading, warnings
 warnings.simplefilter("ignore")

@@ -99,7 +99,7 @@ class Tables(unittest.TestCase):
         frame = trace.to_pandas()
         self.assertEqual(frame.index.name, "t")
         self.assertEqual(frame.attrs["units"]["joint.0.torque"], "N m")
-        frame.iloc[0, 0] = 7  # of a copy
+        frame.iloc[0, 0] = 7  # changes a copy
         self.assertNotEqual(trace.values[0, 1], 7)
 
     def test_loads_are_left_out(self):

@@ -122,7 +122,8 @@ class Search(InFolder):
         self.assertEqual(len(gaitlab.study("words").points), 0)
 
     def test_told_tables_cost_their_length(self):
-        """Calls of functions, which depend on no clock: of twice as many rows at most twice as many, and a few."""
+        """Counts of function calls, which depend on no clock: twice as many rows need at most twice as many calls, and a
+        few."""
         def calls(folder, runs):
             with gaitlab.Search("many.yaml", folder, runs=runs) as search:
                 told, count = search.ask().assign(objective=1.0), []

@@ -51,7 +51,7 @@ def blocks(text):
 
 
 def write_file(folder, before, block):
-    """Writes a scenario or a study: its name is in the text in front of it, or is its own."""
+    """Writes a scenario or a study to a file, whose name is in the text in front of the block or is the key `name` in it."""
     content = yaml.safe_load(block)
     named = re.findall(r'`([\w-]+\.yaml)`', before.strip().split('\n\n')[-1])
     if isinstance(content, dict) and {'gaitlab', 'gaitlab_study'} & set(content) and (named or 'name' in content):
@@ -60,7 +60,7 @@ def write_file(folder, before, block):
 
 
 def same(expected, said):
-    """Whether the parts of the expected output between `...` follow one another in the output."""
+    """True if the parts of the expected output between `...` follow one another in the output."""
     said, at = ' '.join(CLOCK.sub('', said).split()), 0
     for part in expected.split('...'):
         part = ' '.join(CLOCK.sub('', part).split())

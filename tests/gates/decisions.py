@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Gate of decisions by text: prints where code searches a text for a word, with the reason; exit code 1 if a place is new.
+"""Gate of decisions by text: prints the places at which code searches a text for a word, with the reason; exit code 1 if a
+place is new.
 
 Words of a message are for people, and may change. Code decides by values: an enum, a type of error, a member of the problem. The places
 below search for names that a format, a file or another program defines. Their numbers may only fall.

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Equations 1 to 12 of the paper, recomputed from a trace's columns by code that shares nothing with the program: sample by sample.
+"""Equations 1 to 12 of the paper, recomputed sample by sample from a trace's columns, by code that shares nothing with the
+program.
 usage: equations.py PROGRAM SCENARIOS_FOLDER
-77 where python3-h5py, python3-numpy or python3-yaml is missing.
+Exit code 77 if python3-h5py, python3-numpy or python3-yaml is missing.
 
 Shipped scenarios and some at their limits are run on both engines. For every equation the worst residual, its tolerance and the
 reason for that tolerance are printed; so are the situations that must have occurred (feet that slid, motors at their limits ...).

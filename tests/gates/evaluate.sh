@@ -59,8 +59,8 @@ cmp <(rows "$work/whole") <(rows "$work/killed" | head -n 96) || bad "other ques
 cmp <(tail -n 10 "$work/answers") <(head -n 10 "$work/more") || bad "other questions: other answers"
 ok "other questions, in the same folder"
 
-# A search whose points `evaluate` simulates has the rows of a search that simulates them itself, but for reasons of verdicts. It goes
-# on in its folder after the answers have ended.
+# A search whose points `evaluate` simulates has the same rows as a search that simulates them itself, except for the reasons of
+# verdicts. It continues in its folder after the answers have ended.
 sed -i '/^replicates/d' "$work/study.yaml"
 printf '%s\n' 'objective: {maximize: speed}' 'method: {type: cma, population: 6}' 'budget: {runs: 36}' >>"$work/study.yaml"
 "$program" optimize "$work/study.yaml" --quiet --out "$work/alone" -j 2 2>"$work/log" || (($? == 3)) || bad "optimize: $(<"$work/log")"
@@ -82,7 +82,7 @@ code=0
 ((code == 2)) && said "has results that another program gave" || bad "results of another program are taken as answers: exit code $code"
 ok "a search whose points another program simulates"
 
-# Input without end ends with an error, and not with the memory (`head` is the limit for a program that takes all).
+# Endless input causes an error before it fills the memory (`head` limits it for a program that would read everything).
 asks=("$program" optimize "$work/many.yaml" --ask --quiet --out "$work/asks")
 sed -e 's/^method:.*/method: {type: random}/' -e 's/^budget:.*/budget: {runs: 5000}/' "$work/study.yaml" >"$work/many.yaml"
 for command in optimize\ --ask evaluate; do

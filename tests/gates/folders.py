@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Files that are passed on tell no folder of their author: each command writes into a folder with a name of its own, and no file contains
-that name, nor any part of a file that is compressed (gzip, zlib, also in base64) or a row of a database. Then the folder is gone, and what
-it wrote is still read: reports, reruns, exports, runs of a study.
+"""Files that are passed on do not reveal their author's folder. Each command writes into a folder with a unique name, which
+must be in no file, in no compressed part of one (gzip, zlib, also in base64) and in no row of a database. Then the folder is
+gone, and its files are still read: reports, reruns, exports, runs of a study.
 usage: folders.py PROGRAM BUILD_FOLDER (the plugins of the tests)"""
 import array
 import base64
@@ -102,7 +102,7 @@ def search(folder):
 
 
 def write():
-    """Every command that writes files, called with whole paths."""
+    """Every command that writes files, called with absolute paths."""
     walk, study, golden = AUTHOR / "own/walk.yaml", AUTHOR / "own/study.yaml", AUTHOR / "own/walk.golden"
     out = AUTHOR / "passed-on"
     trust = "--plugin", AUTHOR / "lib/wave.so"
@@ -139,7 +139,7 @@ def read(moved):
     call("export", moved / "run", "--to", "gltf", here / "again.glb", *trust, folder=here)
     for name in "sweep", "optimize", "evaluate":
         call("study", "rerun", moved / name, "0", "--out", here / name, *trust, folder=here)
-    # Without --plugin: a library beside the file that names it, if one allows it.
+    # Without --plugin, a library in the folder of the file that names it is loaded if it is allowed.
     shutil.copy(here / "wave.so", moved / "run/wave.so")
     call("rerun", moved / "run", "--verify", "--plugins-from-scenario", folder=here)
 

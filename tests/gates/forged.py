@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Traces of a stranger: signed, and made to read other files, to load code, to crash. Each is refused, or compared; nothing else.
+"""Forged traces with valid hashes, which try to read other files, load code or crash the program. Each must be refused or
+compared, without other effects.
 
 usage: forged.py PROGRAM TRACE FLIPS   (in a folder of its own)
 """

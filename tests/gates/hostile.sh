@@ -146,7 +146,7 @@ mkdir -p "$work/parts/shards"
 mkfifo "$work/parts/shards/0-of-4.db"
 bounded "FIFO of a shard" 2 "$program" study merge "$work/parts"
 ok "FIFOs in the folder of a study are refused"
-# On a file system without locks, whichever error it gives, a study is written by one process, and the note is printed once.
+# On a file system without locks (three possible errors), one process writes a study and prints the note once.
 noted_once() { (($(grep -c 'the file system has no locks' "$work/log") == 1)) || { show_log; bad "$1: not one note on locks"; }; }
 has_rows() { "${without_locks[@]}" study show "$work/now" 2>/dev/null | grep -qE ': [1-9][0-9]* of'; }
 for error in 37 38 95; do # ENOLCK, ENOSYS, EOPNOTSUPP

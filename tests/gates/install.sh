@@ -28,7 +28,7 @@ project(my_gaits NONE)
 enable_testing()
 
 find_package(gaitlab 0.1 REQUIRED)
-enable_language(CXX) # for the plugin alone
+enable_language(CXX) # needed only for the plugin
 gaitlab_add_plugin(wave plugin/wave.cpp)
 add_test(NAME walk.runs COMMAND gaitlab::gaitlab run ${CMAKE_CURRENT_SOURCE_DIR}/scenarios/walk.yaml --quiet)
 gaitlab_add_golden_test(walk scenarios/walk.yaml)
@@ -52,7 +52,8 @@ check_installation() {
   # The gate checks the folder, because the program would otherwise use the scenarios next to the sources.
   [[ -d $prefix/share/gaitlab/scenarios/modules ]] || fail "the shipped scenarios are not installed"
   expect 0 "$program" check "$prefix/share/gaitlab/scenarios/caterpillar.yaml"
-  # Neither a path of the build machine nor the source tree: module types and robots come from beside the program, also by a link.
+  # The program uses no path of the build machine and no source tree: it finds module types and robots beside itself, also
+  # through a link.
   ! grep -qaF -- "$root" "$program" || fail "the program contains the path of the source tree"
   ln -s -- "$program" "$work/linked"
   expect 0 "$work/linked" check "$prefix/share/gaitlab/scenarios/library/dtto-caterpillar.yaml"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Files compiled for AVX2 and AVX-512 define no symbols that other files may also define. Of two copies, the linker keeps any, and
-# a copy with wide registers would crash the program on processors without these registers.
+# Files compiled for AVX2 and AVX-512 define no symbols that other files may also define. The linker keeps either of two copies,
+# and one with wide registers would crash the program on processors without these registers.
 # usage: kernels.sh PROGRAM_BUILD_DIR
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage

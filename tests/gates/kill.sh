@@ -11,7 +11,7 @@ RANDOM=${KILL_SEED:-1}
 # The reader of each file must accept every file under a final name.
 read_it() {
   case $1 in
-    */recording.h5) true ;; # `whole` compares it; it is not a trace
+    */recording.h5) true ;; # no trace; compared by `whole`
     *.h5 | *.csv) "$program" compare "$1" "$1" ;;
     *.json) python3 -m json.tool "$1" ;;
     *.yaml) "$program" check "$1" ;;
@@ -174,9 +174,8 @@ in_the_middle() {
   rm -rf -- "$work/before"
 }
 
-# at_every_call NAME CODE COMMAND...: a command that is killed at each call that changes files, or of which such a call, or all
-# from one on, fail, leaves every file unchanged or as an undisturbed command leaves it. The command of `after`, if any, must still
-# succeed.
+# at_every_call NAME CODE COMMAND...: kills a command at each call that changes files, and lets one such call, or all from one
+# on, fail. Every file must be unchanged or as after an undisturbed command. The command of `after`, if any, must still succeed.
 sums() { find . -type f -exec sha256sum -- {} +; }
 check_left() {
   local file

@@ -63,7 +63,7 @@ check_program() {
   expect 0 "$program" check hexapod
   expect 0 "$program" new plugin cpg mine --out "$work/mine"
   said "CMAKE_PREFIX_PATH=$prefix"
-  # A program without its data names whole paths.
+  # A program that does not find its data prints the absolute paths that it has searched.
   cp -- "$program" "$work/alone"
   printf 'gaitlab: 1\nrobot: {modules: mtran}\nduration: 0.1\n' >"$work/mtran.yaml"
   cd -- "$work"
@@ -92,7 +92,7 @@ PYTHON
   ok "the unpacked Python package runs a shipped scenario and reads a folder"
 }
 
-# completes LINE WORD...: the completion of LINE, after which the cursor is, offers each WORD.
+# completes LINE WORD...: succeeds if the completion of LINE, with the cursor at its end, offers each WORD.
 completes() {
   local line=$1 word
   # shellcheck disable=SC2016 # words of the other bash

@@ -36,7 +36,7 @@ expect 0 "$program" run "${fast[@]}" --out infeasible
 crawl=("$root/scenarios/caterpillar.yaml" --set physics.engine=articulated --quiet)
 expect 0 "$program" run "${crawl[@]}" --set actuator.i_max=0.35 --set duration=14 --out current
 expect 0 "$program" remedy current --by friction --no-report
-# A remedy with a map of which the gaits with less than the present frequency and amplitude are feasible.
+# A remedy with a map, on which the gaits with low frequency and amplitude are feasible.
 cp -r -- current cured
 hash=$(python3 -c 'import json, sys; print(json.load(open("current/remedy.json"))["scenario"])')
 python3 - "$hash" >cured/remedy.json <<'END'
@@ -65,7 +65,7 @@ away=(--set ground.type=none --set 'robot.position=[99000, 0, 1]' --set robot.on
 expect 1 "$program" run "${walk[@]}" "${away[@]}" --set duration=1 --out failed
 expect 0 "$program" run "$root/scenarios/caterpillar.yaml" --set duration=2 --set physics.engine=articulated --set trace.period=0.02 --quiet --format csv --out csv
 cp -r -- csv old
-rm old/recording.h5 # rows alone
+rm old/recording.h5 # leaves only the rows
 expect 0 "$program" report old --page old.html
 cat >ball.yaml <<'END'
 gaitlab_module: 1

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The schemas that `gaitlab schema` prints, against the program: what ships is valid, and of wrong files both say the same.
+"""The schemas that `gaitlab schema` prints, against the program: shipped files are valid, and both reject the same wrong files.
 usage: schema.py PROGRAM SCENARIOS_FOLDER PUBLISHED_FOLDER
-77 where python3-jsonschema or python3-yaml is missing."""
+Exit code 77 if python3-jsonschema or python3-yaml is missing."""
 import json
 import pathlib
 import subprocess

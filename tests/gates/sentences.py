@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Every sentence of the terminal, of verdict.json and of the page's headline, recomputed from trace.h5 alone.
 usage: sentences.py PROGRAM SCENARIOS_FOLDER [--keep FOLDER] [--seed N] [NAME...]     (pages, too: sentences.sh)
-77 where python3-h5py, python3-numpy or python3-yaml is missing.
+Exit code 77 if python3-h5py, python3-numpy or python3-yaml is missing.
 
 For each run: the part, the time and the number of each sentence, the limit, the margin, the status and the word, by code in told/
 that shares nothing with the program and is written from docs/reference/verdict.md and docs/numbers.md. A sentence that no
 expression of told/sentences.py reads fails. What must have occurred (checks that fail, warn, are kept, are too close) is counted.
-KNOWN lists what the program says wrongly today; an entry that no run shows any more fails, too."""
+KNOWN lists sentences that are wrong at present; an entry that no run shows any more fails, too."""
 import argparse
 import collections
 import csv
@@ -204,7 +204,7 @@ class Gate:
             value = float(match[0])
             if 0 < value < 1e-12:
                 continue  # rounding error
-            last = 10.0 ** -len(match[0].partition(".")[2]) if "e" not in match[0] else 0  # of a time on the edge of two digits
+            last = 10.0 ** -len(match[0].partition(".")[2]) if "e" not in match[0] else 0  # unit of the last digit
             larger = max(value * 1.1, value + 2 * last) + (value == 0)
             other = f"{larger:.3g}" if "." in match[0] or value > 100 else f"{value + 1:.0f}"
             changed = check["text"][:match.start()] + other + check["text"][match.end():]

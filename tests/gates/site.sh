@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The site of the documentation (docs/site) builds without warnings, without its gallery; its links have their targets, and no page loads
-# anything from elsewhere. In Chromium six pages load whatever they name, light and dark, wide and narrow; the search finds.
+# anything from elsewhere. In Chromium, six pages load all files that they name, light and dark, wide and narrow; the search
+# works.
 # usage: site.sh BUILD_DIR     (exit code 77 without Sphinx and its packages, or without a browser)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
@@ -25,7 +26,7 @@ expect 0 "$python" "$root/docs/site/build.py" "$site"
 ok "the site builds without warnings: $(find "$site" -name '*.html' | wc -l) pages"
 
 expect 0 "${links[@]}"
-# Each fault that the check looks for, put into the first page, is found.
+# Each fault that the check looks for is found if it is put into the first page.
 for fault in '<a href="docs/no-page.html">' '<a href="docs/glossary.html#no-anchor">' '<a href="#no-anchor">' '<img src="no-picture.svg">' \
   '<script src="https://example.org/a.js">' '<link href="//example.org/a.css">'; do
   cp -- "$site/index.html" "$work/first"

@@ -60,7 +60,7 @@ SelectTypeParameters=CR_Core
 MpiDefault=none
 ReturnToService=2
 SchedulerParameters=sched_interval=1,batch_sched_delay=0,sched_min_interval=100000
-# No answer is late on a machine that does something else, too.
+# Long limits, so that no answer is too late on a busy machine.
 MessageTimeout=100
 TCPTimeout=60
 BatchStartTimeout=1200

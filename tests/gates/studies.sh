@@ -130,7 +130,7 @@ done
 expect 2 "$program" sweep "$work/cma.yaml"
 said "use gaitlab optimize"
 
-# The folder of the best point is replaced as a whole: a disk that becomes full leaves the folder of before.
+# The folder of the best point is replaced as a whole: if the disk becomes full, the previous folder remains.
 best() { (cd -- "$work/nsga2/best" && find . -type f -exec sha256sum -- {} + | sort -k 2); }
 best >"$work/best"
 code=0

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Every command in a folder full of traps: it runs no library that lies there, waits for no FIFO under a name that it opens, and leaves
-a user's files under the names that it writes as they were. No file of the build and install trees has an empty or relative run path.
-It costs some 25 s of CPU: a thousand starts of the program.
+"""Every command in a folder full of traps: it loads no library from there, waits for no FIFO under a name that it opens, and
+does not change a user's files under the names that it writes. No file of the build and install trees has an empty or relative
+run path. It costs some 25 s of CPU: a thousand starts of the program.
 usage: traps.py PROGRAM BUILD_FOLDER (TRAPS_LONGEST, 600: seconds after which a command counts as waiting for ever)
-77 where strace is missing (Debian: strace), and tracing is not allowed."""
+Exit code 77 if strace is missing (Debian: strace) or tracing is not allowed."""
 import os
 import pathlib
 import re

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Runs a gate, or skips it (exit code 77) in `./lab test`, where it has passed with the same inputs: the bits of the files and folders that
-# it is given, its script and what gates share, and the versions of all packages of the machine. The state is a hash beside the build, which
-# .ci/run removes.
+# Runs a gate. In `./lab test` the gate is skipped (exit code 77) if it has passed with the same inputs: the bits of the given
+# files and folders, its script and the files that gates share, and the versions of all packages of the machine. Their hash is
+# stored beside the build; .ci/run removes it.
 # usage: unchanged.sh STATE_FOLDER NAME INPUT... -- COMMAND...
 set -euo pipefail
 tests=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd -P)
@@ -13,7 +13,7 @@ while [[ $1 != -- ]]; do
   shift
 done
 shift
-# Names and bits of all files, but for caches of node and Python.
+# Names and bits of all files, except caches of node and Python.
 hash=$({
   printf '%s\n' "$*"
   dpkg-query --show 2>/dev/null || true

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# `gaitlab watch` runs again when the scenario or its module is saved; an error leaves the run before it, and files of others stay.
+# `gaitlab watch` runs again when the scenario or its module is saved. After an error the previous run remains; other files are
+# kept.
 # usage: watch.sh PROGRAM
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
@@ -14,7 +15,7 @@ physics: {engine: articulated}
 cpg: {type: phase_oscillator, frequency: 1, amplitude: 0.6}
 duration: 0.2
 END
-# begin FILE [OPTIONS]: starts a watch. number, height: of stamp.svg.
+# begin FILE [OPTIONS]: starts a watch. number, height: print the numbers in stamp.svg.
 begin() {
   "$program" watch "$@" --out seen >out 2>err &
   watcher=$!
@@ -65,7 +66,8 @@ wait "$watcher" || code=$?
 [[ ! -e seen/.next && $(<seen/notes.txt) == mine ]] || bad "the folder has $(ls -A seen)"
 ok "watch: scenario, module, error, editor"
 
-# Another process goes on with the number of the page, also with an error at first. A signal ends it in the middle of a run.
+# Another process continues with the number of the page, even if its first run is an error. A signal ends it in the middle of a
+# run.
 last=$(number)
 echo 'duration: -1' >>two.yaml
 begin two.yaml

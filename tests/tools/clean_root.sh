@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
-# The Debian packages in a fresh Debian 12 (mmdebstrap; needs root and a network, ten minutes): apt installs them with what they need; program,
-# Python package and a plugin built with gaitlab-dev work, without and with /proc, and without the source tree.
-# usage: clean_root.sh FOLDER [ROOT]     FOLDER has the packages (./lab package FOLDER); ROOT is used again if it exists, and kept
+# The Debian packages in a fresh Debian 12 (mmdebstrap; needs root and a network, ten minutes): apt installs them with their
+# dependencies; program, Python package and a plugin built with gaitlab-dev work, without and with /proc, and without the source
+# tree.
+# usage: clean_root.sh FOLDER [ROOT]     FOLDER has the packages (./lab package FOLDER); ROOT is used again if it exists,
+# and kept
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
 packages=$(readlink -e -- "$1")
 fresh=${2:-$work/fresh}
 
-# inside COMMAND...: in the fresh system.
+# inside COMMAND...: runs COMMAND in the fresh system.
 inside() { chroot "$fresh" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root DEBIAN_FRONTEND=noninteractive "$@"; }
 
 make_root() {

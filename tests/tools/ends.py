@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The word of a gait does not depend on the end of its run: 40 durations between 5 and 7 periods of eight robots, standing and dropped.
-Prints the words of each robot; exit code 1 if those of one differ.
+"""The verdict on a gait does not depend on the end of its run: 40 durations of 5 to 7 periods, for eight robots, standing and
+dropped. Prints the words of each robot; exit code 1 if those of one differ.
 usage: ends.py PROGRAM [SCENARIOS]"""
 import collections
 import concurrent.futures

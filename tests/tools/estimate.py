@@ -5,11 +5,12 @@
 
 Each draw is a robot of the library or a random tree with a gait, gains, limits, ground, gravity and control period of its own
 (random.Random(f"{seed}/{number}")), run at the default accuracy for 1 to 3 s. Its truth: torque at rows of 5 ms, RMS of the
-difference to integrator `extrapolated` at 20 us over the joint's peak, worst joint; there is none where that reference differs
-from the one at 50 us by more than a third of the truth or 2 %, or where a run ends early. Its difference: the same to a
-run at --ratio times the accuracy, which is 0.5 or 3 of the rollouts of core/simulation/step_error.h. error = c difference: log c is the median of
-log(truth / difference) over draws with an even number, and the shares are of those with an odd one. Beside these stands what
-the program itself says. FOLDER keeps scenarios and traces, so that a draw is run once. Needs numpy (Debian: python3-numpy).
+difference to integrator `extrapolated` at 20 us over the joint's peak, worst joint; there is none if that reference differs
+from the one at 50 us by more than a third of the truth or 2 %, or if a run ends early. Its difference: the same to a run at
+--ratio times the accuracy, which is 0.5 or 3 of the rollouts of core/simulation/step_error.h. error = c difference: log c is
+the median of log(truth / difference) over draws with an even number, and the shares are of those with an odd one. The table
+also shows the program's own estimate. FOLDER keeps scenarios and traces, so that a draw is run once. Needs numpy (Debian:
+python3-numpy).
 """
 import argparse, concurrent.futures, csv, hashlib, json, math, pathlib, random, re, subprocess, sys, tempfile
 

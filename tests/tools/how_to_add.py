@@ -3,8 +3,9 @@
 
 usage: tests/tools/how_to_add.py CLONE [--dry-run]
 
-CLONE is a checkout with a finished build/release. Its files are edited and, at the end, restored. Printed are the files that each
-addition edits by hand. The exit code is 1 if the row does not name one of them, or a dummy does not work. --dry-run: nothing is built.
+CLONE is a checkout with a finished build/release. Its files are edited and, at the end, restored. The script prints the files
+that each addition edits by hand. The exit code is 1 if the row does not name one of them, or a dummy does not work. --dry-run:
+nothing is built.
 """
 import argparse
 import pathlib

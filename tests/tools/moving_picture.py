@@ -4,8 +4,8 @@
     tests/tools/moving_picture.py build/release/bin/gaitlab docs/hexapod.svg
 
 Runs the hexapod on engine articulated and draws the robot from the poses of its bodies in trace.csv and from the shapes of its
-module, in parallel projection. The last frame continues in the first one, because the travel of a period is taken off: only the
-ground moves. The same program writes the same bytes.
+module, in parallel projection. The last frame continues in the first one, because the travel of a period is subtracted: only
+the ground moves. The same program writes the same bytes.
 """
 import csv
 import json

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Whether the tests of the verdict notice wrong limits: limits times 1.3, comparisons turned, spans exchanged, guards removed.
+"""Check that the tests of the verdict detect wrong limits: limits times 1.3, comparisons turned, spans exchanged, guards
+removed.
 
 usage: tests/tools/mutants.py [BUILD] [--list] [--only TEXT] [--quick] [--jobs N]
 
-BUILD is a finished build of preset release (default build/release), whose libraries and flags are taken. All mutants are compiled
-once, into copies of the sources in build/mutants, each behind a number that is chosen when the tests run: a mutant costs a fork and
-the tests until the first red one, and no compiler. The exit code is 1 where one survives that is not in EQUIVALENT below.
+BUILD is a finished build of preset release (default build/release), whose libraries and flags are used. All mutants are
+compiled once, into copies of the sources in build/mutants, each activated by its number when the tests run. A mutant costs a
+fork and the tests up to the first failure, but no compilation. The exit code is 1 if a mutant survives that is not in
+EQUIVALENT below.
 """
 import argparse
 import concurrent.futures
@@ -121,7 +123,7 @@ def main():
     chosen = [k for k, name in mutants.names.items() if any(text in name for text in given.only.split(","))]
     told = {}
 
-    os.environ["GAITLAB_DATA"] = str(ROOT / "scenarios")  # not beside the mutants' program
+    os.environ["GAITLAB_DATA"] = str(ROOT / "scenarios")  # the mutants' program has no data beside it
 
     def run(numbers, tests, environment):
         """Runs the mutants. Returns the first test that fails without a mutant, or an empty text."""

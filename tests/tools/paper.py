@@ -47,7 +47,7 @@ class Result:
         return out + ([] if self.peak_rank == 1 else ["highest"])
 
     def strayed(self):
-        """Our own numbers, to 4 %, that do not hold."""
+        """The project's own numbers that are wrong by 4 % or more."""
         numbers = ((-1.45, self.low), (1.44, self.high), (0.85, self.rms)) if self.robot == "caterpillar" else ((0.73, self.rms),)
         out = [f"{'RMS ' if mine in (0.85, 0.73) else ''}{value:.2f}" for mine, value in numbers if abs(value / mine - 1) >= 0.04]
         return out + ([] if self.rms_rank == 1 else ["first by RMS"])

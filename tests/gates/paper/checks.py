@@ -1,4 +1,4 @@
-"""Every equation against the columns of a run, sample by sample. Each check says which lines of LINES it speaks for."""
+"""Every equation against the columns of a run, sample by sample. Each check names the lines of LINES that it tests."""
 import numpy as np
 
 from paper import gaits, laws

@@ -81,7 +81,7 @@ def standing(record):
 
 def stance(record):
     """Heights of the centre of mass above the lowest point of the contact elements, in the poses of the set points (within the ranges of
-    the hinges), with the mean orientation of all bodies, by mass, of the start. NaN without contact elements."""
+    the hinges), with the initial mean orientation of all bodies, weighted by mass. NaN without contact elements."""
     rows, count, robot = len(record.poses), record.count, record.robot
     found = elements(record)
     if not found:
@@ -101,7 +101,7 @@ def stance(record):
     return com - low
 
 
-LEAST_STANCE = 0.01  # share of the standing height: a pose whose feet are above its centre of mass
+LEAST_STANCE = 0.01  # share of the standing height; for a pose whose feet are above its centre of mass
 
 
 def fall(record, window):
@@ -112,7 +112,7 @@ def fall(record, window):
         return None
     if not above > 0:
         return Told()
-    # The lower of two heights: that of the start, and that of the pose that the robot is told to have.
+    # The lower of two heights: that at the start, and that in the pose of the set points.
     lower = np.fmin(above, np.maximum(stance(record), LEAST_STANCE * above))
     share = height / lower
     low = int(np.argmin(share))

@@ -101,7 +101,7 @@ UNBORNE = {
     "above nothing": ("caterpillar", FAST + SLOW + ["ground.type=none", "contact.on=none"], EASY),
     "touches nothing": ("caterpillar", FAST + SLOW + ["contact.on=none"], EASY),
 }
-# Runs that were added later: the draws of a run depend on its place.
+# Runs that were added later. They come last, because the draws of a run depend on its place.
 LATER = {
     "holds more than its stall torque": ("library/ckbot-worm", ["duration=12", "actuator.stall_torque=0.5",
         "actuator.efficiency_model=directional"]),

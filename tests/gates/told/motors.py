@@ -111,8 +111,8 @@ def first_at_limit(told, record, window, spent):
 
 
 def first_in(told, record, row, beyond):
-    """Time (end of the row) and name of the joint that was first beyond its limit after a row of ticks; -1 if `beyond` has the row at
-    the start, too."""
+    """Time (end of the row) and name of the joint that was first beyond its limit after a row of ticks; -1 if `beyond` contains
+    the row at the start, too."""
     beyond = beyond & record.driven[None, :]
     rows = np.flatnonzero(beyond[max(row, 0):].any(axis=1))
     if len(rows):

@@ -11,7 +11,7 @@ from told.record import LIMITS
 from told.window import set_point_cycle
 
 SETTLED, PERIODS, LEAST_TIME, BORNE, RESIDUAL, COARSE = 0.01, 3, 2.0, 0.5, 0.05, 0.10
-MOST_ERROR = 0.5  # of torques, with which a failure beyond its own error still decides
+MOST_ERROR = 0.5  # largest error of torques with which a failure beyond its own error still decides
 ESTIMATE = 1e-3  # share of a period that may be missing from three periods
 
 
