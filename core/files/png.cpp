@@ -103,7 +103,7 @@ NumberTable read_grey_png(std::string_view bytes, std::size_t most) {
   if (table.rows == 0 || table.columns == 0) refuse_png("it is empty");
   if (table.rows > most / table.columns) {
     throw TableError(
-        fmt::format("it has {} rows of {} grey values; allowed are up to {} in all", table.rows, table.columns, most));
+        fmt::format("it has {} rows of {} grey values; expected at most {} in all", table.rows, table.columns, most));
   }
   std::string packed;
   for (;;) {

@@ -171,7 +171,7 @@ void finish_shape(Heightfield& field, const GroundNodes& section) {
     problems.add(grid, fmt::format("the heightfield has {} rows of {} heights; expected at least 2 rows of 2", field.rows(),
                                    field.columns));
   } else if (values != nullptr && field.values.size() > kMostWritten) {
-    problems.add(grid, fmt::format("the heightfield has {} heights; allowed are up to {}, more in a file", field.values.size(),
+    problems.add(grid, fmt::format("the heightfield has {} heights; expected at most {}, more in a file", field.values.size(),
                                    kMostWritten));
   }
 }

@@ -48,7 +48,7 @@ class HeightFile {
     for (std::size_t i = 0; i < heights.size(); ++i) {
       heights[i] *= field.source.scale;
       if (std::abs(heights[i]) <= kHeights.max) continue;  // the comparison is false for NaN as well
-      problems_.add({path_}, fmt::format("height [{}, {}], counted from 0, is {}; allowed are {}", i / table->columns,
+      problems_.add({path_}, fmt::format("height [{}, {}], counted from 0, is {}; expected {}", i / table->columns,
                                          i % table->columns, with_unit(heights[i], kHeights.unit), range_text(kHeights)));
       return place_;
     }

@@ -100,7 +100,7 @@ void ScenarioChecks::initial_angles() {
     const SourceLocation place = angle_place(j);
     const auto [it, fresh] = findings.emplace(to_string(place), Outside{place, {}, angle});
     if (fresh) {
-      it->second.text = fmt::format("the initial angle of joint '{}' is {} rad; allowed are {} to {} rad", joints[j].name,
+      it->second.text = fmt::format("the initial angle of joint '{}' is {} rad; expected {} to {} rad", joints[j].name,
                                     number_text(angle), number_text(joints[j].lo), number_text(joints[j].hi));
     } else {
       ++it->second.more;

@@ -127,7 +127,7 @@ bool Reader::read_one(const Node& node, const std::string& what, const Spec& spe
     return false;
   }
   if (reading.value < spec.min || reading.value > spec.max) {
-    problems_.add(node.place, fmt::format("{} is {}; allowed are {}{}", what, with_unit(reading.value, spec.unit),
+    problems_.add(node.place, fmt::format("{} is {}; expected {}{}", what, with_unit(reading.value, spec.unit),
                                           range_text(spec), in_degrees(reading.value, spec.unit)));
     return false;
   }
@@ -162,7 +162,7 @@ void Reader::on(const char* key, const field::Integer& field) {
   if (!reading.ok()) {
     problems_.add(node->place, std::string(key) + " " + reading.wrong);
   } else if (number < field.spec.min || number > field.spec.max) {
-    problems_.add(node->place, fmt::format("{} is {}; allowed are {}", key, reading.value, range_text(field.spec)));
+    problems_.add(node->place, fmt::format("{} is {}; expected {}", key, reading.value, range_text(field.spec)));
   } else {
     field.value = reading.value;
   }

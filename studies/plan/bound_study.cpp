@@ -155,7 +155,7 @@ void BoundStudy::find_columns(const QuantityOffer& offer) {
   constexpr std::size_t kMostColumns = 400;
   if (columns_.size() > kMostColumns) {
     problems_.add(study_.quantities_place,
-                  fmt::format("the journal would have {} columns of quantities; allowed are up to {}: name fewer joints",
+                  fmt::format("the journal would have {} columns of quantities; expected at most {}: name fewer joints",
                               columns_.size(), kMostColumns));
   }
 }

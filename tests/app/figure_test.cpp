@@ -53,8 +53,8 @@ TEST_F(PaperFigure, RecipesAreReadStrictly) {
           "figure.yaml:6:7: error: size is 'ieee-colum'; expected ieee-column, ieee-page, a width in mm or [width, height] in "
           "mm; did you mean "
           "'ieee-column'?");
-  refused(kTwin + "size: [88.9, 5]\n", "figure.yaml:6:14: error: size[1], the height, is 5 mm; allowed are 20 to 500 mm");
-  refused(kTwin + "size: 8\n", "figure.yaml:6:7: error: size, the width, is 8 mm; allowed are 20 to 500 mm");
+  refused(kTwin + "size: [88.9, 5]\n", "figure.yaml:6:14: error: size[1], the height, is 5 mm; expected 20 to 500 mm");
+  refused(kTwin + "size: 8\n", "figure.yaml:6:7: error: size, the width, is 8 mm; expected 20 to 500 mm");
   refused(kTwin + "size: [88.9, 20]\n", "figure.yaml:6:14: error: a height of 20 mm is too small: the panels need 26 mm");
   refused(kRuns + "panels: [{kind: curve, left: {columns: [com.x]}}]\n",
           "figure.yaml:2:17: error: kind 'curve' is unknown; did you mean 'curves'?");

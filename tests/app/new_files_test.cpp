@@ -214,7 +214,7 @@ TEST_F(NewFiles, AModuleWithFeetAloneStandsOnThem) {
 
 TEST_F(NewFiles, AModuleWithFaultsIsRefusedWithThem) {
   folder.write("bad.yaml", "gaitlab_module: 1\nname: bad\nbodies: {b: {mass: -1}}\n");
-  EXPECT_EQ(refused("scenario walk --module bad.yaml"), "bad.yaml:3:20: error: mass is -1 kg; allowed are at least 0 kg\n");
+  EXPECT_EQ(refused("scenario walk --module bad.yaml"), "bad.yaml:3:20: error: mass is -1 kg; expected at least 0 kg\n");
   EXPECT_FALSE(std::filesystem::exists(folder / "walk.yaml"));
 }
 

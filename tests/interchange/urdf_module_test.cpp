@@ -196,8 +196,8 @@ TEST_F(FromUrdf, FaultsOfTheModuleHaveTheirPlace) {
   const std::string box = std::string(kInertial) + "<visual><geometry><box size='0.1 -0.1 0.1'/></geometry></visual>";
   const auto joint = [](const std::string& content) { return urdf_joint("j", "revolute", "a", "b", content); };
   EXPECT_EQ(refused(urdf_link("a", box) + "<!-- <link name='b'/> -->\n" + urdf_link("b", box) + joint(kLimit)),
-            "r:2:1: error: link 'a': box[1] is -0.1 m; allowed are more than 0 m\n"
-            "r:4:1: error: link 'b': box[1] is -0.1 m; allowed are more than 0 m");
+            "r:2:1: error: link 'a': box[1] is -0.1 m; expected more than 0 m\n"
+            "r:4:1: error: link 'b': box[1] is -0.1 m; expected more than 0 m");
   EXPECT_EQ(refused(urdf_link("a") + urdf_link("b") + joint(std::string("<axis xyz='0 0 0'/>") + kLimit)),
             "r:4:1: error: joint 'j': axis has length 0; expected a direction");
   EXPECT_EQ(refused("<transmission name='t'><joint name='j'/></transmission>\n" + urdf_link("a") + urdf_link("b") +

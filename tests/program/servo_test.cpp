@@ -144,7 +144,7 @@ TEST(Servo, RefusesWhatNoMotorCanDo) {
                  "efficiency follows from stall_current, which is stated, too: remove one of them");
   expect_refused("voltage: 10, stall_torque: 1.8", "missing key 'no_load_speed'");
   expect_refused("voltage: 10, stall_torque: 0, no_load_speed: 5",
-                 "stall_torque is 0 N m; allowed are more than 0 and up to 1000000000 N m");
+                 "stall_torque is 0 N m; expected more than 0 and up to 1000000000 N m");
   EXPECT_EQ(motor("voltage: 10, stall_torque: 2, no_load_speed: 5, stall_current: 1").efficiency, 1) << "exactly what it takes";
 }
 

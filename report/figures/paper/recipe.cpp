@@ -38,8 +38,7 @@ void read_length(const Node& node, const char* what, double& length, Problems& p
   if (!reading.ok()) {
     problems.add(node.place, fmt::format("{} {}", what, reading.wrong));
   } else if (reading.value < kLength.min || reading.value > kLength.max) {
-    problems.add(node.place,
-                 fmt::format("{} is {}; allowed are {}", what, with_unit(reading.value, "mm"), range_text(kLength)));
+    problems.add(node.place, fmt::format("{} is {}; expected {}", what, with_unit(reading.value, "mm"), range_text(kLength)));
   } else {
     length = reading.value;
   }
@@ -197,7 +196,7 @@ Recipe read_recipe(const std::string& file) {
   constexpr std::size_t kLetters = 26;  // panels and their data files are distinguished by a letter
   if (recipe.panels.size() > kLetters) {
     problems.add(recipe.place({"panels"}),
-                 fmt::format("panels has {} entries; allowed are up to {}", recipe.panels.size(), kLetters));
+                 fmt::format("panels has {} entries; expected at most {}", recipe.panels.size(), kLetters));
   }
   // A panel of an unknown kind has already been refused, and its missing keys are not known.
   const bool whole = problems.empty();

@@ -120,9 +120,9 @@ TEST(Npy, OfAnotherFormIsRefusedWithWhatItIs) {
 // overflows 64 bits to 0.
 TEST(Npy, OfAnotherLengthThanItsHeaderSaysIsRefused) {
   EXPECT_EQ(refused_npy(npy(dict("<f8", "(1000000, 1000000)"), "")),
-            "its shape is (1000000, 1000000); allowed are up to 1000 numbers");
+            "its shape is (1000000, 1000000); expected at most 1000 numbers");
   EXPECT_EQ(refused_npy(npy(dict("<f8", "(4294967296, 4294967296)"), "")),
-            "its shape is (4294967296, 4294967296); allowed are up to 1000 numbers");
+            "its shape is (4294967296, 4294967296); expected at most 1000 numbers");
   EXPECT_EQ(refused_npy(npy(dict("<f4", "(2, 2)"), std::string(15, '\0'))),
             "15 bytes of numbers follow its header; expected 16 for shape (2, 2) of type '<f4'");
   EXPECT_EQ(refused_npy(npy(dict("<f4", "(2, 2)"), std::string(17, '\0'))),
@@ -196,8 +196,8 @@ TEST(GreyPng, OfAnotherFormIsRefusedWithWhatItIs) {
   EXPECT_EQ(refused_png(headed(std::string(8, '\0') + std::string("\x10\0\0\0\0", 5))), "it is empty");
   EXPECT_EQ(refused_png(headed("short")), "it has no header of a PNG");
   EXPECT_EQ(refused_png(headed(std::string("\x7f\xff\xff\xff\x7f\xff\xff\xff\x10\0\0\0\0", 13))),
-            "it has 2147483647 rows of 2147483647 grey values; allowed are up to 1000 in all");
-  EXPECT_EQ(refused_png(picture(), 23), "it has 6 rows of 4 grey values; allowed are up to 23 in all");
+            "it has 2147483647 rows of 2147483647 grey values; expected at most 1000 in all");
+  EXPECT_EQ(refused_png(picture(), 23), "it has 6 rows of 4 grey values; expected at most 23 in all");
 }
 
 TEST(GreyPng, CutAnywhereOrChangedIsRefused) {
@@ -237,7 +237,7 @@ TEST(Gzip, GivesTheBytesBackAndRefusesDamage) {
     }
   };
   EXPECT_EQ(refused(packed, bytes.size() - 1),
-            fmt::format("it holds {0} bytes; allowed are up to {1}", bytes.size(), bytes.size() - 1));
+            fmt::format("it holds {0} bytes; expected at most {1}", bytes.size(), bytes.size() - 1));
   EXPECT_TRUE(refused(packed + "x", 1U << 30U).starts_with("it"));
   EXPECT_EQ(refused(packed.substr(0, 17), 1000), "it is not a complete gzip file");
   for (std::size_t at = 10; at < packed.size(); ++at) {

@@ -102,7 +102,7 @@ TEST_F(ChangesTest, WrongTimesAndForms) {
                  "45: error: t: 0.5 comes after 0.5; times must rise"},
            Wrong{"[{t: 25, set: {cpg.frequency: 1}}]", "10: error: t is 25 s; the run ends at 1 s"},
            Wrong{"[{t: 1, set: {cpg.frequency: 1}}]", "10: error: t is 1 s; the run ends at 1 s"},
-           Wrong{"[{t: -1, set: {cpg.frequency: 1}}]", "10: error: t is -1 s; allowed are 0 to 1000000 s"},
+           Wrong{"[{t: -1, set: {cpg.frequency: 1}}]", "10: error: t is -1 s; expected 0 to 1000000 s"},
        }) {
     const std::string text = error(with(one.at));
     EXPECT_EQ(text.substr(0, text.find('\n')), std::string("DIR/s.yaml:6:") + one.column_and_text) << one.at;
@@ -142,7 +142,7 @@ TEST_F(ChangesTest, WrongSettings) {
                  "21: error: 'cgp.frequency' cannot change in a run; the keys of cpg and controller can; did you mean "
                  "'cpg.frequency'?"},
            Wrong{"[{t: 0.2, set: {cpg.frequncy: 5}}]", "21: error: unknown key 'frequncy'; did you mean 'frequency'?"},
-           Wrong{"[{t: 0.2, set: {cpg.frequency: 50}}]", "36: error: frequency is 50 Hz; allowed are 0 to 20 Hz"},
+           Wrong{"[{t: 0.2, set: {cpg.frequency: 50}}]", "36: error: frequency is 50 Hz; expected 0 to 20 Hz"},
            Wrong{"[{t: 0.2, set: {cpg.frequency.m7/h: 5}}]", "21: error: no joint 'm7/h'; joints are m0/h, m1/h"},
        }) {
     const std::string text = error(with(one.at));
@@ -163,7 +163,7 @@ TEST_F(ChangesTest, WrongFaults) {
            Wrong{"[{t: 0.2, fault: {joint: 'm7/*', kind: dead}}]", "30: error: no joint matches 'm7/*'; did you mean 'm0/*'?"},
            Wrong{"[{t: 0.2, fault: {joint: [], kind: dead}}]", "30: error: joint names no joint; expected a name or a pattern"},
            Wrong{"[{t: 0.2, fault: {joint: m0/h, kind: weak}}]", "22: error: missing key 'share'"},
-           Wrong{"[{t: 0.2, fault: {joint: m0/h, kind: weak, share: 2}}]", "55: error: share is 2; allowed are 0 to 1"},
+           Wrong{"[{t: 0.2, fault: {joint: m0/h, kind: weak, share: 2}}]", "55: error: share is 2; expected 0 to 1"},
            Wrong{"[{t: 0.2, fault: {joint: m0/h, kind: dead, share: 1}}]",
                  "48: error: unknown key 'share'; known keys: joint, kind"},
            Wrong{"[{t: 0.2, fault: {joint: m0/h, kind: late}}]", "22: error: missing key 'delay'"},
