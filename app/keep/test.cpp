@@ -225,8 +225,7 @@ void print_notes(const std::vector<GoldenCase>& cases) {
     if (c.verdict != Verdict::passed) continue;
     if (const std::string names = wide_number_names(*c.golden); !names.empty()) {
       say(c.file, "note",
-          fmt::format("numbers with bands above {}, so that smaller changes are not detected: {}", percent(kWideNumber),
-                      names));
+          fmt::format("numbers with bands above {}, which hide smaller changes: {}", percent(kWideNumber), names));
     }
     if (c.run.verdict && c.golden->verdict != *c.run.verdict) {
       say(c.file, "note",
@@ -351,7 +350,7 @@ void add_test(Commands& commands) {
             ->check(not_empty);
         command.add_option("--out", arguments.out, "folder for figures and pages of failed tests (default runs/test)");
         command.add_flag("--fail-infeasible", arguments.fail_infeasible,
-                         "exit code 3 if the verdict on a run with motors is not feasible and no other failure occurred");
+                         "exit code 3 if a run with motors is not feasible and nothing else failed");
         command.add_flag("--all", arguments.all,
                          "show all columns, numbers and settings of failed tests, not only the worst ones");
         command.add_flag("--strict", arguments.strict, "a scenario without a golden is an error, also in a folder");

@@ -209,10 +209,10 @@ void add_explain(Commands& commands) {
       commands, "explain", "Print the manual of KIND NAME, or of a single word; without them, that of the scenario file.",
       explain, [](CLI::App& command, ManualArguments& arguments) {
         offering(command.add_option("KIND", arguments.kind),
-                 "a kind of {}; or alone: any name that it prints, a section or key of a scenario or "
-                 "module file, a word that a key permits, scenario, study, verdict, or a module's file",
+                 "a kind of {}; or, without NAME, any name that this command prints, a section or key of a scenario or module "
+                 "file, a value of a key, `scenario`, `study`, `verdict`, or the file of a module",
                  {.kinds = {""}});
-        offering(command.add_option("NAME", arguments.name), "name that {} prints, or the file NAME.yaml of a module",
+        offering(command.add_option("NAME", arguments.name), "name that {} prints, or a module's file NAME.yaml",
                  {.kinds = {""}});
         add_plugins(command, arguments);
       });

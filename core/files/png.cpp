@@ -91,7 +91,7 @@ NumberTable read_grey_png(std::string_view bytes, std::size_t most) {
   const Chunks::Chunk first = chunks.next();
   const std::string_view head = first.data;
   constexpr std::size_t kHead = 13;
-  if (first.name != "IHDR" || head.size() != kHead) refuse_png("it has no header of a PNG");
+  if (first.name != "IHDR" || head.size() != kHead) refuse_png("it lacks the header of a PNG");
   const auto at = [&](std::size_t i) { return static_cast<unsigned>(static_cast<unsigned char>(head[i])); };
   const unsigned depth = at(8);
   const unsigned colour = at(9);

@@ -101,13 +101,16 @@ class ChangeReader {
  private:
   void check_time(const Node& node, double t) {
     if (last_.t >= t) {
-      problems_.add(node.place, fmt::format("t: {} comes after {}; times must rise", number_text(t), number_text(last_.t)));
+      problems_.add(node.place, fmt::format("t is {} s, not later than the change before it, at {} s; expected rising times",
+                                            number_text(t), number_text(last_.t)));
     } else if (t >= scenario_.duration) {
-      problems_.add(node.place,
-                    fmt::format("t is {} s; the run ends at {} s", number_text(t), number_text(scenario_.duration)));
+      problems_.add(node.place, fmt::format("t is {} s, but the run ends at {} s; expected an earlier time", number_text(t),
+                                            number_text(scenario_.duration)));
     } else if (const double tick = tick_time(t, scenario_); tick >= scenario_.duration) {
-      problems_.add(node.place, fmt::format("t is {} s, whose control tick is at {:.6g} s; the run ends at {} s",
-                                            number_text(t), tick, number_text(scenario_.duration)));
+      problems_.add(
+          node.place,
+          fmt::format("t is {} s, and the change takes effect at the next control tick, {:.6g} s, but the run ends at {} s",
+                      number_text(t), tick, number_text(scenario_.duration)));
     }
   }
 

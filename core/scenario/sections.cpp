@@ -240,8 +240,9 @@ void Limits::fields(Fields& f) {
       {"", 0, 1,
        "Share of the energy drawn that may be unaccounted for without a warning; above 5 % a run is not judged. Default: the "
        "error of the torques that is judged."});
-  f.number("energy_created", energy_created,
-           {"", 0, 1, "Share of the energy drawn that back-driven gears may create (eq. 2). Default: our choice."});
+  f.number(
+      "energy_created", energy_created,
+      {"", 0, 1, "Largest energy created by back-driven gears (eq. 2), as a share of the energy drawn. Default: our choice."});
   f.number("slip", slip,
            {"", 0, 1e6,
             "Largest slip distance of the feet, weighted by their loads, as a share of the robot's path; more is a warning. "

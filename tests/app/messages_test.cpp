@@ -94,8 +94,8 @@ TEST_F(Messages, AValueOfAnotherKind) {
           "gaitlab test: error: SCENARIO is empty; expected scenario files, names of `gaitlab list scenarios`, or folders "
           "(default: scenarios)");
   refused("report ''",
-          "gaitlab report: error: RUN is empty; expected run folder, or two, A and B: a page shows B over A, compare.html in "
-          "the folder of A");
+          "gaitlab report: error: RUN is empty; expected run folder, or two, A and B: the page compare.html in folder A shows "
+          "B over A");
   refused("run ok.yaml --quiet=5x", "gaitlab run: error: --quiet is given '5x'; expected no value");
 }
 
@@ -207,7 +207,7 @@ TEST_F(Messages, AControllerForTheTorqueActuator) {
 TEST_F(Messages, AFolderIsNotARobotToExport) {
   ASSERT_EQ(call("run ok.yaml --quiet --out run").code, 0);
   refused("export run --to mjcf a.xml",
-          "run: error: is a folder; --to mjcf needs a scenario file, for a run folder its scenario.resolved.yaml");
+          "run: error: is a folder, but --to mjcf needs a scenario file; a run folder contains scenario.resolved.yaml");
 }
 
 TEST_F(Messages, OnlyMjcfIsStrict) {

@@ -98,8 +98,8 @@ TEST_F(Optimize, FaultsNeedAScenarioWithoutChanges) {
       "{cpg.frequency: 1}}]']\nverify: {faults: each}\nbudget: {runs: 16}\n");
   const Result result = call("optimize s.yaml --dry-run");
   EXPECT_EQ(result.code, 2);
-  EXPECT_NE(result.err.find("verify.faults is each, and the scenario has a section at; expected a scenario without one, "
-                            "or faults: none"),
+  EXPECT_NE(result.err.find("`verify.faults: each` needs a scenario without a section `at`, but this one has one; expected "
+                            "another scenario, or `faults: none`"),
             std::string::npos)
       << result.err;
 }

@@ -223,7 +223,7 @@ TEST_F(StudyScenarios, TheEngineOfOneDoesNotVerify) {
                 "parameters: {cpg.amplitude: {low: 0.05, high: 0.2}}\nbudget: {runs: 48}\nverify: {engine: bullet}\n");
   const Result result = call("optimize o.yaml --dry-run");
   EXPECT_EQ(result.code, 2);
-  EXPECT_TRUE(contains(result.err, "verify.engine bullet is the engine of the study itself; expected another")) << result.err;
+  EXPECT_TRUE(contains(result.err, "verify.engine is bullet, the engine of the study itself; expected another")) << result.err;
   EXPECT_TRUE(contains(result.err, "(in scenario long)")) << result.err;
 }
 

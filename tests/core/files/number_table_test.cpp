@@ -194,7 +194,7 @@ TEST(GreyPng, OfAnotherFormIsRefusedWithWhatItIs) {
   EXPECT_EQ(refused_png(headed(head(8, 0, 0))), "it has 8 bit");
   EXPECT_EQ(refused_png(headed(head(16, 0, 1))), "it is interlaced");
   EXPECT_EQ(refused_png(headed(std::string(8, '\0') + std::string("\x10\0\0\0\0", 5))), "it is empty");
-  EXPECT_EQ(refused_png(headed("short")), "it has no header of a PNG");
+  EXPECT_EQ(refused_png(headed("short")), "it lacks the header of a PNG");
   EXPECT_EQ(refused_png(headed(std::string("\x7f\xff\xff\xff\x7f\xff\xff\xff\x10\0\0\0\0", 13))),
             "it has 2147483647 rows of 2147483647 grey values; expected at most 1000 in all");
   EXPECT_EQ(refused_png(picture(), 23), "it has 6 rows of 4 grey values; expected at most 23 in all");

@@ -81,7 +81,7 @@ TEST_F(ChangesTest, ATemplateReadsTheSectionAgain) {
   EXPECT_EQ(text.with({"at=[]"}).changes.size(), 0U);
   EXPECT_EQ(resolved(text.with({"at=[]"})), resolved(read_scenario(path, {"at=[]"}, catalog_)));
   EXPECT_EQ(folder_.shown(test::message_of([&] { static_cast<void>(text.with({"duration=0.15"})); })),
-            "DIR/t.yaml:6:10: error: t is 0.2 s; the run ends at 0.15 s");
+            "DIR/t.yaml:6:10: error: t is 0.2 s, but the run ends at 0.15 s; expected an earlier time");
 }
 
 struct Wrong {
@@ -97,11 +97,12 @@ TEST_F(ChangesTest, WrongTimesAndForms) {
            Wrong{"[{t: 0.2}]", "6: error: at[0] changes nothing; expected set, fault or both"},
            Wrong{"[{t: 0.2, sets: {cpg.frequency: 1}}]", "15: error: unknown key 'sets'; did you mean 'set'?"},
            Wrong{"[{t: 0.5, set: {cpg.frequency: 1}}, {t: 0.2, set: {cpg.frequency: 2}}]",
-                 "45: error: t: 0.2 comes after 0.5; times must rise"},
+                 "45: error: t is 0.2 s, not later than the change before it, at 0.5 s; expected rising times"},
            Wrong{"[{t: 0.5, set: {cpg.frequency: 1}}, {t: 0.5, set: {cpg.frequency: 2}}]",
-                 "45: error: t: 0.5 comes after 0.5; times must rise"},
-           Wrong{"[{t: 25, set: {cpg.frequency: 1}}]", "10: error: t is 25 s; the run ends at 1 s"},
-           Wrong{"[{t: 1, set: {cpg.frequency: 1}}]", "10: error: t is 1 s; the run ends at 1 s"},
+                 "45: error: t is 0.5 s, not later than the change before it, at 0.5 s; expected rising times"},
+           Wrong{"[{t: 25, set: {cpg.frequency: 1}}]",
+                 "10: error: t is 25 s, but the run ends at 1 s; expected an earlier time"},
+           Wrong{"[{t: 1, set: {cpg.frequency: 1}}]", "10: error: t is 1 s, but the run ends at 1 s; expected an earlier time"},
            Wrong{"[{t: -1, set: {cpg.frequency: 1}}]", "10: error: t is -1 s; expected 0 to 1000000 s"},
        }) {
     const std::string text = error(with(one.at));
