@@ -5,7 +5,7 @@
 namespace gaitlab::cpg {
 
 const char* const KuramotoAmplitude::kManual =
-    R"(Phase oscillators coupled in proportion to the amplitude of the one that is followed; amplitude and offset of second order.
+    R"(Phase oscillators coupled in proportion to the amplitude of the followed joint; amplitude and offset of second order.
 
     phi_i' = 2 pi f_i + sum_j w_ij r_j sin(phi_j - phi_i + L_ij)
     r_i''  = a_r (a_r / 4 (R_i - r_i) - r_i')

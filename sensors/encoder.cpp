@@ -4,7 +4,7 @@
 
 namespace gaitlab::sensors {
 
-const char* const EncoderSensor::kManual = R"(Encoders or potentiometers of joints: angle, and speed by its difference.
+const char* const EncoderSensor::kManual = R"(Encoders or potentiometers of joints: the angle, and the speed as its difference.
 
     a = gain x + zero + bias + walk + noise       x: the joint's angle, rad
     y = q floor(a / q + 1/2)                      q: resolution
@@ -12,7 +12,7 @@ const char* const EncoderSensor::kManual = R"(Encoders or potentiometers of join
 
 The controller and the CPG get the measured angle and speed of these joints in place of the true ones; trace columns
 joint.J.measured and joint.J.measured_speed. All keys are those of a channel (docs/real-robot.md). speed: true measures the speed by a
-tachometer, a channel with keys of its own. Every joint has its own draws. One joint has at most one encoder.
+tachometer, a channel with separate keys. Every joint has separate draws. One joint has at most one encoder.
 Source: quantisation as additive noise of q/sqrt(12), Widrow and Kollar, Quantization Noise, 2008. Defaults (chosen): exact.
 
     sensors:

@@ -29,10 +29,11 @@ const char* const ImuSensor::kManual = R"(An inertial measurement unit on a body
     accelerometer = R^T ((v_k - v_(k-1)) / Ts - g)      m/s^2, body axes, at `position`
     roll = atan2(R32, R33), pitch = atan2(-R31, sqrt(R32^2 + R33^2))        rad
 
-R: body axes to world axes; w: angular velocity; v: velocity of the point; Ts: control period; g: gravity. At rest the accelerometer
-gives -g. It gives the mean over the last control period, which any contact law and engine has. Roll and pitch lack the turn about
-the vertical. A gyroscope of noise density N has noise: N/sqrt(T), where T is the time between samples, and walk: K.
-All values are of their own (Measured::channels). Trace columns sensor.NAME.gyro_x, sensor.NAME.accelerometer_x, sensor.NAME.roll ...
+R: body axes to world axes; w: angular velocity; v: velocity of the point; Ts: control period; g: gravity. At rest the
+accelerometer gives -g. It measures the mean over the last control period, so that it works with any contact law and engine.
+Roll and pitch do not contain the turn about the vertical. A gyroscope of noise density N has noise: N/sqrt(T), where T is the
+time between samples, and walk: K. All values are separate channels (Measured::channels). Trace columns sensor.NAME.gyro_x,
+sensor.NAME.accelerometer_x, sensor.NAME.roll ...
 Each quantity has the keys of a channel (docs/real-robot.md), and its numbers have common losses and delay.
 Source: IEEE Std 952-1997 (gyroscopes), IEEE Std 1293 (accelerometers). Defaults (chosen): exact.
 

@@ -111,7 +111,7 @@ NumberTable read_grey_png(std::string_view bytes, std::size_t most) {
     if (name == "IEND") break;
     if (name == "IDAT") packed += data;
     const bool critical = (static_cast<unsigned char>(name[0]) & 0x20U) == 0;
-    if (critical && name != "IDAT") refuse_png("it has a part that is not of grey PNGs");
+    if (critical && name != "IDAT") refuse_png("it has a chunk that grey PNGs do not have");
   }
   const std::size_t size = 2 * table.columns;
   std::vector<unsigned char> picture = inflated(packed, table.rows * (1 + size));

@@ -153,9 +153,9 @@ class ChangeReader {
       return key + " cannot change in a run: it sets the plugins, their states or the control ticks";
     if (known) return "";
     if (section == "actuator")
-      return in_quotes(key) + " cannot change in a run: motors are as built; a fault of kind weak, open or dead changes one";
+      return in_quotes(key) + " cannot change in a run; a fault of kind weak, open or dead changes a motor";
     const std::string near = key == section ? "" : nearest(section, {kSections.begin(), kSections.end()});
-    return fmt::format("{} cannot change in a run; the keys of cpg and controller can{}", in_quotes(key),
+    return fmt::format("{} cannot change in a run; expected a key of cpg or controller{}", in_quotes(key),
                        near.empty() ? "" : "; did you mean " + in_quotes(near + key.substr(section.size())) + "?");
   }
 
@@ -179,7 +179,7 @@ class ChangeReader {
 
   void read_faults(const Node& node, const std::string& name, Change& change) {
     if (scenario_.actuator.entry == nullptr) {
-      problems_.add(node.place, "a fault is one of a motor, but the robot has none (actuator.type: none); remove it");
+      problems_.add(node.place, "a fault needs a motor, but the robot has none (actuator.type: none); remove the fault");
       return;
     }
     if (node.kind != Node::Kind::list) return read_fault(node, name + ".fault", change);

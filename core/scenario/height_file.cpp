@@ -67,8 +67,9 @@ class HeightFile {
     const HeightFormat format = format_of(path_, read_start(path_, kPngMagic.size()));
     if (format == HeightFormat::text) return text();
     if (format == HeightFormat::png && map_.find("scale") == nullptr) {
-      problems_.add(file_.place,
-                    fmt::format("file '{}' holds grey values from 0 to 65535; expected scale: metres of one", path_));
+      problems_.add(
+          file_.place,
+          fmt::format("file '{}' holds grey values from 0 to 65535; expected `scale`, the metres per grey value", path_));
       return {};
     }
     std::string bytes = read_file(path_, kMostBytes);

@@ -130,7 +130,7 @@ std::string default_step(const Engine& engine) {
   if (engine.choose_step != nullptr)
     return fmt::format("auto, the longest up to {} s that is stable at the start", number_text(engine.step));
   if (engine.adaptive() == nullptr) return given;
-  return fmt::format("auto (integrator {}); {} with another, and {} is the integrator where a step is given",
+  return fmt::format("auto (integrator {}); {} with another integrator; {} is the default integrator if a step is given",
                      engine.adaptive()->name, given, engine.fixed().name);
 }
 

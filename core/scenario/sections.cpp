@@ -124,7 +124,7 @@ void PhysicsFields::fields(Fields& f) {
 void ContactSettings::fields(Fields& f) {
   f.choice("law", law, enum_names<ContactLaw>(),
            "penalty: Fn = Kn p^k + Cd p^d p' >= 0; friction -f Fn v/v_lim up to v_lim, then -f Fn v/|v|. bullet: Bullet's own "
-           "solver, for comparison and clutter; of the keys below it has only `on`.");
+           "solver, for comparison and clutter; it uses only the key `on`.");
   f.choice("on", on, enum_names<ContactSet>(),
            "Contact elements that touch the ground: feet of the free blocks, all, or none.");
   if (!model().penalty_settings) return;
@@ -179,7 +179,7 @@ void PluginFields::fields(Fields& f) {
 }
 
 void TraceSettings::fields(Fields& f) {
-  f.number("period", period, {"s", 1e-9, 1e6, "Time between rows; a whole multiple of the step where one is given."});
+  f.number("period", period, {"s", 1e-9, 1e6, "Time between rows; a whole multiple of the step if one is given."});
   f.texts("columns", columns, "Names or patterns with * and ? of the columns to keep.");
 }
 
@@ -210,14 +210,12 @@ void Limits::fields(Fields& f) {
        "point takes one or two."});
   f.number("height", height,
            {"", 0, 1,
-            "Share of a height below which the centre of mass has fallen: the lower of that in the start pose, on the ground, "
-            "and that "
-            "in the pose of the set points. Default: our choice."});
-  f.number(
-      "tilt", tilt,
-      {"rad", kPositive, 4,
-       "Tilt of the robot from its start above which the verdict warns (below the horizontal it fails, except for a base that "
-       "rolls). Default: 60 degrees, our choice."});
+            "Share of a height of the centre of mass, below which the robot has fallen: the lower of its heights in the start "
+            "pose, on the ground, and in the pose of the set points. Default: our choice."});
+  f.number("tilt", tilt,
+           {"rad", kPositive, 4,
+            "Tilt of the robot from its start above which the verdict warns (below the horizontal it fails, unless the base "
+            "rolls). Default: 60 degrees, our choice."});
   f.number(
       "beyond_range", beyond_range,
       {"rad", 0, 100,
@@ -273,7 +271,7 @@ SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems
   };
   controller.host = [&s](Fields& f) {
     f.number("period", s.control_period,
-             {"s", 1e-9, 1000, "Time between commands; a whole multiple of the step where one is given."});
+             {"s", 1e-9, 1000, "Time between commands; a whole multiple of the step if one is given."});
   };
   cpg.host = [&s](Fields& f) {
     if (s.cpg_step <= 0) s.cpg_step = s.control_period;
@@ -288,10 +286,9 @@ void SectionFields::fields(Fields& f) {
             "Deviations of real robots from the drawings; each seed draws another robot.");
   }
   if (!writing || scenario.as_built.any() || scenario.tolerances.any()) {  // stated neutral numbers are not drawn
-    f.group(
-        kAsBuiltSection, scenario.as_built,
-        "Differences of this robot from the drawings, by part, such as mass: {m3: 1.05}. Numbers that it does not state are "
-        "drawn within the tolerances.");
+    f.group(kAsBuiltSection, scenario.as_built,
+            "Differences of this robot from the drawings, by part, such as mass: {m3: 1.05}. Numbers that are not stated here "
+            "are drawn within the tolerances.");
   }
   f.group("initial", scenario.initial, "State at the start.");
   f.group("physics", physics, "Engine and time integration.");
@@ -309,7 +306,7 @@ void SectionFields::fields(Fields& f) {
   if (!writing || scenario.limits != Limits()) f.group("limits", scenario.limits, "Limits of the verdict.");
   if (!writing || !scenario.accept.empty()) {
     f.words("accept", scenario.accept, kAcceptable,
-            "Implausible numbers that are right: without their rows here, a run with impossible ones is not judged.");
+            "Numbers that look implausible but are right. Without a row here, a run with impossible numbers is not judged.");
   }
   if (!writing || !scenario.figure.joints.empty()) f.group("figure", scenario.figure, "Content of figure.svg.");
   f.integer("seed", scenario.seed,

@@ -245,10 +245,11 @@ void Reader::on(const char* key, const field::Map& field) {
   for (std::size_t i = 0; i < node->keys.size(); ++i) {
     const auto& [name, place] = node->keys[i];
     if (node->flow && opens_a_bracket(node->items[i])) {
-      problems_.add(node->items[i].place,
-                    fmt::format("{} {} ends within a bracket: in {{ }} a comma ends the text; put it in quotes, or on a "
-                                "line of its own",
-                                clipped(name), found(node->items[i])));
+      problems_.add(
+          node->items[i].place,
+          fmt::format(
+              "{} {} ends within a bracket: in {{ }} a comma ends the text; put the text in quotes, or on a separate line",
+              clipped(name), found(node->items[i])));
       field.value.push_back({name, "0"});  // so that later checks find the name
       return;                              // the following keys are fragments of the text
     }

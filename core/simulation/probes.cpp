@@ -211,7 +211,7 @@ void Probes::add_energy(const Robot& robot) {
   ledger("gear", "lost in the gears; negative: created by eq. 2", &Ledger::gear);
   ledger("stored", "kinetic and potential, less those at the start", &Ledger::stored);
   ledger("contact", "given to the ground along its normal", &Ledger::contact);
-  ledger("friction", "given to the ground along it", &Ledger::friction);
+  ledger("friction", "given to the ground along its surface", &Ledger::friction);
   ledger("stops", "given to the hinge stops", &Ledger::stops);
   if (!std::ranges::all_of(robot.joints, [](const Joint& joint) { return joint.driven(); })) {
     ledger("hinges", "lost in dampers and friction of passive hinges", &Ledger::hinges);
@@ -311,7 +311,7 @@ void Probes::select(const Scenario& scenario) {
   sources_.resize(kept);
   if (!want_reactions_ || scenario.contact.model().element_forces) return;
   throw InputError(scenario.place("trace.columns"),
-                   "reactions follow from contact forces, and contact.law: bullet has impulses, not all of them at contact "
+                   "reactions are computed from contact forces, but contact.law: bullet has impulses, some not at contact "
                    "elements; remove the columns reaction.*, or take contact.law: penalty");
 }
 

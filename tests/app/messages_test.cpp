@@ -132,8 +132,8 @@ TEST_F(Messages, ACommaThatEndsAnEquation) {
   refused_text(
       "gaitlab: 1\nrobot: {modules: mtran}\nduration: 1\n"
       "cpg: {type: equations, model: {states: {a: max(1, 2)}, output: a}}\n",
-      "s.yaml:4:44: error: a 'max(1' ends within a bracket: in { } a comma ends the text; put it in quotes, or on a "
-      "line of its own");
+      "s.yaml:4:44: error: a 'max(1' ends within a bracket: in { } a comma ends the text; put the text in quotes, or on a "
+      "separate line");
 }
 
 TEST_F(Messages, WhatWasTypedIsNamed) {
@@ -201,7 +201,7 @@ TEST_F(Messages, TheNameOfARobotIsAFileOfIt) {
 TEST_F(Messages, AControllerForTheTorqueActuator) {
   const Result result = call("check ok.yaml --set actuator.type=torque");
   EXPECT_EQ(result.code, 2);
-  EXPECT_TRUE(contains(result.err, "a controller of its own: controller: {unit: N m, Kp: ...}")) << result.err;
+  EXPECT_TRUE(contains(result.err, "add for example controller: {unit: N m, Kp: ...}")) << result.err;
 }
 
 TEST_F(Messages, AFolderIsNotARobotToExport) {

@@ -81,7 +81,7 @@ TEST(AsBuilt, TheResolvedScenarioHoldsTheDraw) {
   EXPECT_EQ(resolved(again), text);
   EXPECT_EQ(alone(again), alone(drawn));
   ASSERT_FALSE(again.notes.empty());
-  EXPECT_TRUE(contains(again.notes.back().text, "tolerances draws nothing"));
+  EXPECT_TRUE(contains(again.notes.back().text, "tolerances has no effect"));
   EXPECT_EQ(alone(scenario(text, {"seed=8"})), alone(drawn));
   EXPECT_EQ(alone(scenario(text, {"seed=8", "as_built={}"})), alone(built({kEveryTolerance, "seed=8"})));
 }
@@ -208,7 +208,7 @@ TEST(AsBuilt, WrongInput) {
   };
   for (const auto& [set, text] : messages) EXPECT_TRUE(contains(wrong(set), "error: " + text)) << wrong(set);
   EXPECT_TRUE(contains(wrong("tolerances={Kt: 0.1}", {"actuator={type: torque}", "controller={unit: N m}"}),
-                       "tolerances.Kt is a number of a DC motor, and actuator 'torque' has none"));
+                       "tolerances.Kt applies only to dc_motor and servo, but the actuator is 'torque'"));
   EXPECT_TRUE(contains(wrong("tolerances={foot_friction: 0.1}", {"physics.engine=bullet", "contact.law=bullet"}),
                        "tolerances.foot_friction does not apply to contact law 'bullet'"));
 }

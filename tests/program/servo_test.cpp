@@ -141,7 +141,7 @@ TEST(Servo, RefusesWhatNoMotorCanDo) {
   expect_refused("voltage: 12, stall_torque: 1.5, no_load_speed: 6.388, stall_current: 1.4, i_continuous: 2",
                  "i_continuous 2 A is above stall_current, 1.4 A");
   expect_refused(kAx12 + ", efficiency: 0.7",
-                 "efficiency follows from stall_current, which is stated, too: remove one of them");
+                 "efficiency and stall_current are both stated, but one follows from the other; remove one of them");
   expect_refused("voltage: 10, stall_torque: 1.8", "missing key 'no_load_speed'");
   expect_refused("voltage: 10, stall_torque: 0, no_load_speed: 5",
                  "stall_torque is 0 N m; expected more than 0 and up to 1000000000 N m");

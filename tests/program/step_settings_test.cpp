@@ -72,15 +72,16 @@ TEST(StepSettings, AStepIsAWholeShareOfTheControlPeriod) {
 }
 
 TEST(StepSettings, AutoIsRefusedWhereNothingChoosesSteps) {
-  EXPECT_EQ(
-      error("engine: bullet, step: auto", "contact: {law: bullet, on: all}\n"),
-      "s.yaml:4:33: error: integrator 'semi_implicit' of engine 'bullet' chooses no steps; expected a number of seconds, or "
-      "engine: articulated, integrator: adaptive\n");
+  EXPECT_EQ(error("engine: bullet, step: auto", "contact: {law: bullet, on: all}\n"),
+            "s.yaml:4:33: error: integrator 'semi_implicit' of engine 'bullet' cannot choose the step; expected a number of "
+            "seconds, or "
+            "engine: articulated, integrator: adaptive\n");
   for (const char* integrator : {"implicit", "extrapolated", "rk4"}) {
     const std::string text = error(fmt::format("engine: articulated, integrator: {}, step: auto", integrator));
-    EXPECT_TRUE(contains(text, fmt::format("error: integrator '{}' of engine 'articulated' chooses no steps; expected a number "
-                                           "of seconds, or engine: articulated, integrator: adaptive\n",
-                                           integrator)))
+    EXPECT_TRUE(
+        contains(text, fmt::format("error: integrator '{}' of engine 'articulated' cannot choose the step; expected a number "
+                                   "of seconds, or engine: articulated, integrator: adaptive\n",
+                                   integrator)))
         << text;
     EXPECT_TRUE(text.starts_with("s.yaml:4:")) << text;
   }

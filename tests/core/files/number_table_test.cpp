@@ -210,7 +210,7 @@ TEST(GreyPng, CutAnywhereOrChangedIsRefused) {
   }
   std::string coloured = headed(picture().substr(16, 13));
   add_chunk(coloured, "PLTE", "abc");
-  EXPECT_EQ(refused_png(coloured), "it has a part that is not of grey PNGs");
+  EXPECT_EQ(refused_png(coloured), "it has a chunk that grey PNGs do not have");
   std::string without = headed(picture().substr(16, 13));
   add_chunk(without, "IEND", "");
   EXPECT_EQ(refused_png(without), "its picture is damaged");

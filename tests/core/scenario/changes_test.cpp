@@ -134,13 +134,11 @@ TEST_F(ChangesTest, WrongSettings) {
            Wrong{"[{t: 0.2, set: {cpg.step: 0.01}}]",
                  "21: error: cpg.step cannot change in a run: it sets the plugins, their states or the control ticks"},
            Wrong{"[{t: 0.2, set: {actuator.R: 5}}]",
-                 "21: error: 'actuator.R' cannot change in a run: motors are as built; a fault of kind weak, open or dead "
-                 "changes "
-                 "one"},
+                 "21: error: 'actuator.R' cannot change in a run; a fault of kind weak, open or dead changes a motor"},
            Wrong{"[{t: 0.2, set: {duration: 5}}]",
-                 "21: error: 'duration' cannot change in a run; the keys of cpg and controller can"},
+                 "21: error: 'duration' cannot change in a run; expected a key of cpg or controller"},
            Wrong{"[{t: 0.2, set: {cgp.frequency: 5}}]",
-                 "21: error: 'cgp.frequency' cannot change in a run; the keys of cpg and controller can; did you mean "
+                 "21: error: 'cgp.frequency' cannot change in a run; expected a key of cpg or controller; did you mean "
                  "'cpg.frequency'?"},
            Wrong{"[{t: 0.2, set: {cpg.frequncy: 5}}]", "21: error: unknown key 'frequncy'; did you mean 'frequency'?"},
            Wrong{"[{t: 0.2, set: {cpg.frequency: 50}}]", "36: error: frequency is 50 Hz; expected 0 to 20 Hz"},

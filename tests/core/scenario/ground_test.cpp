@@ -80,7 +80,7 @@ TEST_F(GroundSection, RefusesBoxesAtTheirPlace) {
   EXPECT_EQ(wrong("{type: boxes, boxes: [{size: [1, 1, 1], centre: [0, 0, 0]}]}"),
             "s.yaml:3:49: error: unknown key 'centre'; did you mean 'center'?");
   EXPECT_EQ(wrong("{type: boxes, boxes: [{size: [1, 1, 1], mass: 2}]}"),
-            "s.yaml:3:55: error: boxes[0] has a mass, and contact.law: penalty moves no box; expected mass: 0, or contact.law: "
+            "s.yaml:3:55: error: boxes[0] has a mass, but contact.law: penalty moves no box; expected mass: 0, or contact.law: "
             "bullet");
   EXPECT_EQ(wrong("{type: boxes, boxes: [{size: [1, 1, 1], friction: -1}]}"),
             "s.yaml:3:59: error: friction is -1; expected 0 to 100");
@@ -236,8 +236,9 @@ TEST_F(HeightFiles, AreRefusedWithWhatTheyHold) {
             "text.npy: error: it does not begin as a file of NumPy; expected a matrix of float32, float64 or integers in C "
             "order, as numpy.save writes it");
   folder_.write("grey.dem", std::string("\x89PNG\r\n\x1a\n", 8) + "rest");
-  EXPECT_EQ(refused("file: grey.dem"),
-            "s.yaml:3:49: error: file 'grey.dem' holds grey values from 0 to 65535; expected scale: metres of one");
+  EXPECT_EQ(
+      refused("file: grey.dem"),
+      "s.yaml:3:49: error: file 'grey.dem' holds grey values from 0 to 65535; expected `scale`, the metres per grey value");
   EXPECT_EQ(refused("file: grey.dem, scale: 1e-3"),
             "grey.dem: error: it ends too early; expected a PNG of 16 bit grey values without interlacing");
   EXPECT_EQ(refused("values: [[0, 1], [1, 1]], scale: 2"),

@@ -262,7 +262,7 @@ TEST_F(ScenarioTest, CommandUnitsMustAgree) {
             "DIR/s.yaml:3:18: note: actuator 'torque' takes N m");
   EXPECT_EQ(error(kShort + "actuator: {type: torque}\n"),
             "DIR/s.yaml:3:18: error: the default controller 'pid' commands V, but actuator 'torque' takes N m\n"
-            "DIR/s.yaml:3:18: note: a controller of its own: controller: {unit: N m, Kp: ...}");
+            "DIR/s.yaml:3:18: note: add for example controller: {unit: N m, Kp: ...}");
   EXPECT_EQ(error(kShort + "actuator: {type: torque}\ncontroller: {type: hold}\n"), test::kNoError);
 }
 
@@ -303,8 +303,7 @@ TEST_F(ScenarioTest, TheModuleTypesMotor) {
 TEST_F(ScenarioTest, InitialAnglesStayInTheHingesRange) {
   EXPECT_EQ(error(kTwo + "initial: {angles: 1.6}\n"),
             "DIR/s.yaml:5:19: error: the initial angle of joint 'm0/h' is 1.6 rad; expected -1.5 to 1.5 rad; 1 more joint "
-            "is outside of "
-            "the range, too");
+            "is also outside the range");
   EXPECT_EQ(error(kTwo + "initial: {angles: [0, -1.6]}\n"),
             "DIR/s.yaml:5:23: error: the initial angle of joint 'm1/h' is -1.6 rad; expected -1.5 to 1.5 rad");
   EXPECT_EQ(error(kTwo + "initial: {angles: {m1/h: 2}}\n"),

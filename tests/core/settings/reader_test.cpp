@@ -267,7 +267,7 @@ TEST(Explainer, ListsKeysWithUnitDefaultRangeAndSentence) {
             "couplings[].from: default 0; joint name or number\n    The joint that is followed.\n"
             "couplings[].to: default 0; joint name or number\n    The joint that follows.\n"
             "couplings[].weight (1/s): default 1; -1000 to 1000\n    Pull.\n"
-            "model:\n    Keys of this model alone.\n"
+            "model:\n    Keys of this model.\n"
             "    mu: default 1; 0 to 100\n        Size.\n"
             "table (rad): default []; list of numbers, -10 to 10\n    Numbers.\n"
             "labels: default [a b, 5]; list of texts\n    Texts.\n"
