@@ -218,7 +218,7 @@ std::string shortfall(const std::string& file, Catalog& catalog) try {
 std::string write_scenario(const NewFileArguments& arguments, const NewRobot& robot, Catalog& catalog) {
   constexpr double kAmplitudes[] = {0.4, 0.2, 0.1};  // rad
   const auto text = [&](double amplitude) {
-    return scenario_text(arguments, robot, amplitude, "It runs as it stands, to a verdict");
+    return scenario_text(arguments, robot, amplitude, "It runs without changes, to a verdict");
   };
   std::string file = write_new(arguments, text(kAmplitudes[0]));
   const std::string why = shortfall(file, catalog);

@@ -334,7 +334,8 @@ void add_optimize(Commands& commands) {
                 "N searches, with seeds from --seed on, in folders seed-N; the median and the spread of their best values")
             ->check(CLI::Range(2, 99));
         command
-            .add_option("--method", a.method, "method, instead of the file's; random draws points for comparison with a search")
+            .add_option("--method", a.method,
+                        "method, instead of the file's; `random` draws points, for comparison with a search")
             ->check(CLI::IsMember(known_methods()));
         add_study_sets(command, a.sets);
         command.add_flag("--dry-run", a.dry_run, "print the runs and the time that they take, and write nothing");

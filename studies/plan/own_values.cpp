@@ -43,7 +43,7 @@ OwnValue own_value(const Node* node, const Parameter& p) {
   }
   if (!number.ok()) return {"", "is not a number in the scenario"};
   if (number.value >= p.low && number.value <= p.high) return {std::move(text), ""};
-  return {"", fmt::format("is {} in the scenario, outside of its range", text)};
+  return {"", fmt::format("is {} in the scenario, outside the parameter's range", text)};
 }
 
 }  // namespace

@@ -204,7 +204,7 @@ void read_law(const Node& node, Variation& v, Problems& problems) {
   } else {
     v.law = Variation::Law::values;
     read_values(*values, v.key + ".values", v.values, v.words, problems);
-    if (v.times && v.words) problems.add(values->place, v.key + ": words cannot be times a value");
+    if (v.times && v.words) problems.add(values->place, v.key + ": words cannot multiply a value");
   }
 }
 

@@ -224,7 +224,7 @@ TEST_F(Messages, ContactsThatMjcfCannotHold) {
       << soft.err;
   const Result deep = call("export '" + kScenarios + "library/linkbot-drive.yaml'" + robot + "1000 --set contact.exponent=3");
   EXPECT_EQ(deep.code, 2);
-  EXPECT_TRUE(contains(deep.err, "error: spheres of 0.01 m are 0.108 m deep in the ground")) << deep.err;
+  EXPECT_TRUE(contains(deep.err, "error: spheres of 0.01 m sink 0.108 m into the ground")) << deep.err;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "a.xml"));
 }
 

@@ -62,8 +62,8 @@ TEST_F(Optimize, ABestThatStandsHasItsFolder) {
   EXPECT_TRUE(contains(fewer.err, "o: note: has runs up to number 23, beyond the budget of 20; all of them count\n"))
       << fewer.err;
   EXPECT_TRUE(contains(fewer.err,
-                       "s.yaml:4:14: note: the search does not begin with the scenario's own gait: cpg.amplitude is 0.6 in "
-                       "the scenario, outside of its range\n"))
+                       "s.yaml:4:14: note: the search does not begin with the scenario's own gait: cpg.amplitude is 0.6 in the "
+                       "scenario, outside the parameter's range\n"))
       << fewer.err;
   EXPECT_NE(fewer.out.find("24 of 24 runs ended"), std::string::npos) << fewer.out;
 }

@@ -76,7 +76,7 @@ Explainer recipe_keys(const PanelKind& kind) {
   explainer.row(
       "size", "mm", kSizes[0].name, names_of_sizes(),
       "Size on paper: one or two columns of an IEEE journal (88.9 or 181.9 mm wide) or another width (84 and 174 are usual), "
-      "as high as the panels need; or width and height.");
+      "with the height that the panels need; or width and height.");
   Recipe recipe;
   recipe.panels.resize(1);
   recipe.panels.front().kind = &kind;
@@ -120,7 +120,7 @@ void PanelRecipe::time_fields(Fields& f) {
   f.number("from", from, {"s", 0, kLongestTime, "Start of the drawn time."});
   f.number_or("to", to, "end", {"s", kPositive, kLongestTime, "End of the drawn time."});
   if (to > 0 && from >= to)
-    f.problem("to", fmt::format("to is {} s, not behind from, {} s", number_text(to), number_text(from)));
+    f.problem("to", fmt::format("to is {} s, not after from, {} s", number_text(to), number_text(from)));
 }
 
 void PanelRecipe::height_field(Fields& f) { f.number_or("height", height, "auto", {"mm", 10, 500, "Height of the frame."}); }

@@ -205,7 +205,7 @@ TEST(ReplicatesKey, ThatIsWrongSaysWhy) {
             Texts{"1:34: k has no law; expected one of normal: [MEAN, DEVIATION], uniform: [LOW, HIGH], values: [...]"});
   EXPECT_EQ(wrong("{uniform: [0, 1], values: [1]}"),
             Texts{"1:34: k has several laws; expected one of normal: [MEAN, DEVIATION], uniform: [LOW, HIGH], values: [...]"});
-  EXPECT_EQ(wrong("{times: {values: [x, y]}}"), Texts{"1:51: k: words cannot be times a value"});
+  EXPECT_EQ(wrong("{times: {values: [x, y]}}"), Texts{"1:51: k: words cannot multiply a value"});
   EXPECT_EQ(wrong("{times: {times: {uniform: [0, 1]}}}").empty(), false) << "a factor of a factor";
   EXPECT_EQ(wrong("{uniform: [0, 1], low: 0}").size(), 1U) << "an end of a normal law";
   EXPECT_EQ(ReadReplicates("{combine: mean}").wrong.size(), 1U) << "count is missing";
