@@ -6,7 +6,7 @@
 namespace gaitlab::cpg {
 
 const char* const Equations::kManual =
-    R"(A model of your own, written in the scenario: states with their derivatives, an output, feedback from the sensors.
+    R"(A model written in the scenario: states with their derivatives, an output, feedback from the sensors.
 
     phi_i' = 2 pi f_i + sum_j w_ij sin(phi_j - phi_i - psi_ij)      the default: what phase_oscillator does
     r_i'   = 2 (R_i - r_i)

@@ -98,7 +98,7 @@ std::string explain_part(const std::string& word) {
       !std::all_of(word.begin() + 1, word.begin() + static_cast<std::ptrdiff_t>(slash), digit))
     return "";
   return wrapped(
-      fmt::format("{0}: a joint or body of the robot, {1} of module {2}. Settings per joint take it as a key: "
+      fmt::format("{0}: a joint or body of the robot, {1} of module {2}. Settings per joint accept this name as a key: "
                   "cpg.amplitude: {{default: 0.4, {0}: 0.3}}. `gaitlab check SCENARIO` lists the joints.",
                   word, word.substr(slash + 1), word.substr(1, slash - 1)));
 }

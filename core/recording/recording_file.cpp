@@ -50,11 +50,11 @@ void each_number(OfRecording& r, Visit visit) {
   visit("stability.time", "s", "time of that tick", r.worst_time);
   visit("energy.electrical", "J", "drawn by the motors", r.ledger.electrical);
   visit("energy.copper", "J", "lost in the motors' windings", r.ledger.copper);
-  visit("energy.gear", "J", "lost in the gears, less what they created", r.ledger.gear);
+  visit("energy.gear", "J", "lost in the gears, minus the energy that they created", r.ledger.gear);
   visit("energy.contact", "J", "given to the ground along its normal", r.ledger.contact);
   visit("energy.friction", "J", "given to the ground along its surface", r.ledger.friction);
   visit("energy.stops", "J", "given to the hinge stops", r.ledger.stops);
-  visit("energy.stored", "J", "kinetic and potential, less those at the start", r.ledger.stored);
+  visit("energy.stored", "J", "kinetic and potential, minus the value at the start", r.ledger.stored);
   visit(kHinges, "J", "lost in dampers and friction of passive hinges", r.ledger.hinges);
   visit(kCurrent + std::string("peak"), "A", "largest sum of the magnitudes of all motors' currents", r.current_peak);
   visit(kCurrent + std::string("rms"), "A", "RMS of that sum", r.current_rms);

@@ -56,14 +56,14 @@ inline constexpr std::array<JointStatistic, sizeof(JointStatistics) / sizeof(dou
     {&JointStatistics::setpoint_outside, "setpoint_outside", "", "share of the time with the set point outside that range"},
     {&JointStatistics::electrical, "electrical", "J", "energy drawn by the motor"},
     {&JointStatistics::copper, "copper", "J", "heat in the winding"},
-    {&JointStatistics::gear, "gear", "J", "loss in the gear, less what it created"},
+    {&JointStatistics::gear, "gear", "J", "loss in the gear, minus the energy that it created"},
     {&JointStatistics::shaft, "shaft", "J", "energy given to the joint"},
     {&JointStatistics::shaft_positive, "shaft_positive", "J", "energy given to the joint while that power is positive"},
     {&JointStatistics::created, "created", "J", "energy that the gear created"},
     {&JointStatistics::reversals, "reversals", "",
      "control ticks from reversing_from on with a change of the command's sign, minus those without a change"},
     {&JointStatistics::reversing_from, "reversing_from", "s",
-     "first tick of the last stretch of the run where the command changes its sign in most ticks"},
+     "first tick of the last stretch of the run in which the command changes its sign in most ticks"},
 }};
 
 /// Difference of the motor torques between a run and a companion rollout (core/simulation/step_error.h).

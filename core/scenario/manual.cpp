@@ -136,8 +136,8 @@ std::string default_step(const Engine& engine) {
 
 std::string plugins_page(const Catalog& catalog) {
   std::string page = "# CPGs, controllers, actuators, sensors and engines\n\n" + std::string(kRenewed) +
-                     "The manuals of the built-in plugins, as `gaitlab explain KIND NAME` prints them. One of your own:\n"
-                     "[write a CPG](../tutorials/write-a-cpg.md).\n";
+                     "The manuals of the built-in plugins, as `gaitlab explain KIND NAME` prints them. To write "
+                     "another:\n[write a CPG](../tutorials/write-a-cpg.md).\n";
   for (const PluginKind& kind : kPluginKinds) {
     for (const std::string& name : catalog.names(kind.kind)) {
       const Entry& entry = *catalog.find(kind.kind, name);

@@ -95,7 +95,8 @@ void LoadMeter::add_columns(const Scenario& scenario) {
   }
   for (const std::size_t joint : gears_) {
     add(fmt::format("gear.{}.torque", joint), "N m",
-        "torque that the gear of " + robot_.joints[joint].name + " passes on: that of its motor less what turns its rotor");
+        "torque that the gear of " + robot_.joints[joint].name +
+            " passes on: the torque of its motor minus the torque that turns its rotor");
   }
   foot_columns_ = columns_.size();
   for (const Foot& foot : feet_) {

@@ -159,8 +159,8 @@ Explainer study_keys() {
                 "points that no other point beats in all objectives.");
   explainer.row("constraints", "", "[]", "texts a <= b, a >= b or a == b", "Conditions that a point must satisfy.");
   explainer.row("guards", "", "verdict", "verdict, none or {CHECK: LIMIT, CHECK: {margin: M}, CHECK: true or false}",
-                "Checks of the verdict that a point must pass. verdict: the verdict must be `feasible`. Checks by id are added "
-                "to it or change it: another limit, a least margin, true (required) or false (ignored).");
+                "Checks of the verdict that a point must pass. verdict: the verdict must be `feasible`. Checks by id extend or "
+                "change this: another limit, a least margin, true (required) or false (ignored).");
   explainer.row("stop", "", "[]", "texts EXPRESSION or EXPRESSION after SECONDS",
                 "Rules that end a run early, evaluated once every simulated second on quantities of the run so far: fell, or "
                 "those of a joint.");

@@ -106,7 +106,7 @@ TEST_F(Messages, AnOptionWithoutItsValueTwiceOrBesideAnother) {
   refused("run ok.yaml --out a --out b", "gaitlab run: error: --out is given 2 times; expected once");
   refused("converge ok.yaml -j",
           "gaitlab converge: error: -j has no value; expected one after it: a whole number from 1 to 1024");
-  refused("rerun x --verify --out y", "gaitlab rerun: error: found --out and --verify together; expected one of them alone");
+  refused("rerun x --verify --out y", "gaitlab rerun: error: found --out and --verify together; expected only one of them");
 }
 
 TEST_F(Messages, ATabInTheIndentation) {
