@@ -228,16 +228,17 @@ int rerun(const RerunArguments& arguments) {
 }  // namespace
 
 void add_rerun(Commands& commands) {
-  add_command<RerunArguments>(
-      commands, "rerun", "Run the scenario of a run folder again, from the folder alone.", rerun,
-      [](CLI::App& command, RerunArguments& arguments) {
-        command.add_option("RUN", arguments.run, "run folder, or its trace.h5")->required();
-        add_trust(command, arguments.plugins);
-        CLI::Option* out_option = command.add_option("--out", arguments.out, "run folder, as for run");
-        command.add_flag("--verify", arguments.verify, "write nothing; compare with the recorded trace; 4: it differs")
-            ->excludes(out_option);
-        command.add_flag("--quiet", arguments.quiet, "no progress, no summary on the terminal");
-      });
+  add_command<RerunArguments>(commands, "rerun", "Run the scenario of a run folder again, from the folder alone.", rerun,
+                              [](CLI::App& command, RerunArguments& arguments) {
+                                command.add_option("RUN", arguments.run, "run folder, or its trace.h5")->required();
+                                add_trust(command, arguments.plugins);
+                                CLI::Option* out_option = command.add_option("--out", arguments.out, "run folder, as for run");
+                                command
+                                    .add_flag("--verify", arguments.verify,
+                                              "write nothing; compare with the recorded trace; exit code 4 if it differs")
+                                    ->excludes(out_option);
+                                command.add_flag("--quiet", arguments.quiet, "no progress, no summary on the terminal");
+                              });
 }
 
 }  // namespace gaitlab::app

@@ -137,7 +137,7 @@ void add_new(Commands& commands) {
       commands, "plugin", "Make a folder with a working plugin, its scenario and its test.", new_plugin,
       [](CLI::App& plugin, NewPluginArguments& arguments) {
         plugin.add_option("KIND", arguments.kind, "cpg, controller or actuator")->required();
-        plugin.add_option("NAME", arguments.name, "name that scenarios will give it")->required();
+        plugin.add_option("NAME", arguments.name, "name by which scenarios select it")->required();
         plugin.add_option("--out", arguments.out, "folder to make (default: NAME); must not exist");
       },
       command);

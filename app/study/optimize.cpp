@@ -111,7 +111,8 @@ SearchEnd run_study(Plan& plan, Journal& journal, const studies::Executor& execu
   const int code = run(plan.scenario(run_number), arguments);
   if (code != 0 || stopped()) {
     fs::remove_all(next, none);
-    if (!stopped()) say(folder.string(), "error", "not written, because a file of the run is missing; an earlier folder stays");
+    if (!stopped())
+      say(folder.string(), "error", "not written, because a file of the run is missing; an earlier folder is kept");
     return false;
   }
   fs::rename(folder, before, none);

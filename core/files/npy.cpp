@@ -66,7 +66,7 @@ class HeaderReader {
   }
 
  private:
-  [[noreturn]] static void broken() { refuse_npy("its header is not one of NumPy"); }
+  [[noreturn]] static void broken() { refuse_npy("its header is not a NumPy header"); }
 
   char next() {
     while (!rest_.empty() && (rest_[0] == ' ' || rest_[0] == '\n')) rest_.remove_prefix(1);

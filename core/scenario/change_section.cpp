@@ -150,7 +150,7 @@ class ChangeReader {
                          section == "cpg" ? "cpg.frequency" : "controller.Kp");
     }
     if (key == "cpg.type" || key == "cpg.step" || key == "controller.type" || key == "controller.period")
-      return key + " cannot change in a run: it sets the plugins, their states or the control ticks";
+      return key + " cannot change in a run, because it sets the plugins, their states or the control ticks";
     if (known) return "";
     if (section == "actuator")
       return in_quotes(key) + " cannot change in a run; a fault of kind weak, open or dead changes a motor";

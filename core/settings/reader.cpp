@@ -286,7 +286,7 @@ void Reader::read_named_numbers(const Node& node, const std::string& what, PerJo
   const bool every = read_joint_map(node, what, kAny, value, joints());
   if (every || problems_.size() > before) return;
   // Without a default, the remaining joints would have no value.
-  problems_.add(node.place, what + " names some joints only; add default: for the others");
+  problems_.add(node.place, what + " names only some joints; add default: for the others");
 }
 
 void Reader::visit(const Field& field) {

@@ -45,7 +45,7 @@ void Probes::add_all(const Scenario& scenario, const std::vector<ContactElement>
                      std::string_view command_unit) {
   const Robot& robot = *scenario.robot;
   add("t", "s", "time", sample_.t);
-  if (!scenario.changes.empty()) add("segment", "", "number of changes (section at) up to t, exclusive", sample_.segment);
+  if (!scenario.changes.empty()) add("segment", "", "number of changes (section `at`) before t", sample_.segment);
   const auto faults = [](const Change& change) { return !change.faults.empty(); };
   add_joints(robot, scenario.actuator.entry != nullptr, command_unit, std::ranges::any_of(scenario.changes, faults));
   add_base();

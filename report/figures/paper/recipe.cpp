@@ -87,10 +87,9 @@ Explainer recipe_keys(const PanelKind& kind) {
 }  // namespace
 
 void AxisRecipe::fields(Fields& f) {
-  f.texts(
-      "columns", columns,
-      "Columns of the trace to draw, by name with * and ?; a joint by number or name: joint.7.torque, joint.m3/*.torque. All "
-      "of an axis have one unit.");
+  f.texts("columns", columns,
+          "Columns of the trace to draw, by name with * and ?; a joint by number or name: joint.7.torque, joint.m3/*.torque. "
+          "All columns of an axis have the same unit.");
   f.texts("names", names, "Names in the legend, one per curve; default: the names of the columns.");
   f.text("label", label, "Title of the axis; default: quantity and unit of the columns.");
   f.numbers("range", range, {"", -1e300, 1e300, "Ends of the axis, [from, to]; default: chosen to fit the curves."});

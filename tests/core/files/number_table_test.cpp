@@ -113,7 +113,7 @@ TEST(Npy, OfAnotherFormIsRefusedWithWhatItIs) {
         "{'descr': '<f4', 'fortran_order': False, 'shape': (1, 1)} more",
         "{'descr': '<f4', 'fortran_order': False, 'shape': (99999999999999999999, 1)}",
         "{'descr': '<f4', 'fortran_order': False, 'shape': (1, 1), 'more': 1}"})
-    EXPECT_EQ(refused_npy(npy(header, "")), "its header is not one of NumPy") << header;
+    EXPECT_EQ(refused_npy(npy(header, "")), "its header is not a NumPy header") << header;
 }
 
 // A header whose size differs from the file is refused without an allocation, also if it states terabytes or its product

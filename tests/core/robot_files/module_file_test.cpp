@@ -133,8 +133,9 @@ TEST_F(ModuleFileTest, OneTree) {
             "DIR/m.yaml:5:3: error: body 'b' is not connected to 'a' by a hinge; expected one tree\n"
             "DIR/m.yaml:4:3: note: 'a' is the root: no hinge's child");
   const std::string hinge = "  - {name: g, parent: b, child: a, axis: [0, 1, 0], range: [-1, 1]}\nfaces:";
-  EXPECT_EQ(error("faces:", hinge),
-            "DIR/m.yaml:4:3: error: every body is some hinge's child: the hinges form a loop; expected one root body");
+  EXPECT_EQ(
+      error("faces:", hinge),
+      "DIR/m.yaml:4:3: error: every body is the child of a hinge, so that the hinges form a loop; expected one root body");
   const std::string twice = "  - {name: h, parent: a, child: b, axis: [0, 0, 0], range: [1, -1]}\nfaces:";
   EXPECT_EQ(error("faces:", twice),
             "DIR/m.yaml:13:33: error: body 'b' is the child of two hinges, 'h' and 'h'; expected one tree\n"
