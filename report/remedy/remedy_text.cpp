@@ -159,7 +159,8 @@ void add_cures(const Remedy& remedy, Lines& lines) {
 /// Reason of a refusal without the value that the line states: `expected 0 to 1.5 rad` of `amplitude is 2 rad; expected 0 to
 /// 1.5 rad`.
 std::string reason(const std::string& refused) {
-  const std::size_t end = refused.find("; expected ");
+  constexpr std::string_view kExpected = "; expected ";
+  const std::size_t end = refused.find(kExpected);
   return end == std::string::npos ? refused : refused.substr(end + 2);
 }
 
