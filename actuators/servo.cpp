@@ -104,12 +104,13 @@ bool ServoActuator::Settings::check(Fields& f, std::size_t joint, bool alone) co
                   stall_torque[joint], stall_current[joint], no_load_speed[joint], voltage[joint], eta);
   f.problem(
       eta > 1 ? "stall_torque" : "stall_current",
-      eta > 1 ? fmt::format("{}; at most 1{}: is the torque in kgf cm ({:.4g} kgf cm are {:.4g} N m), the speed in rev/min "
-                            "({:.4g} rev/min are {:.4g} rad/s), or voltage the supply? The data hold at `voltage`, and the "
-                            "supply is u_max",
-                            torque, which, stall_torque[joint], kKgfCm * stall_torque[joint], no_load_speed[joint],
-                            kRevPerMin * no_load_speed[joint])
-              : fmt::format("{}; at least {}: is the current in mA, or the voltage in mV?{}", torque, kLeastEfficiency, which));
+      eta > 1
+          ? fmt::format(
+                "{}; at most 1{}: is the torque in kgf cm ({:.4g} kgf cm are {:.4g} N m), the speed in rev/min "
+                "({:.4g} rev/min are {:.4g} rad/s), or is voltage the supply? The data hold at `voltage`; the supply is u_max",
+                torque, which, stall_torque[joint], kKgfCm * stall_torque[joint], no_load_speed[joint],
+                kRevPerMin * no_load_speed[joint])
+          : fmt::format("{}; at least {}: is the current in mA, or the voltage in mV?{}", torque, kLeastEfficiency, which));
   return false;
 }
 

@@ -147,7 +147,8 @@ std::string MjcfWalking::motor_comment() const {
   };
   if (!drives_.by_set_points) {
     return fmt::format(
-        " Controls are the commands of actuator {}, {}; the law of its motors at rest, and their torque limit. Controller {} "
+        " Controls are the commands of actuator {}, {}, under the law of its motors at rest, within their torque limit. "
+        "Controller {} "
         "is "
         "not in this file.",
         name(s_.actuator), drives_.command_unit, name(s_.controller));

@@ -275,7 +275,7 @@ duration: 4                     # s
 )";
 
 constexpr const char* kActuatorTest =
-    R"(# It lags by 0.02 rad; a motor without torque would leave the whole set point, 0.35 rad.
+    R"(# The joint lags by 0.02 rad; without torque its error would be the whole set point, 0.35 rad.
 foreach(joint m0/active m0/passive)
   get(error per_joint ${joint} tracking_error rms)
   expect(error LESS 0.05 "rad: it does not drive ${joint}")

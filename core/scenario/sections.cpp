@@ -226,13 +226,15 @@ void Limits::fields(Fields& f) {
       "start_jump", start_jump,
       {"rad", 0, 100,
        "Jump of a set point at t = 0 above which there is a warning. Default: half of the axis of the paper's figure 14."});
-  f.number("touch", touch,
-           {"m", 0, 10,
-            "Overlap of two bodies above which there is a warning. Default: covers the error of cylinders (computed as prisms) "
-            "and the deflection of a hinge's stop."});
+  f.number(
+      "touch", touch,
+      {"m", 0, 10,
+       "Overlap of two bodies above which there is a warning. The default covers the error of cylinders (computed as prisms) "
+       "and the deflection of a hinge's stop."});
   f.number("collision", collision,
            {"m", 0, 10, "Largest overlap of two bodies; less is a warning, more a failure. Default: our choice."});
-  f.number("sink", sink, {"m", 0, 10, "Largest depth of a body in the ground. Default: covers the compression of the ground."});
+  f.number("sink", sink,
+           {"m", 0, 10, "Largest depth of a body in the ground. The default covers the compression of the ground."});
   f.number(
       "energy_residual", energy_residual,
       {"", 0, 1,

@@ -135,7 +135,7 @@ TEST(Servo, RefusesWhatNoMotorCanDo) {
   expect_refused("voltage: 12, stall_torque: 15.3, no_load_speed: 6.388, stall_current: 1.4",
                  "is the torque in kgf cm (15.3 kgf cm are 1.5 N m)");
   expect_refused("voltage: 12, stall_torque: 1.5, no_load_speed: 61, stall_current: 1.4",
-                 "(61 rev/min are 6.388 rad/s), or voltage the supply? The data hold at `voltage`, and the supply is u_max");
+                 "(61 rev/min are 6.388 rad/s), or is voltage the supply? The data hold at `voltage`; the supply is u_max");
   expect_refused("voltage: 12, stall_torque: 1.5, no_load_speed: 6.388, stall_current: 1400",
                  "at least 0.01: is the current in mA, or the voltage in mV?");
   expect_refused("voltage: 12, stall_torque: 1.5, no_load_speed: 6.388, stall_current: 1.4, i_continuous: 2",
