@@ -35,14 +35,14 @@ EncoderSensor::EncoderSensor(const SensorSite& site, const Settings& settings)
     const std::string name = site.name + "." + site.robot.joints[j].name;
     angles_.add(Channel(settings, site, name));
     readings_.push_back({name, joint_column(j, "measured"), "rad",
-                         "angle that the encoder gives, in force just before t, of joint " + site.robot.joints[j].name,
+                         "angle measured by the encoder, in force just before t, of joint " + site.robot.joints[j].name,
                          Replaces::angle, j});
   }
   for (const std::size_t j : joints_) {
     const std::string name = site.name + "." + site.robot.joints[j].name + ".speed";
     if (settings.speed) speeds_.add(Channel(settings.tachometer, site, name));
     readings_.push_back({name, joint_column(j, "measured_speed"), "rad/s",
-                         "speed that the encoder gives, in force just before t, of joint " + site.robot.joints[j].name,
+                         "speed measured by the encoder, in force just before t, of joint " + site.robot.joints[j].name,
                          Replaces::speed, j});
   }
 }

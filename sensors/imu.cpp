@@ -62,10 +62,10 @@ ImuSensor::ImuSensor(const SensorSite& site, const Settings& settings) : period_
       readings_.push_back({name, "sensor." + name, keys.unit.value, what + of});
     }
   };
-  add(kGyro, settings.gyro, gyro, "angular velocity that the sensor gives, body axes", {"gyro_x", "gyro_y", "gyro_z"});
-  add(kAccelerometer, settings.accelerometer, specific_force, "specific force that the sensor gives, body axes",
+  add(kGyro, settings.gyro, gyro, "angular velocity measured by the sensor, body axes", {"gyro_x", "gyro_y", "gyro_z"});
+  add(kAccelerometer, settings.accelerometer, specific_force, "specific force measured by the sensor, body axes",
       {"accelerometer_x", "accelerometer_y", "accelerometer_z"});
-  add(kTilt, settings.tilt, tilt, "tilt that the sensor gives", {"roll", "pitch"});
+  add(kTilt, settings.tilt, tilt, "tilt measured by the sensor", {"roll", "pitch"});
 }
 
 void ImuSensor::sense(const Truth& truth, Out state, Out values) const {

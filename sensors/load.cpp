@@ -34,7 +34,7 @@ LoadSensor::LoadSensor(const SensorSite& site, const Settings& settings) : touch
       channels_.add(Channel(settings, site, name));
       parts_.push_back(i);
       readings_.push_back({name, "sensor." + name, "N",
-                           "normal force that the sensor gives, in force just before t, of " + std::string(what) + names[i]});
+                           "normal force measured by the sensor, in force just before t, of " + std::string(what) + names[i]});
     }
   };
   const std::vector<std::string> modules = module_names_of(site.robot);

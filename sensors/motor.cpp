@@ -42,7 +42,7 @@ MotorSensor::MotorSensor(const SensorSite& site, const Settings& settings) {
       const std::string name = site.name + "." + joint + "." + quantity;
       channels_.add(Channel(keys, site, name));
       readings_.push_back({name, joint_column(j, column), keys.unit.value,
-                           std::string(quantity) + " that the sensor gives, in force just before t, of joint " + joint,
+                           std::string(quantity) + " measured by the sensor, in force just before t, of joint " + joint,
                            replaces, j});
     }
   };

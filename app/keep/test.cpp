@@ -345,8 +345,7 @@ void add_test(Commands& commands) {
         command.add_option("--engine", arguments.engine,
                            "run with this engine, at the golden's step (articulated: extrapolated); torque peaks, which depend "
                            "on the method, are left out");
-        command
-            .add_option("--golden", arguments.golden, "golden folder to compare one scenario with, instead of its own golden")
+        command.add_option("--golden", arguments.golden, "golden folder for one scenario, instead of its own golden")
             ->check(not_empty);
         command.add_option("--out", arguments.out, "folder for figures and pages of failed tests (default runs/test)");
         command.add_flag("--fail-infeasible", arguments.fail_infeasible,
