@@ -147,7 +147,7 @@ GAITLAB_PLUGIN(registry) { gaitlab::add_controller<@CLASS@>(registry, "@NAME@", 
 )";
 
 constexpr const char* kControllerScenario =
-    R"(# A module held at its active block, its other half out in the air: the controller @NAME@ holds it up.
+    R"(# A module held at its active block; the controller @NAME@ holds its other half up in the air.
 gaitlab: 1
 name: @NAME@
 plugins: [build/@NAME@.so]      # relative to this file
@@ -255,7 +255,7 @@ GAITLAB_PLUGIN(registry) { gaitlab::add_actuator<@CLASS@>(registry, "@NAME@", kM
 )";
 
 constexpr const char* kActuatorScenario =
-    R"(# A module held at its active block, its other half out in the air: the actuator @NAME@ swings it.
+    R"(# A module held at its active block; the actuator @NAME@ swings its other half in the air.
 gaitlab: 1
 name: @NAME@
 plugins: [build/@NAME@.so]      # relative to this file

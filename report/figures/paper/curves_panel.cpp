@@ -206,7 +206,7 @@ class CurvesOfPanel final : public PaperPanel {
     const std::vector<std::string> names = leg_names(legs);
     const auto leg = std::ranges::find(names, panel_.stance);
     if (leg == names.end()) {
-      source.problem({"stance"}, names.empty() ? "stance needs a robot that walks on four legs or more"
+      source.problem({"stance"}, names.empty() ? "`stance` needs a robot that walks on four legs or more"
                                                : "no leg " + in_quotes(panel_.stance) + offer(panel_.stance, names, "legs"));
       return;
     }
