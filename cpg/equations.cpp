@@ -20,8 +20,8 @@ output      set point, rad.
 parameters  NAME: a number, a list, {default: 1, m3/passive: 2}, or a text of what is fixed: parameters above it and
             given: frequency Hz, omega = 2 pi frequency, amplitude, offset, phase (limit cycle of the couplings, rad),
             index (of the joint, from 0), joints (their number), depth (hinges towards the base), side (1 left, -1 right, 0)
-If you give states, parameters, initial and output have no defaults. pi, the given names and parameters may be used anywhere;
-states and t (s) in derivatives and output; only in derivatives the measured values at the control tick:
+A model with states has no defaults for parameters, initial and output. pi, the given names and parameters may be used
+anywhere; states and t (s) in derivatives and output; measured values at the control tick only in derivatives:
 angle rad, speed rad/s, torque N m, touching (1 while the joint's module touches the ground, else 0).
 
     sum(j in neighbours, TERM)      over the couplings by which joint i follows a joint j. In TERM: NAME[j], and of the
