@@ -12,12 +12,12 @@ const char* const DcMotorActuator::kManual = R"(A DC motor behind a gear; induct
 u: command, V; w: joint speed, rad/s; T: torque on the joint, N m. Saturation is counted: 1 voltage, 2 current.
 voltage = R i + Ks n w, the terminal voltage; electrical power = voltage * i.
 
-As printed, eq. 2 (efficiency_model: paper) takes eta from the torque both ways, so that a joint that drives its motor gets
-energy from nowhere; the summary shows how much. efficiency_model: directional takes it from whoever drives:
+Eq. 2 as printed (efficiency_model: paper) multiplies the torque by eta in both directions, so that a joint that drives its
+motor gains energy; the summary shows how much. efficiency_model: directional takes the loss from the driving side:
 
     T = eta^s Kt i n          s = w sign(i) / turn_speed, within [-1, 1]
 
-eta while the motor drives, 1 / eta while it is driven; turn_speed spreads the step of torque where the joint turns about.
+The factor is eta while the motor drives and 1 / eta while it is driven; turn_speed smooths its jump as the joint reverses.
 Source: Chariot, Filippi, Verlinden 2012, eq. 1 and 2. Defaults (chosen): a 6 V, 2 W coreless motor driven at 7.4 V.
 Takes commands in V.
 

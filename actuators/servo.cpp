@@ -28,7 +28,7 @@ PerJoint of_each(std::initializer_list<const PerJoint*> values, Make make) {
 }  // namespace
 
 const char* const ServoActuator::kManual =
-    R"(A geared DC motor by its data sheet: from its stall torque and its speed without load, both at one voltage, in a straight line.
+    R"(A geared DC motor by its data sheet: a straight line from the stall torque to the no-load speed, both at one voltage.
 
     T = T0 u / V - T0 w / w0    |u| <= u_max
     i = (u - k w) / R           |i| <= i_max
@@ -37,18 +37,18 @@ u: command, V; w: joint speed, rad/s; T: torque on the joint, N m; i: current, A
 It is dc_motor with gear 1 and the constants that the data sheet implies:
 
     k = V / w0                    Kt = Ks = k, of motor and gear together
-    I0 = stall_current            or T0 / (efficiency k) where none is stated
+    I0 = stall_current            or T0 / (efficiency k) if none is stated
     eta = T0 / (I0 k)             at most 1
     R = V / I0
 
 efficiency_model and turn_speed are those of dc_motor: with directional the line holds while the servo drives, and a servo that
 is driven, or held at rest, bears more.
 
-Take it where a maker states torque and speed, as for every hobby servo, and not the constants of motor and gear: data sheets
-give 1 kgf cm = 0.0980665 N m, and x s per 60 degrees = 1.0472 / x rad/s. Take dc_motor where these constants are known.
-The stall current moves currents, powers and copper losses, not torques, unless the efficiency is directional. The controller models the electronics of a servo (its position loop, a dead band).
+Use servo if a data sheet states torque and speed, as for every hobby servo, and dc_motor if it states the constants of motor
+and gear. Units of data sheets: 1 kgf cm = 0.0980665 N m; x s per 60 degrees = 1.0472 / x rad/s.
+The stall current changes currents, powers and copper losses, but torques only if efficiency_model is directional. The controller models the electronics of a servo (its position loop, a dead band).
 Source: the straight line is that of dc_motor (Chariot, Filippi, Verlinden 2012, eq. 1 and 2); numbers: the servo's data sheet.
-efficiency: 0.7 (chosen) where neither it nor stall_current is stated. Takes commands in V.
+efficiency: 0.7 (chosen) if neither efficiency nor stall_current is stated. Takes commands in V.
 
     actuator:
       {type: servo, voltage: 10, stall_torque: 1.618, no_load_speed: 5.343,
@@ -86,15 +86,15 @@ bool ServoActuator::Settings::check(Fields& f, std::size_t joint, bool alone) co
   if (!(stall_current[joint] > 0)) return true;
   const std::string which = alone ? "" : fmt::format(" (joint number {})", joint);
   if (efficiency[joint] > 0) {
-    f.problem("efficiency", "efficiency follows from stall_current, which is stated, too: remove one of them" + which);
+    f.problem("efficiency",
+              "efficiency and stall_current are both stated, but one follows from the other; remove one of them" + which);
     return false;
   }
   const double eta = stall_torque[joint] * no_load_speed[joint] / (voltage[joint] * stall_current[joint]);
   if (!(voltage[joint] > 0 && stall_torque[joint] > 0 && no_load_speed[joint] > 0)) return true;
   if (i_continuous[joint] > stall_current[joint]) {
     f.problem("i_continuous",
-              fmt::format("i_continuous {:.4g} A is above stall_current, {:.4g} A: no motor bears for long more than "
-                          "it ever draws{}",
+              fmt::format("i_continuous {:.4g} A is above stall_current, {:.4g} A, the largest current of the motor{}",
                           i_continuous[joint], stall_current[joint], which));
     return false;
   }
@@ -104,12 +104,13 @@ bool ServoActuator::Settings::check(Fields& f, std::size_t joint, bool alone) co
                   stall_torque[joint], stall_current[joint], no_load_speed[joint], voltage[joint], eta);
   f.problem(
       eta > 1 ? "stall_torque" : "stall_current",
-      eta > 1 ? fmt::format("{}; at most 1{}: is the torque in kgf cm ({:.4g} kgf cm are {:.4g} N m), the speed in rev/min "
-                            "({:.4g} rev/min are {:.4g} rad/s), or voltage the supply? The data hold at `voltage`, and the "
-                            "supply is u_max",
-                            torque, which, stall_torque[joint], kKgfCm * stall_torque[joint], no_load_speed[joint],
-                            kRevPerMin * no_load_speed[joint])
-              : fmt::format("{}; at least {}: is the current in mA, or the voltage in mV?{}", torque, kLeastEfficiency, which));
+      eta > 1
+          ? fmt::format(
+                "{}; at most 1{}: is the torque in kgf cm ({:.4g} kgf cm are {:.4g} N m), the speed in rev/min "
+                "({:.4g} rev/min are {:.4g} rad/s), or is voltage the supply? The data hold at `voltage`; the supply is u_max",
+                torque, which, stall_torque[joint], kKgfCm * stall_torque[joint], no_load_speed[joint],
+                kRevPerMin * no_load_speed[joint])
+          : fmt::format("{}; at least {}: is the current in mA, or the voltage in mV?{}", torque, kLeastEfficiency, which));
   return false;
 }
 

@@ -58,7 +58,7 @@ void add_scenario(CLI::App& command, ScenarioArguments& arguments, std::string (
 
 void add_trust(CLI::App& command, PluginArguments& allowed) {
   command.add_flag("--plugins-from-scenario", allowed.from_scenario,
-                   "load the plugins that the scenario names and execute their code; only for plugins that you trust");
+                   "load the plugins that the scenario names, and run their code; use it only for plugins that you trust");
   command.add_option("--plugin", allowed.files, "load this plugin if the scenario names it; may be repeated")
       ->expected(1)
       ->allow_extra_args(false)

@@ -102,7 +102,7 @@ void take_demand(const Scenario& scenario, const Recording& recording, const rep
   const StoredScenario same{"", scenario.file + " (its demand twin)", resolved(scenario, FilePaths::whole)};
   Scenario twin = read_stored(same, catalog, OtherPlugins::taken);
   if (!report::raise_limits(twin)) {
-    verdict.demand_doubt = "the actuator declares no limits above 0 that could be raised";
+    verdict.demand_doubt = "the limits of the actuator cannot be raised: it declares none, or one of them is 0";
     return;
   }
   Progress progress(quiet);

@@ -6,7 +6,7 @@
 namespace gaitlab::cpg {
 
 const char* const Equations::kManual =
-    R"(A model of your own, written in the scenario: states with their derivatives, an output, feedback from the sensors.
+    R"(A model written in the scenario: states with their derivatives, an output, feedback from the sensors.
 
     phi_i' = 2 pi f_i + sum_j w_ij sin(phi_j - phi_i - psi_ij)      the default: what phase_oscillator does
     r_i'   = 2 (R_i - r_i)
@@ -20,8 +20,8 @@ output      set point, rad.
 parameters  NAME: a number, a list, {default: 1, m3/passive: 2}, or a text of what is fixed: parameters above it and
             given: frequency Hz, omega = 2 pi frequency, amplitude, offset, phase (limit cycle of the couplings, rad),
             index (of the joint, from 0), joints (their number), depth (hinges towards the base), side (1 left, -1 right, 0)
-With states of your own, the defaults of parameters, initial and output are gone. pi and what is given may stand everywhere,
-parameters too; states and t (s) in derivatives and output; in derivatives alone what the sensors say at the control tick:
+A model with states has no defaults for parameters, initial and output. pi, the given names and parameters may be used
+anywhere; states and t (s) in derivatives and output; measured values at the control tick only in derivatives:
 angle rad, speed rad/s, torque N m, touching (1 while the joint's module touches the ground, else 0).
 
     sum(j in neighbours, TERM)      over the couplings by which joint i follows a joint j. In TERM: NAME[j], and of the
@@ -32,9 +32,9 @@ angle rad, speed rad/s, torque N m, touching (1 while the joint's module touches
     min(a, b)  max(a, b)  clamp(x, low, high)  if(condition, then, else)
 
 From loose to tight: or, and, not, comparison, + -, * /, sign, ^ (from the right: -2^2 = -4). Limits: 32 states, 64 parameters,
-4000 characters and 500 numbers, names and operators a text, 64 levels. There are no loops, no other calls, no random
-numbers. A state or set point that is not finite (1/0, log(-1)) ends the run and is named. Stable as far as RK4 is with
-cpg.step. A text of several lines stands after |, one that YAML would take for something else in quotes. The default in texts:
+4000 characters and 500 numbers, names and operators a text, 64 levels. There are no loops, no other calls, no random numbers. A
+state or set point that is not finite (1/0, log(-1)) ends the run and is named. Stable if RK4 is stable with cpg.step. Write a
+text of several lines after |, and a text that YAML would read as something else in quotes. The default, written out:
 scenarios/caterpillar-equations.yaml.
 Reference: Chariot, Filippi, Verlinden 2012, eq. 7-10 (the default); their outlook asks for equations in the input.
 

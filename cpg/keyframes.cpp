@@ -7,7 +7,7 @@
 namespace gaitlab::cpg {
 
 const char* const Keyframes::kManual =
-    R"(Joint angles at given times (frames), joined by splines or straight lines. Joints a frame does not name are at its default.
+    R"(Joint angles at given times (frames), joined by splines or straight lines. Joints that a frame does not name take its `default`.
 
     theta(t) = a y_k + b y_k+1 + ((a^3 - a) M_k + (b^3 - b) M_k+1) h^2 / 6      t_k <= t <= t_k+1
     h = t_k+1 - t_k,  b = (t - t_k) / h,  a = 1 - b;  for t < ramp: y_0 + (t / ramp) (theta(t) - y_0)
@@ -16,8 +16,8 @@ y: angles of the frames. M: second derivatives there. Linear: 0. Spline: such th
 
     h_k-1 M_k-1 + 2 (h_k-1 + h_k) M_k + h_k M_k+1 = 6 ((y_k+1 - y_k) / h_k - (y_k - y_k-1) / h_k-1)
 
-With repeat the frames come again and again with period t_last; the last frame must equal the first, and the spline goes on
-smoothly there. Without, it starts and ends at rest, and the last frame is held. A spline may swing beyond its frames.
+With repeat, the motion repeats with period t_last; the last frame must equal the first, and the spline is smooth there.
+Without repeat, the spline starts and ends at rest, and the last frame is held. A spline may swing beyond its frames.
 Reference: C. de Boor, A Practical Guide to Splines, Springer 1978, chapter IV.
 
     cpg:

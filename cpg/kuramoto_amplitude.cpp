@@ -5,7 +5,7 @@
 namespace gaitlab::cpg {
 
 const char* const KuramotoAmplitude::kManual =
-    R"(Phase oscillators coupled in proportion to the amplitude of the one that is followed; amplitude and offset of second order.
+    R"(Phase oscillators coupled in proportion to the amplitude of the followed joint; amplitude and offset of second order.
 
     phi_i' = 2 pi f_i + sum_j w_ij r_j sin(phi_j - phi_i + L_ij)
     r_i''  = a_r (a_r / 4 (R_i - r_i) - r_i')
@@ -13,7 +13,7 @@ const char* const KuramotoAmplitude::kManual =
     theta_i = x_i + r_i sin(phi_i)
 
 Critically damped: from rest r(t) = R (1 - (1 + a t / 2) exp(-a t / 2)), without overshoot. A joint of amplitude 0 pulls no
-other. Start: on the limit cycle (where the lags contradict one another around a cycle: phi = 0 and a note), r = r' = 0, x = X.
+other. Start: on the limit cycle (if the lags contradict one another around a cycle: phi = 0 and a note), r = r' = 0, x = X.
 The common keys are realised exactly; a lag settles with the rate w R. Stable for a h < 5.6 (h: cpg.step).
 Reference: A. Crespi, A. J. Ijspeert, Online optimization of swimming and crawling in an amphibious snake robot, IEEE
 Transactions on Robotics 24 (2008) 75-87; there theta = x + r cos(phi), a quarter period earlier.

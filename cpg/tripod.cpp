@@ -31,7 +31,7 @@ cannot be lifted; the stance feet stand on their edges instead and lift the body
 
 A leg is a chain of modules docked sideways to the spine that ends in feet. Groups, counted from the front on each side:
 alternate - every other leg, the sides opposite (6 legs: tripods, 4 legs: diagonal pairs); wave - one after another from the
-rear to the front, the sides half a period apart (4 legs: with duty_factor 0.75 three are asked to stand at any time). Spine: 0.
+rear to the front, the sides half a period apart (4 legs: with duty_factor 0.75 three should stand at any time). Spine: 0.
 Source: Chariot, Filippi, Verlinden 2012, section IV-B and figure 11; angles and timing chosen.
 
     cpg: {type: tripod, frequency: 0.5, amplitude: 0.4})";
@@ -45,7 +45,7 @@ void Tripod::Settings::fields(Fields& f) {
 void Tripod::Model::fields(Fields& f) {
   static constexpr const char* kOrders[] = {"alternate", "wave"};
   f.number("tilt", tilt, {"rad", 0, kSteepest, "d: tilt of the standing feet in mid-stance, which lifts the body."});
-  f.number("duty_factor", duty_factor, {"", 0.5, 0.95, "Share of the period that a foot stands."});
+  f.number("duty_factor", duty_factor, {"", 0.5, 0.95, "Share of the period in which a foot stands."});
   f.choice("order", order, kOrders, "Legs that swing together.");
   f.number("ramp", ramp, {"s", 0, 100, "Duration of the start, in which amplitude and tilt grow from 0."});
   f.flag("reverse", reverse, "Run the gait backwards in time.");

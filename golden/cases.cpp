@@ -78,7 +78,8 @@ GoldenCase case_of(const fs::path& file, const std::optional<std::string>& golde
   try {
     c.folder = golden ? fs::path(*golden) : own_golden(file);
     c.given_golden = golden.has_value();
-    if (kind_of(file) == fs::file_type::not_found) throw InputError(SourceLocation{c.file}, "is a link to nothing");
+    if (kind_of(file) == fs::file_type::not_found)
+      throw InputError(SourceLocation{c.file}, "is a link to a file that does not exist");
     if (golden || is_there(c.folder)) {
       c.golden = read_golden(c.folder);
     } else if (!must) {

@@ -132,7 +132,7 @@ class Comparison {
       const auto now =
           std::find_if(run_.numbers.begin(), run_.numbers.end(), [&](const Number& n) { return n.name == number.name; });
       if (now == run_.numbers.end()) {
-        find(fmt::format("{} is a number of the golden only", readable_number(number.name)));
+        find(fmt::format("{} is only in the golden", readable_number(number.name)));
         continue;
       }
       if (!std::isfinite(now->value)) find(fmt::format("{} is not finite", readable_number(number.name)));

@@ -11,7 +11,7 @@ namespace gaitlab::golden {
 
 /// Message about a file whose line ends another program has changed.
 inline constexpr const char* kLineEnds =
-    "has other line ends than it was written with; `*.golden/** -text` in .gitattributes keeps them";
+    "has other line ends than when it was written; `*.golden/** -text` in .gitattributes preserves them";
 
 /// A trace with values rounded to a separate grid for each column: value = lowest value + integer * precision.
 struct RoundedTrace {

@@ -135,7 +135,7 @@ Json checked(const fs::path& file, const std::string& text) {
   }
   const Json& version = json[kVersionKey];
   if (version.is_number_integer() && version != kJsonVersion) {
-    throw wrong(file, fmt::format("has golden format {}; this gaitlab reads {}: take the gaitlab that wrote it",
+    throw wrong(file, fmt::format("has golden format {}; this gaitlab reads {}: use the version of gaitlab that wrote it",
                                   text_of(version), kJsonVersion));
   }
   const std::size_t end = text.rfind(kChecksum);

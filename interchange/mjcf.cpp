@@ -174,7 +174,7 @@ class Mjcf {
     const Integrator& own = *s_.physics.integrator;
     const std::string order =
         own.adapts ? fmt::format("accuracy {}", number_text(s_.physics.accuracy)) : fmt::format("of order {}", own.order);
-    return fmt::format(" Integrator: {}, {}; {} at {} stands here, of order {}.", own.name, order,
+    return fmt::format(" Integrator: {}, {}; this file uses {} at {}, of order {}.", own.name, order,
                        walking_ ? "MuJoCo's implicit" : "RK4",
                        own.adapts ? fmt::format("{} s", number_text(step())) : "the same step", walking_ ? 1 : 4);
   }
@@ -184,7 +184,7 @@ class Mjcf {
       if (raised(body)) names += (names.empty() ? "" : ", ") + body.name;
     }
     if (names.empty()) return "";
-    return fmt::format(" MuJoCo moves no body without mass and moments of inertia: {} kg and kg m^2 stand in for 0 in {}.",
+    return fmt::format(" MuJoCo moves no body without mass and moments of inertia: {} kg and kg m^2 replace 0 in {}.",
                        kMassless, names);
   }
 

@@ -60,11 +60,10 @@ void MjcfWalking::write_element(Xml& geom, const ContactElement& e) const {
   Vec3 centre = e.centre;
   double radius = e.radius - line_.onset;
   if (e.radius > 0 && !(radius > 0)) {
-    throw InputError(
-        s_.place("contact.stiffness"),
-        fmt::format("spheres of {} m are {:.3g} m deep in the ground under the robot's weight, which MJCF cannot hold; "
-                    "expected stiffer contacts, or --strict",
-                    number_text(e.radius), line_.depth));
+    throw InputError(s_.place("contact.stiffness"),
+                     fmt::format("spheres of {} m sink {:.3g} m into the ground under the robot's weight, too deep for MJCF; "
+                                 "expected stiffer contacts, or --strict",
+                                 number_text(e.radius), line_.depth));
   }
   if (!(e.radius > 0)) {
     radius = touch_radius();
@@ -123,21 +122,21 @@ std::string MjcfWalking::contact_comment() const {
     out += " Boxes with a mass are fixed here.";
   }
   if (!penalty()) {
-    return out + " The contact law is Bullet's solver there and MuJoCo's with its default parameters here.";
+    return out + " The contact law is MuJoCo's with its default parameters, in place of Bullet's solver.";
   }
   out += fmt::format(
       " Points are spheres of {} m whose bottom is the point. Contact: Fn = K (p - p1) + C p' with K = {:.6g} N/m, C = {:.6g} "
       "N s/m, p1 = {:.6g} m, the line through the law Fn = Kn p^k + Cd p^d p' (Kn = {}, k = {}, Cd = {}, d = {}) at the depth "
       "{:.6g} m of the standing robot, and friction {} Fn with the slope {:.6g} N s/m, that of the law at this depth. solref "
       "is -(1 - d) A K, -(1 - d) A C with d of solimp and A MuJoCo's body_invweight0; d / ((1 - d) A) is a mass at the contact "
-      "that the law has not.",
+      "that the law does not have.",
       number_text(touch_radius()), line_.stiffness, line_.damping, line_.onset, number_text(s_.contact.penalty.kn),
       number_text(s_.contact.penalty.k), number_text(s_.contact.penalty.cd), number_text(s_.contact.penalty.d), line_.depth,
       number_text(s_.ground.friction), line_.impratio * line_.damping);
   const bool boxes_differ =
       std::ranges::any_of(s_.ground.boxes(), [&](const Box& box) { return box.friction != s_.ground.friction; });
   const bool feet_differ = std::ranges::any_of(s_.robot->modules, [](const Module& m) { return m.build.friction != 1; });
-  if (boxes_differ && feet_differ) out += " Modules with as_built.foot_friction have the plane's friction on boxes, too.";
+  if (boxes_differ && feet_differ) out += " On boxes, modules with as_built.foot_friction also have the plane's friction.";
   return out;
 }
 
@@ -148,7 +147,8 @@ std::string MjcfWalking::motor_comment() const {
   };
   if (!drives_.by_set_points) {
     return fmt::format(
-        " Controls are the commands of actuator {}, {}; the law of its motors at rest, and their torque limit. Controller {} "
+        " Controls are the commands of actuator {}, {}, under the law of its motors at rest, within their torque limit. "
+        "Controller {} "
         "is "
         "not in this file.",
         name(s_.actuator), drives_.command_unit, name(s_.controller));

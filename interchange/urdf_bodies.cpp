@@ -112,7 +112,7 @@ class BodyWalk {
       return urdf_.model().getLink(joint.child_link_name).get();
     }
     if (joint.type == urdf::Joint::FIXED && root->name == "world")
-      made_.notes.push_back("the fixed base of link 'world'; a scenario has it with robot: {base: fixed}");
+      made_.notes.push_back("the fixed base of link 'world'; a scenario fixes the base with robot: {base: fixed}");
     return root;
   }
 

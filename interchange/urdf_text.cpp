@@ -101,10 +101,11 @@ UrdfText::UrdfText(const std::string& file) : file_(file), text_(read_text(file)
   check_text(text_, file);
   check_elements(text_, file);
   if (const std::size_t crowded = crowded_element(text_, kMostAttributes); crowded != std::string::npos)
-    throw InputError(place_of(crowded), fmt::format("has more than {} attributes; no element of URDF has", kMostAttributes));
+    throw InputError(place_of(crowded),
+                     fmt::format("has more than {} attributes; expected an element of URDF, which has fewer", kMostAttributes));
   const std::string whole = std::exchange(text_, without_comments(text_));
   if (const std::size_t macro = text_.find("<xacro:"); macro != std::string::npos) {
-    throw InputError(place_of(macro), "has macros of xacro; expected URDF, which `xacro FILE > ROBOT.urdf` writes of them");
+    throw InputError(place_of(macro), "has macros of xacro; expected URDF, as `xacro FILE > ROBOT.urdf` writes it");
   }
   if (find("robot", 0) == std::string::npos)
     throw InputError(SourceLocation{file}, "has no element <robot>; expected a URDF file");

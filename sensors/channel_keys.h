@@ -55,7 +55,9 @@ struct ChannelKeys {
     f.number("resolution", resolution, {unit.value, 0, kMost, "Step of the values, which are multiples of it; 0: exact."});
     f.periods("delay", delay_least, delay_most,
               {"s", 0, kLongest, "Delay, whole control periods; [a, b]: one of these delays, drawn once a run."});
-    f.number("lost", lost, {"", 0, 1, "Share of the samples that are lost; the last one is then held. The first is not lost."});
+    f.number(
+        "lost", lost,
+        {"", 0, 1, "Share of the samples that are lost; the last received sample is then held. The first sample is not lost."});
     if (resolution > 0 && resolution < kFinest)
       f.problem("resolution", "resolution is below 1e-12; expected 0 for exact values");
     if (range.empty() || (range.size() == 2 && range[0] < range[1])) return;

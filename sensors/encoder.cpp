@@ -4,7 +4,7 @@
 
 namespace gaitlab::sensors {
 
-const char* const EncoderSensor::kManual = R"(Encoders or potentiometers of joints: angle, and speed by its difference.
+const char* const EncoderSensor::kManual = R"(Encoders or potentiometers of joints: the angle, and the speed as its difference.
 
     a = gain x + zero + bias + walk + noise       x: the joint's angle, rad
     y = q floor(a / q + 1/2)                      q: resolution
@@ -12,7 +12,7 @@ const char* const EncoderSensor::kManual = R"(Encoders or potentiometers of join
 
 The controller and the CPG get the measured angle and speed of these joints in place of the true ones; trace columns
 joint.J.measured and joint.J.measured_speed. All keys are those of a channel (docs/real-robot.md). speed: true measures the speed by a
-tachometer, a channel with keys of its own. Every joint has its own draws. One joint has at most one encoder.
+tachometer, a channel with separate keys. Every joint has separate draws. One joint has at most one encoder.
 Source: quantisation as additive noise of q/sqrt(12), Widrow and Kollar, Quantization Noise, 2008. Defaults (chosen): exact.
 
     sensors:
@@ -35,14 +35,14 @@ EncoderSensor::EncoderSensor(const SensorSite& site, const Settings& settings)
     const std::string name = site.name + "." + site.robot.joints[j].name;
     angles_.add(Channel(settings, site, name));
     readings_.push_back({name, joint_column(j, "measured"), "rad",
-                         "angle that the encoder gives, in force just before t, of joint " + site.robot.joints[j].name,
+                         "angle measured by the encoder, in force just before t, of joint " + site.robot.joints[j].name,
                          Replaces::angle, j});
   }
   for (const std::size_t j : joints_) {
     const std::string name = site.name + "." + site.robot.joints[j].name + ".speed";
     if (settings.speed) speeds_.add(Channel(settings.tachometer, site, name));
     readings_.push_back({name, joint_column(j, "measured_speed"), "rad/s",
-                         "speed that the encoder gives, in force just before t, of joint " + site.robot.joints[j].name,
+                         "speed measured by the encoder, in force just before t, of joint " + site.robot.joints[j].name,
                          Replaces::speed, j});
   }
 }

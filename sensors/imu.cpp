@@ -29,10 +29,11 @@ const char* const ImuSensor::kManual = R"(An inertial measurement unit on a body
     accelerometer = R^T ((v_k - v_(k-1)) / Ts - g)      m/s^2, body axes, at `position`
     roll = atan2(R32, R33), pitch = atan2(-R31, sqrt(R32^2 + R33^2))        rad
 
-R: body axes to world axes; w: angular velocity; v: velocity of the point; Ts: control period; g: gravity. At rest the accelerometer
-gives -g. It gives the mean over the last control period, which any contact law and engine has. Roll and pitch lack the turn about
-the vertical. A gyroscope of noise density N has noise: N/sqrt(T), where T is the time between samples, and walk: K.
-All values are of their own (Measured::channels). Trace columns sensor.NAME.gyro_x, sensor.NAME.accelerometer_x, sensor.NAME.roll ...
+R: body axes to world axes; w: angular velocity; v: velocity of the point; Ts: control period; g: gravity. At rest the
+accelerometer gives -g. It measures the mean over the last control period, so that it works with any contact law and engine.
+Roll and pitch do not contain the turn about the vertical. A gyroscope of noise density N has noise: N/sqrt(T), where T is the
+time between samples, and walk: K. All values are separate channels (Measured::channels). Trace columns sensor.NAME.gyro_x,
+sensor.NAME.accelerometer_x, sensor.NAME.roll ...
 Each quantity has the keys of a channel (docs/real-robot.md), and its numbers have common losses and delay.
 Source: IEEE Std 952-1997 (gyroscopes), IEEE Std 1293 (accelerometers). Defaults (chosen): exact.
 
@@ -61,10 +62,10 @@ ImuSensor::ImuSensor(const SensorSite& site, const Settings& settings) : period_
       readings_.push_back({name, "sensor." + name, keys.unit.value, what + of});
     }
   };
-  add(kGyro, settings.gyro, gyro, "angular velocity that the sensor gives, body axes", {"gyro_x", "gyro_y", "gyro_z"});
-  add(kAccelerometer, settings.accelerometer, specific_force, "specific force that the sensor gives, body axes",
+  add(kGyro, settings.gyro, gyro, "angular velocity measured by the sensor, body axes", {"gyro_x", "gyro_y", "gyro_z"});
+  add(kAccelerometer, settings.accelerometer, specific_force, "specific force measured by the sensor, body axes",
       {"accelerometer_x", "accelerometer_y", "accelerometer_z"});
-  add(kTilt, settings.tilt, tilt, "tilt that the sensor gives", {"roll", "pitch"});
+  add(kTilt, settings.tilt, tilt, "tilt measured by the sensor", {"roll", "pitch"});
 }
 
 void ImuSensor::sense(const Truth& truth, Out state, Out values) const {

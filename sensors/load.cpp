@@ -9,7 +9,7 @@ const char* const LoadSensor::kManual =
 
     touches: on above `touch`, off below `release`, unchanged in between
 
-CPG and controller get `touches` of these modules in place of the true contact (a force above 0). The loads are values of their own
+CPG and controller get `touches` of these modules in place of the true contact (a force above 0). The loads are separate values
 (Measured::channels). Trace columns sensor.NAME.MODULE, sensor.NAME.MODULE.touching and sensor.NAME.BODY. The keys are those of a
 channel (docs/real-robot.md). Every module and body has its own draws. A robot without contact elements measures 0.
 Source: none. Defaults (chosen): exact, and a switch at 1 N and 0.5 N.
@@ -34,7 +34,7 @@ LoadSensor::LoadSensor(const SensorSite& site, const Settings& settings) : touch
       channels_.add(Channel(settings, site, name));
       parts_.push_back(i);
       readings_.push_back({name, "sensor." + name, "N",
-                           "normal force that the sensor gives, in force just before t, of " + std::string(what) + names[i]});
+                           "normal force measured by the sensor, in force just before t, of " + std::string(what) + names[i]});
     }
   };
   const std::vector<std::string> modules = module_names_of(site.robot);
@@ -44,7 +44,7 @@ LoadSensor::LoadSensor(const SensorSite& site, const Settings& settings) : touch
   add(matching(settings.bodies, bodies), bodies, "body ");
   for (std::size_t i = 0; i < modules_; ++i) {
     const std::string name = readings_[i].name + ".touching";
-    readings_.push_back({name, "sensor." + name, "", "1 while the sensor says that it touches, of module " + modules[parts_[i]],
+    readings_.push_back({name, "sensor." + name, "", "1 while the sensor reports contact, of module " + modules[parts_[i]],
                          Replaces::touching, parts_[i]});
   }
 }

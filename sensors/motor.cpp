@@ -16,9 +16,9 @@ const char* const MotorSensor::kManual = R"(Current and torque of the motors of 
 
     current: the motor's current, A               torque: the motor's torque on the joint, N m
 
-CPG and controller get the measured torque of these joints in place of the true one. The current is a value of its own
-(Measured::channels). Trace columns joint.J.measured_current and joint.J.measured_torque. Both are left limits: of the command
-in force before the tick. Each has the keys of a channel (docs/real-robot.md) and, for every joint, its own draws.
+CPG and controller get the measured torque of these joints in place of the true one. The current is a separate value
+(Measured::channels). Trace columns joint.J.measured_current and joint.J.measured_torque. Both are left limits: they belong to
+the command in force before the tick. Each has the keys of a channel (docs/real-robot.md) and, for every joint, its own draws.
 Source: none; the quantities are those of the actuator. Defaults (chosen): exact.
 
     sensors:
@@ -42,7 +42,7 @@ MotorSensor::MotorSensor(const SensorSite& site, const Settings& settings) {
       const std::string name = site.name + "." + joint + "." + quantity;
       channels_.add(Channel(keys, site, name));
       readings_.push_back({name, joint_column(j, column), keys.unit.value,
-                           std::string(quantity) + " that the sensor gives, in force just before t, of joint " + joint,
+                           std::string(quantity) + " measured by the sensor, in force just before t, of joint " + joint,
                            replaces, j});
     }
   };

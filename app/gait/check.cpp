@@ -65,7 +65,7 @@ void print_creep(const Scenario& s) {
       fmt::format("  note: {} turn{} freely: feet and wheels that should stand still creep, because friction is viscous below\n"
                   "    contact.slip_speed, {:g} m/s in this scenario{}\n",
                   joined(names), names.size() == 1 ? "s" : "", s.contact.penalty.v_lim,
-                  s.contact.penalty.v_lim > kLittleCreep ? fmt::format("; with {:g} m/s they creep less", kLittleCreep) : ""));
+                  s.contact.penalty.v_lim > kLittleCreep ? fmt::format("; they creep less with {:g} m/s", kLittleCreep) : ""));
 }
 
 void print_joints(const Robot& robot) {
@@ -101,7 +101,7 @@ void note_outcome(const Scenario& s) {
   const bool free = s.base != Base::fixed && s.ground.exists();
   if (free && s.physics.gravity.z() > 0) {
     say(to_string(s.nearest_place("physics.gravity")), "note",
-        "gravity points up: the robot leaves the ground, and its run is not judged; expected gravity: [0, 0, -9.81]");
+        "gravity points up, so that the robot leaves the ground and its run is not judged; expected gravity: [0, 0, -9.81]");
   }
   if (s.cpg.entry == nullptr) return;
   const SettingsNumbers numbers(s.cpg);
@@ -110,7 +110,7 @@ void note_outcome(const Scenario& s) {
   for (std::size_t j = 0; still && j < s.robot->joints.size(); ++j) still = frequency->value[j] == 0;
   if (still) {
     say(to_string(s.nearest_place("cpg.frequency")), "note",
-        "cpg.frequency is 0: the joints stand still, and the robot goes nowhere");
+        "cpg.frequency is 0, so that the joints and the robot do not move; expected more than 0");
   }
 }
 

@@ -193,8 +193,9 @@ void add_converge(Commands& commands) {
         command.add_option("--halvings", arguments.halvings, "number of halvings (default 2; an order needs 2)")
             ->check(CLI::Range(1, 8));
         command
-            .add_option("--columns", arguments.columns,
-                        "trace columns that match this pattern (default joint.*.torque; without motors joint.*.angle)")
+            .add_option(
+                "--columns", arguments.columns,
+                "trace columns that match this pattern (default joint.*.torque, or joint.*.angle if no joint has a motor)")
             ->expected(1)
             ->allow_extra_args(false)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

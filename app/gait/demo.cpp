@@ -32,7 +32,7 @@ int demo(const DemoArguments& demo) {
   const int code = run(arguments);
   if (code == 0) {
     fmt::print(
-        "\nOpen the page in a browser: the robot walks, with the torque of every joint. Faster, or with weak motors:\n"
+        "\nOpen the page in a browser to see the robot walk, with the torque of every joint. Faster, or with weak motors:\n"
         "  {0} --set cpg.frequency=1\n  {0} --set actuator.i_max=0.35\n",
         again);
   }

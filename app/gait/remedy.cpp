@@ -35,8 +35,9 @@ struct RemedyArguments : RunArguments {
 /// Throws InputError if an option for new runs is given with the folder of a run.
 void check_options(const RunArguments& arguments) {
   const auto refuse = [&](const char* option) {
-    throw InputError(SourceLocation{option},
-                     fmt::format("is for a scenario, but {} is a run; its remedy is written into its folder", arguments.file));
+    throw InputError(
+        SourceLocation{option},
+        fmt::format("is for a scenario, but {} is a run; the remedy of a run is written into its folder", arguments.file));
   };
   if (arguments.out) refuse("--out");
   if (!arguments.sets.empty()) refuse("--set");
@@ -56,7 +57,7 @@ int remedy_of_run(const RemedyArguments& arguments) {
   if (remedied.json.empty()) return 1;
   const fs::path folder = run.trace.parent_path();
   if (!remedied.complete && fs::exists(folder / kRemedyFile)) {
-    say((folder / kRemedyFile).string(), "note", "an earlier remedy, which is kept");
+    say((folder / kRemedyFile).string(), "note", "is an earlier remedy and is kept");
     print_lines(remedied.lines);
     return 1;
   }
@@ -133,8 +134,7 @@ Remedied take_remedy(const Scenario& scenario, report::Verdict& verdict, const R
 
 void add_remedy(Commands& commands) {
   add_command<RemedyArguments>(
-      commands, "remedy",
-      "Search the settings that would make a gait feasible, one at a time; of a feasible gait, its reserves.", remedy,
+      commands, "remedy", "Search single settings that would make a gait feasible; for a feasible gait, its reserves.", remedy,
       [](CLI::App& command, RemedyArguments& arguments) {
         add_scenario(command, arguments, named_file_or_run);
         offering(command.get_option("SCENARIO"), "scenario file (YAML), or a run folder", {});

@@ -65,7 +65,7 @@ Past read_past(const fs::path& run) {
   }
   if (past.trace.rows() == 0 || past.trace.columns.front().name != "t") {
     throw InputError(SourceLocation{past.file.string()},
-                     "contains no rows of a run: it has no rows, or its first column is not t");
+                     "is not the trace of a run: it has no rows, or its first column is not t");
   }
   if (!is_there(run / "summary.json")) return past;
   const nlohmann::json summary = read_summary(run);
@@ -197,7 +197,7 @@ int verify(const std::string& run, const PluginArguments& plugins) {
   const bool same = judge(run, scenario, past.trace, again);
   if (early) {
     fmt::print("  the recorded run ended early ({}): compared up to its last row, t = {:.6g} s\n",
-               past.ended ? past.ended->text() : "no summary contains the reason: the record is incomplete",
+               past.ended ? past.ended->text() : "the reason is unknown, because the record has no summary",
                last_time(past.trace));
   }
   const std::vector<std::string> changed = changes(stored, past, scenario, again, catalog);
@@ -228,16 +228,17 @@ int rerun(const RerunArguments& arguments) {
 }  // namespace
 
 void add_rerun(Commands& commands) {
-  add_command<RerunArguments>(
-      commands, "rerun", "Run the scenario of a run folder again, from the folder alone.", rerun,
-      [](CLI::App& command, RerunArguments& arguments) {
-        command.add_option("RUN", arguments.run, "run folder, or its trace.h5")->required();
-        add_trust(command, arguments.plugins);
-        CLI::Option* out_option = command.add_option("--out", arguments.out, "run folder, as for run");
-        command.add_flag("--verify", arguments.verify, "write nothing; compare with the recorded trace; 4: it differs")
-            ->excludes(out_option);
-        command.add_flag("--quiet", arguments.quiet, "no progress, no summary on the terminal");
-      });
+  add_command<RerunArguments>(commands, "rerun", "Run the scenario of a run folder again, from the folder alone.", rerun,
+                              [](CLI::App& command, RerunArguments& arguments) {
+                                command.add_option("RUN", arguments.run, "run folder, or its trace.h5")->required();
+                                add_trust(command, arguments.plugins);
+                                CLI::Option* out_option = command.add_option("--out", arguments.out, "run folder, as for run");
+                                command
+                                    .add_flag("--verify", arguments.verify,
+                                              "write nothing; compare with the recorded trace; exit code 4 if it differs")
+                                    ->excludes(out_option);
+                                command.add_flag("--quiet", arguments.quiet, "no progress, no summary on the terminal");
+                              });
 }
 
 }  // namespace gaitlab::app

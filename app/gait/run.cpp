@@ -70,10 +70,9 @@ std::vector<Scenario> other_draws(const Scenario& scenario, const RunArguments& 
   if (arguments.draws == 1) return {};
   const SourceLocation place{"--draws"};
   if (!seed_matters(scenario)) {
-    throw InputError(
-        place,
-        "the seed changes nothing: no tolerance or sensor draws, and no set points are lost; add for example tolerances: "
-        "{mass: 0.03, R: 0.07} (gaitlab explain scenario)");
+    throw InputError(place,
+                     "the seed has no effect, because no tolerance, sensor or lost set point is drawn; add for example "
+                     "tolerances: {mass: 0.03, R: 0.07} (gaitlab explain scenario)");
   }
   if (scenario.seed > kMostSeed - arguments.draws) {
     throw InputError(
@@ -268,14 +267,14 @@ void add_run(Commands& commands) {
         add_joint(command, arguments.joints);
         command
             .add_option("--draws", arguments.draws,
-                        "judge the gait with this many seeds, starting with the scenario's: other robots "
-                        "within its tolerances, other noise of its sensors")
+                        "number of seeds with which the gait is judged, beginning with the scenario's; each draws another "
+                        "robot within its tolerances and other noise for its sensors")
             ->check(CLI::Range(1, 10000));
         command.add_option("-j,--jobs", arguments.jobs, "threads for the draws and the remedy (default 1)")
             ->check(CLI::Range(1, kMostThreads));
         command.add_flag("--no-retry", arguments.no_retry,
-                         "keep a run whose verdict is not judged only for its accuracy; else it is simulated again, more "
-                         "accurately, if that takes less than 10 s");
+                         "do not simulate again if a run is `not judged` only because it is inaccurate; by default it is "
+                         "repeated, more accurately, if that takes less than 10 s");
         command.add_flag("--remedy", arguments.remedy,
                          "also search the settings that would make the gait feasible (gaitlab remedy)");
         add_shown(command, arguments.shown);

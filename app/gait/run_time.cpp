@@ -47,7 +47,7 @@ std::string faster_engine(std::span<const Scenario> scenarios, double seconds, c
       if (!std::ranges::all_of(other, [](const Scenario& s) { return s.physics.adapts(); })) continue;
       const double then = time_of(other);
       if (!(then > 0 && then < seconds / 2)) return "";
-      return fmt::format("engine articulated: {}, the same equations to physics.accuracy (--set {})", about(then),
+      return fmt::format("engine articulated: {}, for the same equations, solved to physics.accuracy (--set {})", about(then),
                          fmt::join(sets, " --set "));
     } catch (const InputError&) {  // further options may make it acceptable
     }
@@ -81,7 +81,7 @@ void note_rows(const Scenario& scenario, const Simulation& simulation) {
   const bool in_file = needed.bytes() > static_cast<double>(kMostInMemory);
   say(scenario.file, "note",
       fmt::format(
-          "records {:.3g} rows of {:.0f} columns, {:.3g} MB in {}; a longer trace.period or fewer trace.columns need less",
+          "records {:.3g} rows of {:.0f} columns, {:.3g} MB in {}; a longer trace.period or fewer trace.columns reduce this",
           needed.rows, needed.columns, needed.bytes() / 1e6,
           in_file ? fmt::format("a temporary file in {} (TMPDIR)", spill_folder().string()) : "memory"));
 }

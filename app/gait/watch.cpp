@@ -66,7 +66,7 @@ fs::path watch_folder(const WatchArguments& a) {
   fs::create_directories(folder, error);
   if (error) throw InputError(place, "cannot be made: " + error.message());
   if (!run_in(folder))
-    throw InputError(place, "exists and is not a folder of gaitlab watch; expected one, or a new or empty folder");
+    throw InputError(place, "exists and is not a folder of gaitlab watch; expected such a folder, or a new or empty one");
   return folder;
 }
 
@@ -210,12 +210,12 @@ int watch(const WatchArguments& a) {
 }  // namespace
 
 void add_watch(Commands& commands) {
-  add_command<WatchArguments>(commands, "watch", "Run a scenario again after each change of its files; the page follows.",
+  add_command<WatchArguments>(commands, "watch", "Run a scenario again after each change of its files, and renew its page.",
                               watch, [](CLI::App& command, WatchArguments& arguments) {
                                 add_scenario(command, arguments);
                                 command.add_option(
                                     "--out", arguments.out,
-                                    "folder of the newest run, which replaces the one before (default runs/watch-NAME)");
+                                    "folder of the newest run, which replaces the run before it (default runs/watch-NAME)");
                                 add_shown(command, arguments.shown);
                               });
 }

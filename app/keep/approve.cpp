@@ -54,8 +54,7 @@ std::string reason(const ApproveArguments& arguments) {
 
 InputError no_reason(const ApproveArguments& arguments) {
   return {SourceLocation{"--reason"},
-          fmt::format("is {}; expected a sentence for the golden's history with the reason why these numbers are right. "
-                      "Nothing was written",
+          fmt::format("is {}; expected a sentence for the golden's history: why these numbers are right. Nothing was written",
                       !arguments.reason                     ? "missing"
                       : arguments.reason->starts_with("--") ? fmt::format("'{}', which is an option", *arguments.reason)
                                                             : "empty")};
@@ -70,7 +69,7 @@ void check_target(const fs::path& folder) {
     if (::access(target.c_str(), W_OK | X_OK) == 0) return;
     throw InputError(SourceLocation{target.string()}, "cannot be written: " + std::generic_category().message(errno));
   }
-  throw InputError(SourceLocation{folder.string()}, "is not a folder, but a golden is a folder; move this file away");
+  throw InputError(SourceLocation{folder.string()}, "is a file, but a golden is a folder; move this file away");
 }
 
 /// The existing golden, or nothing if it is missing or is to be replaced. Files that a killed first approval has left are
@@ -209,8 +208,8 @@ void check_law(const Scenario& scenario) {
   const ContactModel& contact = scenario.contact.model();
   if (contact.converges) return;
   throw InputError(scenario.place("contact.law"),
-                   fmt::format("contact.law: {} has no goldens: its torques do not converge with the step, so that no band "
-                               "around them means anything. Approve the same scenario with contact.law: penalty",
+                   fmt::format("contact.law: {} has no goldens, because its torques do not converge with the step, so that a "
+                               "band around them has no meaning. Approve the same scenario with contact.law: penalty",
                                contact.text));
 }
 
@@ -280,7 +279,8 @@ std::string own_scenario(const std::string& word) {
   if (file == word) return word;
   throw InputError(
       SourceLocation{word},
-      fmt::format("comes with gaitlab, and its golden is written beside it; copy it first: cp {} .", shell_word(file)));
+      fmt::format("comes with gaitlab, but a golden is written beside its scenario; copy the scenario first: cp {} .",
+                  shell_word(file)));
 }
 
 }  // namespace
@@ -294,11 +294,10 @@ void add_approve(Commands& commands) {
         command.add_flag("--calibrate", arguments.calibrate,
                          "compute new bands from further runs, even if this run is within the old bands");
         command
-            .add_option(
-                "--columns", arguments.columns,
-                "columns of the trace that the golden holds, by names or patterns such as 'joint.*.torque'; default: as "
-                "before, or torque, current and angle of the joints and the pose of the base, as far as trace.columns "
-                "has them")
+            .add_option("--columns", arguments.columns,
+                        "columns of the trace that the golden holds, by names or patterns such as 'joint.*.torque'; default: "
+                        "those of the present golden, or torque, current and angle of the joints and the pose of the base, if "
+                        "trace.columns has them")
             ->expected(1)
             ->allow_extra_args(false)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -224,8 +224,7 @@ void print_notes(const std::vector<GoldenCase>& cases) {
     if (c.verdict != Verdict::passed) continue;
     if (const std::string names = wide_number_names(*c.golden); !names.empty()) {
       say(c.file, "note",
-          fmt::format("numbers with bands above {}, so that smaller changes are not detected: {}", percent(kWideNumber),
-                      names));
+          fmt::format("numbers with bands above {}, which hide smaller changes: {}", percent(kWideNumber), names));
     }
     if (c.run.verdict && c.golden->verdict != *c.run.verdict) {
       say(c.file, "note",
@@ -345,12 +344,11 @@ void add_test(Commands& commands) {
         command.add_option("--engine", arguments.engine,
                            "run with this engine, at the golden's step (articulated: extrapolated); torque peaks, which depend "
                            "on the method, are left out");
-        command
-            .add_option("--golden", arguments.golden, "golden folder to compare one scenario with, instead of its own golden")
+        command.add_option("--golden", arguments.golden, "golden folder for one scenario, instead of its own golden")
             ->check(not_empty);
         command.add_option("--out", arguments.out, "folder for figures and pages of failed tests (default runs/test)");
         command.add_flag("--fail-infeasible", arguments.fail_infeasible,
-                         "exit code 3 if the verdict on a run with motors is not feasible and no other failure occurred");
+                         "exit code 3 if a run with motors is not feasible and nothing else failed");
         command.add_flag("--all", arguments.all,
                          "show all columns, numbers and settings of failed tests, not only the worst ones");
         command.add_flag("--strict", arguments.strict, "a scenario without a golden is an error, also in a folder");

@@ -75,8 +75,8 @@ std::vector<std::string> common_names(const Json& a, const Json& b, const char* 
 void print_robots(const Json& a, const Json& b) {
   for (const char* names : {"joints", "contacts"}) {
     if (a.contains(names) && b.contains(names) && a[names] != b[names]) {
-      fmt::print("the robots have other {} ({} and {}); columns are matched by their numbers alone\n", names, a[names].size(),
-                 b[names].size());
+      fmt::print("the robots have different {} ({} and {}); columns are matched only by their numbers\n", names,
+                 a[names].size(), b[names].size());
     }
   }
 }
@@ -118,7 +118,7 @@ void print_columns(const TraceDifference& difference, bool all) {
   fmt::print("\n");
   if (shown > 0) fmt::print("{}", aligned(rows));
   if (shown < apart.size()) fmt::print("and {} more: --all shows them\n", apart.size() - shown);
-  fmt::print("{} of {} columns are equal to the bit in {} rows\n", difference.columns.size() - apart.size(),
+  fmt::print("{} of {} columns are bit-equal in the {} rows compared\n", difference.columns.size() - apart.size(),
              difference.columns.size(), difference.rows);
   if (first != nullptr) fmt::print("first column to diverge: {} at t = {:.6g} s\n", first->label, *first->first_divergence);
 }

@@ -99,7 +99,7 @@ std::string explain_part(const std::string& word) {
       !std::all_of(word.begin() + 1, word.begin() + static_cast<std::ptrdiff_t>(slash), digit))
     return "";
   return wrapped(
-      fmt::format("{0}: a joint or body of the robot, {1} of module {2}. Settings per joint take it as a key: "
+      fmt::format("{0}: a joint or body of the robot, {1} of module {2}. Settings per joint accept this name as a key: "
                   "cpg.amplitude: {{default: 0.4, {0}: 0.3}}. `gaitlab check SCENARIO` lists the joints.",
                   word, word.substr(slash + 1), word.substr(1, slash - 1)));
 }
@@ -210,10 +210,10 @@ void add_explain(Commands& commands) {
       commands, "explain", "Print the manual of KIND NAME, or of a single word; without them, that of the scenario file.",
       explain, [](CLI::App& command, ManualArguments& arguments) {
         offering(command.add_option("KIND", arguments.kind),
-                 "a kind of {}; or alone: any name that it prints, a section or key of a scenario or "
-                 "module file, a word that a key permits, scenario, study, verdict, or a module's file",
+                 "a kind of {}; or, without NAME, any name that this command prints, a section or key of a scenario or module "
+                 "file, a value of a key, `scenario`, `study`, `verdict`, or the file of a module",
                  {.kinds = {""}});
-        offering(command.add_option("NAME", arguments.name), "name that {} prints, or the file NAME.yaml of a module",
+        offering(command.add_option("NAME", arguments.name), "name that {} prints, or a module's file NAME.yaml",
                  {.kinds = {""}});
         add_plugins(command, arguments);
       });

@@ -45,7 +45,7 @@ void export_robot(const ExportArguments& arguments) {
   std::error_code none;
   if (std::filesystem::is_directory(arguments.source.file, none)) {
     throw InputError(SourceLocation{arguments.source.file},
-                     fmt::format("is a folder; --to {} needs a scenario file, for a run folder its scenario.resolved.yaml",
+                     fmt::format("is a folder, but --to {} needs a scenario file; a run folder contains scenario.resolved.yaml",
                                  arguments.format));
   }
   Catalog catalog = careful_catalog(arguments.plugins);
@@ -134,16 +134,16 @@ void add_export(Commands& commands) {
         command
             .add_option(
                 "--to", arguments.format,
-                fmt::format("csv; gltf (a binary .glb file: the robot and its ground as they move, keyframes at rows of the "
-                            "trace, at most {} per second; for a scenario, the robot at its start); mjcf (MuJoCo), urdf",
+                fmt::format("csv; gltf (a binary .glb file with the moving robot and its ground: keyframes at rows of the "
+                            "trace, at most {} per second; for a scenario, the robot at its start); mjcf (MuJoCo); urdf",
                             interchange::kGltfRate))
             ->required()
             ->check(CLI::IsMember({"csv", "gltf", "mjcf", "urdf"}));
         command.add_option("FILE", arguments.file, "file to write; must not exist")->required();
         command.add_flag(
             "--strict", arguments.strict,
-            "mjcf: exactly the robot's dynamics, for comparison: nothing touches, and controls are torques; without "
-            "it the robot stands and walks, and controls are set points");
+            "with --to mjcf: write only the robot's dynamics, for comparison; the model has no contacts and its controls are "
+            "torques. Without --strict the model can stand and walk, and its controls are set points");
         add_trust(command, arguments.plugins);
         offering(command.add_option("--set", arguments.source.sets), "{} in the scenario", {.settings = true})
             ->expected(1)

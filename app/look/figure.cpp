@@ -121,8 +121,8 @@ void check_free(const fs::path& file, const std::string& numbers) {
   const std::string head = numbers.substr(0, numbers.find('\n') + 1);
   if (kind == fs::file_type::regular && read_start(file, head.size()) == head) return;
   throw InputError(SourceLocation{file.string()},
-                   "exists with other columns than this figure has; move it away, or name another file with --csv FILE.csv. "
-                   "Nothing was written");
+                   "has other columns than this figure, and is not replaced; move it away, or name another file with --csv "
+                   "FILE.csv. Nothing was written");
 }
 
 /// Throws InputError if the folder of a file does not exist.
@@ -142,7 +142,7 @@ std::string picture(const report::PaperFigure& figure, const fs::path& file) {
   figure.draw(pdf);
   for (const char32_t code : pdf.missing()) {
     say(file.string(), "note",
-        fmt::format("U+{:04X} is not in the font of figures; the PDF has a ? for it", static_cast<unsigned>(code)));
+        fmt::format("U+{:04X} is not in the font of figures; the PDF shows ? instead", static_cast<unsigned>(code)));
   }
   return pdf.finish();
 }
@@ -172,10 +172,11 @@ fs::path numbers_target(const FigureArguments& arguments, const fs::path& figure
 std::string recipe_file(const std::string& named) {
   const fs::file_type kind = kind_of(named);
   if (kind == fs::file_type::directory && kind_of(trace_file(named)) == fs::file_type::regular) {
-    throw InputError(SourceLocation{named},
-                     fmt::format("this is a run folder, not a recipe for figures; its own figure is {}, and a "
-                                 "recipe draws it with --run NAME={}",
-                                 (fs::path(named) / "figure.svg").string(), named));
+    throw InputError(
+        SourceLocation{named},
+        fmt::format(
+            "this is a run folder, not a recipe for figures; its figure is {}; a recipe draws the run with --run NAME={}",
+            (fs::path(named) / "figure.svg").string(), named));
   }
   if (kind != fs::file_type::not_found) return named;
   const std::map<std::string, std::string> shipped = shipped_files("recipe");

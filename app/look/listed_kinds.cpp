@@ -138,7 +138,7 @@ void refuse_unknown(const std::string& command, const std::string& what, const s
                     const std::vector<std::string>& known, const std::string& hint) {
   const std::string near = nearest(found, known);
   throw InputError(SourceLocation{"gaitlab " + command},
-                   fmt::format("unknown {} {}{}; known are {}{}", what, in_quotes(found),
+                   fmt::format("unknown {} {}{}; expected one of {}{}", what, in_quotes(found),
                                near.empty() ? "" : "; did you mean '" + near + "'?", fmt::join(known, ", "), hint));
 }
 

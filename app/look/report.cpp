@@ -113,8 +113,7 @@ void add_report(Commands& commands) {
       "Print the summary of a run folder again, without simulating; for two folders, also write a page with both.", report,
       [](CLI::App& command, ReportArguments& arguments) {
         command
-            .add_option("RUN", arguments.runs,
-                        "run folder, or two, A and B: a page shows B over A, compare.html in the folder of A")
+            .add_option("RUN", arguments.runs, "run folder, or two, A and B: the page compare.html in folder A shows B over A")
             ->required()
             ->expected(1, 2)
             ->check(not_empty);

@@ -11,7 +11,7 @@ std::string filled(std::string text, const std::string& mark, const std::string&
 }
 
 const char* const kSkeletonModule =
-    R"(# Module @NAME@: two boxes on one hinge, driven by a servo. It is valid as it stands; every number is to be replaced.
+    R"(# Module @NAME@: two boxes on one hinge, driven by a servo. It is valid; replace every number.
 # Measure first: masses (scale), boxes (ruler); then the hinge, the servo's data sheet, and the docking faces.
 # Units: m, kg, N m, rad, s, V, A. Every key: gaitlab explain module
 gaitlab_module: 1
@@ -19,7 +19,7 @@ name: @TEXT@
 source: "chosen: the example of gaitlab new module"   # origin of the numbers; begin with "chosen" if they are not measured
 
 bodies:                                # inertia and centre of mass follow from shape and mass; com and inertia replace them
-  base:                                # the root: the frame of the body that no hinge moves is that of the module
+  base:                                # the root: no hinge moves it, and its frame is the module's
     mass: 0.06                         # kg, with servo, electronics and screws
     shape:                             # box: edges; cylinder: [radius, length] along y; sphere: radius
       - {box: [0.04, 0.05, 0.05], origin: [-0.02, 0, 0]}   # origin: its middle
@@ -41,7 +41,7 @@ actuator:                              # the servo's data sheet
   voltage: 4.8                         # V, at which the sheet states the next two numbers
   stall_torque: 0.31381                # N m: 3.2 kgf cm (1 kgf cm = 0.0980665 N m)
   no_load_speed: 4.553                 # rad/s: 0.23 s/60 degrees (1.0472 rad / 0.23 s)
-  efficiency_model: directional        # gears take energy in both directions; paper, the default, lets them create it
+  efficiency_model: directional        # gears lose energy in both directions; paper, the default, lets them create energy
   source: "chosen: a hobby servo"      # name of the data sheet; without it, or with "chosen", verdicts call the motor chosen
 controller:
   type: pid

@@ -73,7 +73,7 @@ int new_module(const NewFileArguments& arguments) {
     fmt::print("  gaitlab new scenario {0}-walk --module {1}\n  gaitlab run {0}-walk.yaml\n", name, shell_word(file));
   } else {
     fmt::print(
-        "No hinge has a motor, so that no gait moves it. To let it fall:\n  echo {1} > {0}-fall.yaml\n  gaitlab run "
+        "No hinge has a motor, so that no gait moves the module. To let it fall:\n  echo {1} > {0}-fall.yaml\n  gaitlab run "
         "{0}-fall.yaml\n",
         name,
         shell_word(fmt::format("{{gaitlab: 1, robot: {{modules: {}}}, actuator: {{type: none}}, contact: {{on: all}}, "
@@ -152,9 +152,11 @@ std::string robot_text(const std::string& name, const std::vector<Dock>& docks) 
 /// Checks that a gait can move the module type.
 void check_driven(const ModuleType& type, const std::string& file) {
   if (std::ranges::any_of(type.hinges, [](const HingeType& hinge) { return !hinge.passive; })) return;
-  throw InputError(SourceLocation{file}, fmt::format("module '{}' has no hinge with a motor, and a gait needs one; dock it to "
-                                                     "modules that have one, in the scenario of such a module",
-                                                     type.name));
+  throw InputError(
+      SourceLocation{file},
+      fmt::format(
+          "module '{}' has no hinge with a motor, but a gait needs one; dock it to modules that have one, in their scenario",
+          type.name));
 }
 
 /// The robot of a new scenario: a row of modules of one type.
@@ -219,7 +221,7 @@ std::string shortfall(const std::string& file, Catalog& catalog) try {
 std::string write_scenario(const NewFileArguments& arguments, const NewRobot& robot, Catalog& catalog) {
   constexpr double kAmplitudes[] = {0.4, 0.2, 0.1};  // rad
   const auto text = [&](double amplitude) {
-    return scenario_text(arguments, robot, amplitude, "It runs as it stands, to a verdict");
+    return scenario_text(arguments, robot, amplitude, "It runs without changes, to a verdict");
   };
   std::string file = write_new(arguments, text(kAmplitudes[0]));
   const std::string why = shortfall(file, catalog);

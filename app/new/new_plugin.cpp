@@ -41,7 +41,7 @@ void check_name(const Skeleton& skeleton, const std::string& name) {
     throw InputError(place, "name " + in_quotes(name) + " is not allowed; expected letters, digits and _, a letter first");
   }
   if (std::find(kTargets.begin(), kTargets.end(), name) != kTargets.end()) {
-    throw InputError(place, fmt::format("name '{}' is one of CMake's own targets; choose another", name));
+    throw InputError(place, fmt::format("name '{}' is a target of CMake; choose another", name));
   }
   if (standard_catalog().find(skeleton.kind, name) != nullptr) {
     throw InputError(place, fmt::format("{} '{}' is built in, and a name can be registered once; choose another",
@@ -131,13 +131,13 @@ int new_plugin(const NewPluginArguments& arguments) {
 }  // namespace
 
 void add_new(Commands& commands) {
-  CLI::App* command = commands.app.add_subcommand("new", "Start something of your own.");
+  CLI::App* command = commands.app.add_subcommand("new", "Write a new module, scenario or plugin.");
   command->require_subcommand(1);
   add_command<NewPluginArguments>(
       commands, "plugin", "Make a folder with a working plugin, its scenario and its test.", new_plugin,
       [](CLI::App& plugin, NewPluginArguments& arguments) {
         plugin.add_option("KIND", arguments.kind, "cpg, controller or actuator")->required();
-        plugin.add_option("NAME", arguments.name, "name that scenarios will give it")->required();
+        plugin.add_option("NAME", arguments.name, "name by which scenarios select it")->required();
         plugin.add_option("--out", arguments.out, "folder to make (default: NAME); must not exist");
       },
       command);

@@ -75,7 +75,7 @@ std::string stiffer(const ModuleType& type, int modules) {
   if (!(times > 1)) return "";
   const double rounded = std::ceil(times);
   return fmt::format(
-      "  stiffness: {}       # N/m: the robot sinks by less than 1 mm where it stands\n  damping: {}        # N s/m^2\n",
+      "  stiffness: {}       # N/m: the standing robot sinks in by less than 1 mm\n  damping: {}        # N s/m^2\n",
       number_text(rounded * usual.kn), number_text(rounded * usual.cd));
 }
 
@@ -118,7 +118,7 @@ Surroundings surroundings(const ModuleType& type, int modules) {
             "ground: {type: none}\ncontact: {on: none}\n"};
   }
   const char* const on = type.all.empty()
-                             ? "  on: feet                 # the module has elements for feet alone; all: every element\n"
+                             ? "  on: feet                 # the module has elements only at its feet; all: every element\n"
                              : "  on: all                  # every contact element of the module; feet: those of its feet\n";
   return {"", std::string("ground:\n  friction: 0.8            # coefficient between robot and ground\ncontact:\n") + on +
                   stiffer(type, modules)};

@@ -21,7 +21,7 @@ class @CLASS@ final : public gaitlab::Cpg {
   struct Model {
     double coupling = 4;
     void fields(gaitlab::Fields& f) {
-      f.number("coupling", coupling, {"1/s", 0, 1000, "How hard a joint is pulled to its lag."});
+      f.number("coupling", coupling, {"1/s", 0, 1000, "Strength with which a joint is pulled to its lag."});
     }
   };
   // The keys that all oscillators share, frequency, amplitude, offset, phase_lag and couplings, and under `model` those above.
@@ -90,7 +90,7 @@ physics: {engine: articulated}  # the fast engine; without this line engine bull
 duration: 4                     # s
 )";
 
-constexpr const char* kCpgTest = R"(# It goes 0.16 m; one that does not walk stays within millimetres.
+constexpr const char* kCpgTest = R"(# The robot goes 0.16 m; a robot that does not walk stays within millimetres.
 get(distance distance)
 expect(distance GREATER 0.05 "m: it does not walk")
 )";
@@ -117,7 +117,7 @@ class @CLASS@ final : public gaitlab::Controller {
   // Once per run. If the settings do not fit the robot, throw std::invalid_argument: it is reported as an error of the scenario.
   @CLASS@(const gaitlab::RobotInfo& robot, const Settings& settings) : joints_(robot.joints.size()), s_(settings) {}
 
-  // "V" or "N m", the actuator's; another is an error of the scenario.
+  // "V" or "N m", as the actuator takes; another unit is an error of the scenario.
   std::string_view command_unit() const override { return "V"; }
 
   // Once per control period; the command is held until the next. The state of a controller (an integral,
@@ -147,7 +147,7 @@ GAITLAB_PLUGIN(registry) { gaitlab::add_controller<@CLASS@>(registry, "@NAME@", 
 )";
 
 constexpr const char* kControllerScenario =
-    R"(# A module held at its active block, its other half out in the air: the controller @NAME@ holds it up.
+    R"(# A module held at its active block; the controller @NAME@ holds its other half up in the air.
 gaitlab: 1
 name: @NAME@
 plugins: [build/@NAME@.so]      # relative to this file
@@ -207,11 +207,11 @@ class @CLASS@ final : public gaitlab::Actuator {
     }
   }
 
-  // "V" or "N m", the controller's; another is an error of the scenario.
+  // "V" or "N m", as the controller commands; another unit is an error of the scenario.
   std::string_view command_unit() const override { return "V"; }
   gaitlab::In command_limit() const override { return limit_; }
 
-  // T = k u - d w. The slope d = -dT/dw must be told as well: the size of the step depends on it.
+  // T = k u - d w. The slope d = -dT/dw is also required, because the length of the step depends on it.
   void effort(gaitlab::In command, gaitlab::In speed, gaitlab::Out torque, gaitlab::Out slope) const override {
     for (std::size_t i = 0; i < motors_.size(); ++i) {
       torque[i] = motors_[i].k * cut(command, i) - motors_[i].d * speed[i];
@@ -219,7 +219,7 @@ class @CLASS@ final : public gaitlab::Actuator {
     }
   }
 
-  // For the trace and the balance of energy alone: what goes in, and what is lost before the joint.
+  // Only for the trace and the energy balance: the power drawn, and the power lost before the joint.
   void electrical(gaitlab::In command, gaitlab::In speed, Electrical out) const override {
     for (std::size_t i = 0; i < motors_.size(); ++i) {
       out.voltage[i] = cut(command, i);
@@ -255,7 +255,7 @@ GAITLAB_PLUGIN(registry) { gaitlab::add_actuator<@CLASS@>(registry, "@NAME@", kM
 )";
 
 constexpr const char* kActuatorScenario =
-    R"(# A module held at its active block, its other half out in the air: the actuator @NAME@ swings it.
+    R"(# A module held at its active block; the actuator @NAME@ swings its other half in the air.
 gaitlab: 1
 name: @NAME@
 plugins: [build/@NAME@.so]      # relative to this file
@@ -275,7 +275,7 @@ duration: 4                     # s
 )";
 
 constexpr const char* kActuatorTest =
-    R"(# It lags by 0.02 rad; a motor without torque would leave the whole set point, 0.35 rad.
+    R"(# The joint lags by 0.02 rad; without torque its error would be the whole set point, 0.35 rad.
 foreach(joint m0/active m0/passive)
   get(error per_joint ${joint} tracking_error rms)
   expect(error LESS 0.05 "rad: it does not drive ${joint}")

@@ -118,7 +118,7 @@ void check_exclusions(const CLI::App& command) {
     for (const CLI::Option* other : option->get_excludes()) {
       if (option->count() == 0 || other->count() == 0) continue;
       refuse(command,
-             fmt::format("found {} and {} together; expected one of them alone", option->get_name(), other->get_name()));
+             fmt::format("found {} and {} together; expected only one of them", option->get_name(), other->get_name()));
     }
   }
 }

@@ -59,7 +59,8 @@ void add_completion(Commands& commands) {
   command->add_option("SHELL", arguments->shell, "bash: source <(gaitlab completion bash)")
       ->required()
       ->check(CLI::IsMember({"bash"}));
-  command->add_option("WORD", arguments->words, "instead print what may follow: the words after the program's name, behind --");
+  command->add_option("WORD", arguments->words,
+                      "print the possible next words instead; give the words after the program's name behind --");
   command->callback(
       [&commands, arguments] { commands.chosen = [&commands, arguments] { return completion(commands.app, *arguments); }; });
 }

@@ -80,12 +80,12 @@ constexpr const char* kIntroduction =
     "verdict on motors, docks and falls. All numbers are in SI units, angles in rad.";
 
 std::string closing_sections() {
-  std::string text = ".SH EXIT STATUS\nIf several apply, the first of 2, 1, 4, 3.\n";
+  std::string text = ".SH EXIT STATUS\nIf several apply, the status is the first of 2, 1, 4, 3.\n";
   text += entry("0", "success") + entry("1", "a run failed") + entry("2", "bad input");
   text += entry("3", "the verdict is not feasible, with `--fail-infeasible`");
   text += entry("4", "`test`, `rerun --verify` or `study rerun` found a difference");
   text += ".SH ENVIRONMENT\n";
-  text += entry("GAITLAB_DATA", "folder of the shipped modules, robots and scenarios, of a program that is not installed");
+  text += entry("GAITLAB_DATA", "folder of the shipped modules, robots and scenarios, for a program that is not installed");
   text += entry("NO_COLOR", "print the verdict without colour");
   text += ".SH FILES\n";
   text += entry("share/gaitlab/scenarios", "modules, robots, scenarios and studies, below the installation prefix");

@@ -40,8 +40,7 @@ std::string table_of_importance(const Importance& found, const std::string& obje
 
 std::string narrow_sentence(const ParameterImportance& p) {
   return fmt::format(
-      "{}: kept points lie within {:.3g} to {:.3g} ({:.0f} % of its range), and {} of {} beyond are kept: narrow the "
-      "range\n",
+      "{}: kept points lie within {:.3g} to {:.3g} ({:.0f} % of its range), and {} of {} outside are kept: narrow the range\n",
       clipped(p.key), p.low, p.high, std::max(1.0, std::round(100 * p.width)), p.kept_beyond, counted(p.beyond, "point"));
 }
 

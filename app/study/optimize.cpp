@@ -111,7 +111,8 @@ SearchEnd run_study(Plan& plan, Journal& journal, const studies::Executor& execu
   const int code = run(plan.scenario(run_number), arguments);
   if (code != 0 || stopped()) {
     fs::remove_all(next, none);
-    if (!stopped()) say(folder.string(), "error", "not written, because a file of the run is missing; an earlier folder stays");
+    if (!stopped())
+      say(folder.string(), "error", "not written, because a file of the run is missing; an earlier folder is kept");
     return false;
   }
   fs::rename(folder, before, none);
@@ -334,7 +335,8 @@ void add_optimize(Commands& commands) {
                 "N searches, with seeds from --seed on, in folders seed-N; the median and the spread of their best values")
             ->check(CLI::Range(2, 99));
         command
-            .add_option("--method", a.method, "method, instead of the file's; random draws points for comparison with a search")
+            .add_option("--method", a.method,
+                        "method, instead of the file's; `random` draws points, for comparison with a search")
             ->check(CLI::IsMember(known_methods()));
         add_study_sets(command, a.sets);
         command.add_flag("--dry-run", a.dry_run, "print the runs and the time that they take, and write nothing");

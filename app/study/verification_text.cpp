@@ -88,7 +88,8 @@ std::string point_text(studies::Journal& journal, const std::vector<Verification
     if (!v.reason.empty())
       reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", clipped(v.what()), one_line(v.reason));
     if (v.kind == TrialKind::quarter_step)
-      below += "  the other engine's own step was too long at times (check step): a quarter of it counts\n";
+      below +=
+          "  the other engine's default step was too long at times (check step), so that the run with a quarter of it counts\n";
     if (v.kind == TrialKind::limit)
       below += fmt::format("  the gait stands; the study's step was too long: {}{}\n", objective_cell(v), unit);
   }
@@ -168,8 +169,8 @@ std::string verification_text(studies::Journal& journal) {
   }
   if (!text.empty() && std::ranges::any_of(all, studies::is_world) && paper_gears(journal.head())) {
     text +=
-        "  gears are directional in the worlds, but paper's in the runs: a run with another friction or supply can end "
-        "otherwise than its world\n";
+        "  the worlds have directional gears, but the runs have the paper's, so that a run with another friction or supply can "
+        "end differently from its world\n";
   }
   const std::string objective = objective_text(journal.head());
   return text.empty() ? "" : "verification of the best points (" + objective + "):\n" + text + faults_text(faults, objective);

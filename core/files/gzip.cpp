@@ -43,7 +43,7 @@ std::string gzip(std::string_view bytes) {
 std::string gunzip(std::string_view packed, std::size_t most) {
   if (packed.size() < kLeast || !packed.starts_with(kGzipMagic)) throw TableError("it is not a complete gzip file");
   const std::size_t size = stated_size(packed);
-  if (size > most) throw TableError(fmt::format("it holds {} bytes; allowed are up to {}", size, most));
+  if (size > most) throw TableError(fmt::format("it holds {} bytes; expected at most {}", size, most));
   if (size > kMostRatio * packed.size()) throw TableError("its compressed bytes are damaged");
   const std::unique_ptr<libdeflate_decompressor, FreeUnpacker> unpacker(libdeflate_alloc_decompressor());
   if (unpacker == nullptr) throw std::bad_alloc();

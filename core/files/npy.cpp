@@ -66,7 +66,7 @@ class HeaderReader {
   }
 
  private:
-  [[noreturn]] static void broken() { refuse_npy("its header is not one of NumPy"); }
+  [[noreturn]] static void broken() { refuse_npy("its header is not a NumPy header"); }
 
   char next() {
     while (!rest_.empty() && (rest_[0] == ' ' || rest_[0] == '\n')) rest_.remove_prefix(1);
@@ -177,7 +177,7 @@ NumberTable read_npy(std::string_view bytes, std::size_t most) {
   if (about.fortran) refuse_npy("it is in Fortran order (numpy.ascontiguousarray makes C order of it)");
   NumberTable table{about.shape[0], about.shape[1], {}};
   if (table.columns != 0 && table.rows > most / table.columns) {
-    throw TableError(fmt::format("its shape is {}; allowed are up to {} numbers", shape_text(about.shape), most));
+    throw TableError(fmt::format("its shape is {}; expected at most {} numbers", shape_text(about.shape), most));
   }
   bytes.remove_prefix(kStart + length + header);
   if (const std::size_t expected = table.rows * table.columns * type.size; bytes.size() != expected) {

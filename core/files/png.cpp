@@ -91,7 +91,7 @@ NumberTable read_grey_png(std::string_view bytes, std::size_t most) {
   const Chunks::Chunk first = chunks.next();
   const std::string_view head = first.data;
   constexpr std::size_t kHead = 13;
-  if (first.name != "IHDR" || head.size() != kHead) refuse_png("it has no header of a PNG");
+  if (first.name != "IHDR" || head.size() != kHead) refuse_png("it lacks the header of a PNG");
   const auto at = [&](std::size_t i) { return static_cast<unsigned>(static_cast<unsigned char>(head[i])); };
   const unsigned depth = at(8);
   const unsigned colour = at(9);
@@ -103,7 +103,7 @@ NumberTable read_grey_png(std::string_view bytes, std::size_t most) {
   if (table.rows == 0 || table.columns == 0) refuse_png("it is empty");
   if (table.rows > most / table.columns) {
     throw TableError(
-        fmt::format("it has {} rows of {} grey values; allowed are up to {} in all", table.rows, table.columns, most));
+        fmt::format("it has {} rows of {} grey values; expected at most {} in all", table.rows, table.columns, most));
   }
   std::string packed;
   for (;;) {
@@ -111,7 +111,7 @@ NumberTable read_grey_png(std::string_view bytes, std::size_t most) {
     if (name == "IEND") break;
     if (name == "IDAT") packed += data;
     const bool critical = (static_cast<unsigned char>(name[0]) & 0x20U) == 0;
-    if (critical && name != "IDAT") refuse_png("it has a part that is not of grey PNGs");
+    if (critical && name != "IDAT") refuse_png("it has a chunk that grey PNGs do not have");
   }
   const std::size_t size = 2 * table.columns;
   std::vector<unsigned char> picture = inflated(packed, table.rows * (1 + size));

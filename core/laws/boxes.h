@@ -34,7 +34,7 @@ struct Box {
 class Boxes {
  public:
   static constexpr GroundType kType{
-      .name = "boxes", .about = "the same with boxes on it", .has_settings = true, .plane_and_boxes = true};
+      .name = "boxes", .about = "a plane with boxes on it", .has_settings = true, .plane_and_boxes = true};
 
   Boxes() = default;
   Boxes(std::vector<Box> boxes);            // NOLINT(google-explicit-constructor): a ground is made of lists

@@ -63,12 +63,12 @@ struct PluginKind {
 };
 inline constexpr std::array<PluginKind, 4> kPluginKinds{{
     {Kind::cpg, "cpg", "phase_oscillator", false, false, "Pattern generator; without this section the initial angles are held.",
-     "Oscillator model or gait; its own keys: gaitlab explain cpg TYPE."},
+     "Oscillator model or gait; its keys: gaitlab explain cpg TYPE."},
     {Kind::controller, "controller", "pid", false, false, "Controller of the joints: from set points to commands.",
-     "Joint controller; its own keys: gaitlab explain controller TYPE."},
+     "Joint controller; its keys: gaitlab explain controller TYPE."},
     {Kind::actuator, "actuator", "dc_motor", true, false, "The motor of every joint.",
-     "Motor model; its own keys: gaitlab explain actuator TYPE."},
-    {Kind::sensor, "sensor", "", false, true, "A sensor.", "Sensor type; its own keys: gaitlab explain sensor TYPE."},
+     "Motor model; its keys: gaitlab explain actuator TYPE."},
+    {Kind::sensor, "sensor", "", false, true, "A sensor.", "Sensor type; its keys: gaitlab explain sensor TYPE."},
 }};
 const PluginKind& describe(Kind kind);
 /// Kind of plugin by its name, which is also the name of the section that selects a single plugin; or null.

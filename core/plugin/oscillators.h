@@ -20,9 +20,10 @@ struct OscillatorKeys {
     f.per_joint("amplitude", amplitude,
                 {"rad", 0, 1000, "Peak of the set point about its offset; up to 3.2 for a hinge with a range."});
     f.per_joint("offset", offset, {"rad", -1000, 1000, "Mean of the set point; within +-3.2 for a hinge with a range."});
-    f.per_joint("phase_lag", phase_lag,
-                {"rad", -100, 100,
-                 "Lead of each joint over the joint that it follows by the rule; a joint of amplitude 0 is in the row, too."});
+    f.per_joint(
+        "phase_lag", phase_lag,
+        {"rad", -100, 100,
+         "Lead of each joint over the joint that it follows by the rule; the row also contains joints of amplitude 0."});
     f.rule_or_list("couplings", rule, kCouplingRules, couplings, kCouplingRulesAbout);
   }
 
@@ -54,7 +55,7 @@ struct OscillatorSettings : OscillatorKeys {
 
   void fields(Fields& f) {
     OscillatorKeys::fields(f);
-    f.group("model", model, "Keys of this model alone.");
+    f.group("model", model, "Keys of this model.");
   }
 };
 

@@ -44,7 +44,7 @@ inline void check_angle(const JointInfo& joint, const char* what, double angle) 
     return std::string(text.data(), std::to_chars(text.begin(), text.end(), value, std::chars_format::general, count).ptr);
   };
   throw SettingError(what, std::string(what) + " of joint " + joint.name + " is " + digits(angle, 6) +
-                               " rad; allowed are -3.2 to 3.2 rad where the hinge has a range; " + digits(angle, 6) +
+                               " rad; expected -3.2 to 3.2 rad for a hinge with a range; " + digits(angle, 6) +
                                " degrees are " + digits(angle * 3.14159265358979323846 / 180, 4) + " rad");
 }
 

@@ -22,7 +22,7 @@ constexpr std::size_t kPiece = std::size_t{1} << 20;  // bytes per system call, 
 
 std::string header_cell(const std::string& name, const std::filesystem::path& path) {
   if (name.empty() || name.find_first_of("\r\n") != std::string::npos)
-    throw RunError(fmt::format("{}: column name \"{}\" cannot stand in a CSV file", path.string(), name));
+    throw RunError(fmt::format("{}: column name \"{}\" cannot be written to a CSV file", path.string(), name));
   if (name.find_first_of(",\"") == std::string::npos) return name;
   std::string quoted = "\"";
   for (const char c : name) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);

@@ -64,7 +64,7 @@ std::string complaint(std::string_view start, std::uintmax_t bytes) {
   std::string_view rest = start.substr(0, kUserBlock);
   if (rest.size() < kName.size() && kName.starts_with(rest)) return fmt::format("is truncated: {} bytes", bytes);
   if (!take(rest, kName))
-    return is_hdf5(start) ? "is an HDF5 file, but no gaitlab trace" : "is not a gaitlab trace (nor another HDF5 file)";
+    return is_hdf5(start) ? "is an HDF5 file, but not a gaitlab trace" : "is not a gaitlab trace (nor another HDF5 file)";
   const bool cut = bytes < kUserBlock;
   const std::string_view version = rest.substr(0, rest.find('\n'));
   if (version != kTraceFormat.substr(kName.size())) {

@@ -126,7 +126,7 @@ std::vector<Column> tick_columns(std::size_t joints) {
     };
     add("torque_peak", "N m", "largest magnitude of the motor torque since the row before, over all steps");
     add("error_peak", "rad", "largest magnitude of set point minus angle since the row before, over all steps");
-    add("peak_limit", "", "saturation of the motor at that torque: 0, 1 voltage, 2 current");
+    add("peak_limit", "", "saturation of the motor at that torque: 0 none, 1 voltage, 2 current");
     add("torque_square", "N^2 m^2 s", "integral of the motor torque squared from t = 0, over all steps");
     add("voltage_limited", "s", "time at the voltage limit from t = 0, over all steps");
     add("current_limited", "s", "time at the current limit from t = 0, over all steps");

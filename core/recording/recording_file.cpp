@@ -31,9 +31,10 @@ struct PartingName {
   Parting StepTally::*member;
   const char* words;
 };
-constexpr std::array kPartings{PartingName{"twin", &StepTally::event, "a rollout with other steps"},
-                               PartingName{"chaotic", &StepTally::chaotic, "a rollout under gravity times 1 + 1e-9"},
-                               PartingName{"ill", &StepTally::ill, "1000 times the difference to that"}};
+constexpr std::array kPartings{
+    PartingName{"twin", &StepTally::event, "a rollout with other steps"},
+    PartingName{"chaotic", &StepTally::chaotic, "a rollout under gravity times 1 + 1e-9"},
+    PartingName{"ill", &StepTally::ill, "a rollout under gravity times 1 + 1e-6 (1000 times the difference for 1e-9)"}};
 constexpr std::string_view kParting = "parting.";
 
 /// Visits every number of a recording that does not belong to a row or a joint: visit(name, unit, definition, number).
@@ -44,32 +45,33 @@ void each_number(OfRecording& r, Visit visit) {
   visit("control_ticks", "", "control ticks", r.control_ticks);
   visit("control_ticks_above_1", "", "control ticks at which h lambda exceeded 1", r.control_ticks_above_1);
   visit("stability.rate", "1/s", "largest lambda seen at a control tick", r.worst.rate);
-  visit("stability.source", "", "0 motor, 1 stop, 2 contact, 3 passive hinge: what has it", r.worst.source);
+  visit("stability.source", "", "source of that lambda: 0 motor, 1 stop, 2 contact, 3 passive hinge", r.worst.source);
   visit("stability.index", "", "number of that joint or contact element", r.worst.index);
-  visit("stability.time", "s", "when it was seen", r.worst_time);
+  visit("stability.time", "s", "time of that tick", r.worst_time);
   visit("energy.electrical", "J", "drawn by the motors", r.ledger.electrical);
   visit("energy.copper", "J", "lost in the motors' windings", r.ledger.copper);
-  visit("energy.gear", "J", "lost in the gears, less what they created", r.ledger.gear);
+  visit("energy.gear", "J", "lost in the gears, minus the energy that they created", r.ledger.gear);
   visit("energy.contact", "J", "given to the ground along its normal", r.ledger.contact);
-  visit("energy.friction", "J", "given to the ground along it", r.ledger.friction);
+  visit("energy.friction", "J", "given to the ground along its surface", r.ledger.friction);
   visit("energy.stops", "J", "given to the hinge stops", r.ledger.stops);
-  visit("energy.stored", "J", "kinetic and potential, less those at the start", r.ledger.stored);
+  visit("energy.stored", "J", "kinetic and potential, minus the value at the start", r.ledger.stored);
   visit(kHinges, "J", "lost in dampers and friction of passive hinges", r.ledger.hinges);
   visit(kCurrent + std::string("peak"), "A", "largest sum of the magnitudes of all motors' currents", r.current_peak);
   visit(kCurrent + std::string("rms"), "A", "RMS of that sum", r.current_rms);
   visit("solves", "", "solves of the equations of motion", r.tally.solves);
   visit("off_law", "", "joint-steps that ended off the law of their motor or stop", r.tally.off);
   visit("coarse_time", "s", "time in which the steps did not reach the accuracy", r.tally.coarse);
-  visit("torque_error.estimated", "", "1: there is an estimate of the torque error", r.tally.estimated);
+  visit("torque_error.estimated", "", "1: the torque error was estimated", r.tally.estimated);
   for (const PartingName& one : kPartings) {
     const std::string name = std::string(kParting) + one.key;
     auto& parting = r.tally.*one.member;
     visit(name + ".time", "s",
-          std::string("when run and ") + one.words + ", parted by more than the accuracy first; below 0: never", parting.time);
-    visit(name + ".joint", "", "number of the joint in which they did", parting.joint);
+          std::string("time at which run and ") + one.words + " first differed by more than the accuracy; below 0: never",
+          parting.time);
+    visit(name + ".joint", "", "number of the joint in which they differed", parting.joint);
     visit(name + ".share", "", "RMS of the difference of its torques over their peak, of the worst joint", parting.share);
   }
-  visit(kEnded, "", "how it ended: 0 done, 1 diverged, 2 plugin, 3 stopped, 4 interrupted, 5 not run, 6 early",
+  visit(kEnded, "", "end of the run: 0 done, 1 diverged, 2 plugin, 3 stopped, 4 interrupted, 5 not run, 6 early",
         r.outcome.ended);
 }
 
@@ -78,7 +80,7 @@ template <class OfRecording, class Visit>
 void each_number_of(OfRecording& r, std::size_t j, Visit visit) {
   for (const JointStatistic& one : kJointStatistics) visit(one.name, one.unit, one.definition, r.joints[j].*one.member);
   visit("torque_error", "N m", "estimate of the motor torque's error, RMS", r.tally.torque_error[j]);
-  visit("torque_error_peak", "N m", "largest motor torque where that error is asked for", r.tally.torque_peak[j]);
+  visit("torque_error_peak", "N m", "largest motor torque at the times of that estimate", r.tally.torque_peak[j]);
 }
 
 /// The numbers of the run and of its joints as tables.

@@ -25,8 +25,8 @@ struct JointStatistics {
   double electrical = 0, copper = 0, gear = 0, shaft = 0;  ///< J: drawn, lost in winding and gear, given to the joint
   double shaft_positive = 0;                               ///< J: positive part of the shaft power
   double created = 0;                                      ///< J: energy that the gear created (eq. 2, back-driven)
-  /// Control ticks with a change of the command's sign, less those without, in the last stretch of the run where most have
-  /// one; 0 if there is none.
+  /// Control ticks with a change of the command's sign, minus those without a change, in the last stretch of the run where most
+  /// have one; 0 if there is none.
   double reversals = 0;
   double reversing_from = 0;  ///< s: the first tick of that stretch
 };
@@ -56,14 +56,14 @@ inline constexpr std::array<JointStatistic, sizeof(JointStatistics) / sizeof(dou
     {&JointStatistics::setpoint_outside, "setpoint_outside", "", "share of the time with the set point outside that range"},
     {&JointStatistics::electrical, "electrical", "J", "energy drawn by the motor"},
     {&JointStatistics::copper, "copper", "J", "heat in the winding"},
-    {&JointStatistics::gear, "gear", "J", "loss in the gear, less what it created"},
+    {&JointStatistics::gear, "gear", "J", "loss in the gear, minus the energy that it created"},
     {&JointStatistics::shaft, "shaft", "J", "energy given to the joint"},
-    {&JointStatistics::shaft_positive, "shaft_positive", "J", "energy given to the joint where that power is positive"},
-    {&JointStatistics::created, "created", "J", "what the gear gave instead of losing"},
+    {&JointStatistics::shaft_positive, "shaft_positive", "J", "energy given to the joint while that power is positive"},
+    {&JointStatistics::created, "created", "J", "energy that the gear created"},
     {&JointStatistics::reversals, "reversals", "",
-     "control ticks from reversing_from on with a change of the command's sign, less those without"},
+     "control ticks from reversing_from on with a change of the command's sign, minus those without a change"},
     {&JointStatistics::reversing_from, "reversing_from", "s",
-     "first tick of the last stretch of the run where the command changes its sign in most ticks"},
+     "first tick of the last stretch of the run in which the command changes its sign in most ticks"},
 }};
 
 /// Difference of the motor torques between a run and a companion rollout (core/simulation/step_error.h).

@@ -52,7 +52,7 @@ std::vector<BodyPair> read_body_pairs(const Node& list, const std::vector<std::s
                                                       matching(pair.items[1], bodies, owner, problems)};
     if (two[0].empty() || two[1].empty()) continue;
     if (two[0] == two[1] && two[0].size() == 1) {
-      problems.add(pair.place, fmt::format("an entry of {} has {} alone; expected two bodies", kMayOverlap, two[0].front()));
+      problems.add(pair.place, fmt::format("an entry of {} has only {}; expected two bodies", kMayOverlap, two[0].front()));
       continue;
     }
     pairs.push_back({pair.items[0].text, pair.items[1].text});

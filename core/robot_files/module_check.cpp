@@ -63,7 +63,8 @@ class ModuleCheck {
       if (parent_[i] == kNone) roots.push_back(i);
     }
     if (roots.empty()) {
-      problems_.add(places_.bodies[0], "every body is some hinge's child: the hinges form a loop; expected one root body");
+      problems_.add(places_.bodies[0],
+                    "every body is the child of a hinge, so that the hinges form a loop; expected one root body");
       return;
     }
     type_.root = roots[0];
@@ -192,8 +193,8 @@ class ModuleCheck {
       if (!at_one_place(one, other)) continue;
       problems_
           .add(place_of(places_.faces[i], "origin"),
-               fmt::format("faces {} and {} are at one place; a connector that is neither active nor passive is one face with "
-                           "gender: none",
+               fmt::format("faces {} and {} are at the same place; write a connector that is neither active nor passive as one "
+                           "face with gender: none",
                            one.id, other.id))
           .notes.emplace_back(place_of(places_.faces[k], "origin"), "the first is here");
       return;

@@ -60,9 +60,9 @@ std::string build_robot(Scenario& scenario, bool stated) {
   const std::vector<ModuleBuild> modules = module_builds(scenario.as_built, drawn.modules.size());
   if (!modules.empty()) scenario.robot = std::make_shared<const Robot>(as_built(drawn, modules));
   if (scenario.drawn > 0 || !scenario.tolerances.any()) return "";
-  return stated ? "tolerances draws nothing: as_built states every number, as in the resolved scenario of a run; for another "
-                  "robot use the scenario of that run, or --set as_built={}"
-                : "tolerances draws nothing: no part of the robot has such a number";
+  return stated ? "tolerances has no effect, because as_built states every number, as in the resolved scenario of a run; for "
+                  "another robot use the original scenario, or --set as_built={}"
+                : "tolerances has no effect, because no part of the robot has such a number";
 }
 
 std::unique_ptr<Actuator> make_motors(std::span<const Scenario* const> lanes) {
@@ -80,10 +80,10 @@ std::unique_ptr<Actuator> make_motors(const Scenario& scenario) {
 }
 
 std::string not_buildable(const Scenario& scenario, const Actuator* actuator, const std::string& of_motors) {
-  if (actuator == nullptr) return of_motors + " is a number of motors, and the robot has none";
+  if (actuator == nullptr) return of_motors + " applies only to motors, but the robot has none";
   const DcMotor* const motors = actuator->dc_motors();
   if (motors == nullptr) {
-    return fmt::format("{} is a number of a DC motor, and actuator {} has none; it applies to dc_motor and servo", of_motors,
+    return fmt::format("{} applies only to dc_motor and servo, but the actuator is {}", of_motors,
                        in_quotes(std::string(scenario.actuator.entry->name)));
   }
   for (std::size_t j = 0; j < scenario.robot->joints.size(); ++j) {

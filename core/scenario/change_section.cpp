@@ -101,13 +101,16 @@ class ChangeReader {
  private:
   void check_time(const Node& node, double t) {
     if (last_.t >= t) {
-      problems_.add(node.place, fmt::format("t: {} comes after {}; times must rise", number_text(t), number_text(last_.t)));
+      problems_.add(node.place, fmt::format("t is {} s, not later than the change before it, at {} s; expected rising times",
+                                            number_text(t), number_text(last_.t)));
     } else if (t >= scenario_.duration) {
-      problems_.add(node.place,
-                    fmt::format("t is {} s; the run ends at {} s", number_text(t), number_text(scenario_.duration)));
+      problems_.add(node.place, fmt::format("t is {} s, but the run ends at {} s; expected an earlier time", number_text(t),
+                                            number_text(scenario_.duration)));
     } else if (const double tick = tick_time(t, scenario_); tick >= scenario_.duration) {
-      problems_.add(node.place, fmt::format("t is {} s, whose control tick is at {:.6g} s; the run ends at {} s",
-                                            number_text(t), tick, number_text(scenario_.duration)));
+      problems_.add(
+          node.place,
+          fmt::format("t is {} s, and the change takes effect at the next control tick, {:.6g} s, but the run ends at {} s",
+                      number_text(t), tick, number_text(scenario_.duration)));
     }
   }
 
@@ -147,12 +150,12 @@ class ChangeReader {
                          section == "cpg" ? "cpg.frequency" : "controller.Kp");
     }
     if (key == "cpg.type" || key == "cpg.step" || key == "controller.type" || key == "controller.period")
-      return key + " cannot change in a run: it sets the plugins, their states or the control ticks";
+      return key + " cannot change in a run, because it sets the plugins, their states or the control ticks";
     if (known) return "";
     if (section == "actuator")
-      return in_quotes(key) + " cannot change in a run: motors are as built; a fault of kind weak, open or dead changes one";
+      return in_quotes(key) + " cannot change in a run; a fault of kind weak, open or dead changes a motor";
     const std::string near = key == section ? "" : nearest(section, {kSections.begin(), kSections.end()});
-    return fmt::format("{} cannot change in a run; the keys of cpg and controller can{}", in_quotes(key),
+    return fmt::format("{} cannot change in a run; expected a key of cpg or controller{}", in_quotes(key),
                        near.empty() ? "" : "; did you mean " + in_quotes(near + key.substr(section.size())) + "?");
   }
 
@@ -176,7 +179,7 @@ class ChangeReader {
 
   void read_faults(const Node& node, const std::string& name, Change& change) {
     if (scenario_.actuator.entry == nullptr) {
-      problems_.add(node.place, "a fault is one of a motor, but the robot has none (actuator.type: none); remove it");
+      problems_.add(node.place, "a fault needs a motor, but the robot has none (actuator.type: none); remove the fault");
       return;
     }
     if (node.kind != Node::Kind::list) return read_fault(node, name + ".fault", change);

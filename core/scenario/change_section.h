@@ -28,8 +28,8 @@ struct ChangeKeys {
 inline constexpr const char* kAboutChanges =
     "Changes at times of the run, by rising times; each has set, fault or both (docs/real-robot.md).";
 inline constexpr const char* kAboutSet =
-    "New values of keys of cpg and controller, such as {cpg.frequency: 0.5}; not type, period, step, or one that changes the "
-    "number of states.";
+    "New values of keys of cpg and controller, such as {cpg.frequency: 0.5}; not `type`, `period`, `step` or a key that "
+    "changes the number of states.";
 inline constexpr const char* kAboutFault = "A fault of joints, or a list of faults.";
 
 /// Function that reads a scenario after a change. It reads the sections whose settings may change in a run of a whole scenario,

@@ -42,10 +42,9 @@ struct HeightfieldFields {
              "The first row has the least y.");
       f.number("scale", field.source.scale,
                {"m", 1e-12, 1e6, "Metres per unit of the numbers in `file`; a PNG needs it. Default: 1."});
-      f.text(
-          "hash", field.source.hash,
-          "Hash of the heights; a file with others is refused. Runs record it for more than 40000 heights, which then are in a "
-          "file of the run folder.");
+      f.text("hash", field.source.hash,
+             "Hash of the heights; a file with other heights is refused. Runs with more than 40000 heights record it and store "
+             "the heights in a file of the run folder.");
     }
     if (!writing || !from_file) {
       Rows rows;
@@ -131,7 +130,7 @@ void finish_shape(Boxes& ground, const GroundNodes& section) {
     if (boxes[i].mass > 0 && !scenario.contact.model().moves_boxes) {
       problems.add(
           node.find("mass")->place,
-          fmt::format("boxes[{}] has a mass, and contact.law: penalty moves no box; expected mass: 0, or contact.law: bullet",
+          fmt::format("boxes[{}] has a mass, but contact.law: penalty moves no box; expected mass: 0, or contact.law: bullet",
                       i));
     }
   }
@@ -171,8 +170,8 @@ void finish_shape(Heightfield& field, const GroundNodes& section) {
     problems.add(grid, fmt::format("the heightfield has {} rows of {} heights; expected at least 2 rows of 2", field.rows(),
                                    field.columns));
   } else if (values != nullptr && field.values.size() > kMostWritten) {
-    problems.add(grid, fmt::format("the heightfield has {} heights; allowed are up to {}, more in a file", field.values.size(),
-                                   kMostWritten));
+    problems.add(grid, fmt::format("the heightfield has {} heights; expected at most {}, or a file, which can hold more",
+                                   field.values.size(), kMostWritten));
   }
 }
 

@@ -11,8 +11,8 @@ namespace gaitlab {
 
 inline constexpr const char* kGroupsSection = "groups";
 inline constexpr const char* kAboutGroups =
-    "Groups of joints by name, each a joint, a pattern, or a list of them: {hips: [m3/hinge, \"m[4-6]/hinge\"]}. A group may "
-    "stand wherever a pattern of joints may stand.";
+    "Groups of joints by name, each a joint, a pattern, or a list of them: {hips: [m3/hinge, \"m[4-6]/hinge\"]}. A group is "
+    "allowed wherever a pattern of joints is.";
 
 /// Reads the section. Every fault is a problem at its place: a name that is not allowed or is that of a joint or module, a
 /// member that matches no joint, and a group without members. A group with a fault has no joints, which is reported only here.

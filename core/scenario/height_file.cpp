@@ -48,7 +48,7 @@ class HeightFile {
     for (std::size_t i = 0; i < heights.size(); ++i) {
       heights[i] *= field.source.scale;
       if (std::abs(heights[i]) <= kHeights.max) continue;  // the comparison is false for NaN as well
-      problems_.add({path_}, fmt::format("height [{}, {}], counted from 0, is {}; allowed are {}", i / table->columns,
+      problems_.add({path_}, fmt::format("height [{}, {}], counted from 0, is {}; expected {}", i / table->columns,
                                          i % table->columns, with_unit(heights[i], kHeights.unit), range_text(kHeights)));
       return place_;
     }
@@ -67,8 +67,9 @@ class HeightFile {
     const HeightFormat format = format_of(path_, read_start(path_, kPngMagic.size()));
     if (format == HeightFormat::text) return text();
     if (format == HeightFormat::png && map_.find("scale") == nullptr) {
-      problems_.add(file_.place,
-                    fmt::format("file '{}' holds grey values from 0 to 65535; expected scale: metres of one", path_));
+      problems_.add(
+          file_.place,
+          fmt::format("file '{}' holds grey values from 0 to 65535; expected `scale`, the metres per grey value", path_));
       return {};
     }
     std::string bytes = read_file(path_, kMostBytes);

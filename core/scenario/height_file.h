@@ -9,7 +9,7 @@
 
 namespace gaitlab {
 
-inline constexpr Spec kHeights{"m", -1e6, 1e6, "Heights, a row for each y, upwards; instead of `file`."};
+inline constexpr Spec kHeights{"m", -1e6, 1e6, "Heights, one row for each y, the least y first; instead of `file`."};
 /// Most heights that a resolved scenario, of at most 1 MB, contains in full.
 inline constexpr std::size_t kMostWritten = 40000;
 inline constexpr std::size_t kMostHeights = 4096UL * 4096UL;  ///< most heights in a file

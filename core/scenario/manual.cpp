@@ -130,14 +130,14 @@ std::string default_step(const Engine& engine) {
   if (engine.choose_step != nullptr)
     return fmt::format("auto, the longest up to {} s that is stable at the start", number_text(engine.step));
   if (engine.adaptive() == nullptr) return given;
-  return fmt::format("auto (integrator {}); {} with another, and {} is the integrator where a step is given",
+  return fmt::format("auto (integrator {}); {} with another integrator; {} is the default integrator if a step is given",
                      engine.adaptive()->name, given, engine.fixed().name);
 }
 
 std::string plugins_page(const Catalog& catalog) {
   std::string page = "# CPGs, controllers, actuators, sensors and engines\n\n" + std::string(kRenewed) +
-                     "The manuals of the built-in plugins, as `gaitlab explain KIND NAME` prints them. One of your own:\n"
-                     "[write a CPG](../tutorials/write-a-cpg.md).\n";
+                     "The manuals of the built-in plugins, as `gaitlab explain KIND NAME` prints them. To write "
+                     "another:\n[write a CPG](../tutorials/write-a-cpg.md).\n";
   for (const PluginKind& kind : kPluginKinds) {
     for (const std::string& name : catalog.names(kind.kind)) {
       const Entry& entry = *catalog.find(kind.kind, name);

@@ -167,7 +167,7 @@ bool too_large(const TypeLibrary& library, const std::vector<std::size_t>& type_
   for (const std::size_t type : type_of_module) bodies += library.types[type].bodies.size();
   if (bodies > kMostBodies) {
     problems.add(place,
-                 fmt::format("the robot has {} bodies; allowed are up to {}, which take 2 GB of memory", bodies, kMostBodies));
+                 fmt::format("the robot has {} bodies; expected at most {}, which take 2 GB of memory", bodies, kMostBodies));
   }
   return bodies > kMostBodies;
 }

@@ -100,7 +100,7 @@ void ScenarioChecks::initial_angles() {
     const SourceLocation place = angle_place(j);
     const auto [it, fresh] = findings.emplace(to_string(place), Outside{place, {}, angle});
     if (fresh) {
-      it->second.text = fmt::format("the initial angle of joint '{}' is {} rad; allowed are {} to {} rad", joints[j].name,
+      it->second.text = fmt::format("the initial angle of joint '{}' is {} rad; expected {} to {} rad", joints[j].name,
                                     number_text(angle), number_text(joints[j].lo), number_text(joints[j].hi));
     } else {
       ++it->second.more;
@@ -108,7 +108,7 @@ void ScenarioChecks::initial_angles() {
   }
   for (const auto& [key, outside] : findings) {
     const std::string others =
-        fmt::format("; {} {} outside of the range, too", counted(static_cast<std::size_t>(outside.more), "more joint"),
+        fmt::format("; {} {} also outside the range", counted(static_cast<std::size_t>(outside.more), "more joint"),
                     outside.more == 1 ? "is" : "are");
     problems_.add(outside.place, outside.text + (outside.more > 0 ? others : "") + in_degrees(outside.angle, "rad"));
   }
@@ -208,8 +208,8 @@ void ScenarioChecks::automatic_step() {
   const std::string chosen =
       fmt::format("integrator '{}' of engine '{}'", scenario_.physics.integrator->name, scenario_.physics.engine->name);
   if (step != nullptr && step->text == "auto" && !scenario_.physics.chosen_step) {
-    problems_.add(step->place,
-                  fmt::format("{} chooses no steps; expected a number of seconds, or {}", chosen, fmt::join(able, " or ")));
+    problems_.add(step->place, fmt::format("{} cannot choose the step; expected a number of seconds, or {}", chosen,
+                                           fmt::join(able, " or ")));
   }
   if (accuracy != nullptr) {
     problems_.add(accuracy->place, fmt::format("{} uses the given step and ignores accuracy; remove accuracy, or use {}",
@@ -228,8 +228,8 @@ void ScenarioChecks::units(const Actuator& actuator, const Controller& controlle
                                    fmt::format("{}controller '{}' commands {}, but actuator '{}' takes {}", by_default, giver,
                                                command, taker, actuator.command_unit()));
   if (!chosen) {
-    problem.notes.emplace_back(
-        problem.place, fmt::format("a controller of its own: controller: {{unit: {}, Kp: ...}}", actuator.command_unit()));
+    problem.notes.emplace_back(problem.place,
+                               fmt::format("add for example controller: {{unit: {}, Kp: ...}}", actuator.command_unit()));
     return;
   }
   problem.notes.emplace_back(place_of(root_, "actuator", "type"),

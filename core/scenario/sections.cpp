@@ -116,15 +116,15 @@ void PhysicsFields::fields(Fields& f) {
   f.vector("gravity", span_of(physics.gravity), {"m/s^2", -1000, 1000, "Acceleration of gravity, world axes."});
   if (catalog == nullptr && physics.estimate == Estimate::full) return;
   f.choice("estimate", physics.estimate, enum_names<Estimate>(),
-           "Estimate of the torque error. full: from rollouts beside the run, with finer and coarser steps and with gravity "
-           "times 1 + 1e-9, which add a fourth to the run time (a tenth if the step is given: windows of a rollout with other "
+           "Estimate of the torque error. full: from additional rollouts, with finer and coarser steps and with gravity times "
+           "1 + 1e-9, which add a fourth to the run time (a tenth if the step is given: only windows of a rollout have other "
            "steps). off: no estimate; the run is bit-identical, but the verdict lacks evidence.");
 }
 
 void ContactSettings::fields(Fields& f) {
   f.choice("law", law, enum_names<ContactLaw>(),
            "penalty: Fn = Kn p^k + Cd p^d p' >= 0; friction -f Fn v/v_lim up to v_lim, then -f Fn v/|v|. bullet: Bullet's own "
-           "solver, for comparison and clutter; of the keys below it has only `on`.");
+           "solver, for comparison and clutter; it uses only the key `on`.");
   f.choice("on", on, enum_names<ContactSet>(),
            "Contact elements that touch the ground: feet of the free blocks, all, or none.");
   if (!model().penalty_settings) return;
@@ -179,7 +179,7 @@ void PluginFields::fields(Fields& f) {
 }
 
 void TraceSettings::fields(Fields& f) {
-  f.number("period", period, {"s", 1e-9, 1e6, "Time between rows; a whole multiple of the step where one is given."});
+  f.number("period", period, {"s", 1e-9, 1e6, "Time between rows; a whole multiple of the step if one is given."});
   f.texts("columns", columns, "Names or patterns with * and ? of the columns to keep.");
 }
 
@@ -210,14 +210,12 @@ void Limits::fields(Fields& f) {
        "point takes one or two."});
   f.number("height", height,
            {"", 0, 1,
-            "Share of a height below which the centre of mass has fallen: the lower of that in the start pose, on the ground, "
-            "and that "
-            "in the pose of the set points. Default: our choice."});
-  f.number(
-      "tilt", tilt,
-      {"rad", kPositive, 4,
-       "Tilt of the robot from its start above which the verdict warns (below the horizontal it fails, except for a base that "
-       "rolls). Default: 60 degrees, our choice."});
+            "Share of a height of the centre of mass, below which the robot has fallen: the lower of its heights in the start "
+            "pose, on the ground, and in the pose of the set points. Default: our choice."});
+  f.number("tilt", tilt,
+           {"rad", kPositive, 4,
+            "Tilt of the robot from its start above which the verdict warns (below the horizontal it fails, unless the base "
+            "rolls). Default: 60 degrees, our choice."});
   f.number(
       "beyond_range", beyond_range,
       {"rad", 0, 100,
@@ -228,20 +226,23 @@ void Limits::fields(Fields& f) {
       "start_jump", start_jump,
       {"rad", 0, 100,
        "Jump of a set point at t = 0 above which there is a warning. Default: half of the axis of the paper's figure 14."});
-  f.number("touch", touch,
-           {"m", 0, 10,
-            "Overlap of two bodies above which there is a warning. Default: covers the error of cylinders (computed as prisms) "
-            "and the deflection of a hinge's stop."});
+  f.number(
+      "touch", touch,
+      {"m", 0, 10,
+       "Overlap of two bodies above which there is a warning. The default covers the error of cylinders (computed as prisms) "
+       "and the deflection of a hinge's stop."});
   f.number("collision", collision,
            {"m", 0, 10, "Largest overlap of two bodies; less is a warning, more a failure. Default: our choice."});
-  f.number("sink", sink, {"m", 0, 10, "Largest depth of a body in the ground. Default: covers the compression of the ground."});
+  f.number("sink", sink,
+           {"m", 0, 10, "Largest depth of a body in the ground. The default covers the compression of the ground."});
   f.number(
       "energy_residual", energy_residual,
       {"", 0, 1,
        "Share of the energy drawn that may be unaccounted for without a warning; above 5 % a run is not judged. Default: the "
        "error of the torques that is judged."});
-  f.number("energy_created", energy_created,
-           {"", 0, 1, "Share of the energy drawn that back-driven gears may create (eq. 2). Default: our choice."});
+  f.number(
+      "energy_created", energy_created,
+      {"", 0, 1, "Largest energy created by back-driven gears (eq. 2), as a share of the energy drawn. Default: our choice."});
   f.number("slip", slip,
            {"", 0, 1e6,
             "Largest slip distance of the feet, weighted by their loads, as a share of the robot's path; more is a warning. "
@@ -272,7 +273,7 @@ SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems
   };
   controller.host = [&s](Fields& f) {
     f.number("period", s.control_period,
-             {"s", 1e-9, 1000, "Time between commands; a whole multiple of the step where one is given."});
+             {"s", 1e-9, 1000, "Time between commands; a whole multiple of the step if one is given."});
   };
   cpg.host = [&s](Fields& f) {
     if (s.cpg_step <= 0) s.cpg_step = s.control_period;
@@ -287,10 +288,9 @@ void SectionFields::fields(Fields& f) {
             "Deviations of real robots from the drawings; each seed draws another robot.");
   }
   if (!writing || scenario.as_built.any() || scenario.tolerances.any()) {  // stated neutral numbers are not drawn
-    f.group(
-        kAsBuiltSection, scenario.as_built,
-        "Differences of this robot from the drawings, by part, such as mass: {m3: 1.05}. Numbers that it does not state are "
-        "drawn within the tolerances.");
+    f.group(kAsBuiltSection, scenario.as_built,
+            "Differences of this robot from the drawings, by part, such as mass: {m3: 1.05}. Numbers that are not stated here "
+            "are drawn within the tolerances.");
   }
   f.group("initial", scenario.initial, "State at the start.");
   f.group("physics", physics, "Engine and time integration.");
@@ -308,7 +308,7 @@ void SectionFields::fields(Fields& f) {
   if (!writing || scenario.limits != Limits()) f.group("limits", scenario.limits, "Limits of the verdict.");
   if (!writing || !scenario.accept.empty()) {
     f.words("accept", scenario.accept, kAcceptable,
-            "Implausible numbers that are right: without their rows here, a run with impossible ones is not judged.");
+            "Numbers that look implausible but are right. Without a row here, a run with impossible numbers is not judged.");
   }
   if (!writing || !scenario.figure.joints.empty()) f.group("figure", scenario.figure, "Content of figure.svg.");
   f.integer("seed", scenario.seed,

@@ -59,8 +59,8 @@ Rows read_rows(const Node& list, const std::string& what, const Spec& spec, Prob
       if (!reading.ok()) {
         problems.add(item.place, fmt::format("{}[{}] {}", name, j, reading.wrong));
       } else if (reading.value < spec.min || reading.value > spec.max) {
-        problems.add(item.place, fmt::format("{}[{}] is {}; allowed are {}", name, j, with_unit(reading.value, spec.unit),
-                                             range_text(spec)));
+        problems.add(item.place,
+                     fmt::format("{}[{}] is {}; expected {}", name, j, with_unit(reading.value, spec.unit), range_text(spec)));
       }
       values.push_back(reading.value);
     }

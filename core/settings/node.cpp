@@ -48,7 +48,7 @@ class TreeBuilder final : public YAML::EventHandler {
   Node take() { return std::move(root_); }
 
   void OnDocumentStart(const YAML::Mark& mark) override {
-    if (documents_++ > 0) stop(at(mark), "found a second document; expected one document a file");
+    if (documents_++ > 0) stop(at(mark), "found a second YAML document; expected one per file");
   }
   void OnDocumentEnd() override {
     if (root_.kind != Node::Kind::map) stop({file_, 1, 1}, "found " + found(root_) + "; expected a map (KEY: VALUE lines)");

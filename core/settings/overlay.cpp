@@ -72,7 +72,7 @@ std::optional<Setting> parse_set(const std::string& text, Problems& problems) {
     return {};
   }
   if (path.size() > kMaxPath) {
-    problems.add(place, fmt::format("the path has {} keys; allowed are up to {}", path.size(), kMaxPath));
+    problems.add(place, fmt::format("the path has {} keys; expected at most {}", path.size(), kMaxPath));
     return {};
   }
   std::optional<Node> value = parse_value(text.substr(equals + 1), place, problems);

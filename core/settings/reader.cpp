@@ -127,7 +127,7 @@ bool Reader::read_one(const Node& node, const std::string& what, const Spec& spe
     return false;
   }
   if (reading.value < spec.min || reading.value > spec.max) {
-    problems_.add(node.place, fmt::format("{} is {}; allowed are {}{}", what, with_unit(reading.value, spec.unit),
+    problems_.add(node.place, fmt::format("{} is {}; expected {}{}", what, with_unit(reading.value, spec.unit),
                                           range_text(spec), in_degrees(reading.value, spec.unit)));
     return false;
   }
@@ -162,7 +162,7 @@ void Reader::on(const char* key, const field::Integer& field) {
   if (!reading.ok()) {
     problems_.add(node->place, std::string(key) + " " + reading.wrong);
   } else if (number < field.spec.min || number > field.spec.max) {
-    problems_.add(node->place, fmt::format("{} is {}; allowed are {}", key, reading.value, range_text(field.spec)));
+    problems_.add(node->place, fmt::format("{} is {}; expected {}", key, reading.value, range_text(field.spec)));
   } else {
     field.value = reading.value;
   }
@@ -245,10 +245,11 @@ void Reader::on(const char* key, const field::Map& field) {
   for (std::size_t i = 0; i < node->keys.size(); ++i) {
     const auto& [name, place] = node->keys[i];
     if (node->flow && opens_a_bracket(node->items[i])) {
-      problems_.add(node->items[i].place,
-                    fmt::format("{} {} ends within a bracket: in {{ }} a comma ends the text; put it in quotes, or on a "
-                                "line of its own",
-                                clipped(name), found(node->items[i])));
+      problems_.add(
+          node->items[i].place,
+          fmt::format(
+              "{} {} ends within a bracket: in {{ }} a comma ends the text; put the text in quotes, or on a separate line",
+              clipped(name), found(node->items[i])));
       field.value.push_back({name, "0"});  // so that later checks find the name
       return;                              // the following keys are fragments of the text
     }
@@ -285,7 +286,7 @@ void Reader::read_named_numbers(const Node& node, const std::string& what, PerJo
   const bool every = read_joint_map(node, what, kAny, value, joints());
   if (every || problems_.size() > before) return;
   // Without a default, the remaining joints would have no value.
-  problems_.add(node.place, what + " names some joints only; add default: for the others");
+  problems_.add(node.place, what + " names only some joints; add default: for the others");
 }
 
 void Reader::visit(const Field& field) {

@@ -31,7 +31,7 @@ std::string refuse_number(const Node& node, const std::string& kind, const std::
   if (const std::size_t comma = text.find(','); is_digits(text.substr(0, comma)) && is_digits(text.substr(comma + 1)))
     return expected(
         node, "", kind, unit,
-        fmt::format("; a decimal point is a point: {}.{}", node.text.substr(0, node.text.find(',')), text.substr(comma + 1)));
+        fmt::format("; use a decimal point: {}.{}", node.text.substr(0, node.text.find(',')), text.substr(comma + 1)));
   return expected(node, "", kind, unit);
 }
 

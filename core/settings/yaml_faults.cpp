@@ -147,10 +147,11 @@ std::string misfit(const Level& own, const std::vector<Level>& open) {
   const auto same = std::ranges::find(open, own.indent, &Level::indent);
   const std::string what = own.list ? "an item of a list (-)" : in_quotes(own.key);
   if (same != open.end() && same->list != own.list) {
-    return own.list ? fmt::format("found an item of a list (-) among keys; {} of line {} is indented as much",
-                                  in_quotes(same->key), same->line)
-                    : fmt::format("found the key {} among items of a list (-), which begins in line {} and is indented as much",
-                                  what, same->line);
+    return own.list
+               ? fmt::format("found an item of a list (-) among keys; {} of line {} has the same indentation",
+                             in_quotes(same->key), same->line)
+               : fmt::format("found the key {} among items of a list (-), which begins in line {} with the same indentation",
+                             what, same->line);
   }
   if (same != open.end()) return "";
   const auto more = std::ranges::find_if(open, [&](const Level& one) { return one.indent > own.indent; });
@@ -219,8 +220,7 @@ std::string yaml_fault_in_words(const std::string& parser, const std::string& li
   if (parser == YAML::ErrorMsg::CHAR_IN_BLOCK)
     return "found a text after | or >, which begin a text of several lines; expected this text in the lines below, or quotes";
   if (parser.starts_with(YAML::ErrorMsg::INVALID_ESCAPE)) {
-    return "found a backslash in double quotes before a character that it does not change; expected two of them, or single "
-           "quotes";
+    return "found a backslash in double quotes that begins no escape sequence; expected two backslashes, or single quotes";
   }
   return parser;
 }

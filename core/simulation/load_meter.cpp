@@ -72,17 +72,18 @@ void LoadMeter::add_columns(const Scenario& scenario) {
     columns_.push_back({std::move(name), unit, std::move(definition)});
   };
   add("t", "s", "time");
-  add("path", "m", "horizontal way of the centre of mass from t = 0, from row to row");
-  add("slip", "m", "way that contact points slid under load, times the load over the weight, from t = 0");
+  add("path", "m", "length of the horizontal path of the centre of mass from t = 0, from row to row");
+  add("slip", "m", "distance that contact points slid under load, times the load over the weight, from t = 0");
   if (creep_speed_ > 0) {
     for (const char* const axis : {"x", "y"}) {
       add(fmt::format("creep.{}", axis), "m",
           fmt::format(
-              "way along {} that contact points slid below contact.slip_speed, times the load over the weight, from t = 0",
+              "distance along {} that contact points slid below contact.slip_speed, times the load over the weight, from t = 0",
               axis));
     }
   }
-  if (stability_) add("stability", "m", "how far the centre of mass is within the support polygon; outside negative");
+  if (stability_)
+    add("stability", "m", "distance of the centre of mass from the edge of the support polygon; negative outside");
   for (const DockFace& dock : docks_) {
     const auto of_dock = [&](const char* quantity, const char* unit, const char* definition) {
       add(fmt::format("dock.{}.{}", dock.module, quantity), unit, definition + fmt::format(" at m{}/dock", dock.module));
@@ -94,7 +95,8 @@ void LoadMeter::add_columns(const Scenario& scenario) {
   }
   for (const std::size_t joint : gears_) {
     add(fmt::format("gear.{}.torque", joint), "N m",
-        "torque that the gear of " + robot_.joints[joint].name + " passes on: that of its motor less what turns its rotor");
+        "torque that the gear of " + robot_.joints[joint].name +
+            " passes on: the torque of its motor minus the torque that turns its rotor");
   }
   foot_columns_ = columns_.size();
   for (const Foot& foot : feet_) {
@@ -104,9 +106,10 @@ void LoadMeter::add_columns(const Scenario& scenario) {
     };
     if (forces_) {
       for (const char* const axis : {"fx", "fy", "fz"}) of_foot(axis, "N", "force of the ground, world axes, on ");
-      for (const char* const axis : {"x", "y", "z"}) of_foot(axis, "m", "where the normal forces act, world axes, on ");
+      for (const char* const axis : {"x", "y", "z"})
+        of_foot(axis, "m", "point at which the normal forces act, world axes, on ");
     }
-    of_foot("slid", "m", "way slid under load, from t = 0, of ");
+    of_foot("slid", "m", "distance slid under load, from t = 0, of ");
   }
 }
 

@@ -97,7 +97,7 @@ class Plant {
   /// hinge that is not stuck, and the time that each has been stuck, s, at most HingeHold::kRamp, after which its hold no
   /// longer grows. Index joint * lanes + lane. Called between steps. The default refuses this.
   virtual void change_joints(In /*hold*/, In /*since*/) {
-    throw std::logic_error("this engine takes no faults of motors and hinges");
+    throw std::logic_error("this engine cannot simulate faults of motors and hinges");
   }
   /// nullptr if the actuator evaluates its laws itself.
   [[nodiscard]] virtual MotorLaws* motor_laws() { return nullptr; }

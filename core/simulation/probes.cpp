@@ -45,7 +45,7 @@ void Probes::add_all(const Scenario& scenario, const std::vector<ContactElement>
                      std::string_view command_unit) {
   const Robot& robot = *scenario.robot;
   add("t", "s", "time", sample_.t);
-  if (!scenario.changes.empty()) add("segment", "", "number of changes (section at) up to t, exclusive", sample_.segment);
+  if (!scenario.changes.empty()) add("segment", "", "number of changes (section `at`) before t", sample_.segment);
   const auto faults = [](const Change& change) { return !change.faults.empty(); };
   add_joints(robot, scenario.actuator.entry != nullptr, command_unit, std::ranges::any_of(scenario.changes, faults));
   add_base();
@@ -209,14 +209,14 @@ void Probes::add_energy(const Robot& robot) {
   ledger("electrical", "drawn by the motors", &Ledger::electrical);
   ledger("copper", "lost in the motors' windings", &Ledger::copper);
   ledger("gear", "lost in the gears; negative: created by eq. 2", &Ledger::gear);
-  ledger("stored", "kinetic and potential, less those at the start", &Ledger::stored);
+  ledger("stored", "kinetic and potential, minus the value at the start", &Ledger::stored);
   ledger("contact", "given to the ground along its normal", &Ledger::contact);
-  ledger("friction", "given to the ground along it", &Ledger::friction);
+  ledger("friction", "given to the ground along its surface", &Ledger::friction);
   ledger("stops", "given to the hinge stops", &Ledger::stops);
   if (!std::ranges::all_of(robot.joints, [](const Joint& joint) { return joint.driven(); })) {
     ledger("hinges", "lost in dampers and friction of passive hinges", &Ledger::hinges);
   }
-  add("energy.residual", "J", "electrical less all the others: the integration's error, from t = 0",
+  add("energy.residual", "J", "electrical minus all the others: the error of the integration, from t = 0",
       [](const Sample& s) { return s.ledger.residual(); });
   add_vector("momentum", "N s", "linear momentum, world axes", [](const Sample& s) { return s.sums.momentum; });
   add_vector("angular_momentum", "N m s", "angular momentum about the world origin",
@@ -230,7 +230,7 @@ void Probes::add_wrench(const std::string& name, const std::string& of,
 }
 
 void Probes::add_reactions(const Robot& robot) {
-  add_wrench(kReaction + "base", " from outside on the base, about its frame's origin, world axes; 0 where it floats",
+  add_wrench(kReaction + "base", " from outside on the base, about its frame's origin, world axes; 0 if the base floats",
              [](const Sample& s) -> const Wrench& { return s.reactions.base(); });
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     add_wrench(kReaction + std::to_string(j),
@@ -311,7 +311,7 @@ void Probes::select(const Scenario& scenario) {
   sources_.resize(kept);
   if (!want_reactions_ || scenario.contact.model().element_forces) return;
   throw InputError(scenario.place("trace.columns"),
-                   "reactions follow from contact forces, and contact.law: bullet has impulses, not all of them at contact "
+                   "reactions are computed from contact forces, but contact.law: bullet has impulses, some not at contact "
                    "elements; remove the columns reaction.*, or take contact.law: penalty");
 }
 

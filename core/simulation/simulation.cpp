@@ -337,7 +337,8 @@ Out Simulation::state() {
   if (contact.complete_state) return state_;
   throw InputError(
       scenarios_[0].place("contact.law"),
-      fmt::format("contact.law: {} gives no snapshot: its contact points and boxes are not part of the state", contact.text));
+      fmt::format("contact.law: {} allows no snapshot, because its contact points and boxes are not part of the state",
+                  contact.text));
 }
 
 const Outcome& Simulation::outcome(std::size_t lane) const { return lanes_[lane]->outcome; }

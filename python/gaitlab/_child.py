@@ -30,7 +30,7 @@ def program() -> str:
         folder = os.path.dirname(folder)
     if found := shutil.which("gaitlab"):
         return found
-    raise FileNotFoundError("the program gaitlab is not in PATH; the environment variable GAITLAB may name it")
+    raise FileNotFoundError("the program gaitlab is not in PATH; set the environment variable GAITLAB to its path")
 
 
 def _problem(line: str) -> tuple[str, int, int, str]:

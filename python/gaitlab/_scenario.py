@@ -16,7 +16,7 @@ Plugins = Union[str, Sequence[Union[str, "os.PathLike[str]"]]]
 def trusted(plugins: Plugins) -> tuple[bool, list[str]]:
     """The argument `plugins` as "all of them" and a list of files."""
     if isinstance(plugins, str) and plugins not in ("trust", "refuse"):
-        raise ValueError(f"plugins is 'trust', 'refuse' or a list of files, not {plugins!r}")
+        raise ValueError(f"plugins must be 'trust', 'refuse' or a list of files, not {plugins!r}")
     return plugins == "trust", [] if isinstance(plugins, str) else [path_text(file) for file in plugins]
 
 
@@ -122,7 +122,7 @@ def scenario_of(given: Union[Scenario, str, "os.PathLike[str]"]) -> Scenario:
         return given
     if isinstance(given, (str, os.PathLike)):
         return Scenario(given)
-    raise TypeError(f"a scenario is a gaitlab.Scenario, a path or the name of a shipped one, not {type(given).__name__}")
+    raise TypeError(f"a scenario must be a gaitlab.Scenario, a path or the name of a shipped scenario, not {type(given).__name__}")
 
 
 def _again(path: str, settings: Mapping[str, Any], plugins: Any) -> Scenario:

@@ -84,7 +84,7 @@ class Search(Child):
         another verdict than those of the program, or a point that is not open.
         """
         if not hasattr(rows, "to_dict"):
-            raise TypeError(f"rows is a DataFrame with the index of the table of ask(), not {type(rows).__name__}")
+            raise TypeError(f"rows must be a DataFrame with the index of the table of ask(), not {type(rows).__name__}")
         results: list[dict[str, Any]] = []
         seen: set[int] = set()
         for number, row in zip(rows.index, rows.to_dict("records")):

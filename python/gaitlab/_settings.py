@@ -39,7 +39,7 @@ def text(value: Any) -> str:
         return "{" + ", ".join(f"{_nested(str(key))}: {_nested(one)}" for key, one in value.items()) + "}"
     if isinstance(value, Iterable):
         return "[" + ", ".join(_nested(one) for one in value) + "]"
-    raise TypeError(f"a setting is a number, a text, a list or a mapping, not {type(value).__name__}")
+    raise TypeError(f"a setting must be a number, a text, a list or a mapping, not {type(value).__name__}")
 
 
 def mapping(settings: Optional[Mapping[str, Any]]) -> dict[str, Any]:
@@ -54,7 +54,7 @@ def mapping(settings: Optional[Mapping[str, Any]]) -> dict[str, Any]:
 def check_range(name: str, value: Any, low: int, high: int) -> None:
     """Raises TypeError for another value than a whole number, and ValueError for one outside the range."""
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)):
-        raise TypeError(f"{name} is a whole number from {low} to {high}, not {type(value).__name__}")
+        raise TypeError(f"{name} must be a whole number from {low} to {high}, not {type(value).__name__}")
     if not low <= value <= high:
         raise ValueError(f"{name} is {value}; expected {low} to {high}")
 
@@ -71,7 +71,7 @@ def path_text(path: Any) -> str:
     """A path as the program gets it. Raises ValueError for a null character, at which the path would end."""
     text_of_path = os.fsdecode(path)
     if "\0" in text_of_path:
-        raise ValueError(f"{text_of_path!r} has a null character; expected a path without")
+        raise ValueError(f"{text_of_path!r} has a null character; expected a path without one")
     return text_of_path
 
 

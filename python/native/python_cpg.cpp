@@ -120,7 +120,7 @@ std::size_t states_of(const py::object& given) {
 void expect_filled(const char* method, const py::object& returned, const py::object& argument, const char* name) {
   if (returned.is(argument) || !(py::isinstance<py::array>(returned) || py::isinstance<py::list>(returned))) return;
   throw std::runtime_error(std::string(method) + "() returned " + text_of(py::type::of(returned).attr("__name__")) +
-                           "; expected that it fills its argument, as in " + name + "[:] = ...");
+                           "; expected a method that fills its argument, as in " + name + "[:] = ...");
 }
 
 /// The object, its methods (None for a missing one) and the arrays that the methods get.
@@ -186,7 +186,8 @@ class PythonCpg final : public Cpg {
       expect_filled("output", bound_->output(t, bound_->x.of(x), setpoints), setpoints, "setpoint");
       bound_->setpoint.take(setpoint);
       if (!setpoint.empty() && std::ranges::all_of(setpoint, [](double one) { return std::isnan(one); }))
-        throw std::runtime_error("output() filled no set point; expected that it fills its argument, as in setpoint[:] = ...");
+        throw std::runtime_error(
+            "output() filled no set point; expected a method that fills its argument, as in setpoint[:] = ...");
     });
   }
 

@@ -59,7 +59,8 @@ std::shared_ptr<ReadFile> read_again(ReadFile& before) {
   apart([&] {
     if (without_cpg(read->with({})) != without_cpg(before.with({}))) {
       throw InputError(SourceLocation{before.path},
-                       "has changed since the scenario was read, or a file that it names has; read it again: gaitlab.Scenario");
+                       "has changed since the scenario was read, or a file that it names has changed; read the scenario again: "
+                       "gaitlab.Scenario");
     }
   });
   return read;

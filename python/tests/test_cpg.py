@@ -127,9 +127,9 @@ class Exceptions(unittest.TestCase):
         for method, returned in (("output", "ndarray"), ("derivative", "list")):
             outcome = self.outcome("test_returns_" + method, states=1, event=leave,
                                    **{method: lambda self, *arguments: np.zeros(9) if returned == "ndarray" else [1]})
-            self.assertRegex(outcome, rf"{method}\(\) returned {returned}; expected that it fills its argument")
+            self.assertRegex(outcome, rf"{method}\(\) returned {returned}; expected a method that fills its argument")
         outcome = self.outcome("test_fills_none", output=lambda self, t, x, setpoint: None)
-        self.assertRegex(outcome, r"output\(\) filled no set point; expected that it fills its argument, as in setpoint\[:\]")
+        self.assertRegex(outcome, r"output\(\) filled no set point; expected a method that fills its argument, as in setpoint\[:\]")
         with self.assertRaisesRegex(TypeError, r"Made has states, but no derivative\(m, x, rate\) and no event\(m, x\)"):
             register("test_states", states=1)
         with self.assertRaisesRegex(TypeError, r'gaitlab.cpg\("test_none"\) decorates a class, not int'):

@@ -139,7 +139,7 @@ class Rows(unittest.TestCase):
             with self.subTest(name), self.assertRaisesRegex(ValueError, f"^{name} is {value}; expected {low} to {high}$"):
                 gaitlab.rollouts(caterpillar(), [{}], **{name: value})
         for value in (1.5, "2", True):
-            with self.subTest(value), self.assertRaisesRegex(TypeError, "^threads is a whole number from 1 to 1024, not "):
+            with self.subTest(value), self.assertRaisesRegex(TypeError, "^threads must be a whole number from 1 to 1024, not "):
                 gaitlab.rollouts(caterpillar(), [{}], threads=value)
 
     def test_progress_and_its_exception(self):

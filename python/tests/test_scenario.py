@@ -45,7 +45,7 @@ class Errors(InFolder):
     def test_a_path_or_name_is_a_scenario(self):
         self.assertEqual(gaitlab.run("pendulum", loads=False).name, "pendulum")
         self.assertEqual(gaitlab.rollouts("pendulum", [{"duration": 0.1}]).outcome, ["done"])
-        with self.assertRaisesRegex(TypeError, "a scenario is a gaitlab.Scenario, a path or the name of a shipped one, not int"):
+        with self.assertRaisesRegex(TypeError, "a scenario must be a gaitlab.Scenario, a path or the name of a shipped scenario"):
             gaitlab.run(3)
 
     def test_arguments_of_another_type(self):

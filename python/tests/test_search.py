@@ -194,7 +194,7 @@ class Search(InFolder):
                     search.tell(points.assign(**{"objective": 1.0, column: value}))
             with self.assertRaisesRegex(ValueError, "point 0 is not open"):
                 search.tell(pandas.concat([points[:1], points[:1]]).assign(objective=1.0))
-            with self.assertRaisesRegex(TypeError, "rows is a DataFrame"):
+            with self.assertRaisesRegex(TypeError, "rows must be a DataFrame"):
                 search.tell([{"objective": 1}])
             with self.assertRaisesRegex(ValueError, "the table has no column objective; expected objective, or objective.1$"):
                 search.tell(points)

@@ -156,16 +156,15 @@ void add_cures(const Remedy& remedy, Lines& lines) {
     lines.add("the present motion also needs " + rating + ", which alone does not suffice");
 }
 
-/// Reason of a refusal without the value that the line states: `allowed are 0 to 1.5 rad` of `amplitude is 2 rad; allowed are
-/// 0 to 1.5 rad`.
+/// Reason of a refusal without the value that the line states: `expected 0 to 1.5 rad` of `amplitude is 2 rad; expected 0 to
+/// 1.5 rad`.
 std::string reason(const std::string& refused) {
-  for (const char* const expectation : {"; allowed ", "; expected "}) {
-    if (const std::size_t end = refused.find(expectation); end != std::string::npos) return refused.substr(end + 2);
-  }
-  return refused;
+  constexpr std::string_view kExpected = "; expected ";
+  const std::size_t end = refused.find(kExpected);
+  return end == std::string::npos ? refused : refused.substr(end + 2);
 }
 
-/// `amplitude is tried only up to 1.196 rad, because 1.894 rad is refused: allowed are 0 to 1.5 rad`
+/// `amplitude is tried only up to 1.196 rad, because 1.894 rad is refused: expected 0 to 1.5 rad`
 std::string refusal(const Remedy& remedy, const RemedyAnswer& answer) {
   const RemedyKey& key = *answer.key;
   return fmt::format("{} {} tried only {} {}, because {} is refused: {}", subject(key), key.paths.size() > 1 ? "are" : "is",

@@ -149,7 +149,7 @@ void Database::fail(int code) const {
     case SQLITE_NOMEM:
       throw std::bad_alloc();
     default:
-      throw RunError(file_.string() + ": cannot be written: " + text + "; what is in it stays");
+      throw RunError(file_.string() + ": cannot be written: " + text + "; its content is kept");
   }
 }
 

@@ -155,7 +155,7 @@ void BoundStudy::find_columns(const QuantityOffer& offer) {
   constexpr std::size_t kMostColumns = 400;
   if (columns_.size() > kMostColumns) {
     problems_.add(study_.quantities_place,
-                  fmt::format("the journal would have {} columns of quantities; allowed are up to {}: name fewer joints",
+                  fmt::format("the journal would have {} columns of quantities; expected at most {}: name fewer joints",
                               columns_.size(), kMostColumns));
   }
 }
@@ -217,18 +217,19 @@ void BoundStudy::check_stops() {
 void BoundStudy::check_engines(const Catalog& catalog, std::vector<Problems>& found) const {
   const std::string& engine = study_.verify.engine;
   if (study_.verify.faults == VerifyFaults::each && scenarios_.size() > 1) {
-    found[0].add(study_.verify.place,
-                 "verify.faults is each, and the study has several scenarios; expected one, or faults: none");
+    found[0].add(
+        study_.verify.place,
+        "`verify.faults: each` tests one scenario, but the study has several; expected one scenario, or `faults: none`");
   }
   for (std::size_t s = 0; s < scenarios_.size(); ++s) {
     if (study_.verify.faults == VerifyFaults::each && !scenarios_[s].nominal.changes.empty()) {
       found[s].add(study_.verify.place,
-                   "verify.faults is each, and the scenario has a section at; expected a scenario without one, or "
-                   "faults: none");
+                   "`verify.faults: each` needs a scenario without a section `at`, but this one has one; expected another "
+                   "scenario, or `faults: none`");
     }
     if (scenarios_[s].nominal.physics.engine->name == engine) {
       found[s].add(study_.verify.place,
-                   fmt::format("verify.engine {} is the engine of the study itself; expected another, or none: known are {}",
+                   fmt::format("verify.engine is {}, the engine of the study itself; expected another, or `none`; engines: {}",
                                engine, fmt::join(catalog.engines(), ", ")));
     }
   }

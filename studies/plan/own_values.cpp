@@ -39,11 +39,11 @@ OwnValue own_value(const Node* node, const Parameter& p) {
   if (!p.values.empty()) {
     const bool listed = std::ranges::find(p.values, text) != p.values.end();
     return listed ? OwnValue{text, ""}
-                  : OwnValue{"", "is " + clipped(text) + " in the scenario, which is not among its values"};
+                  : OwnValue{"", "is " + clipped(text) + " in the scenario, not one of the parameter's values"};
   }
   if (!number.ok()) return {"", "is not a number in the scenario"};
   if (number.value >= p.low && number.value <= p.high) return {std::move(text), ""};
-  return {"", fmt::format("is {} in the scenario, outside of its range", text)};
+  return {"", fmt::format("is {} in the scenario, outside the parameter's range", text)};
 }
 
 }  // namespace

@@ -147,7 +147,7 @@ Answers::Answers(const Plan& plan, std::filesystem::path file, const std::string
   const auto refuse = [&](const std::string& what) { throw InputError(SourceLocation{file.string()}, what); };
   if (head.build != build && taken == Journal::Build::same) {
     refuse("was written by another build, which may give other numbers: " + head.build + ", and this is " + build +
-           "; take its answers all the same with --accept-build");
+           "; use its answers anyway with --accept-build");
   }
   if (head.told) refuse("has results that another program gave; expected the journal of simulated runs");
   if (stop_lines(head.definition) != stop_lines(definition(plan.bound())))

@@ -32,7 +32,7 @@ std::string value_of(const Json& value, const Parameter& p, Question& question, 
   if (p.values.empty() ? number >= p.low && number <= p.high : listed) return text;
   const std::string allowed =
       p.values.empty() ? fmt::format("{} to {}", number_text(p.low), number_text(p.high)) : joined(p.values);
-  if (question.refused.empty()) question.refused = fmt::format("{} is {}; allowed are {}", p.key, clipped(text), allowed);
+  if (question.refused.empty()) question.refused = fmt::format("{} is {}; expected {}", p.key, clipped(text), allowed);
   return text;
 }
 

@@ -37,7 +37,7 @@ struct EnumNames<studies::Method> {
       {morris, "morris", "importance of the parameters by elementary effects"},
       {sobol_indices, "sobol_indices", "importance of the parameters by shares of the variance"},
       {scbo, "scbo", "search by Gaussian processes in a trust region", true, 1, 1000, 1, false, false},
-      {cma_gp, "cma_gp", "CMA-ES whose points Gaussian processes choose among six times as many", true, 5, 1000, 1, false,
+      {cma_gp, "cma_gp", "CMA-ES with points that Gaussian processes choose among six times as many", true, 5, 1000, 1, false,
        false, true},
       {cma, "cma", "CMA-ES", true, 5, 10000, 1, false, true, true},
       {xnes, "xnes", "exponential natural evolution strategy", true, 5, 10000, 1, false, true, true},

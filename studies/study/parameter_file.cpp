@@ -204,7 +204,7 @@ void read_law(const Node& node, Variation& v, Problems& problems) {
   } else {
     v.law = Variation::Law::values;
     read_values(*values, v.key + ".values", v.values, v.words, problems);
-    if (v.times && v.words) problems.add(values->place, v.key + ": words cannot be times a value");
+    if (v.times && v.words) problems.add(values->place, v.key + ": words cannot multiply a value");
   }
 }
 
@@ -288,7 +288,7 @@ void read_range(const std::vector<std::string>& parts, bool drawn, Parameter& pa
   if (count.ok() && count.value >= 2 && count.value <= 1000000000) {
     parameter.count = count.value;
   } else {
-    problems.add(parameter.place, count.ok() ? "N is " + parts[2] + "; allowed are 2 to 1e9" : "N " + count.wrong);
+    problems.add(parameter.place, count.ok() ? "N is " + parts[2] + "; expected 2 to 1e9" : "N " + count.wrong);
   }
 }
 

@@ -99,9 +99,9 @@ void check_size(const Study& study, Problems& problems) {
   const auto blocks = static_cast<double>(study.method == Method::morris ? study.trajectories : study.samples);
   const double runs_of_blocks = blocks * static_cast<double>((study.parameters.size() + 2) * study.runs_of_point());
   if (study.of_sensitivity() && runs_of_blocks > kMostRuns)
-    problems.add(study.place, fmt::format("the study has {:.3g} runs; allowed are up to {:g}", runs_of_blocks, kMostRuns));
+    problems.add(study.place, fmt::format("the study has {:.3g} runs; expected at most {:g}", runs_of_blocks, kMostRuns));
   if (study.method == Method::grid && runs > kMostRuns)
-    problems.add(study.place, fmt::format("the grid has {:.3g} runs; allowed are up to {:g}", runs, kMostRuns));
+    problems.add(study.place, fmt::format("the grid has {:.3g} runs; expected at most {:g}", runs, kMostRuns));
 }
 
 /// Reason why the number of runs of a study is impossible; empty if it is possible.

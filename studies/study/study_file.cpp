@@ -131,9 +131,10 @@ Explainer study_keys() {
   std::string scenario;
   explainer.row("gaitlab_study", "", "1", "1", "Format version; this key marks a file as a study.");
   PlainKeys{study, scenario}.fields(explainer);
-  explainer.row("scenarios", "", "", "{NAME: FILE, ...}",
-                "Several scenarios instead of `scenario`: every point runs in each, with a row each; `combine` of `replicates` "
-                "sets how their results are combined.");
+  explainer.row(
+      "scenarios", "", "", "{NAME: FILE, ...}",
+      "Several scenarios instead of `scenario`: every point runs in each of them, in separate rows; `combine` of `replicates` "
+      "sets how their results are combined.");
   explainer.row("parameters", "", "required", "", "Keys of the scenario, as for --set, that change from point to point.");
   explainer.row("  KEY.low", "", "", "", "Least value, in the unit of the scenario's key.");
   explainer.row("  KEY.high", "", "", "above low", "Largest value.");
@@ -158,8 +159,8 @@ Explainer study_keys() {
                 "points that no other point beats in all objectives.");
   explainer.row("constraints", "", "[]", "texts a <= b, a >= b or a == b", "Conditions that a point must satisfy.");
   explainer.row("guards", "", "verdict", "verdict, none or {CHECK: LIMIT, CHECK: {margin: M}, CHECK: true or false}",
-                "Checks of the verdict that a point must pass. verdict: the verdict must be `feasible`. Checks by id are added "
-                "to it or change it: another limit, a least margin, true (required) or false (ignored).");
+                "Checks of the verdict that a point must pass. verdict: the verdict must be `feasible`. Checks by id extend or "
+                "change this: another limit, a least margin, true (required) or false (ignored).");
   explainer.row("stop", "", "[]", "texts EXPRESSION or EXPRESSION after SECONDS",
                 "Rules that end a run early, evaluated once every simulated second on quantities of the run so far: fell, or "
                 "those of a joint.");
@@ -237,7 +238,7 @@ void read_scenario_keys(Reader& reader, const Node& root, Study& study, Problems
   const Node* node = reader.take("scenarios");
   if (node == nullptr) return;
   read_named_scenarios(*node, study, problems);
-  if (reader.has("scenario")) problems.add(node->place, "the study has scenario and scenarios; expected one or the other");
+  if (reader.has("scenario")) problems.add(node->place, "the study has `scenario` and `scenarios`; expected one of them");
 }
 
 /// Reads the replicates, which a robust study sets itself.
@@ -245,9 +246,9 @@ void read_worlds(Reader& reader, Study& study, Problems& problems) {
   if (const Node* node = reader.take("replicates")) {
     read_replicates(*node, study.replicates, problems);
     if (study.robust) {
-      problems.add(node->place,
-                   "robust: true makes the worlds of a point its replicates, and replicates are given, too; "
-                   "expected one of them");
+      problems.add(
+          node->place,
+          "`robust: true` makes the worlds of a point its replicates, but `replicates` is also given; expected one of them");
     }
   }
   if (study.robust) study.replicates = in_worlds();

@@ -63,7 +63,8 @@ struct VerifyKeys {
   void fields(Fields& f) {
     f.integer(
         "best", verify.best,
-        {"", 1, 100, "Number of best points to verify. If none stands, the next best follow, up to four times this number."});
+        {"", 1, 100,
+         "Number of best points to verify. If none is verified, the next best points follow, up to four times this number."});
     f.flag(
         "halve_step", verify.halve_step,
         "Simulate these points again with half the step (with half of physics.accuracy if the integrator chooses its steps).");

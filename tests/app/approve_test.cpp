@@ -19,7 +19,7 @@ class ApproveCommand : public GoldenCommand {};
 TEST_F(ApproveCommand, ApproveShowsTheChangeAndWantsAReason) {
   const std::string before = bytes("good.golden");
   const std::string wanted =
-      "; expected a sentence for the golden's history with the reason why these numbers are right. Nothing was written\n";
+      "; expected a sentence for the golden's history: why these numbers are right. Nothing was written\n";
   Result result = call("approve good.yaml");
   EXPECT_EQ(result.code, 2);
   EXPECT_EQ(result.out, "since approval 1 (first golden):\n  nothing has changed\n");
@@ -90,7 +90,7 @@ TEST_F(ApproveCommand, ApproveLooksAtItsTargetFirst) {
   folder.write("new.yaml", kCaterpillar);
   folder.write("new.golden", "a file");
   expect_refused("approve new.yaml --reason 'mine'",
-                 "new.golden: error: is not a folder, but a golden is a folder; move this file away");
+                 "new.golden: error: is a file, but a golden is a folder; move this file away");
   fs::remove(folder / "good.golden/golden.json");
   expect_refused("approve good.yaml --reason 'made anew'",
                  "good.golden/golden.json: error: is missing: the golden is incomplete; the golden is unchanged. gaitlab "

@@ -72,7 +72,7 @@ TEST_F(CompareCommand, SettingsNumbersAndWorstColumns) {
                 "column             RMS   max  RMS/range  max/range  from t =  late by\n"
                 "m0/active angle  0.289   0.5     14.4 %       25 %     0.5 s        -\n"
                 "base.x           0.144  0.25     7.22 %     12.5 %       1 s        -\n"
-                "1 of 3 columns are equal to the bit in 3 rows\n"
+                "1 of 3 columns are bit-equal in the 3 rows compared\n"
                 "first column to diverge: m0/active angle at t = 0.5 s\n");
 }
 
@@ -82,7 +82,7 @@ TEST_F(CompareCommand, NamesOfJoints) {
   make_run("a", trace, R"({"joints": ["m0/active", "m0/passive"]})");
   make_run("b", "t,joint.0.angle,joint.1.angle\n0,0,0\n0.5,2,3\n", R"({"joints": ["m0/active", "m1/active"]})");
   Result result = compare("a b");
-  EXPECT_NE(result.out.find("\nthe robots have other joints (2 and 2); columns are matched by their numbers alone\n"),
+  EXPECT_NE(result.out.find("\nthe robots have different joints (2 and 2); columns are matched only by their numbers\n"),
             std::string::npos)
       << result.out;
   EXPECT_NE(result.out.find("\nm0/active angle "), std::string::npos) << result.out;
@@ -130,7 +130,7 @@ TEST_F(CompareCommand, ColumnsAndTraceFiles) {
                 "\n"
                 "column    RMS  max  RMS/range  max/range  from t =  late by\n"
                 "base.x  0.707    1     70.7 %      100 %     0.5 s        -\n"
-                "0 of 1 columns are equal to the bit in 2 rows\n"
+                "0 of 1 columns are bit-equal in the 2 rows compared\n"
                 "first column to diverge: base.x at t = 0.5 s\n");
   expect_report("b.csv b.csv",
                 "A: b.csv (3 rows)\n"
@@ -140,7 +140,7 @@ TEST_F(CompareCommand, ColumnsAndTraceFiles) {
                 "\n"
                 "summary numbers: not compared, because a trace file contains none\n"
                 "\n"
-                "3 of 3 columns are equal to the bit in 3 rows\n");
+                "3 of 3 columns are bit-equal in the 3 rows compared\n");
   expect_refused("a b.csv --columns base.z --columns 'joint.*' --columns nonsense",
                  "--columns: error: 'base.z' matches no column of either trace; did you mean 'base.x'?\n"
                  "--columns: error: 'nonsense' matches no column of either trace");
@@ -204,7 +204,7 @@ TEST_F(Formats, HoldTheSameTrace) {
   EXPECT_EQ(hash(read_csv(folder / "csv/trace.csv")), hash(stored.trace));
   const Result result = gaitlab_here("compare h5 csv");
   EXPECT_NE(result.out.find("\nsettings: the same\n\nsummary"), std::string::npos) << result.out;
-  EXPECT_TRUE(result.out.ends_with(" columns are equal to the bit in 21 rows\n")) << result.out;
+  EXPECT_TRUE(result.out.ends_with(" columns are bit-equal in the 21 rows compared\n")) << result.out;
   EXPECT_EQ(result.out.find("column "), std::string::npos) << result.out;
 }
 

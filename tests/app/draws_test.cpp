@@ -77,7 +77,7 @@ TEST_F(DrawnRobots, NeedSomethingToDraw) {
   const Result none = call("run walk.yaml --set tolerances={} --draws 4 --out none");
   EXPECT_EQ(none.code, 2);
   EXPECT_TRUE(
-      contains(none.err, "--draws: error: the seed changes nothing: no tolerance or sensor draws, and no set points are lost"))
+      contains(none.err, "--draws: error: the seed has no effect, because no tolerance, sensor or lost set point is drawn"))
       << none.err;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "none"));
   const Result stated = call("run walk.yaml --set as_built={mass:\\ 1} --draws 1 --no-report --out stated");

@@ -54,10 +54,9 @@ TEST_F(Evaluate, AnswersWithTheFiguresOfTheJournal) {
   EXPECT_EQ(result.err, "");
   const auto all = answers(result);
   ASSERT_EQ(all.size(), 4U);
-  EXPECT_EQ(
-      result.out.substr(0, result.out.find('\n')),
-      R"({"id":7,"run":null,"outcome":"refused","message":"cpg.phase_lag is 0.30000000000000004; allowed are 0.5 to 1.5",)"
-      R"("figures":{},"margins":{},"objective":[null],"violation":null,"kept":false,"feasible":false})");
+  EXPECT_EQ(result.out.substr(0, result.out.find('\n')),
+            R"({"id":7,"run":null,"outcome":"refused","message":"cpg.phase_lag is 0.30000000000000004; expected 0.5 to 1.5",)"
+            R"("figures":{},"margins":{},"objective":[null],"violation":null,"kept":false,"feasible":false})");
   EXPECT_EQ(all[1].at("id"), "a\u00e9");
   EXPECT_EQ(all[1].at("outcome"), "done");
   EXPECT_EQ(all[1].at("run"), 0);

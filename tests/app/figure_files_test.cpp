@@ -28,10 +28,9 @@ class FigureFiles : public ::testing::Test {
   void refused(const std::string& arguments, const std::string& file) {
     const Result result = figure(arguments);
     EXPECT_EQ(result.code, 2);
-    EXPECT_EQ(result.err,
-              file +
-                  ": error: exists with other columns than this figure has; move it away, or name another file with "
-                  "--csv FILE.csv. Nothing was written\n");
+    EXPECT_EQ(result.err, file +
+                              ": error: has other columns than this figure, and is not replaced; move it away, or name another "
+                              "file with --csv FILE.csv. Nothing was written\n");
     EXPECT_EQ(read(folder / file), kMine);
   }
   const std::string kMine = "t,x\n0,1\n";

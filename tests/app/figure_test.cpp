@@ -53,8 +53,8 @@ TEST_F(PaperFigure, RecipesAreReadStrictly) {
           "figure.yaml:6:7: error: size is 'ieee-colum'; expected ieee-column, ieee-page, a width in mm or [width, height] in "
           "mm; did you mean "
           "'ieee-column'?");
-  refused(kTwin + "size: [88.9, 5]\n", "figure.yaml:6:14: error: size[1], the height, is 5 mm; allowed are 20 to 500 mm");
-  refused(kTwin + "size: 8\n", "figure.yaml:6:7: error: size, the width, is 8 mm; allowed are 20 to 500 mm");
+  refused(kTwin + "size: [88.9, 5]\n", "figure.yaml:6:14: error: size[1], the height, is 5 mm; expected 20 to 500 mm");
+  refused(kTwin + "size: 8\n", "figure.yaml:6:7: error: size, the width, is 8 mm; expected 20 to 500 mm");
   refused(kTwin + "size: [88.9, 20]\n", "figure.yaml:6:14: error: a height of 20 mm is too small: the panels need 26 mm");
   refused(kRuns + "panels: [{kind: curve, left: {columns: [com.x]}}]\n",
           "figure.yaml:2:17: error: kind 'curve' is unknown; did you mean 'curves'?");
@@ -86,7 +86,7 @@ TEST_F(PaperFigure, RecipesAreReadStrictly) {
   refused(kRuns + "panels: [{motor: m0/activ, left: {columns: [com.x]}}]\n",
           "figure.yaml:2:18: error: no joint 'm0/activ'; did you mean 'm0/active'?");
   refused("runs: {a: run, b: run}\npanels: [{motor: m0/active, left: {columns: [com.x]}}]\n",
-          "figure.yaml:2:18: error: motor shows limits in the panel of one run; expected runs: [NAME]");
+          "figure.yaml:2:18: error: `motor` needs a panel with one run; expected `runs: [NAME]`");
   refused("runs: {creep: walk}\npanels: [{left: {columns: [com.x]}}]\n",
           "figure.yaml:1:15: error: run 'creep': walk does not exist; simulate it first, or name its folder with --run "
           "creep=FOLDER");
@@ -103,7 +103,7 @@ TEST_F(PaperFigure, AStretchThatTheRunDoesNotHold) {
   refused(kRuns + "panels: [{kind: heat, from: 0.101, to: 0.102}]\n",
           "figure.yaml:2:29: error: the run has fewer than two rows from 0.101 s to 0.102 s; expected a longer interval");
   refused(kRuns + "panels: [{kind: heat, from: 0.2, to: 0.1}]\n",
-          "figure.yaml:2:38: error: to is 0.1 s, not behind from, 0.2 s");
+          "figure.yaml:2:38: error: to is 0.1 s, not after from, 0.2 s");
 }
 
 TEST_F(PaperFigure, HingesWithoutAMotorAreLeftOut) {

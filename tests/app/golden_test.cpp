@@ -302,8 +302,8 @@ TEST_F(GoldenCommand, LineEndsThatGitChanged) {
   const Result result = call("test good.yaml");
   EXPECT_EQ(result.code, 2);
   EXPECT_EQ(result.err,
-            "good.golden/golden.json: error: has other line ends than it was written with; `*.golden/** -text` in "
-            ".gitattributes keeps them\n");
+            "good.golden/golden.json: error: has other line ends than when it was written; `*.golden/** -text` in "
+            ".gitattributes preserves them\n");
 }
 
 }  // namespace

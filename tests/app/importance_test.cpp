@@ -32,7 +32,7 @@ TEST_F(ImportanceText, NamesTheParameterThatDecides) {
       "  cpg.amplitude                 97 %  89 %  0.052 to 0.23 (19 % of the range)\n";
   EXPECT_TRUE(contains(text, expected)) << importance_of(text);
   EXPECT_TRUE(contains(text, "cpg.amplitude: kept points lie within 0.052 to 0.23 (19 % of its range), and 0 of ")) << text;
-  EXPECT_TRUE(contains(text, " points beyond are kept: narrow the range\n")) << text;
+  EXPECT_TRUE(contains(text, " points outside are kept: narrow the range\n")) << text;
   EXPECT_FALSE(contains(text, "cpg.phase_lag: kept points lie within")) << text;
 }
 

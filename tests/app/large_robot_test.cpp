@@ -37,7 +37,7 @@ TEST_F(LargeRobot, OfTwentyThousandModulesIsRefusedBeforeItCosts) {
   chain(20'000, "physics: {engine: articulated}\n");
   const Result result = check(limits);
   EXPECT_EQ(result.code, 2);
-  EXPECT_EQ(result.err, "s.yaml:2:8: error: the robot has 60000 bodies; allowed are up to 40000, which take 2 GB of memory\n");
+  EXPECT_EQ(result.err, "s.yaml:2:8: error: the robot has 60000 bodies; expected at most 40000, which take 2 GB of memory\n");
   chain(6'000, "");
   EXPECT_EQ(
       check(limits).err,

@@ -94,8 +94,8 @@ TEST_F(Messages, AValueOfAnotherKind) {
           "gaitlab test: error: SCENARIO is empty; expected scenario files, names of `gaitlab list scenarios`, or folders "
           "(default: scenarios)");
   refused("report ''",
-          "gaitlab report: error: RUN is empty; expected run folder, or two, A and B: a page shows B over A, compare.html in "
-          "the folder of A");
+          "gaitlab report: error: RUN is empty; expected run folder, or two, A and B: the page compare.html in folder A shows "
+          "B over A");
   refused("run ok.yaml --quiet=5x", "gaitlab run: error: --quiet is given '5x'; expected no value");
 }
 
@@ -106,7 +106,7 @@ TEST_F(Messages, AnOptionWithoutItsValueTwiceOrBesideAnother) {
   refused("run ok.yaml --out a --out b", "gaitlab run: error: --out is given 2 times; expected once");
   refused("converge ok.yaml -j",
           "gaitlab converge: error: -j has no value; expected one after it: a whole number from 1 to 1024");
-  refused("rerun x --verify --out y", "gaitlab rerun: error: found --out and --verify together; expected one of them alone");
+  refused("rerun x --verify --out y", "gaitlab rerun: error: found --out and --verify together; expected only one of them");
 }
 
 TEST_F(Messages, ATabInTheIndentation) {
@@ -132,8 +132,8 @@ TEST_F(Messages, ACommaThatEndsAnEquation) {
   refused_text(
       "gaitlab: 1\nrobot: {modules: mtran}\nduration: 1\n"
       "cpg: {type: equations, model: {states: {a: max(1, 2)}, output: a}}\n",
-      "s.yaml:4:44: error: a 'max(1' ends within a bracket: in { } a comma ends the text; put it in quotes, or on a "
-      "line of its own");
+      "s.yaml:4:44: error: a 'max(1' ends within a bracket: in { } a comma ends the text; put the text in quotes, or on a "
+      "separate line");
 }
 
 TEST_F(Messages, WhatWasTypedIsNamed) {
@@ -201,13 +201,13 @@ TEST_F(Messages, TheNameOfARobotIsAFileOfIt) {
 TEST_F(Messages, AControllerForTheTorqueActuator) {
   const Result result = call("check ok.yaml --set actuator.type=torque");
   EXPECT_EQ(result.code, 2);
-  EXPECT_TRUE(contains(result.err, "a controller of its own: controller: {unit: N m, Kp: ...}")) << result.err;
+  EXPECT_TRUE(contains(result.err, "add for example controller: {unit: N m, Kp: ...}")) << result.err;
 }
 
 TEST_F(Messages, AFolderIsNotARobotToExport) {
   ASSERT_EQ(call("run ok.yaml --quiet --out run").code, 0);
   refused("export run --to mjcf a.xml",
-          "run: error: is a folder; --to mjcf needs a scenario file, for a run folder its scenario.resolved.yaml");
+          "run: error: is a folder, but --to mjcf needs a scenario file; a run folder contains scenario.resolved.yaml");
 }
 
 TEST_F(Messages, OnlyMjcfIsStrict) {
@@ -224,7 +224,7 @@ TEST_F(Messages, ContactsThatMjcfCannotHold) {
       << soft.err;
   const Result deep = call("export '" + kScenarios + "library/linkbot-drive.yaml'" + robot + "1000 --set contact.exponent=3");
   EXPECT_EQ(deep.code, 2);
-  EXPECT_TRUE(contains(deep.err, "error: spheres of 0.01 m are 0.108 m deep in the ground")) << deep.err;
+  EXPECT_TRUE(contains(deep.err, "error: spheres of 0.01 m sink 0.108 m into the ground")) << deep.err;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "a.xml"));
 }
 

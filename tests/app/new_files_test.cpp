@@ -97,9 +97,9 @@ TEST_F(NewFiles, EveryModuleWithAMotorGetsAFeasibleGait) {
   for (const auto& [name, file] : shipped_files("module")) {
     const Result made = call("scenario s --module " + name);
     if (name == "revolve_brick" || name == "revolve_core") {
-      EXPECT_EQ(made.err, file + ": error: module '" + name +
-                              "' has no hinge with a motor, and a gait needs one; dock it to modules that have one, in the "
-                              "scenario of such a module\n");
+      EXPECT_EQ(made.err,
+                file + ": error: module '" + name +
+                    "' has no hinge with a motor, but a gait needs one; dock it to modules that have one, in their scenario\n");
       continue;
     }
     ASSERT_EQ(made.code, 0) << name << made.err;
@@ -214,7 +214,7 @@ TEST_F(NewFiles, AModuleWithFeetAloneStandsOnThem) {
 
 TEST_F(NewFiles, AModuleWithFaultsIsRefusedWithThem) {
   folder.write("bad.yaml", "gaitlab_module: 1\nname: bad\nbodies: {b: {mass: -1}}\n");
-  EXPECT_EQ(refused("scenario walk --module bad.yaml"), "bad.yaml:3:20: error: mass is -1 kg; allowed are at least 0 kg\n");
+  EXPECT_EQ(refused("scenario walk --module bad.yaml"), "bad.yaml:3:20: error: mass is -1 kg; expected at least 0 kg\n");
   EXPECT_FALSE(std::filesystem::exists(folder / "walk.yaml"));
 }
 

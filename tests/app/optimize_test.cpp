@@ -62,8 +62,8 @@ TEST_F(Optimize, ABestThatStandsHasItsFolder) {
   EXPECT_TRUE(contains(fewer.err, "o: note: has runs up to number 23, beyond the budget of 20; all of them count\n"))
       << fewer.err;
   EXPECT_TRUE(contains(fewer.err,
-                       "s.yaml:4:14: note: the search does not begin with the scenario's own gait: cpg.amplitude is 0.6 in "
-                       "the scenario, outside of its range\n"))
+                       "s.yaml:4:14: note: the search does not begin with the scenario's own gait: cpg.amplitude is 0.6 in the "
+                       "scenario, outside the parameter's range\n"))
       << fewer.err;
   EXPECT_NE(fewer.out.find("24 of 24 runs ended"), std::string::npos) << fewer.out;
 }
@@ -98,8 +98,8 @@ TEST_F(Optimize, FaultsNeedAScenarioWithoutChanges) {
       "{cpg.frequency: 1}}]']\nverify: {faults: each}\nbudget: {runs: 16}\n");
   const Result result = call("optimize s.yaml --dry-run");
   EXPECT_EQ(result.code, 2);
-  EXPECT_NE(result.err.find("verify.faults is each, and the scenario has a section at; expected a scenario without one, "
-                            "or faults: none"),
+  EXPECT_NE(result.err.find("`verify.faults: each` needs a scenario without a section `at`, but this one has one; expected "
+                            "another scenario, or `faults: none`"),
             std::string::npos)
       << result.err;
 }

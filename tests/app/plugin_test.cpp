@@ -237,7 +237,7 @@ TEST_F(Plugins, ANewOneNeedsANameThatCanBeOne) {
   const std::string rule = " is not allowed; expected letters, digits and _, a letter first\n";
   EXPECT_EQ(refused("cpg 3legs"), "gaitlab new plugin cpg: error: name '3legs'" + rule);
   EXPECT_EQ(refused("cpg ../up"), "gaitlab new plugin cpg: error: name '../up'" + rule);
-  EXPECT_EQ(refused("cpg test"), "gaitlab new plugin cpg: error: name 'test' is one of CMake's own targets; choose another\n");
+  EXPECT_EQ(refused("cpg test"), "gaitlab new plugin cpg: error: name 'test' is a target of CMake; choose another\n");
   EXPECT_EQ(refused("cpg sine"),
             "gaitlab new plugin cpg: error: cpg 'sine' is built in, and a name can be registered once; choose another\n");
   EXPECT_EQ(refused("engine fast"),

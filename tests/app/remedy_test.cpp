@@ -138,7 +138,7 @@ TEST_F(RemedyCommand, OptionsOfNewRunsAreRefusedForAFolder) {
   for (const char* option : {"--out new", "--set duration=2", "--seed 2"}) {
     const Result result = call(std::string("remedy old ") + option);
     EXPECT_EQ(result.code, 2) << option;
-    EXPECT_TRUE(contains(result.err, "is for a scenario, but old is a run; its remedy is written into its folder"))
+    EXPECT_TRUE(contains(result.err, "is for a scenario, but old is a run; the remedy of a run is written into its folder"))
         << result.err;
   }
   EXPECT_EQ(call("remedy missing.yaml").code, 2);

@@ -90,7 +90,7 @@ TEST_F(GoldenCommand, NoScenarioAndNoGoldenVanishesUnseen) {
   fs::create_symlink("nothing", folder / "good.golden.old");
   result = call("test .");
   EXPECT_EQ(result.code, 2);
-  EXPECT_EQ(result.err, "./gone.yaml: error: is a link to nothing\n");
+  EXPECT_EQ(result.err, "./gone.yaml: error: is a link to a file that does not exist\n");
   fs::remove(folder / "gone.yaml");
 
   folder.write("good.yml", kCaterpillar);

@@ -99,9 +99,9 @@ TEST_F(SteadyGolden, SaysThatLineEndsChanged) {
     folder.write(path, damaged);
     const Result result = call("test holds.yaml");
     EXPECT_EQ(result.code, 2);
-    EXPECT_EQ(result.err, path +
-                              ": error: has other line ends than it was written with; `*.golden/** -text` in "
-                              ".gitattributes keeps them\n");
+    EXPECT_EQ(
+        result.err,
+        path + ": error: has other line ends than when it was written; `*.golden/** -text` in .gitattributes preserves them\n");
   }
 }
 

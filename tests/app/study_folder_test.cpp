@@ -231,7 +231,7 @@ TEST_F(StudyFolder, ErrorsOfARerunNameTheFolder) {
   made(kInto + "s");
   ends("study rerun s 9", 2, "RUN: error: 9 is not in the journal of s; it has 4 of 4 runs\n");
   studies::Database(folder_ / "s/study.db", studies::Database::Mode::write).execute("UPDATE run SET seed = -1 WHERE run = 1");
-  ends("study rerun s 1 --out x", 2, "s/study.db: error: run 1 has seed=-1: seed is -1; allowed are 0 to 9e+18\n");
+  ends("study rerun s 1 --out x", 2, "s/study.db: error: run 1 has seed=-1: seed is -1; expected 0 to 9e+18\n");
 }
 
 // A rerun whose files cannot be written counts as failed, not as bad input. A limit of 50 kB per file (of the shell, in blocks

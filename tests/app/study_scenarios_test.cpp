@@ -178,7 +178,7 @@ TEST_F(StudyScenarios, OneAloneHasNoColumnOfThem) {
 TEST_F(StudyScenarios, WrongOnesAreRefused) {
   const std::string parameters = "parameters: {cpg.phase_lag: {low: 0.5, high: 1.5, count: 2}}\n";
   EXPECT_EQ(error(parameters, "scenario: two.yaml\nscenarios: {a: two.yaml}"),
-            "e.yaml:3:12: error: the study has scenario and scenarios; expected one or the other\n");
+            "e.yaml:3:12: error: the study has `scenario` and `scenarios`; expected one of them\n");
   EXPECT_EQ(error(parameters, "seed: 1"), "e.yaml:1:1: error: missing key 'scenario'\n");
   EXPECT_EQ(error(parameters, "scenarios: {}"),
             "e.yaml:2:12: error: scenarios is empty; expected 1 to 1000 names with their files: {flat: flat.yaml, rubble: "
@@ -223,7 +223,7 @@ TEST_F(StudyScenarios, TheEngineOfOneDoesNotVerify) {
                 "parameters: {cpg.amplitude: {low: 0.05, high: 0.2}}\nbudget: {runs: 48}\nverify: {engine: bullet}\n");
   const Result result = call("optimize o.yaml --dry-run");
   EXPECT_EQ(result.code, 2);
-  EXPECT_TRUE(contains(result.err, "verify.engine bullet is the engine of the study itself; expected another")) << result.err;
+  EXPECT_TRUE(contains(result.err, "verify.engine is bullet, the engine of the study itself; expected another")) << result.err;
   EXPECT_TRUE(contains(result.err, "(in scenario long)")) << result.err;
 }
 

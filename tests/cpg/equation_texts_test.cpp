@@ -92,10 +92,10 @@ TEST_F(EquationTexts, LackNothing) {
   EXPECT_EQ(wrong("parameters: {a: [1, 2, 3]}"),
             "8:21: error: parameters.a has 3 numbers; expected one for each of the robot's 2 joints");
   EXPECT_EQ(wrong("parameters: {a: {m0/h: 1}}"),
-            "8:21: error: parameters.a names some joints only; add default: for the others");
+            "8:21: error: parameters.a names only some joints; add default: for the others");
   EXPECT_EQ(wrong("parameters: {a: {m0/*: 1, \"m?/h\": 1}}\noutput: a"), "no error") << "every joint by a pattern";
   EXPECT_EQ(wrong("parameters: {a: {m0/*: 1, m0/h: 1}}"),
-            "8:21: error: parameters.a names some joints only; add default: for the others");
+            "8:21: error: parameters.a names only some joints; add default: for the others");
   EXPECT_EQ(wrong("parameters: {a: {default: 1, m0/x: 1}}"), "8:34: error: no joint 'm0/x'; did you mean 'm0/h'?");
   EXPECT_EQ(wrong("parameters: {a: }"),
             "8:21: error: parameters.a is empty; expected a number, a text, a list, or a map of joints");

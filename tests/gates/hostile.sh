@@ -111,7 +111,7 @@ if unshare -m true 2>/dev/null && unshare -m mount -t tmpfs none "$work/disk" 2>
     mount -o remount,size=16m "$disk"
     "$program" sweep "$study" --quiet -j 1 --out "$disk/s" && cp -r "$disk/s" "$disk.kept"' - "$work/disk" "$program" "$work/study.yaml"
   [[ $(<"$work/disk.code") == 1 ]] || bad "a full file system: exit code $(<"$work/disk.code")"
-  grep -q 'cannot be written: .*; what is in it stays' "$work/disk.log" || bad "a full file system: $(<"$work/disk.log")"
+  grep -q 'cannot be written: .*; its content is kept' "$work/disk.log" || bad "a full file system: $(<"$work/disk.log")"
   cmp <(rows "$work/disk.kept") "$work/more.rows" || bad "after a full file system: other rows"
   ok "a full file system is told ($(head -n 1 "$work/disk.state") rows kept), and the same command goes on"
 else

@@ -223,7 +223,8 @@ TEST_F(GoldenFolder, DamagedJson) {
   EXPECT_EQ(complaint(), "G/golden.json: error: is not a golden of gaitlab");
   put("golden.json", text);
   replace("\"gaitlab_golden\": 1", "\"gaitlab_golden\": 2");
-  EXPECT_EQ(complaint(), "G/golden.json: error: has golden format 2; this gaitlab reads 1: take the gaitlab that wrote it");
+  EXPECT_EQ(complaint(),
+            "G/golden.json: error: has golden format 2; this gaitlab reads 1: use the version of gaitlab that wrote it");
   put("golden.json", text);
   replace("\"halving\":0.0003", "\"halving\":0.0009");
   EXPECT_EQ(complaint(),

@@ -215,11 +215,11 @@ TEST(Mujoco, NamesTheIntegratorOfEitherEngine) {
     EXPECT_TRUE(text.find("timestep=\"" + step + "\"") != std::string::npos) << step;
     EXPECT_TRUE(text.find(sentence) != std::string::npos) << sentence;
   };
-  expect(exported({}), "0.0005", " Integrator: adaptive, accuracy 0.01; RK4 at 0.0005 s stands here, of order 4.");
+  expect(exported({}), "0.0005", " Integrator: adaptive, accuracy 0.01; this file uses RK4 at 0.0005 s, of order 4.");
   expect(exported({"physics.step=1e-3"}), "0.001",
-         " Integrator: implicit, of order 1; RK4 at the same step stands here, of order 4.");
+         " Integrator: implicit, of order 1; this file uses RK4 at the same step, of order 4.");
   expect(exported({"physics.step=1e-3", "physics.integrator=extrapolated"}), "0.001",
-         " Integrator: extrapolated, of order 2; RK4 at the same step stands here, of order 4.");
+         " Integrator: extrapolated, of order 2; this file uses RK4 at the same step, of order 4.");
   const std::string rk4 = exported({"physics.step=2e-5", "physics.integrator=rk4"});
   EXPECT_EQ(rk4.find("Integrator:"), std::string::npos);
 }

@@ -196,8 +196,8 @@ TEST_F(FromUrdf, FaultsOfTheModuleHaveTheirPlace) {
   const std::string box = std::string(kInertial) + "<visual><geometry><box size='0.1 -0.1 0.1'/></geometry></visual>";
   const auto joint = [](const std::string& content) { return urdf_joint("j", "revolute", "a", "b", content); };
   EXPECT_EQ(refused(urdf_link("a", box) + "<!-- <link name='b'/> -->\n" + urdf_link("b", box) + joint(kLimit)),
-            "r:2:1: error: link 'a': box[1] is -0.1 m; allowed are more than 0 m\n"
-            "r:4:1: error: link 'b': box[1] is -0.1 m; allowed are more than 0 m");
+            "r:2:1: error: link 'a': box[1] is -0.1 m; expected more than 0 m\n"
+            "r:4:1: error: link 'b': box[1] is -0.1 m; expected more than 0 m");
   EXPECT_EQ(refused(urdf_link("a") + urdf_link("b") + joint(std::string("<axis xyz='0 0 0'/>") + kLimit)),
             "r:4:1: error: joint 'j': axis has length 0; expected a direction");
   EXPECT_EQ(refused("<transmission name='t'><joint name='j'/></transmission>\n" + urdf_link("a") + urdf_link("b") +
@@ -215,7 +215,7 @@ TEST_F(FromUrdf, FaultsOfTheFileHaveTheirPlace) {
       "r:4:1: error: urdfdom: effort value (nan) is not a valid float");
   EXPECT_EQ(refused(urdf_link("a") + urdf_link("a")), "r:3:1: error: urdfdom: link 'a' is not unique.");
   EXPECT_EQ(refused("<xacro:macro name='leg'/>\n"),
-            "r:2:1: error: has macros of xacro; expected URDF, which `xacro FILE > ROBOT.urdf` writes of them");
+            "r:2:1: error: has macros of xacro; expected URDF, as `xacro FILE > ROBOT.urdf` writes it");
   for (const char* const text : {"", " \n", "mass: 1", "<!-- <robot/> -->"}) {
     EXPECT_TRUE(message_of([&] {
                   module_of_urdf(folder_.write("e.urdf", text), "made");
@@ -232,7 +232,7 @@ TEST_F(FromUrdf, TheLinkWorldIsTheBase) {
             (std::vector<std::string>{"link 'world' and floating joint 'f': the base of a scenario floats by default"}));
   read_urdf(urdf_link("world", "") + urdf_link("a") + urdf_joint("f", "fixed", "world", "a", ""));
   EXPECT_EQ(made_.notes,
-            (std::vector<std::string>{"the fixed base of link 'world'; a scenario has it with robot: {base: fixed}"}));
+            (std::vector<std::string>{"the fixed base of link 'world'; a scenario fixes the base with robot: {base: fixed}"}));
 }
 
 TEST_F(FromUrdf, NamesThatChangeAreNoted) {
@@ -259,7 +259,7 @@ TEST_F(FromUrdf, RefusesElementsWithManyAttributes) {
     for (int k = 0; k < number; ++k) text += fmt::format(" a{}='>'", k);
     return text;
   };
-  const std::string kRefused = "r:2:1: error: has more than 100 attributes; no element of URDF has";
+  const std::string kRefused = "r:2:1: error: has more than 100 attributes; expected an element of URDF, which has fewer";
   for (const std::string before : {"", "<!-- don't -->", "<![CDATA[']]>", "<?a '?>"}) {
     const std::string text = refused(before + "<link name='a'" + attributes(100) + "/>\n");
     EXPECT_EQ(text.substr(text.find(": error")), kRefused.substr(kRefused.find(": error"))) << before;

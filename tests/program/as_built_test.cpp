@@ -81,7 +81,7 @@ TEST(AsBuilt, TheResolvedScenarioHoldsTheDraw) {
   EXPECT_EQ(resolved(again), text);
   EXPECT_EQ(alone(again), alone(drawn));
   ASSERT_FALSE(again.notes.empty());
-  EXPECT_TRUE(contains(again.notes.back().text, "tolerances draws nothing"));
+  EXPECT_TRUE(contains(again.notes.back().text, "tolerances has no effect"));
   EXPECT_EQ(alone(scenario(text, {"seed=8"})), alone(drawn));
   EXPECT_EQ(alone(scenario(text, {"seed=8", "as_built={}"})), alone(built({kEveryTolerance, "seed=8"})));
 }
@@ -180,9 +180,9 @@ TEST(AsBuilt, WrongInput) {
     return text.substr(0, text.find('\n'));
   };
   const std::map<std::string, std::string> messages{
-      {"tolerances.mass=0.5", "mass is 0.5; allowed are 0 to 0.3"},
-      {"tolerances.mass=-0.1", "mass is -0.1; allowed are 0 to 0.3"},
-      {"tolerances.dock_angle=1", "dock_angle is 1 rad; allowed are 0 to 0.1 rad"},
+      {"tolerances.mass=0.5", "mass is 0.5; expected 0 to 0.3"},
+      {"tolerances.mass=-0.1", "mass is -0.1; expected 0 to 0.3"},
+      {"tolerances.dock_angle=1", "dock_angle is 1 rad; expected 0 to 0.1 rad"},
       {"tolerances.dock_angle=5 deg", "dock_angle is '5 deg'; expected a number in rad"},
       {"tolerances.mas=0.1", "unknown key 'mas'; did you mean 'mass'?"},
       {"tolerances.zero=0.1",
@@ -192,13 +192,13 @@ TEST(AsBuilt, WrongInput) {
       {"as_built=1", "as_built is 1; expected a map"},
       {"as_built={mass: {m9: 1}}", "no module 'm9'; modules are m0 to m7"},
       {"as_built={mass: {m3/active: 1}}", "'m3/active' is not a module; expected its module, m3"},
-      {"as_built={mass: {m1: 0}}", "mass of 'm1' is 0; allowed are 0.01 to 100"},
+      {"as_built={mass: {m1: 0}}", "mass of 'm1' is 0; expected 0.01 to 100"},
       {"as_built={mass: [1, 2]}", "mass has 2 numbers; expected one for each of the robot's 8 modules"},
       {"as_built={mass: heavy}", "mass is 'heavy'; expected a number"},
       {"as_built={R: {m3/activ: 1}}", "no joint 'm3/activ'; did you mean 'm3/active'?"},
       {"as_built={R: {m3: 1}}", "'m3' is a module; its joints are m3/active, m3/passive"},
       {"as_built={dock_x: {m0: 0.1}}", "m0 has no dock_x: it is docked to no parent"},
-      {"as_built={dock_x: {m3: 2}}", "dock_x of 'm3' is 2 rad; allowed are -0.5 to 0.5 rad"},
+      {"as_built={dock_x: {m3: 2}}", "dock_x of 'm3' is 2 rad; expected -0.5 to 0.5 rad"},
       {"as_built={supply: {m3: 1}}", "supply is a map; expected a number"},
       {"as_built={foot_friction: {\"m*\": 1, \"*1\": 2}}",
        "module 'm1' is given 1 by 'm*' and 2 by '*1'; give it by its name, which beats patterns"},
@@ -208,7 +208,7 @@ TEST(AsBuilt, WrongInput) {
   };
   for (const auto& [set, text] : messages) EXPECT_TRUE(contains(wrong(set), "error: " + text)) << wrong(set);
   EXPECT_TRUE(contains(wrong("tolerances={Kt: 0.1}", {"actuator={type: torque}", "controller={unit: N m}"}),
-                       "tolerances.Kt is a number of a DC motor, and actuator 'torque' has none"));
+                       "tolerances.Kt applies only to dc_motor and servo, but the actuator is 'torque'"));
   EXPECT_TRUE(contains(wrong("tolerances={foot_friction: 0.1}", {"physics.engine=bullet", "contact.law=bullet"}),
                        "tolerances.foot_friction does not apply to contact law 'bullet'"));
 }

@@ -171,7 +171,8 @@ TEST(Faults, NeedAMotor) {
   EXPECT_TRUE(error("m0/castor").ends_with("error: joint 'm0/castor' has no motor (drive: none)")) << error("m0/castor");
   EXPECT_EQ(error("'m0/*'"), "no error") << "one of the joints has a motor";
   const std::string none = message_of([] { faulty_caterpillar({"actuator={type: none}", fault("dead")}); });
-  EXPECT_NE(none.find("a fault is one of a motor, but the robot has none (actuator.type: none); remove it"), std::string::npos)
+  EXPECT_NE(none.find("a fault needs a motor, but the robot has none (actuator.type: none); remove the fault"),
+            std::string::npos)
       << none;
 }
 

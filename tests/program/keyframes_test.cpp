@@ -204,7 +204,7 @@ TEST(Keyframes, ErrorsNameTheFrameOrTheJoint) {
   expect("{m1/passive: 0.3, default: 0.1}", "{m1/passive: 0.2, default: 0.1}",
          "cpg 'keyframes': the last frame differs from the first at joint m1/passive; make them equal or set repeat: false");
   expect("m1/passive: 0.3}", "m2/passive: 0.3}", "no joint 'm2/passive'");
-  expect("-0.3]", "-4]", "is -4 rad; allowed are -3.2 to 3.2 rad where the hinge has a range");
+  expect("-0.3]", "-4]", "is -4 rad; expected -3.2 to 3.2 rad for a hinge with a range");
   const std::string open = with(kGaitScenario, "{m1/passive: 0.3, default: 0.1}", "0");
   EXPECT_EQ(complaint(with(open, "  model:\n", "  model:\n    repeat: false\n")), kNoError);
   EXPECT_NE(

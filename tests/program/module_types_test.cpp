@@ -175,7 +175,7 @@ TEST(ModuleTypes, AHingeThatTurnsFreelyHasNoEnd) {
   }
   const std::string ranged = error_of(robot(cube("cube", faces(), kMotor), "cube", "[]"), {"cpg.amplitude=30"});
   EXPECT_TRUE(contains(ranged,
-                       "amplitude of joint m0/hinge is 30 rad; allowed are -3.2 to 3.2 rad where the hinge has a range; 30 "
+                       "amplitude of joint m0/hinge is 30 rad; expected -3.2 to 3.2 rad for a hinge with a range; 30 "
                        "degrees are 0.5236 rad"))
       << ranged;
 }

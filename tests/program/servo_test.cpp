@@ -135,16 +135,16 @@ TEST(Servo, RefusesWhatNoMotorCanDo) {
   expect_refused("voltage: 12, stall_torque: 15.3, no_load_speed: 6.388, stall_current: 1.4",
                  "is the torque in kgf cm (15.3 kgf cm are 1.5 N m)");
   expect_refused("voltage: 12, stall_torque: 1.5, no_load_speed: 61, stall_current: 1.4",
-                 "(61 rev/min are 6.388 rad/s), or voltage the supply? The data hold at `voltage`, and the supply is u_max");
+                 "(61 rev/min are 6.388 rad/s), or is voltage the supply? The data hold at `voltage`; the supply is u_max");
   expect_refused("voltage: 12, stall_torque: 1.5, no_load_speed: 6.388, stall_current: 1400",
                  "at least 0.01: is the current in mA, or the voltage in mV?");
   expect_refused("voltage: 12, stall_torque: 1.5, no_load_speed: 6.388, stall_current: 1.4, i_continuous: 2",
                  "i_continuous 2 A is above stall_current, 1.4 A");
   expect_refused(kAx12 + ", efficiency: 0.7",
-                 "efficiency follows from stall_current, which is stated, too: remove one of them");
+                 "efficiency and stall_current are both stated, but one follows from the other; remove one of them");
   expect_refused("voltage: 10, stall_torque: 1.8", "missing key 'no_load_speed'");
   expect_refused("voltage: 10, stall_torque: 0, no_load_speed: 5",
-                 "stall_torque is 0 N m; allowed are more than 0 and up to 1000000000 N m");
+                 "stall_torque is 0 N m; expected more than 0 and up to 1000000000 N m");
   EXPECT_EQ(motor("voltage: 10, stall_torque: 2, no_load_speed: 5, stall_current: 1").efficiency, 1) << "exactly what it takes";
 }
 

@@ -302,7 +302,7 @@ TEST(Solver, RefusesWhatItCannotDo) {
   EXPECT_NE(message_of([&] { Simulation({&reactions, 1}); }).find("remove the columns reaction.*"), std::string::npos);
   const Scenario s = shipped("hexapod.yaml", kSolver);
   Simulation simulation({&s, 1});
-  EXPECT_NE(message_of([&] { static_cast<void>(simulation.state()); }).find("gives no snapshot"), std::string::npos);
+  EXPECT_NE(message_of([&] { static_cast<void>(simulation.state()); }).find("allows no snapshot"), std::string::npos);
 }
 
 TEST(Solver, HasNoGoldens) {

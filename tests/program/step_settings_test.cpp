@@ -72,21 +72,22 @@ TEST(StepSettings, AStepIsAWholeShareOfTheControlPeriod) {
 }
 
 TEST(StepSettings, AutoIsRefusedWhereNothingChoosesSteps) {
-  EXPECT_EQ(
-      error("engine: bullet, step: auto", "contact: {law: bullet, on: all}\n"),
-      "s.yaml:4:33: error: integrator 'semi_implicit' of engine 'bullet' chooses no steps; expected a number of seconds, or "
-      "engine: articulated, integrator: adaptive\n");
+  EXPECT_EQ(error("engine: bullet, step: auto", "contact: {law: bullet, on: all}\n"),
+            "s.yaml:4:33: error: integrator 'semi_implicit' of engine 'bullet' cannot choose the step; expected a number of "
+            "seconds, or "
+            "engine: articulated, integrator: adaptive\n");
   for (const char* integrator : {"implicit", "extrapolated", "rk4"}) {
     const std::string text = error(fmt::format("engine: articulated, integrator: {}, step: auto", integrator));
-    EXPECT_TRUE(contains(text, fmt::format("error: integrator '{}' of engine 'articulated' chooses no steps; expected a number "
-                                           "of seconds, or engine: articulated, integrator: adaptive\n",
-                                           integrator)))
+    EXPECT_TRUE(
+        contains(text, fmt::format("error: integrator '{}' of engine 'articulated' cannot choose the step; expected a number "
+                                   "of seconds, or engine: articulated, integrator: adaptive\n",
+                                   integrator)))
         << text;
     EXPECT_TRUE(text.starts_with("s.yaml:4:")) << text;
   }
   EXPECT_EQ(error("engine: articulated, step: often"),
             "s.yaml:4:38: error: step is 'often'; expected a number in s, or auto\n");
-  EXPECT_EQ(error("engine: articulated, step: 0"), "s.yaml:4:38: error: step is 0 s; allowed are 1e-09 to 1 s\n");
+  EXPECT_EQ(error("engine: articulated, step: 0"), "s.yaml:4:38: error: step is 0 s; expected 1e-09 to 1 s\n");
 }
 
 double h_lambda(const Scenario& s) { return s.physics.step * Simulation({&s, 1}).standing().rate; }
@@ -128,7 +129,7 @@ TEST(StepSettings, AStepThatBulletChoosesFollowsWhatIsSet) {
 TEST(StepSettings, AccuracyIsANumberWithinItsRange) {
   for (const char* wrong : {"0", "-0.01", "1e-07", "0.6", "1"}) {
     EXPECT_EQ(error(fmt::format("engine: articulated, accuracy: {}", wrong)),
-              fmt::format("s.yaml:4:42: error: accuracy is {}; allowed are 1e-06 to 0.5\n", wrong));
+              fmt::format("s.yaml:4:42: error: accuracy is {}; expected 1e-06 to 0.5\n", wrong));
   }
   EXPECT_EQ(error("engine: articulated, accuracy: 1e-6"), "");
   EXPECT_EQ(error("engine: articulated, accuracy: 0.5"), "");

@@ -198,7 +198,7 @@ class CurvesOfPanel final : public PaperPanel {
 
   void find_stance(const PanelSource& source, const std::vector<const PaperRun*>& runs) {
     if (runs.size() != 1) {
-      source.problem({"stance"}, "stance shades the panel of one run; expected runs: [NAME]");
+      source.problem({"stance"}, "`stance` needs a panel with one run; expected `runs: [NAME]`");
       return;
     }
     const PaperRun& run = *runs.front();
@@ -206,7 +206,7 @@ class CurvesOfPanel final : public PaperPanel {
     const std::vector<std::string> names = leg_names(legs);
     const auto leg = std::ranges::find(names, panel_.stance);
     if (leg == names.end()) {
-      source.problem({"stance"}, names.empty() ? "stance needs a robot that walks on four legs or more"
+      source.problem({"stance"}, names.empty() ? "`stance` needs a robot that walks on four legs or more"
                                                : "no leg " + in_quotes(panel_.stance) + offer(panel_.stance, names, "legs"));
       return;
     }
@@ -222,7 +222,7 @@ class CurvesOfPanel final : public PaperPanel {
 
   void find_motor(const PanelSource& source, const std::vector<const PaperRun*>& runs) {
     if (runs.size() != 1) {
-      source.problem({"motor"}, "motor shows limits in the panel of one run; expected runs: [NAME]");
+      source.problem({"motor"}, "`motor` needs a panel with one run; expected `runs: [NAME]`");
       return;
     }
     const PaperRun& run = *runs.front();
@@ -353,11 +353,11 @@ class CurvesOfPanel final : public PaperPanel {
 void curves_fields(PanelRecipe& panel, Fields& f) {
   f.texts("runs", panel.runs, "Runs whose curves are drawn, by name; default: all.");
   f.group("left", panel.left, "Curves of the left axis.");
-  f.group("right", panel.right, "Curves of the right axis; the zeros of both meet where that wastes little paper.");
+  f.group("right", panel.right, "Curves of the right axis; the zeros of both axes coincide if that wastes little paper.");
   f.text("stance", panel.stance, "Leg whose stance is shaded, named as in the footfalls of figure.svg: m5 front left.");
   f.text("motor", panel.motor,
-         "Joint whose motor is shown: time at a limit of voltage or current is shaded, and its torque at rest is a line if the "
-         "curve of its torque comes near.");
+         "Joint whose motor is shown: time at a limit of voltage or current is shaded, and its torque at rest is drawn as a "
+         "line if the curve of its torque comes near it.");
   f.numbers("marks", panel.marks, {"s", 0, kLongestTime, "Times that a dotted line marks."});
   panel.time_fields(f);
   panel.height_field(f);

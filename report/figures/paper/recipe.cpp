@@ -38,8 +38,7 @@ void read_length(const Node& node, const char* what, double& length, Problems& p
   if (!reading.ok()) {
     problems.add(node.place, fmt::format("{} {}", what, reading.wrong));
   } else if (reading.value < kLength.min || reading.value > kLength.max) {
-    problems.add(node.place,
-                 fmt::format("{} is {}; allowed are {}", what, with_unit(reading.value, "mm"), range_text(kLength)));
+    problems.add(node.place, fmt::format("{} is {}; expected {}", what, with_unit(reading.value, "mm"), range_text(kLength)));
   } else {
     length = reading.value;
   }
@@ -77,7 +76,7 @@ Explainer recipe_keys(const PanelKind& kind) {
   explainer.row(
       "size", "mm", kSizes[0].name, names_of_sizes(),
       "Size on paper: one or two columns of an IEEE journal (88.9 or 181.9 mm wide) or another width (84 and 174 are usual), "
-      "as high as the panels need; or width and height.");
+      "with the height that the panels need; or width and height.");
   Recipe recipe;
   recipe.panels.resize(1);
   recipe.panels.front().kind = &kind;
@@ -88,10 +87,9 @@ Explainer recipe_keys(const PanelKind& kind) {
 }  // namespace
 
 void AxisRecipe::fields(Fields& f) {
-  f.texts(
-      "columns", columns,
-      "Columns of the trace to draw, by name with * and ?; a joint by number or name: joint.7.torque, joint.m3/*.torque. All "
-      "of an axis have one unit.");
+  f.texts("columns", columns,
+          "Columns of the trace to draw, by name with * and ?; a joint by number or name: joint.7.torque, joint.m3/*.torque. "
+          "All columns of an axis have the same unit.");
   f.texts("names", names, "Names in the legend, one per curve; default: the names of the columns.");
   f.text("label", label, "Title of the axis; default: quantity and unit of the columns.");
   f.numbers("range", range, {"", -1e300, 1e300, "Ends of the axis, [from, to]; default: chosen to fit the curves."});
@@ -121,7 +119,7 @@ void PanelRecipe::time_fields(Fields& f) {
   f.number("from", from, {"s", 0, kLongestTime, "Start of the drawn time."});
   f.number_or("to", to, "end", {"s", kPositive, kLongestTime, "End of the drawn time."});
   if (to > 0 && from >= to)
-    f.problem("to", fmt::format("to is {} s, not behind from, {} s", number_text(to), number_text(from)));
+    f.problem("to", fmt::format("to is {} s, not after from, {} s", number_text(to), number_text(from)));
 }
 
 void PanelRecipe::height_field(Fields& f) { f.number_or("height", height, "auto", {"mm", 10, 500, "Height of the frame."}); }
@@ -197,7 +195,7 @@ Recipe read_recipe(const std::string& file) {
   constexpr std::size_t kLetters = 26;  // panels and their data files are distinguished by a letter
   if (recipe.panels.size() > kLetters) {
     problems.add(recipe.place({"panels"}),
-                 fmt::format("panels has {} entries; allowed are up to {}", recipe.panels.size(), kLetters));
+                 fmt::format("panels has {} entries; expected at most {}", recipe.panels.size(), kLetters));
   }
   // A panel of an unknown kind has already been refused, and its missing keys are not known.
   const bool whole = problems.empty();

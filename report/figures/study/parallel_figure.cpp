@@ -51,7 +51,7 @@ class Parallel {
     legend();
     std::string note = f_.note;
     if (f_.axes.size() > axes_) note = fmt::format("the first {} of {} parameters; {}", axes_, f_.axes.size(), note);
-    if (histogram) note = "width by the number of points, colour by the mean of the kept ones; " + note;
+    if (histogram) note = "width by the number of points, colour by the mean of the kept points; " + note;
     draw_sheet_note(svg_, note, kParallelHeight - 14);
     return svg_.finish();
   }

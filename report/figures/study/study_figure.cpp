@@ -132,7 +132,7 @@ StudyFigure histogram(const StudyFigure& figure) {
     made.points.push_back(pooled[k].at(cells.centre(k).x, cells.centre(k).y));
   }
   made.best = std::min(best_point, made.points.size());
-  made.note = fmt::format("each {} the mean of the kept of its points; {}", figure.map ? "cell" : "mark", figure.note);
+  made.note = fmt::format("each {} shows the mean of its kept points; {}", figure.map ? "cell" : "mark", figure.note);
   return made;
 }
 

@@ -142,9 +142,9 @@ std::vector<SummaryNumber> run_numbers() {
       {.key = "predictable.until",
        .unit = "s",
        .definition = "First time at which a torque changes by more than `accuracy` under gravity times 1 + 1e-6 "
-                     "(computed as 1000 times the change under 1 + 1e-9); for torques that change by more than "
-                     "that as a whole (RMS over the peak) under 1 + 1e-9, the first such time under 1 + 1e-9; "
-                     "the duration if there is none. `predictable` is null if this was not tested.",
+                     "(computed as 1000 times the change under 1 + 1e-9); if a torque as a whole (RMS over the peak) changes "
+                     "by more than `accuracy` under 1 + 1e-9, the first such time under 1 + 1e-9; the duration if there is "
+                     "none. `predictable` is null if this was not tested.",
        .value = [](R r) { return tried(r, [&] { return apart(r).time < 0 ? r.record.simulated : apart(r).time; }); }},
       {.key = "predictable.chaotic",
        .definition = "Change of the torques under gravity times 1 + 1e-9: RMS over the joint's peak, of the worst joint.",

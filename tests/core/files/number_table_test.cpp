@@ -113,16 +113,16 @@ TEST(Npy, OfAnotherFormIsRefusedWithWhatItIs) {
         "{'descr': '<f4', 'fortran_order': False, 'shape': (1, 1)} more",
         "{'descr': '<f4', 'fortran_order': False, 'shape': (99999999999999999999, 1)}",
         "{'descr': '<f4', 'fortran_order': False, 'shape': (1, 1), 'more': 1}"})
-    EXPECT_EQ(refused_npy(npy(header, "")), "its header is not one of NumPy") << header;
+    EXPECT_EQ(refused_npy(npy(header, "")), "its header is not a NumPy header") << header;
 }
 
 // A header whose size differs from the file is refused without an allocation, also if it states terabytes or its product
 // overflows 64 bits to 0.
 TEST(Npy, OfAnotherLengthThanItsHeaderSaysIsRefused) {
   EXPECT_EQ(refused_npy(npy(dict("<f8", "(1000000, 1000000)"), "")),
-            "its shape is (1000000, 1000000); allowed are up to 1000 numbers");
+            "its shape is (1000000, 1000000); expected at most 1000 numbers");
   EXPECT_EQ(refused_npy(npy(dict("<f8", "(4294967296, 4294967296)"), "")),
-            "its shape is (4294967296, 4294967296); allowed are up to 1000 numbers");
+            "its shape is (4294967296, 4294967296); expected at most 1000 numbers");
   EXPECT_EQ(refused_npy(npy(dict("<f4", "(2, 2)"), std::string(15, '\0'))),
             "15 bytes of numbers follow its header; expected 16 for shape (2, 2) of type '<f4'");
   EXPECT_EQ(refused_npy(npy(dict("<f4", "(2, 2)"), std::string(17, '\0'))),
@@ -194,10 +194,10 @@ TEST(GreyPng, OfAnotherFormIsRefusedWithWhatItIs) {
   EXPECT_EQ(refused_png(headed(head(8, 0, 0))), "it has 8 bit");
   EXPECT_EQ(refused_png(headed(head(16, 0, 1))), "it is interlaced");
   EXPECT_EQ(refused_png(headed(std::string(8, '\0') + std::string("\x10\0\0\0\0", 5))), "it is empty");
-  EXPECT_EQ(refused_png(headed("short")), "it has no header of a PNG");
+  EXPECT_EQ(refused_png(headed("short")), "it lacks the header of a PNG");
   EXPECT_EQ(refused_png(headed(std::string("\x7f\xff\xff\xff\x7f\xff\xff\xff\x10\0\0\0\0", 13))),
-            "it has 2147483647 rows of 2147483647 grey values; allowed are up to 1000 in all");
-  EXPECT_EQ(refused_png(picture(), 23), "it has 6 rows of 4 grey values; allowed are up to 23 in all");
+            "it has 2147483647 rows of 2147483647 grey values; expected at most 1000 in all");
+  EXPECT_EQ(refused_png(picture(), 23), "it has 6 rows of 4 grey values; expected at most 23 in all");
 }
 
 TEST(GreyPng, CutAnywhereOrChangedIsRefused) {
@@ -210,7 +210,7 @@ TEST(GreyPng, CutAnywhereOrChangedIsRefused) {
   }
   std::string coloured = headed(picture().substr(16, 13));
   add_chunk(coloured, "PLTE", "abc");
-  EXPECT_EQ(refused_png(coloured), "it has a part that is not of grey PNGs");
+  EXPECT_EQ(refused_png(coloured), "it has a chunk that grey PNGs do not have");
   std::string without = headed(picture().substr(16, 13));
   add_chunk(without, "IEND", "");
   EXPECT_EQ(refused_png(without), "its picture is damaged");
@@ -237,7 +237,7 @@ TEST(Gzip, GivesTheBytesBackAndRefusesDamage) {
     }
   };
   EXPECT_EQ(refused(packed, bytes.size() - 1),
-            fmt::format("it holds {0} bytes; allowed are up to {1}", bytes.size(), bytes.size() - 1));
+            fmt::format("it holds {0} bytes; expected at most {1}", bytes.size(), bytes.size() - 1));
   EXPECT_TRUE(refused(packed + "x", 1U << 30U).starts_with("it"));
   EXPECT_EQ(refused(packed.substr(0, 17), 1000), "it is not a complete gzip file");
   for (std::size_t at = 10; at < packed.size(); ++at) {

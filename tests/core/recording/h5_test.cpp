@@ -221,8 +221,8 @@ TEST_F(H5, LeavesTheLoadingOfFiltersAsItWas) {
 
 TEST_F(H5, Foreign) {
   const std::string whole = written(sample(3));
-  EXPECT_EQ(complaint(whole.substr(kHeader)), "is an HDF5 file, but no gaitlab trace");
-  EXPECT_EQ(complaint(std::string(kHeader, ' ') + whole.substr(kHeader)), "is an HDF5 file, but no gaitlab trace");
+  EXPECT_EQ(complaint(whole.substr(kHeader)), "is an HDF5 file, but not a gaitlab trace");
+  EXPECT_EQ(complaint(std::string(kHeader, ' ') + whole.substr(kHeader)), "is an HDF5 file, but not a gaitlab trace");
   EXPECT_EQ(complaint("t,joint.0.angle\n0,0\n"), "is not a gaitlab trace (nor another HDF5 file)");
   EXPECT_EQ(complaint(std::string(5000, '\0')), "is not a gaitlab trace (nor another HDF5 file)");
   fs::remove(file_);

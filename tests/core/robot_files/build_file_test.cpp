@@ -40,11 +40,11 @@ TEST(BuildFile, ErrorsNameRowAndColumn) {
       build_error("1 1 4 0 1\n1 2 4 1\n 1 3 x 2 0\n1 100001 4 0 0\n"),
       "x.dat:2:1: error: the row has 4 numbers; expected 5: child_face child_module parent_face parent_module orientation\n"
       "x.dat:3:6: error: parent_face is 'x'; expected a whole number\n"
-      "x.dat:4:3: error: child_module is 100001; allowed are 0 to 100000");
+      "x.dat:4:3: error: child_module is 100001; expected 0 to 100000");
   EXPECT_EQ(build_error("1 1 4 0 1.5\n1 2 4 010 0\n1 2 4 -1 0\n"),
             "x.dat:1:9: error: orientation is 1.5; expected a whole number\n"
             "x.dat:2:7: error: parent_module is 010; expected a whole number without a leading zero\n"
-            "x.dat:3:7: error: parent_module is -1; allowed are 0 to 100000");
+            "x.dat:3:7: error: parent_module is -1; expected 0 to 100000");
 }
 
 TEST(BuildFile, InlineRows) {

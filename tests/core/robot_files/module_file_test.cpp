@@ -60,7 +60,7 @@ TEST_F(ModuleFileTest, KeysAndVersion) {
   EXPECT_EQ(error("mass: 0.5", "mas: 0.5"), "DIR/m.yaml:6:5: error: unknown key 'mas'; did you mean 'mass'?");
   EXPECT_EQ(error("range: [-1.5, 1.5]", "range: [-1.5, .inf]"),
             "DIR/m.yaml:12:89: error: range[1] is .inf; expected a finite number in rad");
-  EXPECT_EQ(error("mass: 1,", "mass: -1,"), "DIR/m.yaml:4:13: error: mass is -1 kg; allowed are at least 0 kg");
+  EXPECT_EQ(error("mass: 1,", "mass: -1,"), "DIR/m.yaml:4:13: error: mass is -1 kg; expected at least 0 kg");
   EXPECT_EQ(error("name: h, ", ""), "DIR/m.yaml:12:5: error: missing key 'name'");
   EXPECT_EQ(error("gender: active", "gender: male"),
             "DIR/m.yaml:14:30: error: gender 'male' is unknown; known names: active, passive, none");
@@ -106,7 +106,7 @@ TEST_F(ModuleFileTest, HingesFacesAndConnectors) {
             "DIR/m.yaml:12:106: error: stiffness is only for a hinge without a motor, and this hinge has one; add drive: none, "
             "or remove stiffness");
   EXPECT_EQ(wrong(range, range + ", drive: none, damping: -1"),
-            "DIR/m.yaml:12:117: error: damping is -1 N m s/rad; allowed are 0 to 1000000 N m s/rad");
+            "DIR/m.yaml:12:117: error: damping is -1 N m s/rad; expected 0 to 1000000 N m s/rad");
   EXPECT_EQ(wrong(range, range + ", drive: none, actuator: {R: 1}"),
             "DIR/m.yaml:12:118: error: hinge 'h' has actuator and drive: none; expected one of them");
   EXPECT_EQ(wrong(range, range + ", drive: loose"),
@@ -115,10 +115,9 @@ TEST_F(ModuleFileTest, HingesFacesAndConnectors) {
             "DIR/m.yaml:14:45: error: turns has 1.5; expected some of 0, 1, 2, 3 (times pi/2)");
   EXPECT_EQ(wrong("gender: active", "gender: active, turns: []"),
             "DIR/m.yaml:14:45: error: turns is empty; expected some of 0, 1, 2, 3 (times pi/2)");
-  EXPECT_EQ(wrong("gender: active", "gender: active, turns: [4]"),
-            "DIR/m.yaml:14:46: error: turns[0] is 4; allowed are 0 to 3");
+  EXPECT_EQ(wrong("gender: active", "gender: active, turns: [4]"), "DIR/m.yaml:14:46: error: turns[0] is 4; expected 0 to 3");
   EXPECT_EQ(wrong("faces:", "connectors: {hook: {tension: 0}}\nfaces:"),
-            "DIR/m.yaml:13:30: error: tension is 0 N; allowed are more than 0 N");
+            "DIR/m.yaml:13:30: error: tension is 0 N; expected more than 0 N");
 }
 
 TEST_F(ModuleFileTest, BodiesByName) {
@@ -134,8 +133,9 @@ TEST_F(ModuleFileTest, OneTree) {
             "DIR/m.yaml:5:3: error: body 'b' is not connected to 'a' by a hinge; expected one tree\n"
             "DIR/m.yaml:4:3: note: 'a' is the root: no hinge's child");
   const std::string hinge = "  - {name: g, parent: b, child: a, axis: [0, 1, 0], range: [-1, 1]}\nfaces:";
-  EXPECT_EQ(error("faces:", hinge),
-            "DIR/m.yaml:4:3: error: every body is some hinge's child: the hinges form a loop; expected one root body");
+  EXPECT_EQ(
+      error("faces:", hinge),
+      "DIR/m.yaml:4:3: error: every body is the child of a hinge, so that the hinges form a loop; expected one root body");
   const std::string twice = "  - {name: h, parent: a, child: b, axis: [0, 0, 0], range: [1, -1]}\nfaces:";
   EXPECT_EQ(error("faces:", twice),
             "DIR/m.yaml:13:33: error: body 'b' is the child of two hinges, 'h' and 'h'; expected one tree\n"
@@ -268,7 +268,7 @@ TEST_F(ModuleFileTest, ShapesAndContacts) {
   EXPECT_EQ(error("{box: [0.1, 0.1, 0.1]}", "{box: [0.1, 0.1, 0.1], sphere: 1}"),
             "DIR/m.yaml:10:9: error: the shape has 2 of box, cylinder, half_cylinder and sphere; expected one");
   EXPECT_EQ(error("{box: [0.1, 0.1, 0.1]}", "{half_cylinder: [0.1, 0]}"),
-            "DIR/m.yaml:10:31: error: half_cylinder[1] is 0 m; allowed are more than 0 m");
+            "DIR/m.yaml:10:31: error: half_cylinder[1] is 0 m; expected more than 0 m");
   EXPECT_EQ(error("sphere: [0, 0, 0], radius: 0.1", "sphere: [0, 0, 0]"), "DIR/m.yaml:18:9: error: missing key 'radius'");
   EXPECT_EQ(error("point: [0.1, 0, -0.1]", "pnt: [0.1, 0, -0.1]"),
             "DIR/m.yaml:17:10: error: expected {body, point: [x, y, z]} or {body, sphere: [x, y, z], radius: r}\n"

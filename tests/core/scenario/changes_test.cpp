@@ -81,7 +81,7 @@ TEST_F(ChangesTest, ATemplateReadsTheSectionAgain) {
   EXPECT_EQ(text.with({"at=[]"}).changes.size(), 0U);
   EXPECT_EQ(resolved(text.with({"at=[]"})), resolved(read_scenario(path, {"at=[]"}, catalog_)));
   EXPECT_EQ(folder_.shown(test::message_of([&] { static_cast<void>(text.with({"duration=0.15"})); })),
-            "DIR/t.yaml:6:10: error: t is 0.2 s; the run ends at 0.15 s");
+            "DIR/t.yaml:6:10: error: t is 0.2 s, but the run ends at 0.15 s; expected an earlier time");
 }
 
 struct Wrong {
@@ -97,12 +97,13 @@ TEST_F(ChangesTest, WrongTimesAndForms) {
            Wrong{"[{t: 0.2}]", "6: error: at[0] changes nothing; expected set, fault or both"},
            Wrong{"[{t: 0.2, sets: {cpg.frequency: 1}}]", "15: error: unknown key 'sets'; did you mean 'set'?"},
            Wrong{"[{t: 0.5, set: {cpg.frequency: 1}}, {t: 0.2, set: {cpg.frequency: 2}}]",
-                 "45: error: t: 0.2 comes after 0.5; times must rise"},
+                 "45: error: t is 0.2 s, not later than the change before it, at 0.5 s; expected rising times"},
            Wrong{"[{t: 0.5, set: {cpg.frequency: 1}}, {t: 0.5, set: {cpg.frequency: 2}}]",
-                 "45: error: t: 0.5 comes after 0.5; times must rise"},
-           Wrong{"[{t: 25, set: {cpg.frequency: 1}}]", "10: error: t is 25 s; the run ends at 1 s"},
-           Wrong{"[{t: 1, set: {cpg.frequency: 1}}]", "10: error: t is 1 s; the run ends at 1 s"},
-           Wrong{"[{t: -1, set: {cpg.frequency: 1}}]", "10: error: t is -1 s; allowed are 0 to 1000000 s"},
+                 "45: error: t is 0.5 s, not later than the change before it, at 0.5 s; expected rising times"},
+           Wrong{"[{t: 25, set: {cpg.frequency: 1}}]",
+                 "10: error: t is 25 s, but the run ends at 1 s; expected an earlier time"},
+           Wrong{"[{t: 1, set: {cpg.frequency: 1}}]", "10: error: t is 1 s, but the run ends at 1 s; expected an earlier time"},
+           Wrong{"[{t: -1, set: {cpg.frequency: 1}}]", "10: error: t is -1 s; expected 0 to 1000000 s"},
        }) {
     const std::string text = error(with(one.at));
     EXPECT_EQ(text.substr(0, text.find('\n')), std::string("DIR/s.yaml:6:") + one.column_and_text) << one.at;
@@ -127,22 +128,21 @@ TEST_F(ChangesTest, WrongSettings) {
                  "20: error: at[0].set is empty; expected settings by key, such as {cpg.frequency: 0.5}"},
            Wrong{"[{t: 0.2, set: {cpg: 1}}]", "21: error: cpg is a section; expected a key of it, such as cpg.frequency"},
            Wrong{"[{t: 0.2, set: {cpg.type: hopf}}]",
-                 "21: error: cpg.type cannot change in a run: it sets the plugins, their states or the control ticks"},
+                 "21: error: cpg.type cannot change in a run, because it sets the plugins, their states or the control ticks"},
            Wrong{"[{t: 0.2, set: {controller.period: 0.01}}]",
-                 "21: error: controller.period cannot change in a run: it sets the plugins, their states or the control ticks"},
+                 "21: error: controller.period cannot change in a run, because it sets the plugins, their states or the "
+                 "control ticks"},
            Wrong{"[{t: 0.2, set: {cpg.step: 0.01}}]",
-                 "21: error: cpg.step cannot change in a run: it sets the plugins, their states or the control ticks"},
+                 "21: error: cpg.step cannot change in a run, because it sets the plugins, their states or the control ticks"},
            Wrong{"[{t: 0.2, set: {actuator.R: 5}}]",
-                 "21: error: 'actuator.R' cannot change in a run: motors are as built; a fault of kind weak, open or dead "
-                 "changes "
-                 "one"},
+                 "21: error: 'actuator.R' cannot change in a run; a fault of kind weak, open or dead changes a motor"},
            Wrong{"[{t: 0.2, set: {duration: 5}}]",
-                 "21: error: 'duration' cannot change in a run; the keys of cpg and controller can"},
+                 "21: error: 'duration' cannot change in a run; expected a key of cpg or controller"},
            Wrong{"[{t: 0.2, set: {cgp.frequency: 5}}]",
-                 "21: error: 'cgp.frequency' cannot change in a run; the keys of cpg and controller can; did you mean "
+                 "21: error: 'cgp.frequency' cannot change in a run; expected a key of cpg or controller; did you mean "
                  "'cpg.frequency'?"},
            Wrong{"[{t: 0.2, set: {cpg.frequncy: 5}}]", "21: error: unknown key 'frequncy'; did you mean 'frequency'?"},
-           Wrong{"[{t: 0.2, set: {cpg.frequency: 50}}]", "36: error: frequency is 50 Hz; allowed are 0 to 20 Hz"},
+           Wrong{"[{t: 0.2, set: {cpg.frequency: 50}}]", "36: error: frequency is 50 Hz; expected 0 to 20 Hz"},
            Wrong{"[{t: 0.2, set: {cpg.frequency.m7/h: 5}}]", "21: error: no joint 'm7/h'; joints are m0/h, m1/h"},
        }) {
     const std::string text = error(with(one.at));
@@ -163,7 +163,7 @@ TEST_F(ChangesTest, WrongFaults) {
            Wrong{"[{t: 0.2, fault: {joint: 'm7/*', kind: dead}}]", "30: error: no joint matches 'm7/*'; did you mean 'm0/*'?"},
            Wrong{"[{t: 0.2, fault: {joint: [], kind: dead}}]", "30: error: joint names no joint; expected a name or a pattern"},
            Wrong{"[{t: 0.2, fault: {joint: m0/h, kind: weak}}]", "22: error: missing key 'share'"},
-           Wrong{"[{t: 0.2, fault: {joint: m0/h, kind: weak, share: 2}}]", "55: error: share is 2; allowed are 0 to 1"},
+           Wrong{"[{t: 0.2, fault: {joint: m0/h, kind: weak, share: 2}}]", "55: error: share is 2; expected 0 to 1"},
            Wrong{"[{t: 0.2, fault: {joint: m0/h, kind: dead, share: 1}}]",
                  "48: error: unknown key 'share'; known keys: joint, kind"},
            Wrong{"[{t: 0.2, fault: {joint: m0/h, kind: late}}]", "22: error: missing key 'delay'"},

@@ -85,7 +85,7 @@ struct Phase : Cpg {
     Model model;
     void fields(Fields& f) {
       CommonKeys::fields(f);
-      f.group("model", model, "Keys of this model alone.");
+      f.group("model", model, "Keys of this model.");
     }
   };
   Phase(const RobotInfo&, const Settings&) {}
@@ -105,7 +105,7 @@ struct Hopf final : Cpg {
     std::string expression = "x + 1";
     void fields(Fields& f) {
       CommonKeys::fields(f);
-      f.group("model", model, "Keys of this model alone.");
+      f.group("model", model, "Keys of this model.");
       f.numbers("table", table, {"rad", -10, 10, "Numbers."});
       f.texts("labels", labels, "Texts.");
       f.text("expression", expression, "A text.");

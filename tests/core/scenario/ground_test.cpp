@@ -74,16 +74,16 @@ TEST_F(GroundSection, RefusesBoxesAtTheirPlace) {
   EXPECT_EQ(wrong("{type: boxes, boxes: [{center: [0, 0, 0]}]}"),
             "s.yaml:3:31: error: boxes[0] has no size; expected size: [x, y, z]");
   EXPECT_EQ(wrong("{type: boxes, boxes: [{size: [1, 0, 1]}]}"),
-            "s.yaml:3:42: error: size[1] is 0 m; allowed are more than 0 and up to 1000000 m");
+            "s.yaml:3:42: error: size[1] is 0 m; expected more than 0 and up to 1000000 m");
   EXPECT_EQ(wrong("{type: boxes, boxes: [{size: [1, 1]}]}"),
             "s.yaml:3:38: error: size has 2 numbers; expected a list of 3 numbers in m");
   EXPECT_EQ(wrong("{type: boxes, boxes: [{size: [1, 1, 1], centre: [0, 0, 0]}]}"),
             "s.yaml:3:49: error: unknown key 'centre'; did you mean 'center'?");
   EXPECT_EQ(wrong("{type: boxes, boxes: [{size: [1, 1, 1], mass: 2}]}"),
-            "s.yaml:3:55: error: boxes[0] has a mass, and contact.law: penalty moves no box; expected mass: 0, or contact.law: "
+            "s.yaml:3:55: error: boxes[0] has a mass, but contact.law: penalty moves no box; expected mass: 0, or contact.law: "
             "bullet");
   EXPECT_EQ(wrong("{type: boxes, boxes: [{size: [1, 1, 1], friction: -1}]}"),
-            "s.yaml:3:59: error: friction is -1; allowed are 0 to 100");
+            "s.yaml:3:59: error: friction is -1; expected 0 to 100");
 }
 
 /// Text of a ground of `count` boxes, each `apart` behind the previous one, m.
@@ -117,8 +117,7 @@ TEST_F(GroundSection, RefusesHeightfieldsAtTheirPlace) {
             "s.yaml:3:56: error: values[1] is empty; expected a list of numbers");
   EXPECT_EQ(field("values: []"), "s.yaml:3:51: error: the heightfield has 0 rows of 0 heights; expected at least 2 rows of 2");
   EXPECT_EQ(field("values: 5"), "s.yaml:3:51: error: values is 5; expected a list of rows of numbers");
-  EXPECT_EQ(field("values: [[0, 1], [1, 1]], spacing: 0"),
-            "s.yaml:3:78: error: spacing is 0 m; allowed are 1e-06 to 1000000 m");
+  EXPECT_EQ(field("values: [[0, 1], [1, 1]], spacing: 0"), "s.yaml:3:78: error: spacing is 0 m; expected 1e-06 to 1000000 m");
   EXPECT_EQ(field("values: [[0, 1], [1, 1]], file: a.csv"),
             "s.yaml:3:75: error: the heightfield has a file and values; expected one of them\n"
             "s.yaml:3:51: note: values is here");
@@ -223,12 +222,12 @@ TEST_F(HeightFiles, AreRefusedWithWhatTheyHold) {
             "flat.npy: error: the heightfield has 1 rows of 3 heights; expected at least 2 rows of 2");
   folder_.write("gap.npy", matrix(2, 2, {1, 2, std::nan(""), 4}));
   EXPECT_EQ(refused("file: gap.npy"),
-            "gap.npy: error: height [1, 0], counted from 0, is nan m; allowed are -1000000 to 1000000 m");
+            "gap.npy: error: height [1, 0], counted from 0, is nan m; expected -1000000 to 1000000 m");
   folder_.write("deep.npy", matrix(2, 2, {1, 2, 3, -2e4}));
   EXPECT_EQ(refused("file: deep.npy, scale: 100"),
-            "deep.npy: error: height [1, 1], counted from 0, is -2000000 m; allowed are -1000000 to 1000000 m");
+            "deep.npy: error: height [1, 1], counted from 0, is -2000000 m; expected -1000000 to 1000000 m");
   folder_.write("vast.npy", matrix(4097, 4097, {}));
-  EXPECT_EQ(refused("file: vast.npy"), "vast.npy: error: its shape is (4097, 4097); allowed are up to 16777216 numbers");
+  EXPECT_EQ(refused("file: vast.npy"), "vast.npy: error: its shape is (4097, 4097); expected at most 16777216 numbers");
   folder_.write("cut.npy", matrix(4096, 4096, {1, 2}));
   EXPECT_EQ(refused("file: cut.npy"),
             "cut.npy: error: 16 bytes of numbers follow its header; expected 134217728 for shape (4096, 4096) of type '<f8'");
@@ -237,8 +236,9 @@ TEST_F(HeightFiles, AreRefusedWithWhatTheyHold) {
             "text.npy: error: it does not begin as a file of NumPy; expected a matrix of float32, float64 or integers in C "
             "order, as numpy.save writes it");
   folder_.write("grey.dem", std::string("\x89PNG\r\n\x1a\n", 8) + "rest");
-  EXPECT_EQ(refused("file: grey.dem"),
-            "s.yaml:3:49: error: file 'grey.dem' holds grey values from 0 to 65535; expected scale: metres of one");
+  EXPECT_EQ(
+      refused("file: grey.dem"),
+      "s.yaml:3:49: error: file 'grey.dem' holds grey values from 0 to 65535; expected `scale`, the metres per grey value");
   EXPECT_EQ(refused("file: grey.dem, scale: 1e-3"),
             "grey.dem: error: it ends too early; expected a PNG of 16 bit grey values without interlacing");
   EXPECT_EQ(refused("values: [[0, 1], [1, 1]], scale: 2"),

@@ -99,7 +99,7 @@ TEST_F(GroupsTest, WrongUses) {
             "DIR/s.yaml:6:25: error: joint 'm0/h' is given 3 by 'hips' and 4 by 'knees'; give it by its name, which beats "
             "patterns\nDIR/s.yaml:6:16: note: 'hips' is here");
   EXPECT_EQ(wrong("initial: {angles: {hips: 2}}\n"),
-            "DIR/s.yaml:6:26: error: the initial angle of joint 'm0/h' is 2 rad; allowed are -1.5 to 1.5 rad");
+            "DIR/s.yaml:6:26: error: the initial angle of joint 'm0/h' is 2 rad; expected -1.5 to 1.5 rad");
 }
 
 }  // namespace

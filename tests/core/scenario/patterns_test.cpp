@@ -42,7 +42,7 @@ TEST_F(ScenarioTest, PatternsOnTheCommandLine) {
 
 TEST_F(ScenarioTest, AnAngleOutOfRangeIsReportedAtItsPattern) {
   EXPECT_EQ(error(kTwo + "initial: {angles: {default: 0, m1/*: 2}}\n"),
-            "DIR/s.yaml:5:38: error: the initial angle of joint 'm1/h' is 2 rad; allowed are -1.5 to 1.5 rad");
+            "DIR/s.yaml:5:38: error: the initial angle of joint 'm1/h' is 2 rad; expected -1.5 to 1.5 rad");
 }
 
 TEST_F(ScenarioTest, JointsOfTheFigureByPattern) {

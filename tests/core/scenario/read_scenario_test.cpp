@@ -51,7 +51,7 @@ TEST_F(ScenarioTest, AllErrorsAtOnceInTheFilesOrder) {
             "DIR/s.yaml:3:11: error: unknown key 'stifness'; did you mean 'stiffness'?\n"
             "DIR/s.yaml:3:28: error: on 'foot' is unknown; known names: none, feet, all\n"
             "DIR/s.yaml:3:44: error: exponent is .nan; expected a finite number\n"
-            "DIR/s.yaml:4:15: error: R is -4 Ohm; allowed are 0.001 to 1000 Ohm\n"
+            "DIR/s.yaml:4:15: error: R is -4 Ohm; expected 0.001 to 1000 Ohm\n"
             "DIR/s.yaml:4:19: error: duplicate key 'R'\n"
             "DIR/s.yaml:4:12: note: it is given here first\n"
             "DIR/s.yaml:5:13: error: type 'phase_osc' is unknown; did you mean 'phase_oscillator'?\n"
@@ -154,8 +154,7 @@ TEST_F(ScenarioTest, BuildFilesAndAssemblyErrorsKeepTheirPlace) {
   folder_.write("two.dat", "# one connection\n  1 1 4 0 7\n");
   const std::string text = error("robot: {modules: duo, build: two.dat}\nduration: -1\n");
   EXPECT_EQ(
-      text.find(
-          "DIR/s.yaml:2:11: error: duration is -1 s; allowed are more than 0 and up to 1000000 s\nDIR/two.dat:2:3: error: "),
+      text.find("DIR/s.yaml:2:11: error: duration is -1 s; expected more than 0 and up to 1000000 s\nDIR/two.dat:2:3: error: "),
       0U)
       << text;
   EXPECT_EQ(error("robot: {modules: duo, build: two.dat, docks: []}\nduration: 1\n"),
@@ -233,12 +232,12 @@ TEST_F(ScenarioTest, LimitsThatContradictOneAnother) {
 
 TEST_F(ScenarioTest, LimitsBeyondWhatTheyAreSharesOf) {
   EXPECT_EQ(error(kShort + "limits: {energy_residual: 1.1}\n"),
-            "DIR/s.yaml:3:27: error: energy_residual is 1.1; allowed are 0 to 1");
+            "DIR/s.yaml:3:27: error: energy_residual is 1.1; expected 0 to 1");
   EXPECT_EQ(error(kShort + "limits: {saturated_share: 1.1, warn_share: 1.2}\n"),
-            "DIR/s.yaml:3:27: error: saturated_share is 1.1; allowed are 0 to 1\n"
-            "DIR/s.yaml:3:44: error: warn_share is 1.2; allowed are 0 to 1");
+            "DIR/s.yaml:3:27: error: saturated_share is 1.1; expected 0 to 1\n"
+            "DIR/s.yaml:3:44: error: warn_share is 1.2; expected 0 to 1");
   EXPECT_EQ(error(kShort + "limits: {tracking_error: 0}\n"),
-            "DIR/s.yaml:3:26: error: tracking_error is 0 rad; allowed are more than 0 and up to 1000 rad");
+            "DIR/s.yaml:3:26: error: tracking_error is 0 rad; expected more than 0 and up to 1000 rad");
 }
 
 TEST_F(ScenarioTest, PeriodsAreWholeMultiples) {
@@ -263,7 +262,7 @@ TEST_F(ScenarioTest, CommandUnitsMustAgree) {
             "DIR/s.yaml:3:18: note: actuator 'torque' takes N m");
   EXPECT_EQ(error(kShort + "actuator: {type: torque}\n"),
             "DIR/s.yaml:3:18: error: the default controller 'pid' commands V, but actuator 'torque' takes N m\n"
-            "DIR/s.yaml:3:18: note: a controller of its own: controller: {unit: N m, Kp: ...}");
+            "DIR/s.yaml:3:18: note: add for example controller: {unit: N m, Kp: ...}");
   EXPECT_EQ(error(kShort + "actuator: {type: torque}\ncontroller: {type: hold}\n"), test::kNoError);
 }
 
@@ -303,13 +302,12 @@ TEST_F(ScenarioTest, TheModuleTypesMotor) {
 
 TEST_F(ScenarioTest, InitialAnglesStayInTheHingesRange) {
   EXPECT_EQ(error(kTwo + "initial: {angles: 1.6}\n"),
-            "DIR/s.yaml:5:19: error: the initial angle of joint 'm0/h' is 1.6 rad; allowed are -1.5 to 1.5 rad; 1 more joint "
-            "is outside of "
-            "the range, too");
+            "DIR/s.yaml:5:19: error: the initial angle of joint 'm0/h' is 1.6 rad; expected -1.5 to 1.5 rad; 1 more joint "
+            "is also outside the range");
   EXPECT_EQ(error(kTwo + "initial: {angles: [0, -1.6]}\n"),
-            "DIR/s.yaml:5:23: error: the initial angle of joint 'm1/h' is -1.6 rad; allowed are -1.5 to 1.5 rad");
+            "DIR/s.yaml:5:23: error: the initial angle of joint 'm1/h' is -1.6 rad; expected -1.5 to 1.5 rad");
   EXPECT_EQ(error(kTwo + "initial: {angles: {m1/h: 2}}\n"),
-            "DIR/s.yaml:5:26: error: the initial angle of joint 'm1/h' is 2 rad; allowed are -1.5 to 1.5 rad");
+            "DIR/s.yaml:5:26: error: the initial angle of joint 'm1/h' is 2 rad; expected -1.5 to 1.5 rad");
   EXPECT_EQ(error(kTwo + "initial: {angles: [0]}\n"),
             "DIR/s.yaml:5:19: error: angles has 1 number; expected one for each of the robot's 2 joints");
 }

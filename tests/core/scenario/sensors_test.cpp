@@ -70,7 +70,7 @@ TEST_F(SensorsTest, SetReachesEveryKey) {
   EXPECT_TRUE(read(text, {"sensors={}"}).sensors.empty());
   EXPECT_EQ(read(fakes::kTwo, {"sensors.e.type=encoder"}).sensors.size(), 1U);
   EXPECT_EQ(error(text, {"sensors.a.noise=-1"}),
-            "--set sensors.a.noise=-1: error: noise is -1 rad; allowed are 0 to 1000000000 rad");
+            "--set sensors.a.noise=-1: error: noise is -1 rad; expected 0 to 1000000000 rad");
 }
 
 TEST_F(SensorsTest, ATemplateReadsTheSectionAgain) {
@@ -119,12 +119,12 @@ TEST_F(SensorsTest, WrongForms) {
 
 TEST_F(SensorsTest, WrongNumbers) {
   EXPECT_EQ(wrong("sensors: {e: {type: encoder, resolution: -1}}"),
-            "DIR/s.yaml:5:42: error: resolution is -1 rad; allowed are 0 to 1000000000 rad");
+            "DIR/s.yaml:5:42: error: resolution is -1 rad; expected 0 to 1000000000 rad");
   EXPECT_EQ(wrong("sensors: {e: {type: encoder, noise: small}}"),
             "DIR/s.yaml:5:37: error: noise is 'small'; expected a number in rad");
-  EXPECT_EQ(wrong("sensors: {e: {type: encoder, lost: 1.5}}"), "DIR/s.yaml:5:36: error: lost is 1.5; allowed are 0 to 1");
+  EXPECT_EQ(wrong("sensors: {e: {type: encoder, lost: 1.5}}"), "DIR/s.yaml:5:36: error: lost is 1.5; expected 0 to 1");
   EXPECT_EQ(wrong("sensors: {e: {type: encoder, delay: -0.015}}"),
-            "DIR/s.yaml:5:37: error: delay is -0.015 s; allowed are 0 to 10 s");
+            "DIR/s.yaml:5:37: error: delay is -0.015 s; expected 0 to 10 s");
   EXPECT_EQ(wrong("sensors: {e: {type: encoder, range: [1]}}"),
             "DIR/s.yaml:5:37: error: range has 1 number; expected [smallest, largest], or [] for no limit");
   EXPECT_EQ(wrong("sensors: {e: {type: encoder, range: [1, -1]}}"),

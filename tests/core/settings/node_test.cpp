@@ -60,8 +60,8 @@ TEST(Node, AnchorsAliasesAndTagsAreRefused) {
 TEST(Node, AMergeKeyIsAnOrdinaryKey) { EXPECT_EQ(parse_yaml("a: {<<: 1}\n", "f").find("a")->keys[0].first, "<<"); }
 
 TEST(Node, ASecondDocumentIsRefused) {
-  EXPECT_EQ(error("a: 1\n---\nb: 2\n"), "f:2:1: error: found a second document; expected one document a file");
-  EXPECT_EQ(error("a: 1\n---\n"), "f:2:1: error: found a second document; expected one document a file");
+  EXPECT_EQ(error("a: 1\n---\nb: 2\n"), "f:2:1: error: found a second YAML document; expected one per file");
+  EXPECT_EQ(error("a: 1\n---\n"), "f:2:1: error: found a second YAML document; expected one per file");
   EXPECT_EQ(error("---\na: 1\n...\n"), test::kNoError);
 }
 

@@ -73,7 +73,7 @@ TEST(Overlay, MalformedOptions) {
   EXPECT_EQ(refused("duration=&a 1"),
             "--set duration=&a 1: error: found the anchor '&a'; anchors and aliases are not supported");
   EXPECT_EQ(refused("a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q=1"),
-            "--set a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q=1: error: the path has 17 keys; allowed are up to 16");
+            "--set a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q=1: error: the path has 17 keys; expected at most 16");
 }
 
 class Retyping : public testing::Test {

@@ -53,7 +53,7 @@ TEST(Value, WhatIsNoNumber) {
   EXPECT_EQ(wrong("--1"), "is '--1'; expected a number in s");
   EXPECT_EQ(wrong("1 s"), "is '1 s'; expected a number in s");
   EXPECT_EQ(wrong("."), "is '.'; expected a number in s");
-  EXPECT_EQ(wrong("1,5"), "is '1,5'; expected a number in s; a decimal point is a point: 1.5");
+  EXPECT_EQ(wrong("1,5"), "is '1,5'; expected a number in s; use a decimal point: 1.5");
   EXPECT_EQ(read_number({Node::Kind::list}, "").wrong, "is a list; expected a number");
   EXPECT_EQ(read_number({Node::Kind::map}, "m").wrong, "is a map; expected a number in m");
   EXPECT_EQ(read_number({Node::Kind::null}, "m").wrong, "is empty; expected a number in m");

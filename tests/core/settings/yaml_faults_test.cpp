@@ -29,10 +29,10 @@ TEST(YamlFaults, IndentationThatFitsNoLine) {
   EXPECT_EQ(yaml_error("a:\n    b: 1\n  c: 2\n"),
             "f:3:3: error: not valid YAML: 'c' is indented by 2 blanks, 'b' of line 2 by 4");
   EXPECT_EQ(yaml_error("a:\n  - b: 1\n  c: 2\n"),
-            "f:3:3: error: not valid YAML: found the key 'c' among items of a list (-), which begins in line 2 and is indented "
-            "as much");
+            "f:3:3: error: not valid YAML: found the key 'c' among items of a list (-), which begins in line 2 with the same "
+            "indentation");
   EXPECT_EQ(yaml_error("a:\n  b: 1\n  - 2\n"),
-            "f:3:3: error: not valid YAML: found an item of a list (-) among keys; 'b' of line 2 is indented as much");
+            "f:3:3: error: not valid YAML: found an item of a list (-) among keys; 'b' of line 2 has the same indentation");
 }
 
 TEST(YamlFaults, QuotesThatAreNotClosed) {

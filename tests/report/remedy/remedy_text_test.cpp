@@ -56,10 +56,10 @@ TEST(RemedyText, StatesTheValueOrHowManyTimesThePresentOneItIs) {
 TEST(RemedyText, StatesWhyFurtherValuesWereNotTried) {
   RemedyAnswer answer{.key = key_named("amplitude"), .up = true};
   answer.until = 1.993;
-  answer.refused = "amplitude is 1.894155107 rad; allowed are 0 to 1.5 rad";
+  answer.refused = "amplitude is 1.894155107 rad; expected 0 to 1.5 rad";
   answer.refused_at = 3.157;
   EXPECT_EQ(lines_of(remedy_with(Word::infeasible, {answer})),
-            Lines{"amplitude is tried only up to 1.196 rad, because 1.894 rad is refused: allowed are 0 to 1.5 rad"});
+            Lines{"amplitude is tried only up to 1.196 rad, because 1.894 rad is refused: expected 0 to 1.5 rad"});
   answer.key = key_named("Kp");
   answer.refused = "the joint cannot settle; take 150 or less";
   EXPECT_EQ(lines_of(remedy_with(Word::infeasible, {answer})),

@@ -113,7 +113,9 @@ TEST(FaultVerdict, ChangesCountFromTheirTick) {
   };
   EXPECT_NEAR(last_change(at("10"), 20), 667 * 0.015, 1e-12);
   EXPECT_NEAR(last_change(at("0.015"), 20), 0.015, 1e-12);
-  EXPECT_NE(message_of([&] { at("19.996"); }).find("t is 19.996 s, whose control tick is at 20.01 s; the run ends at 20 s"),
+  EXPECT_NE(message_of([&] {
+              at("19.996");
+            }).find("t is 19.996 s, and the change takes effect at the next control tick, 20.01 s, but the run ends at 20 s"),
             std::string::npos);
 }
 

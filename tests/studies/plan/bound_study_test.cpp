@@ -87,7 +87,7 @@ TEST(BoundStudies, VerifyInAnotherEngineWithItsOwnStep) {
     return message_of(
         [&] { const SmallStudy wrong(search + "verify: {engine: " + engine + "}\n", studies::Purpose::optimize); });
   };
-  EXPECT_TRUE(contains(said("articulated"), "verify.engine articulated is the engine of the study itself"))
+  EXPECT_TRUE(contains(said("articulated"), "verify.engine is articulated, the engine of the study itself"))
       << said("articulated");
   EXPECT_TRUE(contains(said("bulet"), "verify.engine 'bulet' is not known; did you mean 'bullet'?")) << said("bulet");
 }

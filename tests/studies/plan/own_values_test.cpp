@@ -30,8 +30,9 @@ TEST(OwnValues, OfAnEntryOfAListAreThatEntry) {
 }
 
 TEST(OwnValues, HaveAReasonWhereThereIsNone) {
-  EXPECT_EQ(own_of("cpg.frequency: {low: 1.5, high: 2}"), "is 1 in the scenario, outside of its range");
-  EXPECT_EQ(own_of("cpg.type: {values: [hopf, sine]}"), "is phase_oscillator in the scenario, which is not among its values");
+  EXPECT_EQ(own_of("cpg.frequency: {low: 1.5, high: 2}"), "is 1 in the scenario, outside the parameter's range");
+  EXPECT_EQ(own_of("cpg.type: {values: [hopf, sine]}"),
+            "is phase_oscillator in the scenario, not one of the parameter's values");
   EXPECT_EQ(own_of("legs: {low: 0, high: 1, sets: {cpg.offset: legs}}"),
             "is a parameter of the study, without a value in the scenario");
   EXPECT_EQ(own_of("cpg.amplitude.default: {low: 0, high: 1}"), "has no single value in the scenario");

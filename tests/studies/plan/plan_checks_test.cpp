@@ -29,7 +29,7 @@ TEST(PlanValues, AreTriedWithTheOtherValues) {
   EXPECT_EQ(problems("parameters: {cpg.type: {values: [phase_oscillator, hopf]}, cpg.model.duty_factor: "
                      "{values: [0.5, 2]}}\n" +
                      grid),
-            "3:98: duty_factor is 2; allowed are 0.05 to 0.95\n");
+            "3:98: duty_factor is 2; expected 0.05 to 0.95\n");
   EXPECT_EQ(problems("parameters: {cpg.type: {values: [phase_oscillator, hopff]}}\n" + grid),
             "3:52: type 'hopff' is unknown; did you mean 'hopf'?\n");
   EXPECT_EQ(problems("parameters: {cpg.tpye: {values: [phase_oscillator, hopf]}}\n" + grid),
@@ -37,7 +37,7 @@ TEST(PlanValues, AreTriedWithTheOtherValues) {
   // Ends of ranges count as values of the other parameters: a phase lag is within 100 rad beside any value.
   EXPECT_EQ(problems("parameters: {cpg.phase_lag: {values: [1, 200]}, cpg.frequency: {low: 0.5, high: 1}}\nmethod: {type: "
                      "random}\nbudget: {runs: 4}\n"),
-            "3:42: phase_lag is 200 rad; allowed are -100 to 100 rad; 200 degrees are 3.491 rad\n");
+            "3:42: phase_lag is 200 rad; expected -100 to 100 rad; 200 degrees are 3.491 rad\n");
 }
 
 }  // namespace

@@ -255,9 +255,8 @@ TEST(Robust, NominalRunsMayNotFail) {
 
 TEST(Robust, HasNoReplicatesBesides) {
   const std::string said = message_of([] { const SmallStudy study(kRobust + "replicates: {count: 2}\n"); });
-  EXPECT_TRUE(contains(said,
-                       "robust: true makes the worlds of a point its replicates, and replicates are given, too; expected "
-                       "one of them"))
+  EXPECT_TRUE(contains(
+      said, "`robust: true` makes the worlds of a point its replicates, but `replicates` is also given; expected one of them"))
       << said;
 }
 

@@ -227,10 +227,9 @@ TEST(AnswersOfAnotherStudy, AreNoneOfAnotherScenario) {
 
 TEST(AnswersOfAnotherStudy, AreRefusedWhereTheyMayDiffer) {
   const OtherStudy other;
-  EXPECT_EQ(
-      other.refused(other.study, Journal::Build::same, "this build"),
-      "study.db: error: was written by another build, which may give other numbers: a build, and this is this build; take "
-      "its answers all the same with --accept-build");
+  EXPECT_EQ(other.refused(other.study, Journal::Build::same, "this build"),
+            "study.db: error: was written by another build, which may give other numbers: a build, and this is this build; use "
+            "its answers anyway with --accept-build");
   EXPECT_EQ(other.refused(other.study, Journal::Build::any, "this build"), kNoError);
   EXPECT_EQ(other.refused(SmallStudy(kRange + "3}}\nguards: none\nstop: [fell]\n")),
             "study.db: error: is of a study with other rules for stopping runs; its runs may have ended at other times");

@@ -98,7 +98,7 @@ TEST(LocalExecutor, GivesARowForEachRefusedScenario) {
     EXPECT_EQ(row.outcome, runs ? "done" : "refused") << run;
     EXPECT_EQ(row.verdict, runs ? Word::feasible : Word::failed);
     if (!runs) {
-      EXPECT_EQ(row.message, "frequency is -1 Hz; allowed are 0 to 20 Hz");
+      EXPECT_EQ(row.message, "frequency is -1 Hz; expected 0 to 20 Hz");
       EXPECT_FALSE(row.score.has_value());
       EXPECT_TRUE(row.quantities.empty());
     }

@@ -215,8 +215,8 @@ TEST(VerificationText, NamesTheWorldsInWhichAPointFalls) {
       "  cpg.frequency 0.6\n"
       "  the gait stands; the study's step was too long: 0.0662 m/s\n"
       "  falls by supply -10 % (6.66 V): voltage of m5/passive; and in 1 of 1 draw\n"
-      "  gears are directional in the worlds, but paper's in the runs: a run with another friction or supply can end otherwise "
-      "than its world\n";
+      "  the worlds have directional gears, but the runs have the paper's, so that a run with another friction or supply can "
+      "end differently from its world\n";
   EXPECT_EQ(app::verification_text(made.journal),
             "verification of the best points (speed, m/s):\nrun 0 verified, stands in 1 of 3 worlds (" + ways);
   all.back().reason = "stands in 1 of 3 worlds; 3 are needed";

@@ -130,7 +130,7 @@ TEST(OptionGrid, ThatIsWrongSaysWhatIsExpected) {
   EXPECT_EQ(wrong("k=2:1:3"), Texts{"k: low is 2, not below high, 1"});
   EXPECT_EQ(wrong("k=log:0:1:3"), Texts{"k: low is 0; expected more than 0 for a logarithm"});
   for (const char* n : {"1", "0", "-3", "1000000001"})
-    EXPECT_EQ(wrong(std::string("k=1:2:") + n), Texts{std::string("N is ") + n + "; allowed are 2 to 1e9"});
+    EXPECT_EQ(wrong(std::string("k=1:2:") + n), Texts{std::string("N is ") + n + "; expected 2 to 1e9"});
   EXPECT_EQ(wrong("k=1:2:1000000000"), Texts{});
   EXPECT_EQ(wrong("k=1:2:3.5").size(), 1U);
   EXPECT_EQ(wrong("k=a:b:3").size(), 2U) << "both ends";
@@ -205,7 +205,7 @@ TEST(ReplicatesKey, ThatIsWrongSaysWhy) {
             Texts{"1:34: k has no law; expected one of normal: [MEAN, DEVIATION], uniform: [LOW, HIGH], values: [...]"});
   EXPECT_EQ(wrong("{uniform: [0, 1], values: [1]}"),
             Texts{"1:34: k has several laws; expected one of normal: [MEAN, DEVIATION], uniform: [LOW, HIGH], values: [...]"});
-  EXPECT_EQ(wrong("{times: {values: [x, y]}}"), Texts{"1:51: k: words cannot be times a value"});
+  EXPECT_EQ(wrong("{times: {values: [x, y]}}"), Texts{"1:51: k: words cannot multiply a value"});
   EXPECT_EQ(wrong("{times: {times: {uniform: [0, 1]}}}").empty(), false) << "a factor of a factor";
   EXPECT_EQ(wrong("{uniform: [0, 1], low: 0}").size(), 1U) << "an end of a normal law";
   EXPECT_EQ(ReadReplicates("{combine: mean}").wrong.size(), 1U) << "count is missing";

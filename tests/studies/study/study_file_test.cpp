@@ -165,7 +165,7 @@ TEST_F(StudyFile, ASearchIsChecked) {
             "s.yaml:5:18: error: verify.engine 'bulet' is not known; did you mean 'bullet'?");
   EXPECT_EQ(
       search("budget: {runs: 64}\nverify: {engine: articulated}\n"),
-      "s.yaml:5:18: error: verify.engine articulated is the engine of the study itself; expected another, or none: known are "
+      "s.yaml:5:18: error: verify.engine is articulated, the engine of the study itself; expected another, or `none`; engines: "
       "bullet, articulated");
   EXPECT_EQ(search("budget: {runs: 64}\nverify: {best: 0}\n").substr(0, 27), "s.yaml:5:16: error: best is");
   EXPECT_EQ(parameters("cpg.type: {values: [hopf, sine]}", "method: {type: cma}\nbudget: {runs: 64}\n"),

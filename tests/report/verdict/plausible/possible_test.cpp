@@ -182,7 +182,7 @@ TEST(Units, ZeroStiffnessIsAnError) {
     const Scenario s = scenario(Links{.more = ""}.text(), {"contact.stiffness=0"});
     ADD_FAILURE() << s.name;
   } catch (const InputError& error) {
-    EXPECT_TRUE(contains(error.what(), "stiffness is 0 N/m^k; allowed are more than 0")) << error.what();
+    EXPECT_TRUE(contains(error.what(), "stiffness is 0 N/m^k; expected more than 0")) << error.what();
   }
 }
 
