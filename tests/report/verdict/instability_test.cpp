@@ -84,10 +84,13 @@ TEST(Unstable, OnlyIfTheJointLeavesItsRangeWhileItsCommandReverses) {
   told.at("joint.0.angle", 1) = 0;
   told.at("joint.0.angle", 3) = hi + 0.9;
   EXPECT_EQ(told.text(), "");
-  told.at("joint.0.angle", 3) = hi + 1.5;
+  told.at("joint.0.angle", 3) = hi + 1.2;
   EXPECT_TRUE(contains(told.text(), "unstable from 0.2 s on")) << told.text();
-  EXPECT_TRUE(contains(told.text(), "goes 1.5 rad beyond its range")) << told.text();
-  told.record.joints[0].reversals = 0;
+  EXPECT_TRUE(contains(told.text(), "goes 1.2 rad beyond its range")) << told.text();
+  told.record.joints[1] = told.record.joints[0];
+  told.at("joint.1.angle", 3) = told.scenario.robot->joints[1].hi + 1.1;
+  EXPECT_TRUE(contains(told.text(), "goes 1.2 rad beyond its range")) << "the farther of two joints; " << told.text();
+  told.record.joints[0].reversals = told.record.joints[1].reversals = 0;
   EXPECT_EQ(told.text(), "");
 }
 
@@ -95,16 +98,18 @@ TEST(Unstable, OnlyIfTheBaseIsFasterThanItsFallExplains) {
   Reversing told;
   const auto fly = [&](double speed, double height) {
     for (int k = 0; k < 5; ++k) {
-      told.at("base.x", k) = 0.1 * std::max(0, k - 2) * speed;  // from 0.2 s on
-      told.at("base.z", k) = k == 0 ? height : 0;
+      told.at("base.x", k) = 0.1 * std::max(0, k - 2) * speed;          // from 0.2 s on
+      told.at("base.z", k) = height * (k == 0 ? 1 : k == 1 ? 0.5 : 0);  // at less than 10 m/s
     }
   };
   fly(9, 0);
   EXPECT_EQ(told.text(), "");
   fly(12, 0);
   EXPECT_TRUE(contains(told.text(), "throws the base about at 12 m/s")) << told.text();
-  fly(12, 3);  // twice the speed of a fall from there is 15.3 m/s
+  fly(11, 1.8);  // twice the speed of a fall from there is 11.9 m/s
   EXPECT_EQ(told.text(), "");
+  fly(14, 1.8);
+  EXPECT_TRUE(contains(told.text(), "throws the base about at 14 m/s")) << told.text();
 }
 
 }  // namespace
