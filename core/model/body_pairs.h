@@ -11,7 +11,7 @@ struct BodyPair {
   bool operator==(const BodyPair&) const = default;
 };
 
-/// The bodies of a list that pairs name, in either order.
+/// Table of the pairs of bodies in a list that are named by BodyPairs, in either order.
 class BodyPairs {
  public:
   BodyPairs() = default;
