@@ -19,7 +19,7 @@ struct Ledger {
 
   [[nodiscard]] double residual() const { return electrical - copper - gear - stored - contact - friction - stops - hinges; }
 
-  static constexpr std::size_t kSums = 7;  ///< number of sums, in the order of `of`, which are part of the state of a simulation
+  static constexpr std::size_t kSums = 7;  ///< number of sums in the state of a simulation, in the order of `of`
   [[nodiscard]] static Ledger of(In sums, double stored) {
     return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], stored, sums[6]};
   }

@@ -5,7 +5,7 @@
 
 namespace gaitlab {
 
-/// Number of set-point periods after which a gait that has not settled to a limit cycle counts as not settling.
+/// Number of set-point periods that a verdict needs if the motion does not settle to a limit cycle.
 inline constexpr double kPeriodsNeeded = 3;
 inline constexpr double kMostCycleError = 0.02;  ///< largest `error` of a motion that repeats
 

@@ -36,7 +36,7 @@ class Series {
 /// selects.
 const std::vector<std::string>& report_columns();
 
-inline constexpr std::size_t kMostTickRows = 20000;  ///< largest number of rows of Recording::ticks, even; 5 min of ticks every 15 ms
+inline constexpr std::size_t kMostTickRows = 20000;  ///< most rows of Recording::ticks, even; 5 min of ticks every 15 ms
 /// Columns of each joint in Recording::ticks, after the column t.
 enum TickColumn : std::size_t {
   kTorquePeak,

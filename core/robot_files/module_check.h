@@ -1,4 +1,4 @@
-// Check of a module type: one tree of bodies and hinges, physically possible inertias, and faces that can dock.
+// Check of a module type for one tree of bodies and hinges, physically possible inertias, and faces that can dock.
 #pragma once
 #include <vector>
 

@@ -43,7 +43,7 @@ struct StepEffort {
   In hinges;                    ///< per lane, J: work absorbed by dampers and friction of passive hinges
 };
 
-/// StepEffort of a plant with one lane whose steps have one part.
+/// StepEffort for a plant with one lane whose steps have one part.
 class OnePart {
  public:
   void set(In torque, In speed, In angle, double h) {
