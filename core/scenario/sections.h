@@ -50,7 +50,7 @@ struct SectionFields {
   PhysicsFields physics;
   PluginFields actuator, controller, cpg;
   bool has_cpg = true;
-  bool writing = false;  ///< true to write the sections in full, but of the keys in `ground` only those of its type
+  bool writing = false;  ///< true to write the sections in full, with only the keys of the ground's type
 
   /// `catalog` and `problems` are passed to PhysicsFields and PluginFields. `actuator_type` is the default type of the
   /// actuator.

@@ -53,8 +53,7 @@ class StepError {
   static constexpr double kSafety = 1.25;    ///< reserve because events lower the order, and windows miss some events
   static constexpr double kStart = 1.0 / 3;  ///< weight of the first window; other windows have the weight 1 of a whole cycle
   static constexpr double kChaotic = 1e-9, kIll = 1e-6;  ///< relative changes of gravity of these companions
-  static constexpr double kLeastPeak =
-      0.02;  ///< least peak of a joint, as a share of the largest peak of all joints; lower peaks are raised to it
+  static constexpr double kLeastPeak = 0.02;  ///< lower bound of a joint's peak, as a share of the largest peak of all joints
 
   /// `accuracy` is, per lane, the share of the peak torque by which two rollouts must differ for an event.
   StepError(const StateLayout& layout, std::vector<double> accuracy);
