@@ -93,7 +93,7 @@ bool Heightfield::covers(double x, double y) const {
 GroundTouch Heightfield::touch(const Vec3& centre, double radius, double friction) const {
   SurfacePoint spot = at(centre.x(), centre.y());
   double distance = (centre.z() - spot.z) * spot.normal.z();
-  const bool near = std::abs(distance) < radius + spacing;  // else a rough measure of the gap is enough
+  const bool near = std::abs(distance) < radius + spacing;  // otherwise a rough estimate of the gap is enough
   for (int step = 0; near && step < kPerpendiculars; ++step) {
     const Vec3 foot = centre - distance * spot.normal;
     spot = at(foot.x(), foot.y());

@@ -50,7 +50,8 @@ struct Judged {
   [[nodiscard]] static std::size_t first(const std::vector<JudgedJoint>& joints);
 };
 
-/// Length of the start that is omitted from a run without a limit cycle, s: 2 s, or a fifth of a run shorter than 10 s.
+/// Length of the start that is left out of a run without a limit cycle or without two periods, s: 2 s, or a fifth of a run
+/// shorter than 10 s.
 double left_out_start(double end);
 
 /// Chooses the judged window and computes its statistics. The window consists of whole periods up to the end of the run,

@@ -12,7 +12,7 @@ namespace gaitlab {
 
 namespace {
 
-constexpr std::uint32_t kDraw = 16;  // of lost set points; sensors have the draws below
+constexpr std::uint32_t kDraw = 16;  // draw for lost set points; sensors use lower numbers
 
 }  // namespace
 
