@@ -4,8 +4,9 @@
 
 namespace gaitlab {
 
-/// torque = -ks (q - q_lim) - cs qd outside [lo, hi], and 0 if this torque would pull towards the stop. (chosen:
-/// docs/equations.md, 2) q: angle, rad; qd: speed, rad/s; torque on the joint, N m. T: double or lanes.
+/// torque = -ks (q - q_lim) - cs qd outside [lo, hi], and 0 if this torque would pull towards the stop.
+/// (chosen: docs/equations.md, 2)
+/// q: angle, rad; qd: speed, rad/s; torque on the joint, N m. T: double or lanes.
 template <class T>
 struct BasicHingeStop {
   static constexpr double kStiffness = 50;  ///< ks, N m/rad

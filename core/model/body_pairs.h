@@ -11,7 +11,7 @@ struct BodyPair {
   bool operator==(const BodyPair&) const = default;
 };
 
-/// Table of the pairs of bodies in a list that are named by BodyPairs, in either order.
+/// Pairs of bodies in a list that BodyPair entries name, in either order.
 class BodyPairs {
  public:
   BodyPairs() = default;

@@ -9,7 +9,7 @@ namespace gaitlab {
 /// Limits of the child process.
 struct TrialLimits {
   std::chrono::seconds cpu_time{10};  ///< less if the limit of this process is lower
-  std::chrono::seconds sleep{60};     ///< time that the process may last with hardly any CPU time
+  std::chrono::seconds sleep{60};     ///< time that the process may sleep with hardly any CPU time
 };
 
 /// Loads the library in a child process and calls `enter` with it, so that this process survives static objects and a

@@ -17,8 +17,8 @@ struct JointInfo {
   std::int64_t parent = -1;           ///< number of the next joint towards the base, or -1
   double lo = 0, hi = 0;              ///< range, rad; -infinity and infinity if the joint turns freely
   std::array<double, 3> origin = {};  ///< point on the axis, m, in the base frame at zero angles
-  /// Unit vector of the joint axis in the base frame at zero angles. A positive angle is a right-hand turn about this axis of
-  /// the body that is farther from the base.
+  /// Unit vector of the joint axis in the base frame at zero angles. For a positive angle, the body farther from the base makes
+  /// a right-hand turn about this axis.
   std::array<double, 3> axis = {};
   bool driven = true;  ///< false for a joint without a motor, whose set points and torques are not used
   [[nodiscard]] bool turns_freely() const { return hi == std::numeric_limits<double>::infinity(); }

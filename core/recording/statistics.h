@@ -1,4 +1,4 @@
-// Statistics of a run: sums and peaks over ALL steps, of which the trace has only some as rows.
+// Statistics of a run: sums and peaks over ALL steps, because rows of the trace cover only some of them.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -25,8 +25,8 @@ struct JointStatistics {
   double electrical = 0, copper = 0, gear = 0, shaft = 0;  ///< J: drawn, lost in winding and gear, given to the joint
   double shaft_positive = 0;                               ///< J: positive part of the shaft power
   double created = 0;                                      ///< J: energy that the gear created (eq. 2, back-driven)
-  /// Last stretch of the run in which the command changes its sign at most control ticks: number of ticks with a change minus
-  /// ticks without. 0 if there is no such stretch.
+  /// Number of control ticks with a change of the command's sign minus those without, in the last stretch of the run in which
+  /// most ticks have a change; 0 if there is no such stretch.
   double reversals = 0;
   double reversing_from = 0;  ///< s: first tick of that stretch
 };

@@ -9,10 +9,8 @@
 namespace gaitlab {
 
 /// Applies faults to the motors of another actuator:
-///     weak    torque and slope times a share. Current and electrical power are as in the whole motor; the rest of the power is
-///     lost
-///             in the gear.
-///     open    no torque, slope, current and power, and voltage 0.
+///     weak    torque and slope times a share; current and electrical power unchanged; the gear loses the remaining power
+///     open    no torque, slope, current and power, and voltage 0
 /// The results for a motor without a fault have the same bits as from the other actuator. If that actuator has DC motors, this
 /// one has DC motors with other constants (weak: Kt and the slope at rest times the share; open: Kt = Ks = 0), so that engines
 /// evaluate one law. Only the constructor allocates.
