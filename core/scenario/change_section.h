@@ -36,8 +36,8 @@ inline constexpr const char* kAboutFault = "A fault of joints, or a list of faul
 /// change during a run. If it adds problems, the result must not be used.
 using ReadSegment = std::function<Scenario(const Node& root, const std::vector<std::string>& sections, Problems& problems)>;
 
-/// Reads and checks the section. Each change is applied to the settings that all earlier changes leave. All other sections of
-/// `scenario` must be known and free of problems. Returns an empty list if the section is absent.
+/// Reads and checks the section. Each change is applied on top of all earlier changes. All other sections of `scenario` must be
+/// known and free of problems. Returns an empty list if the section is absent.
 std::vector<Change> read_changes(const Node& root, const Scenario& scenario, JointNames joints, const ReadSegment& read,
                                  Problems& problems);
 

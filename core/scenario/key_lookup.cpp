@@ -89,7 +89,7 @@ std::string elsewhere(const Catalog& catalog, const TypesInForce& types, const U
   const std::string own = unknown.section + (unknown.section.empty() ? "" : ".") + unknown.key;
   const std::vector<ScenarioKey> all = all_keys(catalog);
   std::vector<ScenarioKey> usable;
-  // The path of the unknown key itself means that its section has the key under other settings.
+  // A key with the path of the unknown key is of no use: the section has this key only under other settings.
   std::ranges::copy_if(all, std::back_inserter(usable),
                        [&](const ScenarioKey& one) { return one.path != own && applies(one, types); });
   const std::vector<std::string> exact = paths_of(usable, unknown.key);

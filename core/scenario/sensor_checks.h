@@ -20,7 +20,7 @@ struct PlacedSensor {
 /// map of the sensor.
 void check_keys(const Node& node, const PluginSelection& plugin, const Scenario& scenario, Problems& problems);
 
-/// The same check for the fields that `visit` visits, of any map.
+/// The same checks for any map, whose fields `visit` visits.
 void check_names_and_times(const Node& node, const std::function<void(Fields&)>& visit, const Scenario& scenario,
                            Problems& problems);
 

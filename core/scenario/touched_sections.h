@@ -7,7 +7,7 @@
 
 namespace gaitlab {
 
-/// Sections to which settings belong, given in the form of --set.
+/// Sections to which settings (in the form of --set) belong.
 std::vector<std::string> sections_of(const std::vector<std::string>& sets);
 
 class TouchedSections {

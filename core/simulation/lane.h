@@ -93,7 +93,7 @@ struct Simulation::Lane {
   Out cpg_state, controller_state, ledger;                                       // parts of Simulation::state_
   double energy_at_start = 0;                                                    // J
   std::vector<double> angle, speed, torque, touching, setpoint, command, limit;  // by joint (touching: by module), for plugins
-  std::vector<double> fastest;    // rad/s, largest speeds at which joints met their stops
+  std::vector<double> fastest;    // rad/s, largest speed at which each joint met a stop
   std::int64_t meetings = 0;      // meetings with stops whose loads were measured
   std::vector<double> angle_now;  // scratch: true angles, rad
   std::vector<double> channels;   // values of sensors, for plugins

@@ -23,7 +23,7 @@ class LaneSensors {
   [[nodiscard]] bool empty() const { return sensors_.empty(); }
   [[nodiscard]] bool need_current() const { return need_current_; }
   [[nodiscard]] bool need_motion() const { return !points_.empty(); }
-  /// Number of values that change, which are states, then readings.
+  /// Number of values that change: first states, then readings.
   [[nodiscard]] std::size_t states() const { return states_ + readings_.size(); }
   void bind(Out numbers);
   /// Number of readings that are entries of Measured::channels.

@@ -27,8 +27,7 @@ class LoadMeter {
   /// Computes a row from the sample. Path lengths are sums since the first row. The loads of docks and gears are the largest
   /// ones in this sample and in all calls of watch() since the last row.
   void measure(Out row);
-  /// Keeps each load of docks and gears in the sample, at a time between control ticks, if it is the largest since the last
-  /// row.
+  /// Called between control ticks. Keeps the loads of docks and gears in the sample that are the largest since the last row.
   void watch();
   /// Removes the columns of feet that never carried a load.
   void drop_idle_feet(Trace& loads) const;

@@ -93,7 +93,7 @@ class Plant {
   virtual bool state_within(std::size_t /*lane*/, std::size_t /*eighth*/, Out /*state*/) const { return false; }
   /// Writes all members of `out` except the estimate of the torque error.
   virtual void tally(std::size_t /*lane*/, StepTally& /*out*/) const {}
-  /// Called between steps after motor constants of the actuator or stuck hinges have changed. `hold` contains the angles of
+  /// Applies new motor constants of the actuator and new stuck hinges. Called between steps. `hold` contains the angles of
   /// stuck hinges, rad, and NaN for all others. `since` contains the time that each has been stuck, s, at most
   /// HingeHold::kRamp, after which the hold no longer grows. Index joint * lanes + lane. By default, throws std::logic_error.
   virtual void change_joints(In /*hold*/, In /*since*/) {

@@ -41,8 +41,8 @@ bool estimated_by_rollouts(const Scenario& s);
 /// joint or contact that limits it.
 ///
 /// step() allocates only at control ticks if loads are recorded, and for robots with hundreds of joints when a step is divided
-/// further than any step before. If the only lane diverges or its plugin throws, step() throws SimulationError. With several
-/// lanes, only that lane ends, with its outcome().
+/// further than any step before. If a lane diverges or its plugin throws, only this lane ends, with its outcome(). If there is
+/// only one lane, step() throws SimulationError instead.
 class Simulation {
  public:
   explicit Simulation(std::span<const Scenario> lanes, Records records = {});
