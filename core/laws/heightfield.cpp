@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kPerpendiculars = 3;  // steps to the foot of the perpendicular; they converge fast if the field is flat
 
-/// Interpolation of a coordinate on its axis of the grid: the four nodes around it and their weights.
+/// Interpolation along one axis of the grid: the four nodes around a coordinate, and their weights.
 struct Stencil {
   std::array<std::size_t, 4> node{};
   std::array<double, 4> value{}, slope{};  ///< slope: d(value)/d(t)

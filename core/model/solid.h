@@ -24,7 +24,7 @@ struct Solid {
   void add(const Solid& other);
 };
 
-/// Solid of one shape in body axes, in closed form. A half cylinder has V = pi r^2 L / 2, its centre at x = 4 r / (3 pi).
+/// Solid of one shape in body axes, in closed form. A half cylinder has V = pi r^2 L / 2 and its centre at x = 4 r / (3 pi).
 Solid solid(const Shape& shape);
 
 /// Largest number of shapes of a body for united(), which takes 10 ms for a few overlapping shapes and 0.1 s for 100.

@@ -19,7 +19,7 @@ struct Entry {
   Kind kind;
   std::string_view name;
   std::string_view manual;                          ///< text with equation, reference and minimal YAML
-  std::shared_ptr<void> (*settings)(const Entry&);  ///< makes settings with the defaults; they may own the context, too
+  std::shared_ptr<void> (*settings)(const Entry&);  ///< makes settings with the defaults, which may share the context
   void (*fields)(void* settings, Fields&);
   /// Makes a new Cpg, Controller or Actuator. An actuator gets one settings pointer per lane, any other plugin exactly one.
   /// Null for a sensor.

@@ -6,8 +6,8 @@
 
 namespace gaitlab {
 
-/// Factor by which a value must exceed a peak to replace it. All motors at one limit have the same torque up to rounding, and
-/// the first of them is the peak.
+/// Factor by which a value must exceed a peak to replace it. All motors at one limit have the same torque up to rounding; the
+/// first of them must remain the peak.
 inline constexpr double kLarger = 1 + 1e-9;
 
 /// Statistics of one joint over the steps so far, in SI units.

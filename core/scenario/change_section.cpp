@@ -281,7 +281,7 @@ std::vector<std::size_t> joints_of(const JointFault& fault, const Robot& robot) 
     }
   }
   std::ranges::sort(all);
-  all.erase(std::unique(all.begin(), all.end()), all.end());  // std::ranges::unique is beyond clang 14
+  all.erase(std::unique(all.begin(), all.end()), all.end());  // clang 14 does not support std::ranges::unique
   return all;
 }
 

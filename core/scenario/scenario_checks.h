@@ -29,7 +29,7 @@ class ScenarioChecks {
   void limits();
   /// Refuses settings for integrators that choose their steps, if the integrator does not.
   void automatic_step();
-  /// Checks that controller and actuator have the same unit of the command.
+  /// Checks that controller and actuator use the same unit for commands.
   void units(const Actuator& actuator, const Controller& controller);
   /// Refuses rotor inertia if the engine cannot add it. The message names the engines that can.
   void rotors(const Actuator& actuator);

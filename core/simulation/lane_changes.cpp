@@ -103,7 +103,7 @@ std::vector<std::size_t> stuck_joints(const Scenario& scenario) {
     }
   }
   std::ranges::sort(all);
-  all.erase(std::unique(all.begin(), all.end()), all.end());  // std::ranges::unique is beyond clang 14
+  all.erase(std::unique(all.begin(), all.end()), all.end());  // clang 14 does not support std::ranges::unique
   return all;
 }
 

@@ -68,7 +68,7 @@ class LoadMeter {
   double weight_ = 0;       ///< N
   bool stability_ = false;  ///< there is a column of the stability margin
   bool forces_ = false;     ///< there are columns of the feet's forces and points of action
-  double creep_speed_ = 0;  ///< m/s, below which loaded contacts creep; 0 if the contact law has no such speed
+  double creep_speed_ = 0;  ///< m/s; below this speed, loaded contacts creep; 0 if the contact law has no such speed
   std::vector<DockFace> docks_;
   std::vector<std::size_t> gears_;    ///< joints
   std::vector<DockLoad> dock_loads_;  ///< largest loads since the last row, by index of docks_

@@ -8,7 +8,8 @@ namespace gaitlab {
 
 struct RobotState;
 
-inline constexpr std::size_t kEighths = 8;  ///< equal parts of a step; Plant::state_within has states between them
+inline constexpr std::size_t kEighths =
+    8;  ///< equal parts of a step; Plant::state_within returns the states between these parts
 
 /// Indices of the numbers of the state of a rollout. Entry e of lane l has the index e * lanes + l. SI units, world axes.
 struct StateLayout {
