@@ -8,8 +8,7 @@ namespace gaitlab {
 
 struct RobotState;
 
-inline constexpr std::size_t kEighths =
-    8;  ///< equal parts of a step; Plant::state_within returns the states between these parts
+inline constexpr std::size_t kEighths = 8;  ///< equal parts of a step; Plant::state_within gives the states between them
 
 /// Indices of the numbers of the state of a rollout. Entry e of lane l has the index e * lanes + l. SI units, world axes.
 struct StateLayout {
