@@ -17,11 +17,11 @@ namespace {
 
 constexpr std::size_t kMostProblems = 200;  // largest number of problems in a message
 constexpr std::size_t kMostBytes =
-    500;  // largest length of a problem; texts of users are clipped earlier, so that this limit is a second safeguard
+    500;  // largest length of a problem, as a second safeguard; texts of users are clipped earlier
 
 /// Number of bytes of the control character in UTF-8 that begins at `i`, or 0 if none does. Control characters are those of
-/// ASCII, the second set (U+0080 to U+009F), separators of lines (U+2028, U+2029), bidirectional marks, which display a text in
-/// another order than its bytes, and U+FFFE and U+FFFF, which no text may contain.
+/// ASCII, the second set (U+0080 to U+009F), line separators (U+2028, U+2029), bidirectional marks, because they display a text
+/// in another order than its bytes, and U+FFFE and U+FFFF, which no text may contain.
 std::size_t control_at(std::string_view text, std::size_t i) noexcept {
   const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
   const unsigned second = byte(i + 1);
@@ -84,8 +84,8 @@ std::string report(const std::vector<Problem>& problems) {
   return text;
 }
 
-// Levenshtein distance, in which a swap of neighbours, the most common typing error, counts as one. A distance of `enough` or
-// more may be any number from `enough` on, because a name that is not nearer than another need not be read to its end.
+// Levenshtein distance, in which a swap of neighbours, the most common typing error, counts as one. If the distance is at least
+// `enough`, the result may be any number from `enough` on, because the caller then discards the name.
 std::size_t distance(const std::string& a, const std::string& b, std::size_t enough) {
   std::vector<std::size_t> before(b.size() + 1);
   std::vector<std::size_t> row(b.size() + 1);
@@ -148,8 +148,8 @@ InputError::InputError(SourceLocation place, std::string text)
 
 namespace {
 
-/// Number of equal characters at the beginning. Among equally similar names, that with most of them is meant: people misspell
-/// the end of a word more often.
+/// Number of equal characters at the beginning. Among equally similar names, the name with the most is suggested, because users
+/// misspell the end of a word more often.
 std::size_t alike(const std::string& a, const std::string& b) {
   return static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin());
 }
@@ -179,7 +179,7 @@ std::string nearest(const std::string& found, const std::vector<std::string>& kn
     best = name;
   }
   if (!best.empty()) return best;
-  // It may be too long: the longest name with which it begins is the result.
+  // If `found` is too long, the longest name with which it begins is the result.
   constexpr std::size_t kShortest = 4;
   for (const std::string& name : known) {
     if (name.size() >= kShortest && name.size() > best.size() && found.starts_with(name)) best = name;

@@ -1,4 +1,4 @@
-// Errors with their locations: bad input (exit code 2) and a failed run (exit code 1).
+// Errors with their locations, for bad input (exit code 2) and failed runs (exit code 1).
 #pragma once
 #include <cstddef>
 #include <stdexcept>
@@ -26,7 +26,7 @@ struct Problem {
   SourceLocation place;
   std::string text;
   std::vector<std::pair<SourceLocation, std::string>> notes = {};
-  std::string unknown_key = {};  ///< the key, if the problem is that nothing has this key
+  std::string unknown_key = {};  ///< the key, if the problem is an unknown key
 };
 
 /// Collection of problems, so that a user sees all of them at once.
@@ -46,16 +46,15 @@ class Problems {
   std::vector<Problem> list_;
 };
 
-/// A name on one line, with control characters as \x1b.
+/// A name on one line, with control characters escaped as in \x1b.
 std::string one_line(const std::string& name);
 
-/// Prints a text on stderr without allocating memory. Control characters (also NUL, but not newlines) are printed as \x1b,
+/// Prints a text on stderr without allocating memory. Control characters (also NUL, but not newlines) are escaped as in \x1b,
 /// because messages contain file names and texts from unknown sources. All messages of the program are printed by this
 /// function. If stderr cannot be written, the message is lost.
 void say(std::string_view text) noexcept;
-/// Sets the receiver of the texts of say(), which replaces stderr; null restores stderr. For a library inside another program,
-/// which owns stderr. The texts are as
-/// they were given to say(): they may have control characters.
+/// Sets a receiver that gets the texts of say() instead of stderr; null restores stderr. For a library inside another program,
+/// which owns stderr. The texts are passed unchanged and may have control characters.
 void say_to(void (*receiver)(std::string_view text) noexcept) noexcept;
 /// Prints `NAME: KIND: TEXT` on a line. KIND is error, warning or note.
 void say(const std::string& name, const char* kind, const std::string& text);

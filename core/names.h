@@ -9,9 +9,10 @@
 
 namespace gaitlab {
 
-/// Table of an enum's names, specialised next to the enum, whose values count from 0. It contains `static constexpr
-/// EnumName<Enum> kTable[]` with a row for each value, in the order of the values. A row may be of any type with `value` and
-/// `text`, so that a table may have further columns. A value without a row is a compiler error where the table is used.
+/// Table of an enum's names, specialised next to the enum. The values of the enum must count from 0. It contains `static
+/// constexpr EnumName<Enum> kTable[]` with a row for each value, in the order of the values. A row may be of any type with
+/// `value` and `text`, so that a table may have further columns. A value without a row is a compiler error where the table is
+/// used.
 template <class Enum>
 struct EnumNames;
 

@@ -1,4 +1,4 @@
-// Tree of bodies, each attached to its parent by a hinge or by the dock of its module; docked bodies are not fused in it.
+// Tree of bodies, each attached to its parent by a hinge or by the dock of its module. The tree does not fuse docked bodies.
 #pragma once
 #include <cstddef>
 #include <string>

@@ -6,8 +6,8 @@
 
 namespace gaitlab {
 
-/// Load about the common origin of the docked faces. Shear and bending are magnitudes, so that they do not depend on the
-/// quarter turn by which the faces are docked. (docs/equations.md, 9)
+/// Load about the common origin of the docked faces. Shear and bending are magnitudes, because a magnitude does not depend on
+/// the quarter turn by which the faces are docked. (docs/equations.md, 9)
 struct DockLoad {
   double tension = 0;  ///< N, positive: pulls the modules apart
   double shear = 0;    ///< N, in the plane of the faces
@@ -22,8 +22,8 @@ inline DockLoad dock_load(const Wrench& on_child, const Vec3& normal) {
   return {-on_child.force.dot(normal), across(on_child.force), across(on_child.moment), on_child.moment.dot(normal)};
 }
 
-/// The larger of each component of two loads: of tension with its sign, as a dock that is pressed does not part, of the others
-/// in magnitude.
+/// Larger value of each component of two loads. Tension is compared with its sign, because pressure does not part a dock; the
+/// other components are compared in magnitude.
 inline DockLoad largest(const DockLoad& a, const DockLoad& b) {
   return {std::fmax(a.tension, b.tension), std::fmax(a.shear, b.shear), std::fmax(a.bending, b.bending),
           std::abs(b.torsion) > std::abs(a.torsion) ? b.torsion : a.torsion};

@@ -30,7 +30,7 @@ Wrench MassMatrix::momentum(const Composite& c, const Vec3& w, const Vec3& v) {
   return {c.mass * v + w.cross(c.first), c.second * w + c.first.cross(v)};
 }
 
-/// Sets the entries that couple the base with `column` to the momentum at unit speed of `column`.
+/// Sets the entries that couple the base with `column` to `momentum`, which is the momentum at unit speed of `column`.
 void MassMatrix::put(Eigen::Index column, const Wrench& momentum) {
   for (std::size_t i = 0; i < base_.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);

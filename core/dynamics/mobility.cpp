@@ -39,7 +39,7 @@ Matrix6 inverse_at_base(const Matrix6& inertia, Base base) {
 
 /// A joint and the link that it moves.
 struct Hinge {
-  Matrix6 X;    ///< motion of the parent's origin to that of the link
+  Matrix6 X;    ///< transform of motions from the parent's origin to the link's origin
   Vector6 S;    ///< axis
   Vector6 U_D;  ///< U / D
   double D = 0;

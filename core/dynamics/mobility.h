@@ -10,7 +10,8 @@ namespace gaitlab {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// Accelerations of a robot at rest per unit of load, without gravity, with M of mass_matrix.h plus the armatures.
+/// Accelerations of a robot at rest per unit of load, without gravity. M is the mass matrix of mass_matrix.h plus the
+/// armatures.
 struct Mobility {
   /// J M^-1 J^T per link, J the Jacobian of the link frame: (acceleration of its origin, angular acceleration) per (force,
   /// moment about the origin), world axes, SI. Zero for a link that cannot move.
@@ -29,7 +30,7 @@ struct Mobility {
 ///     links[i] = S S^T / D + L X links[p] X^T L^T,   L = 1 - S U^T / D
 ///     joints[j] = 1 / D + U^T X links[p] X^T U / D^2,
 /// a recursion from the base outwards as in Rodriguez, Jain, Kreutz-Delgado, Int. J. Robotics Research 10 (1991) 371. The cost
-/// is O(links). `armature` has the rotor inertia of each joint, kg m^2. Every joint must carry some inertia.
+/// is O(links). `armature` contains the reflected rotor inertia of each joint, kg m^2. Every joint must carry some inertia.
 Mobility mobility(const Robot& robot, Base base, const Kinematics& kinematics, std::span<const double> armature);
 
 }  // namespace gaitlab

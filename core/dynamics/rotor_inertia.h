@@ -19,7 +19,8 @@ class RotorInertia {
   void update(const Kinematics& kinematics);
   /// Replaces a_0 by a.
   void add_to(Acceleration& acceleration);
-  /// Computes y = (M + J)^-1 f. Both vectors have 6 base entries (in y 0 if the base cannot move), then the joints.
+  /// Computes y = (M + J)^-1 f. Both vectors have 6 entries of the base, then the joints. The base entries of y are 0 if the
+  /// base cannot move.
   void inverse_mass(In f, Out y);
 
  private:

@@ -68,14 +68,13 @@ class Lexer {
     if (end < text_.size() && (text_[end] == 'e' || text_[end] == 'E')) {
       const bool sign = end + 1 < text_.size() && (text_[end + 1] == '+' || text_[end + 1] == '-');
       const std::size_t exponent = end + (sign ? 2 : 1);
-      if (digits(exponent) > exponent)
-        end = digits(exponent);  // otherwise a name follows the number directly, which is refused later
+      if (digits(exponent) > exponent) end = digits(exponent);  // otherwise the `e` belongs to a name, which is refused later
     }
     at_ = end;
     Token token{Token::Kind::number, begin, text_.substr(begin, end - begin)};
     const auto [last, failure] = std::from_chars(token.text.data(), token.text.data() + token.text.size(), token.number);
     const bool zero = token.text.find_first_of("123456789") >= std::min(token.text.find_first_of("eE"), token.text.size());
-    // Overflow and underflow are checked here, because versions of from_chars differ in their report of an underflow.
+    // Overflow and underflow are checked here, because versions of from_chars report an underflow differently.
     if (failure != std::errc() || !std::isfinite(token.number) || (token.number == 0 && !zero)) {
       throw Fault{begin, "found " + quoted(token.text) + "; expected a number that fits a double"};
     }

@@ -1,4 +1,4 @@
-// Parser of expressions, in the equations of a CPG and in a study: it turns a text into a tree, without interpreting names.
+// Parser for expressions in CPG equations and in studies. It turns a text into a tree without interpreting names.
 #pragma once
 #include <cstddef>
 #include <string>

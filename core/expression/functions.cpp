@@ -18,7 +18,7 @@ constexpr Function kFunctions[] = {{"~", 1, Op::neg},   {"not", 1, Op::no},    {
                                    {"cos", 1, Op::cos}, {"tan", 1, Op::tan},   {"tanh", 1, Op::tanh},   {"exp", 1, Op::exp},
                                    {"log", 1, Op::log}, {"sqrt", 1, Op::sqrt}, {"abs", 1, Op::abs},     {"sign", 1, Op::sign},
                                    {"min", 2, Op::min}, {"max", 2, Op::max},   {"clamp", 3, Op::clamp}, {"if", 3, Op::choose}};
-constexpr std::size_t kOperators = 15;  // number of operators of the grammar, which are not written as calls
+constexpr std::size_t kOperators = 15;  // number of operators, which the grammar does not write as calls
 
 template <class F>
 void each(std::size_t n, double* out, const double* a, F f) {

@@ -42,7 +42,7 @@ int sync_folder(const std::filesystem::path& folder) {
   return error;
 }
 
-/// True if a link leads through /proc to an open file of any kind, as does /dev/stdout.
+/// True if a link such as /dev/stdout leads through /proc to an open file of any kind.
 bool names_what_is_open(std::filesystem::path path) {
   constexpr int kMostLinks = 40;  // the limit of Linux
   constexpr long kProc = 0x9FA0;
@@ -92,7 +92,7 @@ class Regular {
   }
 
  private:
-  /// Member that closes the file, even if the constructor throws.
+  /// Closes the file, even if the constructor throws.
   struct Open {
     int descriptor;
     explicit Open(int from) : descriptor(from) {}
@@ -198,7 +198,8 @@ void AtomicFile::discard() {
 int rename_new(const std::filesystem::path& from, const std::filesystem::path& to) {
   if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
   if (errno != EINVAL && errno != ENOSYS && errno != ENOTSUP) return errno;
-  // The file system lacks this kind of rename. An empty file or folder therefore reserves the name and is then replaced.
+  // The file system does not support RENAME_NOREPLACE. An empty file or folder therefore reserves the name and is then
+  // replaced.
   if (std::filesystem::is_directory(from)) {
     if (::mkdir(to.c_str(), 0777) != 0) return errno;
   } else {

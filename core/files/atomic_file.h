@@ -13,16 +13,16 @@ namespace gaitlab {
 enum class Existing { replaced, refused };
 
 /// Writer of a file PATH. Its bytes are written to a separate file `.NAME.XXXXXXXX.part` in the folder of PATH, which commit()
-/// renames. The steps are write, fsync, close, rename, fsync of the folder, with every return value checked.
+/// renames. The steps are write, fsync, close, rename, and fsync of the folder. Every return value is checked.
 /// - Without commit(), or after a failure, the destructor removes the part file, and PATH is unchanged. Only kill -9 leaves the
-///   part file. If only the last step fails, PATH is the new file, which a power cut may take back.
-/// - If several writers have the same path, the complete bytes of the last writer remain. With Existing::refused those of the
-///   first writer remain, and all other writers throw.
-/// - A device or a FIFO, also behind a link (/dev/stdout), is written into and never replaced. A FIFO needs a reader.
+///   part file. If only the last step fails, PATH is the new file, but a power cut may undo the rename.
+/// - If several writers have the same path, the complete bytes of the last writer remain. With Existing::refused, the bytes of
+///   the first writer remain, and all other writers throw.
+/// - A device or a FIFO, also behind a link (/dev/stdout), is written to directly and never replaced. A FIFO needs a reader.
 /// - Any other link is refused, because in a folder that others may write to, the link could lead anywhere.
-/// Every failure is a RunError `PATH: cannot be written: REASON`, except that an existing name that is refused is an
-/// InputError. An excess of the file size limit (RLIMIT_FSIZE) is such a failure only in a program that ignores SIGXFSZ,
-/// because this signal ends the process by default.
+/// Every failure is a RunError `PATH: cannot be written: REASON`, but a refused existing name is an InputError. Exceeding the
+/// file size limit (RLIMIT_FSIZE) is such a failure only in a program that ignores SIGXFSZ, because this signal ends the
+/// process by default.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path, Existing existing = Existing::replaced);
@@ -70,7 +70,7 @@ inline constexpr std::uintmax_t kMostTrace = std::uintmax_t{1} << 34;     ///< t
 /// All bytes of a regular file. Opening never blocks. Throws InputError `PATH: error: cannot be read: REASON` for a device, a
 /// FIFO, a folder, or more than `most` bytes, without reading anything.
 std::string read_file(const std::filesystem::path& path, std::uintmax_t most);
-/// The same for a file that may exceed the memory.
+/// As read_file(), for a file that may be larger than the memory.
 SpilledVector<char> read_large_file(const std::filesystem::path& path, std::uintmax_t most);
 /// The first bytes, at most `bytes`, of a regular file of any size. Throws InputError as read_file().
 std::string read_start(const std::filesystem::path& path, std::size_t bytes);

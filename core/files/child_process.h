@@ -7,8 +7,8 @@
 namespace gaitlab {
 
 /// Forks a process whose exit code is the return value of `work`. The process ends with the thread that began it. It inherits
-/// only the three standard streams; with other open files, a lock of a killed process would persist in its child. Exceptions
-/// must not leave `work`. Returns -1, with the reason in errno, if no process can be created.
+/// only the three standard streams: if it inherited a locked file, the lock would persist after the parent is killed.
+/// Exceptions must not leave `work`. Returns -1, with the reason in errno, if no process can be created.
 pid_t begin_child(const std::function<int()>& work);
 
 }  // namespace gaitlab

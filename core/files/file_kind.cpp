@@ -67,7 +67,7 @@ std::optional<FileKind> kind_of(const Head& head) {
   return {};
 }
 
-/// Kind of a file that no command takes for a scenario, by its first characters.
+/// Kind of a file that cannot be a scenario, by its first characters.
 std::optional<FileKind> kind_of_start(std::string_view text) {
   constexpr std::string_view kResults[] = {"\"verdict\":", "\"real_time_factor\":"};
   if (text.starts_with("gaitlab-trace") || text.starts_with("\x89HDF"))

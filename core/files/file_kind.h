@@ -43,11 +43,11 @@ std::optional<FileKind> kind_of_text(const std::string& text);
 /// Kind of a file or folder. Nothing if it cannot be read, or is of no kind. Reads at most 1 MB, and throws nothing.
 std::optional<FileKind> kind_of_file(const std::string& path);
 
-/// The problem of a file that is of another kind than the expected one: `this is a study, not a scenario; run it with ...`.
-/// Nothing if the file is of the expected kind, or of no kind.
+/// Problem for a file that is not of the expected kind: `this is a study, not a scenario; run it with ...`. Nothing if the file
+/// is of the expected kind, or of no kind.
 std::optional<Problem> of_another_kind(const std::string& path, FileKind expected);
 
-/// Throws the problem of of_another_kind(), if there is one.
+/// Throws InputError with the problem that of_another_kind() returns, if any.
 void expect_kind(const std::string& path, FileKind expected);
 
 /// End of a message that refuses a file: `; it is a scenario: gaitlab run s.yaml`. Empty for a file of no kind.

@@ -6,7 +6,7 @@
 
 namespace gaitlab {
 
-/// State of a file: a change of its content changes one of the numbers. All are 0 if the file cannot be read.
+/// State of a file. If the content changes, at least one of the numbers changes. All are 0 if the file cannot be read.
 struct FileStamp {
   std::int64_t modified = 0;  ///< ns
   std::uint64_t size = 0, inode = 0;
@@ -19,8 +19,8 @@ struct FileRead {
   FileStamp stamp;             ///< at the first reading
 };
 
-/// Collects the files that read_file() and read_text() open during the lifetime of this object, in all threads, each once, also
-/// those that cannot be opened. Only one object may exist at a time.
+/// Collects the files that read_file() and read_text() open or try to open during the lifetime of this object, in all threads.
+/// Each file is listed once. Only one object may exist at a time.
 class FilesRead {
  public:
   FilesRead();

@@ -18,7 +18,7 @@ namespace {
 
 /// Prints that a file system has no locks, once for each folder.
 void note_no_locks(const std::filesystem::path& folder, int error) {
-  static std::string noted;  // the last folder in a note; a study locks its folder first, then the file `lock` in it
+  static std::string noted;  // last folder in a note; a study locks its folder first, then the file `lock` in this folder
   if (std::exchange(noted, folder.string()) == folder.string()) return;
   say(folder.string(), "note",
       fmt::format("the file system has no locks ({}); let one process at a time write here",

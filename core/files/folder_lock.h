@@ -8,8 +8,8 @@ namespace gaitlab {
 /// On a file system without locks, prints one note on stderr with the name of `folder`, and returns true.
 [[nodiscard]] bool take_lock(int descriptor, const std::filesystem::path& folder);
 
-/// True if files in a folder can be locked by fcntl(2), as SQLite does. If they cannot be, and `noted`, prints the note of
-/// take_lock() on stderr, unless the last note named this folder. True also if no file can be made in the folder.
+/// True if files in a folder can be locked by fcntl(2), which SQLite uses, or if no file can be made in the folder. If the
+/// result is false and `noted` is true, prints the note of take_lock() on stderr, unless the last note named this folder.
 [[nodiscard]] bool has_record_locks(const std::filesystem::path& folder, bool noted);
 
 /// Keeps a folder locked during the lifetime of this object, by flock(2) of the folder. The lock leaves no file and ends with

@@ -32,7 +32,7 @@ void WordHash::add_length(std::size_t bytes) { state_ = absorbed(state_, bytes);
 
 void WordHash::add_words(std::string_view bytes) {
   constexpr std::size_t kWord = sizeof(std::uint64_t);
-  // A copy that the compiler can keep in a register, because `bytes` may alias any object, also this one.
+  // The compiler can keep this copy in a register, but not state_, because `bytes` may alias any object.
   std::uint64_t state = state_;
   const auto absorb = [&](const char* from, std::size_t size) {
     std::uint64_t word = 0;

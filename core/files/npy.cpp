@@ -32,7 +32,7 @@ struct NpyHeader {
   std::vector<std::size_t> shape;
 };
 
-/// Reader of the header, which is a dict of Python: {'descr': '<f4', 'fortran_order': False, 'shape': (3, 4), }.
+/// Reader of the header, which is a Python dict: {'descr': '<f4', 'fortran_order': False, 'shape': (3, 4), }.
 class HeaderReader {
  public:
   explicit HeaderReader(std::string_view text) : rest_(text) {}
@@ -108,7 +108,7 @@ class HeaderReader {
     }
     return all;
   }
-  /// The text from `begin` to `end`. The reader advances to `behind` bytes past the end.
+  /// The text from `begin` to `end`. The reader advances to `behind` bytes past `end`.
   std::string_view cut(std::size_t begin, std::size_t end, std::size_t behind = 1) {
     const std::string_view text = rest_.substr(begin, end - begin);
     rest_.remove_prefix(end + behind);

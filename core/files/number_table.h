@@ -26,8 +26,8 @@ inline constexpr std::string_view kPngMagic = "\x89PNG\r\n\x1a\n";
 /// the header, and for more than `most` numbers. These errors precede the allocation of memory.
 NumberTable read_npy(std::string_view bytes, std::size_t most);
 
-/// Head of a file of numpy.save with float64 values in C order, which follow it, least significant byte first. Its length is a
-/// multiple of 64.
+/// Header of a numpy.save file for float64 values in C order, which follow it, least significant byte first. The length of the
+/// header is a multiple of 64.
 std::string npy_head(std::size_t rows, std::size_t columns);
 
 /// Reads the grey values, 0 to 65535, of a PNG with 16 bits and no interlacing (https://www.w3.org/TR/png/), top row first.

@@ -14,14 +14,14 @@ namespace gaitlab {
 inline constexpr std::string_view kPartEnd = ".part";
 inline constexpr std::size_t kPartDigits = 16;
 
-/// Name `.NAME.XXXXXXXXXXXXXXXX.part` of a file that is to become NAME, which is clipped if it is long.
+/// Name `.NAME.XXXXXXXXXXXXXXXX.part` of a file that is to become NAME. A long NAME is clipped.
 inline std::string part_name(const std::string& name, std::uint64_t number) {
   constexpr std::size_t kName = 200;  // most bytes of the name, so that the rest fits as well
   return fmt::format(".{}.{:0{}x}{}", name.substr(0, kName), number, kPartDigits, kPartEnd);
 }
 
-/// True for a regular file with such a name, which a process that was killed has left. A folder with such files alone is empty
-/// to a user.
+/// True for a regular file with such a name, left behind by a killed process. To a user, a folder with only such files is
+/// empty.
 inline bool is_part_file(const std::filesystem::path& file) {
   const std::string name = file.filename().string();
   constexpr std::size_t kBehind = 1 + kPartDigits + kPartEnd.size();  // bytes behind NAME

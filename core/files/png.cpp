@@ -22,7 +22,7 @@ std::uint32_t big_endian(std::string_view bytes) {
   return number;
 }
 
-/// The chunks of a file in their order. Each checksum is verified.
+/// The chunks of a file in file order. Each checksum is verified.
 class Chunks {
  public:
   explicit Chunks(std::string_view bytes) : rest_(bytes) {

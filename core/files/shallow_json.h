@@ -5,7 +5,7 @@
 
 namespace gaitlab {
 
-inline constexpr int kDeepestJson = 8;  ///< more than any file of the program has
+inline constexpr int kDeepestJson = 8;  ///< deeper than any file of the program
 
 /// Parses JSON. The result is discarded if the text is not JSON, or nested deeper than any file of the program, because copies
 /// of deeply nested data would overflow the stack.

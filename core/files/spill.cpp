@@ -15,7 +15,7 @@ namespace gaitlab {
 
 namespace {
 
-/// Reserves the space on the disk, since a full disk would be a signal (SIGBUS) at the first access to a page.
+/// Reserves the space on the disk. Without a reserve, a full disk would cause a signal (SIGBUS) at the first access to a page.
 bool reserve(int descriptor, off_t bytes) {
   int error = EINTR;
   while (error == EINTR) error = ::posix_fallocate(descriptor, 0, bytes);
@@ -44,7 +44,7 @@ void* map_spilled(std::size_t bytes) {
 void unmap_spilled(void* from, std::size_t bytes) noexcept { ::munmap(from, bytes); }
 
 void release_spilled(const void* from, std::size_t bytes) noexcept {
-  ::madvise(const_cast<void*>(from), bytes, MADV_DONTNEED);  // of a shared mapping: its content stays
+  ::madvise(const_cast<void*>(from), bytes, MADV_DONTNEED);  // keeps the content, because the mapping is shared
 }
 
 }  // namespace gaitlab

@@ -1,4 +1,5 @@
-// Memory of large tables: beyond 200 MB an array lies in an unnamed temporary file, whose pages the system can take back.
+// Memory for large tables. An array of more than 200 MB lies in an unnamed temporary file, so that the system can free its
+// pages.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -11,17 +12,17 @@ namespace gaitlab {
 
 inline constexpr std::size_t kMostInMemory = 200'000'000;  ///< bytes of one array; a larger one lies in a file
 
-/// Folder of these files: $TMPDIR, or else /var/tmp, which is on a disk where /tmp may be memory.
+/// Folder of these files: $TMPDIR, or else /var/tmp, because /tmp may be in memory.
 std::filesystem::path spill_folder();
 
-/// Bytes of a new unnamed file of spill_folder(), reserved on the disk and mapped; of memory, if no file can be made there.
+/// Maps bytes of a new unnamed file in spill_folder(), reserved on the disk. Maps memory instead if no file can be made there.
 /// Throws std::bad_alloc if the disk or the address space is too small.
 void* map_spilled(std::size_t bytes);
 void unmap_spilled(void* from, std::size_t bytes) noexcept;
 /// Lets the pages of these bytes leave memory; the next access reads them again. `from`: as map_spilled returned it.
 void release_spilled(const void* from, std::size_t bytes) noexcept;
 
-/// Allocator of a vector that may exceed the memory. The file disappears with the array, or with the process.
+/// Allocator for vectors that may be larger than the memory. The file disappears with the array, or with the process.
 template <class T>
 struct Spilled {
   using value_type = T;
@@ -50,8 +51,8 @@ void release(const SpilledVector<T>& array) noexcept {
   if (Spilled<T>::in_file(array.capacity())) release_spilled(array.data(), array.capacity() * sizeof(T));
 }
 
-/// Calls visit(bytes) for consecutive parts of an array from byte `from` on, and releases each part. Every part except the last
-/// has a multiple of 8 bytes.
+/// Calls visit(bytes) for consecutive parts of an array from byte `from` on, and releases each part. The size of every part
+/// except the last is a multiple of 8 bytes.
 template <class T, class Visit>
 void each_part(const SpilledVector<T>& array, const Visit& visit, std::size_t from = 0) {
   constexpr std::size_t kPart = std::size_t{1} << 26;

@@ -11,7 +11,7 @@ namespace gaitlab {
 int unnamed_file(const std::filesystem::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
   if (descriptor >= 0) return descriptor;
-  std::string name = (folder / "gaitlab-XXXXXX").string();  // a file system without O_TMPFILE
+  std::string name = (folder / "gaitlab-XXXXXX").string();  // for a file system without O_TMPFILE
   const int named = ::mkostemp(name.data(), O_CLOEXEC);
   if (named >= 0) ::unlink(name.c_str());
   return named;

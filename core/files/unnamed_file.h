@@ -1,4 +1,4 @@
-// Files without a name, which end with their last descriptor.
+// Files without a name, which the system deletes when their last descriptor is closed.
 #pragma once
 #include <filesystem>
 

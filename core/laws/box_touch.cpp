@@ -1,4 +1,4 @@
-// Touch of a contact element among boxes, with all solids in reach combined into one touch.
+// Touch of a contact element among boxes, which combines all solids in reach.
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@ namespace {
 constexpr double kSame = 1e-9;    // m; closer positions count as equal
 constexpr double kBack = -0.5;    // cosine; a face whose normal points back along the path so far is not an exit
 constexpr std::size_t kMost = 4;  // largest number of touches of one element; a corner has three
-constexpr int kSweeps = 8;        // iterations of shares(); one is exact for normals at right angles
+constexpr int kSweeps = 8;        // iterations of shares(); one iteration is exact for normals at right angles
 
 /// Push of one solid that an element touches or is near.
 struct Push {
@@ -42,16 +42,16 @@ struct ExitPath {
   }
 };
 
-/// Limit of the number of searches in a query, because a complete search of n boxes in one place looks at n^4 boxes. The corner
-/// of a tiled floor needs 276 searches; stairs of 200 boxes on top of one another need 50. A heap of a hundred
-/// boxes takes about a millisecond a query.
+/// Limit on the number of searches in a query, because a complete search of n boxes in one place looks at n^4 boxes. The corner
+/// of a tiled floor needs 276 searches; stairs of 200 boxes on top of one another need 50. In a heap of a hundred boxes, a
+/// query takes about a millisecond.
 struct Searches {
   static constexpr std::size_t kFewest = 300, kLooks = 6000;
   std::size_t left;
 };
 
-/// Distance to the open, m, that remains at a position where an element left box `left`. The search ends if the distance
-/// reaches `bound`. The result is 0 after the last search.
+/// Remaining distance to the open, m, from a position where an element left box `left`. The search ends if the distance reaches
+/// `bound`. The result is 0 after the last allowed search.
 double remaining_exit_depth(const Boxes& boxes, const Box& left, const Vec3& place, const ExitPath& ways, double bound,
                             Searches& searches) {
   if (searches.left == 0) return 0;
@@ -91,7 +91,7 @@ Push inside(const Boxes& boxes, const Box& box, const Vec3& centre, const Vec3& 
     const Vec3 normal = face.normal(box);
     const Vec3 place = centre + depth * normal;
     if (normal.z() < kBack && place.z() < 2 * kSame) continue;
-    // The remaining distance counts twice, so that the way up is still the shorter way at the seam to a near box.
+    // The remaining distance counts twice, so that the way up remains the shortest way at the seam to a near box.
     const double cost = depth + 2 * remaining_exit_depth(boxes, box, place, {{normal}, 1}, least - depth, searches);
     if (cost >= least) continue;
     least = cost;
@@ -155,7 +155,7 @@ class Sum {
  private:
   [[nodiscard]] std::array<double, kMost> shares() const {
     std::array<double, kMost> share{pushes_[0].penetration};
-    // The shares of the two deepest touches are solved exactly, because the iteration converges slowly if their normals are
+    // The shares of the two deepest touches are computed exactly, because the iteration converges slowly if their normals are
     // almost equal.
     const double c = pushes_[0].normal.dot(pushes_[1].normal);
     const double rest = pushes_[1].penetration - c * pushes_[0].penetration;
@@ -205,7 +205,7 @@ double top_at(const Box& box, const Vec3& place) {
 GroundTouch Boxes::touch(const Vec3& centre, double radius, double friction) const {
   Sum sum;
   sum.add({radius - centre.z(), Vec3::UnitZ(), friction});
-  // An element that has sunk into the plane counts as beside a box on the plane, not as beneath the box.
+  // An element that has sunk into the plane beside a box must not count as beneath the box.
   const Vec3 lifted(centre.x(), centre.y(), std::max(centre.z(), radius + kSame));
   Searches searches{std::max(Searches::kFewest, Searches::kLooks / std::max<std::size_t>(1, size()))};
   for (const std::uint32_t i : near(lifted, nearest_distance(*this, lifted, radius, radius - std::min(0.0, sum.deepest())))) {

@@ -13,12 +13,12 @@ namespace {
 constexpr std::size_t kFewBoxes = 16;    // up to this number of boxes, testing all is as fast as finding a cell
 constexpr double kCellMargin = 0.5;      // margin around a cell, as a share of its edge
 constexpr double kLeastEdge = 1e-2;      // m
-constexpr double kCellRounding = 1e-9;   // share of coordinates, above their rounding error
-constexpr double kCellSlack = 1e-3;      // share of the edge, which is at least kCellRounding of all coordinates
+constexpr double kCellRounding = 1e-9;   // share of the coordinates, which exceeds their rounding error
+constexpr double kCellSlack = 1e-3;      // share of the edge; the slack is at least kCellRounding times all coordinates
 constexpr double kMostCells = 16;        // largest number of cells per box
 constexpr std::size_t kMostListed = 32;  // largest number of list entries per box, in cells of one size
 constexpr double kLarge =
-    16;  // multiple of the median radius; larger boxes, such as a floor below the others, have separate cells
+    16;  // multiple of the median radius; larger boxes, such as a floor below other boxes, have separate cells
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// Cells of one size along x or y.

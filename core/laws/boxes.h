@@ -27,10 +27,10 @@ struct Box {
 /// A list of boxes that reads like a vector, with an index for queries. Copies share their immutable content.
 ///
 /// Grids of cells of several sizes cover the boxes, seen from above. Each size is twice the previous one. The first grids cover
-/// the area of all boxes except large ones, the last grids the area of all boxes. A cell lists, in their order, the boxes that
-/// come within `margin` (half of the edge) of the cell. A search within some distance therefore reads one cell of the size for
-/// that distance. Memory grows with the number of boxes, because cells are enlarged until their number and their lists are
-/// small.
+/// the area of all boxes except large ones, and the last grids cover the area of all boxes. A cell lists, in rising order, the
+/// boxes that come within `margin` (half of the edge) of the cell. A search within some distance therefore reads only one cell,
+/// from the grid for that distance. Memory grows with the number of boxes, because cells are enlarged until their number and
+/// their lists are small.
 class Boxes {
  public:
   static constexpr GroundType kType{
@@ -67,7 +67,7 @@ class Boxes {
     Vec3 center;    ///< m
     double radius;  ///< m
   };
-  /// Smallest sphere that contains all corners of a box.
+  /// Smallest sphere around all corners of a box.
   [[nodiscard]] const Ball& ball(std::size_t index) const { return held_->balls[index]; }
 
  private:

@@ -1,4 +1,4 @@
-// Contact laws of a scenario and their properties, which other code tests instead of the name of a law.
+// Contact laws of a scenario and their properties. Other code tests these properties, not the name of a law.
 #pragma once
 #include "core/names.h"
 

@@ -12,8 +12,8 @@
 
 namespace gaitlab {
 
-/// Ground of one of the types in `Shape`, with its friction. A type is a value with a `kType` and the queries touch,
-/// surface_below and highest.
+/// Ground of one of the types in `Shape`, with its friction. Each type is a class with a constant `kType` and the queries
+/// touch, surface_below and highest.
 struct Ground {
   using Shape = std::variant<NoGround, Plane, Boxes, Heightfield>;
   using Touch = GroundTouch;
@@ -40,10 +40,10 @@ struct Ground {
   [[nodiscard]] const Boxes& boxes() const;
   /// This ground without the boxes that have a mass.
   [[nodiscard]] Ground without_moving_boxes() const;
-  /// Heights that pictures need to show the surface; nullptr if plane and boxes are enough.
+  /// Heights with which pictures show the surface; nullptr if plane and boxes are enough.
   [[nodiscard]] const Heightfield* relief() const;
-  /// has_border: true if the heights end at a border, beyond which the surface only continues. beyond_border: true if (x, y),
-  /// m, is beyond this border.
+  /// has_border: true if the given heights end at a border, beyond which the surface is only extrapolated. beyond_border: true
+  /// if (x, y), m, is beyond this border.
   [[nodiscard]] bool has_border() const { return std::holds_alternative<Heightfield>(shape); }
   [[nodiscard]] bool beyond_border(double x, double y) const;
 };

@@ -21,7 +21,7 @@ struct GroundType {
   const char* name;              ///< value of `ground.type`, and key of the settings of this type
   const char* about;             ///< text for the manual of `ground.type`, or ""
   bool has_settings = false;     ///< true if there is a key `ground.NAME`
-  bool plane_and_boxes = false;  ///< true if it is the plane z = 0 and boxes, which other engines and formats also have
+  bool plane_and_boxes = false;  ///< true for the plane z = 0 and boxes, which other engines and formats also support
 };
 
 }  // namespace gaitlab

@@ -1,4 +1,4 @@
-// Heaps of boxes: many boxes in one place, which no touch needs and whose searches take long.
+// Heaps of boxes: many boxes in one place. No touch needs so many boxes, and searches in a heap take long.
 #pragma once
 #include <cstddef>
 #include <optional>

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kPerpendiculars = 3;  // steps to the foot of the perpendicular; they converge fast if the field is flat
 
-/// Interpolation of a coordinate on its axis of the grid: the four nodes around it and their weights.
+/// Interpolation along one axis of the grid: the four nodes around a coordinate, and their weights.
 struct Stencil {
   std::array<std::size_t, 4> node{};
   std::array<double, 4> value{}, slope{};  ///< slope: d(value)/d(t)
@@ -93,7 +93,7 @@ bool Heightfield::covers(double x, double y) const {
 GroundTouch Heightfield::touch(const Vec3& centre, double radius, double friction) const {
   SurfacePoint spot = at(centre.x(), centre.y());
   double distance = (centre.z() - spot.z) * spot.normal.z();
-  const bool near = std::abs(distance) < radius + spacing;  // else a rough measure of the gap is enough
+  const bool near = std::abs(distance) < radius + spacing;  // otherwise a rough estimate of the gap is enough
   for (int step = 0; near && step < kPerpendiculars; ++step) {
     const Vec3 foot = centre - distance * spot.normal;
     spot = at(foot.x(), foot.y());

@@ -37,7 +37,7 @@ class Heights {
 };
 
 /// Surface through the given heights, with a continuous normal. It is cubic in each cell (Catmull and Rom 1974, in x and in y).
-/// With triangles or bilinear cells, the normal would turn at every edge, and a foot that slides over an edge would get an
+/// With triangles or bilinear cells, the normal would jump at every edge, and a foot that slides over an edge would get an
 /// impact. A plane is reproduced exactly up to the border. Beside a step, the surface overshoots by up to 7 % of the step.
 /// Beyond the border, the heights at the border continue outwards.
 struct Heightfield {
@@ -45,9 +45,9 @@ struct Heightfield {
 
   Vec3 origin = Vec3::Zero();  ///< position of values[0], m, world
   double spacing = 0.1;        ///< distance of heights in x and in y, m
-  std::size_t columns = 0;     ///< number of columns, along x; at least 2 (so are the rows, along y)
+  std::size_t columns = 0;     ///< number of columns, along x; columns and rows (along y) are at least 2
   Heights values = {};         ///< heights above the origin, m, row by row
-  /// File with the heights, if there are too many to write them out with a scenario. `file` is empty if they are written out.
+  /// File with the heights, if they are too many to be written out in a scenario. `file` is empty if they are written out.
   struct Source {
     std::string file, hash;  ///< canonical path; hash of the bytes of the file
     double scale = 1;        ///< m per unit of the numbers in the file

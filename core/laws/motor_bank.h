@@ -1,11 +1,11 @@
-// DC motors of every joint and lane: their law over lists, and the base class of actuators that apply it.
+// DC motors of every joint and lane: the motor law applied to lists, and the base class of actuators that use this law.
 #pragma once
 #include "core/laws/dc_motor.h"
 #include "core/plugin/actuator.h"
 
 namespace gaitlab {
 
-/// Functions that do the same as those of equal name in Actuator, for a list of motors.
+/// Counterparts of the functions of equal name in Actuator, for a list of motors.
 namespace motors {
 void effort(std::span<const DcMotor> motors, In command, In speed, Out torque, Out slope);
 void unlimited(std::span<const DcMotor> motors, In command, In speed, Out torque, Out slope);
@@ -29,7 +29,8 @@ class MotorBank : public Actuator {
   [[nodiscard]] const DcMotor* dc_motors() const override { return motors_.data(); }
 
  protected:
-  /// Adds the next motor, in the order joint * lanes + lane. The inertia is of the rotor, as seen at the joint, kg m^2.
+  /// Adds the next motor, in the order joint * lanes + lane. `reflected_inertia` is the inertia of the rotor as seen at the
+  /// joint, kg m^2.
   void add(const DcMotor& motor, double reflected_inertia, const DriveRatings& ratings);
 
  private:

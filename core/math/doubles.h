@@ -1,6 +1,6 @@
 // Scalar type of N doubles in one register, for code that is written once for one rollout and for N (core/math/lanes.h). Only
-// files that are compiled for a processor with such registers may include this header. They add sqrt, any and the functions of
-// core/math/functions.h (physics_articulated/kernel_avx2.cpp).
+// files that are compiled for a processor with such registers may include this header. These files add sqrt, any and the
+// functions of core/math/functions.h (physics_articulated/kernel_avx2.cpp).
 #pragma once
 #include "core/math/lanes.h"
 

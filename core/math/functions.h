@@ -1,5 +1,6 @@
-// Transcendental functions of the simulation path: the deterministic (cinz_) versions of SLEEF, 1 ulp, with the same bits on
-// every x86-64 and in every lane width. std::sin and similar functions differ between C libraries and must not affect results.
+// Transcendental functions of the simulation path: the deterministic (cinz_) versions of SLEEF, 1 ulp, which give the same bits
+// on every x86-64 and in every lane width. std::sin and similar functions differ between C libraries and must not affect
+// results.
 #pragma once
 #include <sleef.h>
 

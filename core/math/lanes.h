@@ -1,5 +1,5 @@
-// Operations of the scalar in code that is written once for a double and for a vector of doubles (a lane per rollout), with
-// masks instead of branches. Vector types define overloads of these functions (core/math/doubles.h).
+// Scalar operations for code that is written once for a double and for a vector of doubles (a lane per rollout), with masks
+// instead of branches. Vector types define overloads of these functions (core/math/doubles.h).
 #pragma once
 #include <cmath>
 #include <cstddef>

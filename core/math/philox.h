@@ -1,4 +1,4 @@
-// Philox4x32-10, and streams of random numbers that a seed and a name select.
+// Philox4x32-10, and streams of random numbers selected by seed and name.
 #pragma once
 #include <array>
 #include <cmath>
@@ -40,7 +40,7 @@ constexpr std::uint32_t fnv1a32(std::string_view text) {
 }
 
 /// Random numbers by tick and draw. The key of Philox is the seed, and its counter is (tick low, tick high, FNV-1a-32(name),
-/// draw): no draw depends on an earlier draw or on another stream. Streams whose names have the same hash are equal.
+/// draw). No draw therefore depends on an earlier draw or on another stream. Streams whose names have the same hash are equal.
 class PhiloxStream {
  public:
   PhiloxStream(std::uint64_t seed, std::string_view name) : key_{low(seed), high(seed)}, name_(fnv1a32(name)) {}

@@ -1,4 +1,4 @@
-// Counter-based random numbers: a draw depends only on its words, never on earlier draws.
+// Counter-based random numbers. A draw depends only on the words given to it, never on earlier draws.
 #pragma once
 #include <cmath>
 #include <cstdint>

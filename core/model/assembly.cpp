@@ -22,9 +22,9 @@ Mat3 axes(const FaceType& face) {
   return R;
 }
 
-/// Pose of the body of the child in the body of the parent when their faces are docked. The origins coincide, the normals are
-/// opposite, and the references are aligned. Then the child is turned by orientation * pi/2 about its own outward normal, and
-/// by the rotation vector `angle` in the axes of the parent's face.
+/// Pose of the child's body in the parent's body when their faces are docked. The origins coincide, the normals are opposite,
+/// and the references are aligned. Then the child is turned by orientation * pi/2 about its own outward normal, and by the
+/// rotation vector `angle` in the axes of the parent's face.
 Pose docked(const FaceType& child, const FaceType& parent, int orientation, const Vec3& angle) {
   // Quarter turns of (reference, normal x reference) are exact, because they need no sine of pi/2.
   constexpr std::array<std::array<double, 2>, 4> kQuarter{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
@@ -40,8 +40,8 @@ Pose docked(const FaceType& child, const FaceType& parent, int orientation, cons
   return {R, parent.origin - R * child.origin};
 }
 
-/// Builds a robot. Modules are placed parents first, siblings in the order of their numbers. Bodies and joints are numbered
-/// module by module, independent of the docking.
+/// Builds a robot. Parents are placed before their children, and siblings in the order of their numbers. Bodies and joints are
+/// numbered module by module, independently of the docks.
 class Builder {
  public:
   /// `builds` has an entry per module, or is empty.
@@ -160,7 +160,7 @@ class Builder {
     set_body(index, far, link, far_in_link);
   }
 
-  /// Mass, COM and inertia of every link from its bodies; inertia by the parallel-axis theorem.
+  /// Computes mass, COM and inertia of every link from its bodies; inertia by the parallel-axis theorem.
   void fuse() {
     for (const Body& body : robot_.bodies) {
       Link& link = robot_.links[body.link];

@@ -11,7 +11,7 @@ struct BodyPair {
   bool operator==(const BodyPair&) const = default;
 };
 
-/// The bodies of a list that pairs name, in either order.
+/// Pairs of bodies in a list that BodyPair entries name, in either order.
 class BodyPairs {
  public:
   BodyPairs() = default;

@@ -70,7 +70,7 @@ class DockRows {
   void check() {
     for (const Dock& dock : docks_) check_row(dock);
     check_gaps();
-    // Loops are checked only without other problems, because a failed row would look like a missing module or a loop.
+    // Loops are checked only if there are no other problems, because a wrong row would look like a missing module or a loop.
     if (problems_.empty()) check_loops();
     problems_.raise();
   }
@@ -174,7 +174,7 @@ class DockRows {
   }
 
   /// True if docks between other pairs of modules, anywhere in the list, connect the two modules of `dock`. Only the first few
-  /// rows are tested, because a list that is wrong throughout is not a ring.
+  /// calls test this, because a list that is wrong throughout is not a ring.
   [[nodiscard]] bool closes_ring(const Dock& dock) {
     constexpr int kAsked = 8;
     if (rings_asked_++ >= kAsked) return false;
@@ -234,7 +234,7 @@ class DockRows {
   Problems problems_;
 };
 
-/// Half of the cell size of a lattice type, from two faces of one body with different normals, which are half a cell from the
+/// Half of the cell size of a lattice type, from two faces of one body with different normals. Faces are half a cell from the
 /// centre of the body.
 double half_cell(const ModuleType& type) {
   for (const FaceType& a : type.faces) {
@@ -253,8 +253,8 @@ std::vector<double> half_cells(const Robot& robot) {
   return half;
 }
 
-/// Lattice of every module, identified by the first module of the lattice. This is the farthest module towards the root with
-/// docks of equal cell size between.
+/// Lattice of every module, identified by the first module of the lattice. This is the farthest module towards the root to
+/// which all docks have equal cell sizes.
 std::vector<std::size_t> lattices(const Robot& robot, const std::vector<double>& half) {
   const std::size_t unknown = robot.modules.size();
   std::vector<std::size_t> first(robot.modules.size(), unknown);
@@ -307,7 +307,7 @@ void check_cells(const Robot& robot) {
     if (fresh) continue;
     problems.add(module.dock.place, fmt::format("overlapping cells: {} and {} are in the same lattice cell at zero angles",
                                                 at->second->name, body.name));
-    break;  // a wrong row also displaces all modules after it
+    break;  // further errors may result from this row, which also displaces all later modules
   }
   problems.raise();
 }

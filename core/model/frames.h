@@ -44,8 +44,8 @@ inline Mat3 rpy(const Vec3& roll_pitch_yaw) {
       .toRotationMatrix();
 }
 
-/// Inverse of rpy(), with pitch in [-pi/2, pi/2]. The result is exact to rounding also at a pitch of +-pi/2. There, roll and
-/// yaw turn about the same axis, so that yaw is arbitrary and roll is the remaining rotation.
+/// Inverse of rpy(), with pitch in [-pi/2, pi/2]. The result is exact to rounding also at a pitch of +-pi/2. Roll and yaw then
+/// turn about the same axis, so that yaw is arbitrary and roll is the remaining rotation.
 inline Vec3 to_rpy(const Mat3& R) {
   const double yaw = math::atan2(R(1, 0), R(0, 0));
   const auto [s, c] = math::sincos(yaw);

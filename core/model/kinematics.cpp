@@ -84,7 +84,8 @@ double lowest_point(const Robot& robot, const Kinematics& k, std::span<const Con
       double reach = shape.size.x();  // sphere: radius
       if (shape.kind == Shape::Kind::box) reach = 0.5 * down.cwiseAbs().dot(shape.size);
       if (shape.kind == Shape::Kind::cylinder || shape.kind == Shape::Kind::half_cylinder) {
-        // A half cylinder that bulges downwards counts as a whole cylinder. Otherwise only the edge of its flat side counts.
+        // A half cylinder that bulges downwards reaches as far as a whole cylinder. Otherwise only the edge of its flat side
+        // counts.
         const bool round = shape.kind == Shape::Kind::cylinder || down.x() > 0;
         const double across = round ? std::sqrt(down.x() * down.x() + down.z() * down.z()) : std::abs(down.z());
         reach = shape.size.x() * across + 0.5 * shape.size.y() * std::abs(down.y());

@@ -29,7 +29,7 @@ struct BodyType {
   Vec3 com = Vec3::Zero();      ///< m, body frame
   Mat3 inertia = Mat3::Zero();  ///< kg m^2, about the COM, body axes
   std::vector<Shape> shapes = {};
-  double volume = 0;  ///< m^3, of the union of the shapes, if the inertia follows from it; 0 if the inertia is stated
+  double volume = 0;  ///< m^3, of the union of the shapes, if they determine the inertia; 0 if the inertia is stated
 };
 
 inline constexpr double kNoStop = std::numeric_limits<double>::infinity();  ///< value of hi and -lo if a hinge turns freely
@@ -45,7 +45,7 @@ struct HingeType {
   std::optional<Passive> passive = {};  ///< set for `drive: none`; empty if a motor drives the hinge
 };
 
-/// Gender of a face. An active face docks on a passive face, and a face without gender (none) on another one without gender.
+/// Gender of a face. An active face docks on a passive face. A face without gender (none) docks on another face without gender.
 enum class Gender { active, passive, none };
 
 template <>
@@ -80,12 +80,12 @@ struct ContactType {
 /// ids.
 struct ModuleType {
   std::string name;
-  bool lattice = false;  ///< bodies with faces fill cells of a cubic lattice; two in one cell at zero angles are an error
+  bool lattice = false;  ///< bodies with faces fill cells of a cubic lattice; an error if two share a cell at zero angles
   std::vector<BodyType> bodies;
   std::vector<HingeType> hinges;
   std::vector<FaceType> faces;
   std::map<std::string, Connector> connectors = {};  ///< connectors of the faces with known loads, by name
-  std::vector<ContactType> feet, all;                ///< used for `on: feet` (those on free bodies) and `on: all`
+  std::vector<ContactType> feet, all;                ///< feet: used for `on: feet` if on a free body; all: used for `on: all`
   std::vector<BodyPair> may_overlap = {};            ///< bodies that are not compared for collisions
   std::size_t root = 0;                              ///< body that is not the child of a hinge; its frame is the module frame
 };

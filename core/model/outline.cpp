@@ -7,7 +7,7 @@ namespace gaitlab {
 
 namespace {
 
-/// Shapes of the robot in the base frame, a list per module.
+/// Shapes of the robot in the base frame, as one list per module.
 std::vector<std::vector<Shape>> shapes_of_modules(const Robot& robot) {
   const Kinematics zero = at_zero(robot);
   std::vector<std::vector<Shape>> all(robot.modules.size());

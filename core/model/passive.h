@@ -1,4 +1,4 @@
-// Spring, damper and friction of a hinge without a motor. Kernels include this file, which may therefore include the standard
+// Spring, damper and friction of a hinge without a motor. Kernels include this file. It may therefore include the standard
 // library only.
 #pragma once
 

@@ -8,8 +8,8 @@ namespace gaitlab {
 
 namespace {
 
-/// Length of the whole number at the beginning of a text, and its value. The length is 0 if there is none, or if it is too
-/// large.
+/// Length and value of the whole number at the beginning of a text. The length is 0 if there is no number, or if the number is
+/// too large.
 struct Whole {
   std::size_t length = 0;
   std::uint64_t value = 0;
@@ -37,8 +37,8 @@ NumberRange number_range_of(std::string_view pattern) {
   return {end + 1, from.value, to.value};
 }
 
-/// Characters of the text that the first element of the pattern, which is not `*`, matches; 0 if it matches none. `element`
-/// becomes the length of that element.
+/// Number of characters of the text that match the first element of the pattern, or 0. That element must not be `*`. `element`
+/// becomes its length.
 std::size_t matched(std::string_view pattern, std::string_view text, std::size_t& element) {
   element = 1;
   if (pattern.empty() || text.empty()) return 0;

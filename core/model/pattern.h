@@ -1,4 +1,4 @@
-// Patterns for names of joints and columns, with the only matcher of the project.
+// Patterns for names of joints and columns, with the only pattern matcher of the project.
 #pragma once
 #include <string>
 

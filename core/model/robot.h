@@ -76,7 +76,7 @@ struct ModuleBuild {
 struct Module {
   std::size_t type = 0;  ///< index in Robot::types
   int parent = -1;       ///< module to which this module is docked, -1 for module 0
-  Dock dock = {};        ///< row of the build file (parent >= 0)
+  Dock dock = {};        ///< row of the build file; only if parent >= 0
   std::size_t first_body = 0;
   std::vector<std::size_t> joints = {};  ///< breadth-first from the reference body
   std::size_t reference = 0;             ///< docked body (index in Robot::bodies); for module 0 the root of the type
@@ -110,14 +110,14 @@ struct EnumNames<ContactSet> {
 /// a loop, a gap in the numbering, and, in lattice types, two blocks in one cell at zero angles.
 Robot assemble(std::vector<ModuleType> types, const std::vector<std::size_t>& type_of_module, const std::vector<Dock>& docks);
 
-/// The robot `drawn` with these differences of its modules, one entry per module. Links, joints, bodies and names are the same.
-/// Cells of lattices are not checked again.
+/// The robot `drawn` with differences of its modules, one entry per module. Links, joints, bodies and names are the same. Cells
+/// of lattices are not checked again.
 Robot as_built(const Robot& drawn, std::span<const ModuleBuild> modules);
 
-/// Contact elements of the set `on`, by body, then in file order. The set `feet` contains the feet of the free body of every
-/// module without children.
+/// Contact elements of the set `on`, sorted by body, then in file order. The set `feet` contains the feet of the free body of
+/// every module without children.
 std::vector<ContactElement> contact_elements(const Robot& robot, ContactSet on);
-/// Contact elements of the set `on`, a list per body.
+/// Contact elements of the set `on`, as one list per body.
 std::vector<std::vector<ContactElement>> contact_elements_by_body(const Robot& robot, ContactSet on);
 
 /// Description of the robot for plugins.

@@ -5,8 +5,8 @@
 
 namespace gaitlab {
 
-/// Roles: active or passive for a block with faces of that gender, link for a body without faces, other for a block whose faces
-/// have no gender.
+/// The role of a block is the gender of its faces, or other if its faces have no gender. The role of a body without faces is
+/// link.
 enum class Role { active, link, passive, other };
 
 template <>

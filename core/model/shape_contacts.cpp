@@ -10,11 +10,11 @@ namespace gaitlab {
 
 namespace {
 
-// Frames are written by hand: pi as 3.1416 must not part two edges that are one.
-constexpr double kOnePlace = 1e-3;  // as a share of the size of a body: elements at one place, or on a surface
+// Tolerances for frames written by hand: two equal edges must count as one if pi is written as 3.1416.
+constexpr double kOnePlace = 1e-3;  // for elements at one place or on a surface, as a share of the size of a body
 constexpr double kOnAxis = 1e-3;    // sine of an angle, and a distance as a share of a radius
 
-/// Points of a circle with axis y in steps of 45 degrees, the first `n` from `first` on: 0 is +x, 2 is -z.
+/// `n` points of a circle with axis y in steps of 45 degrees from number `first` on. Number 0 is at +x, number 2 at -z.
 void add_arc(double r, double y, int first, int n, std::vector<Vec3>& points) {
   constexpr double kHalf = 0.5 * std::numbers::sqrt2;
   constexpr std::array<std::array<double, 2>, 8> kDirections{
@@ -33,12 +33,12 @@ std::vector<Vec3> points_of(const Shape& shape) {
     return {corners.begin(), corners.end()};
   }
   const bool half = shape.kind == Shape::Kind::half_cylinder;
-  // The arc of a half cylinder goes from +z over +x to -z, and its ends are the ends of the straight edges.
+  // The arc of a half cylinder goes from +z over +x to -z, and ends at the straight edges.
   for (const double side : {-0.5, 0.5}) add_arc(shape.size.x(), side * shape.size.y(), half ? 6 : 0, half ? 5 : 8, points);
   return points;
 }
 
-/// True if the axis of the cylinder is that of the hinge, whose pose in the frame of the body is `frame`.
+/// True if the axes of cylinder and hinge are the same. `frame` is the pose of the hinge in the frame of the body.
 bool on_axis(const Shape& cylinder, const Pose& frame, const Vec3& axis) {
   const Vec3 along = frame.R * axis;
   const Vec3 way = cylinder.in_body.p - frame.p;
@@ -82,7 +82,7 @@ bool in_sphere(const ContactType& inner, const ContactType& outer, double roundi
   return (inner.centre - outer.centre).norm() <= outer.radius - inner.radius + rounding;
 }
 
-/// Adds the elements of one body that are not inside another shape, and not where an earlier one is.
+/// Adds the elements of one body that are neither inside another shape nor at the place of an earlier element.
 void add_outer(const std::vector<Shape>& shapes, const std::vector<Element>& elements, std::vector<ContactType>& all) {
   const auto [low, high] = bounds(shapes);
   const double rounding = kOnePlace * (high - low).norm();
@@ -98,7 +98,7 @@ void add_outer(const std::vector<Shape>& shapes, const std::vector<Element>& ele
     }
     for (std::size_t s = 0; s < shapes.size() && !hidden; ++s) {
       const bool in_it = s != elements[i].shape && distance(shapes[s], one.centre) <= rounding - one.radius;
-      // A vertex that the other shape has, too, is needed once.
+      // A vertex that two shapes share is needed once.
       hidden = in_it && std::none_of(elements.begin(), elements.end(),
                                      [&](const Element& other) { return other.shape == s && same(other.contact, one); });
     }

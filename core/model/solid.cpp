@@ -14,7 +14,7 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kTouching = 1e-9;  // overlap of touching shapes by rounding, as a share of their size
 constexpr std::size_t kBars = 256;  // bars per axis, shared by the intervals between the ends of shapes
-constexpr int kIterations = 3000;   // of a distance between convex sets, which converges slowly from an edge to an edge
+constexpr int kIterations = 3000;   // for a distance between convex sets; converges slowly between two edges
 constexpr double kExactly = 0.01;   // relative accuracy of that distance
 
 /// Point of the outline of a circle (radius r) in direction (x, z); 0 for a direction of length 0.
@@ -42,15 +42,16 @@ double from_half_disc(double r, double x, double z) {
   return std::abs(z) <= r ? -x : std::sqrt(x * x + (std::abs(z) - r) * (std::abs(z) - r));
 }
 
-/// Distance from the intersection of two orthogonal sets, of which one has distance a and the other distance b.
+/// Distance from the intersection of two orthogonal sets whose distances are a and b.
 double from_both(double a, double b) {
   const double x = std::max(a, 0.0);
   const double y = std::max(b, 0.0);
   return a <= 0 && b <= 0 ? std::max(a, b) : std::sqrt(x * x + y * y);
 }
 
-/// A lower bound of the distance of the origin from a convex set, given by its farthest point in a direction, and a point of
-/// it. Negative or 0 if no bound was found. Stops when the bound is the distance within kExactly, or 0 within `ignored`.
+/// Lower bound of the distance of the origin from a convex set. The set is given by its farthest point in a direction, and by
+/// one of its points. The result is negative or 0 if no bound was found. Stops when the bound is the distance within kExactly,
+/// or 0 within `ignored`.
 template <class Farthest>
 double least_distance(const Farthest& farthest_of, Vec3 point, double ignored) {
   double bound = 0;
@@ -68,7 +69,7 @@ double least_distance(const Farthest& farthest_of, Vec3 point, double ignored) {
   return bound;
 }
 
-/// Length of the gap of two shapes along a direction; negative for an overlap.
+/// Gap between two shapes along a direction; negative if they overlap.
 double gap_along(const Shape& a, const Shape& b, const Vec3& d) {
   const auto ahead = [&](const Shape& near, const Shape& far, const Vec3& way) {
     return way.dot(farthest(far, -way)) - way.dot(farthest(near, way));
@@ -76,7 +77,7 @@ double gap_along(const Shape& a, const Shape& b, const Vec3& d) {
   return std::max(ahead(a, b, d), ahead(a, b, -d));
 }
 
-/// True if a plane between the two shapes is found. Touching shapes are apart.
+/// True if a plane between the two shapes is found. Touching shapes count as separate.
 bool apart(const Shape& a, const Shape& b) {
   const double touching = kTouching * std::max(a.size.norm(), b.size.norm());
   const Mat3& A = a.in_body.R;
@@ -154,8 +155,8 @@ Chord chord(const Shape& shape, const Vec3& o, const Vec3& u) {
   return cut;
 }
 
-/// Edges of bars along a coordinate. Every end of a shape is an edge, and bars are narrow there, because the chords of round
-/// shapes change fast at their ends.
+/// Edges of bars along a coordinate. Every end of a shape is an edge. Bars are narrow near such ends, because the chords of
+/// round shapes change fast there.
 std::vector<double> edges(std::vector<double> ends) {
   std::sort(ends.begin(), ends.end());
   const double close = kTouching * (ends.back() - ends.front());
@@ -236,7 +237,7 @@ class Bars {
   std::vector<std::pair<double, double>> chords_ = {};
 };
 
-/// Solid of shapes each of which overlaps another one.
+/// Solid of shapes, each of which overlaps another shape.
 Solid merged(const std::vector<Shape>& shapes) {
   if (shapes.size() == 1) return solid(shapes.front());
   const auto larger = [](const Shape& a, const Shape& b) { return solid(a).volume < solid(b).volume; };

@@ -1,4 +1,4 @@
-// Interface of actuators, which compute torque and its slope from command and joint speed. Standard library only.
+// Interface for actuators, which compute torque and its slope from command and joint speed. Standard library only.
 #pragma once
 #include "core/plugin/fields.h"
 
@@ -8,8 +8,8 @@ template <class T>
 struct BasicDcMotor;
 using DcMotor = BasicDcMotor<double>;
 
-/// Ratings of a joint's drive, as its maker states them. 0 means that the rating is not stated. Only verdicts use ratings, not
-/// the simulation.
+/// Ratings of a joint's drive, as stated by its maker. 0 means that the rating is not stated. Verdicts use ratings; the
+/// simulation does not.
 struct DriveRatings {
   double current_continuous = 0;                  ///< largest continuous RMS current, A
   double torque_peak = 0, torque_continuous = 0;  ///< largest and continuous RMS torque of the gear at the joint, N m
@@ -35,9 +35,9 @@ class Actuator {
     Out voltage, current, saturation, power_in, copper, gear;
   };
   virtual void electrical(In command, In speed, Electrical) const = 0;  ///< used for trace and ledger only
-  /// Computes the effort without the limit that depends on the speed (a motor's largest current). If that limit is not
-  /// active, the result equals effort() bit for bit. The contact law `bullet` uses this function, because the rows of its
-  /// solver contain the limit separately. An actuator without such a limit calls effort().
+  /// Computes the effort without the limit that depends on the speed (a motor's largest current). If that limit is not active,
+  /// the result equals effort() bit for bit. The contact law `bullet` uses this function, because its solver has separate rows
+  /// for the limit. An actuator without such a limit calls effort().
   virtual void unlimited(In command, In speed, Out torque, Out slope) const { effort(command, speed, torque, slope); }
   /// Ratings by joint * lanes + lane. Empty if no rating is stated.
   [[nodiscard]] virtual std::span<const DriveRatings> ratings() const { return {}; }

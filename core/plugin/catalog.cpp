@@ -36,7 +36,7 @@ class FloatingPointEnvironment {
   std::fenv_t environment_ = {};
 };
 
-/// Hash with which this process loaded the file first; `hash` if it has not loaded it yet.
+/// Hash that the file had when this process first loaded it; `hash` if this process has not loaded it.
 std::string loaded_first(const std::string& path, const std::string& hash) {
   static std::mutex mutex;
   static std::map<std::string, std::string> hashes;
@@ -44,7 +44,7 @@ std::string loaded_first(const std::string& path, const std::string& hash) {
   return hashes.emplace(path, hash).first->second;
 }
 
-/// True for a text of characters that scenarios, --set and lists with commas can contain.
+/// True if scenarios, --set and lists with commas can contain the text.
 bool is_plugin_name(const std::string& text) {
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   const auto inside = [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-'; };
@@ -132,7 +132,7 @@ std::vector<std::string> Catalog::engines() const {
 
 namespace {
 
-/// Calls the gaitlab_register of a library. Throws std::runtime_error.
+/// Calls gaitlab_register of a library. Throws std::runtime_error.
 void enter_plugin(void* library, const std::string& path, Catalog& catalog) {
   const auto abi = reinterpret_cast<const char* (*)()>(dlsym(library, "gaitlab_abi"));
   const auto enter = reinterpret_cast<void (*)(Registry&)>(dlsym(library, "gaitlab_register"));

@@ -1,4 +1,4 @@
-// Catalog of all plugins that are registered in this program, by kind and name with their origin, and of the engines.
+// Catalog of the engines, and of all plugins that are registered in this program, by kind and name with their origin.
 #pragma once
 #include <array>
 #include <deque>
@@ -33,12 +33,12 @@ struct Engine {
   bool rotor_inertia = false;         ///< true if the engine can add a joint's reflected rotor inertia
   std::unique_ptr<Plant> (*make)(const PlantSettings&) = nullptr;
   double solver_step = 0;  ///< default step with contact.law `bullet`, s; 0 if the engine lacks that law
-  /// Function that chooses the step, s, for `step: auto`, which is then the default. It exists if stability limits the steps of
-  /// the engine. It returns 0 if no such step divides the scenario's periods.
+  /// Function that chooses the step, s, for `step: auto`, which is then the default. Null if stability does not limit the steps
+  /// of the engine. The function returns 0 if no stable step divides the scenario's periods.
   double (*choose_step)(const Scenario&) = nullptr;
 
   [[nodiscard]] const Integrator* integrator(std::string_view name) const;  ///< null if the name is unknown
-  /// Integrator that chooses its steps, of which `step: auto` is the default. Null if the engine has none.
+  /// Integrator that chooses its steps, for which `step: auto` is the default. Null if the engine has none.
   [[nodiscard]] const Integrator* adaptive() const;
   /// Default for a given step: the first integrator that does not choose its steps.
   [[nodiscard]] const Integrator& fixed() const;
@@ -50,8 +50,8 @@ struct Engine {
 
 inline constexpr std::string_view kBuiltIn = "built in";  ///< origin of plugins that belong to the program
 
-/// A kind of plugin, with its names in scenarios and messages. A kind of which a scenario has several has no section of its own
-/// and no default type.
+/// A kind of plugin, with its names in scenarios and messages. A kind of which a scenario may have several has no section of
+/// its own and no default type.
 struct PluginKind {
   Kind kind;
   const char* section;       ///< key of the scenario, and name of the kind in messages
@@ -75,7 +75,7 @@ const PluginKind& describe(Kind kind);
 const PluginKind* find_kind(std::string_view section);
 inline const char* word(Kind kind) { return describe(kind).section; }
 
-/// Plugin libraries that a scenario may load. A library that is loaded can run any code.
+/// Plugin libraries that a scenario may load. A loaded library can run any code.
 struct PluginTrust {
   bool all = true;
   std::set<std::string> files = {};  ///< canonical paths of the permitted libraries
@@ -85,9 +85,9 @@ struct PluginTrust {
 class Catalog final : public Registry {
  public:
   Catalog() = default;
-  Catalog(Catalog&&) = default;  // entries point to their origins, so that a catalog cannot be copied
+  Catalog(Catalog&&) = default;  // not copied, because entries point to their origins
   /// Adds an entry. Its name must begin with a letter, followed by letters, digits, _ and -. Throws std::invalid_argument for
-  /// any other name. Throws it also, with the origins of both entries, if the kind already has an entry with this name.
+  /// any other name and, with the origins of both entries, if the kind already has an entry with this name.
   void add(const Entry& entry) override;
   void add(const Engine& engine);
   /// Sets the origin of the entries that are added afterwards: kBuiltIn, or the path of a library.
@@ -117,9 +117,9 @@ class Catalog final : public Registry {
 
 /// Loads a plugin library into the catalog, from its canonical path, with RTLD_NOW | RTLD_LOCAL. The ABI text is compared
 /// first, the floating-point control register is restored, and the library is never closed. A second call for the same file has
-/// no effect. `hash` is that of the file's content. Throws std::runtime_error if the file cannot be opened (with the reason),
-/// lacks gaitlab_abi (it is not a plugin), has another ABI (with both), registers a name twice, or throws an exception; and if
-/// this process has loaded a file with this path and another hash before, because the old code would run.
+/// no effect. `hash` is the hash of the file's content. Throws std::runtime_error if the file cannot be opened, lacks
+/// gaitlab_abi and is therefore no plugin, has another ABI, registers a name twice, or throws an exception. Also throws if this
+/// process has loaded a file with this path and another hash before, because the old code would run.
 void load_plugin(const std::string& canonical_path, const std::string& hash, Catalog& catalog);
 
 }  // namespace gaitlab

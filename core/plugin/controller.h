@@ -1,4 +1,4 @@
-// Interface of joint controllers, which compute commands from set points and measurements. Standard library only.
+// Interface for joint controllers, which compute commands from set points and measurements. Standard library only.
 #pragma once
 #include "core/plugin/cpg.h"
 
@@ -13,7 +13,7 @@ class Controller {
   [[nodiscard]] virtual std::string_view command_unit() const = 0;
   [[nodiscard]] virtual std::size_t states() const { return 0; }
   virtual void start(Out) const {}
-  /// Every span except x has one entry per joint. `command_limit` is that of the actuator, in the unit of the command.
+  /// Every span except x has one entry per joint. `command_limit` is Actuator::command_limit(), in the unit of the command.
   virtual void update(const Measured&, In setpoint, In command_limit, Out x, Out command) const = 0;
 };
 

@@ -1,4 +1,4 @@
-// Interface of central pattern generators, which compute joint set points from the state of an ODE. Standard library only.
+// Interface for central pattern generators, which compute joint set points from the state of an ODE. Standard library only.
 #pragma once
 #include <string>
 
@@ -6,8 +6,8 @@
 
 namespace gaitlab {
 
-/// Values at a control tick in SI units, with one entry per joint. `touching` has one entry per module, 1 or 0. A value is
-/// true, unless the scenario has a sensor that measures it. `channels` has the values of the other sensors, in the order of
+/// Values at a control tick in SI units, with one entry per joint. `touching` has one entry per module, 1 or 0. A value is the
+/// true one, unless a sensor of the scenario replaces it. `channels` contains all other sensor values, in the order of
 /// RobotInfo::channels.
 struct Measured {
   double t, period;
@@ -15,11 +15,12 @@ struct Measured {
   In channels = {};
 };
 
-/// Times that a model states about its set points, s. 0 stands for a time that it does not state.
+/// Times that a model states about its set points, s. 0 if the model does not state a time.
 struct SetPointTimes {
-  double period = 0;  ///< after which they repeat
-  /// From which on they keep their size, as after a ramp; infinite if they grow for ever. A ramp of a model without states
-  /// scales the motion about the set points at t = 0, and a robot without initial.angles starts there.
+  double period = 0;  ///< period of the set points
+  /// Time from which on the set points keep their amplitude, such as the end of a ramp; infinite if they grow for ever. In a
+  /// model without states, a ramp scales the motion about the set points at t = 0, at which a robot without initial.angles
+  /// starts.
   double full_size = 0;
 };
 

@@ -1,4 +1,4 @@
-// Search for the legs of a robot in its assembly. Standard library only.
+// Search for the legs of an assembled robot. Standard library only.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 namespace gaitlab {
 
 /// A leg: a chain of modules without branches that ends in feet. Its first module is docked sideways (normal within 45 degrees
-/// of +-y) to a module of the spine. `hip` and `ankle` are numbers of joints that turn about y. A `sign` of 1 means that a
-/// positive angle is a right-hand turn about +y; otherwise it is -1.
+/// of +-y) to a module of the spine. `hip` and `ankle` are numbers of joints that turn about y. Their signs are 1 if a positive
+/// angle is a right-hand turn about +y, else -1.
 struct Leg {
   std::vector<std::int64_t> modules;  ///< numbers of the modules, from the spine outwards
   std::int64_t hip = -1, ankle = -1;  ///< first and last joint that turns about y

@@ -27,11 +27,11 @@ namespace gaitlab {
 namespace {
 
 constexpr int kThrew = 3;                          // exit code of the child
-constexpr rlim_t kTrialMemory = rlim_t{1} << 32U;  // bytes that a plugin may allocate, more than tables of any plugin need
+constexpr rlim_t kTrialMemory = rlim_t{1} << 32U;  // bytes that a plugin may allocate; more than the tables of any plugin need
 
 enum class Stage : char { loading, registering, done };
 
-/// The stage that the child has reached. An exit code cannot state it, because the plugin may call exit().
+/// Stage that the child has reached. It cannot be the exit code, because the plugin may call exit().
 class SharedStage {
  public:
   SharedStage() : page_(::mmap(nullptr, sizeof(char), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)) {}
@@ -56,8 +56,8 @@ rlim_t cpu_time_of(const TrialLimits& limits) {
   return ::getrlimit(RLIMIT_CPU, &own) == 0 ? std::min(allowed, own.rlim_cur) : allowed;
 }
 
-/// Ends this process after this CPU time, s: by SIGXCPU or, if a static object ignores it, by SIGKILL later. A virtual machine
-/// that is stopped for seconds counts these, so that the second limit must not be near the first.
+/// Ends this process after this CPU time, s: by SIGXCPU or, if a static object ignores it, by SIGKILL later. The second limit
+/// must be far above the first, because a virtual machine that is stopped for seconds counts them as CPU time.
 void limit_time(rlim_t allowed) {
   constexpr rlim_t kIgnored = 10;  // s
   rlimit limit{};
@@ -68,7 +68,7 @@ void limit_time(rlim_t allowed) {
   (void)::setrlimit(RLIMIT_CPU, &limit);  // lowers the limits, which is always allowed
 }
 
-/// Limits what this process may allocate from now on. Its present data are read, because under a sanitizer they are terabytes.
+/// Limits the memory that this process may allocate in addition to its present data, which are terabytes under a sanitizer.
 void limit_memory() {
   rlimit limit{};
   std::ifstream file("/proc/self/statm");
@@ -87,13 +87,13 @@ void limit_memory() {
   limit_time(allowed);
   limit_memory();
   std::set_terminate([] { std::_Exit(kThrew); });
-  // dlopen is declared not to throw. Called by its name, it would let the compiler drop the handler, and the exception would
-  // reach the frames of the program above.
+  // dlopen is declared not to throw. If it were called by name, the compiler would drop the handler, and the exception would
+  // reach the callers of this function.
   void* (*volatile const load)(const char*, int) = &dlopen;
   void* library = nullptr;
   try {
     library = load(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  } catch (...) {  // some versions of the C library let the exception pass
+  } catch (...) {  // some versions of the C library let the exception through
     std::_Exit(kThrew);
   }
   stage.reach(Stage::registering);
@@ -114,22 +114,22 @@ double cpu_time(pid_t process) {
   return static_cast<double>(used.tv_sec) + kNano * static_cast<double>(used.tv_nsec);
 }
 
-/// True if a process waits, and neither for the processor nor for a disk.
+/// True if a process waits for something other than processor or disk.
 bool sleeps(pid_t process) {
   std::ifstream file(fmt::format("/proc/{}/stat", process));
   std::string line;
   std::getline(file, line);
-  const std::size_t name = line.rfind(") ");  // the name before it may contain anything
+  const std::size_t name = line.rfind(") ");  // the name before `) ` may contain any character
   return name != std::string::npos && line.compare(name + 2, 1, "S") == 0;
 }
 
-/// Waits for the end of the child. Kills it, and returns true, if it sleeps that long and uses hardly any CPU time, as a child
-/// that wakes every second.
+/// Waits for the end of the child. If the child sleeps for the whole limit and uses hardly any CPU time, even if it wakes every
+/// second, kills it and returns true.
 bool falls_asleep(pid_t child, std::chrono::seconds patience) {
   constexpr std::chrono::milliseconds kLook{250};
   constexpr double kHardly = 0.1;  // s of CPU time
   const auto handle = static_cast<int>(::syscall(SYS_pidfd_open, child, 0));
-  if (handle < 0) return false;  // the caller waits without a bound
+  if (handle < 0) return false;  // the caller waits without a time limit
   std::chrono::milliseconds slept{0};
   double used = cpu_time(child);
   bool asleep = false;

@@ -8,14 +8,14 @@ namespace gaitlab {
 
 /// Limits of the child process.
 struct TrialLimits {
-  std::chrono::seconds cpu_time{10};  ///< or less, if this process has less
-  std::chrono::seconds sleep{60};     ///< with hardly any CPU time
+  std::chrono::seconds cpu_time{10};  ///< less if the limit of this process is lower
+  std::chrono::seconds sleep{60};     ///< time that the process may sleep with hardly any CPU time
 };
 
-/// Loads the library in a child process and calls `enter` with it, where static objects and registration may throw, crash, exit
-/// or never return without an end of this process. Returns the reason of the child's end, such as "a static object of this
-/// plugin threw an exception when it was loaded"; an empty text if dlopen and `enter` returned, also if they refused the file
-/// by an exception of `enter`, or without a child. The child ends with this process. Its output is dropped.
+/// Loads the library in a child process and calls `enter` with it, so that this process survives static objects and a
+/// registration that throw, crash, exit or never return. Returns the reason for which the child ended, such as "a static object
+/// of this plugin threw an exception when it was loaded". Returns an empty text if dlopen and `enter` returned or refused the
+/// file, or if no child could be created. The child ends with this process. Its output is dropped.
 std::string load_trial(const std::string& path, const std::function<void(void* library)>& enter, TrialLimits limits = {});
 
 }  // namespace gaitlab

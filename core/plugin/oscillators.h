@@ -1,4 +1,4 @@
-// The keys that all oscillator CPGs have in common, and the network of oscillators. Standard library only.
+// Common keys of all oscillator CPGs, and the network of oscillators. Standard library only.
 #pragma once
 #include <stdexcept>
 #include <string>
@@ -27,9 +27,8 @@ struct OscillatorKeys {
     f.rule_or_list("couplings", rule, kCouplingRules, couplings, kCouplingRulesAbout);
   }
 
-  /// Throws SettingError if the set point of a joint is outside its range at all times, or if amplitude or offset of a
-  /// hinge with a range is beyond 3.2 rad. A set point that only temporarily exceeds the range is not refused; the run reports
-  /// it.
+  /// Throws SettingError if the set point of a joint is outside its range at all times, or if amplitude or offset of a hinge
+  /// with a range is beyond 3.2 rad. A set point that leaves the range only temporarily is allowed; the run reports it.
   void check(const RobotInfo& robot) const {
     for (std::size_t j = 0; j < robot.joints.size(); ++j) {
       const JointInfo& joint = robot.joints[j];
@@ -47,7 +46,7 @@ struct OscillatorKeys {
   }
 };
 
-/// Settings of an oscillator CPG: the common keys, and the keys of its model under `model`. Model is a struct with `void
+/// Settings of an oscillator CPG: the common keys, and under `model` the keys of one model. Model is a struct with `void
 /// fields(Fields&)`.
 template <class Model>
 struct OscillatorSettings : OscillatorKeys {
@@ -59,7 +58,7 @@ struct OscillatorSettings : OscillatorKeys {
   }
 };
 
-/// The couplings with the phases of their limit cycle, for oscillators that start on this cycle.
+/// Couplings and the phases of their limit cycle, for oscillators that start on this cycle.
 struct OscillatorNetwork {
   std::vector<Coupling> couplings;
   std::vector<double> phases;  ///< rad; all 0 if the lags contradict one another around a cycle
@@ -78,7 +77,7 @@ struct OscillatorNetwork {
   }
 };
 
-/// Time in which r' = rate (R - r) comes from 0 to 98 % of R, s; 0 without a rate, where r stays as it is.
+/// Time in which r' = rate (R - r) comes from 0 to 98 % of R, s; 0 for a rate of 0, with which r is constant.
 inline double rise_time(double rate) {
   constexpr double kFirstOrder = 3.912;  // ln 50
   return rate > 0 ? kFirstOrder / rate : 0;

@@ -1,4 +1,4 @@
-// The only header that a plugin outside this tree includes, with the interfaces and the macro GAITLAB_PLUGIN.
+// The only header that a plugin outside this source tree includes, with the interfaces and the macro GAITLAB_PLUGIN.
 // A plugin library contains, for example, GAITLAB_PLUGIN(registry) { add_cpg<Mine>(registry, ...); }
 #pragma once
 #include "core/plugin/registry.h"

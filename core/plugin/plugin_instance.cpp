@@ -13,8 +13,8 @@ std::string title(const Entry& entry) {
   return fmt::format("{} '{}'{}", word(entry.kind), entry.name, built_in ? "" : fmt::format(" ({})", entry.origin));
 }
 
-/// Calls a plugin's function, which may throw any exception. An empty `function` means the constructor, whose message is
-/// printed alone.
+/// Calls a plugin's function, which may throw any exception. An empty `function` means the constructor; its message is printed
+/// alone.
 template <class Call>
 auto guarded(const Entry& entry, const char* function, Call call) {
   const auto before = [&] { return *function == '\0' ? std::string() : fmt::format("{} threw: ", function); };
@@ -89,8 +89,8 @@ class GuardedController final : public Controller {
   std::unique_ptr<Controller> controller_;
 };
 
-/// An actuator with checks. `passive` contains the entries joint * lanes + lane of joints without a motor, whose torque is not
-/// used.
+/// Actuator that checks the results of a plugin. `passive` contains the indices joint * lanes + lane of joints without a motor,
+/// whose torques are not used.
 class GuardedActuator final : public Actuator {
  public:
   GuardedActuator(const Entry& entry, std::unique_ptr<Actuator> actuator, std::size_t size, std::vector<std::size_t> passive)

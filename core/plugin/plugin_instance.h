@@ -22,7 +22,7 @@ class PluginError : public RunError {
  public:
   PluginError(const Entry& entry, const std::string& what, std::string at = {});
   Kind kind;
-  std::string key;  ///< key of its section with the value at fault (SettingError); empty if the plugin names none
+  std::string key;  ///< key of the plugin's section with the wrong value (SettingError); empty if the plugin names none
 };
 
 /// New settings with the plugin's defaults. This function and all functions below throw PluginError.

@@ -19,14 +19,14 @@ struct Entry {
   Kind kind;
   std::string_view name;
   std::string_view manual;                          ///< text with equation, reference and minimal YAML
-  std::shared_ptr<void> (*settings)(const Entry&);  ///< makes settings with the defaults; they may keep the context
+  std::shared_ptr<void> (*settings)(const Entry&);  ///< makes settings with the defaults, which may share the context
   void (*fields)(void* settings, Fields&);
   /// Makes a new Cpg, Controller or Actuator. An actuator gets one settings pointer per lane, any other plugin exactly one.
   /// Null for a sensor.
   void* (*make)(const RobotInfo&, std::span<const void* const> settings);
   std::string_view origin = {};  ///< kBuiltIn or the path of the library; set by the program
   Sensor* (*make_sensor)(const SensorSite&, const void* settings) = nullptr;  ///< makes a new sensor (core/plugin/sensor.h)
-  /// Data for the functions of an entry that is not a class of C++, such as a class of Python. Null otherwise.
+  /// Data for the functions of an entry that is no C++ class, such as a Python class. Null otherwise.
   std::shared_ptr<void> context = {};
 };
 

@@ -1,4 +1,4 @@
-// Interface of sensors, which compute measured values from true quantities of the robot. Standard library only.
+// Interface for sensors, which compute measured values from true quantities of the robot. Standard library only.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -31,7 +31,7 @@ struct Truth {
   std::span<const BodyMotion> motion;  ///< one per entry of Sensor::points()
 };
 
-/// The value in Measured that a reading replaces. Every other reading is an entry of Measured::channels.
+/// Value in Measured that a reading replaces. A reading that replaces nothing is an entry of Measured::channels.
 enum class Replaces { nothing, angle, speed, torque, touching };
 
 /// Description of a number that a sensor measures.
@@ -57,7 +57,8 @@ class Sensor {
   /// Points whose motion is needed.
   [[nodiscard]] virtual std::span<const BodyPoint> points() const { return {}; }
   [[nodiscard]] virtual bool needs_current() const { return false; }
-  /// True if values are multiples of a resolution. Such a step in a loop amplifies the last bit of a number.
+  /// True if values are multiples of a resolution. In a control loop, such steps amplify differences in the last bit of a
+  /// number.
   [[nodiscard]] virtual bool quantises() const { return false; }
   /// True if values depend on the seed.
   [[nodiscard]] virtual bool draws() const { return false; }
@@ -67,7 +68,7 @@ class Sensor {
   virtual void sense(const Truth& truth, Out state, Out values) const = 0;
 };
 
-/// Circumstances in which a sensor is made.
+/// Robot, name, seed and control period for which a sensor is made.
 struct SensorSite {
   const RobotInfo& robot;
   std::string name;        ///< name of the sensor in the scenario

@@ -1,4 +1,4 @@
-// Columns of a table in their order, searchable by name.
+// Ordered list of the columns of a table, searchable by name.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@ struct Column {
   std::string definition;  ///< one sentence: quantity, sign, axes
 };
 
-/// A list of columns that reads like a vector. A search by name takes constant time, because a report searches one name per
+/// A list of columns that reads like a vector. A search by name takes constant time, because a report searches for one name per
 /// joint and quantity. The index of names is built when columns are added, so that several threads can read one table.
 class ColumnList {
  public:

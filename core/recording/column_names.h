@@ -5,7 +5,8 @@
 
 namespace gaitlab {
 
-/// Names of the parts of a run, at the indices that columns contain. A name is empty or missing if it is unknown.
+/// Names of joints and contact elements, at the indices that names of columns contain. A name is empty or missing if it is
+/// unknown.
 struct PartNames {
   std::vector<std::string> joints = {}, contacts = {};
 };

@@ -17,7 +17,7 @@ namespace gaitlab {
 namespace {
 
 constexpr double kSameTime = 1e-6;  // share of the spacing; the rounding error of k h is about 1e-16 of t
-constexpr double kFlat = 1e-9;      // a column with a smaller range counts as constant, in rad as in N m
+constexpr double kFlat = 1e-9;      // a column with a smaller range counts as constant, in rad or N m
 constexpr std::size_t kNamesShown = 8;
 
 struct SharedRow {
@@ -123,7 +123,7 @@ class Comparison {
     uniform_ = uniform_rows();
   }
 
-  // Number of evenly spaced shared rows at the start, in which a shift can be searched. The last row may be off the grid.
+  // Number of evenly spaced shared rows at the start, which allow the search for a shift. The last row may be off the grid.
   [[nodiscard]] std::size_t uniform_rows() const {
     if (rows_.size() < 2) return rows_.size();
     const double spacing = this->spacing();
@@ -206,7 +206,7 @@ class Comparison {
     }
   }
 
-  // Searches a time shift. The search is expensive, and therefore only for columns that differ.
+  // Searches a time shift. The search is expensive, and therefore limited to columns that differ.
   void shift(const Pair& pair, ColumnDifference& d) const {
     d.rms_after_shift = d.rms;
     const auto finite = [](double value) { return std::isfinite(value); };

@@ -35,8 +35,8 @@ struct ColumnDifference {
 };
 
 struct TraceDifference {
-  /// Reasons why the traces are incomparable or only partly comparable, one sentence each: other columns, units, rows, times,
-  /// values that are not finite. Empty if the traces have the same form.
+  /// Reasons why the traces cannot or only partly be compared, one sentence each: differences in columns, units, rows or times,
+  /// or values that are not finite. Empty if the traces have the same form.
   std::vector<std::string> findings;
   std::vector<std::string> only_a, only_b;  ///< names of matching columns that the other trace lacks
   std::size_t rows = 0;                     ///< number of rows with the same time in A and B; only these are compared
@@ -45,8 +45,9 @@ struct TraceDifference {
 
 /// Compares trace B with A, the reference. `findings` lists differences of form; the other members are numbers. Rows are paired
 /// if their times are equal to a millionth of the mean spacing in A, so that traces of different length or period can be
-/// compared in part. Values that are not finite in either trace are left out of the numbers. Without a common increasing time
-/// column there are no numbers. The result is deterministic, and takes about a millisecond per column and 4000 rows.
+/// compared in part. Values that are not finite in either trace are left out of the numbers. If the traces have no common
+/// increasing time column, there are no numbers. The result is deterministic, and takes about a millisecond per column and 4000
+/// rows.
 TraceDifference compare(const Trace& a, const Trace& b, const CompareOptions& options = {});
 
 }  // namespace gaitlab

@@ -59,8 +59,8 @@ class CsvReader {
   int line_number_ = 0;
 };
 
-// Parses the number at the start of the cell at `first`. ec is not std::errc() if there is no number. ptr is the end of the
-// cell if the number fills the cell.
+// Parses the number at the start of the cell at `first`. If there is no number, ec is not std::errc(). If the number fills the
+// cell, ptr is the end of the cell.
 std::from_chars_result parse(const char* first, const char* last, double& value) {
   return std::from_chars(first, last, value, std::chars_format::general);
 }

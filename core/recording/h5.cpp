@@ -28,7 +28,7 @@ std::string hash_of_words(const SpilledVector<char>& file, std::size_t from) {
   return words.text();
 }
 
-// User block of the file. It is text, so that `head -n 2` shows the type of the file.
+// User block of the file, as text, so that `head -n 2` shows the type of the file.
 std::string header(std::size_t size, std::string_view hash) {
   std::string text = fmt::format("{}{}{}; hash from byte 512 on: {}\n", kTraceFormat, kSize, size, hash);
   text.resize(kUserBlock, '\0');

@@ -30,13 +30,13 @@ struct Beside {
 /// Space that is reserved for a file, as a share of the bytes of its values. A walking robot's trace needs 0.41 to 0.56.
 inline constexpr double kFileShare = 0.75;
 
-/// A table beside the trace, to be written.
+/// A table to be written beside the trace.
 struct BesideOf {
   const char* name;
   const Trace* table;
 };
 
-/// Error if memory is too short to build the HDF5 file. Text files need little memory, and may still be written.
+/// Error if there is too little memory for building the HDF5 file. Text files need little memory and can still be written.
 class NoImage : public RunError {
  public:
   using RunError::RunError;
@@ -54,16 +54,17 @@ struct StoredTrace {
 /// `format`, `scenario`, `outcome`, `csv_hash`, `seed`, `build`, `rows`, `checksum` (hash() of the trace).
 ///
 /// The first 512 bytes of the file, which HDF5 leaves to the user, contain format, size and hash_words() of the remaining
-/// bytes. The file contains no dates, so that the same trace gives the same bytes. It appears whole or not at all, and is built
-/// in memory, or in a temporary file if it has more than 200 MB. Throws RunError if the file cannot be written (see
-/// AtomicFile), and NoImage.
+/// bytes. The file contains no dates, so that the same trace gives the same bytes. The file appears whole or not at all. It is
+/// built in memory, or in a temporary file if it has more than 200 MB. Throws NoImage, and RunError if the file cannot be
+/// written (see AtomicFile).
 void write_h5(const Trace& trace, const Provenance& origin, const std::filesystem::path& path,
               std::span<const BesideOf> beside = {});
 
 /// Reads a file of write_h5, bit for bit. Throws InputError `PATH: error: ...`, with one message for each of: cannot be read,
 /// is empty, is not a gaitlab trace (foreign HDF5, foreign file), has another format version, is truncated, is corrupt. A file
-/// that another program has changed counts as corrupt. HDF5 receives only bytes with the right checksum, because some other
-/// files crash it, and does not unpack values (unpack_chunks() does). An error of a dataset contains its name.
+/// that another program has changed counts as corrupt. HDF5 receives only bytes with the right checksum, because some damaged
+/// files crash HDF5. Values are unpacked by unpack_chunks(), not by HDF5. An error in a dataset contains the name of the
+/// dataset.
 StoredTrace read_h5(const std::filesystem::path& path);
 
 }  // namespace gaitlab

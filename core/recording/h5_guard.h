@@ -1,4 +1,4 @@
-// Lock of another user of HDF5 in the same process, for a library of gaitlab in another program.
+// Lock of another user of HDF5 in the same process, for gaitlab as a library inside another program.
 #pragma once
 
 namespace gaitlab {
@@ -10,8 +10,8 @@ struct H5Guard {
   void (*leave)(void* entered) = nullptr;
 };
 
-/// Sets the guard, which must be done before the first use of HDF5. With a guard HDF5 also closes its files at exit, as the
-/// other user expects.
+/// Sets the guard. To be called before the first use of HDF5. With a guard, HDF5 also closes its files at exit, as the other
+/// user expects.
 void guard_h5(H5Guard guard) noexcept;
 H5Guard h5_guard() noexcept;
 

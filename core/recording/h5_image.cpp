@@ -13,21 +13,21 @@ namespace gaitlab {
 
 namespace {
 
-// New name of a file in memory. HDF5 searches for a file of this name first; this path can never exist. A file that HDF5 could
-// not close is never taken for a later one.
+// New name for a file in memory. HDF5 first searches for a file of this name on the disk, where this path can never exist. The
+// name is unique, because HDF5 may have failed to close an earlier file.
 std::string nowhere() {
-  static std::uint64_t files = 0;  // under the lock of Library
+  static std::uint64_t files = 0;  // protected by the lock of Library
   return fmt::format("/dev/null/gaitlab-{}", ++files);
 }
 
 constexpr std::size_t kGrowth = std::size_t{1} << 20;  // bytes
-constexpr hsize_t kChunkRows = 4096;  // rows of one column, 32 kB; values that are neighbours in time compress best
+constexpr hsize_t kChunkRows = 4096;  // rows of one column, 32 kB; values that follow one another in time compress best
 constexpr unsigned kGzip = 1;         // level that the file states; libdeflate compresses the chunks
 
 Handle file_access() {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
   checked(H5Pset_fapl_core(access, kGrowth, 0), "file in memory");
-  // The version bounds are fixed, so that a newer library writes the same format: the oldest one, which all readers support.
+  // The version bounds are fixed, so that a newer library also writes the oldest format, which all readers support.
   checked(H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V18), "format bounds");
   return access;
 }
@@ -88,7 +88,7 @@ void write_texts(hid_t owner, const char* name, const Trace& trace, std::string 
   write_attribute(owner, name, type, type, space, bytes.data());
 }
 
-// Omits dates, and selects a kind of header that can hold attributes above 64 kB.
+// Omits dates, and selects a kind of header that can contain attributes above 64 kB.
 void plain(hid_t properties) {
   checked(H5Pset_obj_track_times(properties, 0), "properties");
   checked(H5Pset_attr_creation_order(properties, H5P_CRT_ORDER_TRACKED), "properties");
@@ -194,7 +194,8 @@ void check_link(hid_t owner, const char* name) {
   if (link.type != H5L_TYPE_HARD) throw ImageError(fmt::format("{} is a link to another place", name));
 }
 
-/// Requires the filters of this program: shuffle, then gzip. HDF5 does not run them, but their order gives the bytes a meaning.
+/// Requires the filters of this program, shuffle then gzip. HDF5 does not run the filters, but their list defines the meaning
+/// of the bytes.
 void check_filters(hid_t properties) {
   constexpr std::array kFilters{H5Z_FILTER_SHUFFLE, H5Z_FILTER_DEFLATE};
   const int filters = checked(H5Pget_nfilters(properties), "filters");
@@ -227,7 +228,7 @@ void check_storage(hid_t data, hsize_t rows) {
     throw ImageError(fmt::format("has other chunks than {} rows of one column", chunk_rows(rows)));
 }
 
-/// Reader of the chunks of a dataset as they are in the file.
+/// Reader of the packed chunks of a dataset.
 class StoredChunks {
  public:
   StoredChunks(hid_t data, const Image& file) : data_(data), file_(file) {}
@@ -238,7 +239,7 @@ class StoredChunks {
     if (size == 0 || size > file_.size())
       throw ImageError(fmt::format("there is no chunk of column {} from row {} on", column, row));
     bytes_.resize(size);
-    std::uint32_t left_out = 0;  // filters, a bit each
+    std::uint32_t left_out = 0;  // mask of filters, one bit each
     checked(H5Dread_chunk(data_, H5P_DEFAULT, at.data(), &left_out, bytes_.data()), "reading a chunk");
     constexpr std::uint32_t kGzipLeftOut = 2;
     if (left_out != 0 && left_out != kGzipLeftOut)
@@ -252,14 +253,14 @@ class StoredChunks {
   std::vector<std::byte> bytes_;
 };
 
-/// Reads the values past the filters of HDF5, whose version 1.10 reads beyond a chunk that is shorter than declared.
+/// Reads the values without the filters of HDF5, because version 1.10 reads beyond a chunk that is shorter than declared.
 void read_rows(hid_t data, hsize_t rows, const Image& file, Trace& trace) {
   trace.values.reserve(rows * trace.columns.size());
   require_workspace();
   StoredChunks stored(data, file);
   const std::size_t length = chunk_rows(rows);
   const auto wrong = unpack_chunks(trace, rows, length, [&](std::size_t row, std::size_t column) {
-    if (column == 0) {  // pages of a table in a file, and of the file, can leave memory
+    if (column == 0) {  // lets the pages of a spilled table and of the file leave memory
       release(trace.values);
       release(file);
     }
@@ -287,7 +288,7 @@ Trace read_dataset(hid_t owner, const char* name, const Image& bytes) {
   return trace;
 }
 
-/// Reads the dataset of this path. Every error contains its name.
+/// Reads the dataset at this path. Every error contains the name of the dataset.
 Trace read_table(hid_t file, const std::string& name, const Image& bytes) {
   try {
     return read_dataset(file, name.c_str(), bytes);
@@ -329,7 +330,7 @@ Image to_image(const Trace& trace, const Provenance& origin, std::span<const Bes
   checked(H5Fflush(file, H5F_SCOPE_GLOBAL), "flush");
   const ssize_t size = checked(H5Fget_file_image(file, nullptr, 0), "size of the file");
   file.close("closing the file");
-  image.resize(kUserBlock + static_cast<std::size_t>(size));  // it grew by kGrowth at a time
+  image.resize(kUserBlock + static_cast<std::size_t>(size));  // the image grew in pieces of kGrowth
   return image;
 }
 

@@ -19,7 +19,7 @@ class ImageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Returns the file with an empty user block. Throws ImageError. HDF5 is used by one thread at a time; other threads wait.
+/// Returns the file with an empty user block. Throws ImageError. Only one thread at a time uses HDF5; other threads wait.
 SpilledVector<char> to_image(const Trace& trace, const Provenance& origin, std::span<const BesideOf> beside);
 
 /// Reads the trace from the bytes of a whole file, including the user block. The HDF5 part must be a result of to_image. Throws

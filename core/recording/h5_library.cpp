@@ -15,7 +15,7 @@ H5Guard other_user;
 void* grow(std::size_t size, void* image) {
   try {
     Image& bytes = *static_cast<Image*>(image);
-    if (size > bytes.capacity()) require_workspace(2 * size);  // before, because HDF5 keeps the old address after a failure
+    if (size > bytes.capacity()) require_workspace(2 * size);  // first, because HDF5 keeps the old address after a failure
     bytes.resize(size);
     return bytes.data();
   } catch (const std::bad_alloc&) {
@@ -26,9 +26,10 @@ void* grow(std::size_t size, void* image) {
 }  // namespace
 
 void require_workspace(std::size_t more) {
-  // For its cache of structures, the texts of a table and the buffers of chunks.
+  // Memory for HDF5's cache of structures, the texts of a table and the buffers of chunks.
   constexpr std::size_t kWorkspace = std::size_t{1} << 24;  // bytes
-  // A mapping that is not touched is address space alone; the compiler may leave out an allocation that is freed at once.
+  // This mapping takes only address space, because it is not touched. An allocation that is freed at once could be removed by
+  // the compiler.
   void* const mapped = ::mmap(nullptr, kWorkspace + more, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (mapped == MAP_FAILED) throw std::bad_alloc();
   ::munmap(mapped, kWorkspace + more);

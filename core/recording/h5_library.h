@@ -1,4 +1,4 @@
-// The HDF5 library for h5_image.cpp: its lock, owners of its identifiers, and the memory of its files.
+// Access of h5_image.cpp to the HDF5 library: lock, owners of identifiers, and memory for files.
 #pragma once
 #include <fmt/format.h>
 #include <hdf5.h>
@@ -21,9 +21,9 @@ Result checked(Result result, const char* what) {
   return result;
 }
 
-/// Throws std::bad_alloc if there is less free memory than HDF5 needs beside a file and its values, and `more` bytes. HDF5 1.10
-/// crashes where one of its own allocations fails, so this is called before HDF5 is, and at large allocations between its
-/// calls.
+/// Throws std::bad_alloc if free memory is less than `more` bytes plus the memory that HDF5 needs beside a file and its values.
+/// HDF5 1.10 crashes if one of its own allocations fails. Call this before calling HDF5, and before large allocations between
+/// HDF5 calls.
 void require_workspace(std::size_t more = 0);
 
 /// Lock of the HDF5 library for one thread at a time, because Debian builds HDF5 without locks. Until the end of the lock,
@@ -32,7 +32,7 @@ class Library {
  public:
   Library() : lock_(mutex()) {
     require_workspace();
-    // To be called before the first use. Otherwise objects left open after a damaged file make HDF5 complain at exit.
+    // Must precede the first use of HDF5. Otherwise HDF5 complains at exit about objects left open after a damaged file.
     static const herr_t kNeverAtExit = h5_guard().enter == nullptr ? H5dont_atexit() : 0;
     static_cast<void>(kNeverAtExit);
     // A file names filters by number. For an unknown number HDF5 would load any library from a folder of the environment.
@@ -95,11 +95,11 @@ class Handle {
   Close close_;
 };
 
-/// Calls of HDF5 for the memory of a file that it writes: `image` grows with the file. A second copy of a long trace would not
-/// fit into memory. HDF5 uses `image` until the file is closed.
+/// Callbacks by which HDF5 writes a file directly into `image`, which grows with the file. A second copy of a long trace would
+/// not fit into memory. HDF5 uses `image` until the file is closed.
 H5FD_file_image_callbacks_t memory_of(Image& image);
 
-/// The same for a file that HDF5 reads. HDF5 neither copies nor changes `image`.
+/// Callbacks by which HDF5 reads a file from `image`, without copying or changing it.
 H5FD_file_image_callbacks_t memory_in_place(const Image& image);
 
 }  // namespace gaitlab

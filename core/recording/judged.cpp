@@ -10,8 +10,8 @@ namespace gaitlab {
 
 namespace {
 
-constexpr double kLongestStart = 2;    // s, without a limit cycle
-constexpr double kShareOfStart = 0.2;  // share of the run, without a limit cycle
+constexpr double kLongestStart = 2;    // s; longest start that is left out
+constexpr double kShareOfStart = 0.2;  // longest start that is left out, as a share of the run
 constexpr double kWholePeriod = 1e-3;  // tolerance of a whole period, as a share of a period
 constexpr double kSameInstant = 1e-9;  // s
 
@@ -67,7 +67,7 @@ JudgedJoint from_ticks(const Recording& record, std::size_t joint, std::size_t f
     if (voltage[k] > voltage[k - 1]) j.first_limit = MotorLimit::voltage;
     if (current[k] > current[k - 1]) j.first_limit = MotorLimit::current;
     if (!j.reaches_limit()) j.first_limit = motor_limit(limit[k]);
-    // Within a row, the time at the limit is taken to be at its end.
+    // Within a row, the time at the limit is assumed to be at the end.
     j.first_limit_time = t[k] - std::max(voltage[k] - voltage[k - 1], current[k] - current[k - 1]);
   }
   if (torque.empty() || std::isnan(torque.back())) j.torque_peak = j.torque_peak_time = kNotKnown;

@@ -1,5 +1,5 @@
-// Judged window of a run, statistics of every joint in it, and joints in the order from the worst on, for terminal, figures,
-// `swap` and `compare`.
+// Judged window of a run, the statistics of every joint in this window, and the joints from the worst to the best, for
+// terminal, figures, `swap` and `compare`.
 #pragma once
 #include <cstddef>
 #include <vector>
@@ -22,8 +22,8 @@ struct JudgedJoint {
   double speed_peak = 0, speed_peak_time = 0;        ///< rad/s, largest magnitude; s
   double current_rms = 0;                            ///< A
   double voltage_peak = 0, current_peak = 0;         ///< V, A, largest magnitudes
-  /// First limit that the motor reached, for some time or at the largest torque of a tick; s, the tick less the time at the
-  /// limit.
+  /// First limit that the motor reached, for some time or at the largest torque of a tick, and the time of that tick minus the
+  /// time at the limit, s.
   MotorLimit first_limit = MotorLimit::none;
   double first_limit_time = 0;
   [[nodiscard]] bool reaches_limit() const { return first_limit != MotorLimit::none; }
@@ -36,8 +36,8 @@ struct Judged {
   std::size_t first_row = 0;        ///< row of Recording::ticks after which the window begins
   std::vector<JudgedJoint> joints;  ///< statistics within the window
   std::vector<JudgedJoint> whole;   ///< statistics over the whole run
-  /// Joints from the worst on, ordered by the share of time at a limit, then by the RMS of the torque, then by the peak of the
-  /// torque. Equal joints are ordered by number.
+  /// Joints from the worst to the best, ordered by the share of time at a limit, then by the RMS of the torque, then by the
+  /// peak of the torque. Equal joints are ordered by number.
   std::vector<std::size_t> order;
 
   /// Number of joints that reach a limit.
@@ -50,14 +50,15 @@ struct Judged {
   [[nodiscard]] static std::size_t first(const std::vector<JudgedJoint>& joints);
 };
 
-/// Length of the start that is omitted from a run without a limit cycle, s: 2 s, or a fifth of a run shorter than 10 s.
+/// Length of the start that is left out of a run without a limit cycle or without two periods, s: 2 s, or a fifth of a run
+/// shorter than 10 s.
 double left_out_start(double end);
 
 /// Chooses the judged window and computes its statistics. The window consists of whole periods up to the end of the run,
-/// without the first after `start`, s, the start of the gait. The period is that of the limit cycle or, without one,
-/// `period` of the set points, s. If not two periods follow the start, the window begins 2 s after it or after a fifth of
-/// the time that is left, whichever is earlier. If the set points do not repeat (`period` is 0), it begins at 0. Its start
-/// is rounded down to a row of Recording::ticks. These cover all steps, so that the result does not depend on
+/// without the first period after `start`, s, the start of the gait. The period is that of the limit cycle or, without one,
+/// `period` of the set points, s. If fewer than two periods follow `start`, the window begins 2 s or a fifth of the remaining
+/// time after `start`, whichever is earlier. If the set points do not repeat (`period` is 0), the window begins at 0. Its start
+/// is rounded down to a row of Recording::ticks. These rows cover all steps, so that the result does not depend on
 /// trace.period.
 Judged judge(const Recording& recording, const MotionCycle& cycle, double period, double start = 0);
 

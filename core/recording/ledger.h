@@ -4,7 +4,7 @@
 
 namespace gaitlab {
 
-/// Energies in J, from t = 0. Every step adds power times h at the states at which the integrator evaluated its forces. The
+/// Energies in J, from t = 0. Every step adds power times h at the states at which the integrator evaluated the forces. The
 /// residual is therefore the integration error, which is of the order of the step.
 ///     electrical = copper + gear + stored + contact + friction + stops + hinges + residual
 struct Ledger {
@@ -19,7 +19,7 @@ struct Ledger {
 
   [[nodiscard]] double residual() const { return electrical - copper - gear - stored - contact - friction - stops - hinges; }
 
-  static constexpr std::size_t kSums = 7;  ///< number of sums, in the order of `of`; they are part of the state of a simulation
+  static constexpr std::size_t kSums = 7;  ///< number of sums in the state of a simulation, in the order of `of`
   [[nodiscard]] static Ledger of(In sums, double stored) {
     return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], stored, sums[6]};
   }

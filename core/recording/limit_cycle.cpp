@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kStill = 1e-3;       // rad, half a peak-to-peak
 constexpr double kSmall = 0.1;        // least scale as a share of the largest column, so that trembling joints do not decide
-constexpr double kPromising = 0.3;    // largest e of a lag that is half a grid step off a period, with harmonics
+constexpr double kPromising = 0.3;    // largest e, with harmonics, of a lag that is half a grid step off a period
 constexpr std::size_t kGrid = 256;    // lags and points per period in the search
 constexpr std::size_t kFine = 4096;   // points per period when refining a lag
 constexpr std::size_t kShortest = 5;  // samples in the shortest period
@@ -23,7 +23,7 @@ using Moved = std::vector<double>;
 struct Columns : std::vector<Moved> {
   using std::vector<Moved>::vector;
   double floor = kStill;          // smallest scale of a column, rad
-  mutable std::size_t pairs = 0;  // compared so far
+  mutable std::size_t pairs = 0;  // pairs of samples compared so far
 };
 
 struct Range {
@@ -68,7 +68,7 @@ Columns columns_of(std::span<const double> values, std::size_t columns) {
     }
   }
   for (Moved& column : split) join_steps(column);
-  // Least scale, from the last quarter of the data only, because larger motions at the start must not count.
+  // Least scale, from the last quarter of the data, because larger motions at the start must not count.
   for (const Moved& column : split) {
     Range range;
     for (std::size_t row = rows - rows / 4; row < rows; ++row) range.add(column[row]);
@@ -77,8 +77,8 @@ Columns columns_of(std::span<const double> values, std::size_t columns) {
   return split;
 }
 
-// Rough error e in the last window, for a lag of whole samples, computed from every `stride`-th sample. The error is kNoMatch
-// if it exceeds kPromising or nothing moves.
+// Rough error e in the last window, for a lag of whole samples, from every `stride`-th sample. The result is kNoMatch if the
+// error exceeds kPromising or nothing moves.
 class RoughError {
  public:
   explicit RoughError(const Columns& columns) : columns_(columns) {
@@ -93,7 +93,8 @@ class RoughError {
       moves = moves || half > kStill;
       worst = std::max(worst, one);
       if (worst < kPromising) continue;
-      // A column that does not repeat after one lag usually does not repeat after the next lag. It is tested first.
+      // A column that does not repeat after one lag usually does not repeat after the next lag either, and is therefore tested
+      // first.
       std::rotate(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(k),
                   order_.begin() + static_cast<std::ptrdiff_t>(k) + 1);
       return kNoMatch;
@@ -266,7 +267,7 @@ class Repetition {
   const Columns& columns_;
   Between later_;
   std::size_t window_;
-  std::size_t starts_ = 0;  // number of windows
+  std::size_t starts_ = 0;  // number of possible windows
   std::vector<double> scales_ = {};
   bool moves_ = false;
 };
@@ -276,7 +277,7 @@ struct Candidate {
   double error = kNoMatch;
 };
 
-// Best lag of each interval of promising lags, shortest first. They are computed one by one.
+// Best lag of each interval of promising lags, shortest first. Lags are computed one by one.
 class Candidates {
  public:
   explicit Candidates(const Columns& columns) : rough_(columns), longest_(columns[0].size() / 2) {}

@@ -5,7 +5,7 @@
 
 namespace gaitlab {
 
-/// Number of set-point periods that show a gait whose motion does not settle to a limit cycle.
+/// Number of set-point periods that a verdict needs if the motion does not settle to a limit cycle.
 inline constexpr double kPeriodsNeeded = 3;
 inline constexpr double kMostCycleError = 0.02;  ///< largest `error` of a motion that repeats
 
@@ -29,8 +29,8 @@ struct MotionCycle {
 ///
 /// Columns that are constant between control ticks (set points) are first joined by straight lines. Otherwise a period that is
 /// not a multiple of the tick would shift the samples from cycle to cycle, and the shift would count as an error. A lag is
-/// first tested on at most 256 points of its window, in steps of 1/256 of the lag, then at every sample. The period between
-/// samples is the vertex of a parabola. The search takes about 10 ms for 4001 rows x 32 columns.
+/// first tested on at most 256 points of its window, in steps of 1/256 of the lag, then at every sample. The vertex of a
+/// parabola gives the period between samples. The search takes about 10 ms for 4001 rows x 32 columns.
 MotionCycle find_limit_cycle(std::span<const double> values, std::size_t columns, double sample_period);
 
 }  // namespace gaitlab

@@ -7,7 +7,7 @@
 namespace gaitlab {
 
 /// End of a run. `plugin` means that a plugin threw an exception, `stopped` that a rule of a study ended the run, `not_run`
-/// that the robot was only checked. `early` is an early end that is known by its text alone.
+/// that the robot was only checked. `early` is an early end of which only the text is known.
 enum class Ended { done, diverged, plugin, stopped, interrupted, not_run, early };
 
 template <>
@@ -23,7 +23,7 @@ struct Outcome {
   std::string message = {};  ///< reason of an early end, with step and time
 
   [[nodiscard]] bool done() const { return ended == Ended::done; }
-  /// `done`, `not run` or the message, as in trace, summary and page.
+  /// Text `done`, `not run` or the message, as printed in trace, summary and page.
   [[nodiscard]] std::string text() const { return message.empty() ? name_of(ended) : message; }
   /// Outcome with the text `text`; Ended::early for every text but `done`.
   [[nodiscard]] static Outcome of(const std::string& text) {

@@ -32,13 +32,13 @@ bool inflate(libdeflate_decompressor* decompressor, const PackedChunk& chunk, st
     if (from.size() == to.size()) std::ranges::copy(from, to.begin());
     return from.size() == to.size();
   }
-  std::size_t consumed = 0;  // without the address of a second number libdeflate requires that `to` is filled
+  std::size_t consumed = 0;  // libdeflate requires that `to` is filled, because it gets no address for the size of the result
   return libdeflate_zlib_decompress_ex(decompressor, from.data(), from.size(), to.data(), to.size(), &consumed, nullptr) ==
              LIBDEFLATE_SUCCESS &&
          consumed == from.size();
 }
 
-/// Puts the bytes of the first values of a shuffled column together.
+/// Reassembles the bytes of the first values of a shuffled column.
 void join(std::span<const std::byte> shuffled, std::span<double> values) {
   const std::size_t rows = shuffled.size() / kBytes;
   for (std::size_t k = 0; k < values.size(); ++k) {
@@ -96,8 +96,8 @@ std::optional<ChunkPlace> unpack_chunks(Trace& table, std::size_t count, std::si
         if (!inflate(decompressor.get(), give(row, column + c), std::span(shuffled).subspan(c * size, size)))
           return ChunkPlace{row, column + c};
       }
-      // One column at a time: its bytes are eight streams, as many as a cache has places for addresses that are 4096 bytes
-      // apart.
+      // One column at a time, because its bytes form eight streams, and a cache has eight places for addresses that are 4096
+      // bytes apart.
       for (std::size_t c = 0; c < together; ++c)
         join(std::span(shuffled).subspan(c * size, size), std::span(joined[c]).first(here));
       for (std::size_t k = 0; k < here; ++k) {

@@ -1,4 +1,4 @@
-// Chunks of a table, packed like with the HDF5 filters shuffle and gzip.
+// Chunks of a table, packed as by the HDF5 filters shuffle and gzip.
 #pragma once
 #include <cstddef>
 #include <functional>
@@ -18,22 +18,22 @@ using TakeChunk = std::function<void(std::size_t row, std::size_t column, std::s
 /// the same bytes with one version of libdeflate. Throws std::bad_alloc, and exceptions of `take`.
 void pack_chunks(const Trace& table, std::size_t rows, const TakeChunk& take);
 
-/// A packed chunk as it is in a file. HDF5 leaves a chunk that gzip would not shrink shuffled only.
+/// A packed chunk as stored in a file. HDF5 only shuffles a chunk that gzip would not shrink.
 struct PackedChunk {
   std::span<const std::byte> bytes;
   bool deflated = true;
 };
 
-/// Giver of the packed chunk that begins at a row of a column. Its bytes are valid until the next call.
+/// Function that returns the packed chunk that begins at a row of a column. The bytes are valid until the next call.
 using GiveChunk = std::function<PackedChunk(std::size_t row, std::size_t column)>;
 
 struct ChunkPlace {
   std::size_t row, column;
 };
 
-/// Appends `count` rows to `table`, whose columns are set, from chunks of `rows` values of one column. Returns the place of the
-/// first chunk that does not have exactly `rows` values, and leaves the table unfinished then. No declared size is believed:
-/// each chunk must be consumed whole and must fill its values to the last byte.
+/// Appends `count` rows to `table`, whose columns are set, from chunks of `rows` values of one column. If a chunk does not have
+/// exactly `rows` values, returns the place of the first such chunk and leaves the table unfinished. No declared size is
+/// trusted: each chunk must be consumed whole and must fill its values to the last byte.
 std::optional<ChunkPlace> unpack_chunks(Trace& table, std::size_t count, std::size_t rows, const GiveChunk& give);
 
 }  // namespace gaitlab

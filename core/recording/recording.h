@@ -1,4 +1,4 @@
-// Recording of a run, with its rows and the statistics of all its steps, from the simulation or from a run folder.
+// Recording of a run, from the simulation or a run folder: rows, and statistics over all steps.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace gaitlab {
 
-/// View of one column of a table. It is valid as long as the table is not changed.
+/// View of one column of a table. The view is valid until the table changes.
 class Series {
  public:
   Series() = default;
@@ -32,10 +32,11 @@ class Series {
   std::size_t stride_ = 0, size_ = 0;
 };
 
-/// Patterns of the columns that summary, figures and warnings need. These columns are recorded for any `trace.columns`.
+/// Patterns for the columns that summary, figures and warnings need. These columns are recorded whatever `trace.columns`
+/// selects.
 const std::vector<std::string>& report_columns();
 
-inline constexpr std::size_t kMostTickRows = 20000;  ///< of Recording::ticks, even; 5 min of ticks every 15 ms
+inline constexpr std::size_t kMostTickRows = 20000;  ///< most rows of Recording::ticks, even; 5 min of ticks every 15 ms
 /// Columns of each joint in Recording::ticks, after the column t.
 enum TickColumn : std::size_t {
   kTorquePeak,
@@ -54,28 +55,29 @@ enum TickColumn : std::size_t {
 
 /// Recording of one rollout.
 struct Recording {
-  /// Rows at every trace tick, and at the end, or every k-th of these rows (thin_rows). `trace` has the columns that
+  /// Rows at every trace tick and at the end, or every k-th of these rows (see thin_rows). `trace` has the columns that
   /// `trace.columns` selects. `rest` has the other columns of report_columns().
   Trace trace, rest;
   std::string hash_of_all;  ///< hash() of `trace` before thin_rows() removed rows; empty if none were removed
   /// Rows at control ticks that are at least 2 ms apart, and at the end. Above 20 000 rows, every second row is removed,
   /// repeatedly. For each joint, a row has the largest |torque|, |set point - angle|, |speed|, |voltage|, |current| and share
   /// of the available torque since the previous row. It also has the motor limit at the largest torque and, from t = 0, the
-  /// integrals of torque^2 and current^2 and the time at each limit. All steps count, so that a peak or an RMS of any part of
-  /// the run does not depend on trace.period.
+  /// integrals of torque^2 and current^2 and the time at each limit. All steps count, so that peaks and RMS values of any part
+  /// of the run do not depend on trace.period.
   Trace ticks;
   /// Loads of docks and feet, slip distances of feet and stability margin, with the rows of `ticks` but under the new commands.
-  /// There are no columns if loads were not to be recorded.
+  /// No columns if no loads were to be recorded.
   Trace loads;
   /// Pose of the base, angles and set points of the joints, centre of mass, and normal force of the ground on the robot, with
   /// the rows of `ticks`.
   Trace poses;
-  /// Numbers (report/verdict/spread.h) of this run in the first row, and of runs under a minimally different gravity in the
-  /// other rows, for a motion that is not predictable. There are no columns if predictability was not tested.
+  /// Numbers (report/verdict/spread.h) of a motion that is not predictable: of this run in the first row, and of runs under
+  /// minimally different gravity in the other rows. No columns if predictability was not tested.
   Trace spread;
-  /// Verdicts on draws with other seeds (report/verdict/draws.h), this run in the first row. No columns without draws.
+  /// Verdicts on this run in the first row, and on draws with other seeds in the other rows (report/verdict/draws.h). No
+  /// columns without draws.
   Trace draws;
-  double current_peak = NAN, current_rms = NAN;  ///< A, of the sum of all motors' |current|; NaN without motors' currents
+  double current_peak = NAN, current_rms = NAN;  ///< A, of the sum of all motors' |current|; NaN if no currents are known
   std::vector<JointStatistics> joints;           ///< empty if the robot has no joints
   Ledger ledger;                                 ///< energies at the end
   StepTally tally;                               ///< counts of the steps of the engine
@@ -87,14 +89,14 @@ struct Recording {
   Outcome outcome;
 
   [[nodiscard]] std::size_t rows() const { return trace.rows(); }
-  /// True if only rows of the trace are left, as of a CSV file without recording.h5: every other recording has poses.
+  /// True if only rows of the trace exist, as from a CSV file without recording.h5. Every other recording has poses.
   [[nodiscard]] bool rows_alone() const { return rows() > 0 && poses.columns.empty(); }
   [[nodiscard]] std::string trace_hash() const { return hash_of_all.empty() ? hash(trace) : hash_of_all; }
   /// A column of `trace` or `rest` by name; empty if neither has it.
   [[nodiscard]] Series series(const std::string& column) const;
   /// Column `joint.N.QUANTITY`, where QUANTITY is angle, setpoint or torque.
   [[nodiscard]] Series joint(std::size_t number, const char* quantity) const;
-  /// A column of `poses` by name; empty if it is not there.
+  /// A column of `poses` by name; empty if there is no such column.
   [[nodiscard]] Series pose(const std::string& column) const;
   /// Centre of mass at the time of a row.
   [[nodiscard]] Vec3 com(std::size_t row) const;
@@ -104,9 +106,9 @@ struct Recording {
   [[nodiscard]] std::size_t ticked() const {
     return joints.empty() ? (ticks.columns.size() + kTickColumns - 2) / kTickColumns : joints.size();
   }
-  /// Column of `ticks` for one joint; empty if it is missing, as in rows alone.
+  /// Column of `ticks` for one joint; empty if it is missing (rows_alone()).
   [[nodiscard]] Series tick(std::size_t joint, TickColumn column) const;
-  /// True if the columns for `state` exist. They are missing only in some CSV files.
+  /// True if the columns that state() needs exist. Only some CSV files lack them.
   [[nodiscard]] bool has_states(const Robot& robot) const;
   /// Angles and pose at the time of a row. The speeds are 0.
   [[nodiscard]] RobotState state(const Robot& robot, std::size_t row) const;
@@ -121,19 +123,18 @@ struct AllRows {
 };
 
 /// Keeps every k-th row of a recording and the last one. k is the smallest number for which `trace` and `rest` together do not
-/// exceed `most` bytes. Returns all rows, or nothing if k is 1. For readers of the reduced rows the trace period is k
-/// times as long. travel(), figures and pages use the reduced rows. Peaks and checks use `ticks`, `poses` and `loads`, which
-/// are not reduced.
+/// exceed `most` bytes. Returns all rows, or nothing if k is 1. The reduced rows have a k times longer trace period. travel(),
+/// figures and pages use the reduced rows. Peaks and checks use `ticks`, `poses` and `loads`, which are not reduced.
 std::optional<AllRows> thin_rows(Recording& r, std::size_t most = kMostInMemory);
 
 /// Columns of Recording::ticks and of Recording::poses for `joints` joints.
 std::vector<Column> tick_columns(std::size_t joints);
 std::vector<Column> pose_columns(std::size_t joints);
-/// Merges each two rows after the first into the later row, with the larger peaks of the two rows.
+/// Merges each pair of rows after the first row into the later one, with the larger peaks of both.
 void halve_ticks(Trace& ticks);
-/// Merges each two rows after the first into the later row by keep_worst().
+/// Merges each pair of rows after the first row into the later one by keep_worst().
 void halve_rows(Trace& table);
-/// Copies the larger dock loads and the smaller stability margin of the previous row into `now`. A tension is signed, and a
+/// Copies the larger dock loads and the smaller stability margin of the previous row into `now`. Tension is signed, and the
 /// margin is NaN while nothing touches the ground.
 void keep_worst(const ColumnList& columns, In before, Out now);
 

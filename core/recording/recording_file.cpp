@@ -25,7 +25,7 @@ constexpr const char* kHinges = "energy.hinges";
 constexpr const char* kCurrent = "robot_current.";
 constexpr const char* kEnded = "ended";
 
-/// A companion rollout, with the words that describe it in definitions.
+/// A companion rollout, with its description in definitions of columns.
 struct PartingName {
   const char* key;
   Parting StepTally::*member;
@@ -105,7 +105,7 @@ NumberTables number_tables(const Recording& r) {
   return made;
 }
 
-/// Tables beside the trace; `numbers` are those of the same recording, and outlive the result.
+/// Tables beside the trace. `numbers` are from the same recording and must outlive the result.
 std::vector<BesideOf> tables(const Recording& r, const NumberTables& numbers) {
   std::vector<BesideOf> all{{"rest", &r.rest},   {"ticks", &r.ticks},         {"loads", &r.loads},
                             {"poses", &r.poses}, {"joints", &numbers.joints}, {"run", &numbers.run}};
@@ -209,7 +209,7 @@ void write_recording(const Recording& r, const Provenance& origin, const std::st
   const fs::path file = folder / "trace.h5";
   const auto why = short_of_memory(file, [&] {
     std::string
-        kept;  // HDF5 does not free the memory of an unfinished file; this reserve is for the message and the code after it
+        kept;  // reserve for the message and the code after it, because HDF5 does not free the memory of an unfinished file
     kept.reserve(kKept);
     write_h5(r.trace, origin, file, tables(r, number_tables(r)));
   });
@@ -234,7 +234,7 @@ void take_rows_alone(const fs::path& file, StoredRecording& read) {
                   file.string()));
   std::vector<std::string> absent;
   for (const std::string& pattern : report_columns()) {
-    if (pattern.starts_with("box.") || pattern.ends_with(".measured")) continue;  // only of moving boxes, and of encoders
+    if (pattern.starts_with("box.") || pattern.ends_with(".measured")) continue;  // exist only for moving boxes and encoders
     const auto covers = [&](const Column& column) { return glob(pattern, column.name); };
     if (std::ranges::none_of(trace.columns, covers)) absent.push_back(pattern);
   }

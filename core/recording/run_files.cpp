@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Line and column of a byte, which is counted from 1 as by the parser of nlohmann.
+// Line and column of a byte. Bytes are counted from 1, as by nlohmann's parser.
 SourceLocation place_of(const fs::path& file, std::string_view text, std::size_t byte) {
   const std::string_view before = text.substr(0, std::min(byte == 0 ? 0 : byte - 1, text.size()));
   const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
@@ -53,7 +53,7 @@ nlohmann::json read_summary(const fs::path& folder) {
   const fs::path file = folder / "summary.json";
   const std::string text = read_file(file, kMostJson);
   try {
-    bool deep = false;  // copies of deeply nested data would overflow the stack
+    bool deep = false;  // true for deep nesting, of which copies would overflow the stack
     nlohmann::json summary = nlohmann::json::parse(text, [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
       return !(deep = deep || depth > kDeepestJson);
     });

@@ -1,4 +1,4 @@
-// Files of a run folder, read back.
+// Reader of the files of a run folder.
 #pragma once
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
@@ -11,7 +11,7 @@ namespace gaitlab {
 /// this order. Throws InputError if there is no such file, or `run` is a file of another kind.
 std::filesystem::path trace_file(const std::filesystem::path& run);
 
-/// Reads the trace of a run. Throws InputError as trace_file, read_h5 and read_csv do.
+/// Reads the trace of a run. Throws InputError as trace_file, read_h5 and read_csv.
 Trace read_trace(const std::filesystem::path& run);
 
 /// Reads the object in summary.json of a run folder. Throws InputError if the file is missing, not JSON (at FILE:LINE:COL), or

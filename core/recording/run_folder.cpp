@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-// Returns 0 or errno, for the rights of the effective user.
+// Returns 0 or errno, by the rights of the effective user.
 int cannot_write(const fs::path& folder) {
   return ::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) == 0 ? 0 : errno;
 }
@@ -65,7 +65,7 @@ int RunFolder::make_parents(const fs::path& folder) {
     const fs::file_status status = fs::status(grown, ignored);
     if (error == 0 || fs::is_directory(status)) continue;
     if (error != EEXIST) return error;
-    return fs::exists(status) ? ENOTDIR : ENOENT;  // ENOENT if the folder was removed since, or is a link to a missing folder
+    return fs::exists(status) ? ENOTDIR : ENOENT;  // ENOENT if the folder is gone by now, or is a link to a missing folder
   }
   return 0;
 }

@@ -1,4 +1,4 @@
-// Statistics of a run: sums and peaks over ALL steps; the trace has fewer rows.
+// Statistics of a run: sums and peaks over ALL steps, because rows of the trace cover only some of them.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -6,8 +6,8 @@
 
 namespace gaitlab {
 
-/// Factor by which a value must exceed a peak to replace it. All motors at one limit have the same torque up to rounding, and
-/// the first of them is the peak.
+/// Factor by which a value must exceed a peak to replace it. All motors at one limit have the same torque up to rounding; the
+/// first of them must remain the peak.
 inline constexpr double kLarger = 1 + 1e-9;
 
 /// Statistics of one joint over the steps so far, in SI units.
@@ -25,10 +25,10 @@ struct JointStatistics {
   double electrical = 0, copper = 0, gear = 0, shaft = 0;  ///< J: drawn, lost in winding and gear, given to the joint
   double shaft_positive = 0;                               ///< J: positive part of the shaft power
   double created = 0;                                      ///< J: energy that the gear created (eq. 2, back-driven)
-  /// Control ticks with a change of the command's sign, minus those without a change, in the last stretch of the run where most
-  /// have one; 0 if there is none.
+  /// Number of control ticks with a change of the command's sign minus those without, in the last stretch of the run in which
+  /// most ticks have a change; 0 if there is no such stretch.
   double reversals = 0;
-  double reversing_from = 0;  ///< s: the first tick of that stretch
+  double reversing_from = 0;  ///< s: first tick of that stretch
 };
 
 /// A member of JointStatistics, as a column of a table.
@@ -66,7 +66,7 @@ inline constexpr std::array<JointStatistic, sizeof(JointStatistics) / sizeof(dou
      "first tick of the last stretch of the run in which the command changes its sign in most ticks"},
 }};
 
-/// Difference of the motor torques between a run and a companion rollout (core/simulation/step_error.h).
+/// Difference between the motor torques of a run and of a companion rollout (core/simulation/step_error.h).
 struct Parting {
   double time = -1;  ///< s: first time at which a torque differs by more than accuracy times peak; below 0 if there is none
   std::size_t joint = 0;  ///< joint with that torque
@@ -76,11 +76,11 @@ struct Parting {
 /// Counts and error estimates of the steps of a rollout since the start.
 struct StepTally {
   double solves = 0;                 ///< solutions of the equations of motion; 0 if not counted
-  double off = 0;                    ///< joint-steps that ended off the law of their motor or stop
+  double off = 0;                    ///< joints, summed over the steps, that ended a step off the law of motor or stop
   double coarse = 0;                 ///< time in which the shortest steps of an integrator did not reach the accuracy, s
   bool estimated = false;            ///< true if a torque error has been estimated so far (core/simulation/step_error.h)
-  Parting event;                     ///< for the rollout with other steps that differs first; its share is the estimated error
-  Parting chaotic, ill;              ///< for the rollout under gravity times 1 + 1e-9, and for 1000 times that difference
+  Parting event;                     ///< for the first rollout with other steps that differs; its share is the estimated error
+  Parting chaotic, ill;              ///< chaotic: for gravity times 1 + 1e-9; ill: for 1000 times that difference
   std::vector<double> torque_error;  ///< RMS error per joint, N m
   std::vector<double> torque_peak;   ///< largest torque per joint at the times of comparison, N m
 };

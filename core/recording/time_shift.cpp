@@ -13,7 +13,7 @@ using Index = std::ptrdiff_t;
 
 constexpr double kShare = 0.05;      // largest shift as a share of the duration
 constexpr double kReach = 0.5;       // s
-constexpr double kWorthwhile = 0.5;  // largest remaining share of the RMS; above, the signals differ in shape
+constexpr double kWorthwhile = 0.5;  // largest remaining share of the RMS; with a larger share, the signals differ in shape
 constexpr double kAsGood = 0.01;     // share of the mean square; shifts that differ by less are equally good
 constexpr std::size_t kProducts = 1000000;
 constexpr Index kMargin = 2;  // samples that the cubic needs in addition to the whole shift

@@ -1,4 +1,4 @@
-// Trace: named columns with unit and definition, and a row every trace period.
+// Trace: named columns with unit and definition, and one row per trace period.
 #pragma once
 #include <cstddef>
 #include <span>

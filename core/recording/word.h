@@ -1,10 +1,10 @@
-// The word of a verdict on a run.
+// Word that sums up the verdict on a run.
 #pragma once
 #include "core/names.h"
 
 namespace gaitlab {
 
-/// Their meaning: report/verdict/verdict.h.
+/// report/verdict/verdict.h explains the words.
 enum class Word { feasible, infeasible, not_judged, failed };
 
 template <>

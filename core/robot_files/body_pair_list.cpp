@@ -14,7 +14,7 @@ namespace gaitlab {
 
 namespace {
 
-/// Bodies that a name or pattern matches; with a problem if there are none.
+/// Bodies that a name or pattern matches. Adds a problem if there are none.
 std::vector<std::string> matching(const Node& node, const std::vector<std::string>& bodies, const std::string& owner,
                                   Problems& problems) {
   const Reading<std::string> text = read_scalar(node);

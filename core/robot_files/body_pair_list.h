@@ -10,12 +10,12 @@ namespace gaitlab {
 
 inline constexpr const char* kMayOverlap = "may_overlap";
 
-/// Pairs of names or patterns of `bodies`, which are those of `owner`, such as a module type. A text that matches no body, and
-/// a pair of one body with itself, are problems.
+/// Reads pairs of names or patterns. `bodies` are the bodies of `owner`, such as a module type. A text that matches no body,
+/// and a pair of one body with itself, are problems.
 std::vector<BodyPair> read_body_pairs(const Node& list, const std::vector<std::string>& bodies, const std::string& owner,
                                       Problems& problems);
 
-/// The list of a file.
+/// Pairs as a list for a file.
 Node body_pairs_node(const std::vector<BodyPair>& pairs);
 
 }  // namespace gaitlab

@@ -36,7 +36,7 @@ struct DockFields {
   }
 };
 
-/// Dock from the five scalars of a row.
+/// Dock from the five numbers of a row.
 std::optional<Dock> read_row(const std::vector<Node>& items, const SourceLocation& place, Problems& problems) {
   if (items.size() != 5) {
     problems.add(place,

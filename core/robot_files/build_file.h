@@ -11,7 +11,7 @@ namespace gaitlab {
 inline constexpr int kMaxModule = 100000;  ///< largest module number, so that a short text cannot define a huge robot
 
 /// Reads rows of five whole numbers: child_face child_module parent_face parent_module orientation. Blank lines and # comments
-/// are allowed. The place of a row is that of its first number.
+/// are allowed. The place of a row is the place of its first number.
 std::vector<Dock> read_build(const std::string& text, const std::string& file, Problems& problems);
 
 /// Reads docks from a list whose elements are lists of five numbers, or maps with the five keys of read_build().

@@ -32,7 +32,7 @@ bool normalise(Vec3& v, const Node& map, const char* key, Problems& problems) {
 
 /// True if two faces of a type are the same connector: one body, origin and normal.
 bool at_one_place(const FaceType& a, const FaceType& b) {
-  constexpr double kSame = 1e-9;  // m, or of unit vectors; far above the rounding of written numbers
+  constexpr double kSame = 1e-9;  // in m, or for unit vectors; far above the rounding of written numbers
   return a.body == b.body && (a.origin - b.origin).squaredNorm() < kSame * kSame &&
          (a.normal - b.normal).squaredNorm() < kSame * kSame;
 }
@@ -96,7 +96,7 @@ class ModuleCheck {
     problem.notes.emplace_back(place_of(places_.hinges[first], "child"), "the first is here");
   }
 
-  /// Reports bodies in a loop, from which no path of hinges leads to the root.
+  /// Reports bodies in a loop, from which no chain of hinges leads to the root.
   void check_loops() {
     enum class State : char { unknown, walking, rooted, looping };
     std::vector<State> state(parent_.size(), State::unknown);
@@ -185,7 +185,7 @@ class ModuleCheck {
     }
   }
 
-  /// Reports two faces in one place, of which only one could dock.
+  /// Reports two faces in one place, because only one of them could dock.
   void check_twins(std::size_t i) {
     for (std::size_t k = 0; k < i; ++k) {
       const FaceType& one = type_.faces[k];

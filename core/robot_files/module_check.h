@@ -1,4 +1,4 @@
-// Check of a module type: one tree of bodies and hinges, physically possible inertias, and faces that can dock.
+// Check of a module type for one tree of bodies and hinges, physically possible inertias, and faces that can dock.
 #pragma once
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace gaitlab {
 
-/// Places of a module type's parts in its text. Each list is in the order of the type.
+/// Places of a module type's parts in its text. Each list has one entry per element of the list of equal name in ModuleType.
 struct ModulePlaces {
   std::vector<SourceLocation> bodies;  ///< places of their names
   std::vector<Node> hinges, faces;     ///< maps of the hinges and of the faces

@@ -28,7 +28,7 @@ void add_names(const std::string& folder, std::vector<std::string>& names) {
   }
 }
 
-/// Name of the shipped type whose file has the name of this path; "" for other paths.
+/// Name of the shipped type whose file name is that of `path`; "" if there is none.
 std::string shipped_name(const std::string& path) {
   const std::string name = fs::path(path).stem().string();
   std::error_code none;
@@ -122,7 +122,7 @@ std::optional<FileOfName> TypeLibrary::named_file(const std::string& name) const
   for (const std::string& folder : search_folders()) own.push_back(folder + "/" + name + ".yaml");
   const std::string shipped = std::move(own.back());
   own.pop_back();
-  const std::string beside = path_from(folder_, name + ".yaml");  // which may be the scenario itself
+  const std::string beside = path_from(folder_, name + ".yaml");  // may be the scenario itself
   if (kind_of_file(beside) == FileKind::module) own.push_back(beside);
   return file_of_name(own, shipped);
 }

@@ -13,7 +13,7 @@ namespace gaitlab {
 
 class TypeLibrary {
  public:
-  /// `folder` is that of the scenario file, in which names and relative paths are searched.
+  /// `folder` is the folder of the scenario file, in which names and relative paths are searched.
   TypeLibrary(std::string folder, Problems& problems) : folder_(std::move(folder)), problems_(problems) {}
 
   /// Reads `robot.types`, a map from names to inline types.
@@ -23,7 +23,7 @@ class TypeLibrary {
   /// reported once per type. The nodes must outlive the library.
   std::optional<std::size_t> find(const Node& node);
 
-  /// File of a type's name: the user's own or the shipped one.
+  /// File of the type with this name: the user's file or the shipped file.
   [[nodiscard]] std::optional<FileOfName> named_file(const std::string& name) const;
 
   /// True if a map is an inline type, and false if it is a map of types by module number.
@@ -31,7 +31,7 @@ class TypeLibrary {
 
   std::vector<ModuleType> types;
   std::vector<Node> documents;
-  std::vector<Problem> notes;  ///< names that mean other files than the shipped ones
+  std::vector<Problem> notes;  ///< notes on names for which a user's file hides the shipped one
 
  private:
   using Index = std::optional<std::size_t>;
@@ -39,7 +39,7 @@ class TypeLibrary {
   Index find_name(const Node& node);
   Index read_file(const std::string& path, const SourceLocation& asked_at);
   Index read(const Node& document, bool versioned, Problems& problems);
-  /// Folders of module types; the last one is that of the shipped types.
+  /// Folders of module types; the last one contains the shipped types.
   [[nodiscard]] std::vector<std::string> search_folders() const;
 
   std::string folder_;

@@ -23,7 +23,7 @@ std::string type_of(const Node* map, Kind kind) {
   return type == nullptr ? describe(kind).default_type : type->text;
 }
 
-/// Keys of a map that are numbers of the motor.
+/// Keys of a map whose values are numbers of the motor.
 std::vector<std::string> figures_of(const Node* map) {
   std::vector<std::string> keys;
   if (map == nullptr) return keys;
@@ -38,7 +38,7 @@ std::string source_of(const Node* map) {
   return source == nullptr ? "" : source->text;
 }
 
-/// Collects every field of some settings, as its value per joint or its text.
+/// Collects every field of a plugin's settings, as values per joint or as text.
 class Seen final : public Fields {
  public:
   struct Value {
@@ -75,7 +75,7 @@ class Figures final : public Fields {
   std::vector<DefaultFigure> found;
 };
 
-/// Combines several settings, of which each applies to some joints. A field that is common to all joints must be equal in all
+/// Combines several settings, each of which applies to some joints. A field that all joints share must be equal in all
 /// settings.
 class PerJointMerge final : public Fields {
  public:
@@ -182,7 +182,7 @@ void TypePresets::choose(const Robot& robot, const std::vector<Node>& documents)
     const auto number = static_cast<std::size_t>(std::ranges::find(hinges, name, &HingeType::name) - hinges.begin());
     const Maps of{map_of(documents[type], kind_), map_of(documents[type].find("hinges")->items[number], kind_)};
     if (joint.driven()) maps.push_back(of.of_type);
-    // Settings of a hinge without a motor are never used, so that such a hinge refers to arbitrary settings.
+    // A hinge without a motor refers to arbitrary settings, because they are never used.
     const auto known = joint.driven() ? std::ranges::find(kinds_, of) : kinds_.begin();
     of_joint_.push_back(static_cast<std::size_t>(known - kinds_.begin()));
     if (joint.driven() && known == kinds_.end()) kinds_.push_back(of);
@@ -258,7 +258,7 @@ void TypePresets::fill(const Entry& entry, void* settings, JointNames joints, Pr
   std::vector<const Node*> told{kinds_.front().of_type};
   std::vector<Seen> seen;
   for (const Maps& maps : kinds_) {
-    Problems known;  // discarded problems of a map that was read before
+    Problems known;  // problems of a map that was read before, to be discarded
     const bool fresh = std::ranges::find(told, maps.of_type) == told.end();
     const std::shared_ptr<void> own = default_settings(entry);
     read(entry, maps, own.get(), joints, fresh ? problems : known, &maps == &kinds_.front() ? known : problems);

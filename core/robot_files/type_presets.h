@@ -1,4 +1,4 @@
-// Presets for motors and controllers of hinges, which module types define as defaults of the scenario's sections.
+// Presets of module types for motors and controllers of hinges, which are defaults for the scenario's sections.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace gaitlab {
 
-/// Maps of a module type with settings for a kind of plugin: first the map of the type, then those of its hinges.
+/// Maps of a module type with settings for a kind of plugin: first the map of the type, then the maps of its hinges.
 std::vector<const Node*> preset_maps(const Node& document, Kind kind);
 
 /// Motor values of a module type that no joint uses.
@@ -23,19 +23,19 @@ struct DefaultFigure {
   std::string key, unit;
   double value;
 };
-/// Default values of a plugin per joint: settings other than 0, and limits. A setting that is common to all joints belongs to
-/// the law and is not included.
+/// Default values of the settings of a plugin that may differ from joint to joint: values other than 0, and limits. Settings
+/// that all joints share belong to the law and are not included.
 std::vector<DefaultFigure> default_figures(const Entry& entry);
 
 /// Text such as `chosen: R, Kt by default of dc_motor`, for values that are plugin defaults instead of values of a real motor.
 std::string by_default(const std::vector<std::string>& keys, const Entry& entry);
 
-/// False, with a problem at each place, if module types name actuators or controllers that do not exist and the scenario names
-/// no others; their keys are then not known.
+/// False, with a problem at each place, if module types name actuators or controllers that do not exist and the scenario does
+/// not name one instead. The keys are then unknown.
 bool known_types(const std::vector<Node>& documents, const Node& scenario, const Catalog& catalog, Problems& problems);
 
-/// Presets for one kind of plugin, actuator or controller. Each joint uses the presets of its module type; presets of its hinge
-/// replace these key by key. Module types disagree if they name different types of plugin.
+/// Presets for actuators or for controllers. Each joint uses the presets of its module type, which presets of its hinge replace
+/// key by key. Module types disagree if they name different types of plugin.
 class TypePresets {
  public:
   /// `robot` is null if it could not be read. `documents` has one entry per module type of the robot. Both must outlive this
@@ -49,13 +49,13 @@ class TypePresets {
   [[nodiscard]] const std::string& why() const { return why_; }
   /// True if some joint gets presets when `entry` is the scenario's plugin.
   [[nodiscard]] bool holds(const Entry& entry) const;
-  /// Sources of the presets, except for the keys `but`, each text once. A source is the key `source` of a map that joints with
-  /// a motor use; a hinge's map without `source` has that of its type. Values that are defaults of the plugin count as a
+  /// Sources of all presets except the keys `but`, each text once. A source is the value of `source` in a map that joints with
+  /// a motor use; a hinge's map without `source` uses the source of its type. Values that are defaults of the plugin count as a
   /// source. An empty text means that some values have no source.
   [[nodiscard]] std::vector<std::string> sources(const Entry& entry, const std::vector<std::string>& but) const;
   /// Adds a problem at `place`, which states that the module types disagree, with notes at their settings.
   void refuse(const SourceLocation& place, Problems& problems) const;
-  /// Writes the presets into default settings of `entry`, if the presets are for that type of plugin. Errors are added to
+  /// Writes the presets into the default settings of `entry`, if the presets are for this type of plugin. Errors are added to
   /// `problems`.
   void fill(const Entry& entry, void* settings, JointNames joints, Problems& problems) const;
 
@@ -73,12 +73,12 @@ class TypePresets {
   Kind kind_;
   std::string type_, why_;
   std::vector<Maps> kinds_;            ///< the distinct combinations
-  std::vector<std::size_t> of_joint_;  ///< index in kinds_ for each joint; empty if kinds_.front(), if any, serves all joints
+  std::vector<std::size_t> of_joint_;  ///< index in kinds_ for each joint; empty if kinds_ has at most one element
   std::vector<const Node*> said_;      ///< maps that disagree with each other
 };
 
-/// Presets that no joint uses because the scenario's plugin is `entry`, by module type with a driven hinge, in the order of the
-/// robot's types.
+/// Presets that no joint uses because the scenario's plugin is `entry`. One element per module type with a driven hinge, in the
+/// order of Robot::types.
 std::vector<DroppedFigures> dropped_figures(Kind kind, const Robot& robot, const std::vector<Node>& documents,
                                             const TypePresets& presets, const Entry& entry);
 

@@ -1,4 +1,4 @@
-// The robot as built: its differences from the drawings, measured or drawn within tolerances.
+// The robot as built: its differences from the drawings, measured or drawn at random within tolerances.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -11,11 +11,11 @@
 
 namespace gaitlab {
 
-/// Sections `tolerances` and `as_built`. A number of a part (module, joint, or the whole robot) that `as_built` states is used.
-/// Otherwise it is drawn:
+/// Sections `tolerances` and `as_built`. A number of a part (module, joint, or the whole robot) is the value in `as_built` or,
+/// without such a value, drawn:
 ///     x = neutral + deviation * min(max(n, -3), 3),  n normal with mean 0 and deviation 1
-/// where `neutral` is 1 for factors and 0 for angles. n is a Philox draw (core/math/philox.h) with the seed as key and the
-/// names of part and number as counter, such as m3/active.R or robot.supply: the same seed is the same robot.
+/// where `neutral` is 1 for factors and 0 for angles. n is a Philox draw (core/math/philox.h). Its key is the seed, and its
+/// counter the names of part and number, such as m3/active.R or robot.supply. The same seed therefore gives the same robot.
 
 /// A deviation in the section `tolerances`.
 struct Tolerance {
@@ -29,7 +29,7 @@ struct BuiltNumber {
   const char* key;
   Of of;
   std::size_t tolerance;  ///< index in kTolerances
-  double neutral;         ///< value of a part that is as drawn
+  double neutral;         ///< value of a part that equals the drawings
   Spec spec;
 };
 
@@ -39,7 +39,7 @@ inline constexpr const char* kAsBuiltSection = "as_built";
 extern const std::array<Tolerance, 8> kTolerances;
 extern const std::array<BuiltNumber, 10> kBuiltNumbers;
 
-/// Deviations, in the order of kTolerances.
+/// Values of the section `tolerances`, in the order of kTolerances.
 struct Tolerances {
   std::array<double, 8> deviation{};
   [[nodiscard]] bool any() const { return *this != Tolerances(); }
@@ -47,12 +47,12 @@ struct Tolerances {
   void fields(Fields& f);
 };
 
-/// The numbers, in the order of kBuiltNumbers. All are neutral by default.
+/// Values of the section `as_built`, in the order of kBuiltNumbers. All are neutral by default.
 struct AsBuilt {
   std::array<PerJoint, 10> numbers;
 
   AsBuilt();
-  /// All numbers unknown (NaN), as before the section is read.
+  /// All numbers unknown (NaN), for the time before the section is read.
   static AsBuilt unknown();
   [[nodiscard]] bool any() const { return *this != AsBuilt(); }
   bool operator==(const AsBuilt&) const = default;
@@ -62,8 +62,8 @@ struct AsBuilt {
 /// Names of a robot's modules: m0, m1 ...
 std::vector<std::string> module_names(const Robot& robot);
 
-/// Parts of the robot that have a number. The name is empty for a part that cannot differ: for module 0, the root, in numbers
-/// of docks, and for a hinge without a motor.
+/// Parts of the robot that have a number. The name is empty for a part that cannot differ: for module 0, the root, if the
+/// number concerns docks, and for a hinge without a motor.
 std::vector<std::string> parts_with(const BuiltNumber& number, const Robot& robot);
 
 /// Replaces unknown numbers by draws. Numbers of parts that cannot differ are neutral: docks of module 0, motors of hinges

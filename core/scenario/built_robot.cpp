@@ -11,7 +11,7 @@ namespace gaitlab {
 
 namespace {
 
-/// Finds the joints whose key `i_max` is not stated, so that the actuator derives their limits from the current at stall.
+/// Finds the joints without a value of `i_max`, whose current limit the actuator takes from the current at stall.
 struct DerivedLimits final : Fields {
   PerJoint i_max{1};
   void visit(const Field& field) override {
@@ -89,7 +89,7 @@ std::string not_buildable(const Scenario& scenario, const Actuator* actuator, co
   for (std::size_t j = 0; j < scenario.robot->joints.size(); ++j) {
     const double factor = motor_build(scenario.as_built, j).gear_friction;
     if (!scenario.robot->joints[j].driven() || factor == 1 || motors[j].efficiency > 0) continue;
-    const double lost = (1 - motors[j].efficiency) / factor;  // of the gear as drawn
+    const double lost = (1 - motors[j].efficiency) / factor;  // lost share of the gear in the drawings
     const std::string wrong = fmt::format(
         "gear_friction {:.4g} of {} makes its efficiency {:.4g}, which was {:.4g}; expected an efficiency above 0, ", factor,
         scenario.robot->joints[j].name, motors[j].efficiency, 1 - lost);

@@ -56,7 +56,8 @@ void add_set(const std::string& section, const PluginSelection& before, const Pl
   }
 }
 
-/// The scenario without the section. Each entry copies it, which would take quadratic time with all entries.
+/// The scenario without the section `at`. Each entry copies the scenario, which would take quadratic time if it contained all
+/// entries.
 Node without_changes(Node root) {
   for (std::size_t i = root.keys.size(); i-- > 0;) {
     if (root.keys[i].first != kSection) continue;
@@ -159,7 +160,7 @@ class ChangeReader {
                        near.empty() ? "" : "; did you mean " + in_quotes(near + key.substr(section.size())) + "?");
   }
 
-  /// Checks that CPG and controller have the states that they have at the start, because the run continues with these.
+  /// Checks that CPG and controller have the same states as at the start, because the run continues with these states.
   void check_states(const Scenario& after, const SourceLocation& place) {
     const RobotInfo robot = plugin_info(scenario_);
     const auto check = [&](const char* what, std::size_t first, std::size_t now) {
@@ -283,7 +284,7 @@ std::vector<std::size_t> joints_of(const JointFault& fault, const Robot& robot) 
     }
   }
   std::ranges::sort(all);
-  all.erase(std::unique(all.begin(), all.end()), all.end());  // std::ranges::unique is beyond clang 14
+  all.erase(std::unique(all.begin(), all.end()), all.end());  // clang 14 does not support std::ranges::unique
   return all;
 }
 

@@ -66,7 +66,7 @@ struct HeightfieldFields {
   }
 };
 
-/// Visits the settings of a type of ground. Their key is the name of the type. A type without settings has no overload.
+/// Visits the settings of a type of ground, under the name of the type as key. A type without settings has no overload.
 /// `writing` is true if the whole ground is of this type and is being written.
 template <class Shape>
 void shape_fields(Fields&, Shape&, bool /*writing*/) {}
@@ -99,8 +99,8 @@ struct GroundNodes {
 template <class Shape>
 void finish_shape(Shape&, const GroundNodes&) {}
 
-/// Adds a problem if a box lies in a heap. A query of an element there would look at all boxes of it, and a solver of moving
-/// boxes at all of their pairs.
+/// Adds a problem if a box is part of a heap. Every query of an element there would look at all boxes of the heap, and a solver
+/// of moving boxes would look at all pairs of boxes.
 void check_heap(const Boxes& boxes, const std::vector<Node>& nodes, Problems& problems) {
   const std::optional<std::size_t> i = first_in_heap(boxes);
   if (!i || *i >= nodes.size()) return;
@@ -175,8 +175,8 @@ void finish_shape(Heightfield& field, const GroundNodes& section) {
   }
 }
 
-/// Calls `visit` with a value of each type of ground, in the order of Ground::Shape: the ground's own value, and defaults for
-/// the other types.
+/// Calls `visit` once for each type of ground, in the order of Ground::Shape, with the value of the ground's own type and
+/// default values of all other types.
 template <class Visit, std::size_t... kIndex>
 void visit_ground_types(const Ground& ground, const Visit& visit, std::index_sequence<kIndex...>) {
   const auto one = [&]<std::size_t k>(std::integral_constant<std::size_t, k>) {

@@ -12,8 +12,9 @@ struct GroundFields {
   void fields(Fields& f);
 };
 
-/// Checks and completes the ground after the section has been read: keys of another type, default friction of boxes, masses,
-/// the file of a heightfield, and missing keys. `section` is the node of `ground`. File paths are relative to `folder`.
+/// Checks and completes the ground after the section has been read. Checks keys of another type, masses and missing keys, sets
+/// the default friction of boxes, and reads the file of a heightfield. `section` is the node of `ground`. File paths are
+/// relative to `folder`.
 void finish_ground(const Node& section, const std::string& folder, Scenario& scenario, Problems& problems);
 
 }  // namespace gaitlab

@@ -103,7 +103,7 @@ class HeightFile {
     return table;
   }
 
-  /// False, with a problem, if the hash of other heights is recorded.
+  /// Returns false, with a problem, if the scenario records another hash of the heights.
   bool is_of_record(const std::string& of_heights) {
     const Node* recorded = map_.find("hash");
     if (recorded == nullptr || recorded->text == of_heights) return true;

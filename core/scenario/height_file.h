@@ -10,17 +10,17 @@
 namespace gaitlab {
 
 inline constexpr Spec kHeights{"m", -1e6, 1e6, "Heights, one row for each y, the least y first; instead of `file`."};
-/// Most heights that a resolved scenario, of at most 1 MB, contains in full.
+/// Largest number of heights that a resolved scenario contains in full, because its size is limited to 1 MB.
 inline constexpr std::size_t kMostWritten = 40000;
 inline constexpr std::size_t kMostHeights = 4096UL * 4096UL;  ///< most heights in a file
 
-/// Hash of the heights of a field, and with it the name of the file that holds them in a run folder.
+/// Hash of the heights of a field, and the name, from this hash, of the file with the heights in a run folder.
 std::string heights_hash(const Heightfield& field);
 std::string heights_name(const Heightfield& field);
 
-/// True if there are more heights than a resolved scenario contains, which names a file of heights_name() instead.
+/// True if there are too many heights for a resolved scenario. It then contains the file name heights_name() instead.
 inline bool needs_height_file(const Heightfield* field) { return field != nullptr && !field->source.file.empty(); }
-/// The bytes of that file: a matrix of float64 as numpy.save writes it, compressed by gzip.
+/// The bytes of the file heights_name(): a float64 matrix in the format of numpy.save, compressed by gzip.
 std::string packed_heights(const Heightfield& field);
 
 /// Reads heights from a file and multiplies them by `field.source.scale`. `map` is the node of `ground.heightfield`, whose path

@@ -15,7 +15,7 @@ namespace gaitlab {
 
 namespace {
 
-/// Adds rows, in which the indentation of a key shows its depth, with the paths that begin with `before`.
+/// Adds rows, in which the indentation of a key shows its depth. All paths begin with `before`.
 void add_rows(const std::vector<KeyRow>& rows, const std::string& before, const Entry* plugin, std::vector<ScenarioKey>& keys) {
   std::vector<std::string> path;
   for (const KeyRow& row : rows) {
@@ -28,10 +28,10 @@ void add_rows(const std::vector<KeyRow>& rows, const std::string& before, const 
 
 std::string name_of_key(const std::string& path) { return path.substr(path.rfind('.') + 1); }
 
-/// Types that a scenario selects, in the order of kPluginKinds; "" if it selects none yet.
+/// Types that a scenario selects, in the order of kPluginKinds; "" for a kind without a selected type.
 using TypesInForce = std::array<std::string, kPluginKinds.size()>;
 
-/// True for a key that the scenario may have as it is.
+/// True for a key that is allowed in the scenario without other changes.
 bool applies(const ScenarioKey& key, const TypesInForce& types) {
   if (key.plugin == nullptr) return key.path.find('[') == std::string::npos;
   const auto* const kind = std::ranges::find(kPluginKinds, key.plugin->kind, &PluginKind::kind);
@@ -50,7 +50,7 @@ std::vector<std::string> paths_of(const std::vector<ScenarioKey>& keys, const st
 /// `; Kp is a key of controller pid` for a key of plugins of other types than the scenario's.
 std::string of_other_types(const std::vector<ScenarioKey>& keys, const std::string& name) {
   std::vector<std::string> types;
-  std::optional<Kind> last;  // a kind is named once
+  std::optional<Kind> last;  // each kind is named only once
   for (const ScenarioKey& key : keys) {
     if (key.plugin == nullptr || name_of_key(key.path) != name) continue;
     const std::string kind = last == key.plugin->kind ? "" : std::string(word(key.plugin->kind)) + " ";
@@ -60,7 +60,7 @@ std::string of_other_types(const std::vector<ScenarioKey>& keys, const std::stri
   return types.empty() ? "" : fmt::format("; {} is a key of {}", name, joined(types));
 }
 
-/// Type that a scenario selects for this kind of plugin; "" if it selects none yet.
+/// Type that a scenario selects for this kind of plugin; "" if none is selected.
 std::string type_in_force(Kind kind, const Node& root, const Scenario& scenario) {
   const Node* section = root.find(word(kind));
   const Node* type = section == nullptr ? nullptr : section->find("type");
@@ -71,11 +71,11 @@ std::string type_in_force(Kind kind, const Node& root, const Scenario& scenario)
   return selection.entry == nullptr ? "" : std::string(selection.entry->name);
 }
 
-/// `; did you mean ground.friction?` for paths of keys; "" for none, and for more than a reader takes in.
+/// `; did you mean ground.friction?` for some paths of keys; "" for no paths, and for too many.
 std::string did_you_mean(const UnknownKey& unknown, const std::vector<std::string>& paths) {
   constexpr std::size_t kMost = 4;
   if (paths.empty() || paths.size() > kMost) return "";
-  if (paths.front() == unknown.key)  // a whole section, or a key beside the sections
+  if (paths.front() == unknown.key)  // `unknown` is a whole section, or a key outside of sections
     return fmt::format("; {} belongs to the top level of the file, beside {}", unknown.key, clipped(unknown.section));
   return fmt::format("; did you mean {}?", fmt::join(paths, " or "));
 }
@@ -89,13 +89,13 @@ std::string elsewhere(const Catalog& catalog, const TypesInForce& types, const U
   const std::string own = unknown.section + (unknown.section.empty() ? "" : ".") + unknown.key;
   const std::vector<ScenarioKey> all = all_keys(catalog);
   std::vector<ScenarioKey> usable;
-  // The path of the unknown key itself is a key of its section under other settings.
+  // A key with the path of the unknown key is of no use: the section has this key only under other settings.
   std::ranges::copy_if(all, std::back_inserter(usable),
                        [&](const ScenarioKey& one) { return one.path != own && applies(one, types); });
   const std::vector<std::string> exact = paths_of(usable, unknown.key);
   std::vector<std::string> first = exact;
   std::erase_if(first, repeats);
-  if (repeats(own)) return "";  // a setting that does not vary: the section's own keys are offered
+  if (repeats(own)) return "";  // offers the keys of the section instead
   if (std::string found = did_you_mean(unknown, first); !found.empty()) return found;
   if (!unknown.near.empty()) return "";
   if (std::string found = of_other_types(all, unknown.key); !found.empty()) return found;
@@ -111,7 +111,7 @@ std::vector<ScenarioKey> all_keys(const Catalog& catalog) {
   std::vector<ScenarioKey> keys;
   add_rows(scenario_keys(catalog), "", nullptr, keys);
   for (const PluginKind& kind : kPluginKinds) {
-    if (kind.kind == Kind::sensor) continue;  // sensors have names, so that their keys have no path
+    if (kind.kind == Kind::sensor) continue;  // keys of sensors have no fixed path, because sensors have names
     for (const std::string& name : catalog.names(kind.kind)) {
       const Entry* entry = catalog.find(kind.kind, name);
       add_rows(plugin_keys(*entry), std::string(kind.section) + ".", entry, keys);
@@ -133,7 +133,7 @@ Elsewhere key_search(const Catalog& catalog, const Node& root, const Scenario& s
       std::ranges::transform(kPluginKinds, types.begin(),
                              [&](const PluginKind& one) { return type_in_force(one.kind, root, scenario); });
       return elsewhere(catalog, types, unknown);
-    } catch (const PluginError&) {  // the error of a plugin that the scenario does not use
+    } catch (const PluginError&) {  // ignored, because the scenario does not use this plugin
       return std::string();
     }
   };

@@ -1,4 +1,4 @@
-// Search of a key over all sections of the scenario file.
+// Search for a key in all sections of the scenario file.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace gaitlab {
 
-/// A key with its path, such as `ground.friction`. For a key of a plugin, the plugin.
+/// A key with its path, such as `ground.friction`. `plugin` is set for a key of a plugin.
 struct ScenarioKey {
   std::string path;
   KeyRow row;
@@ -23,9 +23,9 @@ std::vector<ScenarioKey> all_keys(const Catalog& catalog);
 /// All keys of the module file.
 std::vector<ScenarioKey> module_keys();
 
-/// Search of unknown keys over all sections: `; did you mean ground.friction?`. A key of a plugin of another type than the
-/// scenario's is named with its type. The result is empty if the known keys of the section say more. Catalog, root and scenario
-/// must outlive the search.
+/// Search for unknown keys in all sections: `; did you mean ground.friction?`. If a plugin of another type than the scenario's
+/// has the key, the result contains this type. The result is empty if a list of the section's known keys helps more. Catalog,
+/// root and scenario must outlive the search.
 Elsewhere key_search(const Catalog& catalog, const Node& root, const Scenario& scenario);
 
 }  // namespace gaitlab

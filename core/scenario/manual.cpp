@@ -76,7 +76,7 @@ std::vector<KeyRow> plugin_keys(const Entry& entry) {
 
 namespace {
 
-/// Unit of the row whose path of keys begins `key`; the rest of `key` is an element of a list or a part of the robot.
+/// Unit of the row whose path is the beginning of `key`. The rest of `key` is an element of a list or a part of the robot.
 std::string unit_in(const std::vector<KeyRow>& rows, const std::string& key) {
   std::vector<std::string> path;
   for (const KeyRow& row : rows) {

@@ -9,7 +9,7 @@
 
 namespace gaitlab {
 
-/// The keys of a scenario file, without those of plugins, and the keys of a plugin. Throws PluginError.
+/// Keys of a scenario file, without the keys of plugins, and keys of a plugin. Both throw PluginError.
 std::vector<KeyRow> scenario_keys(const Catalog& catalog);
 std::vector<KeyRow> plugin_keys(const Entry& entry);
 
@@ -18,11 +18,11 @@ std::string explain_scenario(const Catalog& catalog);
 /// Manual of a plugin: its text, followed by a table of its fields. Throws PluginError.
 std::string explain_plugin(const Entry& entry, std::size_t width = 80);
 
-/// Unit of the number at a path of keys in a scenario: `rad` of cpg.amplitude. Types of plugins are those of `scenario`. Empty
-/// if the number has none, or if the catalog does not have its plugin. Throws PluginError.
+/// Unit of the number at a path of keys in a scenario, such as `rad` for cpg.amplitude. `scenario` sets the types of plugins.
+/// Empty if the number has no unit, or if the catalog does not have its plugin. Throws PluginError.
 std::string unit_of_key(const Catalog& catalog, const Node& scenario, const std::string& key);
 
-/// Text on the step that an engine uses if the scenario gives none: a number of seconds, or auto with the alternatives.
+/// Text on the step that an engine uses if the scenario sets no step: a number of seconds, or `auto` with the alternatives.
 std::string default_step(const Engine& engine);
 
 /// Pages in Markdown: docs/reference/scenario.md, and docs/reference/plugins.md with every plugin and engine.

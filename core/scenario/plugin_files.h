@@ -1,4 +1,4 @@
-// Plugin libraries that a scenario names: search, comparison with the recorded hash, and loading.
+// Plugin libraries of a scenario: search, comparison with the recorded hash, and loading.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,16 +10,17 @@ namespace gaitlab {
 /// Reads `plugins`, a list of paths (relative to `folder`) or of maps {path, hash}. Loads each library that the catalog trusts.
 std::vector<PluginFile> read_plugins(const Node& node, const std::string& folder, Catalog& catalog, Problems& problems);
 
-/// Path of a library that a text in `folder` names. If the text has a hash, it is the file of that name and hash among those
-/// that the command line names, those already loaded, and the one relative to `folder`. Else, or if none has the hash, it is
-/// the one relative to `folder`, if it exists, or the first of the others.
+/// Path of the library that a text in `folder` names. Candidates are the libraries of this file name from the command line and
+/// those already loaded, then the path relative to `folder`. The result is the first candidate with the hash of the text. If
+/// the text has no hash, or no candidate has this hash, the result is the path relative to `folder` if it exists, else the
+/// first candidate.
 std::string plugin_path(const PluginFile& file, const std::string& folder, const Catalog& catalog);
 
 /// Loads a library that the command line names. Its path is relative to the current folder. Throws InputError.
 void load_plugin_file(const std::string& path, Catalog& catalog);
 
-/// Path of the first file that `section`, a plugin's section of a scenario, names and whose content messages must not quote
-/// (may_quote()), or "" without such a file. Relative paths start at `folder`, the folder of the scenario.
+/// Path of the first file in `section`, a plugin's section of a scenario, whose content messages must not quote (may_quote()),
+/// or "" if there is none. Relative paths start at `folder`, the folder of the scenario.
 std::string hidden_file(const Node& section, const std::string& folder);
 
 /// FNV-1a hash (64 bit) of a file's bytes as 16 hex digits, or "" if the file cannot be read.

@@ -1,4 +1,5 @@
-// Reader of scenarios. It reads the file, --set, plugins, robot and sections in this order, and then checks the whole.
+// Reader of scenarios. It reads the file, --set, plugins, robot and sections in this order, and then checks the scenario as a
+// whole.
 #include "core/scenario/read_scenario.h"
 
 #include <fmt/format.h>
@@ -43,7 +44,7 @@ class ScenarioReader {
     if (folder_.empty()) folder_ = ".";
   }
 
-  /// Reads the text of the file. Afterwards with() gives the scenarios of rollouts.
+  /// Reads the text of the file. Afterwards, with() returns scenarios of rollouts.
   const Scenario& read(std::string text, const std::vector<std::string>& sets) {
     text_ = std::move(text);
     std::optional<Node> root = parse_yaml(text_, path_, problems_);
@@ -136,7 +137,7 @@ class ScenarioReader {
     const bool counted = base.numbers == 2 || base.numbers == 3;
     const Node* position = node->find("position");
     if (position != nullptr && counted) {
-      const bool height = base.numbers == 3;  // if it is given, on_ground need not be false
+      const bool height = base.numbers == 3;  // if the height is given, on_ground need not be false
       ScenarioChecks(root_, scenario_, catalog_, problems_).height(*position, height, node->find("on_ground"));
       scenario_.on_ground = !height;
     }
@@ -198,7 +199,7 @@ class ScenarioReader {
   }
 
   void read_changes() {
-    ScenarioReader before = *this;  // copied for each entry, so that it lacks the large members
+    ScenarioReader before = *this;  // without large members, because each entry copies it
     before.root_ = {};
     before.text_.clear();
     before.problems_ = {};
@@ -238,7 +239,7 @@ class ScenarioReader {
     finish_periods(root_, scenario_, catalog_, problems_);
   }
 
-  /// Sets the step if the engine chooses it. For a robot that the engine refuses, the engine's default remains, and the run
+  /// Sets the step if the engine chooses it. If the engine refuses the robot, the engine's default step remains, and the run
   /// reports the reason.
   void choose_step() {
     Physics& physics = scenario_.physics;
@@ -270,7 +271,7 @@ class ScenarioReader {
            std::ranges::none_of(scenario_.robot->joints, [](const Joint& joint) { return joint.driven(); });
   }
 
-  /// Calls `use`. An exception of a plugin becomes a problem of the input.
+  /// Calls `use`. An exception of a plugin becomes a problem in the input.
   template <class Use>
   void attempt(Use use) {
     try {
@@ -285,8 +286,8 @@ class ScenarioReader {
     }
   }
 
-  /// Angles at the start if the scenario states none: 0, or the set points about which the ramp of a CPG scales its motion,
-  /// within the ranges of the hinges.
+  /// Angles at the start if the scenario states none: the set points about which the ramp of a CPG scales its motion, or 0,
+  /// limited to the ranges of the hinges.
   [[nodiscard]] PerJoint start_of(const Cpg* cpg) const {
     constexpr double kRounding = 1e-12;  // rad
     if (cpg == nullptr || cpg->states() > 0) return {};
@@ -379,11 +380,11 @@ Scenario ScenarioTemplate::with(const std::vector<std::string>& own) const {
     const auto types = [&](const std::string& one) { return one.starts_with(section + ".type="); };
     return key.starts_with(section + ".model") && std::ranges::any_of(sets_, types);
   };
-  // Without a motor, the control period depends on further sections.
+  // For a robot without a motor, the control period depends on further sections.
   if (!reader_->driven() || std::ranges::any_of(own, whole)) {
     std::vector<std::string> all = sets_;
     all.insert(all.end(), own.begin(), own.end());
-    return ScenarioReader(path_, catalog_).read(reader_->text(), all);  // a file that changes meanwhile is that of before
+    return ScenarioReader(path_, catalog_).read(reader_->text(), all);  // the text that was read first
   }
   return reader_->with(own);
 }

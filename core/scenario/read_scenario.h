@@ -1,4 +1,4 @@
-// Reader of scenarios, either one from a file or many that differ in a few settings.
+// Reader of one scenario from a file, or of many scenarios that differ in a few settings.
 #pragma once
 #include <memory>
 #include <string>
@@ -10,8 +10,9 @@ namespace gaitlab {
 
 class ScenarioReader;
 
-/// Purpose of reading. A `record` is the scenario of an earlier run, whose limits may contradict each other, as older versions
-/// allowed. A `module_type` is a module alone, for a table of its parts: its angles are 0, even if a hinge does not reach 0.
+/// Purpose of reading. A `record` is the scenario of an earlier run, whose limits may contradict each other, because older
+/// versions allowed that. A `module_type` is a single module, for a table of its parts. Its angles are 0, even if a hinge
+/// cannot reach 0.
 enum class ReadAs { scenario, record, module_type };
 
 /// Reads and checks a scenario file. `sets` are texts `key.path=value`, applied in order. Loads the scenario's plugins into the
@@ -19,8 +20,8 @@ enum class ReadAs { scenario, record, module_type };
 Scenario read_scenario(const std::string& path, const std::vector<std::string>& sets, Catalog& catalog,
                        ReadAs as = ReadAs::scenario);
 
-/// The scenario of an earlier run from its text, read as a `record`. `file` stands for it in messages, and its folder is that
-/// of relative paths.
+/// The scenario of an earlier run from its text, read as a `record`. Messages call the text `file`, and relative paths start at
+/// the folder of `file`.
 Scenario read_record(const std::string& text, const std::string& file, const std::vector<std::string>& sets, Catalog& catalog);
 
 /// Scenario with a single module of the type in a file, without ground. Throws InputError with every problem found.
@@ -37,8 +38,8 @@ class ScenarioTemplate {
 
   /// The scenario with further texts `key.path=value` after those of the template, equal to read_scenario() with all texts. The
   /// sections in `own`, and those that depend on them, are read again. The robot and all other sections are shared. The whole
-  /// file is read again if `own` sets the robot, the plugins, a type or a `.model` whose type the template set, or if the robot
-  /// has no motor. Throws InputError with every problem found. Only one thread at a time may call this.
+  /// file is read again if `own` sets the robot, the plugins or a type, if it sets a `.model` whose type the template set, or
+  /// if the robot has no motor. Throws InputError with every problem found. Only one thread at a time may call this.
   [[nodiscard]] Scenario with(const std::vector<std::string>& own) const;
 
  private:

@@ -1,4 +1,4 @@
-// Motors of module types that the scenario's actuator replaces: dropped values, and defaults in their place.
+// Motor values of module types that the scenario's actuator replaces: dropped values, and the defaults used instead.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace gaitlab {
 
-/// Values of module types that the scenario's actuator does not use. No values are replaced if the actuator has the type on
-/// which the module types agree. No values are dropped if the module types state no motor values.
+/// Values of module types that the scenario's actuator does not use. The actuator replaces nothing if it has the type on which
+/// the module types agree. No values are dropped if the module types do not state any.
 class ReplacedMotors {
  public:
   /// `root` is the tree of the scenario. Robot and actuator of `scenario` have been read. `presets` are those of actuators.

@@ -38,7 +38,7 @@ Node robot_node(Scenario& scenario, const std::vector<std::string>& joints) {
   return writer.take();
 }
 
-/// Replaces the file of the heights by the one that a run folder contains, whose heights are in metres.
+/// Replaces the file of heights by the file in the run folder, which contains heights in metres.
 void name_height_file(Ground& ground) {
   auto* field = std::get_if<Heightfield>(&ground.shape);
   if (!needs_height_file(field)) return;

@@ -21,8 +21,8 @@
 namespace gaitlab {
 namespace {
 
-/// A build file, or a robot by its name as in `gaitlab list robot`: a file of that name, beside the scenario or in a folder
-/// robots/ beside it, or else the shipped one.
+/// A build file, or a robot by its name as in `gaitlab list robot`. The name means a file beside the scenario or in a folder
+/// robots/ beside it, or else the shipped file.
 FileOfName build_file(const std::string& folder, const std::string& name) {
   const std::string path = path_from(folder, name);
   if (name.find_first_of("/.") != std::string::npos) return {path};
@@ -32,7 +32,7 @@ FileOfName build_file(const std::string& folder, const std::string& name) {
   return file_of_name(own, data_folder() + "/robots/" + name + ".dat").value_or(FileOfName{path});
 }
 
-/// Largest number of bodies of a robot. `gaitlab check` takes 55 kB and 1 ms for each body, thus 2 GB and 40 s for this number.
+/// Largest number of bodies of a robot. `gaitlab check` takes 55 kB and 1 ms per body, which is 2 GB and 40 s for this number.
 constexpr std::size_t kMostBodies = 40000;
 
 std::vector<Dock> read_connections(Reader& reader, const std::string& folder, std::vector<Problem>& notes, Problems& problems) {
@@ -144,7 +144,7 @@ class TypeChoice {
   std::map<std::size_t, const Node*> own_;
 };
 
-/// Keeps the types that some module has, in the order of first use, and renumbers these types.
+/// Keeps the types that modules use, in the order of first use, and renumbers them.
 void keep_used(TypeLibrary& library, std::vector<std::size_t>& type_of_module) {
   std::vector<ModuleType> types;
   std::vector<Node> documents;
@@ -224,7 +224,7 @@ RobotParts read_robot(Reader& reader, const SourceLocation& place, const std::st
   TypeLibrary library(folder, problems);
   if (const Node* types = reader.take("types")) library.define(*types);
   const std::vector<Dock> docks = read_connections(reader, folder, parts.notes, problems);
-  // The rows determine the number of modules, so that after a wrong row every module number could seem wrong.
+  // The rows determine the number of modules. After a wrong row, every module number could therefore seem wrong.
   const bool counted = problems.size() == before;
   Node reference{Node::Kind::scalar, place};
   reference.text = kDefaultType;
@@ -260,7 +260,7 @@ std::vector<std::pair<std::string, Node>> robot_nodes(const Robot& robot, const 
 
 std::string scenario_of_module(const std::string& path) {
   expect_kind(path, FileKind::module);
-  static_cast<void>(read_text(path));  // a file that cannot be read is reported here, and not at a place of the text below
+  static_cast<void>(read_text(path));  // reports a file that cannot be read here, not at a place in the text below
   Node file{Node::Kind::scalar};
   file.text = path.find('/') == std::string::npos ? "./" + path : path;  // marks the text as a file
   file.quoted = true;

@@ -1,4 +1,4 @@
-// The scenario's section `robot`: search and reading of module types, reading of docks, and assembly of the robot.
+// Reader of the scenario's section `robot`, which finds and reads module types, reads docks, and assembles the robot.
 #pragma once
 #include <memory>
 #include <string>
@@ -11,20 +11,20 @@ namespace gaitlab {
 
 inline constexpr const char* kDefaultType = "mtran";  ///< default type of the modules
 
-/// Robot of the keys `modules`, `types`, `build` and `docks`. `robot` is null if there were problems.
+/// Robot from the keys `modules`, `types`, `build` and `docks`. `robot` is null if there were problems.
 struct RobotParts {
   std::shared_ptr<const Robot> robot = {};
   std::vector<Node> documents = {};  ///< documents of the module types, one per entry of Robot::types
-  std::vector<Problem> notes = {};   ///< names of modules and robots that mean other files than the shipped ones
+  std::vector<Problem> notes = {};   ///< notes on names of modules and robots for which a user's file hides the shipped one
 };
 
-/// Reads a robot. `reader` is at the map `robot`, and `folder` is that of the scenario file.
+/// Reads a robot. `reader` is at the map `robot`, and `folder` is the folder of the scenario file.
 RobotParts read_robot(Reader& reader, const SourceLocation& place, const std::string& folder, Problems& problems);
 
-/// Self-contained keys of a robot: `types` in full, `modules` by name, and `docks`.
+/// Keys that describe a robot without other files: `types` in full, `modules` by name, and `docks`.
 std::vector<std::pair<std::string, Node>> robot_nodes(const Robot& robot, const std::vector<Node>& documents);
 
-/// Text of a scenario of a single module in nothing, whose type is in a file. Throws InputError, at the file, if the file
+/// Text of a scenario with a single module in empty space, whose type is in a file. Throws InputError, at the file, if the file
 /// cannot be read or is of another kind.
 std::string scenario_of_module(const std::string& path);
 

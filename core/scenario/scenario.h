@@ -1,5 +1,5 @@
-// Scenario as a value, with all settings of the user, validated, in SI units and with defaults. read_scenario.h reads a
-// scenario, and resolved.h writes it.
+// Scenario with all settings, validated, in SI units and with defaults. read_scenario.h reads a scenario, and resolved.h writes
+// it.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -26,7 +26,7 @@ struct Initial {
   void fields(Fields& f);
 };
 
-/// Estimate of the torque error that the steps cause (core/simulation/step_error.h).
+/// Extent of the estimate of the torque error that the steps cause (core/simulation/step_error.h).
 enum class Estimate { full, off };
 
 template <>
@@ -95,15 +95,16 @@ struct Limits {
   double progress = 0;         ///< least travel per period, as a share of the robot's extent; 0 means no requirement
   /// Depth above which two bodies count as overlapping, m. A recorded scenario may have a `touch` above `collision`.
   [[nodiscard]] double meeting() const { return touch < collision ? touch : collision; }
-  /// Largest torque error of a run that is judged: `torque_error`, and at most kMostTorqueError, because with a larger error
-  /// neither torques nor motion are known.
+  /// Largest torque error of a run that is judged: `torque_error`, but at most kMostTorqueError, because a larger error leaves
+  /// torques and motion unknown.
   [[nodiscard]] double most_torque_error() const { return torque_error < kMostTorqueError ? torque_error : kMostTorqueError; }
   static constexpr double kMostTorqueError = 0.1;
   bool operator==(const Limits&) const = default;
   void fields(Fields& f);
 };
 
-/// Rows of the list of plausible numbers (report/verdict/plausible/plausible_number.h) with numbers that no robot can have.
+/// Rows of the list of plausible numbers (report/verdict/plausible/plausible_number.h) in which a user may accept a number that
+/// no robot can have.
 inline constexpr const char* kAcceptable[] = {"density", "moments", "stall torque", "power"};
 
 /// A message for stderr that is not a problem, such as settings that --set dropped, or the set-up of the CPG.
@@ -160,7 +161,7 @@ struct Scenario {
   JointGroups groups;                  ///< joints by the names of section `groups`
   Tolerances tolerances;
   AsBuilt as_built;       ///< differences of the robot from the drawings, stated and drawn
-  std::size_t drawn = 0;  ///< how many numbers of as_built were drawn; not a setting
+  std::size_t drawn = 0;  ///< count of numbers in as_built that were drawn; not a setting
   /// Documents of the module types as read from files, one per entry of Robot::types. The resolved scenario contains them.
   std::shared_ptr<const std::vector<Node>> module_documents = std::make_shared<const std::vector<Node>>();
   Base base = Base::floating;

@@ -93,7 +93,7 @@ void ScenarioChecks::initial_angles() {
     double angle = 0;
     int more = 0;
   };
-  std::map<std::string, Outside> findings;  // one per place, because one number may apply to all joints
+  std::map<std::string, Outside> findings;  // one finding per place, because one number may apply to all joints
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const double angle = angles[j];
     if (angle >= joints[j].lo - 1e-9 && angle <= joints[j].hi + 1e-9) continue;
@@ -136,7 +136,7 @@ void ScenarioChecks::parts_as_built() {
     const std::vector<std::string> all = of_modules ? module_names(*scenario_.robot) : joint_names(*scenario_.robot);
     const std::vector<std::string> parts = parts_with(kBuiltNumbers[i], *scenario_.robot);
     for (const auto& [name, place] : map->keys) {
-      // The reader has reported names of no part.
+      // The reader has already reported names that no part has.
       if (std::ranges::find(all, name) == all.end() || std::ranges::find(parts, name) != parts.end()) continue;
       problems_.add(place, fmt::format("{} has no {}: {}", name, kBuiltNumbers[i].key,
                                        of_modules ? "it is docked to no parent" : "its hinge has no motor"));

@@ -11,13 +11,13 @@ class ScenarioChecks {
   ScenarioChecks(const Node& root, const Scenario& scenario, const Catalog& catalog, Problems& problems)
       : root_(root), scenario_(scenario), catalog_(catalog), problems_(problems) {}
 
-  /// Checks that the name is one of a run folder.
+  /// Checks that the name can be the name of a run folder.
   void name();
-  /// Checks that a height of the base and on_ground: true do not occur together.
+  /// Checks that the scenario does not set both a height of the base and `on_ground: true`.
   void height(const Node& position, bool given, const Node* on_ground);
   /// Refuses settings that Bullet's own solver does not support.
   void law();
-  /// Refuses the section `controller`, because the actuator is none.
+  /// Refuses the section `controller`, because the scenario has no actuator.
   void no_controller();
   /// Checks that initial angles are within the ranges of their hinges.
   void initial_angles();
@@ -27,14 +27,14 @@ class ScenarioChecks {
   void base_velocity();
   /// Checks that limits.touch, which causes a warning, is at most limits.collision, which causes a failure.
   void limits();
-  /// Refuses settings that require an integrator that chooses its steps, if the integrator does not.
+  /// Refuses settings for integrators that choose their steps, if the integrator does not.
   void automatic_step();
-  /// Checks that controller and actuator have the same unit of the command.
+  /// Checks that controller and actuator use the same unit for commands.
   void units(const Actuator& actuator, const Controller& controller);
   /// Refuses rotor inertia if the engine cannot add it. The message names the engines that can.
   void rotors(const Actuator& actuator);
-  /// Refuses differences of motors that the actuator does not have (nullptr for no actuator), and of friction that the contact
-  /// law does not have.
+  /// Refuses differences of motor constants that the actuator (nullptr for none) does not use, and of friction that the contact
+  /// law does not use.
   void built_numbers(const Actuator* actuator);
 
  private:

@@ -1,4 +1,5 @@
-// JSON Schemas (draft 7, for editors) of scenario and module files, derived from the same declared fields as their readers.
+// JSON Schemas (draft 7, for editors) of scenario and module files, derived from the declared fields that their readers also
+// use.
 #pragma once
 #include <string>
 
@@ -6,8 +7,8 @@
 
 namespace gaitlab {
 
-/// Schema as indented text. The reader refuses everything that the schema refuses, and has further checks (joint names, fit of
-/// the parts). Throws PluginError.
+/// Schema as indented text. The reader refuses everything that the schema refuses, and also checks joint names and the fit of
+/// the parts. Throws PluginError.
 std::string scenario_schema(const Catalog& catalog);
 
 /// Schema of a module file, with the keys of the actuators and controllers of the catalog. Throws PluginError.

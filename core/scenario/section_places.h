@@ -18,11 +18,11 @@ std::optional<SourceLocation> given(const Node& root, const std::string& section
 /// Place of a key's value, or else of the section's name, or else of the whole map.
 SourceLocation place_of(const Node& root, const std::string& section, const std::string& key);
 
-/// Place of a fault that a plugin reports on the settings of its section as a whole: the setting of --set for the `key` that
-/// the plugin names (PluginError), or else the section's `type`.
+/// Place of a fault that a plugin reports about the settings of its section as a whole. It is the option --set that gave `key`,
+/// which the plugin names (PluginError), or else the section's `type`.
 SourceLocation place_of_fault(const Node& root, const std::string& section, const std::string& key);
 
-/// Contact law of a scenario, found before its section is read, because the default of the step depends on it.
+/// Contact law of a scenario, searched before the section `contact` is read, because the default step depends on the law.
 ContactLaw wanted_law(const Node& root);
 
 /// Adds the place of every key of a map, under a path such as `physics.step`.

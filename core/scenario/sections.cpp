@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kNone = "none";
 constexpr const char* kDefaultEngine = "bullet";
 
-/// Texts for the interface, which must live as long as this object.
+/// Names as texts, and as pointers to these for Fields::one_of, which are valid as long as this object.
 struct Names {
   std::vector<std::string> texts;
   std::vector<const char*> pointers;
@@ -73,7 +73,7 @@ void PhysicsFields::fields(Fields& f) {
   const bool known = count(problems) == before && names.has(name);
   if (names.texts.empty()) {
     f.problem("engine", "no physics engine is built in");
-  } else if (!names.has(name) && count(problems) == before) {  // another engine would give other numbers
+  } else if (!names.has(name) && count(problems) == before) {  // not replaced by another engine, which would give other numbers
     f.problem("engine",
               fmt::format("this program was built without the default engine '{0}'; write physics: {{engine: {1}}}, or "
                           "add --set physics.engine={1}",
@@ -102,7 +102,7 @@ void PhysicsFields::fields(Fields& f) {
     physics.adaptive_step = step <= 0 && physics.adapts();
     physics.chosen_step = step <= 0 && chooses;
     if (step > 0 || !physics.adapts()) physics.step = step > 0 ? step : engine.step;
-    if (physics.adapts() || catalog != nullptr) {  // written only if it has an effect
+    if (physics.adapts() || catalog != nullptr) {  // read always, but written only if it has an effect
       f.number(
           "accuracy", physics.accuracy,
           {"", 1e-6, 0.5,
@@ -152,7 +152,7 @@ void PluginFields::choose(Fields& f) {
   std::string name = choice.entry != nullptr ? std::string(choice.entry->name) : type;
   f.one_of("type", name, names.pointers, describe(kind).about_type);
   if (!names.has(name)) {
-    if (count(problems) > before) return;  // the type is given, and unknown
+    if (count(problems) > before) return;  // the given type is unknown
     f.problem("type",
               "type is missing, and the default " + in_quotes(type) + " is not registered" + offer(type, names.texts, "names"));
     return;
@@ -287,7 +287,7 @@ void SectionFields::fields(Fields& f) {
     f.group(kTolerancesSection, scenario.tolerances,
             "Deviations of real robots from the drawings; each seed draws another robot.");
   }
-  if (!writing || scenario.as_built.any() || scenario.tolerances.any()) {  // stated neutral numbers are not drawn
+  if (!writing || scenario.as_built.any() || scenario.tolerances.any()) {  // a stated number is not drawn
     f.group(kAsBuiltSection, scenario.as_built,
             "Differences of this robot from the drawings, by part, such as mass: {m3: 1.05}. Numbers that are not stated here "
             "are drawn within the tolerances.");

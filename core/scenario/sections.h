@@ -11,7 +11,7 @@ namespace gaitlab {
 /// Keys of the robot's initial pose and base.
 struct BaseFields {
   Scenario& scenario;
-  bool with_position = true;  ///< used for writing; true if the position is written
+  bool with_position = true;  ///< true if the position is written; used for writing
   std::size_t numbers = 2;    ///< number of elements of the position; set by fields()
   void fields(Fields& f);
 };
@@ -25,7 +25,7 @@ struct PhysicsFields {
   void fields(Fields& f);
 };
 
-/// The section `actuator`, `controller` or `cpg`: the type of the plugin, its settings, and a key of the program.
+/// The section `actuator`, `controller` or `cpg`: the type of the plugin, its settings, and keys of the program itself.
 struct PluginFields {
   Kind kind;
   PluginSelection& choice;
@@ -50,16 +50,17 @@ struct SectionFields {
   PhysicsFields physics;
   PluginFields actuator, controller, cpg;
   bool has_cpg = true;
-  bool writing = false;  ///< true if the sections are written in full, with only the keys of the ground's type
+  bool writing = false;  ///< true to write the sections in full, with only the keys of the ground's type
 
-  /// `catalog` and `problems` are those of PhysicsFields and PluginFields. `actuator_type` is the default type.
+  /// `catalog` and `problems` are passed to PhysicsFields and PluginFields. `actuator_type` is the default type of the
+  /// actuator.
   SectionFields(Scenario& s, const Catalog* catalog, const Problems* problems, const std::string& actuator_type);
   void fields(Fields& f);
 };
 
 /// Names of a robot's joints.
 std::vector<std::string> joint_names(const Robot& robot);
-/// Names of its bodies.
+/// Names of a robot's bodies.
 std::vector<std::string> body_names(const Robot& robot);
 
 }  // namespace gaitlab

@@ -39,7 +39,7 @@ class KeyChecks final : public Fields {
     const std::vector<std::string> known = names_of(field.among);
     for (std::size_t i = 0; i < field.value.size(); ++i) {
       const std::string wrong = problem_of(field.value[i], field, known);
-      // A group has several values.
+      // A group of joints expands to several values.
       const bool same = given.kind == Node::Kind::list && given.items.size() == field.value.size();
       if (!wrong.empty()) problems_.add(same ? given.items[i].place : given.place, wrong);
     }
@@ -101,7 +101,7 @@ class KeyChecks final : public Fields {
   Problems& problems_;
 };
 
-/// The value that two sensors would replace, in words: `the angle of joint 'm0/active'`; otherwise the column.
+/// Words for the value that two sensors would replace, such as `the angle of joint 'm0/active'`, or for their column.
 std::string measured_value(const SensorReading& reading, const Robot& robot) {
   if (reading.replaces == Replaces::nothing) return "column " + in_quotes(reading.column);
   constexpr std::string_view kQuantities[] = {"", "angle", "speed", "torque", "load"};

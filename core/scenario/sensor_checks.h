@@ -16,11 +16,11 @@ struct PlacedSensor {
   std::unique_ptr<Sensor> sensor = {};
 };
 
-/// Checks that the names in the keys of a sensor exist in the robot, and that its times are whole control periods. `node` is
-/// the map of the sensor.
+/// Checks that names in the settings of a sensor exist in the robot, and that times are whole control periods. `node` is the
+/// map of the sensor.
 void check_keys(const Node& node, const PluginSelection& plugin, const Scenario& scenario, Problems& problems);
 
-/// The same for the fields of any map; `visit` visits them.
+/// The same checks for any map, whose fields `visit` visits.
 void check_names_and_times(const Node& node, const std::function<void(Fields&)>& visit, const Scenario& scenario,
                            Problems& problems);
 

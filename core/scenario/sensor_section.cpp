@@ -56,8 +56,7 @@ class SensorReader {
     found_.push_back({std::move(sensor), place});
   }
 
-  /// The sensors, after the checks that concern several of them; empty without a robot, or if there were problems since
-  /// `before`.
+  /// Returns the sensors after checking them together. Empty if there is no robot, or if problems were added after `before`.
   std::vector<SensorSelection> take(std::size_t before) {
     if (problems_.size() == before && scenario_.robot) check_together();
     std::vector<SensorSelection> sensors;

@@ -10,9 +10,9 @@
 
 namespace gaitlab {
 
-/// Reads and checks the section. A map with a key `type` is a single sensor, whose name is its type; {} and [] are none. Robot
-/// and control period of `scenario` must be known; without a robot, names are not checked. `joints` are the names of its
-/// joints. Returns an empty list without a robot, if there are problems, or if `node` is null.
+/// Reads and checks the section. A map with a key `type` is a single sensor, whose name is its type; {} and [] mean no sensors.
+/// Robot and control period of `scenario` must be known; without a robot, names are not checked. `joints` are the names of its
+/// joints. Returns an empty list if there is no robot, if there are problems, or if `node` is null.
 std::vector<SensorSelection> read_sensors(const Node* node, const Scenario& scenario, const Catalog& catalog, JointNames joints,
                                           Problems& problems);
 
@@ -23,8 +23,8 @@ Node sensors_node(const Scenario& scenario, const std::vector<std::string>& join
 std::vector<std::unique_ptr<Sensor>> make_sensors(const Scenario& scenario);
 /// Readings of all sensors, in the order of the scenario. Throws PluginError.
 std::vector<SensorReading> sensor_readings(const Scenario& scenario);
-/// True if a sensor has a resolution. Runs of the scenario with other steps, or of another build, then differ by a large share
-/// of their torques, because the loop amplifies the last bit. Throws PluginError.
+/// True if a sensor has a resolution. Runs with other steps, or by another build, then differ by a large share of their
+/// torques, because the control loop amplifies differences in the last bit. Throws PluginError.
 bool quantised(const Scenario& scenario);
 /// True if the seed changes the robot, a value of a sensor, or the losses of set points. Throws PluginError.
 bool seed_matters(const Scenario& scenario);

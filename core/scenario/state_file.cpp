@@ -68,7 +68,7 @@ struct WrenchFields {
   }
 };
 
-/// Line and column (in bytes, from 1) of the byte before `end`, at which nlohmann's parser stopped.
+/// Line and column (in bytes, from 1) of the byte before `end`, where nlohmann's parser stopped.
 SourceLocation place_of(const std::string& text, std::size_t end, const std::string& file) {
   const std::string before = text.substr(0, std::min(end == 0 ? 0 : end - 1, text.size()));
   const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
@@ -76,7 +76,7 @@ SourceLocation place_of(const std::string& text, std::size_t end, const std::str
           1 + static_cast<int>(before.size() - line_start)};
 }
 
-/// Parses a JSON text. nlohmann's parser checks that the text is JSON, and the YAML parser, which accepts JSON, gives the
+/// Parses a JSON text. nlohmann's parser checks that the text is JSON. The YAML parser, which accepts JSON, then gives the
 /// places.
 Node parse_json(std::string text, const std::string& file) {
   try {

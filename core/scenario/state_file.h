@@ -19,10 +19,10 @@ struct DynamicsInput {
 
 /// Reads {q, qd, qdd, tau: a list, a number or {default, JOINT: x}; base: {position, quaternion: [w, x, y, z], velocity,
 /// angular_velocity, acceleration, angular_acceleration}; wrenches: [{body, point, force, torque}]}, in world axes and SI
-/// units. Every key may be absent. The defaults of q, qd and base are those of `start`; the default point of a wrench is the
-/// origin of the frame of its body; all other defaults are 0. Throws InputError with every problem found at FILE:LINE:COL: text
-/// that is not JSON, an unknown key, a wrong shape, an unknown body, or a motion that the base cannot make. A quaternion whose
-/// length differs from 1 by more than 1e-6 is a problem; any other is normalised.
+/// units. Every key may be absent. The defaults of q, qd and base are the values in `start`; the default point of a wrench is
+/// the origin of the frame of its body; all other defaults are 0. Throws InputError with every problem found at FILE:LINE:COL:
+/// text that is not JSON, an unknown key, a wrong shape, an unknown body, or a motion that the base cannot make. A quaternion
+/// whose length differs from 1 by more than 1e-6 is also a problem; any other quaternion is normalised.
 DynamicsInput read_state_file(const std::string& path, const Robot& robot, Base base, const RobotState& start);
 
 }  // namespace gaitlab

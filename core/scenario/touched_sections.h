@@ -7,14 +7,14 @@
 
 namespace gaitlab {
 
-/// Sections that settings in the form of --set belong to.
+/// Sections to which settings (in the form of --set) belong.
 std::vector<std::string> sections_of(const std::vector<std::string>& sets);
 
 class TouchedSections {
  public:
   /// All sections.
   TouchedSections() = default;
-  /// These sections, and those whose defaults or checks depend on one of them. No names mean all sections.
+  /// These sections, and all sections whose defaults or checks depend on one of these. No names mean all sections.
   explicit TouchedSections(std::vector<std::string> names);
 
   [[nodiscard]] bool all() const { return names_.empty(); }

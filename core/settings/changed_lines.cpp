@@ -59,7 +59,7 @@ class CommonLines {
   std::vector<std::uint16_t> length_;  // empty if there are too many lines to compare
 };
 
-/// Rest of a long line, without most of the beginning that it shares with the other line.
+/// Rest of a long line, without most of the beginning that both lines share.
 std::string_view from_the_change(std::string_view line, std::string_view other) {
   constexpr std::size_t kShort = 60;
   constexpr std::size_t kBefore = 20;
@@ -104,7 +104,7 @@ std::vector<std::string> changed_lines(const std::string& then, const std::strin
     std::size_t end_j = j;
     while ((end_i < a.size() || end_j < b.size()) && !common.kept(end_i, end_j)) ++(common.gone(end_i, end_j) ? end_i : end_j);
     for (; i < end_i || j < end_j; i = std::min(i + 1, end_i), j = std::min(j + 1, end_j)) {
-      if (i < end_i && j < end_j && a[i] == b[j]) continue;  // unchanged, which only occurs with too many lines to compare
+      if (i < end_i && j < end_j && a[i] == b[j]) continue;  // unchanged; occurs only if there are too many lines to compare
       if (changed.size() == most) {
         ++more;
       } else {

@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kBelow = "share/gaitlab/scenarios";  // below the installation prefix
 
-/// Paths under which the file that contains this code may be found: the library or program by the loader, the program by the
-/// kernel (also without /proc), and the program by /proc.
+/// Possible paths of the file that contains this code: the library or program according to the loader, and the program
+/// according to the kernel (also without /proc) and to /proc.
 std::vector<fs::path> own_files() {
   std::vector<fs::path> files;
   Dl_info loaded = {};
@@ -41,7 +41,8 @@ fs::path find_prefix() {
   return {};
 }
 
-/// Prefix in which an installation would have the file with this code, the folder above its own: PREFIX/bin/gaitlab.
+/// Prefix that an installation with the file with this code would have: the folder above the file's folder, as in
+/// PREFIX/bin/gaitlab.
 fs::path wanted_prefix() {
   for (const fs::path& file : own_files()) {
     std::error_code none;
@@ -54,7 +55,7 @@ fs::path wanted_prefix() {
 }  // namespace
 
 std::string installation_prefix() {
-  static const std::string prefix = find_prefix().string();  // once, because a relative path ends with a change of the folder
+  static const std::string prefix = find_prefix().string();  // once: a relative path is invalid in another folder
   return prefix;
 }
 

@@ -4,13 +4,12 @@
 
 namespace gaitlab {
 
-/// Installation prefix: the nearest folder above the file with this code, a program or a library, that contains
-/// `share/gaitlab/scenarios`. Empty if there is none. A build folder is a prefix, too: its `share` contains a link to the
-/// source tree.
+/// Installation prefix: the nearest folder that contains `share/gaitlab/scenarios`, above the program or library with this
+/// code. Empty if there is none. A build folder is a prefix, too: its `share` contains a link to the source tree.
 std::string installation_prefix();
 
 /// `share/gaitlab/scenarios` in the installation prefix. Without a prefix, the folder that the environment variable
-/// GAITLAB_DATA names; without it, the folder in which an installation would have it, for messages. Always a whole path.
+/// GAITLAB_DATA names. Without this variable, the folder that an installation would use, for messages. Always a whole path.
 std::string data_folder();
 
 }  // namespace gaitlab

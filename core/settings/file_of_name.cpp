@@ -29,7 +29,7 @@ std::optional<FileOfName> file_of_name(const std::vector<std::string>& own, cons
   std::error_code none;
   const bool ships = fs::exists(shipped, none);
   for (const std::string& path : own) {
-    FilesRead::note(path);  // a file that is made there later changes the robot
+    FilesRead::note(path);  // noted although missing, because a file made there later changes the robot
     if (!fs::exists(path, none) || fs::is_directory(path, none)) continue;
     return FileOfName{path, ships && !same_content(path, shipped) ? shipped : ""};
   }

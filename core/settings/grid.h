@@ -10,8 +10,8 @@ namespace gaitlab {
 
 using Rows = std::vector<std::vector<double>>;
 
-/// Rows of a list of lists; `what` is the name of the list in messages. The result is empty, with problems, if a row is not a
-/// list, its length differs from that of the first row, or a number is invalid.
+/// Rows of a list of lists; `what` is the name of the list in messages. Adds problems and returns an empty result if a row is
+/// not a list or differs in length from the first row, or if a number is invalid.
 Rows read_rows(const Node& list, const std::string& what, const Spec& spec, Problems& problems);
 
 /// Node of a text with one row per line. Numbers are separated by commas or blanks, and comments follow #. The node is a list

@@ -14,8 +14,8 @@
 namespace gaitlab {
 namespace {
 
-/// Patterns to suggest: for each joint `module/hinge` the pattern of this hinge in every module and of every hinge of this
-/// module.
+/// Patterns to suggest. For each joint `module/hinge`, they are the pattern for this hinge in every module, and the pattern for
+/// every hinge of this module.
 std::vector<std::string> usual_patterns(const std::vector<std::string>& joints) {
   std::vector<std::string> patterns;
   std::unordered_set<std::string> seen;
@@ -31,8 +31,8 @@ std::vector<std::string> usual_patterns(const std::vector<std::string>& joints) 
   return patterns;
 }
 
-/// `m0/hinge to m2/hinge` for m9/hinge: the joints with the name of a hinge that other modules have. Also `m0 to m2` for m9.
-/// Empty for another name.
+/// Range of existing names for a number that is too large: `m0/hinge to m2/hinge` for m9/hinge, and `m0 to m2` for m9. Empty
+/// for other names.
 std::string range_beside(const std::string& text, const std::vector<std::string>& joints) {
   const std::size_t end = std::min(text.find('/'), text.size());
   const auto digit = [](char c) { return c >= '0' && c <= '9'; };
@@ -70,7 +70,7 @@ std::vector<std::size_t> joints_of(const std::string& text, const std::vector<st
 
 namespace {
 
-/// Message for the name of a module in the place of a joint, or of a joint in the place of a module.
+/// Message for the name of a module where a joint is expected, or of a joint where a module is expected.
 std::string of_the_other_kind(const std::string& text, const std::vector<std::string>& names, const std::string& part) {
   std::vector<std::string> within;
   std::ranges::copy_if(names, std::back_inserter(within), [&](const auto& name) { return name.starts_with(text + "/"); });

@@ -1,4 +1,4 @@
-// Joint names given by a user, each the name of one joint or a pattern that matches several joints.
+// Joint names given by a user. Each is the name of one joint, a pattern or the name of a group.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace gaitlab {
 
-/// A name for several joints, which stands wherever a pattern may stand. Its joints are in the order of the robot.
+/// A name for several joints, allowed wherever a pattern is allowed. The joints are in the order of the robot.
 struct JointGroup {
   std::string name;
   std::vector<std::string> joints;
@@ -29,12 +29,13 @@ std::vector<std::size_t> joints_of(const std::string& text, const std::vector<st
 std::string no_joint(const std::string& text, const std::vector<std::string>& joints, const std::string& part = "joint",
                      const JointGroups& groups = {});
 
-/// The message of no_joint() where a single joint is required, so that patterns and groups are not allowed.
+/// Message like that of no_joint(), for a setting that requires a single joint and allows no patterns and groups.
 std::string not_one_joint(const std::string& text, const std::vector<std::string>& joints, const std::string& part = "joint",
                           const JointGroups& groups = {});
 
-/// The columns of a recording that a text means: those with this name or of this pattern; for `joint.JOINT.PART` and
-/// `reaction.JOINT.PART`, where JOINT is a name, pattern or group, also those of these joints, whose names have numbers.
+/// Columns of a recording that a text means: all columns whose names match the text as a name or pattern. For
+/// `joint.JOINT.PART` and `reaction.JOINT.PART`, where JOINT is a name, pattern or group, also the columns of these joints,
+/// which are named by joint numbers.
 class ColumnChoice {
  public:
   ColumnChoice(std::string text, const std::vector<std::string>& joints, const JointGroups& groups);

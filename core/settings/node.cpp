@@ -1,5 +1,5 @@
 // Parser based on yaml-cpp 0.7. The node API of that library accepts too much (duplicate keys, aliases, tags, further
-// documents), so that the tree is built from parse events, which still distinguish these cases.
+// documents). The tree is therefore built from parse events, which still distinguish these cases.
 #include "core/settings/node.h"
 
 #include <fmt/format.h>
@@ -69,7 +69,7 @@ class TreeBuilder final : public YAML::EventHandler {
     // A quoted scalar has the tag "!" implicitly. An explicit tag starts with '!' in the text.
     const bool explicit_tag = tag != "?" && (tag != "!" || character(mark) == '!');
     check_tag(mark, explicit_tag, tag);
-    if (node.quoted && !explicit_tag && !is_closed(*text_, node.position))  // the parser accepts it
+    if (node.quoted && !explicit_tag && !is_closed(*text_, node.position))  // yaml-cpp accepts it
       stop(node.place, fmt::format("not valid YAML: the {0} opened here is not closed; expected {0}", character(mark)));
     add(std::move(node));
   }
@@ -88,7 +88,7 @@ class TreeBuilder final : public YAML::EventHandler {
   struct Open {
     Node node;
     bool has_key = false, duplicate = false;
-    /// Index of the keys so far, because linear search would take quadratic time.
+    /// Index of the keys so far, because linear searches would take quadratic time.
     std::unordered_map<std::string, std::size_t> index = {};
   };
 
@@ -159,7 +159,7 @@ class TreeBuilder final : public YAML::EventHandler {
   void add_item(Node node) {
     Open& top = stack_.back();
     const bool in_map = top.node.kind == Node::Kind::map;
-    // yaml-cpp places an absent value at the beginning of the next text.
+    // yaml-cpp gives an absent value the place of the text that follows.
     const bool absent = node.kind == Node::Kind::null && in_map && !top.duplicate;
     if (absent && node.place.line != top.node.keys.back().second.line) node.place = top.node.keys.back().second;
     if (!top.duplicate) top.node.items.push_back(std::move(node));
@@ -181,7 +181,7 @@ std::string in_words(const YAML::Exception& e, const std::string& text) {
   return yaml_fault_in_words(e.msg, text.substr(begin, text.find_first_of("\r\n", begin) - begin), column);
 }
 
-/// Replaces the last problem, of a list or map as a key, by the bracket that is not closed before it.
+/// Replaces the last problem, which is a list or map as a key, by a problem of the bracket before it that is not closed.
 void explain_last(const std::string& text, const std::string& file, Problems& problems) {
   const Problem& last = problems.list().back();
   Problem fault = yaml_fault(text, file, last.place.line);
@@ -197,7 +197,7 @@ std::optional<Node> build(const std::string& text, const std::string& file, Prob
     std::istringstream stream(text);
     YAML::Parser parser(stream);
     if (!parser.HandleNextDocument(builder)) throw InputError({file}, "the file is empty; expected a map (KEY: VALUE lines)");
-    // This is a second call instead of a loop, because on stray text yaml-cpp reports documents without end.
+    // This is a second call instead of a loop, because for stray text yaml-cpp reports an endless number of documents.
     parser.HandleNextDocument(builder);
     return builder.take();
   } catch (const Stop&) {
@@ -236,7 +236,7 @@ std::optional<Node> parse_yaml(const std::string& text, const std::string& file,
   try {
     if (text.size() > kMostScenario) throw InputError({file}, "the text is larger than 1 MB");
     check_text(text, file);
-    // yaml-cpp would count the byte order mark in its positions.
+    // Removed, because yaml-cpp would count the byte order mark in its positions.
     return build(text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text, file, problems);
   } catch (const InputError& e) {
     add_all(e, problems);

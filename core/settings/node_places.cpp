@@ -1,5 +1,5 @@
-// Places within scalars. yaml-cpp gives only the start of a scalar (the position of `|` for a block scalar), so that these
-// functions read the source again.
+// Places within scalars. yaml-cpp gives only the start of a scalar (the position of `|` for a block scalar). These functions
+// therefore read the source again.
 #include "core/settings/node_places.h"
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 namespace gaitlab {
 namespace {
 
-/// Number of bytes of the source at `at` that represent the character c of a text. It is 0 if they represent another character.
+/// Number of bytes of the source at `at` that represent the character c of a text. 0 if the source has another character there.
 std::size_t length_of(const std::string& source, std::size_t at, char quote, char c) {
   if (at >= source.size() || source[at] == '\n') return 0;
   if (quote == '\'' && c == '\'') return source.compare(at, 2, "''") == 0 ? 2 : 0;

@@ -1,4 +1,4 @@
-// Place in the file of a character of a scalar.
+// Place in the file for a character of a scalar.
 #pragma once
 #include <cstddef>
 #include <string_view>

@@ -23,8 +23,8 @@ bool has_separator(const std::string& text);
 /// True if a human reader would probably take the text for a number.
 bool looks_like_a_number(const std::string& text);
 
-/// True if some reader of YAML 1.1 or 1.2 takes the text for a number, a date, a flag or nothing: 0x10, 010, 2026-01-02, yes,
-/// null.
+/// True if some reader of YAML 1.1 or 1.2 takes the text for a number, a date, a flag or null, such as 0x10, 010, 2026-01-02,
+/// yes and null.
 bool is_no_text_elsewhere(const std::string& text);
 
 }  // namespace gaitlab

@@ -1,10 +1,10 @@
-// Bound of the search for names that messages offer instead of unknown ones.
+// Limit of the search for known names that messages offer instead of unknown names.
 #pragma once
 #include <cstddef>
 
 namespace gaitlab {
 
-/// Number of problems from which no name is searched any more, because a message prints no more problems (core/errors.cpp).
+/// Number of problems after which the search stops, because a message prints no further problems (core/errors.cpp).
 inline constexpr std::size_t kMostOffers = 200;
 
 }  // namespace gaitlab

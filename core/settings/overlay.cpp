@@ -193,7 +193,7 @@ std::string drop_from(Node& section, bool cpg, const std::vector<std::string>& k
     const bool empty_model = cpg && key == "model" && value.kind == Node::Kind::map && value.items.empty();
     return !empty_model && !is_set(value) && std::find(known.begin(), known.end(), key) == known.end();
   });
-  // A model that lost all its keys is removed without a message, because the message already contains these keys.
+  // A model that has lost all keys is removed without mention, because the message already contains these keys.
   take_out(section, "",
            [&](const std::string& key, const Node& value) { return cpg && key == "model" && value.items.empty(); });
   return dropped + (dropped.empty() || others.empty() ? "" : ", ") + others;

@@ -1,5 +1,5 @@
-// The option `--set key.path=value`, which changes a scenario's tree before it is read, so that its values are checked like
-// those of the file.
+// The option `--set key.path=value`. It changes a scenario's tree before the tree is read, so that its values are checked like
+// values in the file.
 #pragma once
 #include <string>
 #include <vector>
@@ -17,20 +17,20 @@ struct Retyped {
 /// True if --set gave this node.
 bool is_set(const Node& node);
 
-/// Applies the settings to the tree. Settings of `type` are first, and the remaining ones keep their order. The place of a
-/// changed node is the option. Malformed settings are added to `problems`.
+/// Applies the settings to the tree: first settings of `type`, then all others in their order. The place of a changed node is
+/// the option. Malformed settings are added to `problems`.
 std::vector<Retyped> apply_sets(Node& root, const std::vector<std::string>& sets, Problems& problems);
 
-/// Sets the value of a key such as `cpg.frequency`. New nodes on the way to it, and messages, have the place `place`; the value
-/// keeps its own.
+/// Sets the value of a key such as `cpg.frequency`. New nodes on the path, and messages, have the place `place`; the value
+/// keeps its place.
 void overlay(Node& root, const std::string& path, Node value, const SourceLocation& place, Problems& problems);
 
 /// Removes the key `source` of `actuator` if --set changes other keys of that section but not `source`, because the source does
 /// not state the new values. Returns a message for the user, or "" if nothing was removed.
 std::string drop_source(Node& root, const std::vector<std::string>& sets);
 
-/// Removes `accuracy` and `integrator` of `physics` if --set names an engine that has none of them, unless --set gave them.
-/// Returns a message for the user, or "" if nothing was removed.
+/// If --set names an engine, removes from `physics` the keys `accuracy` and `integrator` that this engine does not support,
+/// unless --set gave them. Returns a message for the user, or "" if nothing was removed.
 std::string drop_engine_keys(Node& root, const std::vector<std::string>& sets, const Catalog& catalog);
 
 /// Removes keys of a retyped section that the new type lacks, and the whole `model` of the old CPG, unless --set gave them.

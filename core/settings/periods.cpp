@@ -27,7 +27,7 @@ double common_divisor(double a, double b) {
   return 0;
 }
 
-/// Rounds to 12 digits, far within the tolerance, so that messages contain 0.015 instead of 0.015000000000000001.
+/// Rounds to 12 digits, far within the tolerance, because messages must contain 0.015 instead of 0.015000000000000001.
 double rounded(double value) {
   const std::string text = fmt::format("{:.12g}", value);
   std::from_chars(text.data(), text.data() + text.size(), value);
@@ -46,8 +46,8 @@ std::size_t digits(double value) {
   return count;
 }
 
-/// A short decimal divisor/k near k = `first`, searched in the direction of `towards` (+1 or -1 for k). Without a short decimal
-/// nearby it is the nearest step that divides all periods, or 0 if there is none.
+/// A short decimal divisor/k near k = `first`, searched in the direction of `towards` (+1 or -1 for k). If no short decimal is
+/// near, the nearest step that divides all periods, or 0 if there is none.
 double fitting(const std::vector<double>& periods, double divisor, double first, double towards) {
   const auto fits = [&](double step) {
     return std::all_of(periods.begin(), periods.end(), [&](double period) { return math::whole_steps(period, step) > 0; });

@@ -7,7 +7,7 @@
 
 namespace gaitlab {
 
-/// Numbers by key, such as `Kp` or `model.ramp`. Numbers in lists are left out; of a range of delays the longest is taken.
+/// Numbers by key, such as `Kp` or `model.ramp`. Lists are left out, and a range of delays counts as its longest delay.
 class SettingsNumbers final : public Fields {
  public:
   struct Found {

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Folders of the data, and ending of the files in them, by kind.
+/// Folder in the data, and ending of its files, for each kind.
 struct ShippedKind {
   const char* kind;
   std::array<const char*, 2> folders;
@@ -31,7 +31,7 @@ std::map<std::string, std::string> shipped_files(const std::string& kind) {
   const ShippedKind& shipped = *std::ranges::find(kShipped, kind, &ShippedKind::kind);
   for (const char* folder : shipped.folders) {
     if (folder == nullptr) continue;
-    std::error_code none;  // an installation without data has an empty list
+    std::error_code none;  // ignored: an installation without data has an empty list
     for (const auto& file : fs::directory_iterator((fs::path(data_folder()) / folder).lexically_normal(), none)) {
       if (file.path().extension() == shipped.ending)
         files[file.path().stem().string()] = file.path().lexically_normal().string();

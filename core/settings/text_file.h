@@ -1,4 +1,4 @@
-// Reader of text files that the user names; no other code opens such files.
+// Reader of all text files that the user names.
 #pragma once
 #include <string>
 
@@ -18,15 +18,15 @@ struct NamedFile {
   std::string key;     ///< key at the start of a line in every such file, such as gaitlab_module; may be empty
 };
 
-/// True if messages may quote a file that a text in `folder` names. After links are followed, the file must be within `folder`
-/// or be part of the program's data. Otherwise a foreign scenario could make messages quote any file of this machine, for
-/// example in the public log of a CI.
+/// True if messages may quote a file that a text in `folder` names. The file, after links are followed, must be in `folder` or
+/// among the program's data. Otherwise a foreign scenario could make messages quote any file of this machine, for example in
+/// the public log of a CI.
 bool may_quote(const std::string& path, const std::string& folder);
 /// End of a message about a file that may not be quoted.
 inline constexpr const char* kNotShown = "its text is not shown, because it lies outside the folder of the file that names it";
 
-/// Adds the problems of a file. If messages may not quote the file, and no line begins with its key, all problems are replaced
-/// by a single one without text of the file: `is not a module file; ...`.
+/// Adds the problems of a file. If messages may not quote the file, and no line begins with `key`, adds instead a single
+/// problem without text of the file: `is not a module file; ...`.
 void add_found(const Problems& found, const NamedFile& file, Problems& problems);
 
 /// Path relative to `folder`. An absolute path is unchanged.

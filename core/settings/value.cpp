@@ -45,7 +45,7 @@ Reading<double> read_number(const Node& node, const std::string& unit) {
   double value = 0;
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool zero = text.find_first_of("123456789") >= std::min(text.find_first_of("eE"), text.size());
-  // Overflow and underflow are checked here, because versions of from_chars differ in their report of an underflow.
+  // Overflow and underflow are checked here, because versions of from_chars report an underflow differently.
   if (failure == std::errc::result_out_of_range || !std::isfinite(value) || (value == 0 && !zero)) {
     return {0, fmt::format("is {}; expected a number that fits a double (0, or 5e-324 to 1.8e+308)", clipped(node.text))};
   }

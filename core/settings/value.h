@@ -1,4 +1,4 @@
-// Strict readers of scalars, which check the text before its conversion.
+// Strict readers of scalars, which check the text before they convert it.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -24,8 +24,8 @@ Reading<bool> read_flag(const Node& node);
 /// Reads any scalar as text.
 Reading<std::string> read_scalar(const Node& node);
 
-/// Text such as `amplitude: 0,4 is two entries; write 0.4` for the second half of a number with a comma in a map on one line,
-/// the entry `i`; empty for other entries.
+/// Text such as `amplitude: 0,4 is two entries; write 0.4` if entry `i` of a map on one line is the second half of a number
+/// with a decimal comma; empty for other entries.
 std::string decimal_comma(const Node& map, std::size_t i);
 
 }  // namespace gaitlab

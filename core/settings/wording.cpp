@@ -68,7 +68,7 @@ std::string joined(const std::vector<std::string>& names) {
 
 namespace {
 
-/// A line of a text: columns of its first word, and of its last cell, behind two or more blanks.
+/// A line of a text, with the columns of its first word and of its last cell, which two or more blanks precede.
 struct Layout {
   explicit Layout(const std::string& line) : own(std::min(line.find_first_not_of(' '), line.size())), cell(own) {
     const std::size_t gap = line.rfind("  ");
@@ -78,7 +78,7 @@ struct Layout {
   std::size_t own, cell;
 };
 
-/// True if a line continues a line that is too long: that of a paragraph, or of a last cell that begins in the same column.
+/// True if a line continues an earlier line: as part of a paragraph, or of a last cell that begins in the same column.
 bool continues(const std::string& line, const Layout& first) {
   const Layout next(line);
   if (line.empty() || next.cells()) return false;
@@ -95,7 +95,7 @@ std::size_t break_of(const std::string& line, std::size_t room) {
 }  // namespace
 
 std::string wrapped(const std::string& text, std::size_t indent, std::size_t width) {
-  constexpr std::size_t kLeastCell = 30;  // a narrower cell goes below the line
+  constexpr std::size_t kLeastCell = 30;  // a narrower cell is placed below the line
   std::string out;
   std::size_t begin = 0;
   const auto next = [&] { return text.substr(begin, std::min(text.find('\n', begin), text.size()) - begin); };

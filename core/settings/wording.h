@@ -1,4 +1,4 @@
-// Words of messages: names, and numbers in a notation that every locale reads back unchanged.
+// Words for messages: names, and numbers in a notation that does not depend on the locale.
 #pragma once
 #include <span>
 #include <string>
@@ -24,22 +24,23 @@ std::string in_degrees(double value, const std::string& unit);
 /// Number with a noun in singular or plural, as in `1 number` and `2 numbers`.
 std::string counted(std::size_t n, const std::string& what);
 
-/// The text without control characters, and shortened for a message.
+/// The text without control characters, shortened for a message.
 std::string clipped(const std::string& text);
 /// The clipped() text in single quotes.
 std::string in_quotes(const std::string& text);
 /// List such as `a, b, c`, shortened if it is long.
 std::string joined(const std::vector<std::string>& names);
 /// The text in lines of at most `width` characters, broken at blanks, each after `indent` blanks. Lines that begin with four
-/// blanks (equations, YAML) are not joined. The rest of such a line that is too long is indented by eight more blanks; that of
-/// a line of cells, which two or more blanks separate, goes below its last cell, with the lines that begin there.
+/// blanks (equations, YAML) are not joined. If such a line is too long, its rest is indented by eight more blanks. If two or
+/// more blanks divide the line into cells, the rest is instead placed below the last cell, together with the following lines
+/// that begin there.
 std::string wrapped(const std::string& text, std::size_t indent = 0, std::size_t width = 80);
 /// Rows of cells as lines, each after `indent` blanks. The first cell is flush left, and the others are flush right. Every
 /// column is as wide as its widest cell. All rows have as many cells as the first row.
 std::string aligned(const std::vector<std::vector<std::string>>& rows, std::size_t indent = 0);
 /// End of a message about an unknown name: `; did you mean 'x'?` or `; known KIND: a, b, c`.
 std::string offer(const std::string& found, const std::vector<std::string>& known, const std::string& kind);
-/// Noun of a name, such as `joint` or `body`.
+/// Noun for a kind of name, such as `joint` or `body`.
 const char* noun(Among among);
 std::vector<std::string> to_strings(std::span<const char* const> names);
 

@@ -28,11 +28,11 @@ struct LineFault {
 };
 
 /// Scanner of a text for brackets and quotes outside of comments. In block style, a bracket or quote within a text is part of
-/// that text, and only one at the beginning of a value counts.
+/// that text; it counts only at the beginning of a value.
 class Brackets {
  public:
   /// Reads the next line. Returns its first fault: a closing bracket that does not fit, a quote that is closed in a later line,
-  /// or, if the parser refused this line, what follows a value.
+  /// or, if the parser refused this line, text behind a value.
   std::optional<LineFault> read(std::string_view line, int number, bool refused) {
     char before = ':';  // the last character that is not blank; a line begins with a value
     ended_ = {};
@@ -71,7 +71,7 @@ class Brackets {
     return 0;
   }
 
-  /// The fault of a character behind a value in quotes or brackets, which ends there.
+  /// Fault of a character that follows the end of a value in quotes or brackets.
   std::optional<LineFault> after_value(const Bracket& here, std::string_view rest, bool refused) {
     const Bracket value = ended_;
     const bool fits = here.open == ':' || (!open.empty() && std::string_view(",}]").find(here.open) != std::string_view::npos);
@@ -114,7 +114,7 @@ class Brackets {
   bool spans_ = false;  ///< true if that value is a text in quotes of several lines
 };
 
-/// A depth of indentation at which keys or items of a list stand.
+/// A depth of indentation of keys or list items.
 struct Level {
   int indent = 0;
   bool list = false;
@@ -128,7 +128,7 @@ std::string key_at(std::string_view line, std::size_t begin) {
   return ends ? std::string(line.substr(begin, colon - begin)) : "";
 }
 
-/// Levels of a line: those of its dashes, and that of its key.
+/// Levels of a line: one for each dash, and one for its key.
 std::vector<Level> levels_in(std::string_view line, int number) {
   std::vector<Level> levels;
   std::size_t at = line.find_first_not_of(' ');
@@ -142,7 +142,7 @@ std::vector<Level> levels_in(std::string_view line, int number) {
 
 std::string blanks(int n) { return counted(static_cast<std::size_t>(n), "blank"); }
 
-/// Fault of the first level of a line against the open levels of the lines before, or "".
+/// Message if the first level of a line does not fit the open levels of earlier lines, or "".
 std::string misfit(const Level& own, const std::vector<Level>& open) {
   const auto same = std::ranges::find(open, own.indent, &Level::indent);
   const std::string what = own.list ? "an item of a list (-)" : in_quotes(own.key);

@@ -1,4 +1,4 @@
-// print_yaml(), which prints a Node as YAML text that parse_yaml() reads back.
+// print_yaml(), which turns a Node into YAML text that parse_yaml() reads back.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ bool is_null_text(const std::string& text) {
   return text.empty() || text == "~" || text == "null" || text == "Null" || text == "NULL";
 }
 
-/// Number in Unicode of the character of 1 to 3 bytes at the start of a UTF-8 text.
+/// Code point of the character of 1 to 3 bytes at the start of a UTF-8 text.
 unsigned code_of(std::string_view text, std::size_t bytes) {
   constexpr unsigned kLead[] = {0x7F, 0x1F, 0xF};
   unsigned code = static_cast<unsigned char>(text[0]) & kLead[bytes - 1];
@@ -22,8 +22,8 @@ unsigned code_of(std::string_view text, std::size_t bytes) {
 }
 
 /// Length of the character at the start of a text if YAML texts may not contain it unescaped: control characters (also U+0080
-/// to U+009F), ends of lines for some readers (U+0085, U+2028, U+2029), the mark of an encoding (U+FEFF), and U+FFFE and
-/// U+FFFF. Otherwise 0.
+/// to U+009F), line ends of some readers (U+0085, U+2028, U+2029), the byte order mark (U+FEFF), and U+FFFE and U+FFFF.
+/// Otherwise 0.
 std::size_t unprintable(std::string_view text) {
   const auto byte = static_cast<unsigned char>(text[0]);
   if (byte < 0x20 || byte == 0x7F) return 1;
@@ -41,7 +41,7 @@ bool is_printable(std::string_view text, std::string_view allowed = "") {
   return true;
 }
 
-/// True if a reader takes the text without quotes for this scalar. In a list or map on one line, more characters have a
+/// True if a reader takes the text without quotes for this scalar. In a list or map on one line, more characters have a special
 /// meaning.
 bool plain_safe(const std::string& text, bool in_flow) {
   if (is_null_text(text) || text.front() == ' ' || text.back() == ' ' || text.back() == ':') return false;
@@ -75,7 +75,7 @@ std::string scalar(const std::string& text, bool quoted, bool in_flow) {
   return !quoted && plain_safe(text, in_flow) ? text : double_quoted(text);
 }
 
-/// Text of a key, quoted like a scalar in brackets, because a colon must not end it early.
+/// Text of a key, quoted like a scalar in brackets, because a colon in the key must not end it.
 std::string key_text(const std::string& key) { return scalar(key, false, true); }
 
 std::string flow(const Node& node) {

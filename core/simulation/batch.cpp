@@ -15,7 +15,7 @@ namespace {
 
 using LaneGroup = std::vector<std::size_t>;  ///< indices of waiting rollouts
 
-/// Number of lanes for `left` remaining rollouts: the smallest width that is enough for all of them, else the largest width up
+/// Number of lanes for `left` remaining rollouts: the smallest width that is enough for all rollouts, else the largest width up
 /// to `most` (0 means no bound).
 std::size_t width(std::span<const std::size_t> widths, std::size_t left, std::size_t most) {
   std::size_t best = widths.front();
@@ -27,7 +27,7 @@ std::size_t width(std::span<const std::size_t> widths, std::size_t left, std::si
   return best;
 }
 
-/// Frequencies among the settings of the CPG, Hz; of settings with a value per joint, the first joint's.
+/// Frequencies among the settings of the CPG, Hz. A setting with a value per joint counts with the value of the first joint.
 std::vector<double> frequencies(const Scenario& s) {
   std::vector<double> all;
   const SettingsNumbers settings(s.cpg);
@@ -74,17 +74,17 @@ class Waiting {
   }
 
  private:
-  // Robots within tolerances have a robot each, 6 kB a link. Large ones wait in small numbers.
+  // With tolerances, each rollout has a separate robot, of 6 kB per link. Only few rollouts of large robots may therefore wait.
   static constexpr std::size_t kFew = 64, kMostLinks = 20000;
 
-  /// Largest number of the `left` waiting rollouts for one thread: all of them while more are to come, and then an equal share,
-  /// so that the last rollouts occupy all threads.
+  /// Largest number of the `left` waiting rollouts for one thread: all while more are to come, and then an equal share, so that
+  /// the last rollouts occupy all threads.
   [[nodiscard]] std::size_t fair(std::size_t left) const {
     const auto threads = static_cast<std::size_t>(std::max(1, settings_.threads));
     return more_ ? left : (left + threads - 1) / threads;
   }
 
-  /// Keeps the `most` rollouts whose frequencies are nearest to those of the first, in their order.
+  /// Keeps, in their order, the `most` rollouts whose frequencies are nearest to those of the first rollout.
   void keep_nearest(LaneGroup& group, std::size_t most) const {
     const auto apart = [&, &first = waiting_[group.front()].frequencies](std::size_t i) {
       const std::vector<double>& own = waiting_[i].frequencies;
@@ -107,7 +107,7 @@ class Waiting {
   std::size_t look_ahead_;
   std::mutex mutex_;
   std::vector<Candidate> waiting_;
-  std::size_t links_ = 0;  ///< of the robots that wait
+  std::size_t links_ = 0;  ///< links of the robots of waiting rollouts
   bool more_ = true;
 };
 
@@ -149,7 +149,7 @@ bool run_pack(std::vector<RolloutEnd>& pack, const BatchStream& stream, const Ba
       if (!simulation.run({}, &stop)) return false;
       for (std::size_t l = 0; l < pack.size(); ++l) pack[l].recording = simulation.take_recording(l);
       return true;
-    } catch (const RunError&) {  // run_alone runs each rollout again and reports its error
+    } catch (const RunError&) {  // run_alone runs each rollout again and reports errors
     } catch (const InputError&) {
     }
   }

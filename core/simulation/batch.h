@@ -1,4 +1,4 @@
-// Simulation of many rollouts in lane groups, which run side by side in several threads.
+// Simulation of many rollouts in lane groups, which run in several threads.
 #pragma once
 #include <algorithm>
 #include <atomic>
@@ -16,15 +16,15 @@ namespace gaitlab {
 
 struct BatchSettings {
   int threads = 1;
-  std::size_t lanes = 0;  ///< largest number of lanes of a group; 0 means as many as engine and processor allow
+  std::size_t lanes = 0;  ///< largest number of lanes per group; 0 means the largest number that engine and processor allow
 };
 
 /// Runs every scenario to its end. The scenarios may differ in everything. Scenarios with the same engine, integrator, step,
 /// actuator plugin and structure of the robot share lane groups (can_share). The result of a rollout does not depend on
-/// threads, lanes or other rollouts: it has the same bits as the result of the rollout alone. end(i, recording) is called once
-/// for each rollout i, from several threads at once and in any order. If a rollout diverges or its plugin throws, the recording
-/// ends at that step (Recording::outcome). Throws InputError if a step is refused or a plugin cannot be made. The error
-/// describes the first such scenario, and is thrown after all rollouts have ended.
+/// threads, lanes or other rollouts: it has the same bits as if the rollout ran alone. end(i, recording) is called once for
+/// each rollout i, from several threads at once and in any order. If a rollout diverges or its plugin throws, the recording
+/// ends at that step (Recording::outcome). Throws InputError if a step is refused or a plugin cannot be made. The error is that
+/// of the first such scenario, and is thrown after all rollouts have ended.
 void run_batch(std::span<const Scenario> rollouts, const BatchSettings& settings,
                const std::function<void(std::size_t, Recording&&)>& end);
 
@@ -49,18 +49,19 @@ struct BatchStream {
   /// Called with the rollouts of a lane group before they run. Called by one thread at a time. The function may be empty.
   std::function<void(std::span<const Rollout>)> begin = {};
   /// Called for each rollout once every simulated second with its recording so far (Simulation::watch). Returns "" to continue,
-  /// or a reason to end the rollout, which becomes its outcome. Called from several threads at once. The function may be empty.
+  /// or the reason for ending the rollout, which becomes the outcome. Called from several threads at once. The function may be
+  /// empty.
   std::function<std::string(const Rollout&, const Recording& so_far)> watch = {};
   /// Called with the results of the rollouts of a lane group, from several threads at once and in any order.
   std::function<void(std::vector<RolloutEnd>&&)> end;
 };
 
-/// run_batch for any number of rollouts. A free thread takes the first of the waiting rollouts, of which at most `look_ahead`
-/// exist (64 of large robots), and those that can share lanes with it and whose CPGs have the nearest frequencies: robots in
-/// step touch the ground and reach their limits at the same times, so that the lanes divide their steps together
-/// (docs/benchmarks.md). Once `stop` is set, no lane group begins, and running rollouts end at their next step without a call
-/// of `end`. Returns false if the batch was stopped. An exception of `next`, `begin` or `end` stops the batch and is rethrown
-/// when all threads have ended.
+/// run_batch for any number of rollouts, of which at most `look_ahead` wait (64 for large robots). A free thread takes the
+/// first waiting rollout. It adds the waiting rollouts that can share lanes with the first one and whose CPG frequencies are
+/// nearest. Robots in step touch the ground and reach their limits at the same times, so that the lanes divide their steps
+/// together (docs/benchmarks.md). Once `stop` is set, no further lane group begins, and running rollouts end at their next step
+/// without a call of `end`. Returns false if the batch was stopped. An exception of `next`, `begin` or `end` stops the batch
+/// and is rethrown when all threads have ended.
 bool run_pulled(const BatchStream& stream, const BatchSettings& settings, Records records, std::atomic<bool>& stop,
                 std::size_t look_ahead = 512);
 
@@ -69,9 +70,10 @@ bool run_all(std::span<const Scenario> rollouts, const BatchSettings& settings, 
              const std::function<void(std::size_t, RolloutEnd&&)>& end);
 
 /// run_batch for any number of rollouts, of which few exist at a time. `next()` returns one scenario per call, and nothing at
-/// the end. `digest(scenario, recording)` computes the result to keep; it is called in several threads at once and must not
+/// the end. `digest(scenario, recording)` computes the result to keep; it is called by several threads at once and must not
 /// throw. `sink(result)` receives the results one at a time in the order of next(), for any number of threads and lanes.
-/// Exceptions of run_batch and next() are rethrown after the sink has received all results before the first refused rollout.
+/// Exceptions of run_batch and next() are rethrown after the sink has received the results of all rollouts before the first
+/// refused one.
 template <class Digest>
 void run_stream(const std::function<std::optional<Scenario>()>& next, const BatchSettings& settings, Digest digest,
                 const std::function<void(std::invoke_result_t<Digest, const Scenario&, Recording&&>&&)>& sink) {

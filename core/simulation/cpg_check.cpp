@@ -15,7 +15,7 @@ namespace {
                         fmt::format("diverged at step {}, t = {:.6g} s: {} is {}", step, time, what, value));
 }
 
-/// Name of the joint whose number ends the name of a state; empty if there is none.
+/// Name of the joint whose number is the end of a state's name; empty if there is none.
 std::string joint_of(const std::string& state, const Robot& robot) {
   const std::size_t point = state.rfind('.');
   if (point == std::string::npos) return {};

@@ -1,4 +1,4 @@
-// Companion rollouts of a run, with which its torque error is estimated: scenarios, steps and comparison.
+// Companion rollouts of a run, from which its torque error is estimated: scenarios, steps and comparison.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace gaitlab {
 namespace {
 
 constexpr double kEventShare = 0.01;  // event threshold, as a share of a torque's peak, for integrators without an accuracy
-/// Factors by which torque differences are multiplied, by Companion; the last is kIll / kChaotic without rounding.
+/// Factors for torque differences, by Companion; the last one is kIll / kChaotic without rounding.
 constexpr std::array<double, kDifferences> kFactors{StepError::kOfFiner, StepError::kOfCoarser, 1, 1000};
 
 /// Number of steps h in `seconds`, rounded up to whole control periods.
@@ -69,8 +69,8 @@ std::vector<Scenario> Simulation::side_by_side(std::span<const Scenario> lanes, 
 TwinWindows Simulation::twin_windows() const { return gaitlab::twin_windows(scenarios_[0], standing_.rate > 0); }
 
 /// Companions that are separate simulations. With a fixed step there is one twin, with as many lanes as the run, compared in
-/// windows. With an accuracy, the companions are lanes of the lane group of the run. On a processor without such lanes, they
-/// are simulations of one lane each, with the same bits.
+/// windows. With an accuracy, the companions are lanes in the lane group of the run. If the processor has no such lanes, the
+/// companions are simulations of one lane each, with the same bits.
 std::vector<std::unique_ptr<Simulation>> Simulation::rollouts_apart() const {
   std::vector<std::unique_ptr<Simulation>> all;
   const auto add = [&](std::span<const Scenario> lanes) {
@@ -89,7 +89,7 @@ std::vector<std::unique_ptr<Simulation>> Simulation::rollouts_apart() const {
 }
 
 /// Sets up the estimate if there are motors and the state can be copied. Several runs with an accuracy side by side have no
-/// estimate, because each would need a lane group for itself.
+/// estimate, because each would need a separate lane group.
 void Simulation::make_estimate() {
   const Physics& physics = scenarios_[0].physics;
   const bool wanted = std::ranges::any_of(scenarios_, [](const Scenario& s) { return s.physics.estimate == Estimate::full; });

@@ -1,4 +1,4 @@
-// Faults of motors and hinges in a simulation: the actuator and the plant get those in force.
+// Faults of motors and hinges in a simulation, which are passed to actuators and plant while they are in force.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,8 +25,8 @@ void Simulation::prepare_faults() {
   stuck_for_.assign(hold_.size(), 0.0);
 }
 
-/// Gives actuators and plant the faults in force if these have changed, by a change of the scenario or by a snapshot that was
-/// copied back, or if the hold of a stuck hinge still grows. A lane that has ended has none.
+/// Passes the faults in force to actuators and plant if the faults have changed, by a change of the scenario or by a snapshot
+/// that was written back, or if the hold of a stuck hinge still grows. A lane that has ended has no faults.
 void Simulation::apply_faults() {
   if (faulty_ == nullptr) return;
   constexpr double kFree = std::numeric_limits<double>::quiet_NaN();

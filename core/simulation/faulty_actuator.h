@@ -1,4 +1,4 @@
-// Actuator whose motors may be weak or without a circuit, for every reader of motor laws.
+// Actuator whose motors may be weak or without a closed circuit, for all code that uses motor laws.
 #pragma once
 #include <memory>
 #include <vector>
@@ -9,13 +9,11 @@
 namespace gaitlab {
 
 /// Applies faults to the motors of another actuator:
-///     weak    torque and slope times a share. Current and electrical power are as in the whole motor; the rest of the power is
-///     lost
-///             in the gear.
-///     open    no torque, slope, current and power, and voltage 0.
-/// A motor without a fault has the bits of the actuator's. If the actuator has DC motors, so does this one, with other
-/// constants (weak: Kt and the slope at rest times the share; open: Kt = Ks = 0), so that engines evaluate one law. Only the
-/// constructor allocates.
+///     weak    torque and slope times a share; current and electrical power unchanged; the gear loses the remaining power
+///     open    no torque, slope, current and power, and voltage 0
+/// The results for a motor without a fault have the same bits as from the other actuator. If that actuator has DC motors, this
+/// one has DC motors with other constants (weak: Kt and the slope at rest times the share; open: Kt = Ks = 0), so that engines
+/// evaluate one law. Only the constructor allocates.
 class FaultyActuator final : public Actuator {
  public:
   struct Fault {

@@ -1,4 +1,4 @@
-// Entries of the first lanes of a lane group, in arrays with index joint * lanes + lane.
+// Entries of the first lanes of a lane group, from arrays with index joint * lanes + lane.
 #pragma once
 #include <array>
 #include <vector>
@@ -20,7 +20,7 @@ class FirstLanes {
   [[nodiscard]] bool all() const { return lanes_ == layout_.lanes; }
   In of(In values, Place place) { return all() ? values : In(copy(values, 0, copies_[place])); }
   Out of(Out values, Place place) { return all() ? values : copy(values, 0, copies_[place]); }
-  /// Copies the entries of the same number of lanes, beginning with lane `lane`, into the slot `torque`.
+  /// Copies the entries of as many lanes, from lane `lane` on, into the slot `torque`.
   In from(In values, std::size_t lane) { return copy(values, lane, copies_[torque]); }
 
  private:

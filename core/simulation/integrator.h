@@ -51,7 +51,7 @@ class ExplicitIntegrator {
     for (std::size_t j = 0; j < s.q.size(); ++j) s.qd[j] += h * a.joints[j];
   }
 
-  /// Derivative of an orientation: q' = (0, omega) q / 2. Its coefficients are to be summed; it has no unit length.
+  /// Derivative of an orientation: q' = (0, omega) q / 2. It is not a unit quaternion; its coefficients are to be summed.
   static Quat spin(const Vec3& omega, const Quat& q) { return Quat(0, 0.5 * omega.x(), 0.5 * omega.y(), 0.5 * omega.z()) * q; }
 
   /// s = start_ + h * (velocities of `at`, a). The orientation of `at` need not have unit length, because stages of RK4 do not.

@@ -1,4 +1,4 @@
-// Data of one rollout in a simulation, except arrays over all lanes.
+// Data of one rollout in a simulation, without arrays over all lanes.
 #pragma once
 #include <memory>
 #include <string>
@@ -61,13 +61,13 @@ struct Simulation::Lane {
     controller = changes.controller();
   }
 
-  /// True if a joint may meet a stop in a step h, s, from this state of the plant on.
+  /// True if a joint may meet a stop during a step of h seconds from this state of the plant.
   [[nodiscard]] bool near_stop(const StateLayout& layout, In plant_state, std::size_t lanes, double h) const;
 
   /// See met_stops.cpp.
   bool counts(std::size_t joint, double speed, std::int64_t step);
 
-  /// Writes segment and faults into a sample, whose time is set.
+  /// Writes segment and faults into a sample whose time is already set.
   void read_changes(Sample& to) const {
     if (scenario.changes.empty()) return;
     to.segment = static_cast<double>(changes.segment());
@@ -93,10 +93,10 @@ struct Simulation::Lane {
   Out cpg_state, controller_state, ledger;                                       // parts of Simulation::state_
   double energy_at_start = 0;                                                    // J
   std::vector<double> angle, speed, torque, touching, setpoint, command, limit;  // by joint (touching: by module), for plugins
-  std::vector<double> fastest;                                                   // rad/s, of joints that met their stops
-  std::int64_t meetings = 0;                                                     // whose loads were measured
-  std::vector<double> angle_now;                                                 // scratch: true angles, rad
-  std::vector<double> channels;                                                  // values of sensors, for plugins
+  std::vector<double> fastest;    // rad/s, largest speed at which each joint met a stop
+  std::int64_t meetings = 0;      // meetings with stops whose loads were measured
+  std::vector<double> angle_now;  // scratch: true angles, rad
+  std::vector<double> channels;   // values of sensors, for plugins
   Sample sample;
   CpgIntegrator integrator;
   LaneSensors sensors;

@@ -12,7 +12,7 @@ namespace gaitlab {
 
 namespace {
 
-constexpr std::uint32_t kDraw = 16;  // of lost set points; sensors have the draws below
+constexpr std::uint32_t kDraw = 16;  // draw for lost set points; sensors use lower numbers
 
 }  // namespace
 
@@ -103,7 +103,7 @@ std::vector<std::size_t> stuck_joints(const Scenario& scenario) {
     }
   }
   std::ranges::sort(all);
-  all.erase(std::unique(all.begin(), all.end()), all.end());  // std::ranges::unique is beyond clang 14
+  all.erase(std::unique(all.begin(), all.end()), all.end());  // clang 14 does not support std::ranges::unique
   return all;
 }
 

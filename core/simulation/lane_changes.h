@@ -1,4 +1,4 @@
-// Changes of one lane in time: CPG and controller of each segment, and faults of joints.
+// Changes of one lane over time: CPG and controller of each segment, and faults of joints.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -15,15 +15,15 @@ namespace gaitlab {
 /// Fault of one joint.
 struct FaultInForce {
   FaultKind kind = FaultKind::none;
-  double share = 0;        ///< of a weak motor, or of lost set points
-  std::int64_t delay = 0;  ///< of late set points, in control ticks
+  double share = 0;        ///< share of the torque of a weak motor, or of set points that are lost
+  std::int64_t delay = 0;  ///< delay of late set points, in control ticks
   bool operator==(const FaultInForce&) const = default;
 };
 
 /// CPG, controller and faults of a lane by segment. Segment k begins with the k-th entry of `at`, at the first control tick at
-/// or after its time; segment 0 is the start. All numbers that change are in the array of bind(): the present segment, the
-/// angles of stuck joints and the ticks of their jams, and the set points of the last ticks. Allocates at
-/// construction only.
+/// or after its time; segment 0 is the start. All numbers that change are in the array that bind() sets: the present segment,
+/// the angles of stuck joints and the ticks at which they jammed, and the set points of the last ticks. Only the constructor
+/// allocates.
 class LaneChanges {
  public:
   LaneChanges(const Scenario& scenario, const RobotInfo& robot);
@@ -45,8 +45,8 @@ class LaneChanges {
   /// True if a fault of the scenario changes motors or hinges.
   [[nodiscard]] bool change_joints() const { return change_joints_; }
 
-  /// Replaces the set points of a tick by the set points that reach the controllers. `before` has the set points of the tick
-  /// before, with the index joint * lanes + lane.
+  /// Replaces the set points of a tick by the set points that reach the controllers. `before` contains the set points of the
+  /// previous tick, with the index joint * lanes + lane.
   void lose(std::int64_t tick, In before, std::size_t lane, Out setpoint);
   /// Sets the commands of dead motors to 0.
   void cut(Out command) const;
@@ -64,7 +64,7 @@ class LaneChanges {
   [[nodiscard]] Out ring() const { return numbers_.subspan(1 + (stuck_ ? 2 * joints_ : 0)); }
 
   std::size_t joints_;
-  double period_;  ///< s, of control
+  double period_;  ///< control period, s
   std::vector<Segment> segments_;
   bool stuck_ = false, change_joints_ = false;
   std::int64_t longest_ = 0;                 ///< longest delay of set points, in control ticks; 0 without a ring

@@ -47,7 +47,7 @@ void LaneSensors::sense(std::int64_t tick, const std::vector<ContactElement>& el
     value += sensor->readings().size();
     point += points;
   }
-  // In a second loop, because the true values serve all sensors.
+  // A second loop replaces the values, because all sensors need the true values.
   std::size_t channel = 0;
   for (std::size_t i = 0; i < readings_.size(); ++i) {
     const std::size_t part = readings_[i].part;

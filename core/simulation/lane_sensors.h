@@ -15,7 +15,7 @@ struct MeasuredValues {
   Out angle, speed, torque, touching, channels;
 };
 
-/// The sensors of a scenario. Their states and values are in the array of the simulation. Allocates at construction only.
+/// The sensors of a scenario. Their states and values are in the array of the simulation. Only the constructor allocates.
 class LaneSensors {
  public:
   explicit LaneSensors(const Scenario& scenario);
@@ -23,7 +23,7 @@ class LaneSensors {
   [[nodiscard]] bool empty() const { return sensors_.empty(); }
   [[nodiscard]] bool need_current() const { return need_current_; }
   [[nodiscard]] bool need_motion() const { return !points_.empty(); }
-  /// Number of values that change: states, then readings.
+  /// Number of values that change: first states, then readings.
   [[nodiscard]] std::size_t states() const { return states_ + readings_.size(); }
   void bind(Out numbers);
   /// Number of readings that are entries of Measured::channels.
@@ -54,7 +54,7 @@ class LaneSensors {
   std::vector<double> current_, module_load_, body_load_;
   RobotState state_;
   Kinematics kinematics_;
-  std::vector<BodyMotion> motion_;  ///< by points_
+  std::vector<BodyMotion> motion_;  ///< index as in points_
 };
 
 }  // namespace gaitlab

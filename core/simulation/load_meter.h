@@ -24,10 +24,10 @@ class LoadMeter {
   /// True if the sample needs reactions, which the columns of docks and gears require. With contact.law bullet there are no
   /// such columns, because not all contact forces are known.
   [[nodiscard]] bool want_reactions() const { return !docks_.empty() || !gears_.empty(); }
-  /// Computes a row from the sample. Path lengths are sums since the first row. The loads of docks and gears are the largest of
-  /// the sample and of the calls of watch() since the last row.
+  /// Computes a row from the sample. Path lengths are sums since the first row. The loads of docks and gears are the largest
+  /// ones in this sample and in all calls of watch() since the last row.
   void measure(Out row);
-  /// Keeps the loads of docks and gears of the sample, at a time between control ticks, if they are the largest since the row.
+  /// Called between control ticks. Keeps the loads of docks and gears in the sample that are the largest since the last row.
   void watch();
   /// Removes the columns of feet that never carried a load.
   void drop_idle_feet(Trace& loads) const;
@@ -55,8 +55,8 @@ class LoadMeter {
 
   void add_columns(const Scenario& scenario);
   [[nodiscard]] DockLoad load(const DockFace& dock) const;
-  /// Way of the contact point of an element since the previous tick, m. The material point that touched the ground at the
-  /// previous tick is used, or the present one if none touched then.
+  /// Displacement of the contact point of an element since the previous tick, m. The material point that touched the ground at
+  /// the previous tick is used, or the present one if none touched then.
   [[nodiscard]] Vec3 slide(std::size_t element) const;
   [[nodiscard]] std::size_t foot_width() const;
   void measure(Foot& foot, Out row);
@@ -68,11 +68,11 @@ class LoadMeter {
   double weight_ = 0;       ///< N
   bool stability_ = false;  ///< there is a column of the stability margin
   bool forces_ = false;     ///< there are columns of the feet's forces and points of action
-  double creep_speed_ = 0;  ///< m/s, below which loaded contacts creep; 0 if the contact law has no such speed
+  double creep_speed_ = 0;  ///< m/s; below this speed, loaded contacts creep; 0 if the contact law has no such speed
   std::vector<DockFace> docks_;
   std::vector<std::size_t> gears_;    ///< joints
   std::vector<DockLoad> dock_loads_;  ///< largest loads since the last row, by index of docks_
-  std::vector<double> gear_loads_;    ///< N m, the same of gears_
+  std::vector<double> gear_loads_;    ///< N m, the same for gears_
   bool watched_ = false;              ///< there are loads since the last row
   std::vector<Foot> feet_;
   std::vector<Column> columns_;

@@ -1,4 +1,4 @@
-// Loads of docks where hinges meet their stops, at times within a step.
+// Loads of docks at the times within a step at which hinges meet their stops.
 #include <algorithm>
 #include <cmath>
 
@@ -9,20 +9,20 @@ namespace gaitlab {
 
 namespace {
 
-// A stop acts at once with its damping, and a light hinge is at rest after 0.5 ms.
-constexpr double kMeets = 2e-5;   // s; largest time from the start of a stop to the loads that are measured
+// The damping of a stop acts at once, and a light hinge is at rest after 0.5 ms.
+constexpr double kMeets = 2e-5;   // s; largest time from the contact with a stop to the measurement of the loads
 constexpr double kStride = 5e-4;  // s; a stop that acts for longer is not missed
 constexpr int kMostTries = 20;
-// rad: a joint that is farther from its stops than this and twice its way in the step does not meet them in the step, or it
-// gains 40 rad/s in 5 ms.
+// rad. If the distance of a joint from its stops exceeds this plus twice its way at the present speed, the joint does not meet
+// them in the step, unless it gains 40 rad/s in 5 ms.
 constexpr double kNearStop = 0.1;
-// Joints that rattle between their stops would make a run 20 times as long. The loads at a stop grow with the speed, so that
-// slower meetings than this share of the joint's fastest are left out; and so are those beyond one per joint and one in this
-// many steps.
+// Joints that rattle between their stops would make a run 20 times as long. The loads at a stop grow with the speed. Meetings
+// slower than this share of the joint's fastest meeting are therefore left out. The number of measured meetings is also limited
+// to one per joint plus one in kStepsPerMeeting steps.
 constexpr double kSlower = 0.5;
 constexpr std::int64_t kStepsPerMeeting = 500;
 
-/// Angle beyond a stop, rad, negative within the range, and its rate, rad/s.
+/// Angle by which a joint is beyond a stop, rad, negative within the range, and the rate of this angle, rad/s.
 struct Beyond {
   double angle = 0, speed = 0;
 };
@@ -47,8 +47,8 @@ bool Simulation::Lane::counts(std::size_t joint, double speed, std::int64_t step
   return meetings++ < static_cast<std::int64_t>(fastest.size()) + step / kStepsPerMeeting;
 }
 
-/// Side of a joint's range whose stop it may have met in the last step: 1, -1, or 0. It is then beyond the stop at the end of
-/// the step, or has turned back near it. `from` is the plant's state at the start of the step.
+/// Side of the stop that a joint may have met in the last step: 1, -1, or 0 for none. The joint is then beyond the stop at the
+/// end of the step, or has turned back near it. `from` is the plant's state at the start of the step.
 int Simulation::met_stop(const Lane& lane, std::size_t joint, In from) const {
   const std::size_t at = joint * lanes_.size() + lane.index;
   const double q = from[layout_.angles() + at];
@@ -60,7 +60,7 @@ int Simulation::met_stop(const Lane& lane, std::size_t joint, In from) const {
   for (const int side : {-1, 1}) {
     const double limit = side > 0 ? own.hi : own.lo;
     const double before = side * (q - limit);
-    if (!(before < 0)) continue;  // it was beyond already, or without a stop
+    if (!(before < 0)) continue;  // the joint was beyond the stop already, or has no stop
     const double reach = h_ * std::max(side * v, -side * v_end);
     const bool turns = side * v > 0 && side * v_end < 0 && before + reach > 0;
     if (turns || side * (q_end - limit) > 0) return side;
@@ -68,9 +68,9 @@ int Simulation::met_stop(const Lane& lane, std::size_t joint, In from) const {
   return 0;
 }
 
-/// Measures the loads of docks where a hinge meets its stop within the step that has ended: at the first state beyond the stop.
-/// Separate shorter steps from the start of the step lead there, as to a row within a step. saved_ begins with NaN if no joint
-/// was near a stop at the start of the step.
+/// Measures the loads of docks at the first state beyond a stop that a hinge has met within the last step. Separate shorter
+/// steps from the start of the step lead to this state, as to a row within a step. saved_ begins with NaN if no joint was near
+/// a stop at the start of the step.
 void Simulation::watch_stops() {
   if (std::isnan(saved_[0])) return;
   bool any = false;
@@ -92,8 +92,8 @@ void Simulation::watch_stops() {
   if (any) std::ranges::copy(history, plant_history_.begin());
 }
 
-/// Searches the first time of the joint beyond its stop, by Newton's method along its free motion, and measures the loads
-/// there.
+/// Searches for the first time at which the joint is beyond its stop, by Newton's method along its free motion, and measures
+/// the loads at this time.
 void Simulation::watch_stop(const Lane& lane, std::size_t joint, int side) {
   const std::size_t at = joint * lanes_.size() + lane.index;
   const double limit = side > 0 ? lane.robot.joints[joint].hi : lane.robot.joints[joint].lo;

@@ -94,7 +94,7 @@ void Meter::add(MeterPass pass, const std::array<const double*, kInputs>& inputs
   pass_(pass);
 }
 
-// The largest sum of a stretch that ends now, of +1 for a change of sign and -1 for none (Kadane's algorithm).
+// Largest sum over a stretch that ends now, with +1 for a change of sign and -1 for no change (Kadane's algorithm).
 void Meter::command(double time, std::size_t lane, In command) {
   double* const reversals = at(sums_, &F::reversals);
   double* const from = at(sums_, &F::reversing_from);

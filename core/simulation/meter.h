@@ -1,4 +1,4 @@
-// Sums and peaks of each joint over ALL steps of a run; the trace rows are too sparse for them.
+// Sums and peaks for each joint over ALL steps of a run, because trace rows are too sparse.
 #pragma once
 #include <array>
 #include <utility>
@@ -43,8 +43,8 @@ class Meter {
       recent_current_;
   std::size_t lanes_, entries_;
   void (*pass_)(const MeterPass&);
-  std::vector<double> last_command_;                   ///< the last one that is not 0
-  std::vector<double> current_peak_, current_square_;  ///< of the sum of all motors' |current|: A, A^2 s
+  std::vector<double> last_command_;                   ///< last command other than 0
+  std::vector<double> current_peak_, current_square_;  ///< for the sum of all motors' |current|: A, A^2 s
   std::vector<double> time_;                           ///< simulated time of each lane, s, by which sums are divided
   // Scratch with index joint * lanes + lane: weights in sums and in shares of time (s); seen_ is 1 if the peaks of the part
   // count, else 0.

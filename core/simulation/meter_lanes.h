@@ -1,5 +1,5 @@
 // Pass of core/simulation/meter_pass.h for the vector type `Lanes` of the including file. All operations are elementwise, so
-// that the bits do not depend on the vector width. Compiled functions must not be shared with files for other processor types
+// that the bits do not depend on the vector width. Files for other processor types must not share the compiled functions
 // (tests/gates/kernels.sh).
 #pragma once
 #include "core/recording/motor_limit.h"

@@ -1,4 +1,4 @@
-// Pass that adds one part of a step to the sums and peaks of Meter, with plain arrays for code that is compiled per processor
+// Pass that adds one part of a step to the sums and peaks of Meter, on plain arrays, in code that is compiled per processor
 // type.
 #pragma once
 #include <cstddef>
@@ -7,7 +7,8 @@
 
 namespace gaitlab {
 
-/// Number of doubles in the widest registers. All arrays have a multiple of this length, so that no pass has a remainder.
+/// Number of doubles in the widest registers. The length of all arrays is a multiple of this number, so that no pass has a
+/// remainder.
 inline constexpr std::size_t kMeterBlock = 8;
 
 /// Arrays with `entries` elements, a multiple of kMeterBlock. Meter::add explains their meaning.

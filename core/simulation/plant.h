@@ -39,17 +39,17 @@ struct LaneSettings {
   std::vector<ContactElement> contacts;
   PenaltyContact law;
   double accuracy = 0;                  ///< relative accuracy of the torques, for integrators that choose their steps
-  std::vector<std::size_t> stuck = {};  ///< joints that may be stuck in the run, for the stability at the start
+  std::vector<std::size_t> stuck = {};  ///< joints that may get stuck during the run, for the stability check at the start
 };
 
-/// Settings from which an engine makes a plant. All referenced objects must outlive the plant. The base class has the settings
-/// of lane 0, which is the only lane of some engines.
+/// Settings from which an engine makes a plant. All referenced objects must outlive the plant. The base class contains the
+/// settings of lane 0, the only lane of some engines.
 struct PlantSettings : LaneSettings {
   std::vector<LaneSettings> others;  ///< lanes 1 ..
   Base base = Base::floating;
   const Actuator* actuator = nullptr;        ///< index joint * lanes + lane; nullptr without motors
   std::string integrator;                    ///< name of an integrator of the engine; "" is the default
-  ContactLaw contact = ContactLaw::penalty;  ///< with another law than penalty, `law` is not used
+  ContactLaw contact = ContactLaw::penalty;  ///< for any law except penalty, `law` is not used
   double step = 0;                           ///< longest step of advance(), s
 };
 
@@ -88,14 +88,14 @@ class Plant {
   [[nodiscard]] virtual std::optional<Vec3> com(std::size_t /*lane*/) const { return {}; }
   /// Writes the motion of the ground boxes that have a mass. Entries of other boxes stay unchanged.
   virtual void boxes(std::span<BoxMotion> /*out*/) const {}
-  /// Writes the state of a lane at `eighth` (1 to 7) eighths of the last step into the entries of the lane in `state`, which
-  /// has those of all lanes. Returns false and writes nothing unless the integrator divided the step there.
+  /// Writes the state of a lane at `eighth` (1 to 7) eighths of the last step into the lane's entries in `state`, which has
+  /// entries of all lanes. Returns false and writes nothing unless the integrator divided the step at this time.
   virtual bool state_within(std::size_t /*lane*/, std::size_t /*eighth*/, Out /*state*/) const { return false; }
-  /// Writes all members except the estimate of the torque error.
+  /// Writes all members of `out` except the estimate of the torque error.
   virtual void tally(std::size_t /*lane*/, StepTally& /*out*/) const {}
-  /// Takes the motors of the actuator anew, whose constants have changed, and the stuck hinges: their angles, rad, NaN for a
-  /// hinge that is not stuck, and the time that each has been stuck, s, at most HingeHold::kRamp, after which its hold no
-  /// longer grows. Index joint * lanes + lane. Called between steps. The default refuses this.
+  /// Applies new motor constants of the actuator and new stuck hinges. Called between steps. `hold` contains the angles of
+  /// stuck hinges, rad, and NaN for all others. `since` contains the time that each has been stuck, s, at most
+  /// HingeHold::kRamp, after which the hold no longer grows. Index joint * lanes + lane. By default, throws std::logic_error.
   virtual void change_joints(In /*hold*/, In /*since*/) {
     throw std::logic_error("this engine cannot simulate faults of motors and hinges");
   }

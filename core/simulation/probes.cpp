@@ -18,7 +18,7 @@ namespace gaitlab {
 namespace {
 
 const std::string kReaction = "reaction.";
-constexpr std::size_t kMostPatterns = 1000;  // every pattern is tried on every column; longer lists would take seconds
+constexpr std::size_t kMostPatterns = 1000;  // longer lists would take seconds, because every pattern is tested on every column
 
 }  // namespace
 
@@ -185,7 +185,7 @@ void Probes::add_bodies(const Robot& robot, const Sample& first) {
 
 void Probes::add_boxes(const Ground& ground) {
   for (std::size_t b = 0; b < ground.boxes().size(); ++b) {
-    if (!(ground.boxes()[b].mass > 0)) continue;  // this box stays where the scenario places it
+    if (!(ground.boxes()[b].mass > 0)) continue;  // this box cannot move
     const std::string name = fmt::format("box.{}.", b);
     const std::string of = fmt::format(" of ground.boxes[{}]", b);
     add_vector(name, "m", "middle" + of + ", world axes", [b](const Sample& s) { return s.boxes[b].position; });

@@ -1,4 +1,4 @@
-// Columns of the trace, each with its unit, its definition and the function that reads it from a sample.
+// Columns of the trace, each with unit, definition and a function that reads its value from a sample.
 #pragma once
 #include <functional>
 #include <memory>
@@ -13,9 +13,9 @@ namespace gaitlab {
 
 class Probes {
  public:
-  /// Selects the columns that match the patterns of the scenario, in the order of docs/numbers.md. `sample` must outlive
-  /// this object. It contains the initial state, which fixes the signs of the quaternions of bodies (qw >= 0). Throws
-  /// InputError if a pattern matches no column, or if reactions are wanted with contact.law: bullet.
+  /// Selects the columns that match the patterns of the scenario, in the order of docs/numbers.md. `sample` must outlive this
+  /// object. It must contain the initial state, which fixes the signs of the quaternions of bodies (qw >= 0). Throws InputError
+  /// if a pattern matches no column, or if reactions are wanted with contact.law: bullet.
   Probes(const Scenario& scenario, const std::vector<ContactElement>& contacts, const Cpg* cpg, std::string_view command_unit,
          const Sample& sample);
 

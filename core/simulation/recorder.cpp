@@ -18,7 +18,7 @@ namespace gaitlab {
 
 namespace {
 
-constexpr std::size_t kReleasedRows = 4096;  // rows at a time, some 20 MB for a walking robot with all columns
+constexpr std::size_t kReleasedRows = 4096;  // rows per release, about 20 MB for a walking robot with all columns
 constexpr double kTickRows = 2e-3;           // shortest interval between rows of Recording::ticks, s
 
 /// Error for rows that exceed the memory or the disk. Rows are kept until the end of the run.
@@ -31,7 +31,7 @@ TooManyRows too_many_rows(const Scenario& s, const RowsNeeded& needed, const std
 
 /// Throws InputError if the rows exceed the disk, or the memory of the container (cgroup 2) or of the process (ulimit -v).
 void check_space(const Scenario& s, const RowsNeeded& needed) {
-  constexpr double kLittle = 1e8;  // bytes; not checked, because the query takes longer than a short rollout
+  constexpr double kLittle = 1e8;  // bytes; less is not checked, because the query takes longer than a short rollout
   if (needed.bytes() < kLittle) return;
   const auto check = [&](double bytes, const std::string& whose, const char* of) {
     if (bytes > 0 && needed.bytes() > bytes)
@@ -43,7 +43,7 @@ void check_space(const Scenario& s, const RowsNeeded& needed) {
   if (needed.bytes() > static_cast<double>(kMostInMemory)) {
     std::error_code error;
     const std::filesystem::space_info disk = std::filesystem::space(spill_folder(), error);
-    constexpr double kWithFile = 1 + kFileShare;  // the values, and the file that is made of them
+    constexpr double kWithFile = 1 + kFileShare;  // space for the values and for the file made from them
     if (!error && kWithFile * needed.bytes() > static_cast<double>(disk.available)) {
       throw too_many_rows(s, needed,
                           fmt::format("needs {:.3g} GB in {} (TMPDIR), which has {:.3g} GB", kWithFile * needed.bytes() / 1e9,
@@ -67,7 +67,7 @@ Recorder::Recorder(const Scenario& scenario, const std::vector<ContactElement>& 
     recording.trace.columns = probes_->columns();
     recording.rest.columns = probes_->rest_columns();
   } else {
-    probes_.reset();  // by now Probes has checked trace.columns
+    probes_.reset();  // Probes has checked trace.columns and is not needed any more
   }
   const std::size_t joints = scenario.robot->joints.size();
   recording.ticks.columns = tick_columns(joints);
@@ -169,7 +169,7 @@ void Recorder::add_loads() {
 }
 
 void Recorder::finish(std::int64_t steps, double t, const Outcome& outcome, const Sample& last) {
-  // Loads since the last row of a run that has diverged.
+  // Loads since the last row, for a run that has diverged.
   recording.loads.values.insert(recording.loads.values.end(), since_row_.begin(), since_row_.end());
   if (loads_) loads_->drop_idle_feet(recording.loads);
   recording.steps = steps;

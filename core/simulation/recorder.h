@@ -14,7 +14,7 @@
 
 namespace gaitlab {
 
-/// Rows of a run that exceed the memory or the disk.
+/// Error for a run whose rows exceed the memory or the disk.
 class TooManyRows : public InputError {
  public:
   using InputError::InputError;
@@ -40,11 +40,11 @@ class Recorder {
 
   /// True if Recording::ticks gets a row at the next control tick.
   [[nodiscard]] bool tick_due() const { return recording.control_ticks % ticks_per_row_ == 0; }
-  /// Adds a row to Recording::ticks and returns its numbers after the time, which the caller fills in. Returns nothing if that
-  /// row exists already, or if the rows have just been thinned out and this tick is not due any more. `last` is true when the
+  /// Adds a row to Recording::ticks with the time t, and returns its other numbers, which the caller fills in. Returns nothing
+  /// if the row exists already, or if rows were just thinned out so that this tick is no longer due. `last` is true when the
   /// lane ends.
   std::optional<Out> add_tick(double t, bool last);
-  /// Marks a control tick without a row: its loads count for the next row.
+  /// Marks a control tick without a row. Its loads count for the next row.
   void skip_tick();
   /// Adds a row to Recording::poses: state, set points, centre of mass and contacts of the sample.
   void add_pose(double t, const Sample& sample);
@@ -52,11 +52,11 @@ class Recorder {
   /// True if the loads of this control tick have not been measured yet.
   [[nodiscard]] bool loads_due() const { return loads_due_; }
   void leave_out_loads() { loads_due_ = false; }
-  /// True if the loads of docks or gears are measured, between control ticks, too.
+  /// True if the loads of docks or gears are measured, also between control ticks.
   [[nodiscard]] bool watches_docks() const { return loads_ != nullptr && loads_->want_reactions(); }
-  /// Meter whose sample the caller fills before add_loads() or LoadMeter::watch(). Only if loads_due() or watches_docks().
+  /// Meter whose sample the caller fills before add_loads() or LoadMeter::watch(). Requires loads_due() or watches_docks().
   [[nodiscard]] LoadMeter& loads() { return *loads_; }
-  /// Measures the loads. They are a row of Recording::loads if the tick has a row.
+  /// Measures the loads, and adds them as a row to Recording::loads if the tick has a row.
   void add_loads();
 
   /// Sets the totals of the recording at its end, from the last sample.
@@ -77,7 +77,7 @@ class Recorder {
   bool skipped_ = false;           ///< true if the loads that are due have no row
   std::vector<double> since_row_;  ///< worst loads since the last row; empty if none were measured
   std::vector<double> loads_now_;  ///< scratch: the loads of this tick
-  std::size_t unreleased_ = 0;     ///< rows since release_rows() let their pages leave memory
+  std::size_t unreleased_ = 0;     ///< rows since the last release_rows(), which lets their pages leave memory
 };
 
 }  // namespace gaitlab

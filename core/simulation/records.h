@@ -9,8 +9,8 @@ struct RowsNeeded {
   [[nodiscard]] double bytes() const { return 8 * rows * columns; }
 };
 
-/// Extent of Recording::loads. With `recorded`, it has all columns, which need the accelerations at every control tick. With
-/// `judged`, it has path lengths and slip, and the docks if any dock has rated loads.
+/// Extent of Recording::loads. `recorded` means all columns, which require the accelerations at every control tick. `judged`
+/// means path lengths and slip, and the loads of docks if any dock has rated loads.
 enum class Loads { left_out, judged, recorded };
 
 /// Optional parts of a recording. Ticks, poses and the statistics of all steps are always recorded.

@@ -1,4 +1,4 @@
-// State of one lane at one time, with the quantities computed from it for a recording.
+// State of one lane at one time, with the quantities that a recording derives from it.
 #pragma once
 #include <vector>
 
@@ -36,7 +36,7 @@ struct Sample {
   Sums sums;
   Vec3 gravity = Vec3::Zero();
   std::vector<double> setpoint, command, voltage, current, saturation, torque, stop_torque, passive_torque;
-  std::vector<double> fault, hold;  ///< number of the fault of each joint; its angle if it is stuck, rad, else NaN
+  std::vector<double> fault, hold;  ///< per joint: number of its fault; its angle if it is stuck, rad, else NaN
   std::vector<double> stuck_for;    ///< time that each joint has been stuck, s, as in Plant::change_joints
   double segment = 0;
   std::vector<ContactSample> contacts;

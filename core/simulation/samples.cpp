@@ -76,8 +76,8 @@ void Simulation::record(Lane& lane) {
   recorder.add_row();
 }
 
-/// Records rows and ends within the step that starts now. A separate shorter step leads to each of them, and the state is then
-/// restored, so that results do not depend on the rows.
+/// Records rows and ends of lanes within the step that starts now. A separate shorter step leads to each row or end. The state
+/// is then restored, so that results do not depend on the rows.
 void Simulation::record_within_step() {
   if (!scenarios_[0].physics.adaptive_step) return;
   for (double at = 0;;) {
@@ -129,8 +129,8 @@ void Simulation::record_tick(Lane& lane) {
   lane.recorder->add_pose(time(), s);
 }
 
-/// Records the loads of the `wanted` lanes under the commands that begin now, which change torques at once. For a lane that
-/// ends, the last commands remain in force.
+/// Records the loads of the `wanted` lanes under the commands that begin now, because commands change torques at once. For a
+/// lane that ends, the last commands remain in force.
 void Simulation::record_loads(const std::function<bool(const Lane&)>& wanted) {
   const auto due = [&](const auto& lane) { return lane->recorder != nullptr && lane->recorder->loads_due() && wanted(*lane); };
   if (std::ranges::none_of(lanes_, due)) return;
@@ -169,13 +169,13 @@ void Simulation::fill_loads(Lane& lane) {
 
 namespace {
 
-constexpr double kWatchEvery = 1e-3;  // s; least interval between loads of docks at the ends of steps
+constexpr double kWatchEvery = 1e-3;  // s; least interval between measurements of dock loads at the ends of steps
 
 }  // namespace
 
-/// Measures the loads of docks between control ticks: at the ends of steps at least kWatchEvery apart and, where the integrator
-/// divided a step, at those eighths of the step at which a part ended. An impact divides steps, and can be over at the end of
-/// its step. saved_ has the state at the start of the step.
+/// Measures the loads of docks between control ticks, at the ends of steps that are at least kWatchEvery apart. If the
+/// integrator divided a step, also measures at the eighths at which parts of the step ended, because an impact divides steps
+/// and can be over at the end of its step. saved_ contains the state at the start of the step.
 void Simulation::watch_docks() {
   const auto every = static_cast<std::int64_t>(std::ceil(kWatchEvery / h_ - 1e-9));
   within_ = h_;

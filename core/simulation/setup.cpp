@@ -162,7 +162,8 @@ void Simulation::set_start() {
     const std::string_view unit = actuator_ == nullptr ? "" : actuator_->command_unit();
     lane.recorder = std::make_unique<Recorder>(s, lane.contacts, lane.cpg, unit, sample, records_, rated_gears(lane));
   }
-  // The row at t = 0 is recorded before the first tick; it has the readings of that tick, which then repeats them.
+  // The row at t = 0 is recorded before the first tick, but contains the readings of this tick. The tick then repeats the
+  // readings.
   if (std::ranges::any_of(lanes_, [](const auto& lane) { return !lane->sensors.empty(); })) sense();
 }
 

@@ -13,7 +13,7 @@ namespace gaitlab {
 
 namespace {
 
-// Largest plausible joint speed. A run with a larger speed has diverged, and ends here rather than at the overflow a few steps
+// Largest plausible joint speed. A run with a larger speed has diverged, and is ended before numbers overflow a few steps
 // later.
 constexpr double kLargestSpeed = 1e5;  // rad/s
 
@@ -99,7 +99,7 @@ SimulationError Simulation::stopped(const PluginError& error) const {
           fmt::format("stopped at step {}, t = {:.6g} s: {}", step_number(), time(), error.what())};
 }
 
-/// Runs code of a lane. An exception ends the lane or, if the lane is alone, the run.
+/// Runs code for one lane. An exception ends the lane or, if there is only one lane, the run.
 template <class Work>
 void Simulation::guard(Lane& lane, Work work) try {
   work();
@@ -185,7 +185,7 @@ void Simulation::sense() {
   }
 }
 
-/// Replaces true values of a lane by those of its sensors.
+/// Replaces true values of a lane by values of its sensors.
 void Simulation::sense(Lane& lane) {
   LaneSensors& sensors = lane.sensors;
   for (std::size_t j = 0; sensors.need_current() && j < layout_.joints; ++j) {
@@ -259,7 +259,7 @@ void Simulation::advance(double h, const std::function<bool(const Lane&)>& measu
   const std::size_t lanes = lanes_.size();
   for (std::size_t l = 0; l < recorded_; ++l) measured_[l] = measured(*lanes_[l]) ? 1 : 0;
   for (const StepEffort::Part& of_all : applied.parts) {
-    if (lanes != recorded_ && !(of_all.instant || of_all.sum[0] != 0 || of_all.share[0] > 0)) continue;  // companions only
+    if (lanes != recorded_ && !(of_all.instant || of_all.sum[0] != 0 || of_all.share[0] > 0)) continue;  // of companions only
     evaluate_motors(of_all.speed);
     StepEffort::Part part = of_all;
     part.torque = first_.of(of_all.torque, FirstLanes::torque);

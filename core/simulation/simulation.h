@@ -27,22 +27,22 @@ struct Rotors;
 /// plugin, base, contact law and the structure of the robot: links, motors of joints, and the link of each contact element.
 bool can_share(const Scenario& a, const Scenario& b);
 
-/// True if whole rollouts beside a run estimate its torque error. Such a run needs a lane group for itself.
+/// True if the torque error of a run is estimated from whole rollouts beside it. Such a run needs a separate lane group.
 bool estimated_by_rollouts(const Scenario& s);
 
-/// Simulates one or more scenarios side by side, one per lane, each to its own end. Lanes may differ in everything except what
-/// can_share requires. Each lane has the same bits as when run alone.
+/// Simulates one or more scenarios side by side, one per lane, each to its own end. Lanes may differ in everything that
+/// can_share does not require to be equal. The results of each lane have the same bits as if the lane ran alone.
 ///
-/// The torque error of a single run with an accuracy is estimated in additional lanes, which the caller does not see. Several
-/// runs with an accuracy in one simulation have no such estimate.
+/// The torque error of a single run with an accuracy is estimated in additional lanes, which the caller does not see. If
+/// several runs with an accuracy share a simulation, they have no such estimate.
 ///
 /// The constructor throws std::invalid_argument if the lanes cannot share a simulation or the engine does not offer that number
-/// of lanes. It throws InputError if h lambda > 1 for the standing robot, with the largest step allowed and the joint or
-/// contact that sets it.
+/// of lanes. It throws InputError if h lambda > 1 for the standing robot. The message contains the largest allowed step and the
+/// joint or contact that limits it.
 ///
-/// In general step() does not allocate. It allocates at control ticks if loads are recorded, and for robots with hundreds of
-/// joints when a step is divided further than any before. If a lane that is alone diverges or its plugin throws, step() throws
-/// SimulationError. With several lanes, only that lane ends, with its outcome().
+/// step() allocates only at control ticks if loads are recorded, and for robots with hundreds of joints when a step is divided
+/// further than any step before. If a lane diverges or its plugin throws, only this lane ends, with its outcome(). If there is
+/// only one lane, step() throws SimulationError instead.
 class Simulation {
  public:
   explicit Simulation(std::span<const Scenario> lanes, Records records = {});
@@ -54,14 +54,14 @@ class Simulation {
   [[nodiscard]] bool done() const;  ///< true if every lane has ended
   [[nodiscard]] const Outcome& outcome(std::size_t lane) const;
   /// Sets a function that is called for each running lane once every simulated second. Only rows, ticks, joint statistics and
-  /// time of the recording are then filled. The function returns "" to continue, or a reason to end the lane. The calls for a
-  /// lane do not depend on the other lanes.
+  /// time of the recording are then filled. The function returns "" to continue, or the reason for ending the lane. The calls
+  /// for a lane do not depend on other lanes.
   void watch(std::function<std::string(std::size_t lane, const Recording& so_far)> watch) { watch_ = std::move(watch); }
   /// Steps to the end and calls `progress(share of the steps)` about 200 times. Returns false if `stop` was set before the end.
   bool run(const std::function<void(double)>& progress = {}, const std::atomic<bool>* stop = nullptr);
 
   /// All numbers that change: step counter, plant, present set points and commands, states of plugins, sums of the ledger. A
-  /// copy is a snapshot without the recording. If it is copied back, the run continues from there and continues to record.
+  /// copy is a snapshot without the recording. If the copy is written back, the run and its recording continue from there.
   /// Throws InputError if ContactModel::complete_state is false for the contact law.
   Out state();
   [[nodiscard]] std::int64_t step_number() const { return static_cast<std::int64_t>(state_[0]); }
@@ -75,7 +75,7 @@ class Simulation {
 
  private:
   struct Lane;
-  enum class Role { run, companion };  ///< a companion records nothing, has no estimate, and throws nothing in a step
+  enum class Role { run, companion };  ///< a companion records nothing, has no estimate, and step() throws nothing
   Simulation(std::span<const Scenario> lanes, Records records, Role role);
 
   static std::vector<Scenario> side_by_side(std::span<const Scenario> lanes, Role role);
@@ -140,26 +140,26 @@ class Simulation {
   [[nodiscard]] SimulationError diverged(const Lane& lane) const;
 
   std::vector<Scenario> scenarios_;  ///< one per lane
-  std::size_t recorded_;             ///< number of lanes that are runs; the lanes after them are companions of lane 0
+  std::size_t recorded_;             ///< number of lanes that are runs; all further lanes are companions of lane 0
   Records records_;
   Role role_;
   double h_;
   std::int64_t steps_ = 0;  ///< number of steps of the longest lane
   std::unique_ptr<Actuator> actuator_;
-  /// The actuators with their faults; nullptr if no fault of the scenarios changes motors or hinges.
+  /// Actuators with faults applied; nullptr if no fault of the scenarios changes motors or hinges.
   FaultyActuator *faulty_ = nullptr, *own_faulty_ = nullptr;
   std::vector<double> hold_;       ///< angles of stuck hinges of plant_, rad; NaN for others; empty like faulty_
-  std::vector<double> stuck_for_;  ///< time that these have been stuck, s, as in Plant::change_joints
+  std::vector<double> stuck_for_;  ///< time that these hinges have been stuck, s, as in Plant::change_joints
   std::unique_ptr<Plant> plant_;
   std::vector<std::unique_ptr<Lane>> lanes_;
   StateLayout layout_;
-  std::unique_ptr<Actuator> own_actuator_;          ///< actuator of the recorded lanes alone; nullptr if all lanes are recorded
-  std::vector<double> numbers_;                     ///< all changing numbers, including apart_; empty in a separate companion
-  Out state_;                                       ///< numbers_; in a separate companion a part of the numbers_ of the run
-  Out own_;                                         ///< state_ without the numbers of apart_ and step_error_
-  std::vector<std::unique_ptr<Simulation>> apart_;  ///< companions that are separate simulations, not lanes of this one
-  TwinWindows how_;                                 ///< times at which the twin runs beside this simulation
-  std::unique_ptr<StepError> step_error_;           ///< nullptr without an estimate
+  std::unique_ptr<Actuator> own_actuator_;  ///< actuator of the recorded lanes alone; nullptr if all lanes are recorded
+  std::vector<double> numbers_;             ///< all changing numbers, including apart_; empty in a separate companion
+  Out state_;                               ///< view of numbers_; in a separate companion, of a part of the run's numbers_
+  Out own_;                                 ///< state_ without the numbers of apart_ and step_error_
+  std::vector<std::unique_ptr<Simulation>> apart_;        ///< companions that are separate simulations, not lanes of this one
+  TwinWindows how_;                                       ///< times at which the twin runs beside this simulation
+  std::unique_ptr<StepError> step_error_;                 ///< nullptr without an estimate
   Out plant_state_, plant_history_, setpoint_, command_;  ///< parts of state_; the last two by joint * lanes + lane
   std::vector<double> voltage_, current_, saturation_, power_in_, copper_, gear_, torque_, slope_, available_,
       largest_;                               ///< scratch by joint * lanes + lane; largest_ has the recorded lanes only

@@ -1,4 +1,4 @@
-// Error of a run that fails.
+// Error that ends a run.
 #pragma once
 #include <cstdint>
 #include <string>

@@ -24,8 +24,7 @@ void static_contact_slopes(const LaneSettings& s, const Kinematics& k, std::vect
   }
   if (out.empty()) return;
   const double load = s.robot->mass * s.gravity.norm() / static_cast<double>(out.size());
-  const double sink =
-      load / s.law.kn;  // exact for k = 1, an estimate for other exponents; the rate is monitored from the first tick
+  const double sink = load / s.law.kn;  // exact for k = 1, else an estimate, because the rate is monitored from the first tick
   for (ContactSlope& contact : out) {
     const double friction = contact.tangential;
     contact.along_normal = s.law(sink, 0.0, 0.0, friction).normal_slope;
@@ -53,7 +52,7 @@ void RateMonitor::stop_at(const Robot& robot, const RobotState& state, double st
   }
 }
 
-/// At rest (standing), dry friction has its largest slope.
+/// At rest (`standing`), dry friction has its largest slope.
 void RateMonitor::hinge_at(const Robot& robot, const RobotState& state, bool standing, double step) {
   for (std::size_t j = 0; j < hinge.size(); ++j) {
     if (robot.joints[j].driven()) continue;

@@ -44,10 +44,10 @@ class RateMonitor {
  public:
   explicit RateMonitor(const Robot& robot);
 
-  /// Inputs of largest(), which the caller fills. The constructor sets one 0 per joint, and no contacts.
+  /// Inputs of largest(), which the caller fills. The constructor sets one 0 or NaN per joint, and no contacts.
   std::vector<double> motor, stop;     ///< damping slopes, N m s/rad
   std::vector<double> hinge;           ///< damping slopes of passive hinges plus stiffness times step, N m s/rad
-  std::vector<double> hold;            ///< angles of stuck hinges, rad; NaN for the others, as after the constructor
+  std::vector<double> hold;            ///< angles of stuck hinges, rad; NaN for other hinges
   std::vector<ContactSlope> contacts;  ///< the caller reserves the capacity
 
   /// Rate that limits the step. The caller has filled `motor`. For a standing robot these are the slopes at rest, because

@@ -8,13 +8,13 @@ namespace gaitlab {
 namespace {
 
 constexpr double kTouches = 1e-12;  // m
-constexpr int kMostDrops = 1000;    // drops by the gap, which closes slowly past an almost vertical edge
+constexpr int kMostDrops = 1000;    // each drop is as long as the gap, which closes slowly beside an almost vertical edge
 
 /// Distance by which the robot can sink before its lowest element touches the ground. Negative if the robot has to rise.
 double height_above(const Scenario& s, const Kinematics& k, const std::vector<ContactElement>& elements) {
   const double lowest = lowest_point(*s.robot, k, elements);
   if (s.ground.is_plane() || elements.empty()) return lowest;
-  // The robot starts above everything, so that it is placed on a box and not beneath one.
+  // The robot starts above all solids, so that it comes to rest on a box and not beneath one.
   double sunk = lowest - s.ground.highest();
   for (int drop = 0; drop < kMostDrops; ++drop) {
     double gap = std::numeric_limits<double>::infinity();

@@ -10,11 +10,12 @@ namespace gaitlab {
 namespace {
 
 // Largest ratio that counts as zero: inertia of a joint with the joints beyond it free, over its inertia with these joints
-// locked. Rounding errors of the ratio are 1e-16 times the sizes along the chain.
+// locked. Rounding errors of the ratio are 1e-16 times the ratios of sizes along the chain.
 constexpr double kNothing = 1e-12;
 // Share of the locked inertia of a joint that its parent receives. With 1, a long chain would count as one rod, whose inertia
-// grows with the third power of its length. In comparison the free inertia of a joint would seem to be zero (in a chain of 7000
-// modules). With 0.5, distant links count little, and two joints in line with other joints between them are still found.
+// grows with the third power of its length. Compared with this inertia, the free inertia of a joint would seem to be zero (in a
+// chain of 7000 modules). With 0.5, distant links count little, and two joints in line are still found if other joints are
+// between them.
 constexpr double kHold = 0.5;
 
 using Spatial = Eigen::Matrix<double, 6, 6>;
@@ -56,7 +57,7 @@ void check_inertia(const Scenario& scenario, const Kinematics& k, In rotors, std
   const Robot& robot = *scenario.robot;
   std::vector<Spatial> free(robot.links.size());  // inertias with all outer joints free
   for (std::size_t i = 0; i < free.size(); ++i) free[i] = inertia_of(robot.links[i], k.R[i]);
-  std::vector<Spatial> held = free;                    // inertias with the outer joints locked, mainly the nearest
+  std::vector<Spatial> held = free;                    // inertias with the outer joints locked, of which the nearest count most
   for (std::size_t i = free.size() - 1; i > 0; --i) {  // a parent comes before its children
     const Link& link = robot.links[i];
     const auto joint = static_cast<std::size_t>(link.joint);

@@ -8,7 +8,7 @@ namespace gaitlab {
 
 struct RobotState;
 
-inline constexpr std::size_t kEighths = 8;  ///< equal parts of a step; Plant::state_within has states between them
+inline constexpr std::size_t kEighths = 8;  ///< equal parts of a step; Plant::state_within gives the states between them
 
 /// Indices of the numbers of the state of a rollout. Entry e of lane l has the index e * lanes + l. SI units, world axes.
 struct StateLayout {
@@ -43,7 +43,7 @@ struct StepEffort {
   In hinges;                    ///< per lane, J: work absorbed by dampers and friction of passive hinges
 };
 
-/// StepEffort of a plant with one lane whose steps have one part.
+/// StepEffort for a plant with one lane whose steps have one part.
 class OnePart {
  public:
   void set(In torque, In speed, In angle, double h) {

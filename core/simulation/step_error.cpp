@@ -66,7 +66,7 @@ void StepError::look_for_event(const Difference& apart, std::size_t i, double di
   apart.event_time[i] = apart.largest_time[i];
 }
 
-/// RMS since the start of factor times difference of a joint, N m. 0 before the first comparison.
+/// RMS, since the start, of factor times torque difference of a joint, N m. 0 before the first comparison.
 double StepError::rms(Companion which, std::size_t joint, std::size_t lane) const {
   const Difference& apart = of(which);
   return apart.count[0] > 0 ? std::sqrt(apart.squares[joint * layout_.lanes + lane] / apart.count[0]) : 0;

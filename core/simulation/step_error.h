@@ -10,7 +10,7 @@
 namespace gaitlab {
 
 /// Times, in steps of the run, at which a twin runs and is compared with the run. A twin is a second rollout with another fixed
-/// step. It restarts from the numbers of the run at every window, and continues with a separate CPG, controller and commands.
+/// step. At every window, it restarts from the numbers of the run and continues with a separate CPG, controller and commands.
 struct TwinWindows {
   int steps = 0;      ///< 2: one step of the twin for two of the run; -2: two for one; 0: the whole run, without windows
   double factor = 0;  ///< error of the run over the difference to the twin
@@ -25,7 +25,7 @@ struct TwinWindows {
   [[nodiscard]] bool compares(std::int64_t step) const { return runs(step) && (at(step) >= settle || step < cycle); }
 };
 
-/// Companions of a run: rollouts with which the run is compared. The first kCompanions of them are simulated.
+/// Companions of a run: rollouts with which the run is compared. Only the first kCompanions are simulated.
 enum class Companion {
   twin,     ///< finer steps; with a fixed step, steps of another length
   coarse,   ///< coarser steps, for errors that run and twin have in common
@@ -39,20 +39,21 @@ constexpr std::size_t kCompanions = 3, kDifferences = 4;
 ///     error = factor RMS(T_1 - T_2)
 /// With an accuracy, the larger error of two companions counts. They have kFiner and kCoarser times the accuracy of the run,
 /// and the factors kOfFiner and kOfCoarser, which were fitted on randomly drawn scenarios by tests/tools/estimate.py. With a
-/// fixed step and an integrator of order p (Richardson), the factor is kSafety / (2^p - 1) if the step of the twin is twice as
-/// long, and 2^p times that if it is half as long. The first kGrowth of a window, in which the difference grows, does not count
-/// except at the start of the run. Impacts outside of all windows are missed. Motors whose torques agree and do not depend on
-/// speed have no estimate. All changing numbers are in the array of bind(); only the constructor allocates.
+/// fixed step and an integrator of order p (Richardson), the factor is kSafety / (2^p - 1) if the twin's step is twice as long,
+/// and 2^p times this value if the twin's step is half as long. The first kGrowth seconds of a window, in which the difference
+/// grows, do not count, except at the start of the run. Impacts outside of all windows are missed. Motors whose torques agree
+/// and do not depend on speed have no estimate. All changing numbers are in the array of bind(); only the constructor
+/// allocates.
 class StepError {
  public:
   static constexpr double kApart = 5e-3;    ///< longest interval between comparisons, s
   static constexpr double kGrowth = 15e-3;  ///< s, rounded up to control periods; not compared at the start of a window
   static constexpr double kFiner = 0.5, kCoarser = 3;  ///< accuracy of twin and coarse companion over accuracy of the run
   static constexpr double kOfFiner = 2.26, kOfCoarser = 0.58;  ///< error of the run over its difference to them
-  static constexpr double kSafety = 1.25;                      ///< because events lower the order, and windows miss some events
+  static constexpr double kSafety = 1.25;    ///< reserve because events lower the order, and windows miss some events
   static constexpr double kStart = 1.0 / 3;  ///< weight of the first window; other windows have the weight 1 of a whole cycle
   static constexpr double kChaotic = 1e-9, kIll = 1e-6;  ///< relative changes of gravity of these companions
-  static constexpr double kLeastPeak = 0.02;  ///< share of the largest peak of all joints, to which smaller peaks are raised
+  static constexpr double kLeastPeak = 0.02;  ///< lower bound of a joint's peak, as a share of the largest peak of all joints
 
   /// `accuracy` is, per lane, the share of the peak torque by which two rollouts must differ for an event.
   StepError(const StateLayout& layout, std::vector<double> accuracy);
@@ -65,14 +66,15 @@ class StepError {
   void see(In torque, In slope);
   /// Compares the torques of a companion with the torques of the last see(), t seconds after the start.
   void compare(Companion which, In torque, double factor, double weight, double t);
-  /// Writes the estimate of a lane so far. The peaks are the largest torques in see(). The first milliseconds, in which a motor
-  /// may jump to its limit, do not count.
+  /// Writes the estimate of a lane so far. The peaks are the largest torques passed to see(), except in the first milliseconds,
+  /// in which a motor may jump to its limit.
   void put(std::size_t lane, StepTally& tally) const;
 
  private:
   /// Sums and events with index joint * lanes + lane, and `count`, the weight of all comparisons. An event is a difference
-  /// above the accuracy times the peak of the whole run, which is known only at the end. The first difference above accuracy
-  /// times the peak so far is kept as long as it stays above, and is then replaced by the largest difference so far.
+  /// above the accuracy times the peak of the whole run. This peak is known only at the end. The first difference above the
+  /// accuracy times the peak so far is therefore kept until the peak has outgrown it, and is then replaced by the largest
+  /// difference so far.
   struct Difference {
     Out count, squares, event_time, event, largest_time, largest;  ///< times in s, differences in N m
   };
@@ -90,7 +92,7 @@ class StepError {
   std::vector<Difference> apart_;
   Out sloped_;                  ///< per lane: 1 if a motor's torque depends on its speed, or twin and run differed
   Out peaks_;                   ///< joint * lanes + lane: largest torque so far, N m
-  std::vector<double> torque_;  ///< scratch: torques that see() took
+  std::vector<double> torque_;  ///< scratch: torques of the last see()
 };
 
 }  // namespace gaitlab

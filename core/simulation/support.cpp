@@ -30,7 +30,8 @@ std::vector<SupportElement> support_elements(std::vector<SupportElement> element
   std::stable_sort(elements.begin(), elements.end(),
                    [](const SupportElement& a, const SupportElement& b) { return a.gap < b.gap; });
   if (elements.empty()) return elements;
-  // Least number of elements that holds, by bisection: a further element only divides a gap between directions.
+  // Least number of elements that hold the robot. Bisection is possible because a further element only divides a gap between
+  // directions.
   std::size_t count = 1;
   for (std::size_t end = elements.size(); count < end;) {
     const std::size_t middle = (count + end) / 2;

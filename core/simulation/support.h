@@ -14,9 +14,9 @@ struct SupportElement {
   Vec3 point = Vec3::Zero();
 };
 
-/// Elements that carry the robot, sorted by height, then element. They are the lowest elements whose support polygon (convex
-/// hull seen from above) contains the centre of mass, and all elements up to 1 mm higher. If no polygon contains the centre of
-/// mass, they are the elements within 1 mm of the lowest.
+/// Elements that carry the robot, sorted by height, then element. They are the fewest lowest elements whose support polygon
+/// (convex hull seen from above) contains the centre of mass, and all elements up to 1 mm higher. If no polygon contains the
+/// centre of mass, they are the elements within 1 mm of the lowest.
 std::vector<SupportElement> support_elements(std::vector<SupportElement> elements, const Vec3& com);
 
 /// Distance of `com` from the edge of the support polygon (the convex hull of the points), seen from above, m. It is positive
