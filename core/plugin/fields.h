@@ -170,8 +170,11 @@ using Value = std::variant<Number, NumberOr, Integer, Flag, Text, File, OneOf, E
 
 using field::Among;
 
-/// Meaning of an absent key: the initial value is the default, there is no value, or it is an error. Of the keys one_of of a
-/// struct, exactly one is given; the reader leaves this to the caller.
+/// Meaning of an absent key.
+/// - preset: the initial value is the default.
+/// - optional: the initial value is none that a file states, such as 0 for an unknown load.
+/// - one_of: exactly one of the keys of a struct with this mark is given. The reader leaves the check to the caller.
+/// - required: an error.
 enum class Need { preset, optional, one_of, required };
 
 struct Field {

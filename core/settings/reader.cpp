@@ -297,12 +297,11 @@ void Reader::visit(const Field& field) {
   if (node == nullptr && field.need == Need::required && !tolerant_) missing(field.key);
   need_ = field.need;
   or_word_ = field.word == nullptr ? "" : std::string(", or ") + field.word;
-  if (field.word != nullptr && node != nullptr && node->kind == Node::Kind::scalar && node->text == field.word) {
-    take(field.key);
-    *field.is_word = true;
-  } else {
-    std::visit([&](const auto& value) { on(field.key, value); }, field.value);
+  if (field.word != nullptr && node != nullptr) {
+    *field.is_word = node->kind == Node::Kind::scalar && node->text == field.word;
+    if (*field.is_word) return static_cast<void>(take(field.key));
   }
+  std::visit([&](const auto& value) { on(field.key, value); }, field.value);
 }
 
 void Reader::problem_at(const char* key, std::string_view name, std::size_t offset, std::string_view what) {
