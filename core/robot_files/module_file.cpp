@@ -160,9 +160,9 @@ class ModuleReader {
     const auto shaped = [](const BodyType& body) { return !body.shapes.empty(); };
     const bool without = bodies_are_sound_ && std::none_of(type_.bodies.begin(), type_.bodies.end(), shaped);
     for (const auto& [key, of_shapes] : {std::pair("feet", keys.feet_of_shapes), std::pair("all", keys.all_of_shapes)}) {
-      if (without && of_shapes)
-        problems_.add(node.find(key)->place,
-                      fmt::format("{} is shapes, but no body has a shape; expected a list of maps", key));
+      if (!without || !of_shapes) continue;
+      const SourceLocation& place = node.find(key)->place;
+      problems_.add(place, fmt::format("{} is shapes, but no body has a shape; expected a list of maps", key));
     }
     feet_of_shapes_ = keys.feet_of_shapes;
     all_of_shapes_ = keys.all_of_shapes;

@@ -25,7 +25,7 @@ void Reader::read_each(const Node& node, const std::string& key, const Spec& spe
 
 void Reader::on(const char* key, const field::Vector& field) {
   const std::string expected = "a list of " + counted(field.value.size(), "number") + in_unit(field.spec);
-  if (const Node* map = map_->find(key); map != nullptr && map->kind == Node::Kind::map) {
+  if (const Node* map = map_->find(key); map != nullptr && map->kind == Node::Kind::map && or_word_.empty()) {
     static_cast<void>(take(key));
     return read_entries(*map, key, field, expected);
   }
