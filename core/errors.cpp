@@ -137,6 +137,12 @@ void say(const std::string& name, const char* kind, const std::string& text) {
   say(one_line(name) + ": " + kind + ": " + text + "\n");
 }
 
+void Problems::order(std::size_t first) {
+  std::stable_sort(list_.begin() + static_cast<std::ptrdiff_t>(first), list_.end(), [](const Problem& a, const Problem& b) {
+    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+  });
+}
+
 void Problems::raise() const {
   if (!list_.empty()) throw InputError(list_);
 }

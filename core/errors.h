@@ -36,6 +36,8 @@ class Problems {
   Problem& add(SourceLocation place, std::string text) { return add(Problem{std::move(place), std::move(text)}); }
   /// Replaces a problem by another one.
   void replace(std::size_t number, Problem problem) { list_[number] = std::move(problem); }
+  /// Orders the problems from number `first` on by their places in the file.
+  void order(std::size_t first);
   [[nodiscard]] bool empty() const { return list_.empty(); }
   [[nodiscard]] std::size_t size() const { return list_.size(); }
   [[nodiscard]] const std::vector<Problem>& list() const { return list_; }

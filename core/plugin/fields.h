@@ -107,6 +107,7 @@ struct Vector {
 struct Numbers {
   std::vector<double>& value;
   Spec spec;
+  bool whole = false;  ///< true for at least one number, all of them whole; the reader leaves this to the caller
 };
 /// A list of rows. Each row is a list with as many numbers as the first row.
 struct Rows {
@@ -137,12 +138,14 @@ struct Map {
   std::vector<Named>& value;
   NamedValues kind;
 };
-/// A list of structs that each have `void fields(Fields&)`.
+/// A list of structs that each have `void fields(Fields&)`, or a map of such structs by name.
 struct List {
   void* self;
   void (*resize)(void* self, std::size_t size);
   std::size_t (*size)(void* self);
   void (*visit)(void* self, std::size_t index, Fields& fields);
+  std::string& (*name)(void* self, std::size_t index) = nullptr;  ///< null for a list
+  const char* example = "";                                       ///< a struct of the map, for messages: `{mass: ...}`
 };
 /// One of `names` (the list is then empty), or a list of structs (`rule` is then empty).
 struct RuleOrList {
@@ -155,16 +158,32 @@ struct Group {
   void* self;
   void (*visit)(void* self, Fields& fields);
 };
+/// A value that other code reads, and that the resolved scenario omits.
+struct Other {
+  const char* form;         ///< for the manual: `list of pairs`
+  const char* schema;       ///< JSON Schema
+  const char* preset = "";  ///< default as JSON
+};
 using Value = std::variant<Number, NumberOr, Integer, Flag, Text, File, OneOf, EachJoint, Joint, Vector, Numbers, Rows, Texts,
-                           Names, Periods, Map, List, RuleOrList, Group>;
+                           Names, Periods, Map, List, RuleOrList, Group, Other>;
 }  // namespace field
 
 using field::Among;
+
+/// Meaning of an absent key.
+/// - preset: the initial value is the default.
+/// - optional: the initial value is none that a file states, such as 0 for an unknown load.
+/// - one_of: exactly one of the keys of a struct with this mark is given. The reader leaves the check to the caller.
+/// - required: an error.
+enum class Need { preset, optional, one_of, required };
 
 struct Field {
   const char* key;
   const char* about;  ///< one sentence
   field::Value value;
+  Need need = Need::preset;
+  const char* word = nullptr;  ///< word that may be given instead of a value
+  bool* is_word = nullptr;     ///< set to true for the word
 };
 
 /// Visitor of the fields of a Settings struct, in order. A Settings struct is default-constructible, its initial values are the
@@ -225,6 +244,9 @@ class Fields {
   void numbers(const char* key, std::vector<double>& value, Spec spec) {
     visit({key, spec.about, field::Numbers{value, spec}});
   }
+  void integers(const char* key, std::vector<double>& value, Spec spec) {
+    visit({key, spec.about, field::Numbers{value, spec, true}});
+  }
   void rows(const char* key, std::vector<std::vector<double>>& value, Spec spec) {
     visit({key, spec.about, field::Rows{value, spec}});
   }
@@ -251,6 +273,14 @@ class Fields {
   void list(const char* key, std::vector<T>& value, const char* about) {
     visit({key, about, list_of(value)});
   }
+  /// Field of a map of structs, each with its key as `name`.
+  template <class T>
+  void by_name(const char* key, std::vector<T>& value, const char* example, const char* about) {
+    field::List list = list_of(value);
+    list.name = [](void* p, std::size_t i) -> std::string& { return (*static_cast<std::vector<T>*>(p))[i].name; };
+    list.example = example;
+    visit({key, about, list});
+  }
   /// Field of a rule or a list. The list applies if `rule` has no value.
   template <class Enum, class T>
   void rule_or_list(const char* key, std::optional<Enum>& rule, std::span<const char* const> names, std::vector<T>& value,
@@ -263,6 +293,7 @@ class Fields {
   void group(const char* key, T& value, const char* about) {
     visit({key, about, field::Group{&value, [](void* self, Fields& f) { static_cast<T*>(self)->fields(f); }}});
   }
+  void other(const char* key, field::Other value, const char* about) { visit({key, about, value}); }
 
  protected:
   ~Fields() = default;
@@ -278,6 +309,23 @@ class Fields {
             [](void* p) { return static_cast<std::vector<T>*>(p)->size(); },
             [](void* p, std::size_t i, Fields& f) { (*static_cast<std::vector<T>*>(p))[i].fields(f); }};
   }
+};
+
+/// Declaration of a field that may have no default, or a word instead of a value: `Marked(f, Need::required).text(...)`.
+class Marked final : public Fields {
+ public:
+  Marked(Fields& fields, Need need, const char* word = nullptr, bool* is_word = nullptr)
+      : fields_(fields), need_(need), word_(word), is_word_(is_word) {}
+  void visit(const Field& field) override { fields_.visit({field.key, field.about, field.value, need_, word_, is_word_}); }
+  void problem_at(const char* key, std::string_view name, std::size_t offset, std::string_view what) override {
+    fields_.problem_at(key, name, offset, what);
+  }
+
+ private:
+  Fields& fields_;
+  Need need_;
+  const char* word_;
+  bool* is_word_;
 };
 
 }  // namespace gaitlab

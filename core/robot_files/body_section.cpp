@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/model/solid.h"
-#include "core/robot_files/key_reader.h"
+#include "core/settings/reader.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab {
@@ -17,27 +17,21 @@ Mat3 inertia_matrix(const std::array<double, 6>& inertia) {
   return (Mat3() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
 }
 
-void read_shape(const Node& node, BodyType& body, Problems& problems) {
-  KeyReader reader(node, kShapeMap, "shape", problems);
-  Shape shape;
-  shape.in_body = reader.frame();
+constexpr const char* kShapeKinds[] = {"box", "cylinder", "half_cylinder", "sphere"};  // in the order of Shape::Kind
+
+/// Adds a shape to the body.
+void add_shape(const Node& node, ShapeKeys shape, BodyType& body, Problems& problems) {
   std::size_t kinds = 0;
-  for (std::size_t k = 0; k < kShapeMap.one_of.size(); ++k) {  // in the order of Shape::Kind
-    const char* kind = kShapeMap.one_of[k];
-    if (!reader.has(kind)) continue;
+  for (std::size_t k = 0; k < std::size(kShapeKinds); ++k) {
+    if (node.find(kShapeKinds[k]) == nullptr) continue;
     ++kinds;
     shape.kind = static_cast<Shape::Kind>(k);
-    if (kShapeMap.at(kind).form == ModuleForm::number) {
-      reader.number(kind, shape.size.x());
-    } else {
-      reader.vector(kind, span_of(shape.size));
-    }
   }
   if (kinds != 1 && node.kind == Node::Kind::map) {
     problems.add(node.place, fmt::format("the shape has {} of box, cylinder, half_cylinder and sphere; expected one", kinds));
   }
-  body.shapes.push_back(shape);
-  reader.finish();
+  shape.in_body = {rpy(shape.turn), shape.origin};
+  body.shapes.emplace_back(shape);
 }
 
 /// Reason why the inertia of a body with mass cannot follow from its shapes; empty if it can.
@@ -63,27 +57,23 @@ void inertia_of_shapes(BodyType& body, bool with_com, const SourceLocation& plac
 
 }  // namespace
 
-void read_body(const Node& node, const SourceLocation& place, BodyType& body, Problems& problems) {
+bool complete_body(const Node& node, const SourceLocation& place, BodyKeys& body, Problems& problems) {
   const std::size_t before = problems.size();
-  KeyReader reader(node, kBodyMap, in_quotes(body.name), problems);
-  std::array<double, 6> inertia = {};
-  reader.number("mass", body.mass);
-  reader.vector("com", span_of(body.com));
-  reader.vector("inertia", inertia);
-  body.inertia = inertia_matrix(inertia);
-  if (const Node* shapes = reader.take("shape")) {
-    if (shapes->kind != Node::Kind::list)
-      problems.add(shapes->place, fmt::format("shape is {}; expected a list of maps", found(*shapes)));
-    for (const Node& item : shapes->kind == Node::Kind::list ? shapes->items : std::vector<Node>())
-      read_shape(item, body, problems);
-  }
+  Problems faults;  // of the keys, which are read again only to find out whether there are faults
+  Reader reader(node, "", faults, nullptr);
+  body.fields(reader);
   reader.finish();
-  if (problems.size() != before || !(body.mass > 0) || reader.has("inertia")) return;
+  for (std::size_t i = 0; i < body.outline.size(); ++i)
+    add_shape(node.find("shape")->items[i], body.outline[i], body, problems);
+  body.inertia = inertia_matrix(body.tensor);
+  const bool sound = faults.empty() && problems.size() == before;
+  if (!sound || !(body.mass > 0) || node.find("inertia") != nullptr) return sound;
   if (const std::string why = no_inertia(body); !why.empty()) {
     problems.add(place, why);
   } else {
-    inertia_of_shapes(body, !reader.has("com"), place, problems);
+    inertia_of_shapes(body, node.find("com") == nullptr, place, problems);
   }
+  return problems.size() == before;
 }
 
 }  // namespace gaitlab

@@ -1,12 +1,13 @@
-// Reader of one body in a module type.
+// Bodies of a module type, from the keys that were read.
 #pragma once
-#include "core/model/module_type.h"
+#include "core/robot_files/module_keys.h"
 #include "core/settings/node.h"
 
 namespace gaitlab {
 
-/// Reads the keys of `body`, whose name is set. A missing inertia is computed from the body's shapes at uniform density; a
-/// missing centre of mass is then the centre of the shapes. `place` is the place of the name.
-void read_body(const Node& node, const SourceLocation& place, BodyType& body, Problems& problems);
+/// Checks the keys of a body and fills in its shapes and its inertia. A missing inertia is that of the body's shapes at uniform
+/// density, and a missing centre of mass then is their centre. `place` is that of the name.
+/// Returns true if the body has no fault.
+bool complete_body(const Node& node, const SourceLocation& place, BodyKeys& body, Problems& problems);
 
 }  // namespace gaitlab

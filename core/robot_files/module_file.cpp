@@ -4,39 +4,40 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "core/files/file_kind.h"
 #include "core/model/docking.h"
 #include "core/model/shape_contacts.h"
 #include "core/robot_files/body_pair_list.h"
 #include "core/robot_files/body_section.h"
-#include "core/robot_files/key_reader.h"
 #include "core/robot_files/module_check.h"
+#include "core/settings/reader.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab {
 namespace {
 
-/// Reader of a module type's parts one after the other. Bodies are referred to by name.
+/// Converter of the keys of a module file to a module type. Bodies are referred to by name.
 class ModuleReader {
  public:
   ModuleReader(const Node& document, Problems& problems) : document_(document), problems_(problems) {}
 
   ModuleType read(bool versioned) {
     if (!read_version(versioned)) return {};
-    KeyReader reader = open(document_, kModuleMap, "the module type");
-    reader.text("name", type_.name);
-    if (const Node* name = reader.take("name")) check_name(type_.name, *name);
-    reader.flag("lattice", type_.lattice);
-    read_bodies(reader.take("bodies"));
-    each(reader.take("hinges"), "hinges", [this](const Node& node) { read_hinge(node); });
-    each(reader.take("faces"), "faces", [this](const Node& node) { read_face(node); });
-    if (const Node* node = reader.take("contacts")) read_contacts(*node);
-    read_connectors(reader.take("connectors"));
-    if (const Node* node = reader.take(kMayOverlap); node != nullptr && !names_.empty())
-      type_.may_overlap = read_body_pairs(*node, names_, type_.name, problems_);
+    ModuleKeys keys;
+    Reader reader(document_, "the module type", problems_, nullptr);
+    keys.fields(reader);
     reader.finish();  // the keys within `actuator` and `controller` are read when the plugins of their types are known
+    check_name(document_.find("name"));
+    type_.name = keys.name;
+    type_.lattice = keys.lattice;
+    each(document_, "bodies", keys.bodies, &ModuleReader::add_body);
+    each(document_, "hinges", keys.hinges, &ModuleReader::add_hinge);
+    each(document_, "faces", keys.faces, &ModuleReader::add_face);
+    if (const Node* node = document_.find("contacts")) add_contacts(*node, keys.contacts);
+    each(document_, "connectors", keys.connectors, &ModuleReader::add_connector);
+    if (const Node* node = document_.find(kMayOverlap); node != nullptr && !names_.empty())
+      type_.may_overlap = read_body_pairs(*node, names_, type_.name, problems_);
     return std::move(type_);
   }
 
@@ -50,8 +51,6 @@ class ModuleReader {
   }
 
  private:
-  KeyReader open(const Node& node, const ModuleMap& map, const std::string& name) { return {node, map, name, problems_}; }
-
   /// Reads the format version. False, with a problem, for another version, whose keys would have other meanings.
   bool read_version(bool versioned) {
     if (document_.kind != Node::Kind::map) return true;
@@ -61,225 +60,127 @@ class ModuleReader {
     return reader.version("gaitlab_module");
   }
 
-  void read_connectors(const Node* connectors) {
-    if (connectors == nullptr) return;
-    if (connectors->kind != Node::Kind::map) {
-      problems_.add(connectors->place,
-                    fmt::format("connectors is {}; expected a map NAME: {{tension: ..., shear: ...}}", found(*connectors)));
-      return;
-    }
-    for (std::size_t i = 0; i < connectors->items.size(); ++i) {
-      const auto& [name, place] = connectors->keys[i];
-      check_name(name, Node{Node::Kind::scalar, place});
-      KeyReader reader = open(connectors->items[i], kConnectorMap, in_quotes(name));
-      Connector limits;
-      reader.number("tension", limits.tension);
-      reader.number("shear", limits.shear);
-      reader.number("bending", limits.bending);
-      reader.number("torsion", limits.torsion);
-      reader.text("source", limits.source);
-      reader.finish();
-      type_.connectors[name] = limits;
+  /// Adds every element of a list or map that was read.
+  template <class Keys>
+  void each(const Node& map, const char* key, std::vector<Keys>& read, void (ModuleReader::*add)(const Node&, Keys&)) {
+    const Node* const node = map.find(key);
+    for (std::size_t i = 0; i < read.size(); ++i) {
+      if (node->kind == Node::Kind::map) check_name(node->keys[i].first, node->keys[i].second);
+      (this->*add)(node->items[i], read[i]);
     }
   }
 
-  void check_name(const std::string& name, const Node& node) {
-    if (node.kind == Node::Kind::scalar && !is_name(name, "_-")) {
-      problems_.add(node.place, "name " + in_quotes(name) + " is not allowed; expected letters, digits, _ and -");
-    }
+  void check_name(const std::string& name, const SourceLocation& place) {
+    if (!is_name(name, "_-"))
+      problems_.add(place, "name " + in_quotes(name) + " is not allowed; expected letters, digits, _ and -");
+  }
+  void check_name(const Node* node) {
+    if (node != nullptr && node->kind == Node::Kind::scalar) check_name(node->text, node->place);
   }
 
-  template <class Read>
-  void each(const Node* list, const char* key, Read read) {
-    if (list == nullptr) return;
-    if (list->kind != Node::Kind::list) {
-      problems_.add(list->place, fmt::format("{} is {}; expected a list of maps", key, found(*list)));
-      return;
-    }
-    for (const Node& item : list->items) read(item);
+  void add_body(const Node& node, BodyKeys& keys) {
+    const SourceLocation& place = document_.find("bodies")->keys[names_.size()].second;
+    bodies_are_sound_ = complete_body(node, place, keys, problems_) && bodies_are_sound_;
+    names_.push_back(keys.name);
+    places_.bodies.push_back(place);
+    type_.bodies.emplace_back(keys);
   }
 
-  void read_bodies(const Node* bodies) {
-    if (bodies == nullptr) return;
-    if (bodies->kind != Node::Kind::map || bodies->items.empty()) {
-      const std::string what = bodies->kind == Node::Kind::map ? "an empty map" : found(*bodies);
-      problems_.add(bodies->place, fmt::format("bodies is {}; expected a map with at least one NAME: {{mass: ...}}", what));
-      return;
-    }
-    const std::size_t before = problems_.size();
-    for (std::size_t i = 0; i < bodies->items.size(); ++i) {
-      const auto& [name, place] = bodies->keys[i];
-      Node key{Node::Kind::scalar, place};
-      check_name(name, key);
-      names_.push_back(name);
-      places_.bodies.push_back(place);
-      type_.bodies.push_back({name});
-      read_body(bodies->items[i], place, type_.bodies.back(), problems_);
-    }
-    bodies_are_sound_ = problems_.size() == before;
-  }
-
-  /// Index of the body that `key` names. Adds a problem for an unknown body.
-  std::size_t body_of(KeyReader& reader, const char* key) {
-    std::string name;
-    reader.text(key, name);
-    const Node* node = reader.take(key);
+  /// Index of the body with this name, which is the value of a key of `map`. Adds a problem for an unknown body.
+  std::size_t body_of(const Node& map, const char* key, const std::string& name) {
+    const Node* const node = map.find(key);
     const auto it = std::find(names_.begin(), names_.end(), name);
-    if (node != nullptr && node->kind == Node::Kind::scalar && it == names_.end()) {
+    if (node != nullptr && node->kind == Node::Kind::scalar && it == names_.end())
       problems_.add(node->place, "no body " + in_quotes(name) + offer(name, names_, "bodies"));
-    }
     return it == names_.end() ? 0 : static_cast<std::size_t>(it - names_.begin());
   }
 
-  void read_hinge(const Node& node) {
-    KeyReader reader = open(node, kHingeMap, "hinge");
-    HingeType hinge;
-    reader.text("name", hinge.name);
-    if (const Node* name = reader.take("name")) {
-      check_name(hinge.name, *name);
-      if (hinge.name == "dock") problems_.add(name->place, "a hinge cannot be named dock: that is where the module is docked");
-    }
-    hinge.parent = body_of(reader, "parent");
-    hinge.child = body_of(reader, "child");
-    hinge.in_parent = reader.frame();
-    reader.vector("axis", span_of(hinge.axis));
-    read_range(reader, hinge);
-    read_drive(reader, hinge);
-    type_.hinges.push_back(hinge);
+  void add_hinge(const Node& node, HingeKeys& keys) {
+    const Node* const name = node.find("name");
+    check_name(name);
+    if (keys.name == "dock") problems_.add(name->place, "a hinge cannot be named dock: that is where the module is docked");
+    keys.parent = body_of(node, "parent", keys.of_parent);
+    keys.child = body_of(node, "child", keys.of_child);
+    keys.in_parent = {rpy(keys.turn), keys.origin};
+    keys.lo = keys.free ? -kNoStop : keys.range[0];
+    keys.hi = keys.free ? kNoStop : keys.range[1];
+    check_drive(node, keys);
+    if (keys.drive == HingeKeys::Drive::none) keys.passive = keys.spring;
+    type_.hinges.emplace_back(keys);
     places_.hinges.push_back(node);
-    reader.finish();
   }
 
-  void read_range(KeyReader& reader, HingeType& hinge) {
-    if (reader.word("range", "free")) {
-      hinge.lo = -kNoStop;
-      hinge.hi = kNoStop;
-      return;
-    }
-    const Node* node = reader.take("range");
-    if (node != nullptr && node->kind != Node::Kind::list) {
-      problems_.add(node->place, fmt::format("range is {}; expected a list of 2 numbers in rad, or free", found(*node)));
-      return;
-    }
-    std::array<double, 2> range{};
-    reader.vector("range", range);
-    hinge.lo = range[0];
-    hinge.hi = range[1];
-  }
-
-  /// Reads the motor of a hinge, or spring and damper of a hinge without a motor. The keys of `actuator` and `controller` are
-  /// read later, when the plugins of their types are known.
-  void read_drive(KeyReader& reader, HingeType& hinge) {
-    enum class Drive { motor, none };
-    Drive drive = Drive::motor;
-    reader.choice("drive", drive);
+  /// Checks that a hinge has only the keys of a motor, or only those of spring and damper. The keys within `actuator` and
+  /// `controller` are read later, when the plugins of their types are known.
+  void check_drive(const Node& node, const HingeKeys& keys) {
     for (const char* key : {"actuator", "controller"}) {
-      const Node* own = reader.take(key);
+      const Node* own = node.find(key);
       if (own == nullptr) continue;
       if (own->kind != Node::Kind::map) {
         problems_.add(own->place, fmt::format("{} is {}; expected a map", key, found(*own)));
-      } else if (drive == Drive::none) {
-        problems_.add(own->place, fmt::format("hinge '{}' has {} and drive: none; expected one of them", hinge.name, key));
+      } else if (keys.drive == HingeKeys::Drive::none) {
+        problems_.add(own->place, fmt::format("hinge '{}' has {} and drive: none; expected one of them", keys.name, key));
       }
     }
-    Passive passive;
-    reader.number("stiffness", passive.stiffness);
-    reader.number("rest", passive.rest);
-    reader.number("damping", passive.damping);
-    reader.number("friction", passive.friction);
-    reader.number("friction_speed", passive.friction_speed);
-    if (drive == Drive::none) {
-      hinge.passive = passive;
-      return;
-    }
-    for (const ModuleKey& key : kHingeMap.keys) {
-      const Node* own = key.passive ? reader.take(key.key) : nullptr;
+    if (keys.drive == HingeKeys::Drive::none) return;
+    for (const char* key : {"stiffness", "rest", "damping", "friction", "friction_speed"}) {
+      const Node* own = node.find(key);
       if (own == nullptr) continue;
       problems_.add(own->place, fmt::format("{0} is only for a hinge without a motor, and this hinge has one; add drive: none, "
                                             "or remove {0}",
-                                            key.key));
+                                            key));
     }
   }
 
-  void read_face(const Node& node) {
-    KeyReader reader = open(node, kFaceMap, "face");
-    FaceType face;
-    std::int64_t id = 0;
-    reader.integer("id", id);
-    face.body = body_of(reader, "body");
-    reader.choice("gender", face.gender);
-    read_docking(reader, face);
-    reader.vector("origin", span_of(face.origin));
-    reader.vector("normal", span_of(face.normal));
-    reader.vector("reference", span_of(face.reference));
-    face.id = static_cast<int>(id);
-    type_.faces.push_back(face);
+  void add_face(const Node& node, FaceKeys& keys) {
+    keys.id = static_cast<int>(keys.number);
+    keys.body = body_of(node, "body", keys.of_body);
+    check_name(node.find("connector"));
+    if (const Node* list = node.find("turns"); list != nullptr && list->kind == Node::Kind::list) read_turns(*list, keys);
+    type_.faces.emplace_back(keys);
     places_.faces.push_back(node);
-    reader.finish();
   }
 
-  void read_docking(KeyReader& reader, FaceType& face) {
-    reader.text("connector", face.connector);
-    if (const Node* name = reader.take("connector")) check_name(face.connector, *name);
-    std::vector<double> turns{0, 1, 2, 3};
-    reader.numbers("turns", turns);
-    const Node* list = reader.take("turns");
-    if (list == nullptr || list->kind != Node::Kind::list) return;
+  void read_turns(const Node& list, FaceKeys& face) {
     face.turns = {};
-    for (const double turn : turns) {
+    for (const double turn : face.quarters) {
       const auto number = static_cast<std::size_t>(turn);
       if (turn != static_cast<double>(number)) {
-        problems_.add(list->place, fmt::format("turns has {}; expected some of 0, 1, 2, 3 (times pi/2)", number_text(turn)));
+        problems_.add(list.place, fmt::format("turns has {}; expected some of 0, 1, 2, 3 (times pi/2)", number_text(turn)));
         return;
       }
       face.turns[number] = true;
     }
-    if (turns.empty()) problems_.add(list->place, "turns is empty; expected some of 0, 1, 2, 3 (times pi/2)");
+    if (face.quarters.empty()) problems_.add(list.place, "turns is empty; expected some of 0, 1, 2, 3 (times pi/2)");
   }
 
-  void read_contacts(const Node& node) {
-    KeyReader reader = open(node, kContactsMap, "contacts");
-    feet_of_shapes_ = read_elements(reader, "feet", type_.feet);
-    all_of_shapes_ = read_elements(reader, "all", type_.all);
-    feet_are_all_ = !reader.has("feet");
-    reader.finish();
-  }
-
-  /// Reads a list of contact elements. Returns true for the word `shapes` instead.
-  bool read_elements(KeyReader& reader, const char* key, std::vector<ContactType>& elements) {
-    const Node* node = reader.take(key);
-    if (node == nullptr) return false;
-    if (!reader.word(key, "shapes")) {
-      if (node->kind != Node::Kind::list) {
-        problems_.add(node->place, fmt::format("{} is {}; expected a list of maps, or shapes", key, found(*node)));
-        return false;
-      }
-      for (const Node& item : node->items) elements.push_back(read_contact(item));
-      return false;
-    }
+  void add_contacts(const Node& node, ContactsKeys& keys) {
+    each(node, "feet", keys.feet, &ModuleReader::add_contact<&ModuleType::feet>);
+    each(node, "all", keys.all, &ModuleReader::add_contact<&ModuleType::all>);
     const auto shaped = [](const BodyType& body) { return !body.shapes.empty(); };
-    if (bodies_are_sound_ && std::none_of(type_.bodies.begin(), type_.bodies.end(), shaped)) {
-      problems_.add(node->place, fmt::format("{} is shapes, but no body has a shape; expected a list of maps", key));
+    const bool without = bodies_are_sound_ && std::none_of(type_.bodies.begin(), type_.bodies.end(), shaped);
+    for (const auto& [key, of_shapes] : {std::pair("feet", keys.feet_of_shapes), std::pair("all", keys.all_of_shapes)}) {
+      if (!without || !of_shapes) continue;
+      const SourceLocation& place = node.find(key)->place;
+      problems_.add(place, fmt::format("{} is shapes, but no body has a shape; expected a list of maps", key));
     }
-    return true;
+    feet_of_shapes_ = keys.feet_of_shapes;
+    all_of_shapes_ = keys.all_of_shapes;
+    feet_are_all_ = node.find("feet") == nullptr;
   }
 
-  ContactType read_contact(const Node& node) {
-    KeyReader reader = open(node, kContactMap, "contact");
-    ContactType contact;
-    contact.body = body_of(reader, "body");
-    const bool point = reader.has("point");
-    const bool sphere = reader.has("sphere");
-    reader.vector("point", span_of(contact.centre));
-    reader.vector("sphere", span_of(contact.centre));
-    reader.number("radius", contact.radius);
-    if (sphere) reader.require("radius");
-    if (node.kind == Node::Kind::map && (point == sphere || (point && reader.has("radius")))) {
+  template <std::vector<ContactType> ModuleType::*elements>
+  void add_contact(const Node& node, ContactKeys& keys) {
+    keys.body = body_of(node, "body", keys.of_body);
+    const bool point = node.find("point") != nullptr;
+    const bool sphere = node.find("sphere") != nullptr;
+    if (sphere) keys.centre = keys.sphere;
+    if (node.kind == Node::Kind::map && (point == sphere || (point && node.find("radius") != nullptr)))
       problems_.add(node.place, "expected {body, point: [x, y, z]} or {body, sphere: [x, y, z], radius: r}");
-    }
-    reader.finish();
-    return contact;
+    (type_.*elements).emplace_back(keys);
   }
+
+  void add_connector(const Node& /*node*/, ConnectorKeys& keys) { type_.connectors[keys.name] = static_cast<Connector&>(keys); }
 
   const Node& document_;
   Problems& problems_;
@@ -296,6 +197,7 @@ ModuleType read_module(const Node& document, bool versioned, Problems& problems)
   const std::size_t before = problems.size();
   ModuleReader reader(document, problems);
   ModuleType type = reader.read(versioned);
+  problems.order(before);
   // Parts are checked against each other only if all of them were read without problems.
   if (problems.size() == before) check_module(type, reader.places(), problems);
   if (problems.size() == before) reader.complete(type);

@@ -1,250 +1,138 @@
 #include "core/robot_files/module_keys.h"
 
-#include <algorithm>
-#include <limits>
-#include <stdexcept>
+#include <cmath>
 
-#include "core/model/module_type.h"
+#include "core/robot_files/body_pair_list.h"
 
 namespace gaitlab {
-
 namespace {
 
 constexpr double kAnyNumber = std::numeric_limits<double>::infinity();
 
-constexpr Spec kSource{"", 0, 0, "Origin of the values."};
-constexpr Spec kSize{"m", kPositive, kAnyNumber, ""};
-
-/// Specification of a text, a word or a map, which have no range.
-constexpr Spec said(const char* about) { return {"", 0, 0, about}; }
 /// Specification of numbers of any size.
 constexpr Spec any(const char* unit, const char* about) { return {unit, -kAnyNumber, kAnyNumber, about}; }
 constexpr Spec positive(const char* unit, const char* about) { return {unit, kPositive, kAnyNumber, about}; }
 
-constexpr ModuleKey kSourceKey{.key = "source", .form = ModuleForm::text, .spec = kSource};
-constexpr ModuleKey kOrigin{.key = "origin",
-                            .form = ModuleForm::vector,
-                            .spec = any("m", "Origin in the body's frame."),
-                            .preset = "[0, 0, 0]",
-                            .size = 3};
-constexpr ModuleKey kTurn{
-    .key = "rpy", .form = ModuleForm::vector, .spec = any("rad", "Roll, pitch, yaw."), .preset = "[0, 0, 0]", .size = 3};
+Marked required(Fields& f) { return {f, Need::required}; }
+Marked optional(Fields& f) { return {f, Need::optional}; }
+/// One of the keys of which a map has exactly one.
+Marked one_of(Fields& f) { return {f, Need::one_of}; }
 
-constexpr ModuleKey kShapeKeys[] = {
-    kSourceKey,
-    kOrigin,
-    kTurn,
-    {.key = "box", .form = ModuleForm::vector, .spec = positive("m", "Edges along x, y, z."), .size = 3},
-    {.key = "cylinder", .form = ModuleForm::vector, .spec = positive("m", "Radius and length, along y."), .size = 2},
-    {.key = "half_cylinder",
-     .form = ModuleForm::vector,
-     .spec = positive("m", "Radius and length, along y; the half on the side of +x."),
-     .size = 2},
-    {.key = "sphere", .form = ModuleForm::number, .spec = positive("m", "Radius.")},
-};
-constexpr const char* kShapeKinds[] = {"box", "cylinder", "half_cylinder", "sphere"};
+void source_field(Fields& f, std::string& source) { f.text("source", source, "Origin of the values."); }
 
-constexpr ModuleKey kBodyKeys[] = {
-    kSourceKey,
-    {.key = "mass",
-     .form = ModuleForm::number,
-     .spec = {"kg", 0, kAnyNumber, "Mass; 0 only for a body between two hinges."},
-     .preset = "0"},
-    {.key = "com",
-     .form = ModuleForm::vector,
-     .spec = any("m", "Centre of mass, body frame. Without com and inertia: that of the shapes."),
-     .preset = "[0, 0, 0]",
-     .size = 3},
-    {.key = "inertia",
-     .form = ModuleForm::vector,
-     .spec =
-         any("kg m^2",
-             "xx, yy, zz, xy, xz, yz about the COM, body axes; elements of the tensor (xy: -sum of m x y). Without it: that "
-             "of the shapes at uniform density."),
-     .size = 6},
-    {.key = "shape",
-     .form = ModuleForm::list,
-     .spec = said("Outline of the body. Each shape has exactly one of box, cylinder, half_cylinder and sphere."),
-     .map = &kShapeMap},
-};
+void frame_fields(Fields& f, Vec3& origin, Vec3& turn) {
+  f.vector("origin", span_of(origin), any("m", "Origin in the body's frame."));
+  f.vector("rpy", span_of(turn), any("rad", "Roll, pitch, yaw."));
+}
 
-constexpr const char* kFree[] = {"free"};
-constexpr const char* kDrives[] = {"motor", "none"};
-constexpr ModuleKey kHingeKeys[] = {
-    kSourceKey,
-    {.key = "name", .form = ModuleForm::text, .spec = said("Name of the hinge and of its joint."), .required = true},
-    {.key = "parent", .form = ModuleForm::text, .spec = said("A body's name."), .required = true},
-    {.key = "child", .form = ModuleForm::text, .spec = said("A body's name, which moves with the hinge."), .required = true},
-    kOrigin,
-    kTurn,
-    {.key = "axis",
-     .form = ModuleForm::vector,
-     .spec = any("", "Axis, hinge frame, of any length."),
-     .required = true,
-     .size = 3},
-    {.key = "range",
-     .form = ModuleForm::vector,
-     .spec = any("rad", "Smallest and largest angle, outside which a stop acts; free: continuous rotation."),
-     .required = true,
-     .size = 2,
-     .words = kFree},
-    {.key = "drive",
-     .form = ModuleForm::word,
-     .spec = said("motor, or none for a passive hinge."),
-     .preset = "\"motor\"",
-     .words = kDrives},
-    {.key = "stiffness",
-     .form = ModuleForm::number,
-     .spec = {"N m/rad", 0, 1e6, "Stiffness of a spring."},
-     .preset = "0",
-     .passive = true},
-    {.key = "rest",
-     .form = ModuleForm::number,
-     .spec = {"rad", -1000, 1000, "Angle at which the spring has no torque."},
-     .preset = "0",
-     .passive = true},
-    {.key = "damping",
-     .form = ModuleForm::number,
-     .spec = {"N m s/rad", 0, 1e6, "Coefficient of a viscous damper."},
-     .preset = "0",
-     .passive = true},
-    {.key = "friction", .form = ModuleForm::number, .spec = {"N m", 0, 1e6, "Dry friction."}, .preset = "0", .passive = true},
-    {.key = "friction_speed",
-     .form = ModuleForm::number,
-     .spec = {"rad/s", 1e-6, 1e3, "Speed below which dry friction is viscous."},
-     .preset = "0.1",
-     .passive = true},
-    {.key = "actuator",
-     .form = ModuleForm::map,
-     .spec = said("Keys of the motor that differ from the module type's actuator.")},
-    {.key = "controller",
-     .form = ModuleForm::map,
-     .spec = said("Keys of the controller that differ from the module type's controller.")},
-};
-
-constexpr const char* kGenders[] = {name_of(Gender::active), name_of(Gender::passive), name_of(Gender::none)};
-constexpr ModuleKey kFaceKeys[] = {
-    kSourceKey,
-    {.key = "id", .form = ModuleForm::integer, .spec = {"", 0, 1000, "Number of the face in build files."}, .required = true},
-    {.key = "body", .form = ModuleForm::text, .spec = said("A body's name."), .required = true},
-    {.key = "gender",
-     .form = ModuleForm::word,
-     .spec = said("An active face docks on a passive one, none on none."),
-     .required = true,
-     .words = kGenders},
-    {.key = "connector",
-     .form = ModuleForm::text,
-     .spec = said("Name of the connector; only faces with the same connector dock.")},
-    {.key = "turns",
-     .form = ModuleForm::integers,
-     .spec = {"", 0, 3, "Orientations in which the face docks, times pi/2."},
-     .preset = "[0, 1, 2, 3]"},
-    {.key = "origin",
-     .form = ModuleForm::vector,
-     .spec = any("m", "Middle of the face, body frame."),
-     .required = true,
-     .size = 3},
-    {.key = "normal", .form = ModuleForm::vector, .spec = any("", "Outward normal, body frame."), .required = true, .size = 3},
-    {.key = "reference",
-     .form = ModuleForm::vector,
-     .spec = any("", "In-plane reference direction, body frame."),
-     .required = true,
-     .size = 3},
-};
-
-constexpr ModuleKey kContactKeys[] = {
-    kSourceKey,
-    {.key = "body", .form = ModuleForm::text, .spec = said("A body's name."), .required = true},
-    {.key = "point", .form = ModuleForm::vector, .spec = any("m", "A point, body frame."), .size = 3},
-    {.key = "sphere", .form = ModuleForm::vector, .spec = any("m", "Centre of a sphere, body frame."), .size = 3},
-    {.key = "radius", .form = ModuleForm::number, .spec = positive("m", "Radius of the sphere.")},
-};
-constexpr const char* kContactKinds[] = {"point", "sphere"};
-
-constexpr const char* kShapes[] = {"shapes"};
-constexpr ModuleKey kContactsKeys[] = {
-    kSourceKey,
-    {.key = "feet",
-     .form = ModuleForm::list,
-     .spec = said("Elements for contact.on: feet, on the free block of every module without children. Without it: those of "
-                  "all."),
-     .words = kShapes,
-     .map = &kContactMap},
-    {.key = "all",
-     .form = ModuleForm::list,
-     .spec = said("Elements for contact.on: all; shapes: the vertices of boxes and cylinders, and spheres."),
-     .preset = "[]",
-     .words = kShapes,
-     .map = &kContactMap},
-};
-
-constexpr ModuleKey kConnectorKeys[] = {
-    {.key = "tension", .form = ModuleForm::number, .spec = positive("N", "Largest pull along the normal.")},
-    {.key = "shear", .form = ModuleForm::number, .spec = positive("N", "Largest force in the plane of the face.")},
-    {.key = "bending", .form = ModuleForm::number, .spec = positive("N m", "Largest moment about axes in that plane.")},
-    {.key = "torsion", .form = ModuleForm::number, .spec = positive("N m", "Largest moment about the normal.")},
-    kSourceKey,
-};
-
-constexpr ModuleKey kModuleKeys[] = {
-    {.key = "gaitlab_module",
-     .form = ModuleForm::integer,
-     .spec = {"", 1, 1, "Format version, which marks a file as a module."},
-     .preset = "1"},
-    kSourceKey,
-    {.key = "name", .form = ModuleForm::text, .spec = said("Name of the type."), .required = true},
-    {.key = "lattice",
-     .form = ModuleForm::flag,
-     .spec = said("Bodies with faces fill cells of a cubic lattice."),
-     .preset = "false"},
-    {.key = "bodies",
-     .form = ModuleForm::map,
-     .spec = said("Bodies by name. The frame of the root, which no hinge moves, is the module frame."),
-     .required = true,
-     .map = &kBodyMap,
-     .by_name = true},
-    {.key = "hinges",
-     .form = ModuleForm::list,
-     .spec = said("Revolute hinges, which join the bodies into one tree."),
-     .map = &kHingeMap},
-    {.key = "faces", .form = ModuleForm::list, .spec = said("Docking faces."), .map = &kFaceMap},
-    {.key = "contacts",
-     .form = ModuleForm::map,
-     .spec = said("Points and spheres that touch the ground."),
-     .map = &kContactsMap},
-    {.key = "connectors",
-     .form = ModuleForm::map,
-     .spec = said("Largest loads of the connectors of faces, by name; a load that is missing is not judged."),
-     .map = &kConnectorMap,
-     .by_name = true},
-    {.key = "may_overlap",
-     .form = ModuleForm::pairs,
-     .spec = said("Pairs [BODY, BODY] that the check collision leaves out, by names or patterns; of a pair that is not left "
-                  "out, overlap with all hinges at 0 is by design."),
-     .preset = "[]"},
-    {.key = "actuator",
-     .form = ModuleForm::map,
-     .spec = said("Motor of every driven hinge: type, and keys of that actuator (gaitlab explain actuator TYPE).")},
-    {.key = "controller",
-     .form = ModuleForm::map,
-     .spec = said("Controller of these motors: type, and its keys without period (gaitlab explain controller TYPE).")},
-};
+/// A map with keys of plugins, which are read when the plugins are known.
+constexpr field::Other kPluginMap{"map", R"({"type": "object"})"};
+constexpr field::Other kPairs{
+    "list of pairs",
+    R"({"type": "array", "items": {"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2}})", "[]"};
 
 }  // namespace
 
-const ModuleMap kModuleMap{kModuleKeys};
-const ModuleMap kBodyMap{kBodyKeys};
-const ModuleMap kShapeMap{kShapeKeys, kShapeKinds};
-const ModuleMap kHingeMap{kHingeKeys};
-const ModuleMap kFaceMap{kFaceKeys};
-const ModuleMap kConnectorMap{kConnectorKeys};
-const ModuleMap kContactsMap{kContactsKeys};
-const ModuleMap kContactMap{kContactKeys, kContactKinds};
+void ShapeKeys::fields(Fields& f) {
+  source_field(f, source);
+  frame_fields(f, origin, turn);
+  one_of(f).vector("box", span_of(size), positive("m", "Edges along x, y, z."));
+  one_of(f).vector("cylinder", span_of(size).first(2), positive("m", "Radius and length, along y."));
+  one_of(f).vector("half_cylinder", span_of(size).first(2),
+                   positive("m", "Radius and length, along y; the half on the side of +x."));
+  one_of(f).number("sphere", size.x(), positive("m", "Radius."));
+}
 
-const ModuleKey& ModuleMap::at(std::string_view key) const {
-  const auto found = std::ranges::find(keys, key, [](const ModuleKey& one) { return std::string_view(one.key); });
-  if (found == keys.end()) throw std::logic_error("no key " + std::string(key) + " of a module file is declared");
-  return *found;
+void BodyKeys::fields(Fields& f) {
+  source_field(f, source);
+  f.number("mass", mass, {"kg", 0, kAnyNumber, "Mass; 0 only for a body between two hinges."});
+  f.vector("com", span_of(com), any("m", "Centre of mass, body frame. Without com and inertia: that of the shapes."));
+  optional(f).vector("inertia", tensor,
+                     any("kg m^2",
+                         "xx, yy, zz, xy, xz, yz about the COM, body axes; elements of the tensor (xy: -sum of m x y). Without "
+                         "it: that of the shapes at uniform density."));
+  optional(f).list("shape", outline,
+                   "Outline of the body. Each shape has exactly one of box, cylinder, half_cylinder and sphere.");
+}
+
+void HingeKeys::fields(Fields& f) {
+  static constexpr const char* kDrives[] = {"motor", "none"};
+  source_field(f, source);
+  required(f).text("name", name, "Name of the hinge and of its joint.");
+  required(f).text("parent", of_parent, "A body's name.");
+  required(f).text("child", of_child, "A body's name, which moves with the hinge.");
+  frame_fields(f, origin, turn);
+  required(f).vector("axis", span_of(axis), any("", "Axis, hinge frame, of any length."));
+  Marked(f, Need::required, "free", &free)
+      .vector("range", range, any("rad", "Smallest and largest angle, outside which a stop acts; free: continuous rotation."));
+  f.choice("drive", drive, kDrives, "motor, or none for a passive hinge.");
+  f.number("stiffness", spring.stiffness, {"N m/rad", 0, 1e6, "Stiffness of a spring. Only with drive: none."});
+  f.number("rest", spring.rest, {"rad", -1000, 1000, "Angle at which the spring has no torque. Only with drive: none."});
+  f.number("damping", spring.damping, {"N m s/rad", 0, 1e6, "Coefficient of a viscous damper. Only with drive: none."});
+  f.number("friction", spring.friction, {"N m", 0, 1e6, "Dry friction. Only with drive: none."});
+  f.number("friction_speed", spring.friction_speed,
+           {"rad/s", 1e-6, 1e3, "Speed below which dry friction is viscous. Only with drive: none."});
+  optional(f).other("actuator", kPluginMap, "Keys of the motor that differ from the module type's actuator.");
+  optional(f).other("controller", kPluginMap, "Keys of the controller that differ from the module type's controller.");
+}
+
+void FaceKeys::fields(Fields& f) {
+  source_field(f, source);
+  required(f).integer("id", number, {"", 0, 1000, "Number of the face in build files."});
+  required(f).text("body", of_body, "A body's name.");
+  required(f).choice("gender", gender, enum_names<Gender>(), "An active face docks on a passive one, none on none.");
+  f.text("connector", connector, "Name of the connector; only faces with the same connector dock.");
+  f.integers("turns", quarters, {"", 0, 3, "Orientations in which the face docks, times pi/2."});
+  required(f).vector("origin", span_of(origin), any("m", "Middle of the face, body frame."));
+  required(f).vector("normal", span_of(normal), any("", "Outward normal, body frame."));
+  required(f).vector("reference", span_of(reference), any("", "In-plane reference direction, body frame."));
+}
+
+void ContactKeys::fields(Fields& f) {
+  source_field(f, source);
+  required(f).text("body", of_body, "A body's name.");
+  one_of(f).vector("point", span_of(centre), any("m", "A point, body frame."));
+  one_of(f).vector("sphere", span_of(sphere), any("m", "Centre of a sphere, body frame."));
+  Marked(f, std::isnan(sphere.x()) ? Need::optional : Need::required)
+      .number("radius", radius, positive("m", "Radius of the sphere."));
+}
+
+void ContactsKeys::fields(Fields& f) {
+  source_field(f, source);
+  Marked(f, Need::optional, "shapes", &feet_of_shapes)
+      .list("feet", feet,
+            "Elements for contact.on: feet, on the free block of every module without children. Without it: those of all.");
+  Marked(f, Need::preset, "shapes", &all_of_shapes)
+      .list("all", all, "Elements for contact.on: all; shapes: the vertices of boxes and cylinders, and spheres.");
+}
+
+void ConnectorKeys::fields(Fields& f) {
+  optional(f).number("tension", tension, positive("N", "Largest pull along the normal."));
+  optional(f).number("shear", shear, positive("N", "Largest force in the plane of the face."));
+  optional(f).number("bending", bending, positive("N m", "Largest moment about axes in that plane."));
+  optional(f).number("torsion", torsion, positive("N m", "Largest moment about the normal."));
+  source_field(f, source);
+}
+
+void ModuleKeys::fields(Fields& f) {
+  f.integer("gaitlab_module", version, {"", 1, 1, "Format version, which marks a file as a module."});
+  source_field(f, source);
+  required(f).text("name", name, "Name of the type.");
+  f.flag("lattice", lattice, "Bodies with faces fill cells of a cubic lattice.");
+  required(f).by_name("bodies", bodies, "{mass: ...}",
+                      "Bodies by name. The frame of the root, which no hinge moves, is the module frame.");
+  optional(f).list("hinges", hinges, "Revolute hinges, which join the bodies into one tree.");
+  optional(f).list("faces", faces, "Docking faces.");
+  f.group("contacts", contacts, "Points and spheres that touch the ground.");
+  optional(f).by_name("connectors", connectors, "{tension: ..., shear: ...}",
+                      "Largest loads of the connectors of faces, by name; a load that is missing is not judged.");
+  f.other(kMayOverlap, kPairs,
+          "Pairs [BODY, BODY] that the check collision leaves out, by names or patterns; of a pair that is not left out, "
+          "overlap with all hinges at 0 is by design.");
+  optional(f).other("actuator", kPluginMap,
+                    "Motor of every driven hinge: type, and keys of that actuator (gaitlab explain actuator TYPE).");
+  optional(f).other("controller", kPluginMap,
+                    "Controller of these motors: type, and its keys without period (gaitlab explain controller TYPE).");
 }
 
 }  // namespace gaitlab

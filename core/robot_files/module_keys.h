@@ -1,39 +1,75 @@
-// Keys of module files, each declared once: reader, manual, reference page and JSON Schema loop over this list.
+// Keys of module files: a struct for each map, from whose fields follow reader, manual, reference page and JSON Schema.
 #pragma once
-#include <span>
-#include <string_view>
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
 
+#include "core/model/module_type.h"
 #include "core/plugin/fields.h"
 
 namespace gaitlab {
 
-/// Form of a value in a module file.
-enum class ModuleForm { text, number, integer, flag, vector, integers, word, map, list, pairs };
+// A struct derives from the part of the model that its keys describe, and reads the keys of equal meaning into it.
 
-struct ModuleMap;
-
-struct ModuleKey {
-  const char* key;
-  ModuleForm form;
-  Spec spec = {"", 0, 0, ""};  ///< unit, range and sentence
-  bool required = false;
-  const char* preset = "";                  ///< default as JSON; "" if the key has none
-  std::size_t size = 0;                     ///< number of elements of a vector
-  std::span<const char* const> words = {};  ///< permitted words; instead of a value of another form if `form` is not `word`
-  const ModuleMap* map = nullptr;           ///< keys of a map, or of each map in a list or by name; null for those of a plugin
-  bool by_name = false;                     ///< true if the value is a map of such maps by names
-  bool passive = false;                     ///< true for a key of hinges without a motor
+struct ShapeKeys : Shape {
+  std::string source;
+  Vec3 origin = Vec3::Zero(), turn = Vec3::Zero();
+  void fields(Fields& f);
 };
 
-/// A map of a module file with its permitted keys. Exactly one of the keys `one_of` is given.
-struct ModuleMap {
-  std::span<const ModuleKey> keys;
-  std::span<const char* const> one_of = {};
-
-  /// The key with this name, which must exist.
-  [[nodiscard]] const ModuleKey& at(std::string_view key) const;
+struct BodyKeys : BodyType {
+  std::string source;
+  std::array<double, 6> tensor = {};
+  std::vector<ShapeKeys> outline;
+  void fields(Fields& f);
 };
 
-extern const ModuleMap kModuleMap, kBodyMap, kShapeMap, kHingeMap, kFaceMap, kConnectorMap, kContactsMap, kContactMap;
+struct HingeKeys : HingeType {
+  std::string source, of_parent, of_child;  ///< names of the bodies
+  Vec3 origin = Vec3::Zero(), turn = Vec3::Zero();
+  std::array<double, 2> range = {};
+  bool free = false;
+  enum class Drive { motor, none } drive = Drive::motor;
+  Passive spring;
+  void fields(Fields& f);
+};
+
+struct FaceKeys : FaceType {
+  std::string source, of_body;
+  std::int64_t number = 0;
+  std::vector<double> quarters{0, 1, 2, 3};
+  void fields(Fields& f);
+};
+
+struct ContactKeys : ContactType {
+  std::string source, of_body;
+  Vec3 sphere = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  void fields(Fields& f);
+};
+
+struct ContactsKeys {
+  std::string source;
+  std::vector<ContactKeys> feet, all;
+  bool feet_of_shapes = false, all_of_shapes = false;
+  void fields(Fields& f);
+};
+
+struct ConnectorKeys : Connector {
+  std::string name;
+  void fields(Fields& f);
+};
+
+struct ModuleKeys {
+  std::int64_t version = 1;
+  std::string source, name;
+  bool lattice = false;
+  std::vector<BodyKeys> bodies;
+  std::vector<HingeKeys> hinges;
+  std::vector<FaceKeys> faces;
+  ContactsKeys contacts;
+  std::vector<ConnectorKeys> connectors;
+  void fields(Fields& f);
+};
 
 }  // namespace gaitlab

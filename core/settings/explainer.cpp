@@ -74,11 +74,18 @@ std::string markdown_table(const std::vector<KeyRow>& rows) {
 
 void Explainer::row(const std::string& key, const std::string& unit, const std::string& preset, const std::string& range,
                     const std::string& about, std::vector<std::string> words) {
-  rows_.push_back({prefix_ + key, unit, preset, range, about, std::move(words)});
+  KeyRow& made =
+      rows_.emplace_back(KeyRow{prefix_ + key, unit, need_ == Need::preset ? preset : "", range, about, std::move(words)});
+  if (word_ != nullptr) made.range += std::string(" | ") + made.words.emplace_back(word_);
+  if (need_ == Need::required) made.range = "required; " + made.range;
+  need_ = Need::preset;
+  word_ = nullptr;
   if (depth_ == 0) keys_.push_back(key);
 }
 
 void Explainer::visit(const Field& field) {
+  need_ = field.need;
+  word_ = field.word;
   std::visit([&](const auto& value) { on(field.key, field.about, value); }, field.value);
 }
 
@@ -130,7 +137,8 @@ void Explainer::on(const char* key, const char* about, const field::Vector& fiel
 
 void Explainer::on(const char* key, const char* about, const field::Numbers& field) {
   const std::string range = range_without_unit(field.spec);
-  row(key, field.spec.unit, list_text(field.value), "list of numbers" + std::string(range.empty() ? "" : ", ") + range, about);
+  const std::string form = field.whole ? "list of integers" : "list of numbers";
+  row(key, field.spec.unit, list_text(field.value), form + (range.empty() ? "" : ", ") + range, about);
 }
 
 void Explainer::on(const char* key, const char* about, const field::Rows& field) {
@@ -173,7 +181,7 @@ void Explainer::elements(const char* key, const field::List& list) {
   const std::size_t size = list.size(list.self);
   if (size == 0) list.resize(list.self, 1);  // one element with its defaults, for the list of keys
   const std::string before = prefix_;
-  prefix_ += std::string(key) + "[].";
+  prefix_ += nested_ ? "  " : key + std::string(list.name == nullptr ? "[]." : ".NAME.");
   ++depth_;
   list.visit(list.self, 0, *this);
   --depth_;
@@ -182,8 +190,16 @@ void Explainer::elements(const char* key, const field::List& list) {
 }
 
 void Explainer::on(const char* key, const char* about, const field::List& field) {
-  row(key, "", field.size(field.self) == 0 ? "[]" : "", "list", about);
+  // The keys of two lists alike are listed once, below the second.
+  if (nested_ && structs_ == field.visit && end_ == rows_.size()) rows_.resize(first_);
+  const char* const mark = field.name != nullptr ? ".NAME" : nested_ ? "[]" : "";
+  row(key + std::string(mark), "", field.size(field.self) == 0 ? "[]" : "", field.name != nullptr ? "map by name" : "list",
+      about);
+  const std::size_t first = rows_.size();
   elements(key, field);
+  structs_ = field.visit;
+  first_ = first;
+  end_ = rows_.size();
 }
 
 void Explainer::on(const char* key, const char* about, const field::RuleOrList& field) {
@@ -193,7 +209,7 @@ void Explainer::on(const char* key, const char* about, const field::RuleOrList& 
 
 void Explainer::on(const char* key, const char* about, const field::Group& field) {
   const bool in_list = prefix_.ends_with('.');
-  row(std::string(key) + (in_list ? "" : ":"), "", "", "", about);
+  row(std::string(key) + (in_list || nested_ ? "" : ":"), "", "", nested_ ? "map" : "", about);
   if (depth_ == 0) keys_.back() = key;
   const std::string before = prefix_;
   prefix_ += in_list ? std::string(key) + "." : "  ";
@@ -201,6 +217,10 @@ void Explainer::on(const char* key, const char* about, const field::Group& field
   field.visit(field.self, *this);
   --depth_;
   prefix_ = before;
+}
+
+void Explainer::on(const char* key, const char* about, const field::Other& field) {
+  row(key, "", field.preset, field.form, about);
 }
 
 }  // namespace gaitlab

@@ -19,9 +19,10 @@ std::string table(const std::vector<KeyRow>& rows);
 std::string markdown_table(const std::vector<KeyRow>& rows);
 
 /// Visitor of fields, after which rows() returns one row per key. Keys of a group are indented. Keys of a list's elements have
-/// names such as `couplings[].from`.
+/// names such as `couplings[].from`; if `nested`, they are indented below `couplings[]`.
 class Explainer final : public Fields {
  public:
+  explicit Explainer(bool nested = false) : nested_(nested) {}
   void visit(const Field& field) override;
   void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
 
@@ -52,12 +53,19 @@ class Explainer final : public Fields {
   void on(const char* key, const char* about, const field::List& field);
   void on(const char* key, const char* about, const field::RuleOrList& field);
   void on(const char* key, const char* about, const field::Group& field);
+  void on(const char* key, const char* about, const field::Other& field);
   void elements(const char* key, const field::List& list);
 
   std::vector<KeyRow> rows_;
   std::vector<std::string> keys_;
   std::string prefix_;  ///< indentation of a group, or the text `couplings[].`
   int depth_ = 0;
+  bool nested_;
+  Need need_ = Need::preset;    ///< of the field whose row is next
+  const char* word_ = nullptr;  ///< of the field whose row is next
+  /// The last list: its structs, and the rows of their keys.
+  void (*structs_)(void* self, std::size_t index, Fields& fields) = nullptr;
+  std::size_t first_ = 0, end_ = 0;
 };
 
 }  // namespace gaitlab

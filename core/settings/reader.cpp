@@ -294,6 +294,14 @@ void Reader::visit(const Field& field) {
     static_cast<void>(take(field.key));
     return;
   }
+  const Node* node = map_->find(field.key);
+  if (node == nullptr && field.need == Need::required && !tolerant_) missing(field.key);
+  need_ = field.need;
+  or_word_ = field.word == nullptr ? "" : std::string(", or ") + field.word;
+  if (field.word != nullptr && node != nullptr) {
+    *field.is_word = node->kind == Node::Kind::scalar && node->text == field.word;
+    if (*field.is_word) return static_cast<void>(take(field.key));
+  }
   std::visit([&](const auto& value) { on(field.key, value); }, field.value);
 }
 

@@ -82,6 +82,7 @@ class Reader final : public Fields {
   void on(const char* key, const field::List& field);
   void on(const char* key, const field::RuleOrList& field);
   void on(const char* key, const field::Group& field);
+  void on(const char* key, const field::Other&) { take(key); }
 
   void unknown(const std::string& key, const Node& value, const SourceLocation& place);
   [[nodiscard]] std::string meant(const std::string& key, const Node& value) const;
@@ -124,6 +125,8 @@ class Reader final : public Fields {
   const JointGroups* groups_ = &kNoGroups;
   std::vector<std::string> known_, only_;
   std::vector<std::pair<std::string, std::size_t>> missing_;  ///< required keys that are missing, each with its problem
+  Need need_ = Need::preset;                                  ///< of the field that is read
+  std::string or_word_;                                       ///< end of a message, about the word that the field permits
   bool tolerant_ = false;  ///< true if the set of known keys is uncertain, so that unknown keys are not reported
 };
 

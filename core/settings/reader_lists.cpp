@@ -15,7 +15,7 @@ std::string element(const std::string& key, std::size_t index) { return fmt::for
 const Node* Reader::take_list(const char* key, const char* expected) {
   const Node* node = take(key);
   if (node == nullptr || node->kind == Node::Kind::list) return node;
-  problems_.add(node->place, fmt::format("{} is {}; expected {}", key, found(*node), expected));
+  problems_.add(node->place, fmt::format("{} is {}; expected {}{}", key, found(*node), expected, or_word_));
   return nullptr;
 }
 
@@ -25,7 +25,7 @@ void Reader::read_each(const Node& node, const std::string& key, const Spec& spe
 
 void Reader::on(const char* key, const field::Vector& field) {
   const std::string expected = "a list of " + counted(field.value.size(), "number") + in_unit(field.spec);
-  if (const Node* map = map_->find(key); map != nullptr && map->kind == Node::Kind::map) {
+  if (const Node* map = map_->find(key); map != nullptr && map->kind == Node::Kind::map && or_word_.empty()) {
     static_cast<void>(take(key));
     return read_entries(*map, key, field, expected);
   }
@@ -73,15 +73,24 @@ void Reader::on(const char* key, const field::Texts& field) {
 }
 
 void Reader::on(const char* key, const field::List& field) {
-  const Node* node = take_list(key, "a list of maps");
-  if (node != nullptr) read_elements(key, *node, field);
+  const Node* node = field.name == nullptr ? take_list(key, "a list of maps") : take(key);
+  if (node == nullptr) return;
+  const bool map = node->kind == Node::Kind::map, some = need_ == Need::required;
+  if (field.name == nullptr || (map && !(some && node->items.empty()))) {
+    read_elements(key, *node, field);
+  } else {
+    problems_.add(node->place, fmt::format("{} is {}; expected a map {}NAME: {}", key, map ? "an empty map" : found(*node),
+                                           some ? "with at least one " : "", field.example));
+  }
 }
 
 void Reader::read_elements(const char* key, const Node& node, const field::List& list) {
   list.resize(list.self, 0);  // so that no element keeps a value of the default or of an earlier file
   list.resize(list.self, node.items.size());
   for (std::size_t i = 0; i < node.items.size(); ++i) {
-    Reader reader(node.items[i], element(key, i), problems_, joints_, folder_);
+    if (list.name != nullptr) list.name(list.self, i) = node.keys[i].first;
+    Reader reader(node.items[i], list.name != nullptr ? in_quotes(node.keys[i].first) : element(key, i), problems_, joints_,
+                  folder_);
     reader.modules(modules_);
     reader.groups(*groups_);
     list.visit(list.self, i, reader);

@@ -47,7 +47,23 @@ Json object_schema(Json properties) {
 }
 
 void SchemaFields::visit(const Field& field) {
+  need_ = field.need;
   std::visit([&](const auto& value) { on(field.key, field.about, value); }, field.value);
+  Json& json = properties_[field.key];
+  if (field.need != Need::preset) json.erase("default");
+  if (field.need == Need::required) required_.push_back(field.key);
+  if (field.need == Need::one_of) one_of_.push_back({{"required", {field.key}}});
+  if (field.word == nullptr) return;
+  const Json about = json["description"];
+  json.erase("description");
+  json = {{"anyOf", {json, {{"enum", {field.word}}}}}, {"description", about}};
+}
+
+Json SchemaFields::object() {
+  Json json = object_schema(std::move(properties_));
+  if (!required_.empty()) json["required"] = std::move(required_);
+  if (!one_of_.empty()) json["oneOf"] = std::move(one_of_);
+  return json;
 }
 
 void SchemaFields::on(const char* key, const char* about, const field::Number& field) {
@@ -111,8 +127,9 @@ void SchemaFields::on(const char* key, const char* about, const field::Vector& f
 }
 
 void SchemaFields::on(const char* key, const char* about, const field::Numbers& field) {
-  properties_[key] = preset(
-      described({{"type", "array"}, {"items", number_schema("number", field.spec)}}, about, field.spec.unit), field.value);
+  Json json{{"type", "array"}, {"items", number_schema(field.whole ? "integer" : "number", field.spec)}};
+  if (field.whole) json["minItems"] = 1;
+  properties_[key] = preset(described(std::move(json), about, field.spec.unit), field.value);
 }
 
 void SchemaFields::on(const char* key, const char* about, const field::Rows& field) {
@@ -164,7 +181,10 @@ void SchemaFields::on(const char* key, const char* about, const field::List& fie
   SchemaFields element;
   field.visit(field.self, 0, element);
   if (size == 0) field.resize(field.self, 0);
-  properties_[key] = described({{"type", "array"}, {"items", object_schema(std::move(element.properties_))}}, about);
+  Json json{{"type", "array"}, {"items", element.object()}};
+  if (field.name != nullptr)
+    json = {{"type", "object"}, {"minProperties", need_ == Need::required ? 1 : 0}, {"additionalProperties", json["items"]}};
+  properties_[key] = described(std::move(json), about);
 }
 
 void SchemaFields::on(const char* key, const char* about, const field::RuleOrList& field) {
@@ -177,7 +197,12 @@ void SchemaFields::on(const char* key, const char* about, const field::RuleOrLis
 void SchemaFields::on(const char* key, const char* about, const field::Group& field) {
   SchemaFields inner;
   field.visit(field.self, inner);
-  properties_[key] = described(object_schema(std::move(inner.properties_)), about);
+  properties_[key] = described(inner.object(), about);
+}
+
+void SchemaFields::on(const char* key, const char* about, const field::Other& field) {
+  Json json = described(Json::parse(field.schema), about);
+  properties_[key] = *field.preset == '\0' ? json : preset(json, Json::parse(field.preset));
 }
 
 }  // namespace gaitlab

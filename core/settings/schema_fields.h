@@ -23,6 +23,8 @@ class SchemaFields final : public Fields {
   void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
 
   Json& properties() { return properties_; }
+  /// Schema of a map with these fields.
+  Json object();
 
  private:
   void on(const char* key, const char* about, const field::Number& field);
@@ -44,8 +46,10 @@ class SchemaFields final : public Fields {
   void on(const char* key, const char* about, const field::List& field);
   void on(const char* key, const char* about, const field::RuleOrList& field);
   void on(const char* key, const char* about, const field::Group& field);
+  void on(const char* key, const char* about, const field::Other& field);
 
-  Json properties_ = Json::object();
+  Json properties_ = Json::object(), required_ = Json::array(), one_of_ = Json::array();
+  Need need_ = Need::preset;  ///< of the field that is visited
 };
 
 }  // namespace gaitlab

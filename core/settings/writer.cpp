@@ -36,6 +36,7 @@ void Writer::add(const std::string& key, Node value) {
 }
 
 void Writer::visit(const Field& field) {
+  if (field.is_word != nullptr && *field.is_word) return add(field.key, scalar_node(field.word));
   std::visit([&](const auto& value) { on(field.key, value); }, field.value);
 }
 
@@ -119,8 +120,9 @@ void Writer::on(const char* key, const field::Map& field) {
 }
 
 void Writer::on(const char* key, const field::List& field) {
-  Node node{Node::Kind::list};
+  Node node{field.name == nullptr ? Node::Kind::list : Node::Kind::map};
   for (std::size_t i = 0; i < field.size(field.self); ++i) {
+    if (field.name != nullptr) node.keys.emplace_back(field.name(field.self, i), SourceLocation{});
     Writer writer(joints_);
     field.visit(field.self, i, writer);
     node.items.push_back(writer.take());

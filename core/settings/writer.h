@@ -48,6 +48,7 @@ class Writer final : public Fields {
   void on(const char* key, const field::List& field);
   void on(const char* key, const field::RuleOrList& field);
   void on(const char* key, const field::Group& field);
+  void on(const char*, const field::Other&) {}
 
   const std::vector<std::string>& joints_;
   Node map_;

@@ -48,7 +48,6 @@ namespace gaitlab::report {
 const PanelKind kDummyPanel{"dummy", "A dummy panel.", true, kHeatPanel.fields, kHeatPanel.lacking, kHeatPanel.make};
 }  // namespace gaitlab::report
 """
-KEY = '{.key = "dummy", .form = ModuleForm::flag, .spec = said("A dummy key."), .preset = "false"},\n    '
 # Beginning of the row, edits (path, pattern that is found once, its replacement), and a call of the program with a text that it prints.
 ADDITIONS = [
     ("a CPG, controller or actuator", [
@@ -78,8 +77,8 @@ ADDITIONS = [
         ("docs/numbers.md", r"\| `seed` \|", r"| `dummy` |  | A dummy number. |\n\g<0>")],
      "run pendulum --set duration=0.1 --set trace.columns=[t] --quiet --no-report --out run", ""),  # and its row in docs/numbers.md, below
     ("a key of module files", [
-        ("core/robot_files/module_keys.cpp", r'\{\.key = "lattice"', KEY.replace("\\", r"\\") + r"\g<0>"),
-        ("core/robot_files/module_file.cpp", r' *reader\.flag\("lattice", .*\n', r'\g<0>    bool dummy = false;\n    reader.flag("dummy", dummy);\n')],
+        ("core/robot_files/module_keys.h", r"bool lattice = false;", r"\g<0>\n  bool dummy = false;"),
+        ("core/robot_files/module_keys.cpp", r' *f\.flag\("lattice", .*\n', r'\g<0>  f.flag("dummy", dummy, "A dummy key.");\n')],
      "explain module", "A dummy key."),
     ("a subcommand", [
         ("app/look/dummy.cpp", NEW, lambda _: SUBCOMMAND),

@@ -220,6 +220,44 @@ TEST(Reader, RuleOrList) {
   EXPECT_EQ(read("couplings: [{weight: 1}]\n", s, &none), "f:1:13: error: missing key 'from'\nf:1:13: error: missing key 'to'");
 }
 
+/// Structs by name, a required key, a word instead of a value, and a value that other code reads.
+struct Marks {
+  struct Limb {
+    std::string name;
+    double mass = 0;
+    void fields(Fields& f) { Marked(f, Need::required).number("mass", mass, {"kg", kPositive, 9, "Mass."}); }
+  };
+  std::vector<Limb> limbs;
+  double range[2] = {0, 1};
+  bool free = false;
+  void fields(Fields& f) {
+    Marked(f, Need::required).by_name("limbs", limbs, "{mass: ...}", "Limbs.");
+    Marked(f, Need::preset, "free", &free).vector("range", range, {"", -9, 9, "Range."});
+    f.other("pairs", {"list of pairs", R"({"type": "array"})", "[]"}, "Pairs.");
+  }
+};
+
+TEST(Reader, MarkedFieldsAndStructsByName) {
+  Marks s;
+  EXPECT_EQ(read("limbs: {leg: {mass: 2}, arm: {mass: 1}}\nrange: free\npairs: 3\n", s), test::kNoError);
+  EXPECT_EQ(s.limbs.at(1).name, "arm");
+  EXPECT_EQ(s.limbs.at(0).mass, 2);
+  EXPECT_TRUE(s.free);
+  const std::vector<std::string> joints;
+  Writer writer(joints);
+  s.fields(writer);
+  EXPECT_EQ(print_yaml(writer.take()), "limbs:\n  leg: {mass: 2}\n  arm: {mass: 1}\nrange: free\n");
+  EXPECT_EQ(read("limbs: {leg: {mass: 2}}\nrange: [2, 3]\n", s), test::kNoError);
+  EXPECT_EQ(s.range[1], 3);
+  EXPECT_FALSE(s.free) << "given before";
+  EXPECT_EQ(read("{}\n", s), "f:1:1: error: missing key 'limbs'");
+  EXPECT_EQ(read("limbs: {leg: {mas: 2}, arm: 3}\nrange: loose\n", s),
+            "f:1:15: error: unknown key 'mas'; did you mean 'mass'?\n"
+            "f:1:29: error: 'arm' is 3; expected a map\n"
+            "f:2:8: error: range is 'loose'; expected a list of 2 numbers, or free");
+  EXPECT_EQ(read("limbs: {}\n", s), "f:1:8: error: limbs is an empty map; expected a map with at least one NAME: {mass: ...}");
+}
+
 TEST(Reader, GroupsAndChecksAcrossFields) {
   fakes::Hopf::Settings s;
   EXPECT_EQ(read("model: {mu: 3}\ntable: [1, 2]\nlabels: [a, 'b c']\n", s), test::kNoError);
