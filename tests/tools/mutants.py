@@ -43,6 +43,8 @@ SLOW_FILTER = "Verdict*:SetupWarnings*:RunWarnings*:Earned*:Shown*:Creep*:AnyRow
 EQUIVALENT = [
     ("kEqual times 1.3", "rounding of sums of the same ticks, which differ by a tick or not at all"),
     ("kRounds times 1.3", "rounding of times, of which no tick is within a millionth of a control period"),
+    ("kWater times 1.3", "cancels, except for a box about points, where 1000 and 1300 kg/m^3 are usual"),
+    ("turned in `if (body.volume > 0) {`", "the union of the shapes is computed again, with the same volume"),
     ("kOnGrid times 1.3", "rounding of times, which are whole control periods or half of one away from it"),
 ]
 

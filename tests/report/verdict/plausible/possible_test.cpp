@@ -238,5 +238,24 @@ TEST(Units, LoadsOfDocksAndContactElements) {
   EXPECT_EQ(warned("all: shapes", "all: [{body: b, sphere: [0.1, 0, 0], radius: 0.04}]"), "");
 }
 
+/// A body without shapes, whose contact points are 0.3 m apart, is compared with a box of 0.3 x 0.1 x 0.1 m: 30 kg are 10 times
+/// the density of water, its centre of mass is 0.3 m outside, and its moments are 6 and 10 times those of the box. Of these
+/// rough ratios a fifth counts, and of the distance a hundredth of the edge.
+TEST(Possible, ABodyOfPointsIsComparedWithTheirBox) {
+  constexpr double kOfBox = 30.0 / 12 * (0.09 + 0.01);  // kg m^2
+  const Scenario s = scenario(
+      fmt::format("gaitlab: 1\nrobot:\n  modules:\n    gaitlab_module: 1\n    name: bar\n    bodies:\n"
+                  "      a: {{mass: 30, com: [0.6, 0, 0], inertia: [{}, {}, {}, 0, 0, 0]}}\n"
+                  "    contacts: {{all: [{{body: a, point: [0, 0, 0]}}, {{body: a, point: [0.3, 0, 0]}}]}}\nduration: 1\n",
+                  5 * kOfBox, 6 * kOfBox, 10 * kOfBox));
+  const Subject subject(s);
+  const auto value = [&](std::string_view row) {
+    return std::ranges::find(plausible_numbers(), row, &PlausibleNumber::name)->measure(subject).at(0).value;
+  };
+  EXPECT_NEAR(value("density"), 2000, 1e-9);
+  EXPECT_NEAR(value("com"), 0.01, 1e-12);
+  EXPECT_NEAR(value("moments"), 2, 1e-12);
+}
+
 }  // namespace
 }  // namespace gaitlab::test
