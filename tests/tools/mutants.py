@@ -45,6 +45,8 @@ EQUIVALENT = [
     ("kRounds times 1.3", "rounding of times, of which no tick is within a millionth of a control period"),
     ("kWater times 1.3", "cancels, except for a box about points, where 1000 and 1300 kg/m^3 are usual"),
     ("turned in `if (body.volume > 0) {`", "the union of the shapes is computed again, with the same volume"),
+    ("turned in `ble volume = body.volume > 0", "the same"),
+    ("turned in `if (body.volume > 0) return;`", "moments of shapes are never impossible"),
     ("kOnGrid times 1.3", "rounding of times, which are whole control periods or half of one away from it"),
 ]
 

@@ -238,23 +238,49 @@ TEST(Units, LoadsOfDocksAndContactElements) {
   EXPECT_EQ(warned("all: shapes", "all: [{body: b, sphere: [0.1, 0, 0], radius: 0.04}]"), "");
 }
 
+/// Numbers that a row of the list finds in a scenario.
+std::vector<Finding> findings(std::string_view row, const Scenario& s) {
+  return std::ranges::find(plausible_numbers(), row, &PlausibleNumber::name)->measure(Subject(s));
+}
+
+Scenario bar(const std::string& inertia, const std::string& contacts) {
+  return scenario(
+      fmt::format("gaitlab: 1\nrobot:\n  modules:\n    gaitlab_module: 1\n    name: bar\n    bodies:\n"
+                  "      a: {{mass: 30, com: [0.6, 0, 0], inertia: [{}, 0, 0, 0]}}\n"
+                  "    contacts: {{all: [{}]}}\ncontact: {{on: all}}\nduration: 1\n",
+                  inertia, contacts));
+}
+
 /// A body without shapes, whose contact points are 0.3 m apart, is compared with a box of 0.3 x 0.1 x 0.1 m: 30 kg are 10 times
 /// the density of water, its centre of mass is 0.3 m outside, and its moments are 6 and 10 times those of the box. Of these
 /// rough ratios a fifth counts, and of the distance a hundredth of the edge.
 TEST(Possible, ABodyOfPointsIsComparedWithTheirBox) {
   constexpr double kOfBox = 30.0 / 12 * (0.09 + 0.01);  // kg m^2
-  const Scenario s = scenario(
-      fmt::format("gaitlab: 1\nrobot:\n  modules:\n    gaitlab_module: 1\n    name: bar\n    bodies:\n"
-                  "      a: {{mass: 30, com: [0.6, 0, 0], inertia: [{}, {}, {}, 0, 0, 0]}}\n"
-                  "    contacts: {{all: [{{body: a, point: [0, 0, 0]}}, {{body: a, point: [0.3, 0, 0]}}]}}\nduration: 1\n",
-                  5 * kOfBox, 6 * kOfBox, 10 * kOfBox));
-  const Subject subject(s);
-  const auto value = [&](std::string_view row) {
-    return std::ranges::find(plausible_numbers(), row, &PlausibleNumber::name)->measure(subject).at(0).value;
-  };
-  EXPECT_NEAR(value("density"), 2000, 1e-9);
-  EXPECT_NEAR(value("com"), 0.01, 1e-12);
-  EXPECT_NEAR(value("moments"), 2, 1e-12);
+  const Scenario s = bar(fmt::format("{}, {}, {}", 5 * kOfBox, 6 * kOfBox, 10 * kOfBox),
+                         "{body: a, point: [0, 0, 0]}, {body: a, point: [0.3, 0, 0]}");
+  EXPECT_NEAR(findings("density", s).at(0).value, 2000, 1e-9);
+  EXPECT_NEAR(findings("com", s).at(0).value, 0.01, 1e-12);
+  EXPECT_NEAR(findings("moments", s).at(0).value, 2, 1e-12);
+}
+
+/// A quarter of the weight sinks a sphere by a share of its diameter.
+TEST(Possible, StiffnessIsComparedWithTheDiameterOfASphere) {
+  const Scenario s = bar("1, 1, 1", "{body: a, sphere: [0, 0, 0], radius: 0.06}, {body: a, sphere: [0.3, 0, 0], radius: 0.05}");
+  const double sink = std::pow(30 * 9.81 / 4 / s.contact.penalty.kn, 1 / s.contact.penalty.k);
+  EXPECT_NEAR(findings("stiffness", s).at(0).value, sink / 0.12, 1e-9 * sink);
+}
+
+TEST(Possible, TheTorqueOfAMotorWithTwoConstantsIsNotKnown) {
+  EXPECT_FALSE(findings("stall torque", shipped("caterpillar.yaml")).empty());
+  EXPECT_TRUE(findings("stall torque", shipped("caterpillar.yaml", {"actuator.Ks=0.01"})).empty());
+}
+
+/// A key of the scenario replaces that of the module type, and has the place of the warning.
+TEST(Possible, AKeyHasThePlaceWhereItIsSet) {
+  const Scenario s =
+      scenario(Links{.more = "actuator: {type: servo, voltage: 12, stall_torque: 5000, no_load_speed: 10}\n"}.text());
+  EXPECT_EQ(findings("stall torque", s).at(0).place.line, s.place("actuator.stall_torque").line);
+  EXPECT_EQ(findings("stall torque", scenario(Links{}.text())).at(0).place.line, 11);
 }
 
 }  // namespace
