@@ -147,7 +147,8 @@ std::string MjcfWalking::motor_comment() const {
   };
   if (!drives_.by_set_points) {
     return fmt::format(
-        " Controls are the commands of actuator {}, {}, under the law of its motors at rest, within their torque limit. "
+        " Controls are the commands of actuator {}, {}, under the law of its motors linearised about rest, within their torque "
+        "limit. "
         "Controller {} "
         "is "
         "not in this file.",
@@ -156,7 +157,8 @@ std::string MjcfWalking::motor_comment() const {
   std::string out = fmt::format(
       " Controls are set points, rad (columns setpoint of the trace). Torque = c Kp (ctrl - q) - (c Kd + B) w: controller pid "
       "and "
-      "the law T = c u - B w of actuator {} at rest, within its torque at rest under the largest command. Not in this file: "
+      "the law T = c u - B w of actuator {}, linearised about rest, within its torque at rest under the largest command. Not "
+      "in this file: "
       "the control period of {} s",
       name(s_.actuator), number_text(s_.control_period));
   if (drives_.derivative) out += ", the filter of D, and D of the set point";

@@ -234,7 +234,8 @@ TEST(Mujoco, HoldsTheHexapodWithItsNames) {
   EXPECT_EQ(m.nu, 22);
   EXPECT_EQ(m.nsite, 24);  // six feet with four points each
   EXPECT_DOUBLE_EQ(m.opt.timestep, s.physics.step);
-  EXPECT_NE(to_mjcf(s, MjcfModel::strict).find("Integrator: semi_implicit, of order 1; RK4 at the same step"),
+  EXPECT_NE(to_mjcf(s, MjcfModel::strict)
+                .find("Integrator: semi_implicit, of order 1; this file uses RK4 at the same step, of order 4."),
             std::string::npos);
   EXPECT_EQ(m.opt.integrator, mjINT_RK4);
   for (int g = 0; g < m.ngeom; ++g) EXPECT_EQ(m.geom_contype[g] + m.geom_conaffinity[g], 0);
