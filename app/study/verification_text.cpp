@@ -87,9 +87,10 @@ std::string point_text(studies::Journal& journal, const std::vector<Verification
     ways += fmt::format("{}{} {}", ways.empty() ? "" : ", ", clipped(v.what()), objective_cell(v));
     if (!v.reason.empty())
       reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", clipped(v.what()), one_line(v.reason));
-    if (v.kind == TrialKind::quarter_step)
+    if (v.kind == TrialKind::quarter_step) {
       below +=
           "  the other engine's default step was too long at times (check step), so that the run with a quarter of it counts\n";
+    }
     if (v.kind == TrialKind::limit)
       below += fmt::format("  the gait stands; the study's step was too long: {}{}\n", objective_cell(v), unit);
   }

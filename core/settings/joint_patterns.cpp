@@ -74,9 +74,10 @@ namespace {
 std::string of_the_other_kind(const std::string& text, const std::vector<std::string>& names, const std::string& part) {
   std::vector<std::string> within;
   std::ranges::copy_if(names, std::back_inserter(within), [&](const auto& name) { return name.starts_with(text + "/"); });
-  if (part == "joint" && !text.empty() && !within.empty())
+  if (part == "joint" && !text.empty() && !within.empty()) {
     return fmt::format("{0} is a module; its joint{1} {2}", in_quotes(text), within.size() == 1 ? " is" : "s are",
                        joined(within));
+  }
   const std::string head = text.substr(0, text.find('/'));
   if (part != "module" || head == text || std::ranges::find(names, head) == names.end()) return "";
   return fmt::format("{} is not a module; expected its module, {}", in_quotes(text), head);

@@ -185,9 +185,10 @@ class PythonCpg final : public Cpg {
       const py::array& setpoints = bound_->setpoint.of(setpoint);
       expect_filled("output", bound_->output(t, bound_->x.of(x), setpoints), setpoints, "setpoint");
       bound_->setpoint.take(setpoint);
-      if (!setpoint.empty() && std::ranges::all_of(setpoint, [](double one) { return std::isnan(one); }))
+      if (!setpoint.empty() && std::ranges::all_of(setpoint, [](double one) { return std::isnan(one); })) {
         throw std::runtime_error(
             "output() filled no set point; expected a method that fills its argument, as in setpoint[:] = ...");
+      }
     });
   }
 
