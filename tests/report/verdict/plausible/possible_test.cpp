@@ -275,6 +275,25 @@ TEST(Possible, TheTorqueOfAMotorWithTwoConstantsIsNotKnown) {
   EXPECT_TRUE(findings("stall torque", shipped("caterpillar.yaml", {"actuator.Ks=0.01"})).empty());
 }
 
+/// Limits of rows at which the number is just right or just wrong: a tenth of a period between two rows; a range of 360 rad,
+/// above which no stop is meant; of a setting per joint, the joint with the largest angle.
+TEST(Possible, LimitsOfRowsAndAngles) {
+  const auto rows = [](const Sets& sets) { return implausible(scenario(Links{}.text(), sets)).rows; };
+  EXPECT_EQ(std::ranges::count(rows({"trace.period=0.09"}), "trace period"), 0);
+  EXPECT_EQ(std::ranges::count(rows({"trace.period=0.12"}), "trace period"), 1);
+  const auto ranges = [](const char* range) {
+    std::string text = Links{}.text();
+    text.replace(text.find("[-1.5, 1.5]"), 11, range);
+    const std::vector<Finding> all = findings("angle", scenario(text));
+    return std::ranges::count_if(all, [](const Finding& one) { return one.text.starts_with("the range of hinge"); });
+  };
+  EXPECT_EQ(ranges("[-355, 355]"), 1);
+  EXPECT_EQ(ranges("[-365, 365]"), 0);
+  const std::vector<Finding> all =
+      findings("angle", shipped("caterpillar.yaml", {"cpg.amplitude={m3/active: 0.9, m3/passive: 1.1, '*': 0.2}"}));
+  EXPECT_EQ(std::ranges::count(all, 1.1, &Finding::value), 1);
+}
+
 /// A key of the scenario replaces that of the module type, and has the place of the warning.
 TEST(Possible, AKeyHasThePlaceWhereItIsSet) {
   const Scenario s =
