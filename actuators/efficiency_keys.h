@@ -11,7 +11,7 @@ struct EfficiencyKeys {
   EfficiencyModel efficiency_model = EfficiencyModel::paper;
   double turn_speed = 0.6;  ///< rad/s, at the joint
   void fields(Fields& f);
-  /// `reversal_speed` of core/laws/dc_motor.h, rad/s; 0 for eq. 2 as printed.
+  /// `reversal_speed` of core/laws/dc_motor.h, rad/s; 0 selects eq. 2 as the paper prints it.
   [[nodiscard]] double reversal_speed() const { return efficiency_model == EfficiencyModel::directional ? turn_speed : 0.0; }
 };
 

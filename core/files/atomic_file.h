@@ -58,7 +58,7 @@ int rename_new(const std::filesystem::path& from, const std::filesystem::path& t
 
 /// Type of a file after links are followed. The type is not_found for a missing file, and for a link to a missing file. Throws
 /// InputError `PATH: error: cannot be read: REASON` if the type cannot be determined, because of permissions, a loop of links
-/// or a too long name.
+/// or a name that is too long.
 std::filesystem::file_type kind_of(const std::filesystem::path& path);
 
 // Upper limits of the sizes of files by kind, bytes.

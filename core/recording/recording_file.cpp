@@ -69,7 +69,7 @@ void each_number(OfRecording& r, Visit visit) {
           std::string("time at which run and ") + one.words + " first differed by more than the accuracy; below 0: never",
           parting.time);
     visit(name + ".joint", "", "number of the joint in which they differed", parting.joint);
-    visit(name + ".share", "", "RMS of the difference of its torques over their peak, of the worst joint", parting.share);
+    visit(name + ".share", "", "RMS of the torque difference over the torque peak, for the worst joint", parting.share);
   }
   visit(kEnded, "", "end of the run: 0 done, 1 diverged, 2 plugin, 3 stopped, 4 interrupted, 5 not run, 6 early",
         r.outcome.ended);

@@ -69,8 +69,8 @@ class Plant {
   /// of the integrator.
   virtual void advance(In command, double h) = 0;
   [[nodiscard]] virtual StepEffort applied() const = 0;
-  /// Computes accelerations by the forward dynamics of the engine at `state`, which need not be the bound state. Joint torques
-  /// (N m), wrenches on bodies, weight and rotor inertia act; motors, stops, passive hinges and contacts do not.
+  /// Computes accelerations by the forward dynamics of the engine at `state`, which need not be the one of bind(). Joint
+  /// torques (N m), wrenches on bodies, weight and rotor inertia act; motors, stops, passive hinges and contacts do not.
   virtual void accelerate(std::size_t lane, const RobotState& state, In torque, std::span<const BodyWrench> wrenches,
                           Acceleration& out) = 0;
   /// Forces of all contact elements. If ContactModel::complete_state is false, these are the forces of the last step.
@@ -82,7 +82,7 @@ class Plant {
   /// equal parts on the support of the robot (support.h) instead of on the present contacts. By default nothing limits the
   /// step.
   [[nodiscard]] virtual Stability stability(std::size_t /*lane*/, In /*command*/, bool /*standing*/) { return {}; }
-  /// Computes contacts and centre of mass of all lanes at the bound state.
+  /// Computes contacts and centre of mass of all lanes at the state of bind().
   virtual void update_contacts() {}
   /// Centre of mass, m, world; nothing if the engine does not compute it.
   [[nodiscard]] virtual std::optional<Vec3> com(std::size_t /*lane*/) const { return {}; }

@@ -48,8 +48,8 @@ struct PyScenario {
 PluginTrust trust_of(const Trusted& trusted, const std::string& call);
 
 std::shared_ptr<PyScenario> read_python(const std::string& file, const Texts& sets, const Trusted& trusted);
-/// The scenario with further settings. If a class of Python was registered meanwhile, the file is read again, and InputError is
-/// thrown if it has changed.
+/// The scenario with further settings. If a Python class was registered since the file was read, the file is read again, and
+/// InputError is thrown if it has changed.
 std::shared_ptr<PyScenario> with_sets(const PyScenario& scenario, const Texts& sets);
 
 /// Warnings, and notes, on a scenario, each with its place.

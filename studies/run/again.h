@@ -26,7 +26,8 @@ bool do_again(const Again& again, const Executor& executor, std::atomic<bool>& s
 /// the study or its scenarios disable the estimate.
 std::vector<std::uint64_t> runs_in_doubt(const Plan& plan, Journal& journal);
 
-/// Simulates these runs again with an estimate and replaces their rows in the journal. Returns false if `stop` was set.
+/// Simulates these runs again, with an estimate of their torque errors, and replaces their rows in the journal. Returns false
+/// if `stop` was set.
 bool estimate_again(const Plan& plan, Journal& journal, const std::vector<std::uint64_t>& runs, const Executor& executor,
                     const std::function<void(std::size_t done, std::size_t of)>& told, std::atomic<bool>& stop);
 

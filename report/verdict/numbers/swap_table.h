@@ -18,8 +18,8 @@ struct NamedRun {
 /// line ends in '\n'.
 std::string swap_table(const std::vector<NamedRun>& runs);
 
-/// CSV table: the header `cpg,KEY (UNIT),...`, then one row per run, with every summary number that is a single number or text
-/// and is not measured by the clock. Empty cells are not known. For a run that ended early only `outcome` is filled in. Numbers
+/// CSV table: the header `cpg,KEY (UNIT),...`, then one row per run. The columns are the single numbers and texts of the
+/// summary, without computing times. Empty cells are not known. For a run that ended early only `outcome` is filled in. Numbers
 /// are the shortest text that is read back unchanged, as in write_csv; quoting follows RFC 4180.
 std::string swap_csv(const std::vector<NamedRun>& runs);
 

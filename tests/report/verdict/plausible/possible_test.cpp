@@ -251,9 +251,9 @@ Scenario bar(const std::string& inertia, const std::string& contacts) {
                   inertia, contacts));
 }
 
-/// A body without shapes, whose contact points are 0.3 m apart, is compared with a box of 0.3 x 0.1 x 0.1 m: 30 kg are 10 times
-/// the density of water, its centre of mass is 0.3 m outside, and its moments are 6 and 10 times those of the box. Of these
-/// rough ratios a fifth counts, and of the distance a hundredth of the edge.
+/// A body without shapes, whose contact points are 0.3 m apart, is compared with a box of 0.3 x 0.1 x 0.1 m. Its 30 kg are 10
+/// times the density of water, its centre of mass is 0.3 m outside, and its moments are 6 and 10 times those of the box. The
+/// rows judge a fifth of such a rough ratio, and a hundredth of the distance over the edge.
 TEST(Possible, ABodyOfPointsIsComparedWithTheirBox) {
   constexpr double kOfBox = 30.0 / 12 * (0.09 + 0.01);  // kg m^2
   const Scenario s = bar(fmt::format("{}, {}, {}", 5 * kOfBox, 6 * kOfBox, 10 * kOfBox),
