@@ -100,9 +100,10 @@ UrdfText::UrdfText(const std::string& file) : file_(file), text_(read_text(file)
   constexpr std::size_t kMostAttributes = 100;
   check_text(text_, file);
   check_elements(text_, file);
-  if (const std::size_t crowded = crowded_element(text_, kMostAttributes); crowded != std::string::npos)
+  if (const std::size_t crowded = crowded_element(text_, kMostAttributes); crowded != std::string::npos) {
     throw InputError(place_of(crowded),
                      fmt::format("has more than {} attributes; expected an element of URDF, which has fewer", kMostAttributes));
+  }
   const std::string whole = std::exchange(text_, without_comments(text_));
   if (const std::size_t macro = text_.find("<xacro:"); macro != std::string::npos) {
     throw InputError(place_of(macro), "has macros of xacro; expected URDF, as `xacro FILE > ROBOT.urdf` writes it");

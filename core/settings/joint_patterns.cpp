@@ -90,7 +90,7 @@ std::string no_joint(const std::string& text, const std::vector<std::string>& jo
   if (!joints_of(text, joints, groups).empty()) return "";
   if (group_named(text, groups) != nullptr) return "";  // the group has a fault, which is reported where it is given
   if (!is_pattern(text)) {
-    if (const std::string other = of_the_other_kind(text, joints, part); !other.empty()) return other;
+    if (std::string other = of_the_other_kind(text, joints, part); !other.empty()) return other;
     const std::string range = range_beside(text, joints);
     std::vector<std::string> known = joints;
     for (const JointGroup& group : groups) known.push_back(group.name);

@@ -28,10 +28,11 @@ std::string refuse_number(const Node& node, const std::string& kind, const std::
   if (is_other_base(text)) return expected(node, "decimal ", kind, unit);
   if (has_separator(text)) return expected(node, "", kind, unit, " without '_'");
   if (has_leading_zero(text)) return expected(node, "", kind, unit, " without a leading zero");
-  if (const std::size_t comma = text.find(','); is_digits(text.substr(0, comma)) && is_digits(text.substr(comma + 1)))
+  if (const std::size_t comma = text.find(','); is_digits(text.substr(0, comma)) && is_digits(text.substr(comma + 1))) {
     return expected(
         node, "", kind, unit,
         fmt::format("; use a decimal point: {}.{}", node.text.substr(0, node.text.find(',')), text.substr(comma + 1)));
+  }
   return expected(node, "", kind, unit);
 }
 

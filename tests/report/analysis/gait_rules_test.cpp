@@ -35,11 +35,11 @@ class OfFormula final : public Cpg {
 Formula sine(double period, double amplitude = 0.3) {
   return [=](double t) { return amplitude * std::sin(2 * kPi * t / period); };
 }
-Formula sum(Formula a, Formula b) {
+Formula sum(const Formula& a, const Formula& b) {
   return [=](double t) { return a(t) + b(t); };
 }
 /// A formula times 1 before a time, and times a factor from then on.
-Formula times_from(Formula f, double from, double factor) {
+Formula times_from(const Formula& f, double from, double factor) {
   return [=](double t) { return f(t) * (t < from - 1e-9 ? 1 : factor); };
 }
 /// Never periodic: by 23 % more in each turn.
