@@ -216,6 +216,14 @@ TEST_F(Plugins, WhatOneThrowsInTheRunEndsItAndKeepsWhatWasSimulated) {
   }
 }
 
+TEST_F(Plugins, WhatOneThrowsWhenTheRunIsJudgedKeepsTheTrace) {
+  folder.write("s.yaml", throwing("cpg", "times"));
+  const Result result = gaitlab("run s.yaml --quiet --out run", folder / "");
+  EXPECT_NE(result.code, 0);
+  EXPECT_TRUE(contains(result.err, "'throws' (" + kPlugins + "throws.so): times threw: no luck")) << result.err;
+  EXPECT_TRUE(std::filesystem::exists(folder / "run/trace.h5"));
+}
+
 TEST_F(Plugins, ANewOneIsWrittenOnce) {
   EXPECT_EQ(gaitlab("new plugin cpg ripple", folder / "").code, 0);
   const std::string code = read(folder / "ripple/ripple.cpp");

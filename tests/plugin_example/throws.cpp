@@ -29,13 +29,20 @@ struct ThrowingCpg final : Cpg {
   void event(const Measured&, Out) const override { s.at("event"); }
   void output(double t, In, Out setpoint) const override {
     for (double& each : setpoint) each = 0;
-    if (t > 0.1) s.at("output");
+    if (t <= 0.1) return;
+    s.at("output");
+    ran = true;
+  }
+  [[nodiscard]] SetPointTimes times() const override {
+    if (ran) s.at("times");
+    return {};
   }
   std::string note() const override {
     s.at("note");
     return {};
   }
   Settings s;
+  static inline bool ran = false;  // times() works when the scenario is read, and fails when the run is judged
 };
 
 struct ThrowingController final : Controller {
