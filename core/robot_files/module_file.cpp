@@ -11,6 +11,7 @@
 #include "core/robot_files/body_pair_list.h"
 #include "core/robot_files/body_section.h"
 #include "core/robot_files/module_check.h"
+#include "core/settings/explainer.h"
 #include "core/settings/reader.h"
 #include "core/settings/wording.h"
 
@@ -123,7 +124,9 @@ class ModuleReader {
       }
     }
     if (keys.drive == HingeKeys::Drive::none) return;
-    for (const char* key : {"stiffness", "rest", "damping", "friction", "friction_speed"}) {
+    Explainer springs;
+    SpringKeys().fields(springs);
+    for (const std::string& key : springs.keys()) {
       const Node* own = node.find(key);
       if (own == nullptr) continue;
       problems_.add(own->place, fmt::format("{0} is only for a hinge without a motor, and this hinge has one; add drive: none, "

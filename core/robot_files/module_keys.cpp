@@ -55,6 +55,15 @@ void BodyKeys::fields(Fields& f) {
                    "Outline of the body. Each shape has exactly one of box, cylinder, half_cylinder and sphere.");
 }
 
+void SpringKeys::fields(Fields& f) {
+  f.number("stiffness", stiffness, {"N m/rad", 0, 1e6, "Stiffness of a  Only with drive: none."});
+  f.number("rest", rest, {"rad", -1000, 1000, "Angle at which the spring has no torque. Only with drive: none."});
+  f.number("damping", damping, {"N m s/rad", 0, 1e6, "Coefficient of a viscous damper. Only with drive: none."});
+  f.number("friction", friction, {"N m", 0, 1e6, "Dry friction. Only with drive: none."});
+  f.number("friction_speed", friction_speed,
+           {"rad/s", 1e-6, 1e3, "Speed below which dry friction is viscous. Only with drive: none."});
+}
+
 void HingeKeys::fields(Fields& f) {
   static constexpr const char* kDrives[] = {"motor", "none"};
   source_field(f, source);
@@ -66,12 +75,7 @@ void HingeKeys::fields(Fields& f) {
   Marked(f, Need::required, "free", &free)
       .vector("range", range, any("rad", "Smallest and largest angle, outside which a stop acts; free: continuous rotation."));
   f.choice("drive", drive, kDrives, "motor, or none for a passive hinge.");
-  f.number("stiffness", spring.stiffness, {"N m/rad", 0, 1e6, "Stiffness of a spring. Only with drive: none."});
-  f.number("rest", spring.rest, {"rad", -1000, 1000, "Angle at which the spring has no torque. Only with drive: none."});
-  f.number("damping", spring.damping, {"N m s/rad", 0, 1e6, "Coefficient of a viscous damper. Only with drive: none."});
-  f.number("friction", spring.friction, {"N m", 0, 1e6, "Dry friction. Only with drive: none."});
-  f.number("friction_speed", spring.friction_speed,
-           {"rad/s", 1e-6, 1e3, "Speed below which dry friction is viscous. Only with drive: none."});
+  spring.fields(f);
   optional(f).other("actuator", kPluginMap, "Keys of the motor that differ from the module type's actuator.");
   optional(f).other("controller", kPluginMap, "Keys of the controller that differ from the module type's controller.");
 }

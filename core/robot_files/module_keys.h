@@ -25,13 +25,18 @@ struct BodyKeys : BodyType {
   void fields(Fields& f);
 };
 
+/// Spring and damper of a hinge without a motor.
+struct SpringKeys : Passive {
+  void fields(Fields& f);
+};
+
 struct HingeKeys : HingeType {
   std::string source, of_parent, of_child;  ///< names of the bodies
   Vec3 origin = Vec3::Zero(), turn = Vec3::Zero();
   std::array<double, 2> range = {};
   bool free = false;
   enum class Drive { motor, none } drive = Drive::motor;
-  Passive spring;
+  SpringKeys spring;
   void fields(Fields& f);
 };
 

@@ -24,8 +24,8 @@ std::string module_page() {
   return "# The module file\n\n"
          "<!-- Written by `tests/gates/reference.sh build/release --renew`; CI fails where it is stale. -->\n\n"
          "Every key, as `gaitlab explain module` prints it; their use: [modules](../modules.md). `gaitlab new module NAME` "
-         "writes "
-         "a\nfile to start from. For editors: the JSON Schema `scenarios/gaitlab-module.schema.json`, by `gaitlab schema "
+         "writes a\nfile to start from. For editors: the JSON Schema `scenarios/gaitlab-module.schema.json`, by `gaitlab "
+         "schema "
          "--module`.\n\n" +
          markdown_table(module_rows());
 }

@@ -68,8 +68,8 @@ class GaitRules : public ::testing::Test {
     const Robot& robot = *scenario_.robot;
     record_ = {};
     record_.simulated = run.duration;
-    record_.poses.columns = pose_columns(robot.joints.size());
-    const std::vector<Column>& columns = pose_columns(robot.joints.size());
+    const std::vector<Column> columns = pose_columns(robot.joints.size());
+    record_.poses.columns = columns;
     for (std::int64_t k = 0; static_cast<double>(k) * kTick <= run.duration + 1e-9; ++k) {
       const double t = static_cast<double>(k) * kTick;
       const double set_point = run.recorded(std::max(0.0, t - kTick));  // in force just before the row
@@ -99,7 +99,7 @@ class GaitRules : public ::testing::Test {
 
 TEST_F(GaitRules, ThePeriodOfTheRecordedSetPoints) {
   const Gait found = of({6, sine(1)});
-  EXPECT_NEAR(found.period, 1, 1e-3);
+  EXPECT_NEAR(found.period, 1, 1e-3);  // the vertex of a parabola through samples every 15 ms
   EXPECT_EQ(found.start, 0);
 }
 
@@ -121,7 +121,7 @@ TEST_F(GaitRules, SetPointsThatStillApproachTheirPeriod) {
 /// A window of one period bears half of the weight if the robot lands in its middle: from 1.0 s on, if it lands at 1.5 s.
 TEST_F(GaitRules, StartsAtTheLanding) {
   const auto lands = [](double at) { return [at](double t) { return t < at ? 0.0 : 1.0; }; };
-  EXPECT_NEAR(of({6, sine(1), {}, lands(1.5)}).start, 1, 1.5 * kTick);
+  EXPECT_NEAR(of({6, sine(1), {}, lands(1.5)}).start, 1, 1.5 * kTick);  // a row before or after
   EXPECT_EQ(of({6, sine(1), {}, [](double t) { return t < 4 ? 1.0 : 0.0; }}).start, 0) << "not on the ground at the end";
 }
 
@@ -133,7 +133,7 @@ TEST_F(GaitRules, StartsAfterAStatedRamp) {
 /// Larger set points before 1 s; 20 rows, 0.3 s, are less than the period of 0.35 s, of which 9 fit into the rest of the run.
 TEST_F(GaitRules, StartsWhereTheSetPointsHaveTheirSize) {
   const Formula settles = times_from(sine(0.35, 0.45), 1, 2.0 / 3);
-  EXPECT_NEAR(of({4.2, settles}).start, 4.2 - 9 * 0.35, 0.01);
+  EXPECT_NEAR(of({4.2, settles}).start, 4.2 - 9 * 0.35, 0.01);  // nine times the error of the period
   EXPECT_EQ(of({4.2, sine(0.35)}).start, 0);
   EXPECT_EQ(of({4.2, settles, {.full_size = 0.3}}).start, 0.3) << "a stated time decides";
 }
