@@ -1,4 +1,4 @@
-// Checks of the paths to which pages are written.
+// Checks of paths for new pages.
 #include <fmt/format.h>
 
 #include "app/shell/commands.h"

@@ -19,10 +19,10 @@ namespace gaitlab {
 
 namespace {
 
-constexpr double kPointRadius = 1e-6;  // m; MuJoCo has no points
+constexpr double kPointRadius = 1e-6;  // m; MuJoCo does not have points
 // Contact parameters of set-up armature: the time constant of solref, s; the share of the force at the start of a contact
-// (solimp); the depth at which the full force is reached, m. MuJoCo's defaults are 0.02, 0.9 and 0.001. With the defaults the
-// torques converge slowly for any setting of the solver: the error of the hexapod at 1.25 ms is 4 %, but 0.9 % with the values
+// (solimp); the depth at which the full force is reached, m. MuJoCo's defaults are 0.02, 0.9 and 0.001. The torques converge
+// slowly with the defaults for any setting of the solver: the error of the hexapod at 1.25 ms is 4 %, but 0.9 % with the values
 // here. The values are chosen among those with about the penetration of gaitlab's contact law.
 constexpr double kTime = 0.01, kOnset = 0.001, kDepth = 0.002;
 

@@ -185,7 +185,7 @@ std::string nearest(const std::string& found, const std::vector<std::string>& kn
     best = name;
   }
   if (!best.empty()) return best;
-  // If `found` is too long, the longest name with which it begins is the result.
+  // If `found` is too long, the result is the longest name that `found` begins with.
   constexpr std::size_t kShortest = 4;
   for (const std::string& name : known) {
     if (name.size() >= kShortest && name.size() > best.size() && found.starts_with(name)) best = name;

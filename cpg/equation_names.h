@@ -38,7 +38,7 @@ class EquationNames {
   [[nodiscard]] std::string declare(const std::string& name, Kind kind, std::size_t slot);
 
   [[nodiscard]] const Entry* find(const std::string& name) const;
-  /// Adds the faults of a tree that belongs to `where`. For a parameter, `slot` is its own index.
+  /// Adds the faults of a tree that belongs to `where`. The `slot` of a parameter is its own index.
   void check(const Term& term, Where where, std::size_t slot, std::vector<expression::Fault>& faults) const;
 
  private:

@@ -123,7 +123,7 @@ void Tripod::output(double t, In, Out setpoint) const {
       const Depth then = depth(cycles + (1 - m.progress) * swing, grown);
       tilted = (1 - (1 - m.progress) / kFade) * tilt(step.leg, then, amplitude);
     }
-    // For a leg that hangs down, a motion towards +x is a left-hand turn about +y.
+    // A motion towards +x of a leg that hangs down is a left-hand turn about +y.
     setpoint[static_cast<std::size_t>(step.leg.hip)] = -step.leg.hip_sign * m.forward;
     setpoint[static_cast<std::size_t>(step.leg.ankle)] = step.leg.ankle_sign * (m.forward - tilted);
   }

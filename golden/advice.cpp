@@ -145,7 +145,7 @@ std::string narrower_columns(const std::vector<Band>& columns, const Scenario& s
   if (runs.size() == 1 || runs[1].error || runs[2].error) return "take " + own;
   const std::string other = extrapolated_setting(scenario, scenarios[1].physics.step, halving_band(runs[1].run, runs[2].run));
   if (other.empty()) return "take " + own;
-  // With given steps, order 2 is the cheaper remedy.
+  // Order 2 is the cheaper remedy if the steps are given.
   return "take " + (scenario.physics.adapts() ? own + ", or " + other : other + ", or " + own);
 }
 

@@ -55,8 +55,8 @@ struct Bands {
   std::vector<Band> columns, numbers;  ///< bands of the columns and of the numbers, as in Golden
 };
 
-/// Bands of the run `base`. For a column the band is the maximum of kEnsembleFactor x the largest RMS difference of a run of
-/// the ensemble, kHalvingFactor x the RMS difference of the run with half the step, and 1e-6 of the range. The band of a number
+/// Bands of the run `base`. The band of a column is the maximum of kEnsembleFactor x the largest RMS difference of a run of the
+/// ensemble, kHalvingFactor x the RMS difference of the run with half the step, and 1e-6 of the range. The band of a number
 /// follows from its differences in the same way. If `base` has means over starts, the ensemble is not needed: its part of the
 /// band is kStandardErrors of the difference of two means. A band may be narrower than the precision of the stored golden,
 /// because its rounding error is known exactly (Golden::rounding) and is subtracted. A column is constant if its range is below

@@ -35,7 +35,7 @@ struct Approval {
   std::string reason, build;
 };
 
-/// Settings and build by which an approved run was made.
+/// Settings and build of an approved run.
 struct GoldenProvenance {
   std::string name, engine, integrator;
   double step = 0;              ///< s

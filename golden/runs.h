@@ -32,7 +32,7 @@ std::vector<Attempt> golden_runs(const std::vector<Scenario>& scenarios, int job
                                  const std::function<void(double)>& progress = {}, bool judged = false);
 
 /// Numbers that a golden of this run contains. These are all numbers except the costs of transport if the robot travels less
-/// than 10 mm, because these costs are then noise. In a comparison the golden selects the numbers, so that a run on the other
+/// than 10 mm, because these costs are then noise. The golden of a comparison selects the numbers, so that a run on the other
 /// side of that limit is still compared.
 std::vector<Number> golden_numbers(const GoldenRun& run);
 

@@ -218,7 +218,7 @@ class GltfScene {
     animate(node, "rotation", numbers, 4);
   }
 
-  /// Adds an animation channel. A value that never changes has no channel, because the node already contains it.
+  /// Adds an animation channel. A value that never changes does not have a channel, because the node already contains it.
   void animate(std::size_t node, const char* path, const std::vector<float>& numbers, std::size_t width) {
     const auto moved = [&](std::size_t i) { return numbers[i] != numbers[i % width]; };
     bool any = false;

@@ -25,9 +25,9 @@ struct Gltf {
   std::size_t frames = 0;  ///< number of keyframes
 };
 
-/// Binary glTF 2.0 file of the robot and its ground. With a `recording` it contains one animation of the run, whose keyframes
-/// are trace rows at least 1/60 s apart, and the last row. Without a recording, or if the recording has only one row, the robot
-/// is in its initial pose.
+/// Binary glTF 2.0 file of the robot and its ground. If `recording` is given, it contains one animation of the run, whose
+/// keyframes are trace rows at least 1/60 s apart, and the last row. Without a recording, or if the recording has only one row,
+/// the robot is in its initial pose.
 ///
 /// The node `world` turns z up into glTF's y up. Its children are the ground, the ground's boxes, and the nested links: `base`,
 /// `joint m3/passive`, etc. Each link contains the bodies that move with it, one mesh per body type. A joint therefore rotates

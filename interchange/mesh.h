@@ -18,8 +18,8 @@ struct Mesh {
   Triangles triangles;
 };
 
-/// Adds a shape, in the frame in which the shape's pose is given. A cylinder becomes an inscribed prism of 32 sides, a sphere
-/// 32 x 16 faces. The surface is up to 0.5 % of the radius inside the shape (chosen).
+/// Adds a shape, in the frame of the shape's pose. A cylinder becomes an inscribed prism of 32 sides, a sphere 32 x 16 faces.
+/// The surface is up to 0.5 % of the radius inside the shape (chosen).
 void add(Mesh& mesh, const Shape& shape);
 
 /// A rectangle in the world's x and y, m.

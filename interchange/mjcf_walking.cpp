@@ -13,7 +13,7 @@ namespace gaitlab::interchange {
 
 namespace {
 
-// m, radius of the sphere by which a point touches. If the body tilts by an angle a from the start, the bottom of the sphere is
+// m, radius of the sphere that represents a point. If the body tilts by an angle a from the start, the bottom of the sphere is
 // (1 - cos a) radii below the point: 8 um at 0.4 rad.
 constexpr double kTouchRadius = 1e-4;
 // m, the same on a ground with boxes. MuJoCo 2.2 takes the radius for the depth of a sphere whose centre is inside a box (3.12

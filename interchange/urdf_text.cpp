@@ -140,7 +140,7 @@ SourceLocation UrdfText::place(const std::string& tag, const std::string& name, 
     const std::string head = text_.substr(at, text_.find('>', at) - at);
     const bool named =
         head.find("name=\"" + name + '"') != std::string::npos || head.find("name='" + name + '\'') != std::string::npos;
-    // Elements <joint> of a transmission have no type.
+    // Elements <joint> of a transmission do not have a type.
     if (named && (tag != "joint" || head.find("type=") != std::string::npos)) found = at;
   }
   return found == std::string::npos ? SourceLocation{file_} : place_of(found);

@@ -46,8 +46,8 @@ class Holds {
     for (std::size_t j = 0; any_ && j < grip_.size(); ++j) grip_[j] = Hold::grip(since_[j] + T(within));
   }
 
-  /// The torque of the hold after a part h of the step that ends with the speed qd. It is `stop` in lanes in which the hinge is
-  /// not stuck. With h = 0 it is the torque at the state (q, qd).
+  /// The torque of the hold after a part h of the step that ends with the speed qd. It is `stop` in lanes whose hinge is not
+  /// stuck. If h = 0, it is the torque at the state (q, qd).
   [[nodiscard]] StopTorque<T> instead_of(const StopTorque<T>& stop, std::size_t j, const T& q, const T& qd, double h) const {
     using math::select;
     return {select(held_[j], Hold::torque(q + h * qd, qd, angle_[j], grip_[j]), stop.torque),

@@ -262,7 +262,7 @@ class Implicit {
     return result;
   }
 
-  /// Lanes in which a law at the end speeds of the iterate differs from the force in the solve. Counts such motors and stops in
+  /// Lanes where a law at the end speeds of the iterate differs from the force in the solve. Counts such motors and stops in
   /// missed_.
   math::Mask<T> misses(std::span<const T> x, In command, double h) {
     for (std::size_t j = 0; j < joints_; ++j) end_[j] = speeds(x)[j] + T(h) * now_.a[6 + j];

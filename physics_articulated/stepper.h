@@ -271,8 +271,8 @@ class Stepper {
     own.quarter.to = own.early.from + of_quarter;
   }
 
-  /// Advances the lanes `which` by a step h, which ends after `end` of the kShortest shortest parts of the whole step. At level
-  /// kLevels the step has second order, regardless of its error.
+  /// Advances the lanes `which` by a step h, which ends after `end` of the kShortest shortest parts of the whole step. The step
+  /// at level kLevels has second order, regardless of its error.
   void adapt(std::span<T> x, In command, double h, const math::Mask<T>& which, std::size_t level, std::size_t end = kShortest,
              const Level<T>* before = nullptr) {
     using math::select;

@@ -8,8 +8,8 @@
 
 namespace gaitlab::bullet {
 
-/// Half cylinder about y that bulges towards +x; Bullet has no such shape. It is exact except for its edges, which are rounded
-/// by the margin, inside the outline. It is convex, so that any collision algorithm for convex shapes accepts it.
+/// Half cylinder about y that bulges towards +x; Bullet does not have such a shape. It is exact except for its edges, which are
+/// rounded by the margin, inside the outline. It is convex, so that any collision algorithm for convex shapes accepts it.
 class HalfCylinderShape final : public btConvexInternalShape {
  public:
   HalfCylinderShape(double radius, double length);

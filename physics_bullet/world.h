@@ -19,7 +19,7 @@ namespace gaitlab::bullet {
 /// A btMultiBodyDynamicsWorld that solves everything as one island. (The option of Bullet not to split islands passes the wrong
 /// number of multibody constraints to the solver, usually none. Splitting islands would need a collider for every link.) The
 /// friction coefficient of a contact with the robot is the coefficient of the touched object, not the product of both
-/// coefficients as in Bullet. Between two other objects, it is the smaller coefficient.
+/// coefficients as in Bullet. The coefficient between two other objects is the smaller coefficient.
 class OneIslandWorld final : public btMultiBodyDynamicsWorld {
  public:
   using btMultiBodyDynamicsWorld::btMultiBodyDynamicsWorld;

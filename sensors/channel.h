@@ -16,10 +16,10 @@ namespace gaitlab::sensors {
 ///     b_k = e^(-N Ts / tau) b_(k-N) + walk W w_k         W^2 = tau/2 (1 - e^(-2 N Ts / tau)); tau = walk_time
 ///                                                        tau = 0: b_k = b_(k-N) + walk (N Ts)^1/2 w_k; b = 0 before tick 0
 ///
-/// A lost sample is replaced by the previous one. Between samples s is held. The value at tick k is y_k = s_(k-d), and s_0
-/// before tick d; d is a whole number of control periods, drawn once per run with equal probabilities. n, m, g and w are normal
-/// with deviation 1. All draws come from PhiloxStream(seed, name), at the tick k or, if they are drawn once per run, at the
-/// tick 0. With all errors 0, values are exact.
+/// A lost sample is replaced by the previous one. The sample s is held until the next. The value at tick k is y_k = s_(k-d),
+/// and s_0 before tick d; d is a whole number of control periods, drawn once per run with equal probabilities. n, m, g and w
+/// are normal with deviation 1. All draws come from PhiloxStream(seed, name), at the tick k or, if they are drawn once per run,
+/// at the tick 0. Values are exact if all errors are 0.
 ///
 /// Reference for b: first-order Gauss-Markov process, IEEE Std 952-1997, annex B. Quantisation precedes the delay (chosen),
 /// because the delay is that of a bus behind the converter.

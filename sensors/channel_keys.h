@@ -20,7 +20,7 @@ inline constexpr ChannelUnit kNewtonMetre{"N m", "N m/s^0.5"};
 inline constexpr ChannelUnit kNewton{"N", "N/s^0.5"};
 inline constexpr ChannelUnit kAcceleration{"m/s^2", "m/s^2.5"};
 
-/// Keys of a channel (channel.h has the equations). With the defaults, the channel gives the true value.
+/// Keys of a channel (channel.h has the equations). The channel with the defaults gives the true value.
 struct ChannelKeys {
   explicit ChannelKeys(const ChannelUnit& of) : unit(of) {}
   ChannelUnit unit;

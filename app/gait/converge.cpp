@@ -51,7 +51,7 @@ struct Runs {
   bool quantised = false;                   // a sensor has a resolution
 };
 
-/// Progress of runs side by side, each of which takes twice as long as the previous one.
+/// Progress of runs side by side. Each takes twice as long as the previous run.
 class DoublingProgress {
  public:
   DoublingProgress(bool quiet, std::size_t runs) : progress_(quiet), done_(runs) {}

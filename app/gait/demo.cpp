@@ -26,7 +26,8 @@ int demo(const DemoArguments& demo) {
   arguments.file = (std::filesystem::path(data_folder()) / kName).string() + ".yaml";
   arguments.sets = {kEngine};
   arguments.out = demo.out;
-  // The printed command begins with the name by which this program was called, which works even if PATH lacks it (./lab demo).
+  // The printed command calls this program by the same name as the user did, so that it works even if PATH lacks it (./lab
+  // demo).
   const std::string again = fmt::format("{} run {} --set {}", shell_word(program_invocation_name), kName, kEngine);
   fmt::print("{}\n", again);
   const int code = run(arguments);

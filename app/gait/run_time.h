@@ -30,7 +30,7 @@ using TimeOf = std::function<double(std::span<const Scenario> scenarios)>;
 std::string faster_engine(std::span<const Scenario> scenarios, double seconds, const TimeOf& time_of, const ReadAgain& again);
 
 /// Prints on stderr, at `place`, the estimated time of all runs that `again` reads without further settings, and the advice to
-/// take the faster engine. Prints nothing if the time is at most kLongRun and there is no advice.
+/// take the faster engine. Prints nothing if the time is at most kLongRun and the advice is empty.
 void note_time(const std::string& place, const TimeOf& time_of, const ReadAgain& again);
 
 /// The advice for a run of one scenario, which `arguments` name, with a trace of this size.

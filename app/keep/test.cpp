@@ -90,8 +90,8 @@ struct Strayed {
   std::size_t others = 0;
 };
 
-/// At most kMostDrawn columns: those that exceed their bands most, in the order in which they leave their bands. If only
-/// numbers are outside their bands, it is the column nearest to the limit of its band.
+/// The columns that exceed their bands most, at most kMostDrawn, in the order of leaving their bands. If only numbers are
+/// outside their bands, it is the column nearest to the limit of its band.
 std::vector<Strayed> strayed(const GoldenCase& c) {
   std::vector<const ColumnCheck*> found;
   for (const ColumnCheck& check : c.difference.columns) {

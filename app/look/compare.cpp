@@ -96,7 +96,7 @@ void print_settings(const CompareArguments& arguments) {
   for (const std::string& setting : changed) fmt::print("  {}\n", setting);
 }
 
-/// Prints the columns with the largest differences, and the time at which the first column diverges.
+/// Prints the columns with the largest differences, and the time when the first column diverges.
 void print_columns(const TraceDifference& difference, bool all) {
   std::vector<const ColumnDifference*> apart;
   const ColumnDifference* first = nullptr;

@@ -159,7 +159,7 @@ fs::path target(const FigureArguments& arguments) {
   return file;
 }
 
-/// Path from which the names of the CSV files are derived: --csv, or that of the figure.
+/// Path that determines the names of the CSV files: --csv, or that of the figure.
 fs::path numbers_target(const FigureArguments& arguments, const fs::path& figure) {
   if (!arguments.csv) return figure;
   fs::path file = *arguments.csv;

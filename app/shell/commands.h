@@ -38,8 +38,7 @@ struct Offered {
   bool files = true;                    ///< false if it accepts no file
   bool several = false;                 ///< names, separated by commas
 };
-/// Sets the help of an option to a text, in which each `{}` is replaced by the command that lists offered values. Returns the
-/// option.
+/// Sets the help of an option to a text, with each `{}` replaced by the command that lists offered values. Returns the option.
 CLI::Option* offering(CLI::Option* option, std::string text, const Offered& offered);
 
 /// Adds the commands `new module` and `new scenario`.

@@ -7,12 +7,11 @@
 
 namespace gaitlab::app {
 
-/// Columns of the terminal behind a file descriptor, from 40 to 200; `otherwise` if there is no terminal or its size is
-/// unknown.
+/// Columns of the terminal behind a file descriptor, from 40 to 200; `otherwise` without a terminal, or if its size is unknown.
 std::size_t terminal_columns(int descriptor, std::size_t otherwise = 80);
 
 /// Line of less than `columns` columns: a bar with the share that is done, of at most 40 columns, and the text. If the text
-/// leaves less than 8 columns for the bar, the line has no bar. A longer text is cut.
+/// leaves less than 8 columns for the bar, the line does not have a bar. A longer text is cut.
 std::string progress_line(double share, const std::string& text, std::size_t columns);
 
 /// Writer of progress lines. The destructor clears the line on a terminal.

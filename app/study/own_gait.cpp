@@ -30,7 +30,7 @@ struct Way {
   report::TorqueError error = {};
 };
 
-/// The ways in which the scenario is run: with the step of the study, with half of it, and with an adaptive step.
+/// The runs of the scenario: with the step of the study, with half of it, and with an adaptive step.
 std::vector<Way> ways(const Scenario& own) {
   std::vector<Way> all{{{}}};
   if (own.physics.adapts()) return all;

@@ -7,11 +7,11 @@
 
 namespace gaitlab::app {
 
-/// Text with the result of the verification of each best point, the reasons if it failed, and the worlds in which it falls.
-/// Empty if no point was verified. A table of the winner with each joint dead in turn follows if `verify.faults` is `each`.
+/// Text with the result of the verification of each best point, the reasons if it failed, and the worlds where it falls. Empty
+/// if no point was verified. A table of the winner with each joint dead in turn follows if `verify.faults` is `each`.
 std::string verification_text(studies::Journal& journal);
 
-/// Text with the worlds in which a point falls, as in `falls by supply -10 % (6.66 V): voltage of m5/passive; and in 1 of 7
+/// Text with the worlds where a point falls, as in `falls by supply -10 % (6.66 V): voltage of m5/passive; and in 1 of 7
 /// draws`. Empty if there are none.
 std::string falls_text(const studies::WorldCount& count);
 

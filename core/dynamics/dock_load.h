@@ -7,7 +7,7 @@
 namespace gaitlab {
 
 /// Load about the common origin of the docked faces. Shear and bending are magnitudes, because a magnitude does not depend on
-/// the quarter turn by which the faces are docked. (docs/equations.md, 9)
+/// the quarter turn between the docked faces. (docs/equations.md, 9)
 struct DockLoad {
   double tension = 0;  ///< N, positive: pulls the modules apart
   double shear = 0;    ///< N, in the plane of the faces

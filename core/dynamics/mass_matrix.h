@@ -41,9 +41,9 @@ class MassMatrix {
   Eigen::MatrixXd matrix_;
 };
 
-/// Generalised force from the results of an inverse dynamics: base entries of the base wrench, then joint torques. For the
-/// accelerations of a motion, the force is f. For zero accelerations it is the bias c: centrifugal and Coriolis terms, weight
-/// and external wrenches.
+/// Generalised force from the results of an inverse dynamics: base entries of the base wrench, then joint torques. The force
+/// for the accelerations of a motion is f. The force for zero accelerations is the bias c: centrifugal and Coriolis terms,
+/// weight and external wrenches.
 Eigen::VectorXd generalised_force(const InverseDynamics& dynamics, Base base);
 
 }  // namespace gaitlab

@@ -16,7 +16,7 @@ namespace gaitlab {
 
 namespace {
 
-/// Prints that a file system has no locks, once for each folder.
+/// Prints that a file system does not support locks, once for each folder.
 void note_no_locks(const std::filesystem::path& folder, int error) {
   static std::string noted;  // last folder in a note; a study locks its folder first, then the file `lock` in this folder
   if (std::exchange(noted, folder.string()) == folder.string()) return;

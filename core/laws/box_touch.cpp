@@ -43,8 +43,8 @@ struct ExitPath {
 };
 
 /// Limit on the number of searches in a query, because a complete search of n boxes in one place looks at n^4 boxes. The corner
-/// of a tiled floor needs 276 searches; stairs of 200 boxes on top of one another need 50. In a heap of a hundred boxes, a
-/// query takes about a millisecond.
+/// of a tiled floor needs 276 searches; stairs of 200 boxes on top of one another need 50. A query in a heap of a hundred boxes
+/// takes about a millisecond.
 struct Searches {
   static constexpr std::size_t kFewest = 300, kLooks = 6000;
   std::size_t left;

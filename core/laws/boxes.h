@@ -61,7 +61,7 @@ class Boxes {
 
   /// Numbers of all boxes that come within `distance` (m, at least 0) of a position, and of some others, in rising order.
   [[nodiscard]] std::span<const std::uint32_t> near(const Vec3& place, double distance) const;
-  /// Largest distance for which `near` uses the smallest cells, m.
+  /// Largest distance for the smallest cells of `near`, m.
   [[nodiscard]] double margin() const;
   struct Ball {
     Vec3 center;    ///< m

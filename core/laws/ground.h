@@ -40,7 +40,7 @@ struct Ground {
   [[nodiscard]] const Boxes& boxes() const;
   /// This ground without the boxes that have a mass.
   [[nodiscard]] Ground without_moving_boxes() const;
-  /// Heights with which pictures show the surface; nullptr if plane and boxes are enough.
+  /// Heights of the surface in pictures; nullptr if plane and boxes are enough.
   [[nodiscard]] const Heightfield* relief() const;
   /// has_border: true if the given heights end at a border, beyond which the surface is only extrapolated. beyond_border: true
   /// if (x, y), m, is beyond this border.

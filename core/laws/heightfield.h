@@ -37,8 +37,8 @@ class Heights {
 };
 
 /// Surface through the given heights, with a continuous normal. It is cubic in each cell (Catmull and Rom 1974, in x and in y).
-/// With triangles or bilinear cells, the normal would jump at every edge, and a foot that slides over an edge would get an
-/// impact. A plane is reproduced exactly up to the border. Beside a step, the surface overshoots by up to 7 % of the step.
+/// Triangles or bilinear cells would make the normal jump at every edge, and a foot that slides over an edge would get an
+/// impact. A plane is reproduced exactly up to the border. The surface beside a step overshoots by up to 7 % of the step.
 /// Beyond the border, the heights at the border continue outwards.
 struct Heightfield {
   static constexpr GroundType kType{.name = "heightfield", .about = "a surface through heights", .has_settings = true};

@@ -7,7 +7,7 @@
 
 namespace gaitlab::math {
 
-/// Convex hull, counter-clockwise, without points on its edges. For points on one line, the hull is the two ends of the line. P
+/// Convex hull, counter-clockwise, without points on its edges. The hull of points on one line is the two ends of the line. P
 /// has members x and y. (Andrew's monotone chain, Inf. Proc. Letters 9, 1979: the lower hull from left to right, then the upper
 /// hull from right to left.)
 template <class P>

@@ -34,7 +34,7 @@ struct BodyType {
 
 inline constexpr double kNoStop = std::numeric_limits<double>::infinity();  ///< value of hi and -lo if a hinge turns freely
 
-/// A hinge. At angle 0 the frame of the child is the hinge frame. A positive angle is a right-hand turn of the child relative
+/// A hinge. The frame of the child at angle 0 is the hinge frame. A positive angle is a right-hand turn of the child relative
 /// to the parent.
 struct HingeType {
   std::string name;

@@ -5,8 +5,8 @@
 
 namespace gaitlab {
 
-/// The role of a block is the gender of its faces, or other if its faces have no gender. The role of a body without faces is
-/// link.
+/// The role of a block is the gender of its faces, or other if its faces do not have a gender. The role of a body without faces
+/// is link.
 enum class Role { active, link, passive, other };
 
 template <>

@@ -38,7 +38,7 @@ struct Engine {
   double (*choose_step)(const Scenario&) = nullptr;
 
   [[nodiscard]] const Integrator* integrator(std::string_view name) const;  ///< null if the name is unknown
-  /// Integrator that chooses its steps, for which `step: auto` is the default. Null if the engine has none.
+  /// Integrator that chooses its steps and has the default `step: auto`. Null if the engine has none.
   [[nodiscard]] const Integrator* adaptive() const;
   /// Default for a given step: the first integrator that does not choose its steps.
   [[nodiscard]] const Integrator& fixed() const;
@@ -50,8 +50,8 @@ struct Engine {
 
 inline constexpr std::string_view kBuiltIn = "built in";  ///< origin of plugins that belong to the program
 
-/// A kind of plugin, with its names in scenarios and messages. A kind of which a scenario may have several has no section of
-/// its own and no default type.
+/// A kind of plugin, with its names in scenarios and messages. If a scenario may have several plugins of a kind, the kind does
+/// not have a separate section or a default type.
 struct PluginKind {
   Kind kind;
   const char* section;       ///< key of the scenario, and name of the kind in messages

@@ -55,7 +55,7 @@ inline std::int64_t mirror_image(const RobotInfo& robot, std::size_t joint) {
   return -1;
 }
 
-/// Phases on the limit cycle, as sums of lags along the couplings. In each connected part, the joint with the lowest number has
+/// Phases on the limit cycle, as sums of lags along the couplings. The joint with the lowest number in each connected part has
 /// phase 0. Empty if couplings contradict one another around a cycle, so that no phases satisfy all lags.
 inline std::vector<double> phases_of(const std::vector<Coupling>& graph, std::size_t joints) {
   std::vector<double> phase(joints, 0.0);

@@ -18,9 +18,9 @@ struct Measured {
 /// Times that a model states about its set points, s. 0 if the model does not state a time.
 struct SetPointTimes {
   double period = 0;  ///< period of the set points
-  /// Time from which on the set points keep their amplitude, such as the end of a ramp; infinite if they grow for ever. In a
-  /// model without states, a ramp scales the motion about the set points at t = 0, at which a robot without initial.angles
-  /// starts.
+  /// Time from which on the set points keep their amplitude, such as the end of a ramp; infinite if they grow for ever. The
+  /// ramp of a model without states scales the motion about the set points at t = 0. A robot without initial.angles starts at
+  /// these set points.
   double full_size = 0;
 };
 

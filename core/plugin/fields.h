@@ -281,7 +281,7 @@ class Fields {
     list.example = example;
     visit({key, about, list});
   }
-  /// Field of a rule or a list. The list applies if `rule` has no value.
+  /// Field of a rule or a list. The list applies if `rule` does not have a value.
   template <class Enum, class T>
   void rule_or_list(const char* key, std::optional<Enum>& rule, std::span<const char* const> names, std::vector<T>& value,
                     const char* about) {

@@ -13,7 +13,7 @@ struct TrialLimits {
 };
 
 /// Loads the library in a child process and calls `enter` with it, so that this process survives static objects and a
-/// registration that throw, crash, exit or never return. Returns the reason for which the child ended, such as "a static object
+/// registration that throw, crash, exit or never return. Returns the reason for the end of the child, such as "a static object
 /// of this plugin threw an exception when it was loaded". Returns an empty text if dlopen and `enter` returned or refused the
 /// file, or if no child could be created. The child ends with this process. Its output is dropped.
 std::string load_trial(const std::string& path, const std::function<void(void* library)>& enter, TrialLimits limits = {});

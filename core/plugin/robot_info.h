@@ -17,8 +17,8 @@ struct JointInfo {
   std::int64_t parent = -1;           ///< number of the next joint towards the base, or -1
   double lo = 0, hi = 0;              ///< range, rad; -infinity and infinity if the joint turns freely
   std::array<double, 3> origin = {};  ///< point on the axis, m, in the base frame at zero angles
-  /// Unit vector of the joint axis in the base frame at zero angles. For a positive angle, the body farther from the base makes
-  /// a right-hand turn about this axis.
+  /// Unit vector of the joint axis in the base frame at zero angles. The body farther from the base makes a right-hand turn
+  /// about this axis if the angle is positive.
   std::array<double, 3> axis = {};
   bool driven = true;  ///< false for a joint without a motor, whose set points and torques are not used
   [[nodiscard]] bool turns_freely() const { return hi == std::numeric_limits<double>::infinity(); }
@@ -34,8 +34,8 @@ class SettingError : public std::invalid_argument {
   std::string key_;
 };
 
-/// Throws SettingError for a set point that only a freely turning hinge can have. For a hinge with a range, such an angle is
-/// probably a mistake or in degrees. `what` is the key, or words in its place.
+/// Throws SettingError for a set point that only a freely turning hinge can have. Such an angle is probably a mistake or in
+/// degrees if the hinge has a range. `what` is the key, or words in its place.
 inline void check_angle(const JointInfo& joint, const char* what, double angle) {
   constexpr double kLargest = 3.2;  // rad; slightly more than half a turn
   if (joint.turns_freely() || (angle >= -kLargest && angle <= kLargest)) return;

@@ -57,18 +57,18 @@ class Sensor {
   /// Points whose motion is needed.
   [[nodiscard]] virtual std::span<const BodyPoint> points() const { return {}; }
   [[nodiscard]] virtual bool needs_current() const { return false; }
-  /// True if values are multiples of a resolution. In a control loop, such steps amplify differences in the last bit of a
+  /// True if values are multiples of a resolution. Such steps in a control loop amplify differences in the last bit of a
   /// number.
   [[nodiscard]] virtual bool quantises() const { return false; }
   /// True if values depend on the seed.
   [[nodiscard]] virtual bool draws() const { return false; }
   /// Number of values that the sensor keeps from tick to tick.
   [[nodiscard]] virtual std::size_t states() const = 0;
-  /// Computes the values, one per reading. Called at every control tick in order. At tick 0 the state has no meaning yet.
+  /// Computes the values, one per reading. Called at every control tick in order. The state is still meaningless at tick 0.
   virtual void sense(const Truth& truth, Out state, Out values) const = 0;
 };
 
-/// Robot, name, seed and control period for which a sensor is made.
+/// Robot, name, seed and control period of a new sensor.
 struct SensorSite {
   const RobotInfo& robot;
   std::string name;        ///< name of the sensor in the scenario

@@ -45,9 +45,9 @@ struct TraceDifference {
 
 /// Compares trace B with A, the reference. `findings` lists differences of form; the other members are numbers. Rows are paired
 /// if their times are equal to a millionth of the mean spacing in A, so that traces of different length or period can be
-/// compared in part. Values that are not finite in either trace are left out of the numbers. If the traces have no common
-/// increasing time column, there are no numbers. The result is deterministic, and takes about a millisecond per column and 4000
-/// rows.
+/// compared in part. Values that are not finite in either trace are left out of the numbers. If the traces do not have a common
+/// increasing time column, the result does not contain numbers. The result is deterministic, and takes about a millisecond per
+/// column and 4000 rows.
 TraceDifference compare(const Trace& a, const Trace& b, const CompareOptions& options = {});
 
 }  // namespace gaitlab

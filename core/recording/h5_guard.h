@@ -10,7 +10,7 @@ struct H5Guard {
   void (*leave)(void* entered) = nullptr;
 };
 
-/// Sets the guard. To be called before the first use of HDF5. With a guard, HDF5 also closes its files at exit, as the other
+/// Sets the guard. To be called before the first use of HDF5. HDF5 with a guard also closes its files at exit, as the other
 /// user expects.
 void guard_h5(H5Guard guard) noexcept;
 H5Guard h5_guard() noexcept;

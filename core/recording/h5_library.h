@@ -35,7 +35,7 @@ class Library {
     // Must precede the first use of HDF5. Otherwise HDF5 complains at exit about objects left open after a damaged file.
     static const herr_t kNeverAtExit = h5_guard().enter == nullptr ? H5dont_atexit() : 0;
     static_cast<void>(kNeverAtExit);
-    // A file names filters by number. For an unknown number HDF5 would load any library from a folder of the environment.
+    // A file names filters by number. An unknown number would make HDF5 load any library from a folder of the environment.
     H5PLget_loading_state(&loading_);
     H5PLset_loading_state(0);
     H5Eget_auto2(H5E_DEFAULT, &report_, &data_);
@@ -95,11 +95,11 @@ class Handle {
   Close close_;
 };
 
-/// Callbacks by which HDF5 writes a file directly into `image`, which grows with the file. A second copy of a long trace would
+/// Callbacks that make HDF5 write a file directly into `image`, which grows with the file. A second copy of a long trace would
 /// not fit into memory. HDF5 uses `image` until the file is closed.
 H5FD_file_image_callbacks_t memory_of(Image& image);
 
-/// Callbacks by which HDF5 reads a file from `image`, without copying or changing it.
+/// Callbacks that make HDF5 read a file from `image`, without copying or changing it.
 H5FD_file_image_callbacks_t memory_in_place(const Image& image);
 
 }  // namespace gaitlab

@@ -190,7 +190,7 @@ double refine(const Columns& columns, std::size_t lag, std::size_t step) {
   return static_cast<double>(lag) + std::clamp(shift, -0.5, 0.5);
 }
 
-// Value of x between samples, from a cubic through four neighbours. At the end of the data the last sample is repeated.
+// Value of x between samples, from a cubic through four neighbours. The last sample is repeated at the end of the data.
 class Between {
  public:
   explicit Between(double lag) : whole_(static_cast<std::size_t>(lag)) {

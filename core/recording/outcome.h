@@ -1,4 +1,4 @@
-// Outcome of a run: the way in which it ended.
+// Outcome of a run: the kind of its end.
 #pragma once
 #include <string>
 

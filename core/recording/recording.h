@@ -60,7 +60,7 @@ struct Recording {
   Trace trace, rest;
   std::string hash_of_all;  ///< hash() of `trace` before thin_rows() removed rows; empty if none were removed
   /// Rows at control ticks that are at least 2 ms apart, and at the end. Above 20 000 rows, every second row is removed,
-  /// repeatedly. For each joint, a row has the largest |torque|, |set point - angle|, |speed|, |voltage|, |current| and share
+  /// repeatedly. A row has, for each joint, the largest |torque|, |set point - angle|, |speed|, |voltage|, |current| and share
   /// of the available torque since the previous row. It also has the motor limit at the largest torque and, from t = 0, the
   /// integrals of torque^2 and current^2 and the time at each limit. All steps count, so that peaks and RMS values of any part
   /// of the run do not depend on trace.period.
@@ -96,7 +96,7 @@ struct Recording {
   [[nodiscard]] Series series(const std::string& column) const;
   /// Column `joint.N.QUANTITY`, where QUANTITY is angle, setpoint or torque.
   [[nodiscard]] Series joint(std::size_t number, const char* quantity) const;
-  /// A column of `poses` by name; empty if there is no such column.
+  /// A column of `poses` by name; empty if the column does not exist.
   [[nodiscard]] Series pose(const std::string& column) const;
   /// Centre of mass at the time of a row.
   [[nodiscard]] Vec3 com(std::size_t row) const;

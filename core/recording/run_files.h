@@ -8,7 +8,7 @@
 namespace gaitlab {
 
 /// Path of the trace of a run: `run` itself if it is a file (.h5 or .csv), else trace.h5 or trace.csv in the folder `run`, in
-/// this order. Throws InputError if there is no such file, or `run` is a file of another kind.
+/// this order. Throws InputError if the file does not exist, or `run` is a file of another kind.
 std::filesystem::path trace_file(const std::filesystem::path& run);
 
 /// Reads the trace of a run. Throws InputError as trace_file, read_h5 and read_csv.

@@ -15,10 +15,10 @@ namespace gaitlab {
 class RunFolder {
  public:
   /// Without `out`, creates `runs/NAME` in the working folder, or the first of NAME-2, NAME-3 ... that does not exist. mkdir
-  /// decides, so that two simultaneous processes get different folders. With `out`, uses that folder and creates its parents.
-  /// The folder must not exist, or must be empty except for part files of a killed run. Throws InputError `--out DIR: error:
-  /// exists and is not empty`, `... is not a folder`, `... cannot be made: REASON`, `... cannot be written: REASON`, `... is
-  /// being written by another process`, or for a name that cannot name a folder.
+  /// decides, so that two simultaneous processes get different folders. If `out` is given, uses that folder and creates its
+  /// parents. The folder must not exist, or must be empty except for part files of a killed run. Throws InputError `--out DIR:
+  /// error: exists and is not empty`, `... is not a folder`, `... cannot be made: REASON`, `... cannot be written: REASON`,
+  /// `... is being written by another process`, or for a name that cannot name a folder.
   RunFolder(const std::optional<std::filesystem::path>& out, const std::string& name);
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;

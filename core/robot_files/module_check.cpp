@@ -96,7 +96,7 @@ class ModuleCheck {
     problem.notes.emplace_back(place_of(places_.hinges[first], "child"), "the first is here");
   }
 
-  /// Reports bodies in a loop, from which no chain of hinges leads to the root.
+  /// Reports bodies in a loop, without a chain of hinges to the root.
   void check_loops() {
     enum class State : char { unknown, walking, rooted, looping };
     std::vector<State> state(parent_.size(), State::unknown);

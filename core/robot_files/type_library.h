@@ -13,7 +13,7 @@ namespace gaitlab {
 
 class TypeLibrary {
  public:
-  /// `folder` is the folder of the scenario file, in which names and relative paths are searched.
+  /// `folder` is the folder of the scenario file. Names and relative paths are searched there.
   TypeLibrary(std::string folder, Problems& problems) : folder_(std::move(folder)), problems_(problems) {}
 
   /// Reads `robot.types`, a map from names to inline types.

@@ -75,8 +75,7 @@ class Figures final : public Fields {
   std::vector<DefaultFigure> found;
 };
 
-/// Combines several settings, each of which applies to some joints. A field that all joints share must be equal in all
-/// settings.
+/// Combines several settings that each apply to some joints. A field that all joints share must be equal in all settings.
 class PerJointMerge final : public Fields {
  public:
   PerJointMerge(const std::vector<Seen>& kinds, const std::vector<std::size_t>& of_joint)

@@ -32,7 +32,7 @@ inline constexpr const char* kAboutSet =
     "changes the number of states.";
 inline constexpr const char* kAboutFault = "A fault of joints, or a list of faults.";
 
-/// Function that reads a scenario after a change. From the whole scenario `root`, it reads the sections whose settings may
+/// Function that reads a scenario after a change. It reads from the whole scenario `root` the sections whose settings may
 /// change during a run. If it adds problems, the result must not be used.
 using ReadSegment = std::function<Scenario(const Node& root, const std::vector<std::string>& sections, Problems& problems)>;
 

@@ -15,7 +15,8 @@ inline constexpr const char* kAboutGroups =
     "allowed wherever a pattern of joints is.";
 
 /// Reads the section. Every fault is a problem at its place: a name that is not allowed or is that of a joint or module, a
-/// member that matches no joint, and a group without members. A group with a fault has no joints; this is reported only here.
+/// member that matches no joint, and a group without members. A group with a fault does not have joints; this is reported only
+/// here.
 JointGroups read_groups(const Node& node, const std::vector<std::string>& joints, const std::vector<std::string>& modules,
                         Problems& problems);
 

@@ -15,7 +15,7 @@ namespace gaitlab {
 
 namespace {
 
-/// Adds rows, in which the indentation of a key shows its depth. All paths begin with `before`.
+/// Adds rows. The indentation of a key shows its depth. All paths begin with `before`.
 void add_rows(const std::vector<KeyRow>& rows, const std::string& before, const Entry* plugin, std::vector<ScenarioKey>& keys) {
   std::vector<std::string> path;
   for (const KeyRow& row : rows) {
@@ -111,7 +111,7 @@ std::vector<ScenarioKey> all_keys(const Catalog& catalog) {
   std::vector<ScenarioKey> keys;
   add_rows(scenario_keys(catalog), "", nullptr, keys);
   for (const PluginKind& kind : kPluginKinds) {
-    if (kind.kind == Kind::sensor) continue;  // keys of sensors have no fixed path, because sensors have names
+    if (kind.kind == Kind::sensor) continue;  // keys of sensors do not have a fixed path, because sensors have names
     for (const std::string& name : catalog.names(kind.kind)) {
       const Entry* entry = catalog.find(kind.kind, name);
       add_rows(plugin_keys(*entry), std::string(kind.section) + ".", entry, keys);

@@ -12,8 +12,8 @@ std::vector<PluginFile> read_plugins(const Node& node, const std::string& folder
 
 /// Path of the library that a text in `folder` names. Candidates are the libraries of this file name from the command line and
 /// those already loaded, then the path relative to `folder`. The result is the first candidate with the hash of the text. If
-/// the text has no hash, or no candidate has this hash, the result is the path relative to `folder` if it exists, else the
-/// first candidate.
+/// the text does not have a hash, or no candidate has this hash, the result is the path relative to `folder` if it exists, else
+/// the first candidate.
 std::string plugin_path(const PluginFile& file, const std::string& folder, const Catalog& catalog);
 
 /// Loads a library that the command line names. Its path is relative to the current folder. Throws InputError.

@@ -380,7 +380,7 @@ Scenario ScenarioTemplate::with(const std::vector<std::string>& own) const {
     const auto types = [&](const std::string& one) { return one.starts_with(section + ".type="); };
     return key.starts_with(section + ".model") && std::ranges::any_of(sets_, types);
   };
-  // For a robot without a motor, the control period depends on further sections.
+  // The control period of a robot without a motor depends on further sections.
   if (!reader_->driven() || std::ranges::any_of(own, whole)) {
     std::vector<std::string> all = sets_;
     all.insert(all.end(), own.begin(), own.end());

@@ -39,7 +39,7 @@ class ScenarioTemplate {
   /// The scenario with further texts `key.path=value` after those of the template, equal to read_scenario() with all texts. The
   /// sections in `own`, and those that depend on them, are read again. The robot and all other sections are shared. The whole
   /// file is read again if `own` sets the robot, the plugins or a type, if it sets a `.model` whose type the template set, or
-  /// if the robot has no motor. Throws InputError with every problem found. Only one thread at a time may call this.
+  /// if the robot does not have a motor. Throws InputError with every problem found. Only one thread at a time may call this.
   [[nodiscard]] Scenario with(const std::vector<std::string>& own) const;
 
  private:

@@ -185,8 +185,8 @@ struct Scenario {
   std::vector<Change> changes;  ///< section `at`, by rising times
   std::int64_t seed = 1;
   std::vector<Note> notes;
-  /// Place at which the user gave a key, such as `physics.step` or `trace.columns`. For a rollout of a template, `own_places`
-  /// contains the places of its additional settings.
+  /// Place at which the user gave a key, such as `physics.step` or `trace.columns`. If this is a rollout of a template,
+  /// `own_places` contains the places of its additional settings.
   using Places = std::map<std::string, SourceLocation>;
   Places own_places;
   std::shared_ptr<const Places> places = std::make_shared<const Places>();

@@ -17,7 +17,7 @@ class ScenarioChecks {
   void height(const Node& position, bool given, const Node* on_ground);
   /// Refuses settings that Bullet's own solver does not support.
   void law();
-  /// Refuses the section `controller`, because the scenario has no actuator.
+  /// Refuses the section `controller`, because the scenario does not have an actuator.
   void no_controller();
   /// Checks that initial angles are within the ranges of their hinges.
   void initial_angles();

@@ -58,8 +58,8 @@ std::string first_line(std::string_view text) { return std::string(text.substr(0
 /// A section whose keys depend on the value of one of its keys.
 class Alternatives {
  public:
-  /// `head` is the schema of the section, of which only the deciding key is kept. `preset` is the default of the deciding key.
-  /// With "", the key may be absent, and the keys of every value are then allowed. With nothing, the key is required.
+  /// `head` is the schema of the section; only its deciding key is kept. `preset` is the default of the deciding key. With "",
+  /// the key may be absent, and the keys of every value are then allowed. The key is required if `preset` is std::nullopt.
   Alternatives(const Json& head, std::string key, std::optional<std::string> preset)
       : key_(std::move(key)), preset_(std::move(preset)) {
     json_ = {{"type", "object"}, {"description", head["description"]}};

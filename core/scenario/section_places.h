@@ -1,4 +1,4 @@
-// Places of the sections and keys of a scenario in its file, and the order in which problems are reported.
+// Places of the sections and keys of a scenario in its file, and the order of reported problems.
 #pragma once
 #include <functional>
 #include <map>

@@ -14,8 +14,8 @@
 namespace gaitlab {
 namespace {
 
-/// Patterns to suggest. For each joint `module/hinge`, they are the pattern for this hinge in every module, and the pattern for
-/// every hinge of this module.
+/// Patterns to suggest. Each joint `module/hinge` gives the pattern for this hinge in every module, and the pattern for every
+/// hinge of this module.
 std::vector<std::string> usual_patterns(const std::vector<std::string>& joints) {
   std::vector<std::string> patterns;
   std::unordered_set<std::string> seen;

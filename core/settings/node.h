@@ -31,8 +31,8 @@ std::string found(const Node& node);
 /// anchors, aliases, tags, a second document, nesting deeper than 32, more than 1 MB, or text that is not UTF-8.
 Node parse_yaml(const std::string& text, const std::string& file);
 
-/// Parses as above, but adds every error to `problems`. Returns nothing if no tree can be built. In spite of a duplicate key,
-/// an anchor or a tag, returns the tree, so that a reader can find further errors.
+/// Parses as above, but adds every error to `problems`. Returns nothing if no tree can be built. Returns the tree in spite of a
+/// duplicate key, an anchor or a tag, so that a reader can find further errors.
 std::optional<Node> parse_yaml(const std::string& text, const std::string& file, Problems& problems);
 
 /// Parses a file. If the file is missing, throws InputError at `asked_at`, or at the file if `asked_at` is empty.

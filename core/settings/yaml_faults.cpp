@@ -27,7 +27,7 @@ struct LineFault {
   std::string text = {};
 };
 
-/// Scanner of a text for brackets and quotes outside of comments. In block style, a bracket or quote within a text is part of
+/// Scanner of a text for brackets and quotes outside of comments. A bracket or quote within a text in block style is part of
 /// that text; it counts only at the beginning of a value.
 class Brackets {
  public:

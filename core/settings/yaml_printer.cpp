@@ -41,8 +41,8 @@ bool is_printable(std::string_view text, std::string_view allowed = "") {
   return true;
 }
 
-/// True if a reader takes the text without quotes for this scalar. In a list or map on one line, more characters have a special
-/// meaning.
+/// True if a reader takes the text without quotes for this scalar. More characters have a special meaning in a list or map on
+/// one line.
 bool plain_safe(const std::string& text, bool in_flow) {
   if (is_null_text(text) || text.front() == ' ' || text.back() == ' ' || text.back() == ':') return false;
   if (std::string("?:,[]{}#&*!|>'\"%@`").find(text.front()) != std::string::npos) return false;

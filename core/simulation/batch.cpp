@@ -74,7 +74,7 @@ class Waiting {
   }
 
  private:
-  // With tolerances, each rollout has a separate robot, of 6 kB per link. Only few rollouts of large robots may therefore wait.
+  // Each rollout with tolerances has a separate robot, of 6 kB per link. Only few rollouts of large robots may therefore wait.
   static constexpr std::size_t kFew = 64, kMostLinks = 20000;
 
   /// Largest number of the `left` waiting rollouts for one thread: all while more are to come, and then an equal share, so that

@@ -69,11 +69,10 @@ bool run_pulled(const BatchStream& stream, const BatchSettings& settings, Record
 bool run_all(std::span<const Scenario> rollouts, const BatchSettings& settings, Records records, std::atomic<bool>& stop,
              const std::function<void(std::size_t, RolloutEnd&&)>& end);
 
-/// run_batch for any number of rollouts, of which few exist at a time. `next()` returns one scenario per call, and nothing at
-/// the end. `digest(scenario, recording)` computes the result to keep; it is called by several threads at once and must not
-/// throw. `sink(result)` receives the results one at a time in the order of next(), for any number of threads and lanes.
-/// Exceptions of run_batch and next() are rethrown after the sink has received the results of all rollouts before the first
-/// refused one.
+/// run_batch for any number of rollouts; only few exist at a time. `next()` returns one scenario per call, and nothing at the
+/// end. `digest(scenario, recording)` computes the result to keep; it is called by several threads at once and must not throw.
+/// `sink(result)` receives the results one at a time in the order of next(), for any number of threads and lanes. Exceptions of
+/// run_batch and next() are rethrown after the sink has received the results of all rollouts before the first refused one.
 template <class Digest>
 void run_stream(const std::function<std::optional<Scenario>()>& next, const BatchSettings& settings, Digest digest,
                 const std::function<void(std::invoke_result_t<Digest, const Scenario&, Recording&&>&&)>& sink) {

@@ -68,9 +68,9 @@ std::vector<Scenario> Simulation::side_by_side(std::span<const Scenario> lanes, 
 
 TwinWindows Simulation::twin_windows() const { return gaitlab::twin_windows(scenarios_[0], standing_.rate > 0); }
 
-/// Companions that are separate simulations. With a fixed step there is one twin, with as many lanes as the run, compared in
-/// windows. With an accuracy, the companions are lanes in the lane group of the run. If the processor has no such lanes, the
-/// companions are simulations of one lane each, with the same bits.
+/// Companions that are separate simulations. A run with a fixed step has one twin, with as many lanes as the run, compared in
+/// windows. The companions of a run with an accuracy are lanes in the lane group of the run. If the processor does not have
+/// such lanes, the companions are simulations of one lane each, with the same bits.
 std::vector<std::unique_ptr<Simulation>> Simulation::rollouts_apart() const {
   std::vector<std::unique_ptr<Simulation>> all;
   const auto add = [&](std::span<const Scenario> lanes) {

@@ -26,7 +26,7 @@ void Simulation::prepare_faults() {
 }
 
 /// Passes the faults in force to actuators and plant if the faults have changed, by a change of the scenario or by a snapshot
-/// that was written back, or if the hold of a stuck hinge still grows. A lane that has ended has no faults.
+/// that was written back, or if the hold of a stuck hinge still grows. A lane that has ended does not have faults.
 void Simulation::apply_faults() {
   if (faulty_ == nullptr) return;
   constexpr double kFree = std::numeric_limits<double>::quiet_NaN();

@@ -9,8 +9,8 @@
 
 namespace gaitlab {
 
-/// Control ticks are at whole steps. With a fixed step, trace rows and the end of the rollout are also at whole steps. With an
-/// adaptive integrator, trace rows and the end may be within a step. Times are in s.
+/// Control ticks are at whole steps. Trace rows and the end of the rollout are also at whole steps if the step is fixed, but
+/// may be within a step if the integrator is adaptive. Times are in s.
 class LaneClock {
  public:
   /// If `rows` is false, only the end is recorded.

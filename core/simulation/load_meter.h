@@ -21,8 +21,8 @@ class LoadMeter {
   [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
   /// Sample to measure. The caller fills its t, state, kinematics, sums and contacts, and the reactions if want_reactions().
   Sample& sample() { return sample_; }
-  /// True if the sample needs reactions, which the columns of docks and gears require. With contact.law bullet there are no
-  /// such columns, because not all contact forces are known.
+  /// True if the sample needs reactions, which the columns of docks and gears require. A run with contact.law bullet does not
+  /// have such columns, because not all contact forces are known.
   [[nodiscard]] bool want_reactions() const { return !docks_.empty() || !gears_.empty(); }
   /// Computes a row from the sample. Path lengths are sums since the first row. The loads of docks and gears are the largest
   /// ones in this sample and in all calls of watch() since the last row.

@@ -1,4 +1,4 @@
-// Loads of docks at the times within a step at which hinges meet their stops.
+// Loads of docks at the times within a step when hinges meet their stops.
 #include <algorithm>
 #include <cmath>
 
@@ -92,8 +92,8 @@ void Simulation::watch_stops() {
   if (any) std::ranges::copy(history, plant_history_.begin());
 }
 
-/// Searches for the first time at which the joint is beyond its stop, by Newton's method along its free motion, and measures
-/// the loads at this time.
+/// Searches for the first time when the joint is beyond its stop, by Newton's method along its free motion, and measures the
+/// loads at this time.
 void Simulation::watch_stop(const Lane& lane, std::size_t joint, int side) {
   const std::size_t at = joint * lanes_.size() + lane.index;
   const double limit = side > 0 ? lane.robot.joints[joint].hi : lane.robot.joints[joint].lo;

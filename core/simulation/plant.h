@@ -79,8 +79,8 @@ class Plant {
   /// Number of values that the plant keeps from step to step in addition to the state, for all lanes. All are 0 at the start.
   [[nodiscard]] std::size_t history() const { return history_; }
   /// Largest damping rate at the present state under these commands, which limits the step. If `standing`, the weight rests in
-  /// equal parts on the support of the robot (support.h) instead of on the present contacts. By default nothing limits the
-  /// step.
+  /// equal parts on the support of the robot (support.h) instead of on the present contacts. Nothing limits the step by
+  /// default.
   [[nodiscard]] virtual Stability stability(std::size_t /*lane*/, In /*command*/, bool /*standing*/) { return {}; }
   /// Computes contacts and centre of mass of all lanes at the state of bind().
   virtual void update_contacts() {}
@@ -95,7 +95,7 @@ class Plant {
   virtual void tally(std::size_t /*lane*/, StepTally& /*out*/) const {}
   /// Applies new motor constants of the actuator and new stuck hinges. Called between steps. `hold` contains the angles of
   /// stuck hinges, rad, and NaN for all others. `since` contains the time that each has been stuck, s, at most
-  /// HingeHold::kRamp, after which the hold no longer grows. Index joint * lanes + lane. By default, throws std::logic_error.
+  /// HingeHold::kRamp, after which the hold no longer grows. Index joint * lanes + lane. Throws std::logic_error by default.
   virtual void change_joints(In /*hold*/, In /*since*/) {
     throw std::logic_error("this engine cannot simulate faults of motors and hinges");
   }

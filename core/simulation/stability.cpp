@@ -52,7 +52,7 @@ void RateMonitor::stop_at(const Robot& robot, const RobotState& state, double st
   }
 }
 
-/// At rest (`standing`), dry friction has its largest slope.
+/// Dry friction has its largest slope at rest (`standing`).
 void RateMonitor::hinge_at(const Robot& robot, const RobotState& state, bool standing, double step) {
   for (std::size_t j = 0; j < hinge.size(); ++j) {
     if (robot.joints[j].driven()) continue;

@@ -50,10 +50,10 @@ class RateMonitor {
   std::vector<double> hold;            ///< angles of stuck hinges, rad; NaN for other hinges
   std::vector<ContactSlope> contacts;  ///< the caller reserves the capacity
 
-  /// Rate that limits the step. The caller has filled `motor`. For a standing robot these are the slopes at rest, because
-  /// motors that are saturated at speed have slope 0. `touching` fills `contacts` at the present state. For a standing robot,
-  /// the contacts are instead the elements that carry it, even if others touch at the start. A spring of stiffness K counts as
-  /// a damper of step * K, which also keeps step^2 K / inertia below 1.
+  /// Rate that limits the step. The caller has filled `motor`. Its slopes are those at rest if the robot is standing, because
+  /// motors that are saturated at speed have slope 0. `touching` fills `contacts` at the present state. The contacts of a
+  /// standing robot are instead the elements that carry it, even if others touch at the start. A spring of stiffness K counts
+  /// as a damper of step * K, which also keeps step^2 K / inertia below 1.
   template <class Touching>
   [[nodiscard]] Stability rule(const LaneSettings& lane, Base base, const Kinematics& kinematics, const RobotState& state,
                                bool standing, double step, InverseMass& inverse_mass, Touching touching) {

@@ -10,7 +10,7 @@ namespace {
 constexpr double kTouches = 1e-12;  // m
 constexpr int kMostDrops = 1000;    // each drop is as long as the gap, which closes slowly beside an almost vertical edge
 
-/// Distance by which the robot can sink before its lowest element touches the ground. Negative if the robot has to rise.
+/// Distance that the robot can sink before its lowest element touches the ground. Negative if the robot has to rise.
 double height_above(const Scenario& s, const Kinematics& k, const std::vector<ContactElement>& elements) {
   const double lowest = lowest_point(*s.robot, k, elements);
   if (s.ground.is_plane() || elements.empty()) return lowest;

@@ -13,7 +13,7 @@ namespace gaitlab {
 double usable_step(const Scenario& scenario, double limit);
 
 /// Step for an engine with a stability limit: the largest usable step up to `longest` with h lambda of at most 0.8 for the
-/// standing robot. The reserve is for the gait, in which h lambda may rise up to 1. If contacts set lambda, h lambda is at most
+/// standing robot. The reserve is for the gait, whose h lambda may rise up to 1. If contacts set lambda, h lambda is at most
 /// 0.45, because a gait that puts the weight on half of the feet doubles the friction of each foot. Returns 0 if no step above
 /// a hundredth of the stability limit divides the periods. Throws the errors of the constructor of Simulation.
 double stable_step(const Scenario& scenario, double longest);

@@ -10,7 +10,7 @@
 namespace gaitlab {
 
 /// Times, in steps of the run, at which a twin runs and is compared with the run. A twin is a second rollout with another fixed
-/// step. At every window, it restarts from the numbers of the run and continues with a separate CPG, controller and commands.
+/// step. It restarts at every window from the numbers of the run and continues with a separate CPG, controller and commands.
 struct TwinWindows {
   int steps = 0;      ///< 2: one step of the twin for two of the run; -2: two for one; 0: the whole run, without windows
   double factor = 0;  ///< error of the run over the difference to the twin
@@ -67,7 +67,7 @@ class StepError {
   /// Compares the torques of a companion with the torques of the last see(), t seconds after the start.
   void compare(Companion which, In torque, double factor, double weight, double t);
   /// Writes the estimate of a lane so far. The peaks are the largest torques passed to see(), except in the first milliseconds,
-  /// in which a motor may jump to its limit.
+  /// because a motor may jump to its limit then.
   void put(std::size_t lane, StepTally& tally) const;
 
  private:

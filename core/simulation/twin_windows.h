@@ -6,7 +6,7 @@
 namespace gaitlab {
 
 /// Comparison times of a run. If the integrator has an accuracy, they cover the whole run at intervals of at most
-/// StepError::kApart. If the step is fixed, they are in windows. `limited` is true for an explicit method, with which a twin of
+/// StepError::kApart. If the step is fixed, they are in windows. `limited` is true for an explicit method, because a twin of
 /// twice the step may be unstable.
 TwinWindows twin_windows(const Scenario& scenario, bool limited);
 

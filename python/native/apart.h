@@ -16,7 +16,7 @@ void apart(std::atomic<bool>& stop, const std::function<void()>& told, const std
 /// The same for work that cannot be stopped.
 void apart(const std::function<void()>& work);
 
-/// From now on, ends the works of daemon threads before the interpreter ends.
+/// Makes the works of daemon threads end before the interpreter ends.
 void end_with_interpreter();
 
 /// From now on, collects the texts that the program would print on stderr.

@@ -9,8 +9,8 @@
 
 namespace gaitlab::report {
 
-/// Collisions of pairs of bodies that can move relative to each other, and that no `may_overlap` names. For two bodies of one
-/// module, their overlap by design (own_overlap.h) does not count. Bodies are given by their index in Robot::bodies.
+/// Collisions of pairs of bodies that can move relative to each other, and that no `may_overlap` names. The overlap by design
+/// of two bodies of one module (own_overlap.h) does not count. Bodies are given by their index in Robot::bodies.
 struct Collision {
   double time = 0;                                    ///< s, first tick with an overlap
   std::size_t first = 0, second = 0;                  ///< the pair with the deepest overlap at that tick

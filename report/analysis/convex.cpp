@@ -34,7 +34,7 @@ Convex prism(double radius, double length, bool half) {
   }
   made.normals = made.directions = {Vec3::UnitY()};
   if (half) round.push_back(round.front());
-  // In a full circle the edges of the second half are parallel to the first.
+  // The edges of the second half of a full circle are parallel to the first.
   const std::size_t edges = half ? round.size() - 1 : kRoundSegments / 2;
   for (std::size_t k = 0; k < edges; ++k) {
     made.directions.push_back((round[k + 1] - round[k]).normalized());

@@ -34,7 +34,7 @@ Gait gait(const Scenario& scenario, const Recording& record);
 /// Sentence on set points that do not yet have, or do not keep, the size that they have in the judged window; empty if they do.
 /// The range after the run (LookAhead) may be at most 2 % larger than in the window; if the CPG states the time of the full
 /// size, that time must be within the run instead. Mean and RMS of the first and last period, in the window from the full size
-/// on, may differ by at most 1 % of the range. For a hinge without range, the speed of the set point is compared.
+/// on, may differ by at most 1 % of the range. The speed of the set point is compared if the hinge does not have a range.
 std::string growth(const Scenario& scenario, const Recording& record, const Judged& judged, const Gait& gait);
 
 }  // namespace gaitlab::report

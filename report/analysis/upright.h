@@ -7,15 +7,15 @@
 
 namespace gaitlab::report {
 
-/// Tilt of the robot at control ticks (States::at_ticks). At the start each link has an axis that points upwards. The tilt is
+/// Tilt of the robot at control ticks (States::at_ticks). Each link has an axis that points upwards at the start. The tilt is
 /// the smaller of two angles from the vertical: that of the base's axis, and that of the mean of all axes, weighted by the
 /// masses of the links. The end of a snake may turn over in its wave while the snake does not, and wheels turn while the base
 /// does not.
 struct Upright {
   double tilt = 0;                  ///< rad, largest tilt
   double tilt_time = 0;             ///< s, time of the largest tilt
-  std::optional<double> over = {};  ///< s, time of the first tick at which both axes point below the horizontal
-  /// True if the base rolls over in every period. In each period, its turns about horizontal axes add up to at least one whole
+  std::optional<double> over = {};  ///< s, time of the first tick when both axes point below the horizontal
+  /// True if the base rolls over in every period. Its turns about horizontal axes in each period add up to at least one whole
   /// turn (rounded), and its axis comes within 45 degrees of upwards and of downwards. False for a base that rocks, tumbles or
   /// is on its back.
   bool rolls = false;

@@ -1,4 +1,4 @@
-// A page of two runs, in which the second run is drawn over the first.
+// A page of two runs; the second run is drawn over the first.
 #pragma once
 #include <array>
 #include <optional>

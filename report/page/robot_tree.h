@@ -22,8 +22,8 @@ class RobotTree {
   /// Index in Robot::bodies of the body that a joint moves.
   [[nodiscard]] std::size_t moved_by(std::size_t joint) const;
 
-  /// List of bodies. The pose of a body is parent's pose * pre * turn(axis, joint angle) * post. For the base, the parent's
-  /// pose is left out.
+  /// List of bodies. The pose of a body is parent's pose * pre * turn(axis, joint angle) * post. The parent's pose is left out
+  /// for the base.
   [[nodiscard]] nlohmann::ordered_json bodies() const;
   /// Shapes and faces, as objects by `type/body`, with the members of BodyType and FaceType.
   [[nodiscard]] nlohmann::ordered_json geometry() const;

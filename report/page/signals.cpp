@@ -63,7 +63,8 @@ void set_quanta(std::span<Signal> group, std::size_t rows, const SignalKind& qua
   for (Signal& signal : group) signal.quantum = quantum_of(largest, quantity.quantum);
 }
 
-/// Name of a column in the page. `dock.3.shear` of module 3 becomes `dock.2.shear`, because the first module has no dock.
+/// Name of a column in the page. `dock.3.shear` of module 3 becomes `dock.2.shear`, because the first module does not have a
+/// dock.
 std::string page_name(const std::string& column) {
   constexpr std::string_view kDock = "dock.";
   if (!column.starts_with(kDock)) return column;

@@ -8,7 +8,7 @@
 namespace gaitlab::report {
 
 /// Remedy of the run with the settings Verdict::retry, which make it accurate enough for a verdict. Throws no_verdict() if that
-/// run also has no verdict, and the exceptions of remedy().
+/// run is also without a verdict, and the exceptions of remedy().
 Remedy remedy_of_finer_run(const RemedyTask& task, std::atomic<bool>& stop);
 
 /// Error for a run without a verdict.

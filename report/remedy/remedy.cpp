@@ -152,8 +152,8 @@ class Search {
     if (stop_) throw Stopped{};
   }
 
-  /// Expected simulated time after this round, of the search in the brackets and of the confirming runs. With `half`, half of
-  /// the answers are expected to get a bracket later.
+  /// Expected simulated time after this round, of the search in the brackets and of the confirming runs. If `half`, half of the
+  /// answers are expected to get a bracket later.
   [[nodiscard]] RemedyWork::Simulated of_brackets(bool half) const {
     RemedyWork::Simulated time{};
     const auto add = [&](const RemedyAnswer& answer, double share, double factor, double rounds) {

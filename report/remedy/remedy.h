@@ -22,7 +22,7 @@ struct RemedyAnswer {
   bool crosses = false;    ///< the verdict changes between a fifth and five times the value
   bool confirmed = false;  ///< true if runs with the scenario's engine, step and estimate confirm it
   double factor = 1;       ///< factor of the answer: the nearest feasible value or, for a feasible gait, the farthest
-  /// Farthest factor that was tried, up to which all tried runs have the verdict of the answer.
+  /// Farthest tried factor such that all tried runs up to it have the verdict of the answer.
   double until = 1;
   RemedyRun run = {};          ///< run with `factor` and the scenario's own engine
   RemedyRun beyond = {};       ///< for a feasible gait, a run beyond the reserve, within 2 % of the change
@@ -90,14 +90,14 @@ struct RemedyTask {
   std::function<void(double)> progress = {};  ///< called with the share of the work that is done, from several threads
 };
 
-/// Multiplies one setting at a time by eight factors from a fifth to five. In each direction, it then narrows the interval
-/// nearest to 1 in which the verdict changes, until its width is 2 % of the change, and rounds the result to the safe side.
-/// Runs of the search use the engine `articulated` without an estimate of their torque error, unless that engine has another
-/// verdict on the run itself. The answers are confirmed with the scenario's own engine, step and estimate: the gait is feasible
-/// with the change, and not with nine tenths of it. If no setting alone helps, the fastest feasible pair of frequency and
-/// amplitude on a grid of 13 x 13 is taken. Results do not depend on threads or lanes. If `stop` is set, the search ends with
-/// the answers so far (Remedy::interrupted). Throws InputError if the verdict is `not judged` and not only for the accuracy of
-/// the run, and PluginError.
+/// Multiplies one setting at a time by eight factors from a fifth to five. It then narrows, in each direction, the interval
+/// nearest to 1 that contains a change of the verdict, until its width is 2 % of the change, and rounds the result to the safe
+/// side. Runs of the search use the engine `articulated` without an estimate of their torque error, unless that engine has
+/// another verdict on the run itself. The answers are confirmed with the scenario's own engine, step and estimate: the gait is
+/// feasible with the change, and not with nine tenths of it. If no setting alone helps, the fastest feasible pair of frequency
+/// and amplitude on a grid of 13 x 13 is taken. Results do not depend on threads or lanes. If `stop` is set, the search ends
+/// with the answers so far (Remedy::interrupted). Throws InputError if the verdict is `not judged` and not only for the
+/// accuracy of the run, and PluginError.
 Remedy remedy(const RemedyTask& task, std::atomic<bool>& stop);
 
 }  // namespace gaitlab::report

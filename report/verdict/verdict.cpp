@@ -24,8 +24,8 @@ namespace {
 constexpr const char* kRowsAlone =
     "only the rows of the trace are left, which miss the peaks between them; gaitlab rerun takes every step";
 
-/// Key by which failing checks are ordered. Checks of the robot as a whole come first, because a fallen robot has no gait; then
-/// the check with the least margin.
+/// Key that orders failing checks. Checks of the robot as a whole come first, because a fallen robot has no gait; then the
+/// check with the least margin.
 std::pair<bool, double> urgency(const Check& check) {
   return {check.group != CheckGroup::run, std::isnan(check.margin) ? -std::numeric_limits<double>::infinity() : check.margin};
 }

@@ -18,7 +18,7 @@ struct Shard {
   [[nodiscard]] bool has(std::uint64_t run) const { return run % count == index; }
 };
 
-/// Folder of a study, created if needed. With `out`, this is the folder `out`. Without `out`, it is runs/NAME, or else the
+/// Folder of a study, created if needed. It is the folder `out` if `out` is given. Without `out`, it is runs/NAME, or else the
 /// first of NAME-2, NAME-3 ... that does not exist or for which `is_it` returns true. Throws InputError if the folder cannot be
 /// created. Throws InputError also if it contains foreign files: neither study.db nor a shard is a journal, and the files are
 /// not those that a sweep leaves when it is killed at its start.

@@ -13,7 +13,7 @@ struct OwnValue {
   std::string missing;  ///< reason why it is not known or cannot be used: `is not a number of the scenario`
 };
 
-/// Node of a key of the scenario; null if there is none. In a list per joint, a name in `joints` selects the joint's entry. A
+/// Node of a key of the scenario; null if there is none. A name in `joints` selects the joint's entry in a list per joint. A
 /// single number for all joints is also the number of each joint.
 const Node* find_key(const Node& root, const std::string& key, const std::vector<std::string>& joints);
 

@@ -31,7 +31,7 @@ class Plan {
   [[nodiscard]] std::uint64_t most_runs() const { return points_.runs(); }
   /// Adds the next point of a search, or of another program that chooses the points.
   void add(std::vector<std::string> values) { points_.add(std::move(values)); }
-  /// Raises the budget to at least `runs`, rounded to whole points. Returns false if the study has no budget.
+  /// Raises the budget to at least `runs`, rounded to whole points. Returns false if the study does not have a budget.
   bool raise_budget(std::uint64_t runs);
   /// Name in the journal of a point with these values. The name is the same in every study of the same scenarios.
   [[nodiscard]] std::string point_name(const std::vector<std::string>& values) const;

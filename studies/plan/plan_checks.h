@@ -9,9 +9,9 @@ namespace gaitlab::studies {
 
 /// Tries each listed value of each parameter with the scenario's other keys. If it is refused, tries it with every combination
 /// of the other listed values, at the low and then the high ends of the ranges. Adds the values that are always refused,
-/// because no run could have them. With more than 1000 combinations a value counts as possible. If no value is added, tries the
-/// settings of the first and the last run. If both are refused, adds the problems of the first, such as a misspelt key. Adds
-/// nothing at places that already have a problem.
+/// because no run could have them. A value counts as possible if there are more than 1000 combinations. If no value is added,
+/// tries the settings of the first and the last run. If both are refused, adds the problems of the first, such as a misspelt
+/// key. Adds nothing at places that already have a problem.
 void check_settings(const Plan& plan, Problems& problems);
 
 /// Ends of parameter ranges that a scenario refuses while its other keys remain as they are.

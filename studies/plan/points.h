@@ -26,7 +26,7 @@ class Points {
   /// Adds the next point of a method that chooses points by earlier results.
   void add(std::vector<std::string> values) { chosen_.push_back(std::move(values)); }
 
-  /// Value of each parameter in the form of --set. In a grid, the last parameter changes fastest.
+  /// Value of each parameter in the form of --set. The last parameter of a grid changes fastest.
   [[nodiscard]] std::vector<std::string> values(std::uint64_t point) const;
   /// Draw of each variation in the form of --set. `nominal` contains the point's number for each key.
   [[nodiscard]] std::vector<std::string> drawn(std::uint64_t replicate, const std::map<std::string, double>& nominal) const;

@@ -28,8 +28,8 @@ std::string question_text(std::uint64_t id, const Study& study, std::span<const 
 
 /// Answer for a point. `margins` contains, by the id of its check, each guard's margin minus the least margin that the study
 /// requires: 0 or more satisfies the guard. `runs` are in the order of replicates, and `quantities` contains their values by
-/// column. An empty `runs` means that the point is refused. With several replicates, each quantity is a list. A number is the
-/// shortest text that gives the same double, and an unknown number is null.
+/// column. An empty `runs` means that the point is refused. Each quantity is a list if there are several replicates. A number
+/// is the shortest text that gives the same double, and an unknown number is null.
 std::string answer(const Question& question, const JournalHead& head, std::span<const MarginGuard> guards,
                    std::span<const Brief> runs, std::span<const std::vector<std::string>> quantities);
 

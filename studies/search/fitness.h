@@ -1,4 +1,4 @@
-// Fitness of a point: finite numbers by which a search ranks points.
+// Fitness of a point: finite numbers that rank points in a search.
 #pragma once
 #include "studies/journal/results.h"
 #include "studies/search/rating.h"

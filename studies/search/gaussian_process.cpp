@@ -28,8 +28,8 @@ double matern(double squared) {
   return (1 + r + r * r / 3) * math::exp(-r);
 }
 
-/// Sets the cache sizes from which Eigen computes the blocks of a product. With the sizes of the processor's caches, the
-/// rounding errors of products, and thus the points of a search, would depend on the machine.
+/// Sets the cache sizes that Eigen uses to compute the blocks of a product. The sizes of the processor's caches would make the
+/// rounding errors of products, and thus the points of a search, depend on the machine.
 void fix_blocks() {
   constexpr std::ptrdiff_t kFirst = 32 << 10;
   constexpr std::ptrdiff_t kSecond = 256 << 10;

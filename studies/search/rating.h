@@ -1,4 +1,4 @@
-// Rating of a point for a search: its fitness, and the numbers from which models are computed.
+// Rating of a point for a search: its fitness, and the numbers that the models use.
 #pragma once
 #include <limits>
 #include <vector>

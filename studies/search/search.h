@@ -20,8 +20,8 @@ struct SearchSettings {
 /// first_block() points: the given starts, then points of a Sobol sequence, shifted by a random vector from the seed. The best
 /// of these points are the first population. The search has converged if all coordinates of a generation deviate by less than
 /// 1e-4. It has also converged if the best value has not improved by a share of 1e-4 for 10 + 30 n / population generations.
-/// With several objectives, this condition is that no new point has entered the front. A converged search restarts with twice
-/// the population, further points of the sequence and another seed.
+/// If there are several objectives, this condition is that no new point has entered the front. A converged search restarts with
+/// twice the population, further points of the sequence and another seed.
 class Search {
  public:
   explicit Search(const SearchSettings& settings);

@@ -52,7 +52,7 @@ std::string doubt(Word word, double evidence, const std::string& why) {
   return (word == Word::infeasible ? "the verdict is infeasible" : name_of(word)) + end;
 }
 
-/// True if the verdict on a single run counts. In a robust study, runs in worlds only count together.
+/// True if the verdict on a single run counts. Runs in worlds only count together in a robust study.
 bool counts_alone(const Plan& plan, std::uint64_t replicate) { return !plan.study().robust || replicate == 0; }
 
 /// A reason made of several texts.

@@ -37,7 +37,7 @@ struct Fall {
   std::string check = {};  ///< id of the check that decided the verdict; "" if none did
 };
 
-/// Reason in the first scenario in which the point falls.
+/// Reason in the first scenario where the point falls.
 Fall fall(const Plan& plan, Trial& trial) {
   for (Row& row : trial.rows) {
     if (row.outcome != "done") return {in_scenario(row) + row.outcome + (row.message.empty() ? "" : ": " + row.message)};
@@ -64,7 +64,7 @@ std::vector<std::uint64_t> points_of(const std::vector<Verification>& tried) {
   return runs;
 }
 
-/// Value by which a point is ranked: the limit of vanishing steps if it is known, else that of its first entry.
+/// Value that ranks a point: the limit of vanishing steps if it is known, else that of its first entry.
 double value_of(const std::vector<Verification>& tried, std::uint64_t run) {
   double value = std::nan("");
   for (const Verification& v : tried) {

@@ -11,7 +11,7 @@ namespace gaitlab::studies {
 ///
 /// The result contains the entries of `tried`. After those of each point follow an entry for each world, such as `world supply
 /// -10 % (6.66 V)`, with the reason if the point falls there, and an entry `worlds`. Only the entry `worlds` can reject the
-/// point. It does if the share of worlds in which the point stands is below `verify.share`. Points are ordered by
+/// point. It does if the share of worlds where the point stands is below `verify.share`. Points are ordered by
 /// ranked_by_share(). Returns nothing if `stop` was set.
 std::optional<std::vector<Verification>> in_worlds(const Plan& plan, Journal& journal, const Results& results,
                                                    const std::vector<Verification>& tried, const Executor& executor,

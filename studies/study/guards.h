@@ -54,8 +54,8 @@ class Guards {
   /// Texts of the guards that a run violates. `why` is the sentence after the run's verdict.
   [[nodiscard]] std::vector<std::string> broken(std::span<const double> quantities, Word verdict, const std::string& why,
                                                 bool reserve = true) const;
-  /// Relations over columns, as in `margin.stops >= 0`. For a verdict with checks that the study replaces, the text is a
-  /// sentence.
+  /// Relations over columns, as in `margin.stops >= 0`. The text is a sentence if the verdict has checks that the study
+  /// replaces.
   [[nodiscard]] std::vector<std::string> texts() const;
   /// All guards on margins.
   [[nodiscard]] const std::vector<MarginGuard>& margins() const { return all_; }

@@ -36,8 +36,8 @@ struct ScenarioText {
   std::string name, text;
 };
 
-/// Text of the scenarios in a journal. For a single scenario it is the resolved text. For several, each resolved text follows a
-/// line `--- # scenario NAME`.
+/// Text of the scenarios in a journal. The text of a single scenario is the resolved text. If there are several, each resolved
+/// text follows a line `--- # scenario NAME`.
 std::string scenarios_text(const std::vector<StudyScenario>& scenarios);
 /// The scenarios of a text by scenarios_text(). Empty if the text is that of a single scenario.
 std::vector<ScenarioText> scenario_texts(const std::string& text);

@@ -100,7 +100,7 @@ class Scorer {
   Guards guards_;
 };
 
-/// Violation of a relation a <= b, a >= b or a == b. In a guard, an unknown a gives 0.
+/// Violation of a relation a <= b, a >= b or a == b. An unknown a in a guard gives 0.
 double broken(const Formula& relation, std::span<const double> quantities, bool guard = false);
 
 /// Relative violation of an upper limit: max(0, value - limit) / |limit|, or max(0, value - limit) if the limit is 0. If

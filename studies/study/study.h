@@ -147,7 +147,7 @@ struct Study {
   std::vector<Objective> objectives{1};  ///< one, or several for a Pareto front
   std::vector<Text> constraints;
   bool guarded = true;         ///< true if the checks of the verdict are guards; false for no guards
-  std::vector<Guard> guards;   ///< guards that the study adds, or with which it replaces checks of the verdict
+  std::vector<Guard> guards;   ///< guards that the study adds, or that replace checks of the verdict
   std::vector<Problem> notes;  ///< notes on files that hide shipped scenarios
   std::vector<StopText> stops;
   SourceLocation quantities_place{"--show"};

@@ -90,7 +90,7 @@ void check_parameter(const Study& study, const Parameter& p, Problems& problems)
   }
 }
 
-/// Checks the number of runs of methods that have no budget.
+/// Checks the number of runs of methods without a budget.
 void check_size(const Study& study, Problems& problems) {
   constexpr double kMostRuns = 1e9;
   double runs = static_cast<double>(study.runs_of_point());

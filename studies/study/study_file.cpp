@@ -197,7 +197,7 @@ void check_name(const Study& study, const Node& root, Problems& problems) {
                "name " + in_quotes(study.name) + " is not allowed; expected letters, digits, _ . and -, not a . first");
 }
 
-/// Stores the places of keys to which later messages refer.
+/// Stores the places of keys for later messages.
 void take_places(const Node& root, Study& study) {
   if (const Node* sets = root.find("set")) {
     for (const Node& set : sets->items) study.set_places.push_back(set.place);

@@ -32,7 +32,7 @@ struct FrontFigure {
   std::vector<FrontPoint> points;  ///< kept points; those of the front are in the order of the first objective
 };
 
-/// SVG with at most 20 000 marks. For more points only every nth dominated point is drawn.
+/// SVG with at most 20 000 marks. If there are more points, only every nth dominated point is drawn.
 std::string front_svg(const FrontFigure& figure);
 std::string front_csv(const FrontFigure& figure);
 

@@ -23,7 +23,7 @@
 
 namespace gaitlab::report {
 
-/// Run data from which every check is computed.
+/// Run data that every check uses.
 struct CheckedRun {
   const Scenario& scenario;
   const Recording& record;

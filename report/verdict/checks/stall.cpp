@@ -58,7 +58,7 @@ struct Rest {
   [[nodiscard]] double rms() const { return held.rms / stall; }
 };
 
-/// Every joint with a stall torque. It has no error bar if its motor cannot exceed this torque.
+/// Every joint with a stall torque. It does not have an error bar if its motor cannot exceed this torque.
 std::vector<Rest> rests(const CheckedRun& run, Check& made) {
   constexpr double kEqual = 1 + 1e-9;
   std::vector<Rest> all;

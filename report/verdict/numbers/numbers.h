@@ -81,7 +81,7 @@ std::vector<const SummaryNumber*> placed(Shown SummaryNumber::*shown) {
   return found;
 }
 
-/// True if the robot has joints and an actuator. Otherwise torque, cost and tracking error have no meaning.
+/// True if the robot has joints and an actuator. Otherwise torque, cost and tracking error are meaningless.
 bool has_motors(const Scenario& scenario);
 /// True if the scenario has an actuator and the recording contains joint statistics.
 bool has_motors(const RunData& run);

@@ -13,18 +13,18 @@ struct NamedRun {
   RunData run;
 };
 
-/// Table for the terminal: two header lines, then one row per run. For a run that ended early the row is the reason. Below the
+/// Table for the terminal: two header lines, then one row per run. The row of a run that ended early is the reason. Below the
 /// table are the runs in which gears create more than 5 % of the energy drawn, which makes the cost of transport too low. Every
 /// line ends in '\n'.
 std::string swap_table(const std::vector<NamedRun>& runs);
 
 /// CSV table: the header `cpg,KEY (UNIT),...`, then one row per run. The columns are the single numbers and texts of the
-/// summary, without computing times. Empty cells are not known. For a run that ended early only `outcome` is filled in. Numbers
-/// are the shortest text that is read back unchanged, as in write_csv; quoting follows RFC 4180.
+/// summary, without computing times. Empty cells are not known. Only `outcome` is filled in if the run ended early. Numbers are
+/// the shortest text that is read back unchanged, as in write_csv; quoting follows RFC 4180.
 std::string swap_csv(const std::vector<NamedRun>& runs);
 
-/// JSON object that maps the name of each run to the content of its summary.json, without numbers measured by the clock. For a
-/// run that ended early, everything is null except `outcome`.
+/// JSON object that maps the name of each run to the content of its summary.json, without numbers measured by the clock.
+/// Everything except `outcome` is null if the run ended early.
 std::string swap_json(const std::vector<NamedRun>& runs);
 
 /// A run of one scenario with one CPG, from a matrix of several scenarios and CPGs.
