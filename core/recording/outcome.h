@@ -1,4 +1,4 @@
-// Outcome of a run: the kind of its end.
+// Outcome of a run: its end, with the reason.
 #pragma once
 #include <string>
 
