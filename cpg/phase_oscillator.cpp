@@ -1,8 +1,17 @@
 #include "cpg/phase_oscillator.h"
 
+#include <algorithm>
+#include <array>
+
 #include "core/math/functions.h"
 
 namespace gaitlab::cpg {
+
+namespace {
+
+std::size_t at(std::int64_t joint) { return static_cast<std::size_t>(joint); }
+
+}  // namespace
 
 const char* const PhaseOscillator::kManual = R"(A network of phase oscillators with any coupling graph.
 
@@ -55,18 +64,24 @@ void PhaseOscillator::derivative(const Measured&, In state, Out rate) const {
     rate[joints_ + i] = s_.model.amplitude_rate * (s_.amplitude[i] - r[i]);
     rate[2 * joints_ + i] = s_.model.offset_rate * (s_.offset[i] - x[i]);
   }
-  for (const Coupling& c : network_.couplings) {
-    const auto from = static_cast<std::size_t>(c.from);
-    const auto to = static_cast<std::size_t>(c.to);
-    const double weight = s_.model.amplitude_weighted ? c.weight * r[from] : c.weight;
-    rate[to] += weight * math::sin(phi[from] - phi[to] + c.phase_lag);
+  std::array<double, 16> some;
+  for (std::span<const Coupling> rest = network_.couplings; !rest.empty();) {
+    const std::span<const Coupling> now = rest.first(std::min(rest.size(), some.size()));
+    rest = rest.subspan(now.size());
+    const std::span<double> sine = std::span(some).first(now.size());
+    for (std::size_t k = 0; k < now.size(); ++k) sine[k] = phi[at(now[k].from)] - phi[at(now[k].to)] + now[k].phase_lag;
+    math::sines(sine);
+    for (std::size_t k = 0; k < now.size(); ++k) {
+      const double weight = s_.model.amplitude_weighted ? now[k].weight * r[at(now[k].from)] : now[k].weight;
+      rate[at(now[k].to)] += weight * sine[k];
+    }
   }
 }
 
 void PhaseOscillator::output(double, In state, Out setpoint) const {
-  for (std::size_t i = 0; i < joints_; ++i) {
-    setpoint[i] = state[2 * joints_ + i] + state[joints_ + i] * math::sin(state[i]);
-  }
+  std::ranges::copy(state.first(joints_), setpoint.begin());
+  math::sines(setpoint.first(joints_));
+  for (std::size_t i = 0; i < joints_; ++i) setpoint[i] = state[2 * joints_ + i] + state[joints_ + i] * setpoint[i];
 }
 
 }  // namespace gaitlab::cpg

@@ -2,11 +2,24 @@
 // on every x86-64 and in every lane width. std::sin and similar functions differ between C libraries and must not affect
 // results.
 #pragma once
+#include <emmintrin.h>
 #include <sleef.h>
+
+#include <cstddef>
+#include <span>
 
 namespace gaitlab::math {
 
 inline double sin(double x) { return Sleef_cinz_sind1_u10purec(x); }
+/// Replaces every angle by its sine, two at a time: the bits of sin() at half of its instructions.
+inline void sines(std::span<double> angles) {
+  std::size_t at = 0;
+  for (; at + 1 < angles.size(); at += 2) {
+    double* const two = &angles[at];
+    _mm_storeu_pd(two, Sleef_cinz_sind2_u10sse2(_mm_loadu_pd(two)));
+  }
+  if (at < angles.size()) angles[at] = sin(angles[at]);
+}
 inline double cos(double x) { return Sleef_cinz_cosd1_u10purec(x); }
 struct SinCos {
   double sin, cos;

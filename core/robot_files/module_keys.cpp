@@ -56,7 +56,7 @@ void BodyKeys::fields(Fields& f) {
 }
 
 void SpringKeys::fields(Fields& f) {
-  f.number("stiffness", stiffness, {"N m/rad", 0, 1e6, "Stiffness of a  Only with drive: none."});
+  f.number("stiffness", stiffness, {"N m/rad", 0, 1e6, "Stiffness of a spring. Only with drive: none."});
   f.number("rest", rest, {"rad", -1000, 1000, "Angle at which the spring has no torque. Only with drive: none."});
   f.number("damping", damping, {"N m s/rad", 0, 1e6, "Coefficient of a viscous damper. Only with drive: none."});
   f.number("friction", friction, {"N m", 0, 1e6, "Dry friction. Only with drive: none."});
