@@ -9,7 +9,7 @@ const { chromium } = modules("playwright-core");
 
 // Every wait is for a state, and this, in ms, only ends what would wait for ever: a machine may be slow.
 const patience = 1_200_000;
-const options = { timeout: patience, executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader"] };
+const options = { timeout: patience, executablePath: process.env.CHROMIUM, args: ["--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader"] };
 const launched = {};
 /** The browser with or without WebGL, started when it is first needed. */
 const browser = (webgl) => launched[webgl] ??= chromium.launch(webgl ? options : { ...options, args: [...options.args, "--disable-3d-apis"] });
