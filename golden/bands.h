@@ -24,7 +24,7 @@ struct GoldenRun {
 /// the largest range among columns of the same unit (base.y of a planar walk is noise), and at least 1e-6 of the unit (a
 /// coordinate at rest).
 std::vector<double> scales(const Trace& trace);
-/// The same for the trace of a golden with these bands, except that the scale of a constant column is its natural scale.
+/// Scales for the trace of a golden with these bands. The scale of a constant column is its natural scale.
 std::vector<double> scales(const Trace& trace, const std::vector<Band>& bands);
 
 /// Scales of single numbers, computed as those of columns, but from the absolute value of the number instead of the range.

@@ -151,7 +151,7 @@ class Comparison {
   const GoldenRun& run_;
   PartNames names_;
   bool other_engine_;
-  const GoldenRun* halved_;  // or null
+  const GoldenRun* halved_;  // null if not given
   std::size_t rows_;
   GoldenDifference found_;
 };

@@ -103,7 +103,7 @@ class Batch {
 
 bool print_line(const std::string& line, const std::string& kept, const std::atomic<bool>& stop) {
   const std::string text = line + "\n";
-  // Not by stdio, which would try again at the end of the program.
+  // Not written by stdio, because stdio would try again at the end of the program.
   for (std::size_t at = 0; at < text.size();) {
     const ssize_t size = ::write(STDOUT_FILENO, text.data() + at, text.size() - at);
     if (size >= 0) {

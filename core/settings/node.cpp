@@ -69,7 +69,7 @@ class TreeBuilder final : public YAML::EventHandler {
     // A quoted scalar has the tag "!" implicitly. An explicit tag starts with '!' in the text.
     const bool explicit_tag = tag != "?" && (tag != "!" || character(mark) == '!');
     check_tag(mark, explicit_tag, tag);
-    if (node.quoted && !explicit_tag && !is_closed(*text_, node.position))  // yaml-cpp accepts it
+    if (node.quoted && !explicit_tag && !is_closed(*text_, node.position))  // yaml-cpp accepts a quote that is not closed
       stop(node.place, fmt::format("not valid YAML: the {0} opened here is not closed; expected {0}", character(mark)));
     add(std::move(node));
   }
