@@ -261,7 +261,7 @@ class Stepper {
     used_ = first;
     const std::size_t of_quarter = own.quarter.to - own.quarter.from;
     for (Way<T>* way : {&own.half, &own.early}) {
-      if (way->from < first) continue;  // belongs to the level before
+      if (way->from < first) continue;  // belongs to the previous level
       const std::size_t from = used_;
       for (std::size_t i = way->from; i < way->to; ++i) std::swap(parts_[used_++], parts_[i]);
       way->from = from;

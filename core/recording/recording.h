@@ -72,9 +72,9 @@ struct Recording {
   /// the rows of `ticks`.
   Trace poses;
   /// Numbers (report/verdict/spread.h) of a motion that is not predictable: of this run in the first row, and of runs under
-  /// minimally different gravity in the other rows. No columns if predictability was not tested.
+  /// minimally different gravity in the other rows. It has no columns if predictability was not tested.
   Trace spread;
-  /// Verdicts on this run in the first row, and on draws with other seeds in the other rows (report/verdict/draws.h). No
+  /// Verdicts on this run in the first row, and on draws with other seeds in the other rows (report/verdict/draws.h). It has no
   /// columns without draws.
   Trace draws;
   double current_peak = NAN, current_rms = NAN;  ///< A, of the sum of all motors' |current|; NaN if no currents are known

@@ -96,7 +96,7 @@ MotionCycle cycle_of(const std::vector<double>& alone, std::size_t columns, std:
 struct Lengths {
   std::int64_t run = 0;    ///< during the run
   std::int64_t after = 0;  ///< after the run, if no other period is found
-  std::int64_t most = 0;   ///< largest number in the search for a period, with the run
+  std::int64_t most = 0;   ///< largest number in the search for a period, including the run
 };
 
 /// Number of ticks, at most kMostTicks.

@@ -97,8 +97,8 @@ TEST(Faults, TheResolvedScenarioCanBeReadAgain) {
   EXPECT_EQ(alone(again), alone(s));
 }
 
-// Motors of 1.97 N m turn a joint by 4e-4 rad against 5000 N m/rad, the weight of the modules as much again, and the impact a
-// little.
+// Motors of 1.97 N m turn a joint by 4e-4 rad against 5000 N m/rad. The weight of the modules adds as much again, and the
+// impact a little.
 TEST(Faults, AStuckJointStaysWhereItIs) {
   const Recording r =
       run(faulty_caterpillar({"duration=6", fault("stuck", "2"), "trace.columns=[joint.*, energy.*]", "physics.estimate=off"}));

@@ -166,7 +166,7 @@ TEST(Paper, ThirteenOtherSettingsMissIt) {
   for (const char* const set : kOtherSettings) EXPECT_NE(numbers(unmet(caterpillar({set, "duration=14"}))), Sets()) << set;
 }
 
-/// All but two of them also violate a number or a rank of figures 13 and 14.
+/// All but two of the settings above also violate a number or a rank of figures 13 and 14.
 TEST(Paper, ElevenOfThemMissTheSpineToo) {
   EXPECT_EQ(numbers(unmet_spine(hexapod({"duration=8"}))), Sets());
   for (const std::string set : kOtherSettings) {

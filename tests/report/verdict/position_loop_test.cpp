@@ -19,9 +19,10 @@ PositionLoop first(const std::string& file, const std::vector<std::string>& sets
   return position_loops(shipped(file, sets)).at(0);
 }
 
-/// Largest modulus of an eigenvalue of a motor with inertia, whose time constant is tau = T / x, under commands every T: g
-/// times the error of d samples before, and a derivative part with response `d_step` g to a step of it, which decays by
-/// `d_keeps`. State: error, speed (rad per tau), derivative part, the error before, and the errors of the d samples before.
+/// Largest modulus of an eigenvalue of a motor with inertia, whose time constant is tau = T / x, under commands every T. A
+/// command is g times the error d samples before, plus a derivative part that answers a step of the error with `d_step` g and
+/// decays by `d_keeps`. State: error, speed (rad per tau), derivative part, the error before, and the errors of the d samples
+/// before.
 double modulus(double g, double x, int d, double d_step, double d_keeps) {
   const double e = std::exp(-x);
   Eigen::MatrixXd map = Eigen::MatrixXd::Zero(4 + d, 4 + d);

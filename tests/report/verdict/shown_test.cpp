@@ -113,7 +113,7 @@ TEST(Shown, OscillatorsThatStillSynchronise) {
   EXPECT_NE(caterpillar({cpg, "duration=10"}).word, Word::not_judged);
 }
 
-/// The word of a robot that drops by 5 cm more than its start, and of one that stands, is the same for every end of the run.
+/// The verdict has the same word for every end of the run, for a robot that stands and for one that starts 5 cm higher.
 TEST(Shown, TheEndOfTheRunDoesNotDecide) {
   for (const char* const height : {"0.05", "0.1"}) {
     for (const char* const end : {"10.02", "10.9", "11.96", "12", "12.1"}) {

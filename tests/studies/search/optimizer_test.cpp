@@ -142,7 +142,7 @@ TEST(Searches, ConvergeBeforeTheirBudget) {
   EXPECT_EQ(journal.generations().back().runs, journal.rows() - journal.generations().back().first_run);
 }
 
-/// A box of four numbers of 12 digits. Each is run once, however often it is requested.
+/// A box that contains only four values of 12 digits. Each value is run once, however often it is requested.
 TEST(Searches, RunNoPointTwice) {
   FunctionSearch search(
       "parameters: {cpg.frequency: {low: 1, high: 1.00000000003}, cpg.amplitude: {values: [0.5]}}\nguards: none\nbudget: "

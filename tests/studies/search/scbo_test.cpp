@@ -63,7 +63,8 @@ TEST(Scbo, IsBetterThanCmaWhereRunsAreFew) {
   EXPECT_LT(found, median_of(Method::cma, in_a_valley, 4, 128));
 }
 
-/// The measured medians are -0.708 and -0.487. Single seeds overlap, so that the test applies only to these three.
+/// The measured medians are -0.708 and -0.487. Results of single seeds overlap, so that the test applies only to the three
+/// seeds of median_of.
 TEST(CmaGp, IsBetterThanCmaWhereRunsAreFew) {
   EXPECT_LT(median_of(Method::cma_gp, in_a_valley, 4, 160), median_of(Method::cma, in_a_valley, 4, 160));
 }
