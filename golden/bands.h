@@ -45,7 +45,7 @@ inline constexpr double kWidestColumn = 0.002;
 /// above the effect of rounding errors on a robot at rest, and a torque of 1e-5 of the motor's torque is negligible.
 inline constexpr double kConstantRange = 1e-6, kConstantBand = 1e-5;
 /// Share of the natural scale below which a band is narrow enough for any range. A robot that stands on several faces bears its
-/// weight with small torques. A start that differs by rounding errors changes these torques permanently, by 6e-6 of the motors'
+/// weight with small torques. Start angles that differ by 1e-7 rad change these torques permanently, by 6e-6 of the motors'
 /// torques.
 inline constexpr double kNarrowBand = 1e-4;
 /// Band of a mean over starts, in standard errors of the difference of two such means. Student's t with 15 degrees of freedom

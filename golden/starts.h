@@ -1,4 +1,4 @@
-// Runs of a scenario with slightly different starts, and their means, for goldens of scenarios that amplify rounding.
+// Runs of a scenario with slightly different starts, and their means, for goldens of scenarios that amplify rounding errors.
 #pragma once
 #include <span>
 #include <vector>

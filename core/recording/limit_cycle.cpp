@@ -11,7 +11,7 @@ namespace gaitlab {
 
 namespace {
 
-constexpr double kStill = 1e-3;  // rad, half a peak-to-peak
+constexpr double kStill = 1e-3;  // rad, half of the peak-to-peak range
 constexpr double kSmall =
     0.1;  // least scale, as a share of the largest scale, so that trembling joints do not decide the result
 constexpr double kPromising = 0.3;    // largest error e for a lag that is half a grid step from a period, also with harmonics

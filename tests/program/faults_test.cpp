@@ -54,7 +54,7 @@ TEST_P(FaultsOf, WithoutEffectLeaveTheSameBits) {
   EXPECT_EQ(of({"at=[{t: 0.1, set: {cpg.frequency: 0.25, controller.Kp: 100}}]"}), without);
   for (const char* kind : {"none", "lost, share: 0", "late, delay: 0", "weak, share: 1"}) EXPECT_EQ(of({fault(kind)}), without);
   for (const std::string& kind : kKinds) {
-    if (GetParam() == "bullet" && kind == "stuck") continue;  // needs steps of 2.5e-6 s
+    if (GetParam() == "bullet" && kind == "stuck") continue;  // a stuck joint needs steps of 2.5e-6 s
     EXPECT_NE(of({fault(kind)}), without) << kind;
   }
 }
@@ -214,7 +214,7 @@ TEST(Faults, LostSetPointsAreHeld) {
 
 TEST_P(FaultsOf, SnapshotGoesOn) {
   std::string all = kAll;
-  if (GetParam() == "bullet") all.replace(all.find("stuck"), 5, "weak, share: 0.9");  // needs steps of 2.5e-6 s
+  if (GetParam() == "bullet") all.replace(all.find("stuck"), 5, "weak, share: 0.9");  // a stuck joint needs steps of 2.5e-6 s
   const Scenario s = faulty_caterpillar({"duration=1", all}, GetParam());
   const auto go = [](Simulation& simulation, double until) {
     while (simulation.time() < until) simulation.step();
