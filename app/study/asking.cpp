@@ -56,8 +56,8 @@ class Batch {
  public:
   Batch(const studies::Plan& plan, const studies::Work& work, Lines& lines) : plan_(plan), work_(work), lines_(lines) {}
 
-  /// Prints the questions. Results that arrive meanwhile are taken at once: a program that answers each question at once would
-  /// wait for ever if neither its results nor the next questions found room in their pipes. If their reader has gone, a
+  /// Prints the questions. Results that arrive meanwhile are taken immediately: a program that answers each question at once
+  /// would wait for ever if neither its results nor the next questions found room in their pipes. If their reader has gone, a
   /// question stays open, and wait() ends.
   void ask(const std::atomic<bool>& stop) {
     bool asked = false;

@@ -49,7 +49,7 @@ class StepError {
   static constexpr double kApart = 5e-3;    ///< longest interval between comparisons, s
   static constexpr double kGrowth = 15e-3;  ///< s, rounded up to control periods; not compared at the start of a window
   static constexpr double kFiner = 0.5, kCoarser = 3;  ///< accuracy of twin and coarse companion over accuracy of the run
-  static constexpr double kOfFiner = 2.26, kOfCoarser = 0.58;  ///< error of the run over its difference from each of the two
+  static constexpr double kOfFiner = 2.26, kOfCoarser = 0.58;  ///< error of the run over its difference from each companion
   static constexpr double kSafety = 1.25;    ///< reserve because events lower the order, and windows miss some events
   static constexpr double kStart = 1.0 / 3;  ///< weight of the first window; other windows have the weight 1 of a whole cycle
   static constexpr double kChaotic = 1e-9, kIll = 1e-6;  ///< relative changes of gravity of these companions

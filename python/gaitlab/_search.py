@@ -44,7 +44,7 @@ class Search(Child):
         self._open: set[int] = set()  # points that are asked but not told
         self._objectives = 1
         self._ended = False
-        self._read_batch()  # read here, so that errors of the file are raised at once
+        self._read_batch()  # read here, so that errors of the file are raised immediately
 
     def ask(self, n: Optional[int] = None) -> "pandas.DataFrame":
         """The next points, at most n: a column per parameter, and as index the number of the point. Without n all points that the

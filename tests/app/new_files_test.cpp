@@ -219,7 +219,7 @@ TEST_F(NewFiles, AModuleWithFaultsIsRefusedWithThem) {
   EXPECT_FALSE(std::filesystem::exists(folder / "walk.yaml"));
 }
 
-/// The docks of the shipped build files of rows.
+/// The docks are those of the shipped build files of rows.
 TEST(Chain, IsThatOfTheBuildFiles) {
   const auto docks = [](const std::string& module) {
     return app::chain(read_module(kScenarios + "modules/" + module + ".yaml", catalog()), 3);

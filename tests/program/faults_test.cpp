@@ -118,8 +118,8 @@ TEST(Faults, AStuckJointStaysWhereItIs) {
   EXPECT_LT(std::abs(r.ledger.residual()) / r.ledger.electrical, 1e-3);
 }
 
-/// A hold that acts at once stopped a joint in motion within 20 us, with 1200 N at a dock of the hexapod. The hold therefore
-/// grows from 0 in 20 ms. No load changes at the tick of the jam, and later loads do not depend on the step.
+/// A hold that acts immediately stopped a joint in motion within 20 us, with 1200 N at a dock of the hexapod. The hold
+/// therefore grows from 0 in 20 ms. No load changes at the tick of the jam, and later loads do not depend on the step.
 TEST(Faults, AJamInMotionTakesHoldGradually) {
   const auto loads_of = [](const std::string& robot, std::vector<std::string> sets) {
     for (const char* const set : {"physics.engine=articulated", "duration=1.26", "contact.on=all", "cpg.frequency=1"})
