@@ -66,7 +66,7 @@ struct Recording {
   /// of the run do not depend on trace.period.
   Trace ticks;
   /// Loads of docks and feet, slip distances of feet and stability margin, with the rows of `ticks` but under the new commands.
-  /// No columns if no loads were to be recorded.
+  /// It has no columns if no loads were to be recorded.
   Trace loads;
   /// Pose of the base, angles and set points of the joints, centre of mass, and normal force of the ground on the robot, with
   /// the rows of `ticks`.

@@ -183,7 +183,8 @@ TEST(Verify, NeedsNoLimitWithoutAChange) {
   EXPECT_EQ(made.verify(of_first_order(made, 1, 0.01, 1)).size(), 3U);
 }
 
-/// A limit that is broken with finer steps, and steps that the integrator chooses, have no limit.
+/// The limit of vanishing steps is not used if a run with finer steps breaks a constraint, or if the integrator chooses its
+/// steps.
 TEST(Verify, TheLimitNeedsGivenStepsAndLimitsKept) {
   SearchedStudy broken({{"0.6", 1 - 0.05}}, std::string(kFixedStep) + "constraints: [speed <= 0.97]\n");
   const std::vector<Verification> tried = broken.verify(of_first_order(broken, 1, 0.05, 1));
