@@ -85,7 +85,7 @@ std::string report(const std::vector<Problem>& problems) {
 }
 
 // Levenshtein distance, in which a swap of neighbours, the most common typing error, counts as one. If the distance is at least
-// `enough`, the result may be any number from `enough` on, because the caller then discards the name.
+// `enough`, the result may be any number of at least `enough`, because the caller then discards the name.
 std::size_t distance(const std::string& a, const std::string& b, std::size_t enough) {
   std::vector<std::size_t> before(b.size() + 1);
   std::vector<std::size_t> row(b.size() + 1);
@@ -154,8 +154,8 @@ InputError::InputError(SourceLocation place, std::string text)
 
 namespace {
 
-/// Number of equal characters at the beginning. Among equally similar names, the name with the most is suggested, because users
-/// misspell the end of a word more often.
+/// Number of equal characters at the beginning of two names. Among equally similar names, the one with the most such characters
+/// is suggested, because users misspell the end of a word more often.
 std::size_t alike(const std::string& a, const std::string& b) {
   return static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin());
 }

@@ -79,8 +79,8 @@ class RunError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The known name most similar to `found`, by edit distance; else the only name that begins with `found`, or the longest one
-/// with which it begins. Empty if there is none.
+/// The known name most similar to `found`, by edit distance; else the only name that begins with `found`; else the longest name
+/// that `found` begins with. Empty if there is no such name.
 std::string nearest(const std::string& found, const std::vector<std::string>& known);
 
 }  // namespace gaitlab

@@ -17,7 +17,7 @@ double finer_by(const Physics& physics);
 
 /// Setting that should reduce the widest band of `columns` to less than kWidestColumn, as text for a message. It is a finer
 /// step or accuracy, computed from the run `halved` and a still finer run; or integrator `extrapolated` if the engine has it.
-/// It is a shorter run if starts that differ by rounding diverge too far. Makes up to three runs.
+/// It is a shorter run if runs whose start angles differ by 1e-7 rad diverge too far. Makes up to three runs.
 std::string narrower_columns(const std::vector<Band>& columns, const Scenario& scenario, const GoldenRun& halved, int jobs,
                              const std::function<void(double)>& progress = {});
 

@@ -24,7 +24,7 @@ struct GoldenRun {
 /// the largest range among columns of the same unit (base.y of a planar walk is noise), and at least 1e-6 of the unit (a
 /// coordinate at rest).
 std::vector<double> scales(const Trace& trace);
-/// The same for the trace of a golden with these bands, except that the scale of a constant column is its natural scale.
+/// Scales for the trace of a golden with these bands. The scale of a constant column is its natural scale.
 std::vector<double> scales(const Trace& trace, const std::vector<Band>& bands);
 
 /// Scales of single numbers, computed as those of columns, but from the absolute value of the number instead of the range.
@@ -42,10 +42,11 @@ inline constexpr double kEnsembleFactor = 10, kHalvingFactor = 3;  ///< factors 
 /// the goldens must detect change a torque by 0.4 %.
 inline constexpr double kWidestColumn = 0.002;
 /// Range below which a column is constant, and least band of a constant column, as shares of its natural scale. The band is
-/// above the effect of rounding on a robot at rest, and a torque of 1e-5 of the motor's torque is negligible.
+/// above the effect of rounding errors on a robot at rest, and a torque of 1e-5 of the motor's torque is negligible.
 inline constexpr double kConstantRange = 1e-6, kConstantBand = 1e-5;
 /// Share of the natural scale below which a band is narrow enough for any range. A robot that stands on several faces bears its
-/// weight with small torques. A start that differs by rounding changes them permanently, by 6e-6 of the motors' torques.
+/// weight with small torques. Start angles that differ by 1e-7 rad change these torques permanently, by 6e-6 of the motors'
+/// torques.
 inline constexpr double kNarrowBand = 1e-4;
 /// Band of a mean over starts, in standard errors of the difference of two such means. Student's t with 15 degrees of freedom
 /// exceeds 6 once in 40 000 numbers.

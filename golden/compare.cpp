@@ -112,7 +112,8 @@ class Comparison {
       now.push_back(b_.at(k, j));
       const double d = now[k] - golden[k];
       sum += d * d;
-      const double apart = (std::abs(d) - 0.5 * golden_.run.precision[i]) / scale;  // lower bound for any rounding
+      const double apart =
+          (std::abs(d) - 0.5 * golden_.run.precision[i]) / scale;  // lower bound of the difference before rounding
       check.maximum = std::max(check.maximum, apart);
       if (!check.outside && apart > kOutside * check.band) check.outside = a_.at(k, 0);
     }
@@ -151,7 +152,7 @@ class Comparison {
   const GoldenRun& run_;
   PartNames names_;
   bool other_engine_;
-  const GoldenRun* halved_;  // or null
+  const GoldenRun* halved_;  // null if not given
   std::size_t rows_;
   GoldenDifference found_;
 };

@@ -131,7 +131,7 @@ std::string deflated(const std::string& raw) {
   std::string packed(size, '\0');
   const int code = compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(raw.data()),
                              raw.size(), Z_BEST_COMPRESSION);
-  if (code != Z_OK) throw std::bad_alloc();  // the only possible reason
+  if (code != Z_OK) throw std::bad_alloc();  // lack of memory is the only possible reason
   packed.resize(size);
   return packed;
 }

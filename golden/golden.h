@@ -14,7 +14,8 @@ namespace gaitlab::golden {
 /// Allowed deviation (band) of a column or number, as a share of its scale (bands.h), with the three parts from which it
 /// results.
 struct Band {
-  /// 10 x the difference between runs whose starts differ by rounding. For means over starts (starts.h): 6 standard errors.
+  /// 10 x the difference between runs whose start angles differ by up to 1e-7 rad. For means over starts (starts.h): 6 standard
+  /// errors.
   double ensemble = 0;
   double halving = 0;   ///< 3 x the change caused by halving the step
   double floor = 0;     ///< lower limit, above the effect of rounding by other builds

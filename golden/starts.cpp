@@ -10,7 +10,8 @@ namespace gaitlab::golden {
 
 namespace {
 
-constexpr double kOfRounding = 1e-7;  // rad; above the rounding of another compiler, far below a visible change of a torque
+constexpr double kOfRounding =
+    1e-7;  // rad; above the rounding errors of another compiler, far below a visible change of a torque
 // rad; a fraction of the step of an encoder, so that the steps come at other times, and far below the amplitude of a gait
 constexpr double kOfSteps = 1e-3;
 

@@ -1,4 +1,4 @@
-// Runs of a scenario with slightly different starts, and their means, for goldens of scenarios that amplify rounding.
+// Runs of a scenario with slightly different starts, and their means, for goldens of scenarios that amplify rounding errors.
 #pragma once
 #include <span>
 #include <vector>
@@ -22,7 +22,7 @@ Scenario perturbed(const Scenario& scenario, int member);
 std::vector<Scenario> starts(const Scenario& scenario);
 
 /// The only run, or a run with the mean and the standard deviation of each number over the runs. Joints and verdict are those
-/// of the first run, and the trace has only its column `t`. All runs have the same numbers.
+/// of the first run, and the trace has only its column `t`. All runs must have the same summary numbers.
 GoldenRun mean_of(std::span<const GoldenRun> runs);
 
 }  // namespace gaitlab::golden

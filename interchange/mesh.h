@@ -42,9 +42,9 @@ Tiles tiles(const Area& area);
 /// Stride in x and y of the heights that are drawn, so that they are at most about 512 x 512.
 std::size_t drawn_stride(const Heightfield& field);
 
-/// Tiles of a height field, over its grid and the area. Because the surface within a cell is curved, each cell is divided into
-/// 4 x 4 parts (2 x 2 above 16 000 cells, none above 64 000). Cells are also divided at the edges of tiles. Normals are those
-/// of the height field.
+/// Tiles of a height field that cover the bounding rectangle of its grid and the area. Because the surface within a cell is
+/// curved, each cell is divided into 4 x 4 parts (2 x 2 above 16 000 cells, none above 64 000). Cells are also divided at the
+/// edges of tiles. Normals are those of the height field.
 Tiles tiles(const Heightfield& field, const Area& area);
 
 }  // namespace gaitlab::interchange

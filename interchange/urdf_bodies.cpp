@@ -143,7 +143,7 @@ class BodyWalk {
       add_hinge(*joint, at.body, body, pose);
       next.push_back({child.get(), body, {}});
     }
-    open_.insert(open_.end(), next.rbegin(), next.rend());  // a stack: the first comes next
+    open_.insert(open_.end(), next.rbegin(), next.rend());  // open_ is a stack, from which the first of `next` is taken first
   }
 
   void add_mass(const urdf::Inertial& in, const Placed& at) {

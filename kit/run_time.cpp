@@ -118,7 +118,7 @@ std::int64_t steps_in_trial(const Scenario& s) {
   return std::max<std::int64_t>(2, std::llround(kPeriods * s.control_period / s.physics.step));
 }
 
-constexpr double kCoarse = 0.1;      // accuracy of the trial, with which a hundred control periods take about 5 ms
+constexpr double kCoarse = 0.1;      // accuracy of the trial; a hundred control periods then take about 5 ms
 constexpr double kTrial = 30e3;      // us of work to count solves
 constexpr double kFirstSteps = 4e3;  // us of work to find early failures
 

@@ -234,7 +234,7 @@ class Contacts {
   static constexpr double kNormalTolerance = 1e-3, kNormalFloor = 1e-5, kFrictionTolerance = 0.1, kCornerTolerance = 1e-6;
   static constexpr double kFrictionFloor = 1e-9;  // N
 
-  /// Largest gap at which find() includes an element of the link, m, with a margin for rounding.
+  /// Largest gap at which find() includes an element of the link, m, with a margin for rounding errors.
   [[nodiscard]] T reach_of(const Body<T>& body, std::size_t link, double reach) const {
     const Vec<T> v = body.velocity(link, body.point(link, {}));
     const Vec<T>& w = body.turning(link);

@@ -261,7 +261,7 @@ class Stepper {
     used_ = first;
     const std::size_t of_quarter = own.quarter.to - own.quarter.from;
     for (Way<T>* way : {&own.half, &own.early}) {
-      if (way->from < first) continue;  // belongs to the level before
+      if (way->from < first) continue;  // belongs to the previous level
       const std::size_t from = used_;
       for (std::size_t i = way->from; i < way->to; ++i) std::swap(parts_[used_++], parts_[i]);
       way->from = from;
@@ -311,7 +311,7 @@ class Stepper {
     eighths_.keep(x, taken, end, kShortest);
     const auto shorter = math::mask_and(math::fresh(which, taken), finite(own.start));
     if (!math::any_lane(shorter)) return;
-    if (!math::any_lane(taken)) drop(own, first);  // no lane uses the others
+    if (!math::any_lane(taken)) drop(own, first);  // no lane uses the other steps
     adapt(x, command, h / 2, shorter, level + 1, end - (kShortest >> (level + 1)), &own);
     adapt(x, command, h / 2, shorter, level + 1, end);
   }
@@ -388,7 +388,7 @@ class Stepper {
   std::vector<double> of_solo_, command_of_solo_;
   Eighths<T> eighths_;
   math::Mask<T> apart_{};  ///< lanes whose last step was taken by a solo
-  math::Mask<T> slide_{};  ///< lanes of these in which most of the load slides
+  math::Mask<T> slide_{};  ///< lanes of apart_ in which most of the load slides
   std::vector<std::vector<T>> halved_;
   std::vector<Part<T>> parts_;
   std::size_t used_ = 0;

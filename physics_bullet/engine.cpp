@@ -215,7 +215,7 @@ class BulletPlant final : public Plant, private InverseMass {
 /// pairs in an int. Rotors need three more matrices, and a Cholesky factor at every step.
 void check_joints(const PlantSettings& s) {
   constexpr std::size_t kMost = 10000;           // needs 0.8 GB
-  constexpr std::size_t kMostWithRotors = 2000;  // needs a second per step, which grows with the third power
+  constexpr std::size_t kMostWithRotors = 2000;  // a step takes a second, and this time grows with the third power
   const std::size_t joints = s.robot->joints.size();
   if (joints > kMost) {
     throw TooManyJoints(

@@ -81,7 +81,7 @@ class MultiBody {
   std::vector<Mat3> principal_;  ///< axes of the link frame of Bullet (principal, at the COM) in the link frame
   std::vector<Vec3> moments_;    ///< principal moments
   std::vector<Quat>
-      at_zero_;  ///< rotation from the principal frame of the parent to the one of the link at angle 0, transposed for Bullet
+      at_zero_;  ///< rotation from the principal frame of the parent to that of the link at angle 0, transposed for Bullet
   std::vector<int> index_of_joint_;
   btMultiBody body_;
   std::vector<std::unique_ptr<btSphereShape>> spheres_;

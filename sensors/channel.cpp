@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint32_t kNoise = 0;
 constexpr std::uint32_t kWalk = 8;
 constexpr std::uint32_t kLost = 16;
-constexpr std::uint32_t kZero = 24;  // this number and those below are drawn once per run
+constexpr std::uint32_t kZero = 24;  // this draw and the following ones are made once per run
 constexpr std::uint32_t kGain = 32;
 constexpr std::uint32_t kDelay = 40;
 

@@ -27,7 +27,7 @@ class LoadSensor final : public Sensor {
   double touch_, release_;
   std::size_t modules_ = 0;              ///< number of channels that measure modules
   std::vector<std::size_t> parts_;       ///< module or body of each channel
-  std::vector<SensorReading> readings_;  ///< loads of modules and bodies, then whether the modules touch
+  std::vector<SensorReading> readings_;  ///< loads of modules and bodies, then contact of the modules
   ChannelBank channels_;                 ///< the modules, then the bodies
 };
 

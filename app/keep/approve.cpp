@@ -37,7 +37,7 @@ struct ApproveArguments {
   std::optional<std::string> reason;
   bool calibrate = false;  ///< true: make new bands; this is also done without a golden, and for a run outside its bands
   std::vector<std::string> columns =
-      {};                ///< patterns of the columns that the golden holds; empty: as before, or the usual ones
+      {};                ///< patterns of the golden's columns; empty: those of the golden before, or the usual ones
   bool replace = false;  ///< true: begin a new history and ignore an existing golden
   int jobs = 1;          ///< threads
 };

@@ -56,8 +56,8 @@ class Batch {
  public:
   Batch(const studies::Plan& plan, const studies::Work& work, Lines& lines) : plan_(plan), work_(work), lines_(lines) {}
 
-  /// Prints the questions. Results that arrive meanwhile are taken at once: a program that answers each question at once would
-  /// wait for ever if neither its results nor the next questions found room in their pipes. If their reader has gone, a
+  /// Prints the questions. Results that arrive meanwhile are taken immediately: a program that answers each question at once
+  /// would wait for ever if neither its results nor the next questions found room in their pipes. If their reader has gone, a
   /// question stays open, and wait() ends.
   void ask(const std::atomic<bool>& stop) {
     bool asked = false;
@@ -103,7 +103,7 @@ class Batch {
 
 bool print_line(const std::string& line, const std::string& kept, const std::atomic<bool>& stop) {
   const std::string text = line + "\n";
-  // Not by stdio, which would try again at the end of the program.
+  // Not written by stdio, because stdio would try again at the end of the program.
   for (std::size_t at = 0; at < text.size();) {
     const ssize_t size = ::write(STDOUT_FILENO, text.data() + at, text.size() - at);
     if (size >= 0) {

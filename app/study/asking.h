@@ -12,8 +12,8 @@ namespace gaitlab::app {
 /// Each point must have one run. Plan and lines must outlive the executor.
 studies::Executor asking_executor(const studies::Plan& plan, Lines& lines);
 
-/// Writes a line to standard output at once. Returns false if its reader has closed it, or if `stop` is set while the reader
-/// takes nothing. Throws RunError for any other failure; `kept` ends the message.
+/// Writes a line to standard output immediately. Returns false if its reader has closed it, or if `stop` is set while the
+/// reader takes nothing. Throws RunError for any other failure; `kept` ends the message.
 bool print_line(const std::string& line, const std::string& kept, const std::atomic<bool>& stop);
 
 }  // namespace gaitlab::app

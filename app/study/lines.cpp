@@ -15,7 +15,7 @@ namespace gaitlab::app {
 
 bool is_blank(const std::string& line) { return line.find_first_not_of(" \t\r") == std::string::npos; }
 
-/// With `stop` it waits for the line; without, the line must have arrived.
+/// With `stop`, waits for the line. Without `stop`, the line must have arrived.
 std::optional<std::string> Lines::next(const std::atomic<bool>* stop) {
   std::size_t end = text_.find('\n', at_);
   while (end == std::string::npos && text_.size() - at_ <= kLongest && read_more(stop)) end = text_.find('\n', at_);
@@ -48,14 +48,15 @@ bool Lines::wait(const std::atomic<bool>& stop) {
   std::array<pollfd, 2> ends{pollfd{STDIN_FILENO, POLLIN, 0}, pollfd{STDOUT_FILENO, 0, 0}};
   while (!stop) {
     if (::poll(ends.data(), until_ == Until::output_is_closed ? 2 : 1, kOften) <= 0) continue;
-    if (ends[0].revents != 0) return true;  // results that have arrived count, also without a reader of more questions
+    if (ends[0].revents != 0) return true;  // results that have arrived count, even if nothing reads further questions
     output_closed_ = true;
     return false;
   }
   return false;
 }
 
-/// Reads more input: with `stop` it waits for it; without, it must have arrived. Returns false if there is none.
+/// Reads more input. With `stop`, waits for the input; without `stop`, the input must have arrived. Returns false if there is
+/// none.
 bool Lines::read_more(const std::atomic<bool>* stop) {
   text_.erase(0, std::exchange(at_, 0));
   while (!ended_) {

@@ -51,7 +51,8 @@ Study searched_study(const OptimizeArguments& a) {
   }
   Study study = studies::read_study(a.file, studies::Purpose::optimize);
   if (!a.method.empty()) study.method = named<studies::Method>(a.method).value();
-  if (!studies::is_search(study.method) && !a.method.empty()) study.starts.clear();  // for comparison with a search
+  if (!studies::is_search(study.method) && !a.method.empty())
+    study.starts.clear();  // a method that is compared with a search has no start points
   if (a.runs > 0) study.runs = a.runs;
   if (a.runs > 0 || !a.method.empty()) study.place = SourceLocation{a.runs > 0 ? "--runs" : "--method"};
   if (a.seed >= 0) study.seed = a.seed;
@@ -107,7 +108,7 @@ SearchEnd run_study(Plan& plan, Journal& journal, const studies::Executor& execu
   RunArguments arguments;
   arguments.out = next.string();
   arguments.quiet = quiet;
-  arguments.names_files = false;  // they are renamed
+  arguments.names_files = false;  // the files are renamed afterwards
   const int code = run(plan.scenario(run_number), arguments);
   if (code != 0 || stopped()) {
     fs::remove_all(next, none);
@@ -126,7 +127,7 @@ SearchEnd run_study(Plan& plan, Journal& journal, const studies::Executor& execu
   return true;
 }
 
-/// Runs points again, then those that stand also in worlds. Returns nothing if interrupted.
+/// Runs points again, and then runs in worlds those that stand. Returns nothing if interrupted.
 std::optional<std::vector<studies::Verification>> verify_points(const Plan& plan, Journal& journal,
                                                                 const studies::Results& results,
                                                                 const std::vector<std::size_t>& points, const std::string& what,

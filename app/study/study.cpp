@@ -195,7 +195,7 @@ std::vector<std::string> differences(const std::vector<std::string>& names, cons
   for (std::size_t k = 0; k < quantities.size(); ++k) {
     if (!estimated && depends_on_estimate(columns.quantities[k])) continue;
     const std::string then = cell(columns.quantities[k]);
-    if (told && then.empty()) continue;  // the other program did not give it
+    if (told && then.empty()) continue;  // the other program did not give this value
     const std::string now = std::isfinite(quantities[k]) ? number_text(quantities[k] + 0.0) : "";
     const bool same = then.empty() ? now.empty() : !now.empty() && studies::number_of(then) == quantities[k];
     if (!same) {

@@ -14,7 +14,7 @@ namespace gaitlab::app {
 
 namespace {
 
-/// Type of the scenario's own CPG; "" if it has none. Only under this CPG does --set change settings of the CPG's model.
+/// Type of the scenario's own CPG; "" if it has none. --set changes settings of the CPG's model only under this CPG.
 std::string own_cpg(const SwapArguments& arguments, Catalog& catalog) {
   auto quiet = static_cast<const ScenarioArguments&>(arguments);
   quiet.quiet = true;

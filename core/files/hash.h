@@ -23,8 +23,8 @@ class WordHash {
  public:
   /// Adds the length of `bytes`, then their words. The last word is padded with zeros.
   void add(std::string_view bytes);
-  /// The same in parts: the length of all parts, then each part. Only the last part may have a length that is not a multiple of
-  /// 8 bytes.
+  /// add() in parts: first the total length, then each part. Only the last part may have a length that is not a multiple of 8
+  /// bytes.
   void add_length(std::size_t bytes);
   void add_words(std::string_view bytes);
   /// The hash as 16 hex digits.

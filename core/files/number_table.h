@@ -26,7 +26,7 @@ inline constexpr std::string_view kPngMagic = "\x89PNG\r\n\x1a\n";
 /// the header, and for more than `most` numbers. These errors precede the allocation of memory.
 NumberTable read_npy(std::string_view bytes, std::size_t most);
 
-/// Header of a numpy.save file for float64 values in C order, which follow it, least significant byte first. The length of the
+/// Header of a numpy.save file for float64 values, which follow in C order, least significant byte first. The length of the
 /// header is a multiple of 64.
 std::string npy_head(std::size_t rows, std::size_t columns);
 

@@ -6,8 +6,8 @@ namespace gaitlab {
 inline constexpr double kKgfCm = 0.0980665;                // N m per kgf cm
 inline constexpr double kRevPerMin = 0.10471975511965977;  // rad/s per rev/min
 
-/// Gain Kp, V/rad, whose command removes a share of the error per control period: share V / (w0 period). V: voltage, at which
-/// the no-load speed w0, rad/s, holds; period: s.
+/// Gain Kp, V/rad, whose command removes a share of the error per control period: Kp = share * V / (w0 * period). w0 is the
+/// no-load speed, rad/s, at the voltage V; `period` is in s.
 inline constexpr double gain_of_share(double share, double voltage, double no_load_speed, double period) {
   return share * voltage / (no_load_speed * period);
 }

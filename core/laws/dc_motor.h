@@ -25,7 +25,7 @@ struct BasicDcMotor {
 
   struct Effort {
     V torque;                        ///< N m
-    V slope;                         ///< -dT/dw >= 0, N m s/rad: eta Kt Ks n^2 / R, 0 if limited; more within `reversal_speed`
+    V slope;                         ///< -dT/dw >= 0, N m s/rad: eta Kt Ks n^2 / R, 0 if limited; larger below `reversal_speed`
     V current;                       ///< A
     V voltage;                       ///< terminal voltage R i + Ks n w, V
     math::Mask<V> limited, clamped;  ///< true if the current is limited, or the command is clamped

@@ -30,8 +30,8 @@ using HingeStop = BasicHingeStop<double>;
 
 /// Hinge that is stuck at an angle: torque = grip (-kh (q - q_hold) - ch qd), in both directions, instead of the stop. (chosen:
 /// a hundred times the constants of the stop, so that motors of 2 N m turn the hinge by less than 1e-3 rad; docs/real-robot.md)
-/// The grip rises from 0 to 1 in kRamp. If ch acted at once, a joint that jams in motion would stop within 20 us, by a torque
-/// that depends on ch alone.
+/// The grip rises from 0 to 1 in kRamp. If ch acted immediately, a joint that jams in motion would stop within 20 us, by a
+/// torque that depends on ch alone.
 template <class T>
 struct BasicHingeHold {
   static constexpr double kRamp = 0.02;                                      ///< s

@@ -11,7 +11,7 @@
 namespace gaitlab::math {
 
 inline double sin(double x) { return Sleef_cinz_sind1_u10purec(x); }
-/// Replaces every angle by its sine, two at a time: the bits of sin() at half of its instructions.
+/// Replaces every angle by its sine, with the same bits as sin(). Two angles at a time need half of the instructions.
 inline void sines(std::span<double> angles) {
   std::size_t at = 0;
   for (; at + 1 < angles.size(); at += 2) {

@@ -80,7 +80,8 @@ struct ContactType {
 /// ids.
 struct ModuleType {
   std::string name;
-  bool lattice = false;  ///< bodies with faces fill cells of a cubic lattice; an error if two share a cell at zero angles
+  bool lattice =
+      false;  ///< true if bodies with faces fill cells of a cubic lattice; two bodies in one cell at zero angles are an error
   std::vector<BodyType> bodies;
   std::vector<HingeType> hinges;
   std::vector<FaceType> faces;

@@ -14,7 +14,7 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kTouching = 1e-9;  // overlap of touching shapes by rounding, as a share of their size
 constexpr std::size_t kBars = 256;  // bars per axis, shared by the intervals between the ends of shapes
-constexpr int kIterations = 3000;   // for a distance between convex sets; converges slowly between two edges
+constexpr int kIterations = 3000;   // for a distance between convex sets; between two edges, the search converges slowly
 constexpr double kExactly = 0.01;   // relative accuracy of that distance
 
 /// Point of the outline of a circle (radius r) in direction (x, z); 0 for a direction of length 0.

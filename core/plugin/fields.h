@@ -172,7 +172,7 @@ using field::Among;
 
 /// Meaning of an absent key.
 /// - preset: the initial value is the default.
-/// - optional: the initial value is none that a file states, such as 0 for an unknown load.
+/// - optional: the initial value is one that no file states, such as 0 for an unknown load.
 /// - one_of: exactly one of the keys of a struct with this mark is given. The reader leaves the check to the caller.
 /// - required: an error.
 enum class Need { preset, optional, one_of, required };

@@ -77,7 +77,7 @@ struct OscillatorNetwork {
   }
 };
 
-/// Time in which r' = rate (R - r) comes from 0 to 98 % of R, s; 0 for a rate of 0, with which r is constant.
+/// Time in which r' = rate (R - r) takes r from 0 to 98 % of R, s; 0 if `rate` is 0, because r is then constant.
 inline double rise_time(double rate) {
   constexpr double kFirstOrder = 3.912;  // ln 50
   return rate > 0 ? kFirstOrder / rate : 0;

@@ -28,8 +28,8 @@ void* grow(std::size_t size, void* image) {
 void require_workspace(std::size_t more) {
   // Memory for HDF5's cache of structures, the texts of a table and the buffers of chunks.
   constexpr std::size_t kWorkspace = std::size_t{1} << 24;  // bytes
-  // This mapping takes only address space, because it is not touched. An allocation that is freed at once could be removed by
-  // the compiler.
+  // This mapping takes only address space, because it is not touched. An allocation that is freed immediately could be removed
+  // by the compiler.
   void* const mapped = ::mmap(nullptr, kWorkspace + more, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (mapped == MAP_FAILED) throw std::bad_alloc();
   ::munmap(mapped, kWorkspace + more);

@@ -67,7 +67,7 @@ JudgedJoint from_ticks(const Recording& record, std::size_t joint, std::size_t f
     if (voltage[k] > voltage[k - 1]) j.first_limit = MotorLimit::voltage;
     if (current[k] > current[k - 1]) j.first_limit = MotorLimit::current;
     if (!j.reaches_limit()) j.first_limit = motor_limit(limit[k]);
-    // Within a row, the time at the limit is assumed to be at the end.
+    // The time at the limit is assumed to be the last part of the time between two rows.
     j.first_limit_time = t[k] - std::max(voltage[k] - voltage[k - 1], current[k] - current[k - 1]);
   }
   if (torque.empty() || std::isnan(torque.back())) j.torque_peak = j.torque_peak_time = kNotKnown;

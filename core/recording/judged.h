@@ -13,15 +13,16 @@ namespace gaitlab {
 /// Statistics of one joint within the window; NaN if the run folder does not contain them. A peak is the largest
 /// value since the previous row of Recording::ticks, and its time is the time of the row.
 struct JudgedJoint {
-  double torque_peak = 0, torque_peak_time = 0;      ///< N m, largest magnitude of the motor torque; s
-  MotorLimit peak_limit = MotorLimit::none;          ///< limit that the motor reached at torque_peak
-  double torque_rms = 0;                             ///< N m
-  double voltage_limited = 0, current_limited = 0;   ///< share of the window
-  double error_peak = 0, error_peak_time = 0;        ///< rad, largest magnitude of set point minus angle; s
-  double envelope_peak = 0, envelope_peak_time = 0;  ///< largest share of the available torque at the present speed; s
-  double speed_peak = 0, speed_peak_time = 0;        ///< rad/s, largest magnitude; s
-  double current_rms = 0;                            ///< A
-  double voltage_peak = 0, current_peak = 0;         ///< V, A, largest magnitudes
+  double torque_peak = 0, torque_peak_time = 0;     ///< largest magnitude of the motor torque, N m, and its time, s
+  MotorLimit peak_limit = MotorLimit::none;         ///< limit that the motor reached at torque_peak
+  double torque_rms = 0;                            ///< N m
+  double voltage_limited = 0, current_limited = 0;  ///< share of the window
+  double error_peak = 0, error_peak_time = 0;       ///< largest magnitude of set point minus angle, rad, and its time, s
+  double envelope_peak = 0,
+         envelope_peak_time = 0;               ///< largest share of the torque available at the present speed, and its time, s
+  double speed_peak = 0, speed_peak_time = 0;  ///< largest magnitude, rad/s, and its time, s
+  double current_rms = 0;                      ///< A
+  double voltage_peak = 0, current_peak = 0;   ///< largest magnitudes, V and A
   /// First limit that the motor reached, for some time or at the largest torque of a tick, and the time of that tick minus the
   /// time at the limit, s.
   MotorLimit first_limit = MotorLimit::none;

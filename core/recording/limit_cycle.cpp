@@ -11,9 +11,10 @@ namespace gaitlab {
 
 namespace {
 
-constexpr double kStill = 1e-3;       // rad, half a peak-to-peak
-constexpr double kSmall = 0.1;        // least scale as a share of the largest column, so that trembling joints do not decide
-constexpr double kPromising = 0.3;    // largest e, with harmonics, of a lag that is half a grid step off a period
+constexpr double kStill = 1e-3;  // rad, half of the peak-to-peak range
+constexpr double kSmall =
+    0.1;  // least scale, as a share of the largest scale, so that trembling joints do not decide the result
+constexpr double kPromising = 0.3;    // largest error e for a lag that is half a grid step from a period, also with harmonics
 constexpr std::size_t kGrid = 256;    // lags and points per period in the search
 constexpr std::size_t kFine = 4096;   // points per period when refining a lag
 constexpr std::size_t kShortest = 5;  // samples in the shortest period

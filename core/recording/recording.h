@@ -66,15 +66,15 @@ struct Recording {
   /// of the run do not depend on trace.period.
   Trace ticks;
   /// Loads of docks and feet, slip distances of feet and stability margin, with the rows of `ticks` but under the new commands.
-  /// No columns if no loads were to be recorded.
+  /// It has no columns if no loads were to be recorded.
   Trace loads;
   /// Pose of the base, angles and set points of the joints, centre of mass, and normal force of the ground on the robot, with
   /// the rows of `ticks`.
   Trace poses;
   /// Numbers (report/verdict/spread.h) of a motion that is not predictable: of this run in the first row, and of runs under
-  /// minimally different gravity in the other rows. No columns if predictability was not tested.
+  /// minimally different gravity in the other rows. It has no columns if predictability was not tested.
   Trace spread;
-  /// Verdicts on this run in the first row, and on draws with other seeds in the other rows (report/verdict/draws.h). No
+  /// Verdicts on this run in the first row, and on draws with other seeds in the other rows (report/verdict/draws.h). It has no
   /// columns without draws.
   Trace draws;
   double current_peak = NAN, current_rms = NAN;  ///< A, of the sum of all motors' |current|; NaN if no currents are known

@@ -13,7 +13,7 @@ namespace gaitlab {
 namespace {
 
 constexpr double kMostDeviations = 3;
-constexpr double kMostShare = 0.3;  // after three deviations, a tenth remains
+constexpr double kMostShare = 0.3;  // a factor that is three deviations low is then still 0.1
 constexpr double kMostAngle = 0.1;  // rad
 constexpr double kLeastFactor = 0.01;
 constexpr double kMostFactor = 100;

@@ -182,7 +182,7 @@ struct Scenario {
   Limits limits;
   std::vector<std::string> accept;  ///< rows of the list of plausible numbers (kAcceptable) whose numbers the user has checked
   std::vector<SensorSelection> sensors;
-  std::vector<Change> changes;  ///< section `at`, by rising times
+  std::vector<Change> changes;  ///< section `at`, in the order of time
   std::int64_t seed = 1;
   std::vector<Note> notes;
   /// Place at which the user gave a key, such as `physics.step` or `trace.columns`. If this is a rollout of a template,

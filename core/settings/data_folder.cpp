@@ -41,7 +41,7 @@ fs::path find_prefix() {
   return {};
 }
 
-/// Prefix that an installation with the file with this code would have: the folder above the file's folder, as in
+/// Prefix of an installation that contains the file with this code: the folder above the file's folder, as in
 /// PREFIX/bin/gaitlab.
 fs::path wanted_prefix() {
   for (const fs::path& file : own_files()) {

@@ -190,7 +190,7 @@ void Explainer::elements(const char* key, const field::List& list) {
 }
 
 void Explainer::on(const char* key, const char* about, const field::List& field) {
-  // The keys of two lists alike are listed once, below the second.
+  // The keys of two lists with the same structs are listed once, below the second list.
   if (nested_ && structs_ == field.visit && end_ == rows_.size()) rows_.resize(first_);
   const char* const mark = field.name != nullptr ? ".NAME" : nested_ ? "[]" : "";
   row(key + std::string(mark), "", field.size(field.self) == 0 ? "[]" : "", field.name != nullptr ? "map by name" : "list",

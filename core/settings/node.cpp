@@ -69,7 +69,7 @@ class TreeBuilder final : public YAML::EventHandler {
     // A quoted scalar has the tag "!" implicitly. An explicit tag starts with '!' in the text.
     const bool explicit_tag = tag != "?" && (tag != "!" || character(mark) == '!');
     check_tag(mark, explicit_tag, tag);
-    if (node.quoted && !explicit_tag && !is_closed(*text_, node.position))  // yaml-cpp accepts it
+    if (node.quoted && !explicit_tag && !is_closed(*text_, node.position))  // yaml-cpp accepts a quote that is not closed
       stop(node.place, fmt::format("not valid YAML: the {0} opened here is not closed; expected {0}", character(mark)));
     add(std::move(node));
   }
@@ -181,7 +181,7 @@ std::string in_words(const YAML::Exception& e, const std::string& text) {
   return yaml_fault_in_words(e.msg, text.substr(begin, text.find_first_of("\r\n", begin) - begin), column);
 }
 
-/// Replaces the last problem, which is a list or map as a key, by a problem of the bracket before it that is not closed.
+/// If the last problem reports a list or map as a key, replaces it by a problem at the unclosed bracket before it.
 void explain_last(const std::string& text, const std::string& file, Problems& problems) {
   const Problem& last = problems.list().back();
   Problem fault = yaml_fault(text, file, last.place.line);

@@ -33,7 +33,7 @@ class Reader final : public Fields {
   /// Reader of `node`, called `name` in messages. A node that is not a map is a problem. The node and the problems must outlive
   /// the reader. Relative file paths start at `folder`.
   Reader(const Node& node, const std::string& name, Problems& problems, JointNames joints, std::string folder = {});
-  /// Reader of an absent map, with which every field keeps its default. `place` is that of the parent.
+  /// Reader of an absent map. Every field then keeps its default. `place` is the place of the parent.
   Reader(const SourceLocation& place, Problems& problems, JointNames joints, std::string folder = {});
 
   void visit(const Field& field) override;

@@ -1,4 +1,4 @@
-// The values of a Reader that a sensor has: names of parts of the robot, words, and times of whole control periods.
+// The values of a Reader that sensors have: names of parts of the robot, words, and times of whole control periods.
 #include <fmt/format.h>
 
 #include <algorithm>

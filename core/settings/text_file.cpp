@@ -55,7 +55,7 @@ bool lies_in(const std::filesystem::path& file, const std::filesystem::path& fol
   return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
 }
 
-/// True if a line of the file begins with the key of such files.
+/// True if a line of the file begins with NamedFile::key.
 bool says(const NamedFile& file) {
   if (file.key.empty()) return false;
   try {

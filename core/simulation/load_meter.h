@@ -66,14 +66,14 @@ class LoadMeter {
   const std::vector<ContactElement>& elements_;
   Sample sample_;
   double weight_ = 0;       ///< N
-  bool stability_ = false;  ///< there is a column of the stability margin
-  bool forces_ = false;     ///< there are columns of the feet's forces and points of action
+  bool stability_ = false;  ///< true if there is a column of the stability margin
+  bool forces_ = false;     ///< true if there are columns of the feet's forces and points of action
   double creep_speed_ = 0;  ///< m/s; below this speed, loaded contacts creep; 0 if the contact law has no such speed
   std::vector<DockFace> docks_;
   std::vector<std::size_t> gears_;    ///< joints
   std::vector<DockLoad> dock_loads_;  ///< largest loads since the last row, by index of docks_
   std::vector<double> gear_loads_;    ///< N m, the same for gears_
-  bool watched_ = false;              ///< there are loads since the last row
+  bool watched_ = false;              ///< true if there are loads since the last row
   std::vector<Foot> feet_;
   std::vector<Column> columns_;
   std::size_t foot_columns_ = 0;  ///< index of the first column of the feet

@@ -9,7 +9,7 @@ namespace gaitlab {
 
 namespace {
 
-// The damping of a stop acts at once, and a light hinge is at rest after 0.5 ms.
+// The damping of a stop acts immediately, and a light hinge is at rest after 0.5 ms.
 constexpr double kMeets = 2e-5;   // s; largest time from the contact with a stop to the measurement of the loads
 constexpr double kStride = 5e-4;  // s; a stop that acts for longer is not missed
 constexpr int kMostTries = 20;

@@ -69,7 +69,7 @@ class Plant {
   /// of the integrator.
   virtual void advance(In command, double h) = 0;
   [[nodiscard]] virtual StepEffort applied() const = 0;
-  /// Computes accelerations by the forward dynamics of the engine at `state`, which need not be the one of bind(). Joint
+  /// Computes accelerations by the forward dynamics of the engine at `state`, which need not be the state of bind(). Joint
   /// torques (N m), wrenches on bodies, weight and rotor inertia act; motors, stops, passive hinges and contacts do not.
   virtual void accelerate(std::size_t lane, const RobotState& state, In torque, std::span<const BodyWrench> wrenches,
                           Acceleration& out) = 0;

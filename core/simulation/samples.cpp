@@ -129,8 +129,8 @@ void Simulation::record_tick(Lane& lane) {
   lane.recorder->add_pose(time(), s);
 }
 
-/// Records the loads of the `wanted` lanes under the commands that begin now, because commands change torques at once. The last
-/// commands of a lane that ends remain in force.
+/// Records the loads of the `wanted` lanes under the commands that begin now, because commands change torques immediately. The
+/// last commands of a lane that ends remain in force.
 void Simulation::record_loads(const std::function<bool(const Lane&)>& wanted) {
   const auto due = [&](const auto& lane) { return lane->recorder != nullptr && lane->recorder->loads_due() && wanted(*lane); };
   if (std::ranges::none_of(lanes_, due)) return;

@@ -24,7 +24,8 @@ void static_contact_slopes(const LaneSettings& s, const Kinematics& k, std::vect
   }
   if (out.empty()) return;
   const double load = s.robot->mass * s.gravity.norm() / static_cast<double>(out.size());
-  const double sink = load / s.law.kn;  // exact for k = 1, else an estimate, because the rate is monitored from the first tick
+  const double sink =
+      load / s.law.kn;  // exact for k = 1; otherwise an estimate is enough, because the rate is monitored from the first tick
   for (ContactSlope& contact : out) {
     const double friction = contact.tangential;
     contact.along_normal = s.law(sink, 0.0, 0.0, friction).normal_slope;

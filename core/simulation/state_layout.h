@@ -13,10 +13,10 @@ inline constexpr std::size_t kEighths = 8;  ///< equal parts of a step; Plant::s
 /// Indices of the numbers of the state of a rollout. Entry e of lane l has the index e * lanes + l. SI units, world axes.
 struct StateLayout {
   std::size_t joints = 0, lanes = 1;
-  static constexpr std::size_t kPosition = 0;          ///< origin of the base frame, 3
+  static constexpr std::size_t kPosition = 0;          ///< origin of the base frame, 3 numbers
   static constexpr std::size_t kOrientation = 3;       ///< quaternion w x y z, base -> world
-  static constexpr std::size_t kVelocity = 7;          ///< velocity of the origin of the base frame, 3
-  static constexpr std::size_t kAngularVelocity = 10;  ///< angular velocity of the base, 3
+  static constexpr std::size_t kVelocity = 7;          ///< velocity of the origin of the base frame, 3 numbers
+  static constexpr std::size_t kAngularVelocity = 10;  ///< angular velocity of the base, 3 numbers
   static constexpr std::size_t kAngles = 13;           ///< joint angles, followed by the joint speeds
 
   [[nodiscard]] std::size_t size() const { return (kAngles + 2 * joints) * lanes; }

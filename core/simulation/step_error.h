@@ -1,4 +1,4 @@
-// Estimate of the torque error of the time steps, from the differences to rollouts with other steps.
+// Estimate of the torque error of the time steps, from the differences from rollouts with other steps.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace gaitlab {
 /// step. It restarts at every window from the numbers of the run and continues with a separate CPG, controller and commands.
 struct TwinWindows {
   int steps = 0;      ///< 2: one step of the twin for two of the run; -2: two for one; 0: the whole run, without windows
-  double factor = 0;  ///< error of the run over the difference to the twin
+  double factor = 0;  ///< error of the run over the difference from the twin
   std::int64_t window = 0;
   std::int64_t cycle = 0;    ///< interval between the starts of two windows
   std::int64_t settle = 0;   ///< time without comparisons at the start of each window except the first
@@ -30,7 +30,7 @@ enum class Companion {
   twin,     ///< finer steps; with a fixed step, steps of another length
   coarse,   ///< coarser steps, for errors that run and twin have in common
   chaotic,  ///< gravity times 1 + StepError::kChaotic. A motion that this changes is not predictable with steps of any length
-  ill,      ///< difference to `chaotic` times 1000, as a linear estimate for gravity times 1 + StepError::kIll
+  ill,      ///< difference from `chaotic` times 1000, as a linear estimate for gravity times 1 + StepError::kIll
 };
 constexpr std::size_t kCompanions = 3, kDifferences = 4;
 
@@ -49,7 +49,7 @@ class StepError {
   static constexpr double kApart = 5e-3;    ///< longest interval between comparisons, s
   static constexpr double kGrowth = 15e-3;  ///< s, rounded up to control periods; not compared at the start of a window
   static constexpr double kFiner = 0.5, kCoarser = 3;  ///< accuracy of twin and coarse companion over accuracy of the run
-  static constexpr double kOfFiner = 2.26, kOfCoarser = 0.58;  ///< error of the run over its difference to them
+  static constexpr double kOfFiner = 2.26, kOfCoarser = 0.58;  ///< error of the run over its difference from each companion
   static constexpr double kSafety = 1.25;    ///< reserve because events lower the order, and windows miss some events
   static constexpr double kStart = 1.0 / 3;  ///< weight of the first window; other windows have the weight 1 of a whole cycle
   static constexpr double kChaotic = 1e-9, kIll = 1e-6;  ///< relative changes of gravity of these companions

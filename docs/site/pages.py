@@ -18,7 +18,7 @@ MOVED = {"README.md": "index.md", "docs/decisions": "docs/decisions.md"}
 PICTURES = (".svg", ".png")
 LEXERS = {".yaml": "yaml", ".py": "python", ".cpp": "cpp", ".h": "cpp", ".sh": "bash", ".dat": "text"}
 
-# Order of the pages: by use. The page of decisions is written below.
+# The pages in the order of their use. The code below adds the page of decisions.
 CONTENTS = (
     ("First gaits", (
         ("1. Is my gait feasible?", "docs/tutorials/feasible.md"), ("2. Your own module", "docs/modules.md"),

@@ -44,7 +44,7 @@ class Child:
     """The process. Used as a context, it ends with the context; an exception terminates it."""
 
     def __init__(self, name: str, file: Path, folder: Optional[Path], options: Sequence[str]) -> None:
-        import subprocess  # here, because few sessions need it
+        import subprocess  # imported here, because few sessions need it
         import tempfile
 
         command = [program(), name, path_text(file), "--quiet", *options]
@@ -69,7 +69,7 @@ class Child:
         try:
             self._child.stdin.write("".join(line + "\n" for line in lines))
             self._child.stdin.flush()
-        except (BrokenPipeError, ValueError):  # ValueError: closed before
+        except (BrokenPipeError, ValueError):  # ValueError: the pipe was closed before
             self._fail()
 
     def _read(self) -> str:

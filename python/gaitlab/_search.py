@@ -40,11 +40,11 @@ class Search(Child):
         for name, value in (("--method", method), ("--runs", runs), ("--seed", seed)):
             options += [] if value is None else [name, str(value)]
         super().__init__("optimize", file, folder, options)
-        self._points: dict[int, Mapping[str, Any]] = {}  # of this batch, not asked yet
-        self._open: set[int] = set()  # asked, but not told
+        self._points: dict[int, Mapping[str, Any]] = {}  # points of this batch that are not asked yet
+        self._open: set[int] = set()  # points that are asked but not told
         self._objectives = 1
         self._ended = False
-        self._read_batch()  # here, so that the errors of the file are raised at once
+        self._read_batch()  # read here, so that errors of the file are raised immediately
 
     def ask(self, n: Optional[int] = None) -> "pandas.DataFrame":
         """The next points, at most n: a column per parameter, and as index the number of the point. Without n all points that the

@@ -22,7 +22,7 @@ class Study:
 
     def table(self, query: str) -> "pandas.DataFrame":
         """The result of a query in SQL. The tables are described in docs/studies.md."""
-        import sqlite3  # here, because few sessions need them
+        import sqlite3  # imported here, because few sessions need them
         from urllib.parse import quote
 
         import pandas

@@ -36,7 +36,7 @@ class Table(Mapping[str, "np.ndarray[Any, Any]"]):
 
     def _unknown(self, name: object) -> str:
         """The message for an unknown column: those of the same quantity and joint, else the nearest names."""
-        import difflib  # here, because few sessions need it
+        import difflib  # imported here, because few sessions need it
 
         text = str(name)
         place, _, quantity = text.rpartition(".")

@@ -49,7 +49,7 @@ class Worker {
     std::unique_lock lock(mutex_);
     return ended_.wait_for(lock, time, [&] { return over_; });
   }
-  [[nodiscard]] std::exception_ptr thrown() const { return thrown_; }  ///< after the end
+  [[nodiscard]] std::exception_ptr thrown() const { return thrown_; }  ///< to be called after the end
 
  private:
   std::mutex mutex_;

@@ -26,7 +26,7 @@ class Page(InFolder):
         verdict, best = said.getvalue().split("\n", 1)
         self.assertRegex(verdict, r"^[a-z ]+ \S+$")
         self.assertRegex(best, r"^-?0\.\d+\n$")
-        self.assertEqual(len(names["table"]), 4)  # of the last block
+        self.assertEqual(len(names["table"]), 4)  # made by the last block
         self.assertEqual(names["run"].outcome, "done")
 
 

@@ -74,7 +74,7 @@ class Tables(unittest.TestCase):
         self.assertEqual(digest(other), digest(run))
         del run
         gc.collect()
-        more = [gaitlab.run(caterpillar()) for _ in range(3)]  # memory that would be used again
+        more = [gaitlab.run(caterpillar()) for _ in range(3)]  # would reuse memory that was freed by mistake
         self.assertTrue(np.array_equal(column, kept))
         self.assertFalse(column.flags.writeable)
         self.assertFalse(column.flags.owndata)

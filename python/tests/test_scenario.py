@@ -100,7 +100,7 @@ class Checks(InFolder):
         self.assertIn(f"records {check.rows:.0f} rows of {check.columns:.0f} columns", said)
         self.assertIn(f"{check.degrees_of_freedom} degrees of freedom", said)
         self.assertIn(f"{check.contacts} contact elements", said)
-        self.assertAlmostEqual(sum(check.masses.values()), check.mass, places=9)  # a sum in another order
+        self.assertAlmostEqual(sum(check.masses.values()), check.mass, places=9)  # the two sums have different orders
         self.assertEqual(list(check.ranges), gaitlab.Scenario("hexapod", FAST).joints)
         self.assertIn(f"takes about {check.seconds:.2g} s" if check.seconds >= 0.1 else "takes less than 0.1 s", said)
         self.assertEqual(check.fails, "")

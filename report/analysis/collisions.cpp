@@ -16,7 +16,7 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kTouching = 1e-9;  // m: smaller overlaps of touching faces are rounding
+constexpr double kTouching = 1e-9;  // m; smaller overlaps of touching faces are rounding errors
 
 /// One shape of a body in the frame of its link, with a bounding sphere.
 struct Piece {

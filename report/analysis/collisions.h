@@ -14,7 +14,7 @@ namespace gaitlab::report {
 struct Collision {
   double time = 0;                                    ///< s, first tick with an overlap
   std::size_t first = 0, second = 0;                  ///< the pair with the deepest overlap at that tick
-  double depth = 0, deepest_time = 0;                 ///< m, deepest overlap of the whole run; s, its time
+  double depth = 0, deepest_time = 0;                 ///< deepest overlap of the whole run, m, and its time, s
   std::size_t deepest_first = 0, deepest_second = 0;  ///< the pair with the deepest overlap of the whole run
   std::size_t pairs = 0;                              ///< number of pairs that overlapped at any tick
 };
@@ -26,7 +26,7 @@ struct Sunk {
   double time = 0;                     ///< s, first tick with a body in the ground
   std::size_t bodies = 0;              ///< number of bodies that were in the ground at any tick
   std::size_t first = 0;               ///< index of the deepest body at the first tick
-  double depth = 0, deepest_time = 0;  ///< m, largest depth of the whole run; s, its time
+  double depth = 0, deepest_time = 0;  ///< largest depth of the whole run, m, and its time, s
 };
 
 struct Overlaps {

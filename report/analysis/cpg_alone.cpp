@@ -24,7 +24,7 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 thread_local const std::atomic<bool>* stop_of_thread = nullptr;
 
-/// The object that was left last, and all that it depends on.
+/// The object that CpgAlone::leave stored last, and everything that it depends on.
 struct Left {
   std::mutex mutex;
   std::string key;

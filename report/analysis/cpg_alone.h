@@ -15,10 +15,10 @@ namespace gaitlab::report {
 
 /// Times of the set points that the last CPG of a run states; all 0 without a CPG.
 struct StatedTimes {
-  double period = 0;     ///< s; if it states none, 1 / least frequency (Hz) of a driven joint among its settings, or 0
+  double period = 0;     ///< s; if the CPG states none, 1 / least frequency (Hz) of a driven joint in its settings, or 0
   double full_size = 0;  ///< s, SetPointTimes::full_size
-  /// s, the same for a CPG without states, whose ramp has an end; 0 for others, whose states approach their size for ever, most
-  /// of it in the first period.
+  /// s, full_size of a CPG without states, whose ramp has an end; 0 for other CPGs, whose states approach their full size for
+  /// ever, mostly within the first period.
   double ramp = 0;
 };
 StatedTimes stated_times(const Scenario& scenario);
@@ -54,8 +54,8 @@ class CpgAlone {
   /// The same, moved out of this object.
   std::vector<double> take() { return std::move(rows_); }
 
-  /// The object of an equal scenario that was left last, or a new one. Warnings before a run and its judgement need the same
-  /// ticks. Throws PluginError.
+  /// The object that leave() stored last, if its scenario is equal; otherwise a new one. Warnings before a run and its
+  /// judgement need the same ticks. Throws PluginError.
   static CpgAlone found(const Scenario& scenario);
   static void leave(const Scenario& scenario, CpgAlone alone);
 

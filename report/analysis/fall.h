@@ -16,7 +16,7 @@ namespace gaitlab::report {
 struct Fall {
   double lowest = 0;                ///< m, height at the tick with the least share
   double lowest_time = 0;           ///< s, time of that tick
-  double share = 0;                 ///< lowest over the height it is compared with
+  double share = 0;                 ///< `lowest` / the height with which it is compared
   bool told = false;                ///< true if it is compared with the height of the set points' pose
   std::optional<double> time = {};  ///< s, first tick with a share below Limits::height; empty if the robot did not fall
   bool stays = false;               ///< true if the share is also below this limit at the last tick

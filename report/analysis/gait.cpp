@@ -17,7 +17,7 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kStill = 2e-3;       // rad or rad/s: a smaller range counts as 0 (core/recording/limit_cycle.h)
-constexpr double kTwoPeriods = 2.25;  // least length that shows a period
+constexpr double kTwoPeriods = 2.25;  // least length that shows a period, in periods
 constexpr double kLeastSamples = 20;  // least number of rows in a stretch that is compared
 constexpr double kFar = std::numeric_limits<double>::infinity();
 

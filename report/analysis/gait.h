@@ -23,7 +23,7 @@ struct Gait {
   /// s, time from which the set points have their full size, as the CPG states (SetPointTimes::full_size).
   double full_size = 0;
   /// s, start of the gait: the latest of the end of a ramp (or of the set points before they repeat), the last change (section
-  /// `at`), and the landing, after which the ground carries half of the robot's weight in the mean of each period.
+  /// `at`), and the landing, after which the ground carries half of the robot's weight on average in each period.
   double start = 0;
   std::shared_ptr<const LookAhead> ahead = {};  ///< null if it is not known (look_ahead.h)
 };

@@ -5,7 +5,7 @@
 namespace gaitlab::report {
 
 /// Recording::loads interpolated linearly from control ticks to the times of the trace's rows. `stability` is NaN if no foot
-/// carries a load at one of the two ticks. No rows if the recording does not have loads.
+/// carries a load at one of the two ticks. The table has no rows if the recording does not have loads.
 Trace loads_at_rows(const Recording& record);
 
 }  // namespace gaitlab::report

@@ -23,8 +23,8 @@ namespace {
 
 constexpr double kFarEnough = 120;           // s: two periods of a slow gait, after its start
 constexpr double kLongerThanTheRun = 5;      // factor on the run's duration
-constexpr std::int64_t kMostTicks = 20000;   // after the run, or in the search for a period; they take about 0.1 s
-constexpr std::int64_t kMostOfRun = 200000;  // ticks of a run
+constexpr std::int64_t kMostTicks = 20000;   // most ticks after the run, or in the search for a period; they take about 0.1 s
+constexpr std::int64_t kMostOfRun = 200000;  // most ticks of a run
 constexpr std::int64_t kMostRows = 4000;     // largest number of rows in the search for a period
 constexpr double kSameSetPoint = 1e-5;       // rad; recorded set points are single precision
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
@@ -96,7 +96,7 @@ MotionCycle cycle_of(const std::vector<double>& alone, std::size_t columns, std:
 struct Lengths {
   std::int64_t run = 0;    ///< during the run
   std::int64_t after = 0;  ///< after the run, if no other period is found
-  std::int64_t most = 0;   ///< largest number in the search for a period, with the run
+  std::int64_t most = 0;   ///< largest number in the search for a period, including the run
 };
 
 /// Number of ticks, at most kMostTicks.

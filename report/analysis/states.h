@@ -12,7 +12,8 @@ class States {
  public:
   /// States at the rows of the trace; requires has_states(robot).
   States(const Recording& recording, const Robot& robot);
-  /// States at control ticks, so that results do not depend on trace.period. No rows if only rows of the trace are left.
+  /// States at control ticks, so that results do not depend on trace.period. Has no rows if the recording consists of trace
+  /// rows only (Recording::rows_alone), because poses at ticks are then unknown.
   static States at_ticks(const Recording& recording, const Robot& robot);
 
   [[nodiscard]] std::size_t size() const { return time_.size(); }

@@ -22,7 +22,7 @@ struct Stop {
   double share;
   std::array<double, 3> colour;
 };
-/// Colour ramp that equals the one of the page's heat map (report/page/src/colour.ts). Its lightness is monotonic, so that it
+/// Colour ramp that is equal to that of the page's heat map (report/page/src/colour.ts). Its lightness is monotonic, so that it
 /// is readable in grey.
 constexpr Stop kRamp[] = {
     {0, {236, 239, 242}}, {0.25, {254, 226, 178}}, {0.5, {252, 178, 92}}, {0.8, {222, 84, 28}}, {1, {140, 0, 34}}};

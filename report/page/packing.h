@@ -16,7 +16,7 @@ struct Channel {
 
 /// Encoder of channels one after another. A value is encoded in these steps:
 /// - x / quantum, rounded to the nearest integer (half away from zero).
-/// - Difference to the previous integer; the first one is preceded by 0.
+/// - Difference from the previous integer; the first one is preceded by 0.
 /// - Zigzag code: 0, -1, 1, -2, ... become 0, 1, 2, 3, ....
 /// - Seven bits per byte, the lowest first; the eighth bit is set except in the last byte (LEB128).
 /// A value that is not finite repeats the previous integer, or is 0 at the start. Values beyond 2^50 quanta are clamped,

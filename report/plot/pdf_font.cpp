@@ -15,7 +15,7 @@ namespace {
 /// A length of a font in thousandths of the font size.
 long thousandths(double length) { return std::lround(1000 * length); }
 
-/// Map from glyphs to Unicode, with which readers search and copy text (CMap; PDF 1.4, 5.9). A block has at most 100 entries.
+/// Map from glyphs to Unicode, by which viewers search and copy text (CMap; PDF 1.4, 5.9). A block has at most 100 entries.
 std::string to_unicode(const UsedGlyphs& used) {
   constexpr std::size_t kMostOfBlock = 100;
   std::string map =

@@ -65,7 +65,7 @@ struct Remedy {
   RemedySettings settings;       ///< settings of the run
   std::string scenario;          ///< hash of the resolved scenario
   Word word = Word::not_judged;  ///< word of the run, or of the finer run
-  /// Settings of the finer run, with which the search begins if the run itself is `not judged` only for its accuracy. They are
+  /// Settings of the finer run, from which the search starts if the run itself is `not judged` only for its accuracy. They are
   /// also the first settings of each answer.
   std::vector<std::string> finer = {};
   std::string engine = {}, own_engine = {};  ///< engines of the search and of the scenario

@@ -17,7 +17,7 @@ struct RemedyKey {
   bool stretches = false;              ///< true: a smaller value makes the duration longer, so that the run has as many periods
 };
 
-/// All settings; they are printed in this order.
+/// All settings that a remedy may change, in the order in which they are printed.
 std::span<const RemedyKey> remedy_keys();
 
 /// Numbers of a resolved scenario, by key. The `u_max` of a servo is its `voltage` if it is 0 or not stated. Values of

@@ -139,7 +139,7 @@ std::vector<std::string> names_of_joints(const Robot& robot) {
 RunMeasure run_measure(const std::vector<std::string>& names, const Robot& robot) {
   std::vector<std::optional<OfVerdict>> of_verdict;
   for (const std::string& name : names) of_verdict.push_back(OfVerdict::find(name));
-  // The robot of another scenario may have the same joints with other numbers.
+  // The robot of another scenario may number the same joints differently.
   const auto measured = [names, usual = quantity_columns(names, robot), of_verdict, joints = names_of_joints(robot)](
                             const Scenario& of, const Recording& recording) {
     const QuantityColumns columns = names_of_joints(*of.robot) == joints ? usual : quantity_columns(names, *of.robot);

@@ -137,7 +137,7 @@ std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict,
   }
   for (const std::string& fault : verdict.faults) screen.add("", fault, Tone::doubtful);
   std::vector<std::string> grounds{verdict.figures};
-  if (verdict.word != Word::feasible) grounds.push_back(verdict.conditions);  // else they are printed beside the word
+  if (verdict.word != Word::feasible) grounds.push_back(verdict.conditions);  // printed beside the word `feasible`
   std::erase(grounds, "");
   if (!grounds.empty()) screen.add("rests on", fmt::format("{}", fmt::join(grounds, "; ")));
   return screen.lines;

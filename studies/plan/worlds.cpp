@@ -24,10 +24,12 @@ struct Uncertain {
   const char *name, *key;
   Whose of;
   double end;                           ///< largest error
-  bool both;                            ///< false if only less than the nominal value is tried
-  double DcMotor::*of_motor = nullptr;  ///< the number, for those of motors
+  bool both;                            ///< false if only the value below the nominal one is tried
+  double DcMotor::*of_motor = nullptr;  ///< the changed constant if `of` is motors
   const char* unit = "";
-  [[nodiscard]] double deviation() const { return end / 2; }  ///< for draws; chosen so that 19 in 20 are within the ends
+  [[nodiscard]] double deviation() const {
+    return end / 2;
+  }  ///< standard deviation of draws, chosen so that 19 in 20 draws are within the ends
 };
 
 constexpr std::array kUncertain{

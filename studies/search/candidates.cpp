@@ -36,7 +36,8 @@ std::vector<std::size_t> of_front(const Results& results, const std::vector<Jour
 }  // namespace
 
 std::vector<std::size_t> candidates(const Plan& plan, const Results& results, const std::vector<std::size_t>& tried) {
-  constexpr std::array kApart{0.1, 0.01};  // shares of the box: niches, then other points
+  constexpr std::array kApart{
+      0.1, 0.01};  // least distances, as shares of the box: first for points far apart, then for further points
   const auto most = static_cast<std::size_t>(plan.study().verify.best);
   std::vector<JournalObjective> objectives;
   for (const Objective& o : plan.study().objectives) objectives.push_back({o.expression.text, o.maximize});

@@ -13,7 +13,7 @@ namespace gaitlab::studies {
 
 namespace {
 
-constexpr std::size_t kOffspring = 6;     // per point of a generation
+constexpr std::size_t kOffspring = 6;     // offspring per point of a generation
 constexpr std::size_t kFewestRated = 30;  // least number of rated points for a preselection
 constexpr double kMostSigma = 0.5;        // share of the box
 

@@ -38,7 +38,7 @@ struct Recorded {
 };
 
 /// Algorithm that evolves one generation at a time and keeps its memory. The step sizes at which cmaes and xnes end are set to
-/// 0, because otherwise these algorithms end at once on a flat population, as when all points are refused. Bounds are not
+/// 0, because otherwise these algorithms end immediately on a flat population, as when all points are refused. Bounds are not
 /// forced, because the box is mirrored instead.
 pagmo::algorithm made(const EvolutionSettings& s) {
   constexpr double kOwn = -1;  // selects the algorithm's default

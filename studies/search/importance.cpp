@@ -123,8 +123,8 @@ void find_end(const JournalParameter& p, double best, ParameterImportance& found
 
 bool ParameterImportance::narrow() const {
   constexpr double kNarrow = 0.2;
-  constexpr std::uint64_t kFewest = 20;  // least number of points beyond
-  constexpr std::uint64_t kOneIn = 20;   // at most one in this number of points beyond is kept
+  constexpr std::uint64_t kFewest = 20;  // least number of points outside [low, high]
+  constexpr std::uint64_t kOneIn = 20;   // at most one in this number of points outside is kept
   return width < kNarrow && beyond >= kFewest && kOneIn * kept_beyond <= beyond;
 }
 

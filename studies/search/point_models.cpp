@@ -85,7 +85,7 @@ struct PointModels::Data {
       violation[k] = log_violation(near[static_cast<std::size_t>(k)]->rating.violation);
     std::vector<const Rated*> with;
     std::ranges::copy_if(near, std::back_inserter(with), [](const Rated* one) { return std::isfinite(one->rating.objective); });
-    if (with.empty()) {  // all of the nearest have failed
+    if (with.empty()) {  // all of the nearest points have failed
       for (const Rated& one : points) {
         if (std::isfinite(one.rating.objective) && with.size() < kMostPoints) with.push_back(&one);
       }

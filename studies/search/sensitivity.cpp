@@ -121,7 +121,7 @@ std::vector<double> saltelli(std::span<const double> values, std::size_t n, cons
     const double b = values[row * (n + 2) + 1] - mean;
     variance += (a * a + b * b) / (2 * rows - 1);
   }
-  // A smaller variance is rounding.
+  // A variance below this share of the squared mean is only rounding error.
   constexpr double kRounding = 1e-24;
   if (!(variance > kRounding * mean * mean) || !(variance > 0)) return measures;
   for (std::size_t p = 0; p < n; ++p) {

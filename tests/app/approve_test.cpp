@@ -170,8 +170,8 @@ TEST_F(ApproveCommand, WhatARefusalAdvisesHelps) {
   expect_helps("accuracy: " + advised(result.err, "take physics.accuracy"));
 }
 
-// The golden of a scenario whose encoders have a resolution holds means over 16 starts. The same bits pass, for any number of
-// threads; 2 % more motor constant exceed the bands.
+// The golden of a scenario whose encoders have a resolution holds means over 16 starts. A run with the same bits passes, for
+// any number of threads. A motor constant that is 2 % larger exceeds the bands.
 TEST_F(ApproveCommand, AQuantisedScenarioHasAGoldenOfMeans) {
   const auto write = [&](const std::string& more) {
     folder.write("steps.yaml",

@@ -42,19 +42,19 @@ TEST(Completion, EveryCommandAndOptionOfTheHelpIsOfferedAndInTheManual) {
 TEST(Completion, ValuesAreThoseOfTheProgram) {
   EXPECT_EQ(offered("run x --format ''"), "\ncsv\nh5\n");
   EXPECT_EQ(offered("run x --format=c"), "\n--format=csv\n");
-  EXPECT_EQ(offered("run x --format = c"), "\n--format=csv\n");  // as bash divides it
+  EXPECT_EQ(offered("run x --format = c"), "\n--format=csv\n");  // bash divides the words at `=`
   EXPECT_EQ(offered("run hexa"), "\nhexapod\n:files\n");
   EXPECT_EQ(offered("swap x --cpg sine,hop"), "\nsine,hopf\n");
   EXPECT_EQ(offered("run x --set physics.eng"), "\nphysics.engine=\n");
   EXPECT_EQ(offered("run x --set physics.engine = art"), "\nphysics.engine=articulated\n");
   EXPECT_EQ(offered("explain engine art"), "\narticulated\n:files\n");
   EXPECT_EQ(offered("explain engi"), "\nengine\n:files\n");
-  EXPECT_EQ(offered("list engi"), "\nengine\n");  // no file
+  EXPECT_EQ(offered("list engi"), "\nengine\n");  // a file is not offered
   EXPECT_EQ(offered("remedy hexa"), "\n:files\n");
   EXPECT_EQ(offered("study sh"), "\nshow\n");
   EXPECT_EQ(offered("help study sh"), "\nshow\n");
-  EXPECT_EQ(offered("run x -j ''"), "\n");  // a number
-  EXPECT_EQ(offered("run x y ''"), "\n");   // one argument too many
+  EXPECT_EQ(offered("run x -j ''"), "\n");  // the option expects a number, so that nothing is offered
+  EXPECT_EQ(offered("run x y ''"), "\n");   // this argument would be one too many
   EXPECT_EQ(offered("run --out ''"), "\n:files\n");
   EXPECT_EQ(offered("run -- --qui"), "\n:files\n");
   EXPECT_EQ(gaitlab("completion fish", "/").code, 2);

@@ -29,7 +29,7 @@ tolerances: {mass: 0.03, inertia: 0.05, dock_angle: 0.01, foot_friction: 0.1, R:
   nlohmann::json json(const std::string& file) { return nlohmann::json::parse(read(folder_ / file)); }
 };
 
-// Two ways to the same verdicts: --draws in lanes, and a run for each seed.
+// --draws in lanes gives the same verdicts as a run for each seed.
 TEST_F(DrawnRobots, AreTheRunsOfTheirSeeds) {
   const Result many = call("run walk.yaml --draws 6 -j 2 --no-report --out many");
   ASSERT_EQ(many.code, 0) << many.err;
@@ -82,7 +82,7 @@ TEST_F(DrawnRobots, NeedSomethingToDraw) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "none"));
   const Result stated = call("run walk.yaml --set as_built={mass:\\ 1} --draws 1 --no-report --out stated");
   EXPECT_EQ(stated.code, 0) << stated.err;
-  // Neither the resolved scenario of a run, nor an encoder without errors, nor a single module has draws.
+  // The resolved scenario of a run, an encoder without errors and a single module have no draws.
   ASSERT_EQ(call("run walk.yaml --set duration=1 --no-report --out drawn").code, 0);
   for (const char* same :
        {"run drawn/scenario.resolved.yaml", "run walk.yaml --set tolerances={} --set 'sensors={type: encoder}'",

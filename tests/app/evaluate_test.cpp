@@ -98,8 +98,8 @@ TEST_F(Evaluate, OfSeveralReplicatesEachFigureIsAList) {
   EXPECT_EQ(all[0].at("kept"), true);
 }
 
-/// `margins` has the guards alone: a check of the verdict with its own margin, one of which the study requires a reserve, one
-/// with another limit, and none that the study drops.
+/// `margins` contains only the guards: a check of the verdict with its own margin, a check from which the study requires a
+/// reserve, and a check with another limit, but not the check that the study drops.
 TEST_F(Evaluate, AnswersWithTheMarginsOfTheGuards) {
   const std::string head = "gaitlab_study: 1\nscenario: two.yaml\nparameters: {cpg.phase_lag: {low: 0.5, high: 1.5}}\n";
   const std::string asked = R"({"id": 1, "parameters": {"cpg.phase_lag": 1}})";

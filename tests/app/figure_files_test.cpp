@@ -1,4 +1,4 @@
-// Tests of the files of `gaitlab figure`: a figure is replaced where it is named, and files of something else never are.
+// Tests of the files of `gaitlab figure`: a figure that is named is replaced; files with other content never are.
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {

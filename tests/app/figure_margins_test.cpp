@@ -10,8 +10,8 @@ namespace {
 
 const Label kLongFigureMargins("FigureMargins.AreKeptAtAnyWidth", "long");
 
-/// Journals want columns of 84 or 85 mm. All texts keep a margin of 1 mm (4.6 px) at both edges; their widths are those of the
-/// font.
+/// Journals require columns of 84 or 85 mm. All texts keep a margin of 1 mm (4.6 px) at both edges; their widths are those of
+/// the font.
 TEST(FigureMargins, AreKeptAtAnyWidth) {
   const Folder folder;
   ASSERT_EQ(gaitlab("run '" + kScenarios + "hexapod.yaml' --set duration=2 --quiet --no-report --out legs", folder / "").code,

@@ -68,8 +68,8 @@ TEST_F(GoldenCommand, FailsWhatIsInfeasible) {
   folder.write("good.yaml", walk);
   ASSERT_EQ(call("approve good.yaml --reason 'a whole gait'").code, 0);
   EXPECT_EQ(call("test good.yaml --fail-infeasible").code, 0);
-  // An engine with given steps refuses an accuracy, which is left out for it. The bands, made for that accuracy, are wider by
-  // three times what half the engine's step changes.
+  // An engine with given steps refuses an accuracy, so that it is left out. The bands were made for that accuracy. They are
+  // therefore widened by three times the change that half the engine's step causes.
   const Result other = call("test good.yaml --engine bullet");
   EXPECT_EQ(other.code, 0) << other.out;
   EXPECT_EQ(other.err.find("error"), std::string::npos) << other.err;  // a slow machine prints progress

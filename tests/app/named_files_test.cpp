@@ -64,7 +64,7 @@ TEST_F(NamedFiles, OfTheirOwnFolderAreQuoted) {
                        "expected the column time; found 'name: hunter2'"));
 }
 
-// Module files and scenarios, which their first key identifies, are quoted from any folder.
+// Module files and scenarios are quoted from any folder, because their first key identifies them.
 TEST_F(NamedFiles, ThatSayWhatTheyAreAreQuoted) {
   folder_.write("odd.yaml", "gaitlab_module: 1\nname: odd one\n");
   EXPECT_TRUE(contains(said("modules: ../odd.yaml"), "odd.yaml:2:7: error: name 'odd one' is not allowed"));

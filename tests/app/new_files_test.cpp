@@ -110,9 +110,9 @@ TEST_F(NewFiles, EveryModuleWithAMotorGetsAFeasibleGait) {
   }
 }
 
-/// A hinge of 0.5 rad/s and 1 N m between bodies of 5 kg and 0.2 m: 0.25 rad/s = 0.4 rad 2 pi 0.099 Hz; n modules of 10 kg and
-/// 0.4 m bend with n^2 10 kg 9.81 m/s^2 0.4 m / 8 = 4.9 N m n^2, so that one is left; its weight on four points is 24.5 N,
-/// which 1e4 N/m bear with 2.45 mm.
+/// A hinge of 0.5 rad/s and 1 N m is between bodies of 5 kg and 0.2 m. Half of its speed allows 0.25 rad/s = 0.4 rad * 2 pi *
+/// 0.099 Hz. The weight of n modules of 10 kg and 0.4 m bends the row by n^2 10 kg 9.81 m/s^2 0.4 m / 8 = 4.9 N m n^2, so that
+/// the row has one module. Its weight on each of four points is 24.5 N, under which 1e4 N/m sink by 2.45 mm.
 TEST_F(NewFiles, AGaitFitsTheMotorsAndTheWeight) {
   const std::string box = "mass: 5, shape: [{box: [0.2, 0.2, 0.2], origin: [";
   folder.write(
@@ -181,7 +181,8 @@ TEST_F(NewFiles, TheModuleIsNamedFromTheFolderOfTheScenario) {
   EXPECT_EQ(gaitlab("check walks/far.yaml", folder / "").code, 0);
 }
 
-/// A leg whose knee bends one way only, without faces and contact elements: the gait stays within the range, on a fixed base.
+/// The gait of a leg whose knee bends only one way stays within the range. Without faces and contact elements, the leg has a
+/// fixed base.
 TEST_F(NewFiles, AGaitFitsTheRangesOfTheHinges) {
   folder.write("leg.yaml",
                "gaitlab_module: 1\nname: leg\nbodies:\n"
@@ -218,7 +219,7 @@ TEST_F(NewFiles, AModuleWithFaultsIsRefusedWithThem) {
   EXPECT_FALSE(std::filesystem::exists(folder / "walk.yaml"));
 }
 
-/// The docks of the shipped build files of rows.
+/// The docks are those of the shipped build files of rows.
 TEST(Chain, IsThatOfTheBuildFiles) {
   const auto docks = [](const std::string& module) {
     return app::chain(read_module(kScenarios + "modules/" + module + ".yaml", catalog()), 3);

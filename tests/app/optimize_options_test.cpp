@@ -14,7 +14,7 @@ class OptimizeOptions : public StudyFixture {
   }
 };
 
-/// A setting follows those of the file, is part of the command that continues, and of the study in the folder.
+/// A setting follows those of the file. It is part of the command that continues the study, and of the study in the folder.
 TEST_F(OptimizeOptions, SetsKeysOfTheScenario) {
   ASSERT_EQ(call("optimize s.yaml --set duration=0.3 --set physics.accuracy=0.02 --out o --quiet").code, 3);
   for (auto& row : table("o")) EXPECT_EQ(row["simulated"], "0.3");

@@ -17,7 +17,7 @@ class OptimizeSeeds : public StudyFixture {
   }
 };
 
-/// The searches are those of --seed, a line each, and a search that has ended is not repeated.
+/// The searches equal those of --seed and have a line each. A search that has ended is not repeated.
 TEST_F(OptimizeSeeds, AreSearchesWithASummary) {
   const Result result = call("optimize s.yaml --seeds 2 --seed 7 --out o");
   EXPECT_EQ(result.code, 3) << result.err;

@@ -87,7 +87,7 @@ TEST_F(Optimize, TriesTheWinnerWithEachJointDead) {
   }
   EXPECT_EQ(tried[2].what(), "m0/active dead");
   EXPECT_EQ(call("study show o").out.find("with a joint dead from t = 0:\n") == std::string::npos, false);
-  // The same by hand.
+  // A dead joint changes the objective.
   const std::vector<std::string> row = journal.row(tried[0].run);
   EXPECT_NE(tried[2].objectives[0], tried[0].objectives[0]);
 }
@@ -153,7 +153,7 @@ TEST_F(Optimize, WhatChangesWithTheStepIsNotVerified) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "o/best"));
 }
 
-/// Two modules of 0.8 kg that must not be heavier: they fall where mass is added, and in some of the draws.
+/// Two modules of 0.8 kg that must not be heavier. They fall in the worlds with more mass and in some of the draws.
 TEST_F(Optimize, AShareOfTheWorldsDecides) {
   const std::string heavy =
       "parameters: {cpg.amplitude: {low: 0.05, high: 0.2}}\nobjective: {minimize: torque.peak}\nbudget: {runs: 16}\n"

@@ -92,7 +92,7 @@ TEST_F(Plugins, AStaticObjectThatThrowsIsAnError) {
                 "throws_at_load.so' cannot be loaded: a static object of this plugin threw an exception when it was loaded\n");
 }
 
-/// The child of the trial may allocate 4 GB, so that a plugin without a bound takes not all memory of the machine.
+/// The child of the trial may allocate 4 GB, so that a plugin without a bound does not take all memory of the machine.
 TEST_F(Plugins, AStaticObjectThatAllocatesWithoutABoundIsAnError) {
   EXPECT_EQ(
       error(with("allocates_at_load.so", "sine")),

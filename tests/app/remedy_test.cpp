@@ -1,5 +1,5 @@
-// `gaitlab remedy` and `run --remedy`: the current that a stronger motor takes as the oracle of an answer, reserves, threads,
-// run folders, and runs without a remedy.
+// Tests of `gaitlab remedy` and `run --remedy`: answers that equal the current of a stronger motor, reserves, threads, run
+// folders, and runs without a remedy.
 #include <nlohmann/json.hpp>
 
 #include "tests/app/study_fixture.h"
@@ -13,7 +13,7 @@ const Label kLongRemedies("RemedyCommand.NeededCurrent*:RemedyCommand.AFeasible*
 
 using nlohmann::json;
 
-/// Two modules that creep for four periods, of which no moment at a limit of the motor is allowed.
+/// Two modules that creep for four periods. A motor must not be at a limit at any time.
 class RemedyCommand : public StudyFixture {
  protected:
   RemedyCommand() {
@@ -27,14 +27,14 @@ duration: 2
 )");
   }
   json read_json(const std::string& file) { return json::parse(read(folder_ / file)); }
-  /// The answer by a setting in a direction.
+  /// The answer for a setting in one direction.
   static json answer_by(const json& remedy, const std::string& setting, const std::string& direction) {
     for (const json& answer : remedy["answers"]) {
       if (answer["setting"] == setting && answer["direction"] == direction) return answer;
     }
     return {};
   }
-  /// Largest current of the judged window without the limit of the current, A, by the demand of a run with a low limit.
+  /// Largest current without a current limit in the judged window, A, from the demand of a run with a low limit.
   double needed_current() {
     const Result result = call("run creep.yaml --no-report --quiet --demand --set actuator.i_max=0.05 --out starved");
     EXPECT_EQ(result.code, 0) << result.err;
@@ -113,7 +113,7 @@ TEST_F(RemedyCommand, ARunThatIsNotJudgedHasNone) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "brief/verdict.json"));
 }
 
-/// A run that is not judged only for its accuracy has the remedy of the run that is.
+/// A run that is `not judged` only because of its accuracy has the remedy of a finer run that is judged.
 TEST_F(RemedyCommand, ARunThatIsTooCoarseHasThatOfAFinerRun) {
   ASSERT_EQ(call("run creep.yaml --no-retry --no-report --quiet --set physics.accuracy=0.5 --out coarse").code, 0);
   const json verdict = read_json("coarse/verdict.json");

@@ -46,7 +46,7 @@ TEST(RunTimes, IncludeTheTwins) {
   const auto long_run = [](const std::string& mode) {
     return estimate("caterpillar", {"duration=20", "physics.estimate=" + mode});
   };
-  EXPECT_NEAR(long_run("full") / long_run("off"), 1.1, 0.03);  // one window of 20
+  EXPECT_NEAR(long_run("full") / long_run("off"), 1.1, 0.03);  // the twin runs in one window of 20
 }
 
 /// Rows and set points of a long trace, and the judgement of a CPG, are part of the estimate.
@@ -103,7 +103,7 @@ TEST_F(FasterEngine, CheckNamesIt) {
   const Result first = check(hexapod);
   EXPECT_EQ(advised(first.out), "--set physics.engine=articulated") << first.out;
   EXPECT_EQ(first.out, check(hexapod).out);  // reads no clock
-  // The advice, followed, is not given again.
+  // A command that follows the advice does not get it again.
   EXPECT_EQ(advised(check(hexapod + " --set physics.engine=articulated").out), "");
 }
 
@@ -115,12 +115,13 @@ TEST_F(FasterEngine, WithAStatedStepAndIntegrator) {
 }
 
 TEST_F(FasterEngine, OnlyWhereItHelps) {
-  EXPECT_EQ(advised(check(hexapod + " --set duration=2").out), "");                                     // below 5 s
-  EXPECT_EQ(advised(check(hexapod + " --set contact.law=bullet --set duration=200").out), "");          // which only bullet has
+  EXPECT_EQ(advised(check(hexapod + " --set duration=2").out), "");  // the run takes less than 5 s
+  EXPECT_EQ(advised(check(hexapod + " --set contact.law=bullet --set duration=200").out),
+            "");  // only bullet has this contact law
   EXPECT_EQ(advised(check("'" + kScenarios + "library/y1-rolling.yaml' --set duration=200").out), "");  // has it
 }
 
-/// Every command says it once, before its runs; --quiet leaves it out.
+/// Every command prints the advice once, before its runs. --quiet omits it.
 TEST_F(FasterEngine, OtherCommandsNameItOnce) {
   const Folder folder;
   const auto err = [&](const std::string& arguments) { return gaitlab(arguments, folder / "").err; };

@@ -1,4 +1,5 @@
-// A copy of any shipped scenario, alone in a folder, is what it is where it was: it names modules and robots, no files.
+// A copy of any shipped scenario, alone in a folder, is the same scenario, because it names modules and robots instead of
+// files.
 #include <regex>
 
 #include "core/scenario/resolved.h"
@@ -51,7 +52,7 @@ std::string said_of(const Folder& folder, const std::string& robot) {
   return result.err;
 }
 
-// Everywhere a name means a file of that name before a shipped one, with a note, and never a folder.
+// A name always means a file of that name rather than a shipped one, with a note, and never a folder.
 TEST(ShippedNames, OfModulesComeAfterFilesOfThatName) {
   const Folder folder;
   fs::create_directory(folder / "y1");

@@ -89,8 +89,7 @@ TEST_F(StudyFolder, NoLinkIsFollowedAndNoOtherFileIsDeleted) {
   fs::create_symlink(folder_ / "elsewhere.db", folder_ / "m/study.db");
   ends("study show m", 2, "m/study.db: error: cannot be read: is a link; name the file that it leads to\n");
   copy("whole");
-  // SQLite applies a -journal, and deletes the file that the -journal names as its super-journal. The program must prevent
-  // this.
+  // SQLite would apply a -journal and delete the file that it names as its super-journal. The program must prevent this.
   const std::string mine = folder_.write("mine.txt", "precious");
   folder_.write("m/study.db-journal", journal_naming(mine));
   for (const char* command : {"study show m", "study merge m"})

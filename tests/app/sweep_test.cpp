@@ -144,7 +144,7 @@ TEST_F(Sweep, RefusesAValueThatCannotRun) {
 }
 
 TEST_F(Sweep, WhatFailsIsAResult) {
-  // Failed runs are a trace period that is not a multiple of the step, and a motor that diverges.
+  // The causes of failure are a trace period that is not a multiple of the step, and a motor that diverges.
   ASSERT_EQ(call("sweep two.yaml --set physics.integrator=implicit --grid physics.step=0.001,0.0015 --grid "
                  "trace.period=0.015,0.02 --out s --quiet")
                 .code,

@@ -64,7 +64,7 @@ TEST(Oracle, DoublePendulumKeepsItsEnergyAndSwingsInItsModes) {
     const double ratio = (1.5 * two.g - 4.0 / 3 * square) / (square / 2);  // theta2 / theta1 of the mode
     const DoublePendulum::State mode{1e-6, 1e-6 * ratio, 0, 0};
     const DoublePendulum::State end = two.at(std::numbers::pi / std::sqrt(square), mode);
-    EXPECT_NEAR(end[0] / mode[0], -1, 1e-9);  // nonlinear terms are of the size of the squared angle
+    EXPECT_NEAR(end[0] / mode[0], -1, 1e-9);  // nonlinear terms are as small as the squared angle
     EXPECT_NEAR(end[1] / mode[1], -1, 1e-9);
   }
 }

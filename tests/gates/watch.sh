@@ -96,7 +96,7 @@ end_watch() {
 for ((calls = 1;; ++calls)); do
   rm -rf -- seen
   : >err # an earlier line would end the wait
-  # Preloaded into the program alone: a library that is built with sanitizers needs symbols that setsid lacks.
+  # The library is preloaded into the program alone, because a build with sanitizers needs symbols that setsid lacks.
   setsid env LD_PRELOAD="$(plugin dies_at_call)" GAITLAB_DIES_AT=$calls GAITLAB_DIES_TOGETHER=1 "$program" watch brief.yaml --out seen >out 2>err &
   watcher=$!
   wait_for "$watcher" "a kill or a run" ended_or_waiting

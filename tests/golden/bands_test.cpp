@@ -43,7 +43,8 @@ TEST(GoldenBands, TheLargestPartIsTheBand) {
   EXPECT_EQ(bands.numbers[0].floor, 1e-6);
 }
 
-/// Below a millionth of its natural scale a column is constant; so is one whose band is wide for its small range only.
+/// A column whose range is below a millionth of its natural scale is constant, and so is a column whose band is wide only
+/// because its range is small.
 TEST(GoldenBands, AConstantColumnHasABandOfItsNaturalScale) {
   Trace trace = walk();
   trace.columns = {{"t", "s", {}}, {"a", "N m", {}}, {"b", "A", {}}, {"c", "rad", {}}, {"base.z", "m", {}}};

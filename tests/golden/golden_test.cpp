@@ -63,7 +63,7 @@ TEST(Golden, KeepsTheResolvedScenario) {
   EXPECT_EQ(read_golden(folder.path() / "walk.golden").origin.resolved, kText);
   const std::string json = read_file(folder.path() / "walk.golden/golden.json", kMostJson);
   EXPECT_NE(json.find("\n    \"Kp: 100\",\n"), std::string::npos) << json;  // one line each, for version control
-  golden.origin.resolved = "name: \xff\n";                                  // which JSON cannot contain
+  golden.origin.resolved = "name: \xff\n";                                  // JSON cannot contain this byte
   write_golden(golden, folder.path() / "walk.golden");
   EXPECT_EQ(read_file(folder.path() / "walk.golden/golden.json", kMostJson).find("resolved"), std::string::npos);
   EXPECT_EQ(read_golden(folder.path() / "walk.golden").origin.resolved, "");

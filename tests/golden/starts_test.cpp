@@ -43,7 +43,8 @@ TEST(Starts, BandsAreStandardErrorsOfTwoMeans) {
   EXPECT_EQ(bands.columns.size(), 1U);
 }
 
-// A number that the golden leaves out, such as the cost of transport of a robot that stays in place, takes its deviation along.
+// If the golden leaves out a number, such as the cost of transport of a robot that stays in place, it also leaves out its
+// deviation.
 TEST(Starts, ADeviationBelongsToItsNumber) {
   GoldenRun mean = mean_of(sixteen_walks());
   mean.numbers.insert(mean.numbers.begin(), {{"cost_of_transport.electrical", "J/(N m)", 1, {}, 1000}});

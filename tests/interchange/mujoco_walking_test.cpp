@@ -32,7 +32,7 @@ double weight_error(const Scenario& s) {
   return worst;
 }
 
-/// A_0 in the parameters of contacts and stops is the estimate that MuJoCo itself computes, whatever the base.
+/// A_0 in the parameters of contacts and stops is the estimate that MuJoCo itself computes, for every base.
 TEST(MujocoWalking, HasMujocosOwnInverseWeights) {
   double worst = 0;
   for (const Scenario& s : shipped_library()) worst = std::max(worst, weight_error(s));
@@ -46,7 +46,7 @@ TEST(MujocoWalking, HasMujocosOwnInverseWeights) {
       worst = std::max(worst, weight_error(s));
     }
   }
-  EXPECT_LT(worst, 1e-9);  // rounding of 1e-16, times the condition of M, up to 1e6
+  EXPECT_LT(worst, 1e-9);  // rounding error of 1e-16 times the condition of M, up to 1e6
 }
 
 /// Only contact elements and ground touch, with the parameters of the element, and the bottom of a point's sphere is the point.
@@ -92,8 +92,8 @@ Scenario lifted(Scenario s, double height) {
 }
 
 /// A robot that is dropped comes to rest at the same height, because contact law and controller have the same static force. The
-/// tolerance is 0.6 % of the depth at rest of 0.18 mm: a factor (1 - d) would be 5 %. For k other than 1, the line through the
-/// law at the mean depth differs from the law by the square of the differences in load.
+/// tolerance is 0.6 % of the depth at rest of 0.18 mm; a wrong factor (1 - d) would change the depth by 5 %. For k other than
+/// 1, the line through the law at the mean depth differs from the law by the square of the differences in load.
 void expect_equal_rest(const Scenario& s, double tolerance) {
   const Recording record = run(s);
   InMujoco mujoco(s, MjcfModel::walking);
@@ -125,11 +125,12 @@ TEST(MujocoWalking, RestsOnAStopAtTheSameAngle) {
   while (mujoco.data().time < s.duration - s.physics.step / 2) mj_step(&mujoco.model(), &mujoco.data());
   const double ours = end(record, "joint.0.angle");
   EXPECT_LT(ours, 0.19);  // the stop gives way by m g l sin(q) / ks = 0.02 rad
-  // The damper, (cs / 2) / (m l^2 / 3) = 0.75 1/s, leaves e^-30 of the swing; sums of doubles of 0.2 in 8e4 steps.
+  // The damper, (cs / 2) / (m l^2 / 3) = 0.75 1/s, leaves e^-30 of the swing. The tolerance is for sums of doubles of 0.2 in
+  // 8e4 steps.
   EXPECT_NEAR(mujoco.q(0), ours, 1e-9);
 }
 
-/// Torque for a held error of the set point, at a speed, with the limit.
+/// Tests the torque at a constant set-point error and a speed, with the limit.
 TEST(MujocoWalking, MotorsHaveTheLawOfTheActuatorBehindTheController) {
   for (const char* file : {"hexapod.yaml", "library/y1-snake.yaml"}) {
     const Scenario s = shipped(file);
@@ -157,7 +158,7 @@ TEST(MujocoWalking, MotorsHaveTheLawOfTheActuatorBehindTheController) {
   }
 }
 
-/// The keyframe holds the robot: its controls are the angles at the start.
+/// The keyframe holds the robot, because its controls are the angles at the start.
 TEST(MujocoWalking, StartsWithTheAnglesAsControls) {
   const Scenario s = shipped("caterpillar.yaml", {"initial.angles=0.2"});
   InMujoco mujoco(s, MjcfModel::walking);
@@ -173,7 +174,7 @@ TEST(MujocoWalking, WalksWithTheRecordedSetPoints) {
     const versus::Walk ours = versus::recorded_walk(record, 1);
     const versus::Walk theirs = versus::walk_in_mujoco(to_mjcf(s, MjcfModel::walking), s, record, 1, versus::Between::line);
     EXPECT_GT(ours.travel, 0.05) << s.name;
-    // Bands of the issue. Measured: docs/mujoco.md.
+    // The tolerances are chosen. docs/mujoco.md has the measured ratios.
     EXPECT_NEAR(theirs.travel / ours.travel, 1, 0.2) << s.name;
     EXPECT_NEAR(theirs.torque / ours.torque, 1, 0.15) << s.name;
   };

@@ -76,7 +76,7 @@ TEST_F(FromUrdf, ShippedModulesComeBack) {
       EXPECT_EQ(other.lo, hinge.lo) << name << " " << hinge.name;
       EXPECT_EQ(other.hi, hinge.hi) << name << " " << hinge.name;
       EXPECT_EQ(other.passive.has_value(), hinge.passive.has_value()) << name << " " << hinge.name;
-      // Rounding of a rotation as quaternion, matrix, and roll, pitch, yaw.
+      // The tolerance is for rounding errors of a rotation as quaternion, as matrix, and as roll, pitch and yaw.
       EXPECT_LT((other.in_parent.R - hinge.in_parent.R).norm(), 1e-14) << name << " " << hinge.name;
       EXPECT_LT((other.in_parent.p - hinge.in_parent.p).norm(), 1e-15) << name << " " << hinge.name;
       EXPECT_LT((other.axis - hinge.axis).norm(), 1e-15) << name << " " << hinge.name;
@@ -84,7 +84,7 @@ TEST_F(FromUrdf, ShippedModulesComeBack) {
   }
 }
 
-/// Robots of several modules: docks are fixed joints, so that a module has the links of the robot as its bodies.
+/// The docks of a robot of several modules are fixed joints, so that the links of the robot become the bodies of a module.
 TEST_F(FromUrdf, DockedBodiesAreOne) {
   RandomRobots random(43);
   for (int i = 0; i < 20; ++i) {
@@ -94,7 +94,7 @@ TEST_F(FromUrdf, DockedBodiesAreOne) {
     const ModuleType back = module_in(module_of_urdf(folder_.write("m.urdf", to_urdf(s)), "back"));
     ASSERT_EQ(back.bodies.size(), robot.links.size());
     ASSERT_EQ(back.hinges.size(), robot.joints.size());
-    // The first moment and the inertia of a link do not depend on the order of the sums but by rounding.
+    // The first moment and the inertia of a link depend on the order of the sums only by rounding errors.
     std::vector<double> masses, moments, found_masses, found_moments;
     for (const Link& link : robot.links) {
       masses.push_back(link.mass);
@@ -112,7 +112,8 @@ TEST_F(FromUrdf, DockedBodiesAreOne) {
   }
 }
 
-/// Two links of 2 kg, 0.2 m apart, one turned by a quarter about z: com in the middle; I = I1 + R I2 R^T + 2 m d^2 across.
+/// Two links of 2 kg are 0.2 m apart, and one is turned by a quarter about z. The com is in the middle, and I = I1 + R I2 R^T +
+/// 2 m d^2 across.
 TEST_F(FromUrdf, FixedJointsFuse) {
   const ModuleType type =
       read_urdf(urdf_link("a/base") +
@@ -159,7 +160,7 @@ TEST_F(FromUrdf, MotorsAndPassiveHinges) {
                 "the name of joint 'x y', which is x_y here", "1 element of <transmission>", "2 elements of <gazebo>"}));
 }
 
-/// Everything that a module cannot hold, in one list in the order of the file.
+/// One message lists everything that a module cannot contain, in the order of the file.
 TEST_F(FromUrdf, RefusesInOneList) {
   const std::string mesh = "<visual><geometry><mesh filename='a.stl'/></geometry></visual>";
   const std::string others = " a module has revolute, continuous and fixed joints\n";
@@ -269,7 +270,7 @@ TEST_F(FromUrdf, RefusesElementsWithManyAttributes) {
   EXPECT_EQ(refused("<link name='a'" + attributes(60000) + "/>\n"), kRefused);
 }
 
-/// Elements nested so deep that the parser's stack would overflow.
+/// These elements are nested so deeply that the parser's stack would overflow.
 TEST_F(FromUrdf, RefusesADeepFile) {
   std::string deep;
   for (int i = 0; i < 100000; ++i) deep += "<a>";

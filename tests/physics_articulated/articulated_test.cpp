@@ -17,7 +17,7 @@ namespace {
 
 using articulated::vec;
 
-/// Those of the 6 + joints generalised components that exist with this base.
+/// The generalised components, of 6 + joints, that exist with this base.
 Eigen::VectorXd kept(const std::vector<double>& all, Base base) {
   const auto entries = base_entries(base);
   Eigen::VectorXd some(static_cast<Eigen::Index>(entries.size() + all.size() - 6));
@@ -122,7 +122,8 @@ INSTANTIATE_TEST_SUITE_P(EveryBase, ArticulatedBody, testing::Values(Base::float
 
 TEST_P(ArticulatedBody, SolvesWhatDenseMatricesSay) {
   RandomRobots random(21);
-  for (const double resist : {0.0, 1.0, 1e3}) {  // none, of the size of the masses, as large as friction at long steps
+  for (const double resist :
+       {0.0, 1.0, 1e3}) {  // no resistance, resistance as large as the masses, and as large as friction at long steps
     Solved worst;
     for (int i = 0; i < 40; ++i) {
       const Solved one = solve(random, GetParam(), resist);

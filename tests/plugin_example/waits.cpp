@@ -1,6 +1,6 @@
 // CPG plugin whose runs wait while the folder GAITLAB_HOLD exists. Each run writes a file with the number of its process into
-// this folder, so that a gate can kill a program during a run on machines of any speed. A run is where the first joint moves:
-// its measured angle is constant where set points are computed before the run.
+// this folder, so that a gate can kill a program during a run on machines of any speed. A run is recognised by the motion of
+// the first joint, whose measured angle is constant while set points are computed before the run.
 #include <unistd.h>
 
 #include <chrono>

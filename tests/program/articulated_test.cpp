@@ -60,7 +60,7 @@ TEST(Engines, AccelerateAlikeAtRandomStates) {
 double difference(const Trace& a, const Trace& b) {
   double worst = 0;
   for (std::size_t c = 1; c < a.columns.size(); ++c) {
-    if (a.columns[c].name.starts_with("torque_error.")) continue;  // small difference of large numbers
+    if (a.columns[c].name.starts_with("torque_error.")) continue;  // these columns are small differences of large numbers
     double most = 0;
     double apart = 0;
     for (std::size_t row = 1; row < a.rows(); ++row) {

@@ -1,4 +1,4 @@
-// The robot as built: its numbers act as other drawings would, and draws are a function of seed and part.
+// Tests of the robot as built: its numbers have the effect of changed drawings, and draws depend on seed and part alone.
 #include <cmath>
 #include <map>
 
@@ -27,8 +27,8 @@ Scenario built(std::vector<std::string> sets, const std::string& engine = "artic
 class AsBuiltOf : public EveryEngine {};
 INSTANTIATE_TEST_SUITE_P(Engine, AsBuiltOf, engines(), engine_name);
 
-// Every pair gives the same numbers by two ways: as_built, and the drawings. All factors are powers of 2, which change no
-// digit.
+// Every pair changes the same numbers in two ways: by as_built, and in the drawings. All factors are powers of 2, which change
+// no digit.
 TEST_P(AsBuiltOf, FactorsActAsOtherDrawings) {
   const std::map<std::string, std::vector<std::string>> pairs{
       {"as_built.R=2", {"actuator.R=8.6"}},
@@ -103,7 +103,7 @@ TEST(AsBuilt, StatedNeutralNumbersStay) {
   EXPECT_EQ(scenario(resolved(stated)).as_built, AsBuilt());
 }
 
-// The limit of an explicit step has the friction of each element.
+// The largest step of an explicit method follows from the friction of each element.
 TEST(AsBuilt, FrictionLimitsTheStep) {
   const auto refusal = [](const std::string& slippery) {
     return message_of([&] {
@@ -167,8 +167,8 @@ TEST(AsBuilt, DockAngles) {
       const bool turned = drawn.robot->bodies[b].module >= 1;
       const Mat3 expected = turned ? Mat3(R * before[b].R) : before[b].R;
       const Vec3 place = turned ? Vec3(dock + R * (before[b].p - dock)) : before[b].p;
-      EXPECT_LT((after[b].R - expected).norm(), 1e-14) << b;  // rounding of products of a few rotations
-      EXPECT_LT((after[b].p - place).norm(), 1e-14) << b;     // the same, of lengths below 1 m
+      EXPECT_LT((after[b].R - expected).norm(), 1e-14) << b;  // rounding error of products of a few rotations
+      EXPECT_LT((after[b].p - place).norm(), 1e-14) << b;     // rounding error of products with lengths below 1 m
     }
   }
 }

@@ -105,7 +105,7 @@ class Contract : public ::testing::TestWithParam<Plugin> {
   [[nodiscard]] std::string plain() const {
     const auto& [kind, name] = GetParam();
     std::string own = section(kind) + ": {type: " + name;
-    // The value 1e-7 is so small that a stall current slightly above 0 requires no efficiency above 1.
+    // All required numbers are 1e-7: with a stall torque this small, no stall current above 0 requires an efficiency above 1.
     for (const std::string& key : numbers_of(entry(), entry().settings(entry()).get()).required) own += ", " + key + ": 1e-7";
     own += "}\n";
     const bool volts = kind != Kind::actuator || name == "dc_motor" || name == "servo";

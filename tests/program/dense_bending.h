@@ -1,4 +1,4 @@
-// Bending of a dock: in dense rows of the trace, and as measured for the verdict.
+// Bending of a dock in dense rows of the trace, and in the loads that the verdict uses.
 #pragma once
 #include <algorithm>
 #include <cmath>

@@ -54,7 +54,7 @@ TEST_P(FaultsOf, WithoutEffectLeaveTheSameBits) {
   EXPECT_EQ(of({"at=[{t: 0.1, set: {cpg.frequency: 0.25, controller.Kp: 100}}]"}), without);
   for (const char* kind : {"none", "lost, share: 0", "late, delay: 0", "weak, share: 1"}) EXPECT_EQ(of({fault(kind)}), without);
   for (const std::string& kind : kKinds) {
-    if (GetParam() == "bullet" && kind == "stuck") continue;  // needs steps of 2.5e-6 s
+    if (GetParam() == "bullet" && kind == "stuck") continue;  // a stuck joint needs steps of 2.5e-6 s
     EXPECT_NE(of({fault(kind)}), without) << kind;
   }
 }
@@ -85,8 +85,7 @@ TEST_P(FaultsOf, AnOpenJointHasNeitherTorqueNorCurrent) {
   EXPECT_LT(residual / r.ledger.electrical, 1e-3) << "as without the fault";
 }
 
-// Motors of 1.97 N m against 5000 N m/rad: 4e-4 rad, as much again by the weight of the modules, and a little by the impact.
-// The resolved scenario states the settings of a segment in full: values by joint are lists.
+// The resolved scenario states the settings of a segment in full, with values by joint as lists.
 TEST(Faults, TheResolvedScenarioCanBeReadAgain) {
   const Scenario s =
       shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=1.2", "cpg.amplitude={default: 0.6, 'm0/*': 0.3}",
@@ -98,6 +97,8 @@ TEST(Faults, TheResolvedScenarioCanBeReadAgain) {
   EXPECT_EQ(alone(again), alone(s));
 }
 
+// Motors of 1.97 N m turn a joint by 4e-4 rad against 5000 N m/rad. The weight of the modules adds as much again, and the
+// impact a little.
 TEST(Faults, AStuckJointStaysWhereItIs) {
   const Recording r =
       run(faulty_caterpillar({"duration=6", fault("stuck", "2"), "trace.columns=[joint.*, energy.*]", "physics.estimate=off"}));
@@ -107,7 +108,8 @@ TEST(Faults, AStuckJointStaysWhereItIs) {
   for (std::size_t row = 1; row < r.trace.rows(); ++row) {
     if (!(table.at(row, std::string(kJoint) + "fault") > 0)) continue;
     if (std::isnan(held)) held = table.at(row - 1, std::string(kJoint) + "angle");
-    if (table.at(row, "t") < 2.1) continue;  // five times the time of a joint in motion: 20 ms of the ramp, then its return
+    if (table.at(row, "t") < 2.1)
+      continue;  // waits five times as long as a joint in motion needs for the ramp of 20 ms and its return
     farthest = std::max(farthest, std::abs(table.at(row, std::string(kJoint) + "angle") - held));
   }
   validate_below(
@@ -116,8 +118,8 @@ TEST(Faults, AStuckJointStaysWhereItIs) {
   EXPECT_LT(std::abs(r.ledger.residual()) / r.ledger.electrical, 1e-3);
 }
 
-/// A hold that acts at once stopped a joint in motion within 20 us, with 1200 N at a dock of the hexapod. It grows from 0 in 20
-/// ms: no load changes at the tick of the jam, and those after it do not depend on the step.
+/// A hold that acts immediately stopped a joint in motion within 20 us, with 1200 N at a dock of the hexapod. The hold
+/// therefore grows from 0 in 20 ms. No load changes at the tick of the jam, and later loads do not depend on the step.
 TEST(Faults, AJamInMotionTakesHoldGradually) {
   const auto loads_of = [](const std::string& robot, std::vector<std::string> sets) {
     for (const char* const set : {"physics.engine=articulated", "duration=1.26", "contact.on=all", "cpg.frequency=1"})
@@ -146,7 +148,7 @@ TEST(Faults, AJamInMotionTakesHoldGradually) {
   }
 }
 
-// The hold of 50 N m s/rad is the fastest damper of the robot, and the stability rule knows before the run that it will come.
+// The hold of 50 N m s/rad is the fastest damper of the robot. The stability rule includes it before the run.
 TEST(Faults, AStuckJointShortensExplicitSteps) {
   const Scenario s = faulty_caterpillar({"duration=0.09", fault("stuck", "0.03")}, "bullet");
   EXPECT_LT(s.physics.step, 5e-6);
@@ -212,7 +214,7 @@ TEST(Faults, LostSetPointsAreHeld) {
 
 TEST_P(FaultsOf, SnapshotGoesOn) {
   std::string all = kAll;
-  if (GetParam() == "bullet") all.replace(all.find("stuck"), 5, "weak, share: 0.9");  // needs steps of 2.5e-6 s
+  if (GetParam() == "bullet") all.replace(all.find("stuck"), 5, "weak, share: 0.9");  // a stuck joint needs steps of 2.5e-6 s
   const Scenario s = faulty_caterpillar({"duration=1", all}, GetParam());
   const auto go = [](Simulation& simulation, double until) {
     while (simulation.time() < until) simulation.step();
@@ -224,7 +226,7 @@ TEST_P(FaultsOf, SnapshotGoesOn) {
   Simulation second({&s, 1});
   std::copy(early.begin(), early.end(), second.state().begin());
   EXPECT_EQ(go(second, 0.25), end);
-  std::copy(early.begin(), early.end(), first.state().begin());  // back from a later segment
+  std::copy(early.begin(), early.end(), first.state().begin());  // returns from a later segment
   EXPECT_EQ(go(first, 0.25), end);
 }
 
@@ -267,7 +269,7 @@ TEST(Faults, RowsWithinAStepChangeNothing) {
   EXPECT_EQ(with_rows("0.0023"), with_rows("0.005"));
 }
 
-// Companions have the same faults: their torques stay as near to the run as without faults.
+// Companions have the same faults, so that their torques are as near to those of the run as without faults.
 TEST(Faults, TheEstimateOfTheTorqueErrorHasThem) {
   for (const char* step : {"auto", "5e-4"}) {
     const Recording r = run(faulty_caterpillar({"duration=2", kAll, std::string("physics.step=") + step}));
@@ -304,7 +306,7 @@ TEST(Changes, PhaseAndAmplitudeFollowTheirEquations) {
                  why);
 }
 
-// This coupling turns the wave of the 16 joints about within 10 s.
+// This coupling reverses the wave of the 16 joints within 10 s.
 TEST(Changes, TheCaterpillarTurnsBack) {
   const auto last = [](const std::vector<std::string>& own) {
     std::vector<std::string> sets{"trace.period=1", "trace.columns=[com.x]", "physics.estimate=off", "cpg.model.coupling=4"};

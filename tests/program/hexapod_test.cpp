@@ -9,7 +9,7 @@
 namespace gaitlab::test {
 namespace {
 
-// Whole walks of bullet.
+// These tests simulate whole walks with engine bullet.
 const Label kHexapodWalks("Walk.*", "long;unsanitized");
 
 constexpr double kGravity = 9.81;

@@ -192,7 +192,7 @@ TEST(Loads, AreTheReactionsInTheAxesOfTheFaces) {
         const std::string dock = fmt::format("reaction.m{}/dock.", m);
         const Vec3 f = vec(dock + "f");
         const Vec3 moment = vec(dock + "m");
-        // Rows after the first have the largest loads since the row before.
+        // Each row after the first has the largest loads since the previous row.
         const auto compare = [&](const char* quantity, double by_hand) {
           const double got = load(record, tick, fmt::format("dock.{}.{}", m, quantity));
           const bool of_magnitude = quantity == std::string("torsion");
@@ -212,8 +212,8 @@ TEST(Loads, AreTheReactionsInTheAxesOfTheFaces) {
 }
 
 /// Two docked rods fall on one end. The dock is bent most between two control ticks, by an impact of some milliseconds. The
-/// largest loads are those of dense reaction columns; the differences are what an impact changes between two samples (1 ms
-/// apart with a given step, eighths of a divided step).
+/// largest loads agree with dense reaction columns up to the change by an impact between two samples (1 ms apart with a given
+/// step, eighths of a divided step).
 TEST_P(LoadsOf, AnImpactBetweenTicks) {
   const Recording record = run_with_loads(scenario(fmt::format(R"(
 gaitlab: 1
@@ -240,8 +240,8 @@ trace: {{period: 2e-4, columns: [reaction.m1/dock.*]}}
   EXPECT_NEAR(bending.watched, bending.dense, 0.05 * bending.dense);
 }
 
-/// A pendulum whose rotor has the inertia of the rod, m l^2 / 3, and whose motor has no torque. The gear passes on what turns
-/// the rotor: half of the weight's moment m g l/2 sin(q), most at the start, where q = 1.
+/// The rotor of a pendulum has the inertia of the rod, m l^2 / 3, and the motor has no torque. The gear passes on the torque
+/// that turns the rotor, which is half of the weight's moment m g l/2 sin(q) and largest at the start, where q = 1.
 TEST_P(LoadsOf, AGearThatTurnsItsRotor) {
   const Scenario s =
       shipped("pendulum.yaml",
@@ -261,8 +261,9 @@ TEST_P(LoadsOf, AGearThatTurnsItsRotor) {
   EXPECT_NEAR(check.value, half, 1e-6);
 }
 
-/// The torque of a motor that turns a heavy rotor at the start is beyond the rating, and that of its gear is not: no joint is
-/// named as the first beyond it. The motor has the inertia of the rod 100 times over, so that the gear passes on a hundredth.
+/// The torque of a motor that turns a heavy rotor at the start exceeds the rating, but that of its gear does not. No joint is
+/// then named as the first beyond the rating. The rotor has 100 times the inertia of the rod, so that the gear passes on a
+/// hundredth of the torque.
 TEST_P(LoadsOf, AGearThatIsSparedByItsRotor) {
   const Scenario s = shipped(
       "pendulum.yaml", {"actuator={type: dc_motor, gear: 100, rotor_inertia: 3.3333333333333335e-3, gear_torque_peak: 0.3}",

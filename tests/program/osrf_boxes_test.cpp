@@ -17,7 +17,7 @@ struct Errors {
 };
 
 Errors errors(const std::string& scene, const std::string& integrator, double step) {
-  // A run of the benchmark has the least number of steps that reach 10 s.
+  // A run of the benchmark has the least number of steps that reaches 10 s.
   const double steps = std::ceil(10 / step - 1e-6);
   const double every = std::round(0.01 / step);
   const Scenario box =

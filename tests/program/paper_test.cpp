@@ -69,8 +69,9 @@ Figure hexapod(const Sets& sets = {}) {
 
 bool near(double value, double expected, double share) { return std::abs(value / expected - 1) <= share; }
 
-/// Largest torque of the central spine joint of a rigid robot on three points, by hand (docs/paper.md). Lengths in m of the
-/// hexapod of M-TRAN modules (a module: 0.4 kg, 0.13 m) in the stance of the tripod whose middle leg bears half of the weight.
+/// Largest torque of the central spine joint of a rigid robot on three points, by hand (docs/paper.md). Lengths, m, are those
+/// of the hexapod of M-TRAN modules (0.4 kg and 0.13 m each), in the stance of the tripod whose middle leg bears half of the
+/// weight.
 double statics(double amplitude) {
   constexpr double g = 9.81;
   const double stride = -0.065 * std::sin(amplitude);
@@ -82,7 +83,7 @@ double statics(double amplitude) {
   return own - front * (0.26 + stride) - middle * stride;
 }
 
-/// Lines that do not hold.
+/// Statements that are not satisfied.
 struct Unmet {
   Sets lines = {};
   void operator()(bool holds, const char* text) {
@@ -90,8 +91,8 @@ struct Unmet {
   }
 };
 
-/// Lines of figure 9 and of the caterpillar's own numbers that do not hold. Torques to 4 %: none of the thirteen other settings
-/// changes all of them by less.
+/// Statements on figure 9 and on the caterpillar's own numbers that are not satisfied. Torques have a tolerance of 4 %, because
+/// each of the thirteen other settings changes one of them by more.
 Sets unmet(const Figure& f) {
   Unmet line;
   line(f.feasible, "feasible");
@@ -104,7 +105,7 @@ Sets unmet(const Figure& f) {
   return line.lines;
 }
 
-/// Lines of figures 13 and 14 and of the hexapod's own numbers that do not hold.
+/// Statements on figures 13 and 14 and on the hexapod's own numbers that are not satisfied.
 Sets unmet_spine(const Figure& f) {
   Unmet line;
   line(f.feasible, "feasible");
@@ -129,7 +130,7 @@ TEST(Paper, FiguresThirteenAndFourteenAreMetByTheHexapod) {
            "the size alone: square feet stand on edges, and a stiffer loop has up to 20 % more (docs/paper.md)");
 }
 
-/// The hand formula of docs/paper.md, as printed there.
+/// The formula of docs/paper.md, as printed there.
 TEST(Paper, StaticsByHand) {
   const std::pair<double, double> printed[] = {{0.2, 0.97}, {0.3, 1.05}, {0.4, 1.13}, {0.6, 1.30}};
   for (const auto& [amplitude, torque] : printed) {
@@ -153,19 +154,19 @@ const char* const kOtherSettings[] = {"controller.Kp=100",
                                       "actuator.efficiency=0.5",
                                       "actuator.efficiency_model=directional"};
 
-/// Lines other than the verdict, which would need a longer run.
+/// The statements without those on the verdict, which would need a longer run.
 Sets numbers(Sets lines) {
   std::erase(lines, "feasible");
   return lines;
 }
 
-/// Each of these settings loses a number or a rank of figure 9 (the table of docs/paper.md).
+/// Each of these settings violates a number or a rank of figure 9 (table in docs/paper.md).
 TEST(Paper, ThirteenOtherSettingsMissIt) {
   EXPECT_EQ(numbers(unmet(caterpillar({"duration=14"}))), Sets());
   for (const char* const set : kOtherSettings) EXPECT_NE(numbers(unmet(caterpillar({set, "duration=14"}))), Sets()) << set;
 }
 
-/// All but two of them also lose one of figures 13 and 14.
+/// All but two of the settings above also violate a number or a rank of figures 13 and 14.
 TEST(Paper, ElevenOfThemMissTheSpineToo) {
   EXPECT_EQ(numbers(unmet_spine(hexapod({"duration=8"}))), Sets());
   for (const std::string set : kOtherSettings) {
@@ -174,24 +175,26 @@ TEST(Paper, ElevenOfThemMissTheSpineToo) {
   }
 }
 
-/// A control period up to the longest one that works changes nothing. A tenth of the resistance makes the loop possible at
-/// the paper's 15 ms: the stiffness alone decides the torques.
+/// A control period up to the longest that works changes nothing. With a tenth of the resistance, the loop works at the paper's
+/// 15 ms. The stiffness alone therefore decides the torques.
 TEST(Paper, StiffnessDecidesNotThePeriod) {
   EXPECT_EQ(unmet(caterpillar({"controller.period=0.0025"})), Sets());
   EXPECT_EQ(unmet_spine(hexapod({"controller.period=0.0025"})), Sets());
   const Sets strong{"controller.period=0.015", "actuator.R=0.43", "controller.Kp=157"};
-  const Extremes slow = caterpillar(strong).torque;  // 3 %: a command every 15 ms instead of every millisecond
+  const Extremes slow =
+      caterpillar(strong).torque;  // the tolerance of 3 % is for a command every 15 ms instead of every millisecond
   EXPECT_TRUE(near(slow.low, -1.45, 0.03) && near(slow.high, 1.44, 0.03)) << slow.low << " " << slow.high;
   EXPECT_TRUE(near(hexapod(strong).torque.low, -1.08, 0.03));
-  // Without the efficiency of gears at rest, Kp 1099 is 600 N m/rad; where the joint drives or is driven, the gears differ:
-  // measured 4.6 %.
+  // Directional gears at rest have no efficiency, so that Kp 1099 is 600 N m/rad. The gears differ if the joint moves; the
+  // measured difference is 4.6 %.
   const Sets directional{"actuator.efficiency_model=directional", "controller.Kp=1099"};
   const Extremes driven = caterpillar(directional).torque;
   EXPECT_TRUE(near(driven.low, -1.45, 0.06) && near(driven.high, 1.44, 0.06)) << driven.low << " " << driven.high;
   EXPECT_EQ(unmet_spine(hexapod(directional)), Sets());
 }
 
-/// The scenarios with the default gains, which a real module can have. Tolerances: the last digit of docs/paper.md.
+/// Tests the scenarios with the default gains, which a real module can have. The tolerances are the last digit in
+/// docs/paper.md.
 TEST(Paper, DefaultGainsHaveAThirdOfTheTorque) {
   const Extremes joint = figure(shipped("caterpillar.yaml", {"physics.engine=articulated"}), 7, 6, 14).torque;
   EXPECT_TRUE(near(joint.low, -0.61, 0.01) && near(joint.high, 0.51, 0.01)) << joint.low << " " << joint.high;
@@ -199,7 +202,8 @@ TEST(Paper, DefaultGainsHaveAThirdOfTheTorque) {
   EXPECT_TRUE(near(spine.low, -0.40, 0.02)) << spine.low;
 }
 
-/// Both engines have the same peaks, to 0.5 %: half of physics.accuracy of the one, 1 % (measured 0.1 %).
+/// Both engines have the same peaks within 0.5 %, half of the physics.accuracy of one engine (1 %). The measured difference is
+/// 0.1 %.
 void expect_equal(const Figure& a, const Figure& b) {
   for (const auto& [one, other] :
        {std::pair(a.torque.low, b.torque.low), {a.torque.rms, b.torque.rms}, {a.next_peak, b.next_peak}})

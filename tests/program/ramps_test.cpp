@@ -50,7 +50,7 @@ std::vector<double> set_points_at(const Scenario& s, double t) {
   return found;
 }
 
-/// A ramp scales the distance from the first pose; after it the set points have the bits of the gait without a ramp.
+/// A ramp scales the distance from the first pose. After the ramp, the set points have the bits of the gait without a ramp.
 TEST(Ramps, ScaleTheMotionAboutItsFirstPose) {
   for (const RampedGait& gait : kRamped) {
     const Scenario plain = scenario(with_keys(gait, "ramp: 0"));
@@ -60,7 +60,7 @@ TEST(Ramps, ScaleTheMotionAboutItsFirstPose) {
       const std::vector<double> found = set_points_at(ramped, t);
       for (std::size_t j = 0; j < full.size(); ++j) {
         const double expected = t < 2 ? gait.first + t / 2 * (full[j] - gait.first) : full[j];
-        // Sums of numbers near 1 round by at most 1e-15.
+        // The rounding error of sums of numbers near 1 is at most 1e-15.
         EXPECT_NEAR(found[j], expected, t < 2 ? 1e-15 : 0) << gait.name << ", " << t;
       }
     }
@@ -99,7 +99,7 @@ TEST(Ramps, StartFollowsSettings) {
     EXPECT_EQ(shipped(shipped_file).initial.angles, PerJoint{}) << shipped_file;
 }
 
-/// A robot that stands on straight legs turned by 0.6 rad stays where it is, which needs a start at the offsets.
+/// A robot that stands on straight legs turned by 0.6 rad stays in place. This requires a start at the offsets.
 TEST(Ramps, AStandingRobotStaysUp) {
   const std::string leg = "mass: 0.1, shape: [{box: [0.02, 0.02, 0.1], origin: [0, 0, -0.05]}]";
   std::string bodies, hinges;
@@ -135,7 +135,7 @@ std::string advice_on_jump(const std::string& gait, const std::vector<std::strin
   return "no check";
 }
 
-/// The advice states the first set points, which a robot can start at: within the ranges of its hinges.
+/// The advice states the first set points, limited to the ranges of the hinges, so that a robot can start there.
 TEST(Ramps, AdviceOnAJumpIsAListToCopy) {
   const std::string sine = "cpg: {type: sine, frequency: 1, amplitude: 0.1, phase_lag: 1.2, offset: 0.8}\n";
   const std::string list = "set initial.angles: [0.8, 0.8932, 0.8675, 0.7557]";

@@ -1,4 +1,4 @@
-// Sensors in a run: what the controller gets, what the trace shows, and that nothing else changes.
+// Tests of sensors in a run: the values that the controller gets and the trace shows. Nothing else changes.
 #include <cmath>
 
 #include "controllers/pid.h"
@@ -27,7 +27,7 @@ Scenario sensed_caterpillar(std::vector<std::string> sets, const std::string& en
 class SensorsOf : public EveryEngine {};
 INSTANTIATE_TEST_SUITE_P(Engine, SensorsOf, engines(), engine_name);
 
-// A row shows the values in force just before it: those of the tick before. The row at t = 0 has those of tick 0.
+// A row shows the values in force just before it, which are those of the previous tick. The row at t = 0 has those of tick 0.
 TEST_P(SensorsOf, ADelayIsExact) {
   const Recording r =
       run(sensed_caterpillar({"duration=0.6", "trace.period=0.015", "sensors={type: encoder, delay: 0.03}"}, GetParam()));
@@ -101,7 +101,7 @@ TEST(Sensors, NoneLeavesTheSameBytes) {
             alone(sensed_caterpillar({"duration=0.45", explicit_zeros})));
 }
 
-// An exact encoder gives the true angles, and the controller uses no speed: the motion has the same bits.
+// An exact encoder gives the true angles, and the controller uses no speed, so that the motion has the same bits.
 TEST(Sensors, AnExactEncoderChangesNothing) {
   const auto torques = [](const std::vector<std::string>& own) {
     std::vector<std::string> sets{"duration=0.45", "trace.columns=[joint.*.torque, joint.*.angle]"};
@@ -148,8 +148,8 @@ TEST(Sensors, RowsWithinAStepChangeNothing) {
   EXPECT_EQ(with_rows("0.0023"), with_rows("0.005"));
 }
 
-/// The program's PID behind an encoder of its own: noise by the stream of the joint, then the grid, then a delay of `delay`
-/// ticks. It shares the random stream with the sensor, and nothing else.
+/// The program's PID with a separate encoder, which adds the noise of the joint's stream, rounds to the grid and delays by
+/// `delay` ticks. It shares only the random stream with the sensor.
 struct PidBehindEncoder final : Controller {
   struct Settings : controllers::Pid::Settings {
     double resolution = 0, noise = 0;
@@ -233,8 +233,8 @@ double limited(const Recording& r) {
 }
 
 // Over 20 s, encoders of this size move RMS by at most 0.9 % and travel by at most 1.3 %, and two ticks of delay bring a motor
-// to its limit of voltage for 27 % of the time and raise RMS by 3 % (docs/real-robot.md). Over 4 s the start, which all runs
-// share, is a part of both: twice these changes are allowed.
+// to its limit of voltage for 27 % of the time and raise RMS by 3 % (docs/real-robot.md). Over 4 s, the start, which all runs
+// share, has a larger part in both. Twice these changes are therefore allowed.
 TEST(Sensors, CaterpillarMovesTheSameAndItsTorquesDoNot) {
   const auto walk = [](const std::string& keys) {
     return run(sensed_caterpillar({"duration=4", "physics.estimate=off", fmt::format("sensors.e={{type: encoder{}}}", keys)}));
@@ -278,7 +278,7 @@ sensors: {type: imu, body: m0/pivot}
   const Recording r = run(scenario(text));
   const Mat3 R = rpy({0.3, -0.4, 1});
   const Vec3 expected = R.transpose() * Vec3(0, 0, 9.81);
-  constexpr double kRounding = 1e-14;  // of sums of three products up to 10
+  constexpr double kRounding = 1e-14;  // rounding error of sums of three products up to 10
   for (const double t : {0.0, 0.05, 0.1}) {
     const Table table(r.trace);
     EXPECT_NEAR(table(t, "sensor.imu.accelerometer_x"), expected.x(), kRounding);
@@ -312,8 +312,8 @@ TEST(Sensors, ImuAtTheTipOfAPendulum) {
                       std::abs(table.at(row, "sensor.imu.gyro_y") - rod.speed(t)),
                       std::abs(table.at(row, "sensor.imu.pitch") - rod.angle(t))});
   }
-  // The angle is within 1e-10 (Pendulum.SwingsAsTheEllipticFunctionsSay), the speed within 5 times that, and two of them are
-  // divided by 5 ms.
+  // The angle has an error of 1e-10 (Pendulum.SwingsAsTheEllipticFunctionsSay), and the speed 5 times this error. The
+  // difference of two speeds is divided by 5 ms.
   EXPECT_LT(worst, 2e-7);
 }
 

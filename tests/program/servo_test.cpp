@@ -113,13 +113,13 @@ TEST(Servo, IsADcMotorBitForBit) {
   EXPECT_NE(bits.front(), bits.back()) << "the efficiency model has an effect";
 }
 
-/// A directional gear loses what it does not pass on: driven, the torque is larger by 1 / eta^2 than as printed.
+/// A directional gear also has losses if it is driven backwards. The torque is then 1 / eta^2 times that of eq. 2 as printed.
 TEST(Servo, MayHaveADirectionalGear) {
   const DcMotor paper = motor(kSg92r);
   const DcMotor m = motor(kSg92r + ", efficiency_model: directional, turn_speed: 0.3");
   EXPECT_EQ(paper.reversal_speed, 0);
   EXPECT_EQ(m.reversal_speed, 0.3);
-  constexpr double kRounding = 1e-14;  // some operations on torques of 0.1 N m
+  constexpr double kRounding = 1e-14;  // rounding errors of some operations on torques of 0.1 N m
   EXPECT_NEAR(m(4.8, 1).torque, paper(4.8, 1).torque, kRounding) << "the line of the data sheet while it drives";
   EXPECT_NEAR(m(4.8, -0.5).torque * 0.7 * 0.7, paper(4.8, -0.5).torque, kRounding);
   EXPECT_NEAR(m(4.8, 0).torque * 0.7, paper(4.8, 0).torque, kRounding);

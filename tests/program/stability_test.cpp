@@ -10,7 +10,7 @@
 namespace gaitlab::test {
 namespace {
 
-// A whole walk of bullet.
+// These tests simulate a whole walk with engine bullet.
 const Label kLateWarning("LambdaRule.Warns*", "long;unsanitized");
 
 /// Dense inverse mass matrix of a robot at zero angles, computed from the kinetic energies of unit velocities.

@@ -9,9 +9,9 @@ namespace {
 class StopLoads : public EveryEngine {};
 INSTANTIATE_TEST_SUITE_P(Of, StopLoads, engines(), engine_name);
 
-/// A rod on a hinge without a motor falls into the stop. The stop acts at once with its damping, 0.5 N m s/rad, and the light
-/// rod is at rest after half a millisecond. The largest loads of the dock between its two halves are those of rows every 0.05
-/// ms.
+/// A rod on a hinge without a motor falls into the stop. The stop acts immediately with its damping, 0.5 N m s/rad, and the
+/// light rod is at rest after half a millisecond. The largest loads of the dock between its two halves agree with rows every
+/// 0.05 ms.
 TEST_P(StopLoads, AreThoseOfItsBegin) {
   for (const auto& [range, mass] : {std::pair(0.1, 0.02), std::pair(0.3, 0.06)}) {
     const Scenario s = scenario(fmt::format(R"(

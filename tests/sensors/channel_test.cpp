@@ -1,4 +1,4 @@
-// A sensor channel against its equations, written anew, and against the moments of its draws.
+// Tests of a sensor channel against an independent implementation of its equations, and against the moments of its draws.
 #include "sensors/channel.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ double curve(std::int64_t k) { return 0.7 * math::sin(static_cast<double>(k)) + 
 
 template <class Curve>
 std::vector<double> values(const Channel& channel, std::int64_t ticks, const Curve& truth) {
-  std::vector<double> state(channel.states(), NAN);  // a number that is read before it is set shows
+  std::vector<double> state(channel.states(), NAN);  // a number that is read before it is set is then detected
   std::vector<double> all;
   for (std::int64_t k = 0; k < ticks; ++k) {
     const std::vector<double> x(channel.size(), truth(k));
@@ -98,7 +98,7 @@ TEST(Channel, DelaysByWholeTicks) {
   }
 }
 
-// The known first number of the stream, and the moments of 20000 draws (tests/core/math/philox_test.cpp).
+// The first number of the stream and the moments of 20000 draws are known (tests/core/math/philox_test.cpp).
 TEST(Channel, NoiseIsTheStreamOfSeedAndName) {
   ChannelKeys k = keys();
   k.noise = 1;
@@ -153,7 +153,7 @@ TEST(Channel, HoldsTheLastSampleWhereOneIsLost) {
     EXPECT_EQ(y[i], y[i - 1]);
     ++lost;
   }
-  // Four standard errors of a share of 0.3: 4 sqrt(0.21 / 20000).
+  // The tolerance is four standard errors of a share of 0.3, 4 sqrt(0.21 / 20000).
   validate({"closed.encoder_losses", "share of lost samples, lost: 0.3", "binomial distribution", ""},
            static_cast<double>(lost) / kTicks, 0.3, 0.013, "four standard errors of 20 000 samples, 4 sqrt(0.21/20000)");
   k.lost = 1;
@@ -176,14 +176,14 @@ TEST(Channel, LossesAreCommonToTheNumbersOfAVectorAndNoiseIsNot) {
   EXPECT_GT(held, 50U);
 }
 
-/// Values at tick `ticks` - 1 of 2000 channels with other names, whose deviation is known to 1.6 %.
+/// Values of 2000 channels with different names at tick `ticks` - 1. Their standard deviation is known to 1.6 %.
 std::vector<double> ensemble(const ChannelKeys& keys, std::int64_t ticks) {
   std::vector<double> ends;
   for (int i = 0; i < 2000; ++i) ends.push_back(zeros(channel(keys, "channel-" + std::to_string(i)), ticks).back());
   return ends;
 }
 
-// Four standard errors of a deviation from 2000 draws: 4 / sqrt(4000).
+// Four standard errors of a standard deviation from 2000 draws, 4 / sqrt(4000).
 constexpr double kFourErrors = 0.064;
 
 TEST(Channel, WalkGrowsAsTheRootOfTime) {
@@ -194,7 +194,7 @@ TEST(Channel, WalkGrowsAsTheRootOfTime) {
              deviation(ensemble(k, n)) / (0.2 * std::sqrt(static_cast<double>(n) * kPeriod)), 1, kFourErrors,
              "four standard errors of 2000 draws, 4/sqrt(4000)");
   }
-  // With its own period the walk makes fewer and longer steps: 17 samples of four ticks.
+  // With a separate period the walk makes fewer and longer steps, 17 samples of four ticks.
   k.period = 4 * kPeriod;
   EXPECT_NEAR(deviation(ensemble(k, 68)) / (0.2 * std::sqrt(68 * kPeriod)), 1, kFourErrors);
 }
@@ -203,12 +203,12 @@ TEST(Channel, WalkOfACorrelationTimeIsBounded) {
   ChannelKeys k = keys();
   k.walk = 0.2;
   k.walk_time = 0.1;
-  // After ten correlation times: walk sqrt(tau / 2).
+  // After ten correlation times, the deviation is walk sqrt(tau / 2).
   const std::string source = "first-order Gauss-Markov process, IEEE Std 952-1997, annex B";
   validate(
       {"closed.sensor_markov_deviation", "deviation of a bounded walk after ten correlation times, 2000 seeds", source, ""},
       deviation(ensemble(k, 67)) / (0.2 * std::sqrt(0.05)), 1, kFourErrors, "four standard errors of 2000 draws, 4/sqrt(4000)");
-  // Correlation over a tick: e^(-Ts / tau). Its deviation over 20000 ticks is below sqrt(1 / 20000).
+  // The correlation over a tick is e^(-Ts / tau). Its standard deviation over 20000 ticks is below sqrt(1 / 20000).
   const std::vector<double> y = zeros(channel(k), 20000);
   double product = 0;
   double square = 0;
@@ -218,7 +218,7 @@ TEST(Channel, WalkOfACorrelationTimeIsBounded) {
   }
   validate({"closed.sensor_markov_correlation", "correlation of a bounded walk over one tick", source, ""}, product / square,
            std::exp(-kPeriod / 0.1), 4 * std::sqrt(1.0 / 20000), "four standard errors over 20 000 ticks");
-  // A long correlation time is the walk without a bound, to Ts / tau.
+  // With a long correlation time, the walk is that without a bound, except for Ts / tau.
   k.walk_time = 1e6;
   ChannelKeys unbounded = k;
   unbounded.walk_time = 0;
@@ -240,7 +240,7 @@ TEST(Channel, ZeroAndGainAreDrawnOnceARun) {
   const double gain = scaled[5] / curve(5);
   EXPECT_NE(gain, 2);
   for (std::int64_t i = 0; i < 20; ++i) {
-    EXPECT_NEAR(scaled[static_cast<std::size_t>(i)], gain * curve(i), 1e-15);  // rounding of a quotient below 3
+    EXPECT_NEAR(scaled[static_cast<std::size_t>(i)], gain * curve(i), 1e-15);  // rounding error of a quotient below 3
   }
 }
 
@@ -251,13 +251,13 @@ TEST(Channel, DelayInARangeIsDrawnOnceARunWithEqualChances) {
   std::array<int, 5> count{};
   for (int i = 0; i < 3000; ++i) ++count[static_cast<std::size_t>(channel(k, "c" + std::to_string(i)).delay())];
   EXPECT_EQ(count[0] + count[4], 0);
-  // Four standard errors of a third of 3000: 4 sqrt(3000 * 2 / 9).
+  // The tolerance is four standard errors of a third of 3000, 4 sqrt(3000 * 2 / 9).
   for (const std::size_t d : {1U, 2U, 3U}) EXPECT_NEAR(count[d], 1000, 104) << d;
 }
 
 using Columns = std::map<std::string, std::vector<double>>;
 
-/// Numbers in which a channel with the errors `keys` shows its draws, by channel: `truth` at tick 1, where it is 0 at tick 0.
+/// Adds numbers that show the draws of a channel with the errors `keys`. The true value is 0 at tick 0 and `truth` at tick 1.
 void add_draws(Columns& all, const std::string& name, const ChannelKeys& keys, double truth, std::size_t size = 3) {
   for (int c = 0; c < 10000; ++c) {
     const Channel one = channel(keys, "channel-" + std::to_string(c), 1, size);
@@ -272,8 +272,8 @@ void subtract_mean(std::vector<double>& all) {
   for (double& x : all) x -= sum / static_cast<double>(all.size());
 }
 
-/// The columns, and the magnitudes of the normal ones: a uniform number that a normal one is made of determines its magnitude
-/// and not its sign. All have the mean 0.
+/// The columns and the magnitudes of the normal numbers, all with the mean 0. The uniform number from which a normal one is
+/// computed determines its magnitude, not its sign.
 Columns with_magnitudes(Columns all) {
   for (auto& [name, column] : all) subtract_mean(column);
   Columns magnitudes;
@@ -291,7 +291,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   return product(a, b) / std::sqrt(product(a, a) * product(b, b));
 }
 
-/// No two draws of a channel are one number: 0.05 is five standard errors of a correlation of 10 000 channels.
+/// No two draws of a channel are the same number. The bound 0.05 is five standard errors of a correlation over 10 000 channels.
 TEST(Channel, DrawsAreIndependentOfEachOther) {
   ChannelKeys noise = keys(), walk = keys(), zero = keys(), gain = keys(), lost = keys(), delay = keys();
   noise.noise = walk.walk = zero.zero = gain.gain_deviation = 1;

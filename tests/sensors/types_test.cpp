@@ -24,7 +24,7 @@ RobotInfo two() {
   return robot;
 }
 
-/// A sensor with its state, and true values to set.
+/// A sensor with its state, and true values that a test sets.
 template <class T>
 class Bench {
  public:
@@ -124,7 +124,7 @@ TEST(Imu, MeasuresInTheAxesOfTheBody) {
   bench.motion.velocity = {5, 6, 7};
   const auto expect = [&](const char* prefix, const Vec3& v) {
     const std::string head = std::string("sensor.s.") + prefix;
-    constexpr double kRounding = 1e-14;  // of sums of three products below 20
+    constexpr double kRounding = 1e-14;  // rounding error of sums of three products below 20
     EXPECT_NEAR(bench[head + "_x"], v.x(), kRounding);
     EXPECT_NEAR(bench[head + "_y"], v.y(), kRounding);
     EXPECT_NEAR(bench[head + "_z"], v.z(), kRounding);
@@ -134,10 +134,10 @@ TEST(Imu, MeasuresInTheAxesOfTheBody) {
   expect("accelerometer", R.transpose() * Vec3(0, 0, 9.81));  // the velocity before is unknown
   EXPECT_NEAR(bench["sensor.s.roll"], angles.x(), 1e-15);
   EXPECT_NEAR(bench["sensor.s.pitch"], angles.y(), 1e-15);
-  // Free fall: v changes by g Ts.
+  // In free fall, v changes by g Ts.
   bench.motion.velocity = {5, 6, 7 - 9.81 * kTick};
   bench.tick();
-  constexpr double kDifference = 1e-12;  // rounding of velocities of 7 m/s, over 15 ms
+  constexpr double kDifference = 1e-12;  // rounding error of velocities of 7 m/s, divided by 15 ms
   EXPECT_NEAR(
       Vec3(bench["sensor.s.accelerometer_x"], bench["sensor.s.accelerometer_y"], bench["sensor.s.accelerometer_z"]).norm(), 0,
       kDifference);

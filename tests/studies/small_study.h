@@ -1,4 +1,4 @@
-// A small study in a folder of its own, and executors that answer without a simulation.
+// A small study in a separate folder, and executors that answer without a simulation.
 #pragma once
 #include <algorithm>
 #include <atomic>
@@ -22,7 +22,7 @@ class SmallStudy {
  public:
   static constexpr std::int64_t kMostAskedRuns = 8;
 
-  /// `lines`: of the study, behind its scenario.
+  /// `lines` are the lines of the study that follow its scenario.
   explicit SmallStudy(const std::string& lines, studies::Purpose purpose = studies::Purpose::sweep, Catalog& of = catalog()) {
     std::filesystem::create_directory_symlink(kScenarios + "modules", folder / "modules");
     folder.write("two.yaml",
@@ -34,7 +34,7 @@ class SmallStudy {
     plan = std::make_unique<studies::Plan>(std::move(study), app::quantity_offer(), of);
   }
 
-  /// A new or existing journal of it.
+  /// A new or existing journal of the study.
   [[nodiscard]] studies::Journal journal(const std::string& name = "study.db", const std::string& build = "a build") const {
     studies::JournalHead head = studies::journal_head(*plan);
     head.build = build;

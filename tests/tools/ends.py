@@ -32,7 +32,7 @@ def main():
     with concurrent.futures.ThreadPoolExecutor() as pool:
         for scenario, period in ROBOTS:
             for start, sets in (("standing", []), ("dropped", ["--set", "robot.position=[0, 0, 0.15]"])):
-                # After 1 s for the ramp and the fall.
+                # The first second is for the ramp and the fall.
                 ends = [1 + period * (5 + 2 * k / (DURATIONS - 1)) for k in range(DURATIONS)]
                 found = collections.Counter(pool.map(lambda end: words(scenario, end, sets), ends))
                 runs += len(ends)

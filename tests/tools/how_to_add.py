@@ -14,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 
-NEW = None  # instead of a pattern: the text is a new file
+NEW = None  # stands for a pattern if the text is a new file
 
 
 def renamed(path, *names):
@@ -75,7 +75,7 @@ ADDITIONS = [
         ("report/verdict/numbers/run_numbers.cpp", r'\{\.key = "seed"',
          r'{.key = "dummy", .definition = "A dummy number.", .value = [](R r) { return r.scenario.seed; }},\n      \g<0>'),
         ("docs/numbers.md", r"\| `seed` \|", r"| `dummy` |  | A dummy number. |\n\g<0>")],
-     "run pendulum --set duration=0.1 --set trace.columns=[t] --quiet --no-report --out run", ""),  # and its row in docs/numbers.md, below
+     "run pendulum --set duration=0.1 --set trace.columns=[t] --quiet --no-report --out run", ""),  # its row in docs/numbers.md is added below
     ("a key of module files", [
         ("core/robot_files/module_keys.h", r"bool lattice = false;", r"\g<0>\n  bool dummy = false;"),
         ("core/robot_files/module_keys.cpp", r' *f\.flag\("lattice", .*\n', r'\g<0>  f.flag("dummy", dummy, "A dummy key.");\n')],

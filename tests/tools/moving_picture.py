@@ -18,13 +18,13 @@ import tempfile
 import yaml
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-FRAMES, START, PERIOD = 40, 14.0, 2.0  # per period; s, of a gait that repeats; s
+FRAMES, START, PERIOD = 40, 14.0, 2.0  # frames per period; start within the periodic gait, s; period, s
 WIDTH, HEIGHT = 800, 520
 SCALE, CENTRE = 730, (405, 238)  # px per m; px, position of the middle of the robot
 AZIMUTH, ELEVATION = math.radians(-111), math.radians(32)  # direction from the robot to the eye
 COLOURS = {'active': (240, 150, 60), 'link': (120, 124, 130), 'passive': (70, 130, 200)}
 LIGHT = (0.25, -0.55, 0.8)
-SEGMENTS = 8  # of a half cylinder
+SEGMENTS = 8  # segments of a half cylinder
 LONG, WIDE = 0.48, 0.2  # m, half length and half width of the ground
 
 

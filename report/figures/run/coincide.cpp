@@ -9,7 +9,7 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kLeastRange = 1e-3;  // least range, in the panel's unit; a smaller range is rounding
+constexpr double kLeastRange = 1e-3;  // least range, in the panel's unit; a smaller range is only rounding error
 
 bool same_curve(const std::vector<double>& time, double from, const std::vector<double>& a, const std::vector<double>& b) {
   double lo = INFINITY;

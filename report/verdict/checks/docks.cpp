@@ -7,7 +7,7 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kNothing = 1e-9;  // N, N m: smaller loads are rounding
+constexpr double kNothing = 1e-9;  // N, N m; smaller loads are rounding errors
 
 /// A load of docks, by its check.
 struct DockCheck {

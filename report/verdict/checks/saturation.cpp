@@ -8,7 +8,7 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kLeastTold = 1e-3;  // s; a shorter time is a few steps
+constexpr double kLeastTold = 1e-3;  // s; a shorter time at a limit is only a few steps
 
 struct Span {
   double from = 0, to = 0;
@@ -109,7 +109,7 @@ struct Saturated {
 
 Saturated saturated(const CheckedRun& run, MotorLimit limit) {
   const auto worse = [](const AtLimit& one, const std::optional<AtLimit>& other) {
-    constexpr double kEqual = 1e-9;  // differences of margins below this are rounding
+    constexpr double kEqual = 1e-9;  // smaller differences of margins are rounding errors
     const double nearer = other ? other->margin() - one.margin() : 1;
     return std::abs(nearer) > kEqual ? nearer > 0 : one.share > kLarger * other->share;
   };

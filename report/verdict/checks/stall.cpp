@@ -7,13 +7,13 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kAtRest = 0.05;           // share of the no-load speed
-constexpr double kLeastRest = 0.1;         // s, time at rest that counts
+constexpr double kLeastRest = 0.1;         // s, least time at rest that counts
 constexpr double kRoundedDown = 1 - 1e-9;  // tolerance of a time that is a difference
 constexpr double kMostAtRest = 0.5;  // largest RMS without a warning, share of the stall torque (chosen: as at largest power)
 
 /// Torque of a joint at rest, N m.
 struct Held {
-  double rms = 0;           ///< over all its time at rest in the window; 0 if that is below kLeastRest
+  double rms = 0;           ///< over its whole time at rest in the window; 0 if this time is below kLeastRest
   double stretch = 0;       ///< largest RMS over kLeastRest without interruption at rest
   double from = 0, to = 0;  ///< s, of this stretch
   double first = kNever;    ///< s, end of the first stretch beyond the stall torque

@@ -6,7 +6,7 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kTooLong = 0.01;  // share of the control ticks with too long a step above which the check warns
+constexpr double kTooLong = 0.01;  // share of control ticks at which the step is too long; above it, the check warns
 
 void judge_step(const CheckedRun& run, Check& made) {
   const Recording& r = run.record;

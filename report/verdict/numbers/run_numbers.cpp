@@ -56,7 +56,7 @@ Json torque_errors(R run) {
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 Json forward_speed(R run) {
-  constexpr double kLeast = 1e-6;  // least horizontal length of `axis`, a unit vector; less is rounding
+  constexpr double kLeast = 1e-6;  // least horizontal length of the unit vector `axis`; a smaller length is only rounding error
   const Vec3 axis = rpy(run.scenario.orientation) * Vec3::UnitX();
   const double level = std::sqrt(axis.x() * axis.x() + axis.y() * axis.y());
   const double way = axis.x() * run.summary.displacement_x + axis.y() * run.summary.displacement_y;

@@ -5,7 +5,7 @@
 
 namespace gaitlab::report {
 
-/// All plausible numbers; they are judged in this order.
+/// All numbers whose plausibility is judged, in the order in which they are judged.
 const std::vector<PlausibleNumber>& plausible_numbers();
 
 /// Warnings on implausible numbers, and the rows that reported them, without the rows that the scenario accepts. Parts with one

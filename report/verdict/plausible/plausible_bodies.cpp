@@ -42,7 +42,7 @@ struct TypeBody {
   [[nodiscard]] const char* outline() const {
     return size.of_points ? "the box about its contact elements, faces and hinges" : "its shapes";
   }
-  /// A ratio whose usual value is 1. A box about points is a rough size: ratios below 1, and up to 5, are usual.
+  /// The ratio that is judged; 1 is usual. A box about points is a rough size, so that any ratio up to 5 becomes 1.
   [[nodiscard]] double judged(double ratio) const {
     constexpr double kRough = 5;
     return size.of_points ? std::max(1.0, ratio / kRough) : ratio;

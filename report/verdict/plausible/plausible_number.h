@@ -1,5 +1,5 @@
-// Plausible numbers of a scenario and its module types: their measurement, their usual range, and the units in which a number
-// outside the range may have been given.
+// Number of a scenario or module type whose plausibility is judged: its measurement, its usual range, and the units in which a
+// number outside the range may have been given.
 #pragma once
 #include <functional>
 #include <initializer_list>
@@ -92,7 +92,7 @@ struct PlausibleNumber {
   std::vector<std::string_view> unless;
   std::vector<Finding> (*measure)(const Subject&);
   bool of_gait = false;  ///< a number of the scenario's own gait, which a study varies
-  double likely = 0;     ///< least number that a correction may give: a number below is as odd as the given one
+  double likely = 0;     ///< least number that a correction may give; a smaller number is as implausible as the given one
   /// Numbers beyond a second, wider range, which prevent a verdict until they are corrected or accepted (kAcceptable). Null for
   /// a row with only one range.
   std::vector<Impossible> (*impossible)(const Scenario&) = nullptr;
@@ -110,7 +110,8 @@ inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 inline constexpr double kGravity = 9.81;  ///< m/s^2, for ratios to a weight, regardless of physics.gravity
 
-/// Least length that a correction may give, relative to a body's largest edge. A shorter length is as odd as the given one.
+/// Least length that a correction may give, relative to a body's largest edge. A shorter length is as implausible as the given
+/// one.
 inline constexpr double kLeastShare = 0.02;
 
 /// Least and largest coordinates of the contact elements, faces and hinges of a body, body frame, m. Least above largest if it

@@ -47,7 +47,7 @@ TEST(Spill, KeepsItsContentWhilePagesLeaveMemory) {
   numbers.reserve(kMany);
   for (std::size_t k = 0; k < kMany; ++k) numbers.push_back(k * k);
   release(numbers);
-  // The array, 200 MB, has left. A fifth of it is a reserve for memory that the process itself takes meanwhile.
+  // The array of 200 MB has left memory. The tolerance, a fifth of it, is for memory that the process itself takes meanwhile.
   EXPECT_LT(resident(), before + 40'000'000);
   for (std::size_t k = 0; k < kMany; ++k) ASSERT_EQ(numbers[k], k * k);
 }
@@ -55,7 +55,7 @@ TEST(Spill, KeepsItsContentWhilePagesLeaveMemory) {
 TEST(Spill, GrowsFromMemoryIntoAFile) {
   SpilledVector<std::uint64_t> numbers(kMany / 2, 7);
   EXPECT_FALSE(Spilled<std::uint64_t>::in_file(numbers.capacity()));
-  release(numbers);  // of memory, whose content would be lost
+  release(numbers);  // has no effect on an array in memory, whose content would be lost
   numbers.resize(kMany, 9);
   EXPECT_TRUE(Spilled<std::uint64_t>::in_file(numbers.capacity()));
   EXPECT_EQ(numbers[kMany / 2 - 1], 7U);

@@ -137,7 +137,7 @@ TEST(Boxes, OfAPlaceThatIsNoNumberAreNone) {
   EXPECT_EQ(ground.boxes().near(Vec3::Zero(), std::nan("")).size(), 100U);
 }
 
-// A query examines few boxes, of ten thousand tiles, of steps along a line, and with one floor below all boxes.
+// A query examines only few of ten thousand tiles, of steps along a line, and of boxes above one floor.
 TEST(Boxes, NearAreFewOfMany) {
   const auto most = [](const std::vector<Box>& list) {
     const Boxes boxes(list);

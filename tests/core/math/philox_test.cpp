@@ -45,8 +45,8 @@ TEST(PhiloxStream, KeyIsTheSeedAndCounterTickNameDraw) {
   EXPECT_NE(stream.uniform(0, 1), stream.uniform(0, 0));
 }
 
-// Mean, deviation and correlation of 20000 draws as a reference implementation in Python gives them. They have deviations of
-// 0.0071, 0.005 and 0.0071 themselves.
+// Mean, deviation and correlation of 20000 draws as a reference implementation in Python gives them. The standard deviations of
+// these three moments are 0.0071, 0.005 and 0.0071.
 TEST(PhiloxStream, MomentsOf20000Draws) {
   const PhiloxStream stream(1, "encoder.m0/active");
   constexpr std::uint64_t kDraws = 20000;

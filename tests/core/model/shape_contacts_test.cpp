@@ -64,16 +64,16 @@ TEST(ShapeContacts, OfAHalfCylinderAreEdgesAndArcs) {
 
 TEST(ShapeContacts, LeaveOutWhatIsHidden) {
   const Shape box{Shape::Kind::box, {Mat3::Identity(), {-1, 0, 0}}, {2, 2, 2}};
-  // The half cylinder touches the box: its four edge ends are vertices of the box, which stay once.
+  // The half cylinder touches the box. Its four edge ends coincide with vertices of the box and occur only once.
   const auto block = shape_contacts(one_body({box, {Shape::Kind::half_cylinder, {}, {1, 2, 0}}}));
   EXPECT_EQ(block.size(), 8U + 6U);
   EXPECT_EQ(count_at(block, {0, 1, 1}), 1U);
-  // A box that is half in another one has four vertices outside.
+  // A box that is half inside another box has four vertices outside.
   const auto boxes = shape_contacts(one_body({box, {Shape::Kind::box, {}, {1, 1, 1}}}));
   EXPECT_EQ(boxes.size(), 12U);
   EXPECT_EQ(count_at(boxes, {-0.5, 0.5, 0.5}), 0U);
   EXPECT_EQ(shape_contacts(one_body({box, box})).size(), 8U);
-  // A capsule stands on its spheres: the rims of the cylinder lie on them.
+  // A capsule stands on its spheres, because the rims of the cylinder lie on them.
   const Shape rod{Shape::Kind::cylinder, {}, {1, 4, 0}};
   const Shape top{Shape::Kind::sphere, {Mat3::Identity(), {0, 2, 0}}, {1, 0, 0}};
   const Shape bottom{Shape::Kind::sphere, {Mat3::Identity(), {0, -2, 0}}, {1, 0, 0}};
@@ -84,7 +84,7 @@ TEST(ShapeContacts, LeaveOutWhatIsHidden) {
   EXPECT_EQ(shape_contacts(one_body({box, {Shape::Kind::sphere, {Mat3::Identity(), {-1, 0, 0}}, {0.9, 0, 0}}})).size(), 8U);
 }
 
-/// A chassis and a wheel, with the cylinder of the wheel at `offset` on a hinge along y.
+/// A chassis with a wheel, whose cylinder is at `offset` from a hinge along y.
 ModuleType cart(const Vec3& offset, double hi) {
   ModuleType type;
   type.bodies = {{"chassis"}, {"wheel"}};

@@ -14,8 +14,8 @@ namespace gaitlab {
 namespace {
 
 constexpr double kSolidPi = std::numbers::pi;
-constexpr double kByRounding = 1e-12;  // some ten operations
-constexpr double kByBars = 1e-3;       // promised by united()
+constexpr double kByRounding = 1e-12;  // rounding errors of some ten operations
+constexpr double kByBars = 1e-3;       // accuracy that united() promises
 
 Shape box_at(const Vec3& size, const Vec3& at, const Vec3& turned = Vec3::Zero()) {
   return {Shape::Kind::box, {rpy(turned), at}, size};
@@ -28,7 +28,7 @@ Shape half_rod_at(double r, double length, const Vec3& at, const Vec3& turned = 
   return {Shape::Kind::half_cylinder, {rpy(turned), at}, {r, length, 0}};
 }
 
-/// Volume and moments about the origin, added and subtracted as the test's closed forms need it.
+/// Volume and moments about the origin, from which the closed forms of the tests are added and subtracted.
 struct Raw {
   double volume = 0;
   Vec3 first = Vec3::Zero();
@@ -61,8 +61,7 @@ TEST(Solid, OneShape) {
                kByRounding);
 }
 
-/// Inertia of a cube about its centre is m a^2 / 6 in every axis, however it is turned; that of a rod by the table of a
-/// textbook.
+/// The inertia of a cube about its centre is m a^2 / 6 about any axis. That of a rod is from a textbook.
 TEST(Solid, InertiaOfAMass) {
   const Mat3 cube = united({{box_at({2, 2, 2}, {1, 2, 3}, {0.3, 0.4, 0.5})}}).inertia(3);
   EXPECT_LT((cube - 2 * Mat3::Identity()).norm(), kByRounding);
@@ -81,7 +80,7 @@ TEST(Solid, TouchingShapesAreExact) {
 }
 
 TEST(Solid, ShapesApartAreExact) {
-  // The planes between them are not parallel to any axis of the shapes.
+  // The planes between the two shapes are not parallel to any of their axes.
   Raw both = Raw().add(1, 4 * kSolidPi / 3, {2, 2, 2}, Vec3::Constant(0.2)).add_box(1, {2, 2, 2}, {0, 0, 0});
   expect_solid(united({{ball_at(1, {2, 2, 2}), box_at({2, 2, 2}, {0, 0, 0})}}), both, kByRounding);
 }
@@ -158,7 +157,8 @@ Shape random_shape(std::mt19937& random) {
 
 const test::Label kAllCells("Solid.UnionsOfRandomShapes", "unsanitized");
 
-/// 100^3 cells: a cell on the surface is wrong by half of it at most, and these errors are of both signs.
+/// The reference divides space into 100^3 cells. A cell on the surface is wrong by at most half of its volume, and these errors
+/// have both signs.
 TEST(Solid, UnionsOfRandomShapes) {
   constexpr int kCells = 100;
   for (unsigned seed = 0; seed < 20; ++seed) {

@@ -1,4 +1,4 @@
-// A trace file with every table of a run, and damages to it that keep its signature right.
+// A trace file with every table of a run, and ways to damage it that keep its signature valid.
 #pragma once
 #include <zlib.h>
 
@@ -17,7 +17,7 @@
 
 namespace gaitlab::test {
 
-/// Bytes with the size and hash in the first lines that belong to them, so that HDF5 reads them.
+/// The bytes with the correct size and hash in their first lines, so that HDF5 reads them.
 inline std::string sealed(const std::string& bytes) {
   const std::string body = bytes.substr(kUserBlock);
   std::string head = "gaitlab-trace-1\nHDF5 follows at byte 512. Bytes in all: " + std::to_string(bytes.size()) +
@@ -26,7 +26,7 @@ inline std::string sealed(const std::string& bytes) {
   return head + body;
 }
 
-/// A number of a file, at a place that must exist.
+/// A number at a place of a file, which must exist.
 template <class Number>
 Number number_at(const std::string& bytes, std::size_t at) {
   Number number{};
@@ -70,7 +70,7 @@ inline std::string packed_zeros(std::size_t count) {
   return packed;
 }
 
-/// Replaces a chunk by the packed zeros of `count` bytes, if they fit into its place.
+/// Replaces a chunk by `count` packed zero bytes, if they fit into its place.
 inline bool replace_chunk(std::string& bytes, const ChunkEntry& entry, std::size_t count) {
   const std::string packed = packed_zeros(count);
   if (packed.size() > number_at<std::uint32_t>(bytes, entry.at)) return false;
@@ -79,7 +79,7 @@ inline bool replace_chunk(std::string& bytes, const ChunkEntry& entry, std::size
   return true;
 }
 
-/// A table of numbers that compress badly, so that another chunk fits into the place of one.
+/// A table of numbers that compress badly, so that any other chunk fits into the place of a chunk.
 inline Trace noisy_table(std::size_t rows, std::size_t columns) {
   std::mt19937_64 random(rows);
   Trace made;

@@ -16,7 +16,8 @@ using test::ChunkEntry;
 
 class DamagedTrace : public testing::Test {
  protected:
-  /// Text of the error of a file with these bytes and their signature; nothing, and `stored`, if it is read.
+  /// Text of the error for a file with these bytes and a valid signature. Nothing if the file can be read; `stored` is then its
+  /// content.
   std::optional<std::string> complaint(const std::string& bytes) {
     const std::string file = folder_.write("damaged.h5", test::sealed(bytes));
     const std::string text = test::message_of([&] { stored_ = read_h5(file); });
@@ -74,7 +75,7 @@ TEST_F(DamagedTrace, AChunkOfAnotherSizeIsRefused) {
   }
 }
 
-/// A chunk of another writer that has the declared size is read: no value is changed beside its own.
+/// A chunk of another writer that has the declared size is read, and changes only its own values.
 TEST_F(DamagedTrace, AChunkOfTheRightSizeIsRead) {
   ASSERT_FALSE(complaint(whole_));
   const std::vector<std::uint64_t> before = numbers();
@@ -117,23 +118,22 @@ TEST_F(DamagedTrace, AnotherIndexIsRefused) {
   }
 }
 
-/// Damages of any kind, drawn: each file is refused, or read twice with the same numbers, of which there are as many as
-/// declared.
+/// Files with random damage of any kind are refused, or read twice with the same numbers, as many as declared.
 TEST_F(DamagedTrace, AnyDamageIsAnErrorOrTheNumbersOfTheFile) {
   const std::vector<std::function<void(std::string&)>> kinds{
-      [&](std::string& bytes) {  // bits, half of them among the structures of HDF5 at the start
+      [&](std::string& bytes) {  // flips bits, half of them among the structures of HDF5 at the start
         for (std::size_t k = 0, bits = 1 + draw(8); k < bits; ++k) {
           const std::size_t end = draw(2) == 0 ? std::min<std::size_t>(bytes.size(), 8192) : bytes.size();
           bytes[kUserBlock + draw(end - kUserBlock)] ^= static_cast<char>(1U << draw(8));
         }
       },
       [&](std::string& bytes) { bytes[any_entry().at + draw(ChunkEntry::kBytes)] = static_cast<char>(draw(256)); },
-      [&](std::string& bytes) {  // the chunk of another place
+      [&](std::string& bytes) {  // gives an entry the address of another chunk
         test::put_number(bytes, any_entry().at + ChunkEntry::kAddress,
                          test::number_at<std::uint64_t>(bytes, any_entry().at + ChunkEntry::kAddress));
       },
       [&](std::string& bytes) { bytes.resize(kUserBlock + draw(bytes.size() - kUserBlock)); },
-      [&](std::string& bytes) {  // a block of one byte
+      [&](std::string& bytes) {  // fills a block with one byte
         const std::size_t from = kUserBlock + draw(bytes.size() - kUserBlock);
         const std::size_t count = std::min(bytes.size() - from, 1 + draw(4096));
         std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(from), count, static_cast<char>(draw(256)));

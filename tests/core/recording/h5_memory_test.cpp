@@ -30,8 +30,8 @@ constexpr bool kSanitized = false;
 
 constexpr int kWorked = 0, kTooLittle = 1, kOther = 2;
 
-/// Number of the processes, of those that do `act` with 0 to 30 MB more than this process has, by their ends: an exit code, or
-/// 128 and the signal.
+/// Numbers of processes by their ends, an exit code or 128 + the signal. Each process does `act` with 0 to 30 MB more memory
+/// than this process has.
 std::map<int, int> ends_with_little_memory(const std::function<void()>& act) {
   rlim_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
@@ -72,7 +72,8 @@ class H5Memory : public testing::Test {
 
   const test::Folder folder_;
   const std::string file_ = folder_ / "trace.h5";
-  const Trace trace_ = test::noisy_table(2000, 100), ticks_ = test::noisy_table(300, 50);  // needs more than kFileShare
+  const Trace trace_ = test::noisy_table(2000, 100),
+              ticks_ = test::noisy_table(300, 50);  // its file needs more than kFileShare
 };
 
 TEST_F(H5Memory, TooLittleForWritingIsAnError) {

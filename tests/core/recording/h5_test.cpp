@@ -22,7 +22,7 @@
 extern "C" const char* __lsan_default_suppressions();  // NOLINT(bugprone-reserved-identifier): LeakSanitizer's name
 extern "C" const char* __lsan_default_suppressions() { return "leak:libhdf5"; }  // NOLINT(bugprone-reserved-identifier)
 
-// Of HDF5, whose header is private to core.
+// A function of HDF5, whose header is private to core.
 extern "C" int H5PLget_loading_state(unsigned* state);
 extern "C" int H5PLset_loading_state(unsigned state);
 

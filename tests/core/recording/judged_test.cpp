@@ -63,12 +63,12 @@ TEST(Judged, LeavesOutTheFirstPeriod) {
   const Judged whole = judge(r, cycle(0, 2.5), kLongPeriod);
   EXPECT_DOUBLE_EQ(whole.from, 2.5);
   EXPECT_EQ(whole.periods, 3U);
-  const Judged later = judge(r, cycle(0, 2.5), 0, 1.1);  // 8.9 s are three whole periods and a piece
+  const Judged later = judge(r, cycle(0, 2.5), 0, 1.1);  // 8.9 s are three whole periods and a part of one
   EXPECT_DOUBLE_EQ(later.from, 5);
   EXPECT_EQ(later.periods, 2U);
 }
 
-/// The set points' period replaces the period of a limit cycle. A single period shows nothing.
+/// The set points' period replaces the period of a limit cycle. A single period is not sufficient.
 TEST(Judged, HoldsWholePeriodsOfTheSetPoints) {
   const Recording r = ticks_of_ten_seconds();
   EXPECT_DOUBLE_EQ(judge(r, {}, 3).from, 4);

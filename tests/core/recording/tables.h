@@ -1,4 +1,4 @@
-// Tables of a file that was read, to be written again.
+// Tables of a file that was read, in the form in which they are written again.
 #pragma once
 #include <span>
 #include <vector>

@@ -1,4 +1,4 @@
-// Rows of long runs, of which figures and pages get a part.
+// Tests of the rows of long runs that figures and pages get.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,7 +36,7 @@ TEST(ThinRows, KeepsRowsThatAreFew) {
 }
 
 TEST(ThinRows, KeepsEveryKthAndTheLast) {
-  // 240 bytes into 239: every second row; into 100: every third.
+  // Of 240 bytes, every second row fits into 239 bytes, and every third row into 100.
   for (const auto& [most, kept] : {std::pair<std::size_t, std::vector<double>>{239, {0, 2, 4, 6, 8, 9}}, {100, {0, 3, 6, 9}}}) {
     Recording r = of_rows(10);
     const std::string hash_before = r.trace_hash();
@@ -54,7 +54,7 @@ TEST(ThinRows, KeepsEveryKthAndTheLast) {
   }
 }
 
-/// Two rows become one: a dock that is pressed with 50 N, then pulled with 30 N, is pulled with 30 N.
+/// Two rows become one. If a dock is pushed with 50 N and then pulled with 30 N, the merged row has the pull of 30 N.
 TEST(HalvedLoads, KeepTheWorst) {
   Trace loads;
   loads.columns = {

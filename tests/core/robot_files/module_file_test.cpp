@@ -206,7 +206,7 @@ TEST_F(ShapeModuleTest, ContactsFollowFromShapes) {
   EXPECT_EQ(read_shaped("{all: shapes}", "{}").feet.size(), 0U);
 }
 
-/// The module Y1, from its masses and shapes alone, has the inertias and contact points of the shipped file.
+/// The module Y1 gets the inertias and contact points of the shipped file from its masses and shapes alone.
 TEST_F(ShapeModuleTest, Y1HasItsNumbers) {
   const ModuleFile shipped = read_module_file(std::string(gaitlab::test::source_folder()) + "/scenarios/modules/y1.yaml");
   Node document = shipped.document;

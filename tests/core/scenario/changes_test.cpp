@@ -110,8 +110,8 @@ TEST_F(ChangesTest, WrongTimesAndForms) {
   }
 }
 
-/// The cost grows with the number of entries, not with its square: 16 times instead of 256. That is also so for entries with
-/// equal times, which are errors.
+/// The cost is proportional to the number of entries: 16 times as many entries cost 16 times as much, not 256 times. This
+/// includes entries with equal times, which are errors.
 TEST_F(ChangesTest, TheCostGrowsWithTheNumberOfEntries) {
   const auto cost = [&](int entries) {
     std::string at;

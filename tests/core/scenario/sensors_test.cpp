@@ -179,7 +179,7 @@ TEST_F(SensorsTest, JointsWithoutMotor) {
   passive.replace(passive.find("name: duo"), 9, "name: free");
   folder_.write("modules/free.yaml", passive);
   const std::string robot = "robot: {modules: {0: duo, 1: free}, docks: [[1, 1, 4, 0, 0]]}\nduration: 1\n";
-  // The fake motor states no limits, which a robot with passive joints needs: a problem before these.
+  // The fake motor states no limits, which a robot with passive joints requires. This problem precedes the others.
   EXPECT_TRUE(error(robot + "sensors: {d: {type: motor, joints: m1/h}}\n")
                   .ends_with("\nDIR/s.yaml:3:36: error: joint 'm1/h' has no motor (drive: none)"));
   EXPECT_TRUE(error(robot + "sensors: {d: {type: motor, joints: 'm1/*'}}\n")
@@ -208,7 +208,7 @@ TEST_F(SensorsTest, MotorsOfARobotWithoutMotors) {
       << told;
 }
 
-// Two names with one hash, found by trying a million.
+// Two names with one hash, found among a million names.
 TEST_F(SensorsTest, TwoChannelsOfOneHash) {
   EXPECT_EQ(
       wrong("sensors:\n  gyro_left_22: {type: imu, body: m0/a, measures: gyro}\n"

@@ -197,8 +197,8 @@ TEST(Node, HostileTextsEndSoon) {
         while (text.size() + part.size() < size) text += part;
         return test::cost_of([&] { error(text); });
       };
-      // The ratio is 16 if the cost is linear (25 was measured) and 256 if it is quadratic. A ratio that is not clear, because
-      // of other processes, is replaced by the median of nine.
+      // The ratio is 16 if the cost is linear (25 was measured) and 256 if it is quadratic. If other processes disturb the
+      // measurement, the median of nine ratios replaces it.
       std::vector<double> ratios{cost(1U << 16) / cost(1U << 12)};
       while (ratios.front() > 64 && ratios.size() < 9) ratios.push_back(cost(1U << 16) / cost(1U << 12));
       std::ranges::nth_element(ratios, ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2));

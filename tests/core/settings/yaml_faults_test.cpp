@@ -55,7 +55,7 @@ TEST(YamlFaults, TextsAfterAValue) {
   EXPECT_EQ(yaml_error("a: ]\n"), "f:1:4: error: not valid YAML: found ], but no [ is open; expected [ before it");
 }
 
-// Texts that this scanner of lines does not understand, before a fault of another kind.
+// The scanner of lines does not understand these texts, which precede a fault of another kind.
 TEST(YamlFaults, AreNotSeenInBlocks) {
   EXPECT_EQ(
       yaml_error("a: |\n  \"x\" y {z} w ]\n  'q' r\nb: c: d\n"),

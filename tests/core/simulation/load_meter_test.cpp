@@ -80,7 +80,7 @@ TEST(LoadMeter, PathIsTheHorizontalWayOfTheCentreOfMass) {
   }
 }
 
-/// One contact point under the whole weight: it lands, is dragged, lifted and moved through the air.
+/// One contact point carries the whole weight. It lands, is dragged, lifted and moved through the air.
 TEST(LoadMeter, SlipIsTheWayUnderLoad) {
   LoadedRobot made;
   const std::string slid = made.foot(0, "slid");
@@ -122,7 +122,7 @@ TEST(LoadMeter, AFewThousandthsOfTheWeightSlideNoFoot) {
   }
 }
 
-/// A sphere of radius r that rolls by an angle a: the material point that touched moves along a cycloid, by r (a - sin a).
+/// If a sphere of radius r rolls by an angle a, the material point that touched moves along a cycloid by r (a - sin a).
 TEST(LoadMeter, ARollingSphereSlidesByItsCycloid) {
   LoadedRobot made;
   const auto& elements = made.elements();
@@ -143,8 +143,8 @@ TEST(LoadMeter, ARollingSphereSlidesByItsCycloid) {
   EXPECT_NEAR(made["slip"], round->radius * (kAngle - std::sin(kAngle)), kSingle * round->radius);
 }
 
-/// A sphere spins in its place until another point of it touches: the point that touched before has moved by r sin a, the other
-/// one, now in front, by r (1 - cos a).
+/// A sphere spins in place by an angle a until another of its points touches. The point that touched before has moved by r sin
+/// a along x.
 TEST(LoadMeter, TheWayIsThatOfThePointThatTouchedBefore) {
   LoadedRobot made;
   const auto& elements = made.elements();
@@ -166,7 +166,7 @@ TEST(LoadMeter, TheWayIsThatOfThePointThatTouchedBefore) {
   EXPECT_NEAR(made["slip"], round->radius * std::sin(kAngle), kSingle * round->radius);
 }
 
-/// The robot turns about the vertical through one element of a foot: another one moves along a chord.
+/// The robot turns about the vertical through one element of a foot. Another element moves along a chord.
 TEST(LoadMeter, AFootSlidesByTheMeanOfItsElementsWeightedByLoad) {
   LoadedRobot made;
   made.place();
@@ -214,7 +214,7 @@ TEST(LoadMeter, StabilityIsTheDistanceToTheEdgeOfTheLoadedPoints) {
   bear_at(1, 0.25, 0.3, -0.2);
   bear_at(2, 0.25, 0.3, 0.2);
   bear_at(3, 0.25, -0.1, 0.2);
-  bear_at(4, 0.004, -9, 0);  // flickers
+  bear_at(4, 0.004, -9, 0);  // the load flickers
   made.measure();
   EXPECT_NEAR(made["stability"], 0.1, kSingle);
   for (const std::size_t lifted : {0U, 3U}) bear_at(lifted, 0, 0, 0);
@@ -222,8 +222,8 @@ TEST(LoadMeter, StabilityIsTheDistanceToTheEdgeOfTheLoadedPoints) {
   EXPECT_NEAR(made["stability"], -0.3, kSingle) << "a line beside it";
 }
 
-/// At rest a dock bears the weight of what hangs on it: its force along and across the faces, its moment about their origin.
-/// The normal is taken from the child's face, the measured one from the parent's.
+/// At rest a dock bears the weight of all modules beyond it. The expected force along and across the faces, and the moment
+/// about their origin, use the normal of the child's face; the meter uses that of the parent's face.
 TEST(LoadMeter, ADockAtRestBearsTheWeightBehindIt) {
   LoadedRobot made;
   made.state().orientation = Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
@@ -266,8 +266,8 @@ TEST(LoadMeter, ADockAtRestBearsTheWeightBehindIt) {
   EXPECT_GE(leaves, 1U);
 }
 
-/// These modules state no ratings of their connectors: a verdict needs neither the reactions of their docks, nor forces, nor
-/// margin.
+/// These modules state no ratings of their connectors. A verdict therefore does not need the reactions of their docks, forces
+/// and margin.
 TEST(LoadMeter, LeavesOutColumnsThatNobodyJudges) {
   const LoadedRobot all;
   EXPECT_TRUE(all.has("dock."));

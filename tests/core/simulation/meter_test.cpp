@@ -1,4 +1,4 @@
-// Sums and peaks over all steps: closed forms of a sine, and each lane as if it were alone.
+// Sums and peaks over all steps agree with closed forms of a sine. Each lane has the results that it would have alone.
 #include "core/simulation/meter.h"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ std::vector<double> ticked(Meter& meter, std::size_t lane, std::size_t joints) {
   return row;
 }
 
-/// N equally spaced samples of whole periods of a sine: the sum of their squares is N / 2.
+/// The sum of the squares of N equally spaced samples of whole periods of a sine is N / 2.
 TEST(Meter, OfASineIsItsClosedForm) {
   constexpr int kSteps = 400;
   constexpr double kStep = 0.01;
@@ -81,7 +81,7 @@ TEST(Meter, OfASineIsItsClosedForm) {
     in.add_to(meter, k * kStep);
   }
   const JointStatistics of = meter.statistics(0, 0);
-  constexpr double kRounding = kSteps * 1e-16 * 4;  // of a sum of 400 numbers up to 4
+  constexpr double kRounding = kSteps * 1e-16 * 4;  // rounding error of a sum of 400 numbers up to 4
   EXPECT_NEAR(of.torque_rms, 0.6 / std::numbers::sqrt2, kRounding);
   EXPECT_NEAR(of.current_rms, 0.4 / std::numbers::sqrt2, kRounding);
   EXPECT_NEAR(of.error_rms, 0.3 / std::numbers::sqrt2, kRounding);
@@ -96,7 +96,8 @@ TEST(Meter, OfASineIsItsClosedForm) {
   EXPECT_NEAR(of.saturated_current, 0.25, kRounding);
 }
 
-/// Two sines a quarter apart: |sin| + |cos| is at most sqrt(2), and its mean square is 1 + 2/pi, here the mean of 100 samples.
+/// For two sines a quarter of a period apart, |sin| + |cos| is at most sqrt(2), and its mean square is 1 + 2/pi, here over 100
+/// samples.
 TEST(Meter, OfTheRobotsCurrentIsThatOfTheSum) {
   constexpr int kSteps = 100;
   const std::vector<Scenario> lanes = metered(1, 2);
@@ -113,7 +114,7 @@ TEST(Meter, OfTheRobotsCurrentIsThatOfTheSum) {
   EXPECT_NEAR(rms * rms, 1 + 2 / std::numbers::pi, 1e-3) << "midpoint rule over two kinks in each half period";
 }
 
-/// The last stretch where most commands reverse: zeros count neither way, and two lanes are apart.
+/// The last stretch in which most commands reverse counts. Zeros do not count, and lanes are independent.
 TEST(Meter, OfReversalsIsTheLastStretchOfThem) {
   const std::vector<Scenario> lanes = metered(2, 1);
   Meter meter(lanes);
@@ -183,7 +184,7 @@ TEST(Meter, OfALaneIsThatOfTheLaneAlone) {
   }
 }
 
-/// A step extrapolated from two halves: their weights are twice h/2 each, and the whole step is taken off once.
+/// A step is extrapolated from its two halves. Each half has the weight 2 h/2, and the whole step is subtracted once.
 TEST(Meter, TakesAnAuxiliaryPartOffSumsAndOutOfPeaks) {
   const std::vector<Scenario> lanes = metered(1, 1);
   Meter meter(lanes);
@@ -197,7 +198,7 @@ TEST(Meter, TakesAnAuxiliaryPartOffSumsAndOutOfPeaks) {
   };
   add(2, 0.5, 0.25);
   add(2, 0.5, 0.25);
-  add(50, -0.5, 0);  // an auxiliary: its torque was never applied
+  add(50, -0.5, 0);  // an auxiliary part, whose torque was never applied
   const JointStatistics of = meter.statistics(0, 0);
   EXPECT_EQ(of.torque_peak, 2);
   EXPECT_EQ(of.error_peak, 2);

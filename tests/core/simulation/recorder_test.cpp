@@ -64,7 +64,8 @@ TEST(RecorderTicks, BecomeHalfAsManyWhenTheyAreTooMany) {
   EXPECT_FALSE(recorder.tick_due());
 }
 
-/// A centre of mass that moves 1 mm to and fro at every tick. Rows of every second tick have it in one place.
+/// The centre of mass moves 1 mm to and fro at every tick. If only every second tick has a row, it is at the same place in all
+/// rows.
 TEST(RecorderLoads, CountTheTicksWithoutARow) {
   Recorded made({Loads::judged, false});
   Recorder& recorder = *made.recorder;

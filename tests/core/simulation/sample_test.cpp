@@ -13,7 +13,7 @@
 namespace gaitlab {
 namespace {
 
-/// Gives the boxes and accelerations that the test sets, and keeps what it is asked for.
+/// Returns the boxes and accelerations that the test sets, and stores the arguments of its calls.
 class ToldPlant final : public Plant {
  public:
   void bind(Out, Out) override {}
@@ -46,13 +46,14 @@ TEST(Sample, OrientationsOfLinksAreThoseOfTheirAxes) {
     sample.forward_kinematics(robot);
     ASSERT_EQ(sample.orientation.size(), robot.links.size());
     for (std::size_t i = 0; i < robot.links.size(); ++i) {
-      // Rounding of a chain of at most eight products.
+      // The tolerance is for rounding errors of a chain of at most eight products.
       EXPECT_LT((sample.orientation[i].toRotationMatrix() - sample.kinematics.R[i]).norm(), 1e-13) << i;
     }
   }
 }
 
-/// Through a whole turn the sign of a quaternion does not jump, although that of a rotation matrix would.
+/// The sign of a quaternion does not jump during a whole turn, although it would if the quaternion were computed from a
+/// rotation matrix.
 TEST(Sample, OrientationsAreContinuousThroughAWholeTurn) {
   test::RandomRobots random(4);
   const Robot robot = random.robot_of(2);
@@ -92,12 +93,12 @@ TEST(Sample, EnergyIsThatOfBodiesRotorsAndSprings) {
     expected += 1.5 * std::pow(sample.state.q[0] - 0.25, 2);
     constexpr std::size_t kLanes = 3;
     constexpr std::size_t kLane = 2;
-    std::vector<double> inertia(robot.joints.size() * kLanes, 1e9);  // those of the other lanes
+    std::vector<double> inertia(robot.joints.size() * kLanes, 1e9);  // the huge inertia is that of the other lanes
     for (std::size_t j = 0; j < robot.joints.size(); ++j) {
       inertia[j * kLanes + kLane] = 0.01 * static_cast<double>(j + 1);
       expected += inertia[j * kLanes + kLane] * std::pow(sample.state.qd[j], 2) / 2;
     }
-    // Rounding of some hundred products of a few joules.
+    // The tolerance is for rounding errors of some hundred products of a few joules.
     EXPECT_NEAR(sample.energy(robot, {inertia, kLanes, kLane}, {0}), expected, 1e-11 * (1 + std::abs(expected)));
   }
 }
@@ -144,7 +145,7 @@ TEST(Sample, BoxesKeepTheSignOfTheirQuaternions) {
   Quat before = sample.boxes[1].orientation;
   for (int k = 1; k <= 100; ++k) {
     const Quat turned = turn(Vec3::UnitX(), 0.1 * k);
-    plant.told[1].orientation = turned.w() < 0 ? Quat(-turned.coeffs()) : turned;  // as of a rotation matrix
+    plant.told[1].orientation = turned.w() < 0 ? Quat(-turned.coeffs()) : turned;  // w >= 0, as computed from a rotation matrix
     sample.place_boxes(plant);
     EXPECT_GT(sample.boxes[1].orientation.dot(before), 0.9) << k;
     EXPECT_LT(sample.boxes[1].orientation.angularDistance(turned), 1e-7) << k << ": arc cosine of a rounded 1";
@@ -152,7 +153,7 @@ TEST(Sample, BoxesKeepTheSignOfTheirQuaternions) {
   }
 }
 
-/// A robot that rests under its weight and a force of the ground: the base bears the rest.
+/// A robot rests under its weight and a force of the ground. The base bears the difference.
 TEST(Sample, ReactionsAreOfTheForcesThatAct) {
   test::RandomRobots random(4);
   const Robot robot = random.robot_of(2);
@@ -168,7 +169,7 @@ TEST(Sample, ReactionsAreOfTheForcesThatAct) {
     sample.passive_torque[j] = 3 + static_cast<double>(j);
   }
   sample.contacts[1] = {.force = Vec3(1, 2, 3), .fn = 3, .point = Vec3(4, 5, 6)};
-  sample.contacts[0] = {.force = Vec3(50, 50, 50), .fn = 0};  // left over from a contact before
+  sample.contacts[0] = {.force = Vec3(50, 50, 50), .fn = 0};  // remains from an earlier contact
   ToldPlant plant;
   plant.acceleration.joints.assign(n, 0.0);
   sample.compute_reactions(elements, plant, 7);

@@ -1,4 +1,4 @@
-// Steps that divide the periods of a scenario, against whole numbers of picoseconds; and the sentence about a step.
+// Steps that divide the periods of a scenario agree with a search in whole picoseconds. Tests the sentence about a step, too.
 #include "core/simulation/step_advice.h"
 
 #include <gtest/gtest.h>
@@ -10,10 +10,10 @@
 namespace gaitlab {
 namespace {
 
-/// Whole picoseconds of the periods in use here.
+/// A period as a whole number of picoseconds.
 std::int64_t picoseconds(double seconds) { return std::llround(seconds * 1e12); }
 
-/// Largest step of the series at most `limit`, ps, that divides all of these, in whole numbers; 0: none from 10 ns up.
+/// Largest step of the series, at most `limit`, that divides all of these periods, ps; 0 if no step from 10 ns up does.
 std::int64_t largest_step(std::int64_t limit, const std::vector<std::int64_t>& periods) {
   std::int64_t best = 0;
   for (std::int64_t scale = 10'000; scale <= 1'000'000'000'000; scale *= 10) {  // 10 ns to a second

@@ -17,7 +17,7 @@ using Formula = std::function<double(double)>;
 constexpr double kTick = 0.015;  // s, the control period
 constexpr double kPi = std::numbers::pi;
 
-/// A CPG whose set points, the same for all joints, are a formula of the time, and that states what a test states.
+/// A CPG whose set points, equal for all joints, are a formula of the time. It states the times that a test sets.
 class OfFormula final : public Cpg {
  public:
   struct Settings {
@@ -42,7 +42,7 @@ Formula sum(const Formula& a, const Formula& b) {
 Formula times_from(const Formula& f, double from, double factor) {
   return [=](double t) { return f(t) * (t < from - 1e-9 ? 1 : factor); };
 }
-/// Never periodic: by 23 % more in each turn.
+/// Not periodic, because it grows by 23 % per turn.
 double growing(double t) { return 0.3 * std::exp(t / 10) * std::sin(3 * t); }
 
 class GaitRules : public ::testing::Test {
@@ -72,7 +72,7 @@ class GaitRules : public ::testing::Test {
     record_.poses.columns = columns;
     for (std::int64_t k = 0; static_cast<double>(k) * kTick <= run.duration + 1e-9; ++k) {
       const double t = static_cast<double>(k) * kTick;
-      const double set_point = run.recorded(std::max(0.0, t - kTick));  // in force just before the row
+      const double set_point = run.recorded(std::max(0.0, t - kTick));  // the set point in force just before the row
       for (const Column& column : columns) {
         const double value = column.name == "t"      ? t
                              : column.name == "load" ? run.carried(t) * robot.mass * scenario_.physics.gravity.norm()
@@ -83,7 +83,7 @@ class GaitRules : public ::testing::Test {
     }
     return gait(scenario_, record_);
   }
-  /// The sentence on growth of a run that is judged from its start to its end.
+  /// The sentence on growth for a run that is judged from its start to its end.
   std::string growth_of(const Run& run) {
     const Gait found = of(run);
     Judged whole;
@@ -99,7 +99,7 @@ class GaitRules : public ::testing::Test {
 
 TEST_F(GaitRules, ThePeriodOfTheRecordedSetPoints) {
   const Gait found = of({6, sine(1)});
-  EXPECT_NEAR(found.period, 1, 1e-3);  // the vertex of a parabola through samples every 15 ms
+  EXPECT_NEAR(found.period, 1, 1e-3);  // tolerance for the vertex of a parabola through samples every 15 ms
   EXPECT_EQ(found.start, 0);
 }
 
@@ -111,7 +111,7 @@ TEST_F(GaitRules, AStatedPeriodOfARunThatIsTooShortForIt) {
   EXPECT_EQ(of({.duration = 6, .formula = sine(1), .stated = {.period = 1}, .recorded = growing}).period, 0);
 }
 
-/// Set points that approach a periodic motion have the period that the CPG states, if they will have it.
+/// Set points that approach a periodic motion have the period that the CPG states, if they have this period later.
 TEST_F(GaitRules, SetPointsThatStillApproachTheirPeriod) {
   const Formula grows = [](double t) { return 0.3 * (1 - std::exp(-t / 2)) * std::sin(2 * kPi * t); };
   EXPECT_EQ(of({3.99, grows, {.period = 1}}).period, 1);
@@ -121,7 +121,7 @@ TEST_F(GaitRules, SetPointsThatStillApproachTheirPeriod) {
 /// A window of one period bears half of the weight if the robot lands in its middle: from 1.0 s on, if it lands at 1.5 s.
 TEST_F(GaitRules, StartsAtTheLanding) {
   const auto lands = [](double at) { return [at](double t) { return t < at ? 0.0 : 1.0; }; };
-  EXPECT_NEAR(of({6, sine(1), {}, lands(1.5)}).start, 1, 1.5 * kTick);  // a row before or after
+  EXPECT_NEAR(of({6, sine(1), {}, lands(1.5)}).start, 1, 1.5 * kTick);  // one row of tolerance before or after
   EXPECT_EQ(of({6, sine(1), {}, [](double t) { return t < 4 ? 1.0 : 0.0; }}).start, 0) << "not on the ground at the end";
 }
 
@@ -130,15 +130,16 @@ TEST_F(GaitRules, StartsAfterAStatedRamp) {
   EXPECT_EQ(of({6, sine(1), {.full_size = 8}}).start, 0) << "the ramp ends after the run";
 }
 
-/// Larger set points before 1 s; 20 rows, 0.3 s, are less than the period of 0.35 s, of which 9 fit into the rest of the run.
+/// The set points are larger before 1 s. The period of 0.35 s has more than 20 rows (0.3 s), and 9 periods fit into the rest of
+/// the run.
 TEST_F(GaitRules, StartsWhereTheSetPointsHaveTheirSize) {
   const Formula settles = times_from(sine(0.35, 0.45), 1, 2.0 / 3);
-  EXPECT_NEAR(of({4.2, settles}).start, 4.2 - 9 * 0.35, 0.01);  // nine times the error of the period
+  EXPECT_NEAR(of({4.2, settles}).start, 4.2 - 9 * 0.35, 0.01);  // the tolerance is nine times the error of the period
   EXPECT_EQ(of({4.2, sine(0.35)}).start, 0);
   EXPECT_EQ(of({4.2, settles, {.full_size = 0.3}}).start, 0.3) << "a stated time decides";
 }
 
-/// 2 % of the range and 0.06 % for samples that miss the peak, but at least 1 mrad.
+/// A growth of 2 % of the range is allowed, and 0.06 % for samples that miss the peak, but at least 1 mrad.
 TEST_F(GaitRules, GrowthAfterTheRun) {
   const auto grows = [&](double amplitude, double share, double full_size = 0) {
     return contains(growth_of({6, times_from(sine(1, amplitude), 6, 1 + share), {.full_size = full_size}}),
@@ -152,7 +153,8 @@ TEST_F(GaitRules, GrowthAfterTheRun) {
   EXPECT_TRUE(contains(growth_of({6, sine(1), {.full_size = 7}}), "at 7 s of 6; take duration: 10"));
 }
 
-/// 1 % of the range of 0.606 rad and one row of the largest step, 0.42 mrad, in the five periods from the first to the last.
+/// The allowed drift over the five periods from the first to the last is 1 % of the range of 0.606 rad and one row of the
+/// largest step, 0.42 mrad.
 TEST_F(GaitRules, DriftWithinTheRun) {
   const auto drifts = [&](double per_period) { return growth_of({6, sum(sine(1), [=](double t) { return per_period * t; })}); };
   EXPECT_EQ(drifts(0.00126), "");

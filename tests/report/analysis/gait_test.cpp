@@ -39,10 +39,10 @@ class LookAhead : public ::testing::Test {
                                        "physics: {engine: articulated}\nduration: 1\n"),
                          sets, catalog_);
   }
-  /// Outputs of the CPG alone, beside the period.
+  /// Number of calls of the CPG alone, apart from the period.
   static int calls(const Scenario& s, const Recording& r, double period) {
     Counted::calls = 0;
-    EXPECT_NEAR(gait(s, r).period, period, 1e-3);  // the tick is 15 ms; the vertex of a parabola is far nearer
+    EXPECT_NEAR(gait(s, r).period, period, 1e-3);  // the tick is 15 ms; the vertex of a parabola is much more accurate
     return Counted::calls;
   }
 
@@ -50,8 +50,8 @@ class LookAhead : public ::testing::Test {
   Catalog catalog_;
 };
 
-/// 9 s, two periods and an eighth, are 600 ticks. Doubling from two lengths of the run ends at 1072 of them, and each calls the
-/// CPG once; 120 s are 8000.
+/// 9 s, two periods and an eighth, are 600 ticks. The search doubles from twice the length of the run and ends after 1072
+/// ticks, each with one call of the CPG. 120 s would be 8000 ticks.
 TEST_F(LookAhead, IsAsShortAsThePeriodAllowsAndIsDoneOnce) {
   const Scenario s = read({"cpg.amplitude=0.31"});
   const Recording r = run(s);
@@ -66,7 +66,7 @@ TEST_F(LookAhead, IsAsShortAsThePeriodAllowsAndIsDoneOnce) {
   EXPECT_EQ(calls(amplitude, run(amplitude), 4), first);
 }
 
-/// The warnings before a run need the set points of its ticks (67 in 1 s); the look-ahead continues from there.
+/// The warnings before a run need the set points at its ticks (67 in 1 s). The look-ahead continues after these ticks.
 TEST_F(LookAhead, ContinuesFromTheWarnings) {
   for (const char* type : {"counted", "phase_oscillator"}) {
     const Scenario s = read({std::string("cpg.type=") + type});

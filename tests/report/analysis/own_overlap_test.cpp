@@ -20,7 +20,7 @@ std::optional<Collision> at(const Scenario& s, const std::vector<double>& angles
   return collision_in(s, state);
 }
 
-/// Two boxes 42 mm deep and 3 mm apart on a hinge between them. `docks` may hang the module on its second body.
+/// Two boxes 42 mm deep and 3 mm apart, with a hinge between them. `docks` may dock the module by its second body.
 std::string fold(const std::string& more = "", const std::string& robot = "modules: fold") {
   return fmt::format(R"(
 gaitlab: 1
@@ -51,17 +51,17 @@ duration: 8
                      more, robot);
 }
 
-/// Depth at an angle from a closed form: the lower corner of the second box, 15 mm below the axis, enters the first by a fold
-/// up. A hinge whose module hangs on its second body has the same depth at the opposite angle of its joint.
+/// The depth at an angle agrees with a closed form. If the module folds up, the lower corner of the second box, 15 mm below the
+/// axis, enters the first box. If the module is docked by its second body, the depth is the same at the opposite joint angle.
 TEST(OwnOverlap, OfTheBodiesOfOneHinge) {
   const Scenario s = scenario(fold());
   for (const double angle : {0.0, 0.09, -0.03}) EXPECT_FALSE(at(s, {angle})) << angle;
-  const double angle = 0.3;  // the corner at (1.5, -15) mm goes to x = 1.5 cos - 15 sin, the face of the first is at -1.5
+  const double angle = 0.3;  // the corner at (1.5, -15) mm moves to x = 1.5 cos - 15 sin; the face of the first box is at -1.5
   const std::optional<Collision> folded = at(s, {angle});
   ASSERT_TRUE(folded);
   EXPECT_NEAR(folded->depth, 0.015 * std::sin(angle) - 0.0015 * std::cos(angle) - 0.0015, 1e-12);
   EXPECT_EQ(folded->pairs, 1U);
-  const std::optional<Collision> back = at(s, {-angle});  // by the upper corner, 35 mm above the axis
+  const std::optional<Collision> back = at(s, {-angle});  // the upper corner, 35 mm above the axis, enters
   ASSERT_TRUE(back);
   EXPECT_NEAR(back->depth, 0.035 * std::sin(angle) - 0.0015 * std::cos(angle) - 0.0015, 1e-12);
 
@@ -71,7 +71,7 @@ TEST(OwnOverlap, OfTheBodiesOfOneHinge) {
   EXPECT_NEAR(other->depth, folded->depth, 1e-9);
 }
 
-/// The bits of the depth do not depend on the angles that were asked before.
+/// The bits of the depth do not depend on angles that were evaluated before.
 TEST(OwnOverlap, KeepsClearAngles) {
   const Scenario s = scenario(fold());
   HingeOverlap asked(s.robot->types[0], 0, 0, 5e-4);
@@ -111,7 +111,8 @@ TEST(OwnOverlap, AModuleThatFoldsIntoItself) {
   EXPECT_EQ(scenario(resolved(of_robot)).may_overlap, of_robot.may_overlap);
 }
 
-/// A hip that lies in its trunk, and a leg in both: the leg turns there by 0.3 rad, and a raised leg enters the trunk.
+/// A hip overlaps its trunk, and a leg overlaps both by design. The leg may turn there by 0.3 rad, but a raised leg enters the
+/// trunk.
 TEST(OwnOverlap, ByDesign) {
   const std::string legged = R"(
 gaitlab: 1
@@ -147,7 +148,7 @@ duration: 1
   }));
 }
 
-/// An axle in a wheel of any size is by design at all angles, though round shapes are prisms here.
+/// The overlap of an axle with its wheel is by design at all angles, although round shapes are prisms here.
 TEST(OwnOverlap, ARoundAxleInItsWheel) {
   ModuleType type;
   type.name = "wheel";

@@ -13,7 +13,7 @@
 namespace gaitlab::test {
 namespace {
 
-// Whole walks, at two seconds under the sanitizers each.
+// Whole walks, each of which takes two seconds under the sanitizers.
 const Label kFootfalls("Footfall.*", "long;unsanitized");
 
 using namespace report;
@@ -134,7 +134,7 @@ TEST(Footfall, FigureOfAHexapodShowsItsGait) {
   EXPECT_EQ(count(svg, "paint-order"), 5U * 33U);
 }
 
-/// A long run has every k-th row, k periods apart: the figure has its views all the same.
+/// A long run keeps every k-th row, so that rows are k trace periods apart. Its figure still has all views.
 TEST(Footfall, FigureOfReducedRowsHasItsViews) {
   Scenario scenario = shown_hexapod().scenario;
   Recording record = shown_hexapod().record;

@@ -8,7 +8,7 @@
 namespace gaitlab::report {
 namespace {
 
-/// A first generation of 4 runs without a kept point, one of 4 runs, and after a restart one of 8 runs.
+/// Three generations: 4 runs without a kept point, 4 runs, and 8 runs after a restart.
 ConvergenceFigure three_generations() {
   ConvergenceFigure figure;
   figure.title = "walker: the search";

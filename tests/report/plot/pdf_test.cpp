@@ -98,7 +98,7 @@ TEST(Pdf, TextCanBeCopied) {
 
 TEST(Pdf, MissingCharactersAreReported) {
   Pdf pdf({100, 50, 0.2});
-  pdf.text({5, 5}, "1\u2713\xFF", {});  // a check mark and an invalid byte
+  pdf.text({5, 5}, "1\u2713\xFF", {});  // the font has no check mark, and the byte is invalid
   EXPECT_EQ(copied(pdf.finish()), U"1??");
   EXPECT_EQ(pdf.missing(), (std::set<char32_t>{0x2713, 0xFFFD}));
 }
@@ -148,7 +148,7 @@ constexpr std::array<int, 95> kHelveticaBold{
     611, 611, 389, 556, 333, 611, 556, 778, 556, 556, 500, 389, 280, 389, 584};
 // clang-format on
 
-/// An SVG for print names Helvetica first, so that the layout must fit it.
+/// An SVG for print names Helvetica first, so that the layout must fit Helvetica.
 TEST(Font, HasTheWidthsOfHelvetica) {
   for (std::size_t k = 0; k < kHelvetica.size(); ++k) {
     const std::string text(1, static_cast<char>(0x20 + k));

@@ -108,14 +108,14 @@ TEST(Axes, LogarithmicTicksAreOneTwoFive) {
   EXPECT_EQ(over(1, 1e5, 6), (std::vector<std::string>{"1", "10", "100", "1000", "10000", "100000"}));
   EXPECT_EQ(over(1, 1e5, 4), (std::vector<std::string>{"1", "100", "10000"}));
   EXPECT_EQ(over(8e-6, 0.13, 4), (std::vector<std::string>{"0.0001", "0.01"}));  // 4.2 decades: two ticks, not linear ones
-  // Fewer than three of these numbers are in the range: linear ticks.
+  // If fewer than three of the numbers 1, 2 and 5 are in the range, ticks are round numbers as on a linear axis.
   EXPECT_EQ(over(1.1, 1.3, 3), (std::vector<std::string>{"1.1", "1.2", "1.3"}));
   EXPECT_EQ(over(0.19, 0.52, 4), (std::vector<std::string>{"0.2", "0.3", "0.4", "0.5"}));
   EXPECT_EQ(over(3, 3, 5), (std::vector<std::string>{"3"}));
   EXPECT_NEAR(ticks_over({0, 1}, true, 5).marks[1].at, 0.30103, 1e-5);  // log10(2)
 }
 
-/// Room at both ends of both axes keeps zero at one height.
+/// Space at both ends of both axes keeps their zeros at the same height.
 TEST(Axes, CurvesDoNotTouchTheFrame) {
   const auto zero = [](const Ticks& ticks) { return -ticks.lo / (ticks.hi - ticks.lo); };
   const Bounds a{-0.6, 0.6};
@@ -125,7 +125,7 @@ TEST(Axes, CurvesDoNotTouchTheFrame) {
   make_room(twin, a, b);
   EXPECT_GT(twin.a.hi, 0.61);
   EXPECT_LT(twin.a.lo, -0.61);
-  EXPECT_NEAR(zero(twin.a), zero(twin.b), 1e-12);  // rounding of a few operations on numbers near 1
+  EXPECT_NEAR(zero(twin.a), zero(twin.b), 1e-12);  // rounding errors of a few operations on numbers near 1
   EXPECT_EQ(labels(twin.a).size(), 7U);
   TwinTicks loose{ticks_around(-0.45, 0.55, 5), ticks_around(-0.45, 0.55, 5)};
   const double top = loose.a.hi;

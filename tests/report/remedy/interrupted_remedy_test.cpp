@@ -18,7 +18,7 @@ const Label kLongInterruptions("InterruptedRemedy.*", "long");
 /// Two modules whose motors have too little current.
 class InterruptedRemedy : public ::testing::Test {
  protected:
-  /// The search by i_max, stopped when this number of runs has ended. One run at a time, so that the number is exact.
+  /// The search by i_max, stopped after this number of runs. Only one run is simulated at a time, so that the number is exact.
   Remedy after(std::size_t runs) {
     std::atomic<bool> stop = false;
     std::size_t ended = 0;
@@ -68,7 +68,7 @@ TEST_F(InterruptedRemedy, HasTheAnswersOfTheRunsThatHaveEnded) {
     if (answer.confirmed) {
       EXPECT_EQ(answer.factor, larger(whole).factor) << runs;
     } else if (answer.crosses) {
-      EXPECT_GE(answer.factor, 0.9 * larger(whole).factor) << runs;  // a bracket is on the safe side
+      EXPECT_GE(answer.factor, 0.9 * larger(whole).factor) << runs;  // the factor of an interrupted bracket is on the safe side
     }
     ++crossed[answer.crosses];
     const std::string lines = text(part);

@@ -1,5 +1,5 @@
-// Numbers of a resolved scenario multiplied by key: scalars, maps by joint, lists, boxes, keys that are missing or change in
-// time. The engine of a search.
+// Tests of the numbers of a resolved scenario that are multiplied by key (scalars, maps by joint, lists, boxes, missing keys,
+// keys that change in time), and of the engine of a search.
 #include "report/remedy/remedy.h"
 
 #include <cmath>
@@ -51,7 +51,7 @@ TEST(RemedySettings, AKeyWithoutNumbersIsMissing) {
   EXPECT_EQ(settings.missing(remedy_key("i_max")), "");
 }
 
-/// A servo takes 0 of u_max as its voltage, per joint.
+/// A u_max of 0 means the voltage of the servo, per joint.
 TEST(RemedySettings, ASupplyOfZeroIsTheVoltageOfTheServo) {
   const auto tripled = [](const std::string& actuator) {
     const RemedySettings settings("actuator: {" + actuator + "}\n");
@@ -110,7 +110,8 @@ TEST(RemedySettings, MeanTheSameForTheFileAndTheResolvedScenario) {
   }
 }
 
-/// An arm of one servo without u_max, whose gait needs more speed than it has: a higher supply and a faster motor suffice.
+/// The gait of an arm with one servo without u_max needs more speed than the servo has. A higher supply or a faster motor
+/// suffices.
 TEST(RemedyOfServos, HasASupplyAndAFasterMotor) {
   const std::string text =
       "gaitlab: 1\nrobot:\n  base: fixed\n  position: [0, 0, 1]\n  modules:\n    gaitlab_module: 1\n    name: lever\n    "
@@ -135,7 +136,8 @@ TEST(RemedyOfServos, HasASupplyAndAFasterMotor) {
     if (!answer.confirmed) continue;
     helps.push_back(answer.sets.front());
     EXPECT_TRUE(answer.up) << answer.key->name;
-    // The set point's peak speed is 0.95 * 0.8 * 2 pi = 4.78 rad/s, of a servo that has 4 rad/s without load; the rod lags.
+    // The peak speed of the set point is 0.95 * 0.8 * 2 pi = 4.78 rad/s. The servo reaches 4 rad/s without load. The tolerance
+    // is for the lag of the rod.
     EXPECT_NEAR(answer.factor, 4.78 / 4, 0.05) << answer.key->name;
   }
   ASSERT_EQ(helps.size(), 2U);

@@ -1,4 +1,4 @@
-// Share of a remedy's work, and the time left that follows from it, with times of the test.
+// Tests of the share of a remedy's work and of the remaining time, with times that the test sets.
 #include "report/remedy/remedy_work.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ RemedyWork::Time at(double seconds) {
 TEST(RemedyWork, LongerRunsAndConfirmingRunsCountMore) {
   RemedyWork work(8);
   work.begin(RemedyRuns::search, {20, 10}, at(0));
-  EXPECT_DOUBLE_EQ(work.ended(5), 0.05);  // of 20 + 8 * 10
+  EXPECT_DOUBLE_EQ(work.ended(5), 0.05);  // 5 of 20 + 8 * 10 s
   EXPECT_DOUBLE_EQ(work.ended(15), 0.2);
   work.end(at(1));
   work.begin(RemedyRuns::confirming, {0, 10}, at(1));
@@ -32,12 +32,12 @@ TEST(RemedyWork, TakesTheMeasuredCostOfConfirmingRuns) {
   work.end(at(10));
   work.begin(RemedyRuns::confirming, {0, 10}, at(10));
   work.ended(5);
-  work.end(at(20));  // 2 s each
+  work.end(at(20));  // each simulated second took 2 s
   work.begin(RemedyRuns::confirming, {0, 5}, at(20));
   EXPECT_DOUBLE_EQ(work.ended(2.5), 0.8333333333333334);  // (10 + 2 * 7.5) / (10 + 2 * 10)
 }
 
-/// Searches of which the first runs are short, and the runs that confirm take five times as long.
+/// The first runs of these searches are short, and the confirming runs take five times as long.
 TEST(RemedyWork, TheTimeLeftDoesNotRiseWhereTheWorkIsAsExpected) {
   RemedyWork work(5);
   double now = 0, least = 1e9;
@@ -48,7 +48,7 @@ TEST(RemedyWork, TheTimeLeftDoesNotRiseWhereTheWorkIsAsExpected) {
       now += run * (kind == RemedyRuns::search ? 1 : 5);
       const double share = work.ended(run);
       const double left = now * (1 - share) / share;
-      EXPECT_LE(left, least + 1e-9);  // rounding
+      EXPECT_LE(left, least + 1e-9);  // tolerance for rounding errors
       least = left;
     }
     work.end(at(now));

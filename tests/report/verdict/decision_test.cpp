@@ -49,7 +49,7 @@ TEST(Decision, EventsAreByTime) {
   Case made = rated_gait();
   grow(made, kVoltageLimited, 1, 10, 12);
   grow(made, kCurrentLimited, 1, 8, 9);
-  made.scenario.limits.tracking_error = 1e-6;  // fails without such a time
+  made.scenario.limits.tracking_error = 1e-6;  // this check fails without such a time
   const auto json = nlohmann::json::parse(to_json(made.judged()));
   const std::string& joint = made.scenario.robot->joints[kJoint].name;
   ASSERT_EQ(json["events"].size(), 2U) << json["events"];
@@ -80,7 +80,7 @@ TEST(Decision, NoCostOfTransportWithoutLosses) {
   EXPECT_TRUE(lossless());
 }
 
-/// Everything that is missing is in one sentence, and in the settings of the next run.
+/// One sentence lists all missing evidence, and the settings of the next run supply it.
 TEST(Decision, AllLacksAreNamed) {
   Case made = walk();
   made.scenario.limits.tracking_error = 1e-6;

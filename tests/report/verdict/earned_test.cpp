@@ -122,7 +122,7 @@ TEST(Earned, ADropAtTheStartIsNoSlide) {
   EXPECT_NE(dropped.check("progress").status, CheckStatus::fail) << dropped.check("progress").text;
 }
 
-/// Robots that come down onto a flat plane, in the judged time too, and go faster then.
+/// Robots that drop onto a flat plane, also within the judged time, and are then faster do not slide.
 TEST(Earned, ADropOntoAPlaneIsNoSlide) {
   const auto text = [](const std::string& robot, const std::vector<std::string>& sets) {
     const Told dropped(shipped(robot, sets));
@@ -136,8 +136,8 @@ TEST(Earned, ADropOntoAPlaneIsNoSlide) {
                   .starts_with("the robot goes "));
 }
 
-/// Arches that stand high at the start and lower themselves to a snake on the ground have not fallen. (A robot that topples
-/// with the set points of its start has: FallCheck.IsOfTheHeightAboveTheGround.)
+/// An arch that stands high at the start and lowers itself to a snake on the ground has not fallen. (A robot that topples with
+/// the set points of its start has: FallCheck.IsOfTheHeightAboveTheGround.)
 TEST(Earned, ARobotThatLowersItselfAsItIsTold) {
   const auto arch = [](const std::string& docks, const std::string& angles, const std::string& gait, int duration) {
     return Told(scenario(fmt::format(R"(
@@ -170,7 +170,7 @@ duration: {3}
   }
 }
 
-/// A hinge without a motor is meant to touch its stop, and fails where it is pressed against it.
+/// A hinge without a motor may touch its stop, but fails if it is pressed against the stop.
 TEST(Earned, AHingeThatRestsOnItsStop) {
   const auto leg = [](double mass, double frequency) {
     return Told(scenario(fmt::format(R"(

@@ -92,7 +92,7 @@ TEST(FaultVerdict, WithoutAnyHealthyJointMotorsAreNotJudged) {
   EXPECT_EQ(all.check("stops").status, CheckStatus::not_judged);
 }
 
-// A fault that is replaced within its change, or has no effect, leaves the joint to the checks.
+// Checks judge a joint whose fault is replaced within its change or has no effect.
 TEST(FaultVerdict, WithoutEffectThereIsNoFault) {
   const Scenario s = shipped(
       "caterpillar.yaml", {"at=[{t: 4, fault: [{joint: '*', kind: weak, share: 0.5}, {joint: m3/active, kind: none}]}, "
@@ -139,7 +139,7 @@ TEST(FaultVerdict, TheRunWithoutMotorLimitsHasTheFaults) {
   EXPECT_EQ(made.joints[6].torque_peak, 0);
 }
 
-// A weak motor at the limit of its current gives its available torque, which has the fault.
+// A weak motor at its current limit gives all of its available torque, which the fault reduces.
 TEST(FaultVerdict, AvailableTorqueHasTheFault) {
   const JudgedRun weak({"duration=4", "at=[{t: 0, fault: {joint: m3/active, kind: weak, share: 0.1}}]"});
   const JudgedRun whole({"duration=4"});

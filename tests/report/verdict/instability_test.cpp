@@ -1,4 +1,4 @@
-// The sentence of a run whose controller is unstable, and runs that only look like one.
+// Tests of the sentence on an unstable controller, and of runs that only seem unstable.
 #include "report/verdict/instability.h"
 
 #include "core/simulation/simulation_error.h"
@@ -46,7 +46,7 @@ TEST(Unstable, ControllerIsTheOnlySentence) {
   }
 }
 
-/// A motor that cannot obey ends in a limit cycle of its voltage: the joints stay within their ranges.
+/// A motor that cannot obey ends in a limit cycle of its voltage, and the joints stay within their ranges.
 TEST(Unstable, IsNoControllerAtTheLimitOfItsMotor) {
   for (const char* file : {"caterpillar.yaml", "hexapod.yaml"}) {
     const Scenario s = shipped(file, {"controller.Kp=5000", "duration=1", "physics.engine=articulated"});
@@ -99,7 +99,7 @@ TEST(Unstable, OnlyIfTheBaseIsFasterThanItsFallExplains) {
   const auto fly = [&](double speed, double height) {
     for (int k = 0; k < 5; ++k) {
       told.at("base.x", k) = 0.1 * std::max(0, k - 2) * speed;          // from 0.2 s on
-      told.at("base.z", k) = height * (k == 0 ? 1 : k == 1 ? 0.5 : 0);  // at less than 10 m/s
+      told.at("base.z", k) = height * (k == 0 ? 1 : k == 1 ? 0.5 : 0);  // the vertical speed is below 10 m/s
     }
   };
   fly(9, 0);

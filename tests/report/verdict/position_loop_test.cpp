@@ -19,9 +19,10 @@ PositionLoop first(const std::string& file, const std::vector<std::string>& sets
   return position_loops(shipped(file, sets)).at(0);
 }
 
-/// Largest modulus of an eigenvalue of a motor with inertia, whose time constant is tau = T / x, under commands every T: g
-/// times the error of d samples before, and a derivative part with response `d_step` g to a step of it, which decays by
-/// `d_keeps`. State: error, speed (rad per tau), derivative part, the error before, and the errors of the d samples before.
+/// Largest modulus of an eigenvalue of a motor with inertia, whose time constant is tau = T / x, under commands every T. A
+/// command is g times the error d samples before, plus a derivative part that answers a step of the error with `d_step` g and
+/// decays by `d_keeps`. State: error, speed (rad per tau), derivative part, the error before, and the errors of the d samples
+/// before.
 double modulus(double g, double x, int d, double d_step, double d_keeps) {
   const double e = std::exp(-x);
   Eigen::MatrixXd map = Eigen::MatrixXd::Zero(4 + d, 4 + d);
@@ -71,7 +72,7 @@ TEST(PositionLoop, SettlesBelowItsBoundWithAnyInertia) {
                                                       fmt::format("controller.Kd={}", Kd), fmt::format("controller.N={}", N)});
       const PositionLoop loop = position_loops(s).at(0);
       ASSERT_TRUE(loop.bounded);
-      const double step = Kd * N / (Kd + N * 0.015) / loop.Kp;  // of the proportional part
+      const double step = Kd * N / (Kd + N * 0.015) / loop.Kp;  // response, as a share of Kp
       const double keeps = Kd / (Kd + N * 0.015);
       const double g = loop.settles() * loop.Kp / (loop.Kp + loop.derivative());  // Kp T / (Ks n) at the bound
       double least = 0;
@@ -101,7 +102,7 @@ TEST(PositionLoop, HasNumbersOfItsBound) {
   }
 }
 
-/// A slow encoder is the period of the loop, and its gain a factor of it.
+/// The sample period of a slow encoder is the period of the loop, and the gain of the encoder is a factor of its gain.
 TEST(PositionLoop, HasThePeriodOfItsEncoder) {
   const PositionLoop loop =
       first("caterpillar.yaml", {"controller.Kd=0", "sensors={type: encoder, period: 0.03, delay: 0.015, gain: 2}"});
@@ -113,7 +114,8 @@ TEST(PositionLoop, HasThePeriodOfItsEncoder) {
   EXPECT_NEAR(there.gain(), 1, 1e-12);
 }
 
-/// The bound is of the proportional part: not of a large derivative or integral part, nor of a motor without back-EMF.
+/// The bound applies to the proportional part. There is none for a large derivative or integral part, or for a motor without
+/// back-EMF.
 TEST(PositionLoop, MayHaveNoBound) {
   EXPECT_TRUE(first("caterpillar.yaml", {"controller.Ki=1600"}).bounded) << "24 % of Kp";
   for (const char* const set : {"controller.Ki=1700", "controller.Kd=1e9", "actuator.Ks=0"}) {
@@ -146,13 +148,13 @@ TEST(PositionLoop, IsALineOfCheck) {
   EXPECT_EQ(text({"actuator.Ks=0"}), "k = 38.2 N m/rad at every joint (Kp 100 V/rad)") << "no back-EMF, no bound";
   EXPECT_TRUE(contains(text({"sensors={type: encoder, period: 0.03, delay: 0.03}"}),
                        "commands every 0.015 s, angles every 0.03 s, angles up to 0.03 s old"));
-  // One joint with a loop, or with an encoder.
+  // Only one joint has a loop, or only one has an encoder.
   for (const char* const set :
        {"controller.Kp={default: 0, m3/active: 50}", "sensors={type: encoder, joints: m3/active, delay: 0.015}"})
     EXPECT_TRUE(contains(text({set}), " at m3/active (")) << text({set});
 }
 
-/// Joints whose commands reverse in most ticks to the end of a slow wave.
+/// Number of joints whose commands reverse in most ticks up to the end of a slow wave.
 std::size_t reversing(const std::string& file, double period, double gain, std::size_t& joints) {
   const std::vector<std::string> slow{"physics.engine=articulated", "cpg={type: sine, amplitude: 0.1, frequency: 0.25}",
                                       "duration=2", "controller.Kd=0", fmt::format("controller.period={}", period)};
@@ -182,7 +184,7 @@ TEST(PositionLoop, SettlesUpToItsBoundOnOtherRobots) {
   }
 }
 
-/// Five times the largest Kp at 15 ms needs commands every 3 ms.
+/// With five times the largest Kp at 15 ms, the loop needs commands every 3 ms.
 TEST(PositionLoop, SettlesWithThePeriodOfTheWarning) {
   for (const std::string& file : kOthers) {
     const double Kp = 5 * bound(file);

@@ -1,5 +1,5 @@
-// Gaits that their runs do not show: they grow, drift, last longer than the run, or move nothing. And the window of a robot
-// that drops or stands, which must not depend on the end of the run.
+// Tests of gaits that their runs do not show, because they grow, drift, last longer than the run, or move nothing. The window
+// of a robot that drops or stands must not depend on the end of the run.
 #include <cmath>
 
 #include "tests/report/verdict/verdict_case.h"
@@ -49,7 +49,7 @@ TEST(Shown, SetPointsThatGrow) {
   expect_not_judged(caterpillar({"cpg={type: van_der_pol, frequency: 1, model: {amplitude_rate: 0.2}}"}), "at 19.56 s of 16;");
 }
 
-/// Equations state nothing: the CPG alone is simulated for three periods after the run.
+/// Equations state no times, so that the CPG alone is simulated for three periods after the run.
 TEST(Shown, EquationsThatGrow) {
   expect_not_judged(equation("0.2*(1 + 0.02*u)*sin(2*pi*u + index)", "8"), "the set points still grow: those of joint ");
   expect_not_judged(equation("0.2*(1 + exp(u - 11))*sin(2*pi*u + index)", "8"), "the set points still grow: those of joint ");
@@ -64,7 +64,7 @@ TEST(Shown, SetPointsThatDrift) {
   EXPECT_NE(equation("0.2*(1 + 0.0001*u)*sin(2*pi*u + index) + 0.00001*u").word, Word::not_judged);
 }
 
-/// A pose that equations leave, or a size that they reach, within the run: the window begins where the set points repeat.
+/// If equations leave a pose or reach their size within the run, the window begins where the set points repeat.
 TEST(Shown, EquationsThatReachTheirSize) {
   for (const char* const output : {"0.2*clamp(u/3, 0, 1)*sin(2*pi*u + index)", "0.3*max(0, 1 - u/3) + 0.2*sin(2*pi*u + index)",
                                    "0.1*clamp(u - 2, 0, 1)*sin(4*pi*u + index)"}) {
@@ -75,10 +75,11 @@ TEST(Shown, EquationsThatReachTheirSize) {
   }
 }
 
-/// Steps of a set point are samples: a period may have a tick more of one level than another.
+/// Steps of a set point are sampled, so that one period may have a tick more at a level than another.
 TEST(Shown, StepsDoNotDrift) { EXPECT_NE(equation("0.2*sign(sin(2*pi*u/0.97 + index))").word, Word::not_judged); }
 
-/// Keyframes in milliseconds, a frequency of 0.01 Hz, and an equation that is a thousand times too slow.
+/// The periods are too long because of keyframes in milliseconds, a frequency of 0.01 Hz, or an equation that is a thousand
+/// times too slow.
 TEST(Shown, APeriodLongerThanTheRun) {
   const std::string frames =
       "cpg={type: keyframes, model: {frames: [{time: 0, angles: 0}, {time: 500, angles: 0.3}, {time: 1000, angles: 0}]}}";
@@ -96,7 +97,7 @@ TEST(Shown, NoSetPointChanges) {
                     "no set point changes: there is no cpg");
 }
 
-/// A chirp passes through the period that a longer run would seem to have.
+/// A chirp passes through a period with which a longer run would seem to repeat.
 TEST(Shown, AChirpDoesNotRepeat) {
   const Verdict made = equation("0.1*sin(2*pi*(0.5*u + 0.01*u*u) + index)");
   EXPECT_EQ(made.rests_on, "these 20 s; the set points do not repeat");
@@ -112,7 +113,7 @@ TEST(Shown, OscillatorsThatStillSynchronise) {
   EXPECT_NE(caterpillar({cpg, "duration=10"}).word, Word::not_judged);
 }
 
-/// The word of a robot that drops by 5 cm more than its start, and of one that stands, is the same for every end of the run.
+/// The verdict has the same word for every end of the run, for a robot that stands and for one that starts 5 cm higher.
 TEST(Shown, TheEndOfTheRunDoesNotDecide) {
   for (const char* const height : {"0.05", "0.1"}) {
     for (const char* const end : {"10.02", "10.9", "11.96", "12", "12.1"}) {

@@ -65,7 +65,7 @@ TEST(SetupWarnings, TellALoopThatCannotSettle) {
              "may not settle (gain 2.007 per command, at most 2); take Kp: 300 or less, or controller.period: 0.014 or less");
   expect_one(of("paper-caterpillar.yaml", {"controller.period=0.015"}), true,
              "cannot settle (gain 10.09 per command, at most 2); take Kp: 300 or less, or controller.period: 0.0029 or less");
-  // An angle that is one tick old, 2/3 for a heavy load, and two, 2/5.
+  // The bound is 2/3 for an angle that is one tick old and a heavy load, and 2/5 for two ticks.
   expect_one(
       of("caterpillar.yaml", {"sensors={type: encoder, delay: 0.015}"}), false,
       "for commands every 0.015 s, angles up to 0.015 s old: the joint overshoots (gain 0.6393 per command, at most 0.333); "

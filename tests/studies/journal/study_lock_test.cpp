@@ -22,7 +22,7 @@ constexpr const char* kNoLock =
 
 class StudyLocks : public testing::Test {
  protected:
-  /// Refused with this message, and the file is as before.
+  /// Expects that the lock is refused, and that the file is unchanged.
   void expect_refused(const std::string& name) {
     const std::string file = folder_ / name;
     const std::string before = test::read(file);

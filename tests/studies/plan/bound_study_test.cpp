@@ -72,7 +72,7 @@ TEST(BoundStudies, VerifyInAnotherEngineWithItsOwnStep) {
   const Scenario other = study.plan->with(study.plan->scenarios().front().other_engine, 0);
   EXPECT_EQ(other.physics.engine->name, "bullet");
   EXPECT_EQ(study.plan->scenario().physics.engine->name, "articulated");
-  // A stated accuracy, which engine bullet refuses, is left out; gravity stays.
+  // A stated accuracy is left out, because engine bullet refuses it. Gravity stays.
   const SmallStudy accurate(
       search + "set: [physics.accuracy=0.001, 'physics.gravity=[0, 0, -1.6]']\nverify: {engine: bullet}\n",
       studies::Purpose::optimize);
@@ -80,7 +80,7 @@ TEST(BoundStudies, VerifyInAnotherEngineWithItsOwnStep) {
   EXPECT_EQ(light.physics.engine->name, "bullet");
   EXPECT_TRUE(light.physics.chosen_step);
   EXPECT_EQ(light.physics.gravity.z(), -1.6);
-  // A motor that is too stiff for the engine's longest step has a shorter one.
+  // If a motor is too stiff for the engine's longest step, a shorter step is used.
   const SmallStudy stiff(search + "set: [actuator.R=0.2]\nverify: {engine: bullet}\n", studies::Purpose::optimize);
   EXPECT_LT(stiff.plan->with(stiff.plan->scenarios().front().other_engine, 0).physics.step, other.physics.step);
   const auto said = [&](const std::string& engine) {

@@ -12,7 +12,8 @@
 namespace gaitlab::test {
 namespace {
 
-/// Streams with the same words behind different first ones. Points, seeds and variations have 1 to 3 (studies/plan/points.cpp).
+/// Streams whose first word differs are uncorrelated, even if all other words are equal. Points, seeds and variations have the
+/// first words 1 to 3 (studies/plan/points.cpp).
 TEST(Draws, OfDifferentPurposesAreUncorrelated) {
   const std::vector<std::uint64_t> purposes{1, 2, 3, studies::kSearchDraw, studies::kEstimateDraw};
   EXPECT_EQ(std::set(purposes.begin(), purposes.end()).size(), purposes.size());
@@ -22,13 +23,13 @@ TEST(Draws, OfDifferentPurposesAreUncorrelated) {
       if (a == b) continue;
       double product = 0;
       for (std::uint64_t k = 0; k < kCount; ++k) product += (math::uniform({a, 1, k}) - 0.5) * (math::uniform({b, 1, k}) - 0.5);
-      // Four standard deviations of the mean of products of two even draws, each of variance 1/12.
+      // The tolerance is four standard deviations of the mean of products of two uniform draws, each with the variance 1/12.
       EXPECT_LT(std::abs(product / kCount), 4.0 / 12 / std::sqrt(kCount)) << a << " " << b;
     }
   }
 }
 
-/// Whether the torque error of each of the first 2000 points is estimated, one in 16.
+/// For each of the first 2000 points, true if its torque error is estimated (one in 16).
 std::vector<bool> estimated(const std::string& range, const std::string& more) {
   const SmallStudy study("parameters: {cpg.frequency: {low: 0.5, high: 1.5" + range + "}}\nestimate_every: 16\nguards: none\n" +
                          more);
@@ -39,7 +40,7 @@ std::vector<bool> estimated(const std::string& range, const std::string& more) {
 
 TEST(Draws, EstimateOnePointInTheNumberThatTheStudyStates) {
   const std::vector<bool> grid = estimated(", count: 2000", "");
-  // Four standard deviations of a count of 2000 with a chance of 1/16.
+  // The tolerance is four standard deviations of a count among 2000 with a probability of 1/16.
   EXPECT_NEAR(static_cast<double>(std::ranges::count(grid, true)), 2000.0 / 16, 4 * std::sqrt(2000.0 / 16 * 15 / 16));
   EXPECT_NE(estimated(", count: 2000", "seed: 2\n"), grid) << "the same points, another seed";
   const std::string random = "method: {type: random}\nbudget: {runs: ";

@@ -8,7 +8,8 @@
 namespace gaitlab::test {
 namespace {
 
-/// Values that no run can have are refused before the first run. A value that needs another value of another parameter is not.
+/// Values that no run can have are refused before the first run. A value that is possible with some value of another parameter
+/// is not refused.
 TEST(PlanValues, AreTriedWithTheOtherValues) {
   const auto problems = [](const std::string& lines) -> std::string {
     try {
@@ -34,7 +35,8 @@ TEST(PlanValues, AreTriedWithTheOtherValues) {
             "3:52: type 'hopff' is unknown; did you mean 'hopf'?\n");
   EXPECT_EQ(problems("parameters: {cpg.tpye: {values: [phase_oscillator, hopf]}}\n" + grid),
             "3:14: unknown key 'tpye'; did you mean 'type'?\n");
-  // Ends of ranges count as values of the other parameters: a phase lag is within 100 rad beside any value.
+  // The ends of ranges count as values of the other parameters. A phase lag must be within 100 rad, regardless of the other
+  // values.
   EXPECT_EQ(problems("parameters: {cpg.phase_lag: {values: [1, 200]}, cpg.frequency: {low: 0.5, high: 1}}\nmethod: {type: "
                      "random}\nbudget: {runs: 4}\n"),
             "3:42: phase_lag is 200 rad; expected -100 to 100 rad; 200 degrees are 3.491 rad\n");

@@ -156,7 +156,8 @@ TEST(Combined, ShareOfTheReplicates) {
   EXPECT_EQ(point_result(head, runs).failed, 1U);
 }
 
-/// The quantile of a share of whole hundredths, in whole numbers: the least value that as many values do not exceed.
+/// The quantile of a share of whole hundredths is computed in whole numbers. It is the least value that this share of the
+/// values does not exceed.
 TEST(Combined, QuantilesCountInWholeNumbers) {
   for (std::size_t count = 1; count <= 200; ++count) {
     std::vector<double> values;

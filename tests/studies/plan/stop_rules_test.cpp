@@ -1,4 +1,4 @@
-// Rules that end a run early: from when on, on which values, and the names that they may use.
+// Tests of rules that end a run early: their start, their values, and the names that they may use.
 #include "studies/plan/stop_rules.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace gaitlab::studies {
 namespace {
 
-/// Rules over made-up quantities: fell and heat, also of joints, are known during a run; speed is not.
+/// Rules over fictitious quantities. `fell` and `heat`, also of joints, are known during a run; `speed` is not.
 class RuledRun {
  public:
   explicit RuledRun(const std::vector<std::pair<std::string, double>>& rules)
@@ -73,7 +73,8 @@ TEST(StopRules, HoldFromTheirTimeOn) {
   EXPECT_EQ(run.at(9), "stopped by fell at t = 9 s") << "the first of the study";
 }
 
-/// A run asks at whole seconds, which are a number of steps times the step: 10000 * 0.0003 s is less than 3 s.
+/// A run tests rules at whole seconds, computed as a number of steps times the step. In doubles, 10000 * 0.0003 s is less than
+/// 3 s.
 TEST(StopRules, HoldAtASecondThatIsRounded) {
   RuledRun run({{"fell", 3}});
   run.set("fell", 1);
@@ -101,7 +102,7 @@ TEST(StopRules, ReadAQuantityOfTheJointThatTheyName) {
   EXPECT_EQ(run.at(1), "stopped by heat[m0/passive] > heat[m0/active] + heat at t = 1 s");
 }
 
-/// Quantities of rules that wait are not computed: they may be expensive, or not known yet.
+/// Quantities of rules that do not apply yet are not computed, because they may be expensive or not known yet.
 TEST(StopRules, ComputeEachQuantityOnceAndNoneTooEarly) {
   RuledRun run({{"heat > 70", 4}, {"heat > 60 and fell", 4}});
   run.set("heat", 0);

@@ -112,7 +112,7 @@ TEST(Worlds, WithoutMotorsAreEleven) {
   EXPECT_EQ(that_apply(scenario(robot_of_two("contact: {on: none}\n"))).size(), 14U) << "no friction";
 }
 
-/// Module types with motors of their own; the gears of all are directional, and only their own numbers change.
+/// Each module type has its own motors. All gears become directional, and the numbers of each motor change.
 TEST(Worlds, OfSeveralModuleTypes) {
   const Scenario own = shipped("library/revolve-spider.yaml");
   for (const World& one : studies::worlds(own)) {
@@ -124,7 +124,7 @@ TEST(Worlds, OfSeveralModuleTypes) {
   }
 }
 
-/// Numbers of `as_built`, stated or drawn, are multiplied; others stay.
+/// Numbers of `as_built`, stated or drawn, are multiplied. All others stay.
 TEST(Worlds, ComposeWithARobotAsBuilt) {
   const std::string stated = robot_of_two("as_built: {mass: {m1: 1.2}, R: {m0/active: 1.1}, supply: 0.8}\n");
   const Scenario own = scenario(stated);
@@ -138,7 +138,7 @@ TEST(Worlds, ComposeWithARobotAsBuilt) {
   EXPECT_EQ(motors_of(made[9])[0].R, motors_of(own)[0].R) << "stated numbers are not drawn";
 }
 
-/// The scenario's own tolerances, with seven other seeds.
+/// Worlds are drawn within the scenario's own tolerances, with seven other seeds.
 TEST(Worlds, DrawWithinTheScenariosTolerances) {
   const std::string text = robot_of_two("tolerances: {mass: 0.1, dock_angle: 0.01}\nseed: 40\n");
   const Scenario own = scenario(text);
@@ -149,7 +149,7 @@ TEST(Worlds, DrawWithinTheScenariosTolerances) {
   EXPECT_NEAR(made[7].robot->mass, 1.03 * own.robot->mass, kRounding) << "of the robot as drawn by its own seed";
 }
 
-/// Bullet's solver has a coefficient for each solid, and none for the parts of the robot.
+/// Bullet's solver has a friction coefficient for each solid, but none for parts of the robot.
 TEST(Worlds, UnderBulletsLawChangeTheGround) {
   if (catalog().engine("bullet") == nullptr) GTEST_SKIP() << "without engine bullet";
   const std::string text =
@@ -160,7 +160,7 @@ TEST(Worlds, UnderBulletsLawChangeTheGround) {
             (Sets{"ground.friction=" + number_text(0.8 * 0.75), "ground.boxes.0.friction=" + number_text(0.4 * 0.75), kGears}));
   const std::vector<Scenario> made = in_each(text);
   EXPECT_NE(made[9].ground.friction, made[10].ground.friction) << "drawn";
-  constexpr double kMost = 0.8 * 3 * 0.125;  // three deviations
+  constexpr double kMost = 0.8 * 3 * 0.125;  // a draw is limited to three deviations
   for (std::size_t k = 9; k < made.size(); ++k) {
     EXPECT_NEAR(made[k].ground.friction, 0.8, kMost);
     EXPECT_NEAR(made[k].ground.boxes()[0].friction / made[k].ground.friction, 0.5, 1e-12) << "one draw for all solids";
@@ -203,7 +203,7 @@ TEST(Robust, WorldsFollowThePoint) {
   EXPECT_EQ(refused.plan->sets(refused.plan->points().runs() - 1).size(), 1U);
 }
 
-/// A quarter of the runs may break limits: the constraint is the lower quartile of the least margins.
+/// A quarter of the runs may break limits, because the constraint is the lower quartile of the least margins.
 TEST(Robust, TheLowerQuartileOfTheMarginsDecides) {
   const SmallStudy study(
       "parameters: {cpg.frequency: {low: 0.5, high: 1.5, count: 2}}\nrobust: true\n"
@@ -218,7 +218,8 @@ TEST(Robust, TheLowerQuartileOfTheMarginsDecides) {
     return studies::point_result(head, runs);
   };
   std::vector<double> margins;
-  for (int k = 0; k < 17; ++k) margins.push_back(0.01 * ((k * 5 + 16) % 17) - 0.06);  // 0.10, then down to -0.06 in some order
+  for (int k = 0; k < 17; ++k)
+    margins.push_back(0.01 * ((k * 5 + 16) % 17) - 0.06);  // 0.10, then the numbers down to -0.06 in some order
   std::vector<double> sorted = margins;
   std::ranges::sort(sorted);
   const double quartile = sorted[4];  // the least of the best 13 of 17

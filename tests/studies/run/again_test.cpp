@@ -1,4 +1,4 @@
-// Second runs with an estimate of the torque error: which runs, and what becomes of their rows.
+// Tests of second runs with an estimate of the torque error: their selection, and their rows.
 #include "studies/run/again.h"
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ class DoubtedSweep {
       (study.plan->estimates(study.plan->row(run).point) ? drawn : others).push_back(run);
     }
   }
-  /// Writes rows; `error`: of the drawn runs, by their index; NaN: not known.
+  /// Writes rows. `error` gives the torque error of drawn runs by their index; NaN is not known.
   std::vector<std::uint64_t> in_doubt(const std::function<double(std::size_t)>& error) {
     studies::Journal journal = study.journal();
     std::vector<Row> rows;
@@ -95,7 +95,7 @@ TEST(RunsInDoubt, AreTheOthersWhereMoreThanOneInTenIsInaccurate) {
       << "a run that diverged has no torque error";
 }
 
-/// The limit is that of the scenario, and at most 10 %.
+/// The limit is that of the scenario, but at most 10 %.
 TEST(RunsInDoubt, AreByTheLimitOfTheScenario) {
   const std::string every = "estimate_every: 8\n";
   const auto of = [](double error) { return [error](std::size_t) { return error; }; };
@@ -113,7 +113,7 @@ TEST(RunsInDoubt, AreTheOthersWhereTooFewAreEstimated) {
   EXPECT_TRUE(three.in_doubt([](std::size_t k) { return k < 3 ? 0.01 : std::nan(""); }).empty());
 }
 
-/// The engine gives no estimate: it would give none the second time.
+/// If the engine gives no estimate, a second run would have none either.
 TEST(RunsInDoubt, AreNoneWhereNoDrawnRunHasAnEstimate) {
   EXPECT_TRUE(DoubtedSweep().in_doubt([](std::size_t) { return std::nan(""); }).empty());
 }

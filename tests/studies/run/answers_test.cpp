@@ -1,4 +1,4 @@
-// Results without a run: points that are asked for twice, and rows of another study's journal.
+// Tests of results without a run: points that are requested twice, and rows of another study's journal.
 #include "studies/run/answers.h"
 
 #include <gtest/gtest.h>
@@ -74,7 +74,7 @@ TEST(Remembering, RunsEqualPointsOnce) {
   }
 }
 
-/// All jobs are taken before the first ends, as side by side in lanes: the equal ones wait for it.
+/// All jobs are taken before the first one ends, as in lanes side by side. Equal jobs wait for its result.
 TEST(Remembering, EqualPointsWaitForTheOneThatRuns) {
   std::vector<Answers> none;
   std::size_t run = 0;
@@ -83,7 +83,7 @@ TEST(Remembering, EqualPointsWaitForTheOneThatRuns) {
         std::vector<Row> all;
         while (const std::optional<Job> job = work.next()) all.push_back(simulated(*job));
         run = all.size();
-        for (const std::size_t k : {1U, 0U}) work.end({all[k]});  // in any order
+        for (const std::size_t k : {1U, 0U}) work.end({all[k]});  // the jobs may end in any order
         return true;
       },
       none);

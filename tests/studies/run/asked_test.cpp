@@ -1,4 +1,4 @@
-// Numbers of points that another program asks for: the same after every start.
+// Tests of the numbers of points that another program requests, which are the same after every start.
 #include "studies/run/asked.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ using studies::Row;
 
 const std::string kAsked = "parameters: {cpg.frequency: {low: 0.5, high: 1.5}}\nguards: none\n";
 
-/// One start of the program: a plan of its own, and points asked for in an order.
+/// One start of the program, with a separate plan and an order of requested points.
 class AskingProgram {
  public:
   explicit AskingProgram(Journal& journal, const std::string& lines = kAsked)
@@ -75,7 +75,7 @@ TEST_F(AskedPoints, OfOtherRequestsFindRowsAndGetFreeNumbers) {
     EXPECT_EQ(other.study.plan->row(run).values, std::vector<std::string>{value}) << run;
 }
 
-/// The program ended when runs 1 and 3 had rows: numbers 0 and 2 are free, for any point.
+/// The program ended when only runs 1 and 3 had rows. Numbers 0 and 2 are then free for any points.
 TEST_F(AskedPoints, FillTheGapsOfAKilledProgram) {
   AskingProgram first(journal_);
   first.numbers({"0.7", "0.6", "1", "0.9"});
@@ -87,7 +87,7 @@ TEST_F(AskedPoints, FillTheGapsOfAKilledProgram) {
   EXPECT_EQ(other.study.plan->row(1).values, std::vector<std::string>{"0.6"});
 }
 
-/// A point of which a replicate is missing is one with a number, but its runs are not all there.
+/// A point that lacks a replicate keeps its number, although not all of its runs have rows.
 TEST(AskedReplicates, ThatAreMissingKeepTheNumberOfTheirPoint) {
   const std::string lines = kAsked + "replicates: {count: 2}\n";
   const SmallStudy of(lines, studies::Purpose::evaluate);

@@ -1,4 +1,4 @@
-// The executor of this process: a row for each job, whatever becomes of it.
+// Tests of the executor of this process, which gives a row for each job, even for a failed one.
 #include "studies/run/executor.h"
 
 #include <gtest/gtest.h>
@@ -78,7 +78,7 @@ TEST(LocalExecutor, GivesARowForEachJob) {
   }
 }
 
-/// A scenario that is refused with its values never begins, and the others go on; also a hundred of them.
+/// A scenario that is refused with its values never begins, and the others continue, also after a hundred refusals.
 TEST(LocalExecutor, GivesARowForEachRefusedScenario) {
   const SmallStudy study(kThreeFrequencies);
   std::vector<Job> jobs{study.job(0)};
@@ -105,7 +105,8 @@ TEST(LocalExecutor, GivesARowForEachRefusedScenario) {
   }
 }
 
-/// The search's seed draws no point for an estimate: only jobs that ask for one have it, the others know that they have none.
+/// The search's seed draws no point for an estimate. Only jobs that request an estimate have one; the rows of others state that
+/// they have none.
 TEST(LocalExecutor, EstimatesTheTorqueErrorOfJobsThatAskForIt) {
   SmallStudy study("parameters: {cpg.frequency: {low: 0.5, high: 1.5}}\nbudget: {runs: 16}\nestimate_every: 1000000000\n",
                    studies::Purpose::optimize);
@@ -120,7 +121,7 @@ TEST(LocalExecutor, EstimatesTheTorqueErrorOfJobsThatAskForIt) {
   }
 }
 
-/// Nobody estimates it then, neither here nor at another point.
+/// The torque error is then estimated at no point.
 TEST(LocalExecutor, EstimatesNoTorqueErrorOfAScenarioThatTurnsItOff) {
   SmallStudy study(
       "parameters: {cpg.frequency: {low: 0.5, high: 1.5}}\nbudget: {runs: 16}\nestimate_every: 1000000000\nset: "
@@ -149,7 +150,7 @@ TEST(LocalExecutor, DoesNothingWhenItIsStopped) {
   EXPECT_FALSE(studies::local_executor(*study.plan, {}, {})(work, stop));
 }
 
-/// A rule of the study ends the run at its second; the row says which.
+/// A rule of the study ends the run at a whole second. The row states which rule.
 TEST(LocalExecutor, StopsARunByTheStudysRules) {
   const SmallStudy study(kThreeFrequencies + "set: [duration=1.5, physics.estimate=off]\nstop: [simulated > 0.9 after 1]\n");
   const ExecutedJobs of(study, {study.job(0)});

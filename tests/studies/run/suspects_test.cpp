@@ -1,4 +1,4 @@
-// Runs tried in processes of their own: which ends of a process count as a crash of the run.
+// Tests of runs that are tried in separate processes: the ends of a process that count as a crash of the run.
 #include "studies/run/suspects.h"
 
 #include <gtest/gtest.h>
@@ -48,7 +48,7 @@ Catalog& catalog_with_ends() {
   return all;
 }
 
-/// A study over one of its keys.
+/// A study with one key of this CPG as its parameter.
 SmallStudy ending(const std::string& key, const std::string& values) {
   return SmallStudy("set: [cpg.type=ends]\nguards: none\nparameters: {cpg." + key + ": {values: [" + values + "]}}\n",
                     studies::Purpose::sweep, catalog_with_ends());
@@ -77,7 +77,7 @@ TEST(Suspects, CrashBySignalsOfTheirOwn) {
   }
 }
 
-/// Killed, interrupted, terminated, hung up or out of CPU time: not by the run, which deserves another try.
+/// The signals kill, interrupt, terminate, hang up and CPU time are not caused by the run, which is tried again.
 TEST(Suspects, DoNotCrashBySignalsFromOutside) {
   EXPECT_TRUE(crashes(ending("signal", "9, 2, 15, 1, 24"), {0, 1, 2, 3, 4}).empty());
 }

@@ -1,4 +1,4 @@
-// Generations by ask and tell: a question changes nothing, an answer does. Equality with pagmo: search_test.
+// Tests of generations by ask and tell: ask() changes nothing, and tell() does. search_test compares them with pagmo.
 #include "studies/search/evolution.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace gaitlab::studies {
 namespace {
 
-/// Five points in a box of two coordinates, with the value of their distance from a corner.
+/// Five points in a box of two coordinates, whose values are their distances from a corner.
 EvolutionSettings settings_of(Method method, unsigned seed = 3) {
   EvolutionSettings s{
       .algorithm = method, .low = {0, 0}, .high = {1, 2}, .seed = seed, .sigma = 0.25, .points = {}, .values = {}};
@@ -47,7 +47,7 @@ TEST_P(EvolutionOf, AQuestionChangesNothing) {
   EXPECT_EQ(evolved->values(), settings_of(GetParam()).values);
 }
 
-/// Better than all before: each point that was asked for is in the population with its own value.
+/// If all values are better than those before, each requested point is in the population with its own value.
 TEST_P(EvolutionOf, AnAnswerGivesEachPointItsValue) {
   const auto evolved = pagmo_evolution(settings_of(GetParam()));
   const std::vector<Vector> asked = evolved->ask();
@@ -81,7 +81,7 @@ TEST_P(EvolutionOf, ADifferentAnswerLeadsElsewhere) {
   EXPECT_NE(pagmo_evolution(settings_of(GetParam(), 4))->ask(), asked) << "of another seed";
 }
 
-/// The second pass meets only points that the first asked for: else the generation would hold values that no run has.
+/// The second pass may use only points that the first pass requested. Otherwise the generation would contain values of no run.
 TEST_P(EvolutionOf, AnAnswerWithoutAQuestionIsRefused) {
   const auto evolved = pagmo_evolution(settings_of(GetParam()));
   EXPECT_EQ(test::message_of<RunError>([&] { evolved->tell({}); }),

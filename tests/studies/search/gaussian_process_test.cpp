@@ -64,7 +64,7 @@ TEST(GaussianProcess, IsTheTextbooks) {
   const Eigen::MatrixXd deviation = draws.colwise() - expected.mean;
   const Eigen::MatrixXd covariance = deviation * deviation.transpose() / static_cast<double>(kDraws);
   const double most = expected.covariance.cwiseAbs().maxCoeff();
-  // Five standard errors of a covariance of n normal numbers: 5 sqrt(2 / n) of the largest variance.
+  // The tolerance is five standard errors of a covariance of n normal numbers, 5 sqrt(2 / n) of the largest variance.
   EXPECT_LT((covariance - expected.covariance).cwiseAbs().maxCoeff(), 5 * std::sqrt(2.0 / kDraws) * most);
 }
 
@@ -96,7 +96,8 @@ TEST(GaussianProcess, IsAFunctionOfItsArguments) {
   EXPECT_NE(one.samples(at, 3, 14), one.samples(at, 3, 15));
 }
 
-/// Eigen divides products by the sizes of the caches: without fixed sizes, a machine with smaller caches has other bits.
+/// Eigen divides products into blocks by the sizes of the caches. Without fixed sizes, a machine with smaller caches would give
+/// other bits.
 TEST(GaussianProcess, HasTheSameBitsWithOtherCaches) {
   const Eigen::MatrixXd x = cube_points(200, 4, 20);
   const Eigen::MatrixXd at = cube_points(400, 4, 21);

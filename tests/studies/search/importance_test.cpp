@@ -35,7 +35,7 @@ TEST(Importance, AgreesWithFirstOrderIndices) {
   for (std::size_t p = 0; p < 3; ++p) EXPECT_NEAR(explained(sample.x[p], sample.y), kFirst[p], 0.02) << p;
 }
 
-/// The mean share of a parameter without influence is 0, although classes of a finite sample differ by chance: without the
+/// The mean share of a parameter without influence is 0, although classes of a finite sample differ by chance. Without the
 /// correction it would be 19/399.
 TEST(Importance, ChanceIsTakenOff) {
   constexpr std::size_t kStudies = 200;
@@ -50,7 +50,7 @@ TEST(Importance, ChanceIsTakenOff) {
     }
     mean += explained(x, y) / kStudies;
   }
-  // Three standard errors; the deviation of a share is sqrt(2 * 19) / 380.
+  // The tolerance is three standard errors; the standard deviation of a share is sqrt(2 * 19) / 380.
   EXPECT_NEAR(mean, 0, 3 * std::sqrt(2.0 * 19 / kStudies) / 380);
 }
 

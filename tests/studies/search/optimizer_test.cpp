@@ -29,7 +29,7 @@ class FunctionSearch {
   static double speed(const std::vector<std::string>& values) {
     return 1 - std::pow(studies::number_of(values[0]) - 0.7, 2) - std::pow(studies::number_of(values[1]) - 0.9, 2);
   }
-  /// Runs the searches; `most`: of runs, after which they are stopped.
+  /// Runs the searches, and stops them after `most` runs.
   SearchEnd run(Journal& journal, std::size_t most = 100000) {
     run_now.clear();
     std::atomic<bool> stop = false;
@@ -57,7 +57,7 @@ std::vector<std::string> runs_in(Journal& journal) {
   return all;
 }
 
-/// Points that are even in the box have a speed of 0.68 in the mean.
+/// The mean speed of evenly spread points is 0.68.
 TEST(Searches, EndWithTheirBudgetCloseToTheBest) {
   FunctionSearch search(kBox + "budget: {runs: 300}\n");
   Journal journal = search.study.journal();
@@ -142,7 +142,7 @@ TEST(Searches, ConvergeBeforeTheirBudget) {
   EXPECT_EQ(journal.generations().back().runs, journal.rows() - journal.generations().back().first_run);
 }
 
-/// A box of four numbers of 12 digits: each is run once, however often it is asked for.
+/// A box that contains only four values of 12 digits. Each value is run once, however often it is requested.
 TEST(Searches, RunNoPointTwice) {
   FunctionSearch search(
       "parameters: {cpg.frequency: {low: 1, high: 1.00000000003}, cpg.amplitude: {values: [0.5]}}\nguards: none\nbudget: "
@@ -162,7 +162,7 @@ TEST(Searches, RunNoPointTwice) {
   EXPECT_EQ(runs, points.size()) << "of all generations";
 }
 
-/// The journal of another build: its points are others.
+/// The journal of another build contains other points.
 TEST(Searches, RefuseAJournalOfOtherPoints) {
   FunctionSearch search(kBox + "budget: {runs: 100}\n");
   Journal journal = search.study.journal();
@@ -178,7 +178,7 @@ TEST(Searches, RefuseAJournalOfOtherPoints) {
   EXPECT_TRUE(search.run_now.empty());
 }
 
-/// The scenario's own values, digit for digit, then the study's start points, in their order.
+/// A search begins with the scenario's own values, digit for digit, then with the study's start points in their order.
 TEST(Searches, BeginWithTheScenariosOwnValuesAndTheStudysPoints) {
   FunctionSearch search(kBox + "budget: {runs: 16}\nstart: [{cpg.frequency: 0.7}, {cpg.amplitude: 0.9, cpg.frequency: 1.1}]\n");
   Journal journal = search.study.journal();
@@ -200,7 +200,8 @@ TEST(Searches, MayHaveGenerationsOfOnePoint) {
   EXPECT_EQ(all.back().restart, 0U);
 }
 
-/// A search for each word: the scenario's own numbers are in each, a start point with a word only in its own.
+/// Each word has a search. All of them contain the scenario's own numbers. A start point with a word is only in the search of
+/// this word.
 TEST(Searches, BeginWithTheStartPointsOfTheirWords) {
   FunctionSearch search(
       "parameters: {cpg.frequency: {low: 0.5, high: 1.5}, cpg.type: {values: [hopf, phase_oscillator]}}\nguards: none\n"

@@ -1,5 +1,5 @@
-// Searches with models: the best of a box under a constraint, in fewer points than other methods; failures; the same points
-// again.
+// Tests of searches with models: they find the best point under a constraint with fewer points than other methods, bear
+// failures, and repeat their points.
 #include "studies/search/scbo.h"
 
 #include <gtest/gtest.h>
@@ -21,10 +21,10 @@ Rating constrained(double value, double beyond) {
   return {{violation > 0 ? 1e6 + violation : value}, value, violation};
 }
 
-/// The corner (1, 1) is best, and outside the circle about the origin that is allowed: the best is -1 at (0.5, 0.5).
+/// The corner (1, 1) is best, but outside the allowed circle about the origin. The best allowed value is -1 at (0.5, 0.5).
 Rating inside_a_circle(const Vector& x) { return constrained(-(x[0] + x[1]), 10 * (x[0] * x[0] + x[1] * x[1] - 0.5)); }
 
-/// Four coordinates, an allowed valley, along which the value falls to -1 at its end.
+/// A function of four coordinates with an allowed valley, along which the value falls to -1 at its end.
 Rating in_a_valley(const Vector& x) {
   const double across = std::abs(x[1] - x[0] * x[0]) + std::abs(x[2] - 0.4) + std::abs(x[3] - 0.6);
   return constrained(-x[0] + 0.3 * across, 5 * (across - 0.2));
@@ -53,24 +53,25 @@ double median_of(Method method, Rate rate, std::size_t dimensions, std::size_t r
   return best[1];
 }
 
-/// Median of three seeds, measured: -0.9966.
+/// The measured median of three seeds is -0.9966.
 TEST(Scbo, FindsTheBestOfABoxUnderAConstraint) { EXPECT_LT(median_of(Method::scbo, inside_a_circle, 2, 80), -0.99); }
 
-/// Measured medians: -0.969 and -0.437; every seed of scbo (worst -0.936) is better than the best of cma (-0.858).
+/// The measured medians are -0.969 and -0.437. Every seed of scbo (worst -0.936) is better than the best of cma (-0.858).
 TEST(Scbo, IsBetterThanCmaWhereRunsAreFew) {
   const double found = median_of(Method::scbo, in_a_valley, 4, 128);
   EXPECT_LT(found, -0.9);
   EXPECT_LT(found, median_of(Method::cma, in_a_valley, 4, 128));
 }
 
-/// Measured medians: -0.708 and -0.487. The seeds overlap, so that this holds for these three.
+/// The measured medians are -0.708 and -0.487. Results of single seeds overlap, so that the test applies only to the three
+/// seeds of median_of.
 TEST(CmaGp, IsBetterThanCmaWhereRunsAreFew) {
   EXPECT_LT(median_of(Method::cma_gp, in_a_valley, 4, 160), median_of(Method::cma, in_a_valley, 4, 160));
 }
 
-/// Without a model (all points fail) the sieve is off, and CMA-ES alone must find the best of an ellipsoid with axes of 1 : 30.
-/// Of 30 seeds, 27 do so, after 1120 points in the median; with pagmo's cmaes 29, after 1140. The others end because 19
-/// generations did not improve the best point. This is seed 1.
+/// If all points fail, there is no model and no preselection. CMA-ES alone must then find the best point of an ellipsoid with
+/// axes of 1 : 30. With 27 of 30 seeds it does, after a median of 1120 points; pagmo's cmaes does with 29, after 1140. The
+/// others end because 19 generations did not improve the best point. The test uses seed 1.
 TEST(CmaGp, IsCmaEsWithoutItsModels) {
   const Rate failed_ellipsoid = [](const Vector& x) {
     double sum = 0;
@@ -87,7 +88,7 @@ TEST(CmaGp, IsCmaEsWithoutItsModels) {
     done += ratings.size();
     search.tell(ratings);
   }
-  EXPECT_LT(best, 1e-6);  // after 1083 points; pagmo's cmaes with this seed after 1148
+  EXPECT_LT(best, 1e-6);  // reached after 1083 points; by pagmo's cmaes with this seed after 1148
 }
 
 TEST(Scbo, SearchesWhereAllPointsFailAndWhereSomeDo) {
@@ -112,8 +113,8 @@ TEST(Scbo, RequestsTheSamePointsAgain) {
   }
 }
 
-/// A search whose points so far are one point, the centre of the box, which has no objective. No model therefore chooses among
-/// the candidates, and those that are made of the best points stay near the centre.
+/// A search whose only point so far is the centre of the box, without an objective. No model therefore chooses among the
+/// candidates, and candidates made from the best points stay near the centre.
 class TrustRegion {
  public:
   static constexpr double kSpread = 0.02;  ///< largest distance of a candidate that is made of the best points
@@ -137,7 +138,7 @@ class TrustRegion {
   }
 
  private:
-  static constexpr std::size_t kPoints = 400;  // of which about 120 lie in the trust region
+  static constexpr std::size_t kPoints = 400;  // about 120 of them lie in the trust region
   std::vector<Rated> rated_;
   std::unique_ptr<Evolution> search_;
 };
@@ -145,7 +146,7 @@ class TrustRegion {
 /// At least one of 120 points lies in the outermost twentieth of the region.
 void expect_side(TrustRegion& region, double side) {
   const double reach = std::max(side / 2, TrustRegion::kSpread);
-  EXPECT_LE(region.reach(), reach * (1 + 1e-12)) << side;  // rounding of 0.5 + x - 0.5
+  EXPECT_LE(region.reach(), reach * (1 + 1e-12)) << side;  // rounding error of 0.5 + x - 0.5
   EXPECT_GT(region.reach(), 0.95 * reach) << side;
 }
 
@@ -158,7 +159,7 @@ TEST(Scbo, TrustRegionShrinksWithoutGains) {
     expect_side(region, side);  // one generation without a gain is not enough
     region.generation(2e6);
   }
-  expect_side(region, 0.6);  // starts again
+  expect_side(region, 0.6);  // the trust region starts again
 }
 
 TEST(Scbo, TrustRegionGrowsWithGains) {
@@ -173,7 +174,7 @@ TEST(Scbo, TrustRegionGrowsWithGains) {
   }
 }
 
-/// The best is at a face of the box: points that were clamped there would be one point.
+/// The best point is at a face of the box. Points that were clamped there would be equal.
 TEST(Scbo, RequestsNoPointTwiceAtAFaceOfTheBox) {
   Search search({.algorithm = Method::scbo, .dimensions = 1});
   std::vector<Vector> all;
@@ -202,7 +203,7 @@ TEST(PointModels, OrdersByObjectiveWhereTheViolationIsAcceptable) {
   EXPECT_EQ(PointModels::order(objective, violation), (std::vector<std::size_t>{2, 0, 3, 1}));
 }
 
-/// A robot that is thrown (a value of -1000 that breaks all limits) leaves the model of the others as it is.
+/// A robot that is thrown (a value of -1000 that breaks all limits) does not change the model of the others.
 TEST(PointModels, BearAnObjectiveFarFromTheOthers) {
   std::vector<Rated> points;
   for (int k = 0; k < 40; ++k) {

@@ -10,7 +10,7 @@
 
 namespace gaitlab::test {
 
-/// A search over the frequency, 0.5 to 1.5 Hz, with points that have speeds.
+/// A search over the frequency, 0.5 to 1.5 Hz, with given points and speeds.
 class SearchedStudy {
  public:
   explicit SearchedStudy(const std::vector<std::pair<std::string, double>>& points, const std::string& lines = "",
@@ -27,7 +27,7 @@ class SearchedStudy {
   void write() {
     if (journal.rows() == 0) journal.write(rows, {});
   }
-  /// Frequencies of the candidates behind `tried`.
+  /// Frequencies of the candidates that follow `tried`.
   std::vector<std::string> candidates(const std::vector<std::size_t>& tried = {}) {
     write();
     const studies::Results found = results(journal);

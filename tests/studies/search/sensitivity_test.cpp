@@ -114,7 +114,7 @@ TEST(Sensitivity, SmallFirstOrdersHaveLittleNoise) {
   }
 }
 
-/// The middle of the box would give a sample of equal points.
+/// The middle of the box is left out (studies/plan/designs.h), because all points of its row would be equal.
 TEST(Sensitivity, NoSampleRepeatsOnePoint) {
   for (std::uint64_t row = 0; row < 64; ++row) {
     std::size_t equal = 0;

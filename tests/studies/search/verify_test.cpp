@@ -1,4 +1,4 @@
-// Verification of the best points: which are tried, by which settings, and what speaks against a point.
+// Tests of the verification of the best points: the points that are tried, the settings, and the reasons against a point.
 #include "studies/search/verify.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ TEST(Candidates, AreTheBestThatAreApart) {
   EXPECT_EQ(least.candidates(), (Values{"0.6", "0.7"}));
 }
 
-/// Niches, 10 % of the box from one another, go before better points beside them; the order remains that of the points.
+/// Points that are 10 % of the box apart precede better points close to them. The order remains that of the points.
 TEST(Candidates, AreNichesFirst) {
   const std::vector<std::pair<std::string, double>> hills{{"0.7", 9},  {"0.72", 8}, {"0.75", 7}, {"1.2", 6},
                                                           {"1.25", 5}, {"0.9", 4},  {"1.4", 3}};
@@ -46,7 +46,7 @@ TEST(Candidates, AreKept) {
   EXPECT_EQ(made.candidates(), (Values{"0.9", "0.6"}));
 }
 
-/// 0.1 to 10 Hz by the logarithm: 1 % of the box is a factor of 100^0.01 = 1.047.
+/// For 0.1 to 10 Hz on a logarithmic scale, 1 % of the box is a factor of 100^0.01 = 1.047.
 TEST(Candidates, AreApartInTheScaleOfTheirParameter) {
   SearchedStudy made({{"0.2", 5}, {"0.209", 4}, {"0.21", 3}, {"8", 2}, {"8.2", 1}}, "verify: {best: 9}\n",
                      "cpg.frequency: {low: 0.1, high: 10, scale: log}");
@@ -60,7 +60,7 @@ TEST(Candidates, WithOtherWordsAreApart) {
   EXPECT_EQ(made.candidates().size(), 2U);
 }
 
-/// Five points on a front, of which three divide it evenly.
+/// A front of five points, of which three divide it evenly.
 TEST(Candidates, OfAFrontAreItsEndsAndBetween) {
   SearchedStudy made({{"0.6", 1}, {"0.7", 2}, {"0.8", 3}, {"0.9", 4}, {"1", 5}, {"1.1", 0}},
                      "objective: [{maximize: speed}, {minimize: torque.peak}]\nmethod: {type: nsga2}\n");
@@ -82,7 +82,7 @@ std::function<Row(const Job&)> times(const SearchedStudy& made, double factor, c
   };
 }
 
-/// Reasons of half a step, point by point.
+/// Reasons of the runs with half the step, point by point.
 std::vector<std::string> reasons(SearchedStudy& made, double factor, const std::function<void(Row&)>& change = {}) {
   std::vector<std::string> all;
   for (const Verification& v : made.verify(times(made, factor, change))) {
@@ -153,12 +153,12 @@ constexpr const char* kFixedStep = "set: [physics.integrator=implicit, physics.s
 TEST(StepLimit, IsExactForAnErrorOfItsOrder) {
   const auto value = [](double step, int order) { return 3 + 2 * std::pow(step, order); };
   for (const int order : {1, 2, 4}) {
-    constexpr double kRounding = 1e-14;  // a few operations on numbers of 3 to 5
+    constexpr double kRounding = 1e-14;  // rounding errors of a few operations on numbers of 3 to 5
     EXPECT_NEAR(studies::step_limit(value(1, order), value(0.5, order), order), 3, kRounding) << order;
   }
 }
 
-/// dtto in steps of 1 ms: 2.4 % too slow, the half step 1.2 %, the other engine at the limit.
+/// As for dtto in steps of 1 ms, the speed is 2.4 % too low, and 1.2 % with half the step. The other engine is near the limit.
 TEST(Verify, TakesTheLimitOfVanishingSteps) {
   SearchedStudy made({{"0.6", 1 - 0.024}}, kFixedStep);
   const std::vector<Verification> tried = made.verify(of_first_order(made, 1, 0.024, 1.001));
@@ -183,7 +183,8 @@ TEST(Verify, NeedsNoLimitWithoutAChange) {
   EXPECT_EQ(made.verify(of_first_order(made, 1, 0.01, 1)).size(), 3U);
 }
 
-/// A limit that is broken with finer steps, and steps that the integrator chooses, have no limit.
+/// The limit of vanishing steps is not used if a run with finer steps breaks a constraint, or if the integrator chooses its
+/// steps.
 TEST(Verify, TheLimitNeedsGivenStepsAndLimitsKept) {
   SearchedStudy broken({{"0.6", 1 - 0.05}}, std::string(kFixedStep) + "constraints: [speed <= 0.97]\n");
   const std::vector<Verification> tried = broken.verify(of_first_order(broken, 1, 0.05, 1));
@@ -211,8 +212,8 @@ TEST(Verify, RefusesABrokenConstraint) {
   EXPECT_NEAR(tried.at(1).violation, 0.19 / 1.01 / (1 + 0.19 / 1.01), 1e-15);
 }
 
-/// Also in a study without guards.
-/// The reason of a run in which the check `step` fails names the step, too, because a shorter one may remove the cause.
+/// Also in a study without guards, the reason of a run in which the check `step` fails names the step, because a shorter step
+/// may remove the cause.
 TEST(Verify, NamesAStepThatWasTooLong) {
   SearchedStudy made({{"0.6", 1}});
   const std::size_t column = made.study.column("margin.step");
@@ -231,7 +232,7 @@ TEST(Verify, NamesAStepThatWasTooLong) {
   }
 }
 
-/// Rows that are infeasible with steps that are too long in bullet: at its own step, and at a quarter of it if `at_quarter`.
+/// Rows that are infeasible with too long steps in bullet: with its own step and, if `at_quarter`, also with a quarter of it.
 std::function<Row(const Job&)> with_long_steps(const SearchedStudy& made, bool at_quarter, Values& steps) {
   return [&made, &steps, at_quarter](const Job& job) {
     const bool bullet = std::ranges::find(job.sets, "physics.engine=bullet") != job.sets.end();
@@ -270,7 +271,7 @@ TEST(Verify, RefusesWhatAQuarterOfTheStepConfirms) {
   EXPECT_TRUE(studies::verified(tried).empty());
 }
 
-/// A run of other steps that stands is not repeated, nor is one that falls with steps that are short enough.
+/// A run in the other engine is not repeated if it verifies its point, or if it fails with steps that are short enough.
 TEST(Verify, RepeatsNothingElse) {
   for (const auto& [verdict, margin] : {std::pair{Word::feasible, -0.5}, {Word::infeasible, 0.5}}) {
     SearchedStudy made({{"0.6", 1}}, "verify: {engine: bullet}\n");
@@ -311,7 +312,7 @@ TEST(Verify, RefusesAPointWhoseOwnRunIsInfeasible) {
   EXPECT_EQ(studies::verified(tried), std::vector<std::uint64_t>{0});
 }
 
-/// The replicates of a point count together: the worst by default.
+/// The replicates of a point are combined, by default into the worst.
 TEST(Verify, CombinesReplicates) {
   SearchedStudy made({{"0.6", 1}}, "replicates: {count: 2}\n");
   const std::vector<Verification> tried = made.verify([&](const Job& job) {

@@ -1,4 +1,5 @@
-// Verification in worlds: conditions and share of a point, the order of points, and the constraint of robust studies.
+// Tests of the verification in worlds: conditions and share of a point, the order of points, and the constraint of robust
+// studies.
 #include "studies/search/world_trials.h"
 
 #include <gtest/gtest.h>
@@ -84,7 +85,7 @@ TEST(InWorlds, TheShareDecides) {
   EXPECT_EQ(studies::needed(0, 16), 0U);
 }
 
-/// A point falls by a failed run, a broken constraint or a verdict; a change of the objective is none of them.
+/// A point falls because of a failed run, a broken constraint or a verdict, but not because of a changed objective.
 TEST(InWorlds, WhatAFallIs) {
   const auto reason = [](const std::string& lines, const std::function<void(Row&, const SearchedStudy&)>& change) {
     SearchedStudy made({{"0.6", 1}}, lines);
@@ -118,7 +119,7 @@ TEST(InWorlds, WhatAFallIs) {
   EXPECT_EQ(reason("", not_judged(1)), "") << "without guards, for lack of ratings";
 }
 
-/// A margin that a guard asks for is reserve for the worlds.
+/// A margin that a guard requires is a reserve that worlds may use up.
 TEST(InWorlds, UseUpTheReserve) {
   const auto stood = [](double margin) {
     SearchedStudy made({{"0.6", 1}}, "", "cpg.frequency: {low: 0.5, high: 1.5}", "guards: {voltage: {margin: 0.2}}\n");
@@ -158,7 +159,7 @@ TEST(InWorlds, OnlyPointsThatStandAreRun) {
                    .has_value());
 }
 
-/// Replicates of the study are not multiplied: each world has one run.
+/// Each world has one run, regardless of the number of replicates.
 TEST(InWorlds, TakesTheFirstReplicate) {
   SearchedStudy made({{"0.6", 1}}, "replicates: {count: 3}\n");
   std::size_t runs = 0;
@@ -196,7 +197,7 @@ TEST(RankedByShare, ByShareThenByValue) {
   EXPECT_EQ(order(false), (std::vector<std::uint64_t>{3, 4, 2, 1, 5}));
 }
 
-/// The text of a point, from its journal alone.
+/// The text on a point follows from its journal alone.
 TEST(VerificationText, NamesTheWorldsInWhichAPointFalls) {
   SearchedStudy made({{"0.6", 0.0646}});
   made.write();

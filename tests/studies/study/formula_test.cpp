@@ -57,7 +57,7 @@ TEST(Formula, IsComputedFromTheColumnsThatItNames) {
   EXPECT_EQ(value("not (speed > 0.4 and torque.peak >= 8)"), 0);
 }
 
-/// A comparison with an unknown value is neither true nor false, whatever operators are around it.
+/// A comparison with an unknown value is neither true nor false, whatever operators enclose it.
 TEST(Formula, IsUnknownWhereAQuantityIsUnknown) {
   const double unknown = std::nan("");
   const std::array<double, 3> quantities{unknown, 8, 3};

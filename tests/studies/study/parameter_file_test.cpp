@@ -1,4 +1,4 @@
-// Parameters and replicates as they are written in a study and on the command line, and what is refused.
+// Tests of parameters and replicates in a study and on the command line, also of refused ones.
 #include "studies/study/parameter_file.h"
 
 #include <gtest/gtest.h>

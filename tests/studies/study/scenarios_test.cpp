@@ -48,7 +48,7 @@ TEST(ScenariosText, OfASingleOneIsItsText) {
   EXPECT_EQ(parts(""), Texts{});
 }
 
-/// Texts of a forged journal end somewhere, and none is read beyond its end.
+/// The texts of a forged journal may end anywhere, and none is read beyond its end.
 TEST(ScenariosText, OfAForgedJournalEnds) {
   const std::string whole = "--- # scenario a\nx: 1\n--- # scenario b\ny: 2\n";
   for (std::size_t size = 0; size <= whole.size(); ++size) {

@@ -32,7 +32,7 @@ export function number(x: number | null | undefined, digits = 3, unit?: string):
 export const fixed = (x: number, decimals: number): string =>
   minus((Math.abs(x) < 0.5 * 10 ** -decimals ? 0 : x).toFixed(decimals));
 
-/** Number of decimals, at least two, with which the number `peak` has three significant digits. */
+/** Number of decimals, at least two, that gives the number `peak` three significant digits. */
 export const decimalsOf = (peak: number, unit: string): number =>
   floored(peak, unit) === 0 ? 2 : Math.max(2, Math.ceil(-Math.log10(peak)) + 1);
 

@@ -1,5 +1,5 @@
 // Gauges of the joints in the 3D picture: an unlit ring at each hinge that faces the reader. Its coloured arc is the
-// load. A ring is in front of the two bodies of its hinge; behind other bodies it is faint, except of the chosen joint.
+// load. A ring is in front of the two bodies of its hinge. Behind other bodies it is faint, unless its joint is chosen.
 import {
   Color,
   DynamicDrawUsage,

@@ -158,9 +158,9 @@ TEST(UprightCheck, FailsBelowTheHorizontal) {
   EXPECT_EQ(set.check("upright").status, CheckStatus::fail) << "the key moves the warning alone";
 }
 
-/// The end of a chain turns beyond the horizontal in a wave while the mean of the bodies does not: base 2 rad, the others 2 - q
-/// and 2 - 2 q. Bent the other way, the mean is beyond, too. Masses: the outer bodies of the module are equal, the middle is
-/// light.
+/// In a wave, the end of a chain turns beyond the horizontal, but the mean of the bodies does not. The base is at 2 rad, the
+/// others at 2 - q and 2 - 2 q. If the chain bends the other way, the mean is also beyond the horizontal. The outer bodies of
+/// the module have equal masses, and the middle is light.
 TEST(UprightCheck, IsNotOfTheEndOfAChainAlone) {
   const Still still("{type: none}", {"actuator.type=none", "physics.gravity=[0, 0, 0]"});
   const auto bent = [&](double hinge) {

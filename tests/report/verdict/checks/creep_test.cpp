@@ -1,4 +1,4 @@
-// Check `creep`: feet that hold on a real ground, and move here because friction is viscous at low speed.
+// Tests of the check `creep`: feet that would hold on a real ground move here, because friction is viscous at low speed.
 #include "tests/labels.h"
 #include "tests/program/block.h"
 #include "tests/report/verdict/verdict_case.h"
@@ -21,8 +21,8 @@ std::string down(double slope) {
   return fmt::format("physics.gravity=[{:.17g}, 0, {:.17g}]", 9.81 * std::sin(slope), -9.81 * std::cos(slope));
 }
 
-/// A block on a slope creeps at v_lim tan(a) / f (eq. 12). The load on its points is cos(a) of its weight, within 1e-3 of which
-/// its sinking at the start remains.
+/// A block on a slope creeps at v_lim tan(a) / f (eq. 12). The load on its points is cos(a) times its weight. The tolerance of
+/// 1e-3 is for the settling at the start.
 TEST(Creep, IsAllOfTheTravelOfABlockOnASlope) {
   const double slope = 0.2;
   const Check made =
@@ -31,8 +31,8 @@ TEST(Creep, IsAllOfTheTravelOfABlockOnASlope) {
   EXPECT_NEAR(made.value, std::cos(slope), 1e-3);
 }
 
-/// Uphill, downhill and across a slope, of gaits that creep by 7 % to 34 % of their travel. Half the slip speed leaves half of
-/// that way, within a tenth, because the gait changes with it.
+/// Gaits uphill, downhill and across a slope creep by 7 % to 34 % of their travel. With half the slip speed they creep half as
+/// far, within a tenth, because the gait changes, too.
 TEST(Creep, OfGaitsOnASlope) {
   const auto of = [](const std::string& file, double slope, const char* speed, const std::vector<std::string>& more = {}) {
     std::vector<std::string> sets{"physics.engine=articulated", down(slope), std::string("contact.slip_speed=") + speed,

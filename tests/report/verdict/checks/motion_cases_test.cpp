@@ -51,7 +51,7 @@ TEST(CheckMotion, ProgressIsAWayOrATurn) {
   EXPECT_EQ(without(0.098), CheckStatus::warn);
 }
 
-/// Gravity that does `work` on a robot that goes `way` forward on a plane.
+/// Sets gravity so that it does `work` on a robot that travels `way` forward on a plane.
 void slope(Case& made, double work, double way) { made.scenario.physics.gravity.x() = work / made.scenario.robot->mass / way; }
 
 /// A robot slides downhill, which is not progress, if gravity supplies more energy than the motors along the ground and the

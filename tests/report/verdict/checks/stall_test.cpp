@@ -5,7 +5,7 @@
 namespace gaitlab::test {
 namespace {
 
-/// An arm whose first hinge holds the rest of it, while the second one moves.
+/// An arm whose first hinge holds the rest of the arm, while the second hinge moves.
 Check held_by(const std::string& mass, const std::vector<std::string>& sets = {}, Verdict* whole = nullptr) {
   const Scenario s = scenario(
       fmt::format("gaitlab: 1\nrobot:\n  base: fixed\n  modules:\n    gaitlab_module: 1\n    name: arm\n    bodies:\n"
@@ -28,7 +28,7 @@ Check held_by(const std::string& mass, const std::vector<std::string>& sets = {}
   return *std::ranges::find(made.checks, "stall", &Check::id);
 }
 
-/// A servo whose gear is directional holds more than its sheet says: 9.81 m/s^2 x 0.1 m x mass, and 0.04 N m of the hand.
+/// A servo with a directional gear holds more than its data sheet states: 9.81 m/s^2 x 0.1 m x mass, and 0.04 N m for the hand.
 TEST(Stall, AMotorHoldsNoMoreThanItsSheetSays) {
   Verdict made;
   const Check fails = held_by("0.45", {}, &made);
@@ -42,7 +42,7 @@ TEST(Stall, AMotorHoldsNoMoreThanItsSheetSays) {
   EXPECT_EQ(held_by("0.32", {"actuator.efficiency_model=paper"}).status, CheckStatus::warn) << "of the same torque";
 }
 
-/// The supply moves the stall torque in proportion, and a supply above the sheet's does not raise it.
+/// The stall torque is proportional to the supply, but a supply above that of the data sheet does not raise it.
 TEST(Stall, TheSupplyCounts) {
   EXPECT_NEAR(held_by("0.1", {"actuator.u_max=3.7"}).limit, 0.195, 1e-12);
   EXPECT_EQ(held_by("0.32", {"actuator.u_max=6"}).status, CheckStatus::fail);
@@ -51,7 +51,7 @@ TEST(Stall, TheSupplyCounts) {
   EXPECT_NEAR(*report::motors(constants, 0).joint(0).stall, 0.7 * 0.00395 * 594 * 7.4 / 4.3, 1e-9);
 }
 
-/// Half a second at rest, in a run that otherwise moves or rests without load.
+/// The joint is at rest for half a second, in a run in which it otherwise moves or rests without load.
 TEST(Stall, AStretchOfATenthOfASecondCounts) {
   Case made = gait();
   made.scenario = shipped("caterpillar.yaml", {"duration=12", "physics.engine=articulated", "actuator.i_max=2",

@@ -13,7 +13,7 @@ namespace {
 
 using namespace report;
 
-/// A snake of four modules, with every number at a place of its own.
+/// A snake of four modules, with every number at a separate place.
 const std::string kSnakeOfBoxes = R"(gaitlab: 1
 robot:
   modules:
@@ -192,7 +192,7 @@ TEST(Plausibility, SettingsOfMotors) {
   EXPECT_TRUE(contains(with("u_max: 111"),
                        "the supply of the motor of m0/hinge is 111 V, and its data hold at 12 V; expected 0.3 to 3"));
   EXPECT_EQ(with("u_max: 7.4"), "0");
-  // 5 kg m^2 * 10.2 rad/s / 1.8 N m = 28.3 s; 0.0005 kg m^2 take 2.8 ms.
+  // The start takes 5 kg m^2 * 10.2 rad/s / 1.8 N m = 28.3 s; with 0.0005 kg m^2 it takes 2.8 ms.
   EXPECT_TRUE(
       contains(with("rotor_inertia: 5"), "takes 28.3 s to its speed; expected at most 1 s: is it in kg cm^2? (and 3 more)"));
   EXPECT_EQ(with("rotor_inertia: 0.002"), "0");
@@ -202,7 +202,7 @@ TEST(Plausibility, SettingsOfMotors) {
       << gain[0];
 }
 
-/// Two motors of 60 W/kg each in a module of 0.2 kg.
+/// A module of 0.2 kg has two motors of 60 W/kg each.
 TEST(Plausibility, PowerIsThatOfAllMotorsOfAModule) {
   const OddTexts found = odd_numbers({{"docks: [[0, 1, 1, 0, 0], [0, 2, 1, 1, 0], [0, 3, 1, 2, 0]]", "docks: []"},
                                       {"stall_torque: 1.8", "stall_torque: 4.7"},
@@ -258,7 +258,7 @@ TEST(Plausibility, BodiesWithoutShapes) {
   EXPECT_EQ(with("com: [0.0235", "com: [0.09"), OddTexts()) << "a body may be larger than the box about its points";
 }
 
-/// A correction that would leave another odd number is not asked for.
+/// A message does not suggest a correction that would give another implausible number.
 TEST(Plausibility, QuestionsMakeSense) {
   const auto end = [](const OddTexts& found) { return found.size() == 1 ? found[0].substr(found[0].rfind("; ")) : "none"; };
   EXPECT_EQ(end(odd_numbers({}, {"robot.position=[0, 0, 0.4]"})), "; expected at most that height")
@@ -269,7 +269,7 @@ TEST(Plausibility, QuestionsMakeSense) {
   EXPECT_EQ(end(odd_numbers({{"com: [0.0235", "com: [0.09"}})), "; expected a point in their convex hull") << "0.09 mm is 0";
 }
 
-/// Parts with one fault that has no known mistake share a warning.
+/// Parts with the same fault and no known mistake share a warning.
 TEST(Plausibility, UnexplainedPartsShareAWarning) {
   const OddTexts found = odd_numbers({{"[3.605e-05, 3.275e-05, 3.275e-05", "[3.605e-04, 3.275e-04, 3.275e-04"},
                                       {"[5.408e-05, 3.604e-05, 3.604e-05", "[5.408e-04, 3.604e-04, 3.604e-04"}});
@@ -337,13 +337,14 @@ TEST(Plausibility, SetPoints) {
   EXPECT_EQ(odd_numbers({}, {"cpg.offset=3"}).size(), 1U);
   const OddTexts fast = odd_numbers({}, {"cpg.frequency=8"});
   ASSERT_EQ(fast.size(), 1U);
-  // Amplitude 0.5 rad at 8 Hz: 0.5 * 2 pi * 8 = 25.1 rad/s; over 15 ms sin(0.377) / 0.377 of that, 24.5.
+  // An amplitude of 0.5 rad at 8 Hz is 0.5 * 2 pi * 8 = 25.1 rad/s. Over 15 ms, the mean is sin(0.377) / 0.377 of this, 24.5
+  // rad/s.
   EXPECT_TRUE(contains(fast[0], "move at up to 24.5 rad/s, and its motor at 10.2 rad/s without load")) << fast[0];
   EXPECT_EQ(odd_numbers({{"range: [-1.57, 1.57]", "range: free"}}, {"cpg.amplitude=2"}), OddTexts()) << "without stops";
 }
 
 TEST(Plausibility, BodiesInOnePlace) {
-  // Four corners to the left: the fifth module lies on the first.
+  // Four corners to the left would put the fifth module onto the first.
   const OddTexts found = odd_numbers({{"[[0, 1, 1, 0, 0], [0, 2, 1, 1, 0], [0, 3, 1, 2, 0]]",
                                        "[[0, 1, 2, 0, 2], [0, 2, 2, 1, 2], [0, 3, 2, 2, 2], [0, 4, 2, 3, 2]]"}});
   ASSERT_EQ(found.size(), 1U);

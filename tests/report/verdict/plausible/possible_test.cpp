@@ -42,7 +42,7 @@ void expect_refused(const Verdict& made, const std::string& reason, const std::s
   EXPECT_TRUE(made.why().ends_with("; state physics that can be, or accept: [" + row + "]")) << made.why();
 }
 
-/// The word waits until the number is corrected or accepted; an accepted number is part of `rests_on`.
+/// A run has no verdict until the number is corrected or accepted. An accepted number is part of `rests_on`.
 TEST(Possible, ImpossibleMomentsAreNotJudged) {
   const Links heavy{.inertia = "1", .motor = "stall_torque: 10, no_load_speed: 10"};
   expect_refused(
@@ -60,22 +60,22 @@ TEST(Possible, ImpossibleMomentsAreNotJudged) {
 }
 
 TEST(Possible, LimitsOfTheRanges) {
-  // Extent 0.1 x 0.05 x 0.05 m: 0.1225 m. Mass 0.1 kg at twice that: 0.1 x 0.06 = 0.006 kg m^2.
+  // The extent of 0.1 x 0.05 x 0.05 m is 0.1225 m. A mass of 0.1 kg at twice this distance has 0.1 x 0.06 = 0.006 kg m^2.
   EXPECT_EQ((Links{.inertia = "0.0059"}.doubts().refused), "");
   EXPECT_TRUE(Links{.inertia = "0.0061"}.doubts().refused.ends_with("accept: [moments]"));
-  // 0.00025 m^3 x 23 000 kg/m^3 = 5.75 kg.
+  // The largest mass is 0.00025 m^3 x 23 000 kg/m^3 = 5.75 kg.
   EXPECT_EQ((Links{.mass = "5.7"}.doubts().refused), "");
   EXPECT_EQ(
       (Links{.mass = "5.8"}.doubts().refused),
       "5.8 kg of body 'a' of link in 250 cm^3: 2.32e+04 kg/m^3, and no metal has more than 23000 (and 1 more); state physics "
       "that can be, or accept: [density]");
-  // 0.2 kg x 9.81 m/s^2 x (0.2, 0.05, 0.05) m: 0.416 N m.
+  // The weight of 0.2 kg has the moment 0.416 N m over the diagonal of (0.2, 0.05, 0.05) m.
   EXPECT_EQ((Links{.motor = "stall_torque: 41.5, no_load_speed: 1"}.doubts().refused), "");
   EXPECT_EQ(
       (Links{.motor = "stall_torque: 41.8, no_load_speed: 1"}.doubts({"physics.gravity=[0, 0, -1]"}).refused),
       "41.8 N m of the motor of m0/h at rest: 100 times the weight of the whole robot (0.2 kg) at a distance of its extent "
       "(0.212 m), and at most 100 can be; state physics that can be, or accept: [stall torque]");
-  // 0.2 kg x 1500 W/kg = 300 W = 30 N m x 40 rad/s / 4.
+  // The largest power is 0.2 kg x 1500 W/kg = 300 W = 30 N m x 40 rad/s / 4.
   EXPECT_EQ((Links{.motor = "stall_torque: 30, no_load_speed: 39.9"}.doubts().refused), "");
   EXPECT_EQ(
       (Links{.motor = "stall_torque: 30, no_load_speed: 40.1"}.doubts().refused),
@@ -102,7 +102,7 @@ TEST(Possible, BodiesThatAreLargerThanTheirShapes) {
   EXPECT_TRUE(contains(bare("0.0011"), "and the body's extent is 0.05 m"));
 }
 
-/// Several rows, of which one is accepted. A failing check does not count before.
+/// Several rows report impossible numbers, and one is accepted. A failing check does not precede them.
 TEST(Possible, ImpossibleComesBeforeInfeasible) {
   const Links wild{.inertia = "1", .motor = "stall_torque: 60, no_load_speed: 30"};
   const Sets falls{"limits.height=1", "robot.position=[0, 0, 0.3]"};
@@ -161,7 +161,7 @@ TEST(ChangedLimits, AreNamedBesideTheWord) {
   EXPECT_FALSE(contains(Links{}.judged({"limits.tilt=1.0471975511965976"}).rests_on, "limits")) << "the default";
 }
 
-/// A limit cannot make a run feasible whose torques are not known.
+/// No limit can make a run feasible whose torques are not known.
 TEST(ChangedLimits, NoRunIsFeasibleAboveTenPercent) {
   Case made = gait();
   made.scenario.limits.torque_error = 1;
@@ -186,7 +186,7 @@ TEST(Units, ZeroStiffnessIsAnError) {
   }
 }
 
-/// Each unit that is likely, and numbers near it that are right.
+/// Tests each likely wrong unit, and similar numbers that are plausible.
 TEST(Units, CurrentsDocksAndContacts) {
   const auto warned = [](const Links& of, const Sets& sets = {}) {
     std::string all;
@@ -194,7 +194,7 @@ TEST(Units, CurrentsDocksAndContacts) {
     return all;
   };
   EXPECT_EQ(warned({}), "");
-  // k = 1.2 V s/rad, I0 = 1 / (0.7 x 1.2) = 1.19 A.
+  // The motor has k = 1.2 V s/rad and I0 = 1 / (0.7 x 1.2) = 1.19 A.
   const std::string motor = "stall_torque: 1, no_load_speed: 10, ";
   EXPECT_EQ(
       warned({.motor = motor + "i_continuous: 200"}),
@@ -223,7 +223,7 @@ TEST(Units, LoadsOfDocksAndContactElements) {
     return all;
   };
   EXPECT_EQ(warned("tension: 50", "tension: 60"), "");
-  // 0.2 kg x 9.81 m/s^2 = 1.96 N; at 0.212 m: 0.416 N m.
+  // The weight is 0.2 kg x 9.81 m/s^2 = 1.96 N, and its moment at 0.212 m is 0.416 N m.
   EXPECT_TRUE(
       contains(warned("tension: 50", "tension: 50000"),
                "tension of connector 'latch' of link is 50000 N, 2.55e+04 times the weight of the robot (0.2 kg); expected "
@@ -263,7 +263,7 @@ TEST(Possible, ABodyOfPointsIsComparedWithTheirBox) {
   EXPECT_NEAR(findings("moments", s).at(0).value, 2, 1e-12);
 }
 
-/// A quarter of the weight sinks a sphere by a share of its diameter.
+/// The penetration under a quarter of the weight is compared with the diameter of a sphere.
 TEST(Possible, StiffnessIsComparedWithTheDiameterOfASphere) {
   const Scenario s = bar("1, 1, 1", "{body: a, sphere: [0, 0, 0], radius: 0.06}, {body: a, sphere: [0.3, 0, 0], radius: 0.05}");
   const double sink = std::pow(30 * 9.81 / 4 / s.contact.penalty.kn, 1 / s.contact.penalty.k);
@@ -275,8 +275,8 @@ TEST(Possible, TheTorqueOfAMotorWithTwoConstantsIsNotKnown) {
   EXPECT_TRUE(findings("stall torque", shipped("caterpillar.yaml", {"actuator.Ks=0.01"})).empty());
 }
 
-/// Limits of rows at which the number is just right or just wrong: a tenth of a period between two rows; a range of 360 rad,
-/// above which no stop is meant; of a setting per joint, the joint with the largest angle.
+/// Tests numbers just within and just beyond the limits of rows: a tenth of a period between two rows; a range of 360 rad,
+/// above which no stop is meant; and for a setting per joint, the joint with the largest angle.
 TEST(Possible, LimitsOfRowsAndAngles) {
   const auto rows = [](const Sets& sets) { return implausible(scenario(Links{}.text(), sets)).rows; };
   EXPECT_EQ(std::ranges::count(rows({"trace.period=0.09"}), "trace period"), 0);
@@ -294,7 +294,7 @@ TEST(Possible, LimitsOfRowsAndAngles) {
   EXPECT_EQ(std::ranges::count(all, 1.1, &Finding::value), 1);
 }
 
-/// A key of the scenario replaces that of the module type, and has the place of the warning.
+/// If a key of the scenario replaces that of the module type, the warning is at the key of the scenario.
 TEST(Possible, AKeyHasThePlaceWhereItIsSet) {
   const Scenario s =
       scenario(Links{.more = "actuator: {type: servo, voltage: 12, stall_torque: 5000, no_load_speed: 10}\n"}.text());
