@@ -35,7 +35,7 @@ Roll and pitch do not contain the turn about the vertical. A gyroscope of noise 
 time between samples, and walk: K. All values are separate channels (Measured::channels). Trace columns sensor.NAME.gyro_x,
 sensor.NAME.accelerometer_x, sensor.NAME.roll ...
 Each quantity has the keys of a channel (docs/real-robot.md), and its numbers have common losses and delay.
-Source: IEEE Std 952-1997 (gyroscopes), IEEE Std 1293 (accelerometers). Defaults (chosen): exact.
+Source: IEEE Std 952-1997 (gyroscopes), IEEE Std 1293 (accelerometers). Default (chosen): an exact sensor.
 
     sensors:
       imu: {type: imu, body: m0/active, gyro: {noise: 0.01}, accelerometer: {noise: 0.05, range: [-20, 20]}})";

@@ -178,7 +178,7 @@ std::string explain_named(const std::string& kind_name, const std::string& name,
   std::error_code none;
   const bool file = std::filesystem::exists(name, none) && !std::filesystem::is_directory(name, none);
   if (module && (name.ends_with(".yaml") || file)) {
-    if (known) say(name, "note", "is the file of that name, not the module type that comes with gaitlab");
+    if (known) say(name, "note", fmt::format("'{0}' is the file './{0}', not the module type that comes with gaitlab", name));
     return module_manual(name, catalog);
   }
   if (known) return kind->manual(name, catalog);

@@ -5,7 +5,7 @@ namespace gaitlab::app {
 namespace {
 
 constexpr const char* kCpg =
-    R"(// CPG @NAME@: a chain of phase oscillators, to be made your own. Purpose of every function: core/plugin/cpg.h.
+    R"(// CPG @NAME@: a chain of phase oscillators, as a starting point. Purpose of every function: core/plugin/cpg.h.
 #include <cmath>
 #include <numbers>
 
@@ -96,7 +96,7 @@ expect(distance GREATER 0.05 "m: it does not walk")
 )";
 
 constexpr const char* kController =
-    R"(// Controller @NAME@: a spring and a damper between joint and set point, to be made your own. Purpose of every function:
+    R"(// Controller @NAME@: a spring and a damper between joint and set point, as a starting point. Purpose of every function:
 // core/plugin/controller.h.
 #include "core/plugin/plugin.h"
 
@@ -175,7 +175,7 @@ endforeach()
 )";
 
 constexpr const char* kActuator =
-    R"(// Actuator @NAME@: a motor whose torque falls linearly with its speed, to be made your own. Purpose of every function:
+    R"(// Actuator @NAME@: a motor whose torque falls linearly with its speed, as a starting point. Purpose of every function:
 // core/plugin/actuator.h.
 #include <algorithm>
 #include <vector>

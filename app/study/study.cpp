@@ -173,7 +173,7 @@ int merge_study(const StudyArguments& a) {
   const std::uint64_t lacking = shards.count == 0 && rows < all->head().runs ? all->head().runs - rows : 0;
   if (lacking > 0) {
     say(a.folder, "error",
-        fmt::format("{} of {} runs have not ended; continue with: {}", lacking, all->head().runs, all->head().command));
+        fmt::format("{} of {} runs have not finished; continue with: {}", lacking, all->head().runs, all->head().command));
   }
   return missing.count() > 0 || lacking > 0 ? 1 : 0;
 }

@@ -73,7 +73,7 @@ class ModuleReader {
 
   void check_name(const std::string& name, const SourceLocation& place) {
     if (!is_name(name, "_-"))
-      problems_.add(place, "name " + in_quotes(name) + " is not allowed; expected letters, digits, _ and -");
+      problems_.add(place, "name " + in_quotes(name) + " is not allowed; expected letters, digits, `_` and `-`");
   }
   void check_name(const Node* node) {
     if (node != nullptr && node->kind == Node::Kind::scalar) check_name(node->text, node->place);

@@ -65,7 +65,7 @@ void TypeLibrary::define(const Node& types) {
   for (std::size_t i = 0; i < types.keys.size(); ++i) {
     const auto& [name, place] = types.keys[i];
     if (!is_name(name, "_-")) {
-      problems_.add(place, "type name " + in_quotes(name) + " is not allowed; expected letters, digits, _ and -");
+      problems_.add(place, "type name " + in_quotes(name) + " is not allowed; expected letters, digits, `_` and `-`");
     }
     defined_[name] = &types.items[i];
   }

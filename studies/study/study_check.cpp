@@ -116,7 +116,8 @@ std::string wrong_budget(const Study& study) {
   }
   if (runs == 0) return fmt::format("missing budget: {{runs: N}}, which {} needs", method);
   if (is_search(study.method) && runs < least_runs(study)) {
-    return fmt::format("a budget of {} runs is less than the {} of the searches' first generation", runs, least_runs(study));
+    return fmt::format("a budget of {} runs is too small: the first generation of all searches has {} runs", runs,
+                       least_runs(study));
   }
   if (runs >= study.runs_of_point()) return "";
   return fmt::format("a budget of {} runs is less than the {} {} of one point", runs, study.runs_of_point(),

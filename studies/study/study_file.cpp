@@ -51,7 +51,7 @@ void read_named_scenarios(const Node& node, Study& study, Problems& problems) {
     const auto& [name, place] = node.keys[k];
     const Node& file = node.items[k];
     if (!is_name(name, "_.-"))
-      problems.add(place, "scenario name " + in_quotes(name) + " is not allowed; expected letters, digits, _ . and -");
+      problems.add(place, "scenario name " + in_quotes(name) + " is not allowed; expected letters, digits, `_`, `.` and `-`");
     if (file.kind != Node::Kind::scalar) {
       problems.add(file.place, "scenario " + clipped(name) + " is " + found(file) + "; expected the name of a file");
     } else {
@@ -157,11 +157,11 @@ Explainer study_keys() {
   explainer.row("objective", "", "{maximize: QUANTITY}", "{maximize: EXPRESSION} or {minimize: EXPRESSION}",
                 "Order of the points; default: by the first of `quantities`. A list of two or three: the Pareto front, the "
                 "points that no other point beats in all objectives.");
-  explainer.row("constraints", "", "[]", "texts a <= b, a >= b or a == b", "Conditions that a point must satisfy.");
+  explainer.row("constraints", "", "[]", "texts: `a <= b`, `a >= b` or `a == b`", "Conditions that a point must satisfy.");
   explainer.row("guards", "", "verdict", "verdict, none or {CHECK: LIMIT, CHECK: {margin: M}, CHECK: true or false}",
                 "Checks of the verdict that a point must pass. verdict: the verdict must be `feasible`. Checks by id extend or "
                 "change this: another limit, a least margin, true (required) or false (ignored).");
-  explainer.row("stop", "", "[]", "texts EXPRESSION or EXPRESSION after SECONDS",
+  explainer.row("stop", "", "[]", "texts: `EXPRESSION` or `EXPRESSION after SECONDS`",
                 "Rules that end a run early, evaluated once every simulated second on quantities of the run so far: fell, or "
                 "those of a joint.");
   explainer.row("start", "", "[]", "[{PARAMETER: VALUE, ...}, ...]",
@@ -194,7 +194,8 @@ void check_name(const Study& study, const Node& root, Problems& problems) {
   if (is_name(study.name, "_.-") && study.name[0] != '.') return;
   const Node* name = root.find("name");
   problems.add(name != nullptr ? name->place : root.place,
-               "name " + in_quotes(study.name) + " is not allowed; expected letters, digits, _ . and -, not a . first");
+               "name " + in_quotes(study.name) + " is not allowed; expected letters, digits, `_`, `.` and `-`, but no `.` at "
+                                                 "the start");
 }
 
 /// Stores the places of keys for later messages.

@@ -275,7 +275,7 @@ TEST_F(Optimize, CommandsAreToldApart) {
   }
   const Result few = call("optimize s.yaml --runs 9");
   EXPECT_EQ(few.code, 2);
-  EXPECT_EQ(few.err, "--runs: error: a budget of 9 runs is less than the 16 of the searches' first generation\n");
+  EXPECT_EQ(few.err, "--runs: error: a budget of 9 runs is too small: the first generation of all searches has 16 runs\n");
   ASSERT_EQ(call("optimize s.yaml --method random --out r --quiet").code, 0);  // random points instead of a search
   EXPECT_TRUE(journal("r").generations().empty());
   EXPECT_EQ(call("optimize s.yaml --out r --quiet").code, 2);  // the folder contains a different study

@@ -21,12 +21,12 @@ std::vector<CheckKind> checks::creep() {
     passes(made, made.limit);
     made.from = window.time(window.start);
     made.to = window.time(window.loads.rows() - 1);
-    made.text = fmt::format("feet that hold creep {}, {} of the travel of {}", texts::length(creep), texts::percent(made.value),
-                            texts::length(travel));
+    made.text = fmt::format("where a real ground would hold the feet, they creep {}, {} of the travel of {}",
+                            texts::length(creep), texts::percent(made.value), texts::length(travel));
     if (made.status == CheckStatus::warn)
       made.text += fmt::format("; contact.slip_speed: {:.3g} would halve it", run.scenario.contact.penalty.v_lim / 2);
   };
-  return {{"creep", CheckGroup::trust, "", "Feet that hold stay",
+  return {{"creep", CheckGroup::trust, "", "Standing feet do not creep",
            "net displacement, weighted by load, of feet that slide below contact.slip_speed, where a real ground holds them, "
            "over that of the centre of mass",
            "", "above " + texts::percent(kMostCreep), CheckSpan::window, "contact.slip_speed", "a smaller contact.slip_speed",

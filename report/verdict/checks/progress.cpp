@@ -143,7 +143,7 @@ std::vector<CheckKind> checks::progress() {
        "that is set; or the robot slides down its ground faster and faster: gravity does more work along the ground than the "
        "motors",
        "below a hundredth of the robot's extent (without periods: a tenth), with as little turning", CheckSpan::window,
-       "limits.progress", "limits.progress, if standing still must be a failure", judge, true}};
+       "limits.progress", "limits.progress, if standing still is to count as a failure", judge, true}};
 }
 
 }  // namespace gaitlab::report

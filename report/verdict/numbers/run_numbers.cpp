@@ -132,8 +132,8 @@ std::vector<SummaryNumber> run_numbers() {
        .list = true},
       {.key = "torque_event.time",
        .unit = "s",
-       .definition = "First time at which the estimated error of a torque exceeds `accuracy` (1 % if the step "
-                     "is given) of its peak; `torque_event` is null if none does.",
+       .definition = "First time at which the estimated error of a torque exceeds the share `accuracy` (1 % if the step is "
+                     "given) of the torque's peak; `torque_event` is null if no error exceeds it.",
        .value = [](R r) { return r.record.tally.event.time < 0 ? Json() : Json(r.record.tally.event.time); }},
       {.key = "torque_event.joint",
        .definition = "Joint of that torque.",

@@ -227,8 +227,8 @@ Doubts doubts(const Scenario& s) {
   Doubts made;
   if (!rows.empty()) {
     rows.insert(rows.begin(), s.accept.begin(), s.accept.end());
-    made.refused =
-        fmt::format("{}; state physics that can be, or accept: [{}]", fmt::join(impossible, "; "), fmt::join(rows, ", "));
+    made.refused = fmt::format("{}; give values that are physically possible, or accept: [{}]", fmt::join(impossible, "; "),
+                               fmt::join(rows, ", "));
   }
   if (!accepted.empty()) made.accepted = fmt::format("accepted: {}", fmt::join(accepted, ", "));
   return made;

@@ -284,9 +284,9 @@ std::vector<Impossible> impossible_moments(const Scenario& s) {
     const double largest = sorted_moments(body.inertia)[2];
     const double times = largest / (body.mass * kAway * size * kAway * size);
     if (!(size > 0) || !(times > 1)) return;
-    found.push_back({times, fmt::format("{:.3g} kg m^2 of body {} of {} of {} kg: that of a ring of radius {:.2g} m, and the "
-                                        "body's extent is {:.2g} m",
-                                        largest, in_quotes(body.name), clipped(type.name), number_text(body.mass),
+    found.push_back({times, fmt::format("body {} of {} ({} kg) has a moment of inertia of {:.3g} kg m^2, as much as a ring of "
+                                        "radius {:.2g} m, but the body's extent is {:.2g} m",
+                                        in_quotes(body.name), clipped(type.name), number_text(body.mass), largest,
                                         std::sqrt(largest / body.mass), size)});
   });
   return found;
@@ -318,9 +318,9 @@ std::vector<Impossible> impossible_densities(const Scenario& s) {
     const double volume = body.volume > 0 ? body.volume : united(body.shapes).volume;
     const double density = body.mass / volume;
     if (!(density > kMost)) return;
-    found.push_back({density / kMost, fmt::format("{} kg of body {} of {} in {:.3g} cm^3: {:.3g} kg/m^3, and no metal has more "
-                                                  "than {:g}",
-                                                  number_text(body.mass), in_quotes(body.name), clipped(type.name),
+    found.push_back({density / kMost, fmt::format("body {} of {} has {} kg in {:.3g} cm^3: {:.3g} kg/m^3, but no metal has "
+                                                  "more than {:g} kg/m^3",
+                                                  in_quotes(body.name), clipped(type.name), number_text(body.mass),
                                                   volume * 1e6, density, kMost)});
   });
   return found;

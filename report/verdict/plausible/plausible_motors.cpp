@@ -177,9 +177,9 @@ std::vector<Impossible> impossible_torques(const Scenario& s) {
     const double times = most[j] / (kMost * held);
     if (!s.robot->joints[j].driven() || !available.known(j) || !(times > 1)) continue;
     found.push_back(
-        {times, fmt::format("{:.4g} N m of the motor of {} at rest: {:.3g} times the weight of the whole robot ({:.4g} "
-                            "kg) at a distance of its extent ({:.3g} m), and at most {:g} can be",
-                            most[j], s.robot->joints[j].name, kMost * times, s.robot->mass, edge, kMost)});
+        {times, fmt::format("the motor of {} has {:.4g} N m at rest: {:.3g} times the weight of the whole robot ({:.4g} kg) at "
+                            "a distance of its extent ({:.3g} m), but at most {:g} times is possible",
+                            s.robot->joints[j].name, most[j], kMost * times, s.robot->mass, edge, kMost)});
   }
   return found;
 }
@@ -193,9 +193,9 @@ std::vector<Impossible> impossible_powers(const Scenario& s) {
     const double power = power_of(motors, nullptr) / mass;
     if (!(mass > 0) || !(power > kMost)) continue;
     found.push_back(
-        {power / kMost, fmt::format("{:.3g} W of the motors of module m{} of {:.4g} kg: {:.3g} W/kg, and no motor has "
-                                    "more than {:g}",
-                                    power * mass, module, mass, power, kMost)});
+        {power / kMost, fmt::format("the motors of module m{} ({:.4g} kg) have {:.3g} W: {:.3g} W/kg, but no motor has more "
+                                    "than {:g} W/kg",
+                                    module, mass, power * mass, power, kMost)});
   }
   return found;
 }

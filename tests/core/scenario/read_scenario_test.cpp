@@ -78,12 +78,14 @@ TEST_F(ScenarioTest, UnknownKeysBeyondThoseThatArePrintedGetNoOffer) {
 TEST_F(ScenarioTest, VersionAndName) {
   EXPECT_EQ(error("gaitlab: 2\nfuture: 1\n"), "DIR/s.yaml:1:10: error: gaitlab is 2; expected 1, the only format version");
   EXPECT_EQ(error(kShort + "name: a/b\n"),
-            "DIR/s.yaml:3:7: error: name 'a/b' is not allowed; expected letters, digits, _ . and -, not a . first");
+            "DIR/s.yaml:3:7: error: name 'a/b' is not allowed; expected letters, digits, `_`, `.` and `-`, but no `.` at the "
+            "start");
   EXPECT_EQ(error(kShort + "name: ..\n"),
-            "DIR/s.yaml:3:7: error: name '..' is not allowed; expected letters, digits, _ . and -, not a . first");
+            "DIR/s.yaml:3:7: error: name '..' is not allowed; expected letters, digits, `_`, `.` and `-`, but no `.` at the "
+            "start");
   EXPECT_EQ(folder_.shown(test::message_of([&] { read_scenario(folder_.write("my walk.yaml", kShort), {}, catalog_); })),
-            "DIR/my walk.yaml: error: name 'my walk' is not allowed; expected letters, digits, _ . and -, not a . first (it is "
-            "the file's name; give another with name:)");
+            "DIR/my walk.yaml: error: name 'my walk' is not allowed; expected letters, digits, `_`, `.` and `-`, but no `.` at "
+            "the start (it is the file's name; give another with name:)");
 }
 
 TEST_F(ScenarioTest, AMissingFile) {

@@ -164,14 +164,14 @@ JUDGED = {
     "evidence": r"judged over (?:{periods:d} periods? of {period:.4g} s|{inside:.3g} periods of {period:.4g} s(?: after {start:.3g} s)?; the motion does "
                 r"not settle|these {simulated:.3g} s; the set points do not repeat)(?:; not known: {unknown:words})?"
                 r"(?:; limits: {limits:words})?(?:; accepted: {accepted:words})?",
-    "torque_error": r"the torque of joint {worst} is off by about {value:rough} of its peak, estimated from other steps(?: in windows; "
+    "torque_error": r"the torque of joint {worst} is off by about {value:rough} of its peak, estimated by comparison with other step lengths(?: in windows of the run; "
                     r"`gaitlab converge` compares whole runs)?",
     "predictable": r"(?:from t = {from:.4g} s on \(joint {worst}\) the motion is (?:not predictable|ill-conditioned): )?gravity times "
                    r"{times:words} changes the torques by (?:about )?{value:rough} of their peak"
                    r"(?: \(in proportion to 1 \+ 1e-9\))?(?:; of {rollouts:d} rollouts that differ by next "
                    r"to nothing the torque peaks at {low_peak:.3g}(?: to {high_peak:.3g})? N m \(RMS {low_rms:.3g}(?: to {high_rms:.3g})?\), the "
                    r"travel is {low_way:length}(?: to {high_way:length})?, the least margin (?:{low_margin:pct}(?: to {high_margin:pct})?|no number))?",
-    "creep": r"feet that hold creep {crept:length}, {value:pct} of the travel of {way:length}"
+    "creep": r"where a real ground would hold the feet, they creep {crept:length}, {value:pct} of the travel of {way:length}"
              r"(?:; contact\.slip_speed: {half:.3g} would halve it)?",
     "ledger": r"{value:pct} of the energy is unaccounted for(?:: {missing:.3g} J, of {drawn:.3g} J drawn)?",
     "created": r"gears that are driven backwards create {value:pct} of the energy \(eq\. 2\)"
@@ -189,8 +189,8 @@ MISSING = (r"{left:.3g} s(?: after {start:.3g} s)? are {held:.2g} of a gait's 3 
            r"|the set points still grow: they have their full size at {full_at:.4g} s of {simulated:.4g}; take (?:duration: {take_full:.4g}"
            r"|another rate)|the set points still grow: those of joint .*"
            r"|the set points {way}: the {level} of joint {grower} changes by {by:.2g} rad per period of {each:.3g} s, of a range of {width:.3g}"
-           r"|{power:.3g} W of the motors of module {powerful} of {heavy:.4g} kg: {density:.3g} W/kg, and no motor has more than 1500"
-           r"(?: \(and {weaker:d} more\))?; state physics that can be, or accept: \[power\]"
+           r"|the motors of module {powerful} \({heavy:.4g} kg\) have {power:.3g} W: {density:.3g} W/kg, but no motor has more than 1500 W/kg"
+           r"(?: \(and {weaker:d} more\))?; give values that are physically possible, or accept: \[power\]"
            r"|{simulated:.3g} s are less than {least:g} s; take a longer duration"
            r"|the ground carries {borne:pct} of the weight on average, less than {half:pct}: the robot is not on it"
            r"|there is no gravity, so that no ground bears the robot(?:; take physics\.gravity, or base: fixed)?"

@@ -142,9 +142,9 @@ TEST_F(StudyFile, ASearchIsChecked) {
   EXPECT_EQ(search("budget: {runs: 64}\nobjective: [{maximize: speed}, {minimize: torque.peak}]\n"), kNoError);
   EXPECT_EQ(search(""), "s.yaml:1:1: error: missing budget: {runs: N}, which method scbo needs");
   EXPECT_EQ(search("budget: {runs: 15}\n"),
-            "s.yaml:1:1: error: a budget of 15 runs is less than the 16 of the searches' first generation");
+            "s.yaml:1:1: error: a budget of 15 runs is too small: the first generation of all searches has 16 runs");
   EXPECT_EQ(search("budget: {runs: 63}\nmethod: {type: cma, instances: 2}\nreplicates: {count: 2}\n"),
-            "s.yaml:1:1: error: a budget of 63 runs is less than the 64 of the searches' first generation");
+            "s.yaml:1:1: error: a budget of 63 runs is too small: the first generation of all searches has 64 runs");
   EXPECT_EQ(search("budget: {runs: 64}\nmethod: {type: cmaes}\n"),
             "s.yaml:5:16: error: type 'cmaes' is unknown; known names: grid, random, sobol, morris, sobol_indices, scbo, "
             "cma_gp, cma, xnes, sade, pso, nsga2");
@@ -176,7 +176,7 @@ TEST_F(StudyFile, StartPointsAreChecked) {
   const std::string head = "budget: {runs: 64}\n";
   EXPECT_EQ(search(head + "start: []\n"), kNoError);
   EXPECT_EQ(search("budget: {runs: 17}\nstart: [{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}]\n"),
-            "s.yaml:1:1: error: a budget of 17 runs is less than the 18 of the searches' first generation");
+            "s.yaml:1:1: error: a budget of 17 runs is too small: the first generation of all searches has 18 runs");
   EXPECT_EQ(search(head + "method: {type: scbo, population: 1001}\n"),
             "s.yaml:1:1: error: a population of 1001 is too large for method scbo; expected at most 1000");
   EXPECT_EQ(search(head + "start: 3\n"), "s.yaml:5:8: error: start is 3; expected a list of points: [{cpg.frequency: 0.5}]");

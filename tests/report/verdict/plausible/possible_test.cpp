@@ -39,7 +39,7 @@ struct Links {
 void expect_refused(const Verdict& made, const std::string& reason, const std::string& row) {
   EXPECT_EQ(made.word, Word::not_judged) << made.why();
   EXPECT_TRUE(made.why().starts_with(reason)) << made.why();
-  EXPECT_TRUE(made.why().ends_with("; state physics that can be, or accept: [" + row + "]")) << made.why();
+  EXPECT_TRUE(made.why().ends_with("; give values that are physically possible, or accept: [" + row + "]")) << made.why();
 }
 
 /// The word waits until the number is corrected or accepted; an accepted number is part of `rests_on`.
@@ -47,14 +47,14 @@ TEST(Possible, ImpossibleMomentsAreNotJudged) {
   const Links heavy{.inertia = "1", .motor = "stall_torque: 10, no_load_speed: 10"};
   expect_refused(
       heavy.judged(),
-      "1 kg m^2 of body 'a' of link of 0.1 kg: that of a ring of radius 3.2 m, and the body's extent is 0.12 m (and 1 "
-      "more)",
+      "body 'a' of link (0.1 kg) has a moment of inertia of 1 kg m^2, as much as a ring of radius 3.2 m, but the body's "
+      "extent is 0.12 m (and 1 more)",
       "moments");
   const Verdict accepted = heavy.judged({"accept=[moments]"});
   EXPECT_EQ(accepted.word, Word::feasible) << accepted.why();
   EXPECT_TRUE(accepted.rests_on.ends_with(
-      "; accepted: moments (1 kg m^2 of body 'a' of link of 0.1 kg: that of a ring of radius 3.2 m, and the body's extent is "
-      "0.12 m (and 1 more))"))
+      "; accepted: moments (body 'a' of link (0.1 kg) has a moment of inertia of 1 kg m^2, as much as a ring of radius 3.2 m, "
+      "but the body's extent is 0.12 m (and 1 more))"))
       << accepted.rests_on;
   EXPECT_EQ(Links{}.judged().word, Word::feasible);
 }
@@ -67,20 +67,20 @@ TEST(Possible, LimitsOfTheRanges) {
   EXPECT_EQ((Links{.mass = "5.7"}.doubts().refused), "");
   EXPECT_EQ(
       (Links{.mass = "5.8"}.doubts().refused),
-      "5.8 kg of body 'a' of link in 250 cm^3: 2.32e+04 kg/m^3, and no metal has more than 23000 (and 1 more); state physics "
-      "that can be, or accept: [density]");
+      "body 'a' of link has 5.8 kg in 250 cm^3: 2.32e+04 kg/m^3, but no metal has more than 23000 kg/m^3 (and 1 more); give "
+      "values that are physically possible, or accept: [density]");
   // 0.2 kg x 9.81 m/s^2 x (0.2, 0.05, 0.05) m: 0.416 N m.
   EXPECT_EQ((Links{.motor = "stall_torque: 41.5, no_load_speed: 1"}.doubts().refused), "");
   EXPECT_EQ(
       (Links{.motor = "stall_torque: 41.8, no_load_speed: 1"}.doubts({"physics.gravity=[0, 0, -1]"}).refused),
-      "41.8 N m of the motor of m0/h at rest: 100 times the weight of the whole robot (0.2 kg) at a distance of its extent "
-      "(0.212 m), and at most 100 can be; state physics that can be, or accept: [stall torque]");
+      "the motor of m0/h has 41.8 N m at rest: 100 times the weight of the whole robot (0.2 kg) at a distance of its extent "
+      "(0.212 m), but at most 100 times is possible; give values that are physically possible, or accept: [stall torque]");
   // 0.2 kg x 1500 W/kg = 300 W = 30 N m x 40 rad/s / 4.
   EXPECT_EQ((Links{.motor = "stall_torque: 30, no_load_speed: 39.9"}.doubts().refused), "");
   EXPECT_EQ(
       (Links{.motor = "stall_torque: 30, no_load_speed: 40.1"}.doubts().refused),
-      "301 W of the motors of module m0 of 0.2 kg: 1.5e+03 W/kg, and no motor has more than 1500; state physics that can be, "
-      "or accept: [power]");
+      "the motors of module m0 (0.2 kg) have 301 W: 1.5e+03 W/kg, but no motor has more than 1500 W/kg; give values that are "
+      "physically possible, or accept: [power]");
 }
 
 /// Shapes may be a part of a body only, and a body without shapes has the extent of its points.
@@ -99,7 +99,7 @@ TEST(Possible, BodiesThatAreLargerThanTheirShapes) {
     return doubts(scenario(bodies)).refused;
   };
   EXPECT_EQ(bare("0.0009"), "") << "0.1 kg at 0.1 m, twice the distance of the com from the hinge: 0.001 kg m^2";
-  EXPECT_TRUE(contains(bare("0.0011"), "and the body's extent is 0.05 m"));
+  EXPECT_TRUE(contains(bare("0.0011"), "but the body's extent is 0.05 m"));
 }
 
 /// Several rows, of which one is accepted. A failing check does not count before.
@@ -108,7 +108,8 @@ TEST(Possible, ImpossibleComesBeforeInfeasible) {
   const Sets falls{"limits.height=1", "robot.position=[0, 0, 0.3]"};
   Sets sets = falls;
   sets.emplace_back("accept=power");
-  expect_refused(wild.judged(sets), "1 kg m^2 of body 'a' of link", "power, moments, stall torque");
+  expect_refused(wild.judged(sets), "body 'a' of link (0.1 kg) has a moment of inertia of 1 kg m^2",
+                 "power, moments, stall torque");
   sets.back() = "accept=[power, moments, stall torque]";
   EXPECT_EQ(wild.judged(sets).word, Word::infeasible);
 }
