@@ -38,8 +38,9 @@ struct NewFileArguments {
 void check_file_name(const std::string& what, const std::string& name) {
   const SourceLocation place{"gaitlab new " + what};
   if (!is_name(name, "_-") || std::isalpha(static_cast<unsigned char>(name[0])) == 0) {
-    throw InputError(place, "name " + in_quotes(name) + " is not allowed; expected letters, digits, `_` and `-`, beginning "
-                                                        "with a letter");
+    throw InputError(place, "name " + in_quotes(name) +
+                                " is not allowed; expected letters, digits, `_` and `-`, beginning "
+                                "with a letter");
   }
 }
 

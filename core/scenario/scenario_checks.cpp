@@ -18,8 +18,9 @@ void ScenarioChecks::name() {
   if (is_name(scenario_.name, "_.-") && scenario_.name[0] != '.') return;
   if (node != nullptr && node->kind != Node::Kind::scalar) return;
   problems_.add(node != nullptr ? node->place : SourceLocation{scenario_.file},
-                "name " + in_quotes(scenario_.name) + " is not allowed; expected letters, digits, `_`, `.` and `-`, but no `.` "
-                                                      "at the start" +
+                "name " + in_quotes(scenario_.name) +
+                    " is not allowed; expected letters, digits, `_`, `.` and `-`, but no `.` "
+                    "at the start" +
                     (node != nullptr ? "" : " (it is the file's name; give another with name:)"));
 }
 

@@ -118,8 +118,8 @@ void note_design(const Scenario& s, std::vector<Warning>& out) {
     const bool known = t < s.module_documents->size();
     const double depth = 1000 * design.depth(a, b);  // mm
     out.push_back({known ? (*s.module_documents)[t].place : s.nearest_place("robot"),
-                   fmt::format("bodies {} and {} of {} are {:.3g} mm in one another with all hinges at 0{}: only more than "
-                               "{:.3g} mm is a collision",
+                   fmt::format("bodies {} and {} of {} overlap by {:.3g} mm with all hinges at 0{}: only more than {:.3g} mm "
+                               "counts as a collision",
                                type.bodies[a].name, type.bodies[b].name, clipped(type.name), depth, more, kTurned * depth),
                    false});
   }

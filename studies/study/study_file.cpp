@@ -194,8 +194,9 @@ void check_name(const Study& study, const Node& root, Problems& problems) {
   if (is_name(study.name, "_.-") && study.name[0] != '.') return;
   const Node* name = root.find("name");
   problems.add(name != nullptr ? name->place : root.place,
-               "name " + in_quotes(study.name) + " is not allowed; expected letters, digits, `_`, `.` and `-`, but no `.` at "
-                                                 "the start");
+               "name " + in_quotes(study.name) +
+                   " is not allowed; expected letters, digits, `_`, `.` and `-`, but no `.` at "
+                   "the start");
 }
 
 /// Stores the places of keys for later messages.

@@ -27,7 +27,7 @@ std::vector<CheckKind> checks::in_ground() {
                       : "set contact.on: all, so that every part of the robot can touch the ground";
   };
   return {{"in_ground", CheckGroup::ground, "m", "Bodies stay above the ground",
-           "depth of a body in the ground, of the whole run, at control ticks", "above limits.sink", "", CheckSpan::whole_run,
+           "largest depth of a body in the ground, at control ticks", "above limits.sink", "", CheckSpan::whole_run,
            "contact.on", "contact.on: all, or a larger contact.stiffness", judge}};
 }
 

@@ -142,8 +142,8 @@ std::vector<CheckKind> checks::progress() {
        "below limits.progress of the robot's extent (diagonal of the box around links and contact elements at the start) where "
        "that is set; or the robot slides down its ground faster and faster: gravity does more work along the ground than the "
        "motors",
-       "below a hundredth of the robot's extent (without periods: a tenth), with as little turning", CheckSpan::window,
-       "limits.progress", "limits.progress, if standing still is to count as a failure", judge, true}};
+       "below a hundredth of the robot's extent (without periods: a tenth), if the robot hardly turns either",
+       CheckSpan::window, "limits.progress", "limits.progress, if standing still is to count as a failure", judge, true}};
 }
 
 }  // namespace gaitlab::report

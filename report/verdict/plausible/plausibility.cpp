@@ -250,8 +250,8 @@ void check_accepted(const Scenario& s) {
   if (idle.empty()) return;
   const bool one = idle.size() == 1;
   std::string remedy = one ? "remove it" : "remove them";
-  if (!others.empty()) remedy = fmt::format("unusual are those of {}", fmt::join(others, " and "));
-  throw InputError(s.place("accept"), fmt::format("accept names {}, and no number of {} is unusual; {}",
+  if (!others.empty()) remedy = fmt::format("the unusual numbers are those of {}", fmt::join(others, " and "));
+  throw InputError(s.place("accept"), fmt::format("accept names {}, but no number of {} is unusual; {}",
                                                   fmt::join(idle, " and "), one ? "this row" : "these rows", remedy));
 }
 

@@ -106,7 +106,7 @@ std::vector<Finding> stiffnesses(const Subject& subject) {
       {s.nearest_place("contact.stiffness"),
        with_bodies(s, "contact.stiffness"),
        fmt::format("contact.stiffness is {}: {} contact elements under the weight of the robot ({:.3g} kg) sink by {:.3g} m, "
-                   "and the largest element or its body measures {:.3g} m",
+                   "but the largest element or its body measures {:.3g} m",
                    number_text(kn), feet, s.robot->mass, sink(kn), size),
        sink(kn) / size,
        [sink, size, kn](const Slip& slip) { return sink(slip.corrected(kn)) / size; },
@@ -125,7 +125,7 @@ std::vector<Finding> slip_speeds(const Subject& subject) {
   return {
       {s.nearest_place("contact.slip_speed"),
        {"contact.slip_speed"},
-       fmt::format("contact.slip_speed is {} m/s, below which feet creep, and the gait moves the robot's parts by up to {:.3g} "
+       fmt::format("contact.slip_speed is {} m/s, below which feet creep, but the gait moves the robot's parts at up to {:.3g} "
                    "m/s (set points {:.3g} rad/s x largest edge {:.3g} m)",
                    number_text(slip), speed, fastest, speed / fastest),
        slip / speed,

@@ -236,7 +236,7 @@ std::vector<Finding> supplies(const Subject& subject) {
   return each_setting(
       s, s.actuator, "actuator", "u_max",
       [&](const std::string& name, double value, std::size_t j) {
-        return fmt::format("the supply of the motor of {} is {} V, and its data hold at {} V", name, number_text(value),
+        return fmt::format("the supply of the motor of {} is {} V, but its data hold at {} V", name, number_text(value),
                            number_text(data->value[j]));
       },
       [&](double value, std::size_t j) { return value > 0 ? value / data->value[j] : 1; });
@@ -272,8 +272,10 @@ std::vector<Finding> rotors(const Subject& subject) {
   return each_setting(
       s, s.actuator, "actuator", "rotor_inertia",
       [&](const std::string& name, double value, std::size_t j) {
-        return fmt::format("rotor_inertia of {} is {} kg m^2 at the joint, so that the motor alone takes {:.3g} s to its speed",
-                           name, number_text(value), time(value, j));
+        return fmt::format(
+            "rotor_inertia of {} is {} kg m^2 at the joint, so that the motor alone takes {:.3g} s to reach its "
+            "speed",
+            name, number_text(value), time(value, j));
       },
       time);
 }

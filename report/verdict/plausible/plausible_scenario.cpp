@@ -136,7 +136,7 @@ std::vector<Finding> trace_periods(const Subject& subject) {
   const double frequency = *std::max_element(all.begin(), all.end());
   return {{s.nearest_place("trace.period"),
            {"trace.period"},
-           fmt::format("trace.period is {} s, and the set points repeat every {:.4g} s", number_text(s.trace.period),
+           fmt::format("trace.period is {} s, but the set points repeat every {:.4g} s", number_text(s.trace.period),
                        1 / frequency),
            s.trace.period * frequency,
            {},
@@ -164,7 +164,7 @@ std::vector<Finding> overlaps_at_start(const Subject& subject) {
   const std::string more = met->pairs > 1 ? fmt::format("; {} pairs of bodies overlap", met->pairs) : "";
   return {{dock_place(s, met->deepest_first, met->deepest_second),
            {of_type(met->deepest_first), of_type(met->deepest_second)},
-           fmt::format("{} and {} are {:.3g} mm in one another at the start{}", s.robot->bodies[met->deepest_first].name,
+           fmt::format("{} and {} overlap by {:.3g} mm at the start{}", s.robot->bodies[met->deepest_first].name,
                        s.robot->bodies[met->deepest_second].name, 1000 * met->depth, more),
            met->depth,
            {},
@@ -222,7 +222,7 @@ std::vector<Finding> set_points_beyond(const Subject& subject) {
     };
     found.push_back({gait_place(s),
                      {"cpg", s.robot->joints[one.joint].name},
-                     fmt::format("the set points of {} go from {:.4g} to {:.4g} rad, and its range from {:.4g} to {:.4g} rad",
+                     fmt::format("the set points of {} go from {:.4g} to {:.4g} rad, but its range from {:.4g} to {:.4g} rad",
                                  joint.name, one.least, one.most, joint.lo, joint.hi),
                      std::max(0.0, beyond),
                      again,
@@ -241,7 +241,8 @@ std::vector<Finding> set_point_speeds(const Subject& subject) {
     const double most = *known.joint(one.joint).no_load;
     found.push_back({gait_place(s),
                      {"cpg", s.robot->joints[one.joint].name},
-                     fmt::format("the set points of {} move at up to {:.3g} rad/s, and its motor at {:.3g} rad/s without load",
+                     fmt::format("the set points of {} move at up to {:.3g} rad/s, but its motor reaches only {:.3g} rad/s "
+                                 "without load",
                                  s.robot->joints[one.joint].name, one.speed, most),
                      one.speed / most});
   }
@@ -282,7 +283,7 @@ std::vector<PlausibleNumber> plausible_scenario() {
        trace_periods,
        false,
        1e-3},
-      {"overlap", 0, 0, "expected bodies apart", {}, {"density"}, overlaps_at_start},
+      {"overlap", 0, 0, "expected bodies that do not overlap", {}, {"density"}, overlaps_at_start},
       {"range overlap", 0, Limits().collision, "expected at most 2 mm", {}, {"density", "overlap"}, overlaps_in_range},
       {"set points",
        0,

@@ -263,14 +263,14 @@ TEST(Earned, FramesPlayedOnce) {
   EXPECT_EQ(quick.made.word, Word::infeasible);
   const Told slow = bend(2);
   EXPECT_EQ(slow.made.word, Word::feasible) << slow.made.why();
-  EXPECT_EQ(slow.made.rests_on, "these 20 s; the set points do not repeat");
+  EXPECT_EQ(slow.made.rests_on, "the 20 s of the run; the set points do not repeat");
 }
 
 /// Wheels have no period, also if the settings contain a frequency that their CPG does not use. They are judged after 2 s.
 TEST(Earned, WheelsAreJudgedAfterTwoSeconds) {
   const auto drive = [](const char* duration) { return Told(shipped("library/linkbot-drive.yaml", {duration})).made; };
   EXPECT_EQ(drive("duration=6").word, Word::feasible) << drive("duration=6").why();
-  EXPECT_EQ(drive("duration=6").rests_on, "these 6 s; the set points do not repeat");
+  EXPECT_EQ(drive("duration=6").rests_on, "the 6 s of the run; the set points do not repeat");
   EXPECT_EQ(drive("duration=3").word, Word::feasible) << drive("duration=3").why();
   EXPECT_EQ(drive("duration=1").word, Word::not_judged);
 }

@@ -99,7 +99,7 @@ TEST(Shown, NoSetPointChanges) {
 /// A chirp passes through the period that a longer run would seem to have.
 TEST(Shown, AChirpDoesNotRepeat) {
   const Verdict made = equation("0.1*sin(2*pi*(0.5*u + 0.01*u*u) + index)");
-  EXPECT_EQ(made.rests_on, "these 20 s; the set points do not repeat");
+  EXPECT_EQ(made.rests_on, "the 20 s of the run; the set points do not repeat");
   EXPECT_EQ(made.from, 0);
 }
 

@@ -70,8 +70,9 @@ TEST_F(Doubts, BeginAtTheAccuracyThatTheScenarioRequests) {
   r.tally.torque_error[0] = 0.00099;
   EXPECT_EQ(only(), "0 warnings");
   r.tally.torque_error[0] = 0.004;
-  EXPECT_TRUE(contains(only(), "off by about 0.4 % of its peak, estimated by comparison with other step lengths; take "
-                               "physics.accuracy: 0.0001"))
+  EXPECT_TRUE(contains(only(),
+                       "off by about 0.4 % of its peak, estimated by comparison with other step lengths; take "
+                       "physics.accuracy: 0.0001"))
       << only();
   s = hexapod({"physics.engine=articulated", "physics.accuracy=0.1"});
   r.tally.torque_error[0] = 0.04;
@@ -156,7 +157,7 @@ TEST_F(Doubts, SayWhatIsOffItsLaw) {
   r.tally.off = 3;
   EXPECT_EQ(
       only(),
-      "3 joint-steps ended off the law of their motor or stop: the torques there are wrong; the torque of the actuator must "
+      "3 joint-steps do not satisfy the law of their motor or stop: their torques are wrong; the torque of the actuator must "
       "fall with the joint's speed");
 }
 
@@ -308,10 +309,10 @@ TEST(Trust, AnActuatorThatAnImplicitStepCannotSolveIsNeverSilent) {
     }
   }
   const std::string text = said(" --set actuator.dry=0.1 --set physics.step=5e-3 --set duration=0.05");
-  EXPECT_TRUE(contains(text, " joint-steps ended off the law of their motor or stop: the torques there are wrong")) << text;
+  EXPECT_TRUE(contains(text, " joint-steps do not satisfy the law of their motor or stop: their torques are wrong")) << text;
   const auto json = nlohmann::json::parse(read(folder / fmt::format("out{}/summary.json", runs)));
   EXPECT_GT(json.at("off_law"), 0);
-  EXPECT_FALSE(contains(said(" --set actuator.rise=-0.05"), " joint-steps ended off"));  // torque decreases with the speed
+  EXPECT_FALSE(contains(said(" --set actuator.rise=-0.05"), " joint-steps do not satisfy"));  // torque decreases with the speed
 }
 
 }  // namespace

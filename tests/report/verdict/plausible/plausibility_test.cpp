@@ -190,11 +190,11 @@ TEST(Plausibility, SettingsOfMotors) {
     return found.size() == 1 ? found[0] : fmt::format("{}", found.size());
   };
   EXPECT_TRUE(contains(with("u_max: 111"),
-                       "the supply of the motor of m0/hinge is 111 V, and its data hold at 12 V; expected 0.3 to 3"));
+                       "the supply of the motor of m0/hinge is 111 V, but its data hold at 12 V; expected 0.3 to 3"));
   EXPECT_EQ(with("u_max: 7.4"), "0");
   // 5 kg m^2 * 10.2 rad/s / 1.8 N m = 28.3 s; 0.0005 kg m^2 take 2.8 ms.
   EXPECT_TRUE(
-      contains(with("rotor_inertia: 5"), "takes 28.3 s to its speed; expected at most 1 s: is it in kg cm^2? (and 3 more)"));
+      contains(with("rotor_inertia: 5"), "takes 28.3 s to reach its speed; expected at most 1 s: is it in kg cm^2? (and 3 more)"));
   EXPECT_EQ(with("rotor_inertia: 0.002"), "0");
   const OddTexts gain = odd_numbers({{"Kp: 50", "Kp: -50"}});
   ASSERT_EQ(gain.size(), 1U);
@@ -311,7 +311,7 @@ TEST(Plausibility, Sections) {
             OddTexts({"--set ground.friction=80: ground.friction is 80; expected at most 3 (rubber on "
                       "concrete: about 1): is it in percent (0.8)?"}));
   EXPECT_EQ(odd_numbers({}, {"trace.period=5"}),
-            OddTexts({"--set trace.period=5: trace.period is 5 s, and the set points repeat every 2 s; "
+            OddTexts({"--set trace.period=5: trace.period is 5 s, but the set points repeat every 2 s; "
                       "expected at most a tenth of that: is it in ms (0.005 s)?"}));
   EXPECT_EQ(odd_numbers({}, {"trace.period=0.2"}), OddTexts());
   EXPECT_EQ(odd_numbers({}, {"controller.period=15", "duration=60"}),
@@ -332,13 +332,13 @@ TEST(Plausibility, Angles) {
 TEST(Plausibility, SetPoints) {
   EXPECT_EQ(
       odd_numbers({}, {"cpg.amplitude=2"}),
-      OddTexts({"--set cpg.amplitude=2: the set points of m0/hinge go from -2 to 2 rad, and its range from -1.57 to 1.57 rad; "
+      OddTexts({"--set cpg.amplitude=2: the set points of m0/hinge go from -2 to 2 rad, but its range from -1.57 to 1.57 rad; "
                 "expected set points in the range (and 3 more)"}));
   EXPECT_EQ(odd_numbers({}, {"cpg.offset=3"}).size(), 1U);
   const OddTexts fast = odd_numbers({}, {"cpg.frequency=8"});
   ASSERT_EQ(fast.size(), 1U);
   // Amplitude 0.5 rad at 8 Hz: 0.5 * 2 pi * 8 = 25.1 rad/s; over 15 ms sin(0.377) / 0.377 of that, 24.5.
-  EXPECT_TRUE(contains(fast[0], "move at up to 24.5 rad/s, and its motor at 10.2 rad/s without load")) << fast[0];
+  EXPECT_TRUE(contains(fast[0], "move at up to 24.5 rad/s, but its motor reaches only 10.2 rad/s without load")) << fast[0];
   EXPECT_EQ(odd_numbers({{"range: [-1.57, 1.57]", "range: free"}}, {"cpg.amplitude=2"}), OddTexts()) << "without stops";
 }
 
@@ -348,8 +348,8 @@ TEST(Plausibility, BodiesInOnePlace) {
                                        "[[0, 1, 2, 0, 2], [0, 2, 2, 1, 2], [0, 3, 2, 2, 2], [0, 4, 2, 3, 2]]"}});
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0],
-            "31:62: m0/head and m4/head are 47 mm in one another at the start; 2 pairs of bodies overlap; expected bodies "
-            "apart: look at the docks and at initial.angles");
+            "31:62: m0/head and m4/head overlap by 47 mm at the start; 2 pairs of bodies overlap; expected bodies that do not "
+            "overlap: look at the docks and at initial.angles");
 }
 
 /// The texts of docs/modules.md name the rows of the list.

@@ -130,10 +130,10 @@ TEST(Possible, AcceptedRowsDoNotWarn) {
     return "";
   };
   EXPECT_EQ(refused(Links{}, "[density]"),
-            "--set accept=[density]: error: accept names density, and no number of this row is unusual; remove it");
+            "--set accept=[density]: error: accept names density, but no number of this row is unusual; remove it");
   EXPECT_EQ(refused(unusual, "[density, power]"),
-            "--set accept=[density, power]: error: accept names density and power, and no number of these rows is unusual; "
-            "unusual are those of moments");
+            "--set accept=[density, power]: error: accept names density and power, but no number of these rows is unusual; the "
+            "unusual numbers are those of moments");
 }
 
 /// The words of the key are the rows that have a second range.
@@ -156,7 +156,7 @@ TEST(ChangedLimits, AreNamedBesideTheWord) {
   const Verdict made = Links{}.judged({"limits={torque_error: 1, tracking_error: 1000, saturated_share: 1}"});
   EXPECT_EQ(made.word, Word::feasible) << made.why();
   EXPECT_TRUE(
-      made.rests_on.ends_with("; limits: tracking_error 1000 rad of the scenario, 0.1 by default; saturated_share 1 of the "
+      made.rests_on.ends_with("; limits: tracking_error 1000 rad in the scenario, 0.1 by default; saturated_share 1 in the "
                               "scenario, 0.01 by default; torque_error 1 of the scenario, 0.05 by default"))
       << made.rests_on;
   EXPECT_FALSE(contains(Links{}.judged({"limits.tilt=1.0471975511965976"}).rests_on, "limits")) << "the default";
