@@ -210,7 +210,8 @@ std::vector<Finding> moments(const Subject& subject) {
     const auto ratio = [one, stated, of_shapes](double factor) { return one.judged(worst_ratio(stated, of_shapes, factor)); };
     found.push_back({one.place("inertia"),
                      {one.part()},
-                     fmt::format("{} has principal moments up to {:.3g} kg m^2, and {} at uniform density {:.3g} kg m^2",
+                     fmt::format("{} has principal moments up to {:.3g} kg m^2, but at uniform density {} would have up to "
+                                 "{:.3g} kg m^2",
                                  one.name(), stated[2], one.outline(), of_shapes[2]),
                      ratio(1),
                      [ratio](const Slip& slip) { return ratio(slip.corrected(1)); },

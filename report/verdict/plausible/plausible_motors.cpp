@@ -312,7 +312,7 @@ std::vector<PlausibleNumber> plausible_motors() {
       {"stall torque",
        0,
        60,
-       "expected at most 60",
+       "expected at most 60 times",
        {{"is it in kgf cm", of_kgf_cm}, {"is it in N cm", of_centi}, {"is it in mN m", of_milli}},
        {},
        stall_torques,

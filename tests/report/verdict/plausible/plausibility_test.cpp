@@ -131,8 +131,8 @@ TEST(Plausibility, Moments) {
     return odd_numbers({{"[3.605e-05, 3.275e-05, 3.275e-05", "[3.605e" + power + ", 3.275e" + power + ", 3.275e" + power}});
   };
   EXPECT_EQ(with("-04"),
-            OddTexts({"15:18: body 'head' of emerge has principal moments up to 0.00036 kg m^2, and its shapes at uniform "
-                      "density 3.61e-05 kg m^2; expected 0.05 to 5 times that"}));
+            OddTexts({"15:18: body 'head' of emerge has principal moments up to 0.00036 kg m^2, but at uniform density its "
+                      "shapes would have up to 3.61e-05 kg m^2; expected 0.05 to 5 times that"}));
   for (const auto& [power, unit] :
        {std::pair{"+04", "g mm^2"}, {"+02", "g cm^2"}, {"+01", "kg mm^2"}, {"-01", "kg cm^2"}, {"-02", "g m^2"}}) {
     const OddTexts found = with(power);
@@ -156,7 +156,7 @@ TEST(Plausibility, Motors) {
       odd_numbers({{"stall_torque: 1.8", "stall_torque: 18.3"}}),
       OddTexts(
           {"27:21: the stall torque of m0/hinge, 18.3 N m, holds 121 times the weight of its module (0.2 kg) at a distance of "
-           "its length (0.077 m); expected at most 60: is it in kgf cm (1.795 N m)? (and 3 more)"}));
+           "its length (0.077 m); expected at most 60 times: is it in kgf cm (1.795 N m)? (and 3 more)"}));
   const auto end = [](const std::string& from, const std::string& to) {
     const OddTexts found = odd_numbers({{from, to}});
     return found.size() == 1 ? found[0].substr(std::min(found[0].size(), found[0].rfind(": ")))
@@ -193,8 +193,8 @@ TEST(Plausibility, SettingsOfMotors) {
                        "the supply of the motor of m0/hinge is 111 V, but its data hold at 12 V; expected 0.3 to 3"));
   EXPECT_EQ(with("u_max: 7.4"), "0");
   // 5 kg m^2 * 10.2 rad/s / 1.8 N m = 28.3 s; 0.0005 kg m^2 take 2.8 ms.
-  EXPECT_TRUE(
-      contains(with("rotor_inertia: 5"), "takes 28.3 s to reach its speed; expected at most 1 s: is it in kg cm^2? (and 3 more)"));
+  EXPECT_TRUE(contains(with("rotor_inertia: 5"),
+                       "takes 28.3 s to reach its speed; expected at most 1 s: is it in kg cm^2? (and 3 more)"));
   EXPECT_EQ(with("rotor_inertia: 0.002"), "0");
   const OddTexts gain = odd_numbers({{"Kp: 50", "Kp: -50"}});
   ASSERT_EQ(gain.size(), 1U);
