@@ -26,7 +26,7 @@ Source: none; the quantities are those of the actuator. Default (chosen): an exa
 
 void MotorSensor::Settings::fields(Fields& f) {
   f.names("joints", joints, Among::motors, "Joints with a motor: a name, a pattern, or a list of these.");
-  f.words("measures", measures, kMotorWords, "Quantities that are measured: current, torque, or both.");
+  f.words("measures", measures, kMotorWords, "Quantities that are measured: `current`, `torque`, or both.");
   f.group(kCurrent, current, "Channel of the current.");
   f.group(kTorque, torque, "Channel of the torque.");
 }

@@ -84,7 +84,7 @@ std::optional<std::size_t> TypeLibrary::find(const Node& node) {
   const std::string path = path_from(folder_, node.text);
   if (const std::string name = shipped_name(node.text); !name.empty() && !fs::exists(path)) {
     if (seen_.emplace("no file " + path, Index{}).second)
-      problems_.add(node.place, fmt::format("there is no file '{}'; modules: {} names the shipped one", path, name));
+      problems_.add(node.place, fmt::format("there is no file '{}'; `modules: {}` names the shipped one", path, name));
     return {};
   }
   return read_file(path, node.place);

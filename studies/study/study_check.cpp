@@ -15,7 +15,7 @@ void check_search(const Study& study, Problems& problems) {
   const std::string method = std::string("method ") + name_of(study.method);
   const std::int64_t population = study.search.population;
   if (std::ranges::none_of(study.parameters, [](const Parameter& p) { return p.values.empty(); }))
-    problems.add(place, method + " has nothing to search: no parameter has low and high");
+    problems.add(place, method + " has nothing to search: no parameter has `low` and `high`");
   const auto& row = enum_row(study.method);
   if (row.several != (study.objectives.size() > 1)) {
     problems.add(place, fmt::format("{} is for {}; expected {}", method,
@@ -77,7 +77,8 @@ void check_parameter(const Study& study, const Parameter& p, Problems& problems)
   if (study.method == Method::grid && !p.in_grid())
     problems.add(p.place, p.key + " has no count; expected one for a grid, or method: {type: random} or sobol");
   if (study.of_sensitivity() && !p.values.empty()) {
-    problems.add(p.place, fmt::format("{} has values one by one; method {} needs low and high", p.key, name_of(study.method)));
+    problems.add(p.place,
+                 fmt::format("{} has a list of values, but method {} needs `low` and `high`", p.key, name_of(study.method)));
   }
   if (study.method != Method::grid && p.count > 0 && !study.asked) {
     problems.add(p.place,

@@ -78,7 +78,7 @@ TEST_F(StudyFile, ItsSensitivityIsChecked) {
   EXPECT_EQ(parameters(both, "method: {type: morris}\nbudget: {runs: 100}\n"),
             "s.yaml:1:1: error: method morris takes no budget of runs; expected method: {trajectories: N}");
   EXPECT_EQ(parameters("cpg.frequency: {values: [0.5, 1]}", "method: {type: morris}\n"),
-            "s.yaml:3:14: error: cpg.frequency has values one by one; method morris needs low and high");
+            "s.yaml:3:14: error: cpg.frequency has a list of values, but method morris needs `low` and `high`");
 }
 
 TEST_F(StudyFile, ItsParametersAreChecked) {
@@ -121,7 +121,7 @@ TEST_F(StudyFile, ItsExpressionsAreChecked) {
   EXPECT_EQ(with("constraints: ['torque.rms[m9/active] <= 1']\n"),
             "s.yaml:4:16: error: no joint is called 'm9/active'; did you mean 'm0/active'?");
   EXPECT_EQ(with("constraints: ['speed[m0/active] <= 1']\n"),
-            "s.yaml:4:16: error: 'speed' is of the whole robot; expected it without [m0/active]");
+            "s.yaml:4:16: error: 'speed' applies to the whole robot; expected it without [m0/active]");
   EXPECT_EQ(with("guards: {stop: 0.1}\n"), "s.yaml:4:10: error: unknown check 'stop'; did you mean 'stops'?");
   EXPECT_EQ(with("guards: {slip: false, voltge: {margin: 0.1}}\n"),
             "s.yaml:4:23: error: unknown check 'voltge'; did you mean 'voltage'?");
@@ -169,7 +169,7 @@ TEST_F(StudyFile, ASearchIsChecked) {
       "bullet, articulated");
   EXPECT_EQ(search("budget: {runs: 64}\nverify: {best: 0}\n").substr(0, 27), "s.yaml:5:16: error: best is");
   EXPECT_EQ(parameters("cpg.type: {values: [hopf, sine]}", "method: {type: cma}\nbudget: {runs: 64}\n"),
-            "s.yaml:1:1: error: method cma has nothing to search: no parameter has low and high");
+            "s.yaml:1:1: error: method cma has nothing to search: no parameter has `low` and `high`");
 }
 
 TEST_F(StudyFile, StartPointsAreChecked) {
