@@ -165,7 +165,7 @@ class ModuleReader {
     for (const auto& [key, of_shapes] : {std::pair("feet", keys.feet_of_shapes), std::pair("all", keys.all_of_shapes)}) {
       if (!without || !of_shapes) continue;
       const SourceLocation& place = node.find(key)->place;
-      problems_.add(place, fmt::format("{} is shapes, but no body has a shape; expected a list of maps", key));
+      problems_.add(place, fmt::format("{} is `shapes`, but no body has a shape; expected a list of maps", key));
     }
     feet_of_shapes_ = keys.feet_of_shapes;
     all_of_shapes_ = keys.all_of_shapes;

@@ -51,8 +51,12 @@ const std::array<BuiltNumber, 10> kBuiltNumbers{{
     {"inertia", Of::modules, Deviation::inertia, 1, factor("Further factor on the moments of inertia of a module.")},
     {"dock_x", Of::modules, Deviation::dock_angle, 0,
      angle("Angle of a module at the dock to its parent, about the normal of the parent's face.")},
-    {"dock_y", Of::modules, Deviation::dock_angle, 0, angle("The same about the reference direction of the parent's face.")},
-    {"dock_z", Of::modules, Deviation::dock_angle, 0, angle("The same about normal x reference.")},
+    {"dock_y", Of::modules, Deviation::dock_angle, 0,
+     angle("Angle of a module at the dock to its parent, about the reference "
+           "direction of the parent's face.")},
+    {"dock_z", Of::modules, Deviation::dock_angle, 0,
+     angle("Angle of a module at the dock to its parent, about normal x "
+           "reference of the parent's face.")},
     {"foot_friction", Of::modules, Deviation::foot_friction, 1,
      factor("Factor on the coefficient of friction under the contact elements of a module.")},
     {"R", Of::motors, Deviation::R, 1, factor("Factor on the winding resistance of a motor.")},

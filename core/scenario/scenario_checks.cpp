@@ -27,8 +27,8 @@ void ScenarioChecks::name() {
 void ScenarioChecks::height(const Node& position, bool given, const Node* on_ground) {
   if (on_ground == nullptr || scenario_.on_ground != given) return;
   problems_
-      .add(position.place, given ? "position has a height and on_ground is true; expected [x, y], or no on_ground"
-                                 : "position has no height and on_ground is false; expected [x, y, z], or no on_ground")
+      .add(position.place, given ? "position has a height, but on_ground is true; expected [x, y], or no on_ground"
+                                 : "position has no height, but on_ground is false; expected [x, y, z], or no on_ground")
       .notes.emplace_back(on_ground->place, "on_ground is here");
 }
 

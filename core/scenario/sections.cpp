@@ -196,13 +196,13 @@ void Limits::fields(Fields& f) {
             "Default: our choice."});
   f.number("tracking_error", tracking_error,
            {"rad", kPositive, 1000,
-            "Largest allowed difference of set point and angle; up to twice this is a warning, more is a failure. Default: the "
-            "axis of the paper's figure 14."});
+            "Largest allowed difference of set point and angle; up to twice this difference is a warning, a larger one a "
+            "failure. Default: the axis of the paper's figure 14."});
   f.number(
       "saturated_share", saturated_share,
       {"", 0, 1,
-       "Share of the judged window that a joint may be at a limit of its motor; less is a warning, more a failure. Default: "
-       "chosen."});
+       "Share of the judged window that a joint may be at a limit of its motor; a smaller share is a warning, a larger one a "
+       "failure. Default: chosen."});
   f.number(
       "saturated_periods", saturated_periods,
       {"", 0, 1e6,
@@ -219,9 +219,12 @@ void Limits::fields(Fields& f) {
   f.number(
       "beyond_range", beyond_range,
       {"rad", 0, 100,
-       "Largest angle of a joint beyond its range; less is a warning. Default: our choice, the deflection of a soft stop."});
+       "Largest angle of a joint beyond its range; a smaller angle is a warning. Default: our choice, the deflection of a soft "
+       "stop."});
   f.number("beyond_range_share", beyond_range_share,
-           {"", 0, 1, "Share of the time that a joint may be beyond its range; less is a warning. Default: our choice."});
+           {"", 0, 1,
+            "Share of the time that a joint may be beyond its range; a smaller share is a warning. Default: our "
+            "choice."});
   f.number(
       "start_jump", start_jump,
       {"rad", 0, 100,
@@ -232,7 +235,9 @@ void Limits::fields(Fields& f) {
        "Overlap of two bodies above which there is a warning. The default covers the error of cylinders (computed as prisms) "
        "and the deflection of a hinge's stop."});
   f.number("collision", collision,
-           {"m", 0, 10, "Largest overlap of two bodies; less is a warning, more a failure. Default: our choice."});
+           {"m", 0, 10,
+            "Largest overlap of two bodies; a smaller one is a warning, a larger one a failure. Default: our "
+            "choice."});
   f.number("sink", sink,
            {"m", 0, 10, "Largest depth of a body in the ground. The default covers the compression of the ground."});
   f.number(
@@ -245,8 +250,8 @@ void Limits::fields(Fields& f) {
       {"", 0, 1, "Largest energy created by back-driven gears (eq. 2), as a share of the energy drawn. Default: our choice."});
   f.number("slip", slip,
            {"", 0, 1e6,
-            "Largest slip distance of the feet, weighted by their loads, as a share of the robot's path; more is a warning. "
-            "Default: our choice."});
+            "Largest slip distance of the feet, weighted by their loads, as a share of the robot's path; a larger distance is "
+            "a warning. Default: our choice."});
   f.number(
       "torque_error", torque_error,
       {"", kPositive, 1,
@@ -254,8 +259,8 @@ void Limits::fields(Fields& f) {
        "0.1 count as 0.1, because with a larger error neither torques nor motion are known. Default: chosen."});
   f.number("progress", progress,
            {"", 0, 1000,
-            "Least travel per period, as a share of the robot's extent; less is a failure. With the default, 0, less than a "
-            "hundredth is a warning."});
+            "Least travel per period, as a share of the robot's extent; a smaller travel is a failure. With the default, 0, a "
+            "travel below a hundredth is a warning."});
 }
 
 SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems* problems, const std::string& actuator_type)

@@ -193,10 +193,10 @@ TEST_F(ScenarioTest, APositionOfTwoNumbersKeepsOnGround) {
 
 TEST_F(ScenarioTest, ErrorsOfAPositionNameBothForms) {
   EXPECT_EQ(error("robot: {modules: duo, on_ground: true, position: [0, 0, 1]}\nduration: 1\n"),
-            "DIR/s.yaml:1:50: error: position has a height and on_ground is true; expected [x, y], or no on_ground\n"
+            "DIR/s.yaml:1:50: error: position has a height, but on_ground is true; expected [x, y], or no on_ground\n"
             "DIR/s.yaml:1:34: note: on_ground is here");
   EXPECT_EQ(error("robot: {modules: duo, on_ground: false, position: [0, 1]}\nduration: 1\n"),
-            "DIR/s.yaml:1:51: error: position has no height and on_ground is false; expected [x, y, z], or no on_ground\n"
+            "DIR/s.yaml:1:51: error: position has no height, but on_ground is false; expected [x, y, z], or no on_ground\n"
             "DIR/s.yaml:1:34: note: on_ground is here");
   const std::string forms = "; expected [x, y] (on_ground gives the height) or [x, y, z] (on_ground is off)";
   EXPECT_EQ(error("robot: {modules: duo, position: []}\nduration: 1\n"),
