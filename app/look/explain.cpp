@@ -207,7 +207,9 @@ int explain(const ManualArguments& arguments) {
 
 void add_explain(Commands& commands) {
   add_command<ManualArguments>(
-      commands, "explain", "Print the manual of KIND NAME, or of a single word; without them, that of the scenario file.",
+      commands, "explain",
+      "Print the manual of KIND NAME, or of a single word; without arguments, the manual of the scenario "
+      "file.",
       explain, [](CLI::App& command, ManualArguments& arguments) {
         offering(command.add_option("KIND", arguments.kind),
                  "a kind of {}; or, without NAME, any name that this command prints, a section or key of a scenario or module "

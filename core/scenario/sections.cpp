@@ -210,8 +210,8 @@ void Limits::fields(Fields& f) {
        "point takes one or two."});
   f.number("height", height,
            {"", 0, 1,
-            "Share of a height of the centre of mass, below which the robot has fallen: the lower of its heights in the start "
-            "pose, on the ground, and in the pose of the set points. Default: our choice."});
+            "Height of the centre of mass below which the robot has fallen, as a share of the lower of two heights: in the "
+            "start pose, on the ground, and in the pose of the set points. Default: our choice."});
   f.number("tilt", tilt,
            {"rad", kPositive, 4,
             "Tilt of the robot from its start above which the verdict warns (below the horizontal it fails, unless the base "
@@ -318,8 +318,8 @@ void SectionFields::fields(Fields& f) {
   if (!writing || !scenario.figure.joints.empty()) f.group("figure", scenario.figure, "Content of figure.svg.");
   f.integer("seed", scenario.seed,
             {"", 0, 9e18,
-             "Seed of all draws: of the robot within its tolerances, of the noise, zeros, delays and losses of its sensors, "
-             "and of lost set points (at)."});
+             "Seed of all draws: the robot within its tolerances; noise, zeros, delays and losses of its sensors; lost set "
+             "points (`at`)."});
 }
 
 std::vector<std::string> joint_names(const Robot& robot) {

@@ -93,7 +93,7 @@ void Recorder::reserve_rows(const Scenario& s) {
     try {
       table.values.reserve(static_cast<std::size_t>(rows + 3) * table.columns.size());
     } catch (const std::bad_alloc&) {
-      throw too_many_rows(s, rows_needed(), "that much memory is not available");
+      throw too_many_rows(s, rows_needed(), "but that much memory is not available");
     }
   };
   for (Trace* table : {&recording.trace, &recording.rest}) reserve(*table, s.duration / s.trace.period);

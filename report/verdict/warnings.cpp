@@ -87,7 +87,7 @@ void check_encoder(const Scenario& s, const std::vector<PositionLoop>& loops, st
   const double less = kStep / share(*most);
   out.push_back({s.nearest_place("sensors"),
                  fmt::format("one step of the encoder of joint {}, {:.3g} rad, commands {:.3g} N m, {:.3g} % of the {:.3g} N m "
-                             "that its motor has at rest: these steps decide the torques; take resolution: {:.4g} or less, or "
+                             "that its motor has at rest: such steps dominate the torques; take resolution: {:.4g} or less, or "
                              "Kp: {:.4g} or less",
                              s.robot->joints[most->joint].name, most->resolution, most->step, 100 * share(*most), most->stall,
                              two_digits(most->resolution * less), two_digits(most->Kp * less))});

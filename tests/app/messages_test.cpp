@@ -246,7 +246,7 @@ TEST_F(Messages, WhatTheMachineCannotHold) {
             .c_str());
     if (WEXITSTATUS(status) != 2 && read(folder_ / "err").find("Sanitizer") != std::string::npos) continue;  // takes more
     EXPECT_EQ(WEXITSTATUS(status), 2) << duration;
-    EXPECT_TRUE(contains(read(folder_ / "err"), std::string(", and ") + there_is + ": take a longer trace.period"))
+    EXPECT_TRUE(contains(read(folder_ / "err"), std::string(", but ") + there_is + ": take a longer trace.period"))
         << read(folder_ / "err");
   }
 }

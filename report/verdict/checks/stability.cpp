@@ -40,7 +40,7 @@ std::vector<CheckKind> checks::stability() {
                   texts::length(-made.value), texts::percent(static_cast<double>(outside) / static_cast<double>(seen)));
   };
   return {{"stability", CheckGroup::ground, "m", "Stands on its feet",
-           "least distance of the centre of mass to the edge of the support polygon, inside positive", "", "",
+           "least distance from the centre of mass to the edge of the support polygon; positive inside", "", "",
            CheckSpan::window, "cpg", "only a note: a dynamic gait may fall from foot to foot", judge, false, true}};
 }
 

@@ -182,7 +182,7 @@ JUDGED = {
 MISSING = (r"{left:.3g} s(?: after {start:.3g} s)? are {held:.2g} of a gait's 3 periods of {period:.4g} s; take duration: {take:.4g}"
            r"|the set points still grow: they have their full size at {full_at:.4g} s of {simulated:.4g}; take (?:duration: {take_full:.4g}"
            r"|another rate)|the set points still grow: those of joint .*"
-           r"|the set points {way}: the {level} of joint {grower} changes by {by:.2g} rad per period of {each:.3g} s, of a range of {width:.3g}"
+           r"|the set points {way}: the {level} of joint {grower} changes by {by:.2g} rad per period of {each:.3g} s, with a range of {width:.3g} rad"
            r"|the motors of module {powerful} \({heavy:.4g} kg\) have {power:.3g} W: {density:.3g} W/kg, but no motor has more than 1500 W/kg"
            r"(?: \(and {weaker:d} more\))?; give values that are physically possible, or accept: \[power\]"
            r"|the run of {simulated:.3g} s is shorter than the required {least:g} s; take a longer duration"
