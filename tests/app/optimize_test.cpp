@@ -169,7 +169,8 @@ TEST_F(Optimize, AShareOfTheWorldsDecides) {
   EXPECT_EQ(count.stood, 15 - count.fell_drawn);
   const std::string nearest = fmt::format(
       "fell: none of the best points was verified; run {} is nearest: it stands in {} of 16 worlds; 16 are needed; falls by "
-      "mass +3 % (0.824 kg): mass <= 0.8001 (0.824); and in {} of 7 draws; `robust: true` searches gaits with reserve\n",
+      "mass +3 % (0.824 kg): mass <= 0.8001 (0.824); and in {} of 7 draws; to search gaits with a reserve, take `robust: "
+      "true`\n",
       tried.front().run, count.stood, count.fell_drawn);
   EXPECT_TRUE(fell.err.ends_with(nearest)) << fell.err << nearest;
   EXPECT_NE(fell.err.find("verification of the best point: 1 run\npoints that stand, in worlds: 16 runs\nverification of the "
