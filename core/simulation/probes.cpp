@@ -207,17 +207,17 @@ void Probes::add_energy(const Robot& robot) {
     add(std::string("energy.") + entry, "J", std::string(definition) + ", from t = 0",
         [value](const Sample& s) { return s.ledger.*value; });
   };
-  ledger("electrical", "drawn by the motors", &Ledger::electrical);
-  ledger("copper", "lost in the motors' windings", &Ledger::copper);
-  ledger("gear", "lost in the gears; negative: created by eq. 2", &Ledger::gear);
-  ledger("stored", "kinetic and potential, minus the value at the start", &Ledger::stored);
-  ledger("contact", "given to the ground along its normal", &Ledger::contact);
-  ledger("friction", "given to the ground along its surface", &Ledger::friction);
-  ledger("stops", "given to the hinge stops", &Ledger::stops);
+  ledger("electrical", "energy drawn by the motors", &Ledger::electrical);
+  ledger("copper", "energy lost in the motors' windings", &Ledger::copper);
+  ledger("gear", "energy lost in the gears (negative: created by eq. 2)", &Ledger::gear);
+  ledger("stored", "kinetic and potential energy, minus the value at the start", &Ledger::stored);
+  ledger("contact", "energy given to the ground along its normal", &Ledger::contact);
+  ledger("friction", "energy given to the ground along its surface", &Ledger::friction);
+  ledger("stops", "energy given to the hinge stops", &Ledger::stops);
   if (!std::ranges::all_of(robot.joints, [](const Joint& joint) { return joint.driven(); })) {
-    ledger("hinges", "lost in dampers and friction of passive hinges", &Ledger::hinges);
+    ledger("hinges", "energy lost in dampers and friction of passive hinges", &Ledger::hinges);
   }
-  add("energy.residual", "J", "electrical minus all the others: the error of the integration, from t = 0",
+  add("energy.residual", "J", "electrical energy minus all other entries, from t = 0: the error of the integration",
       [](const Sample& s) { return s.ledger.residual(); });
   add_vector("momentum", "N s", "linear momentum, world axes", [](const Sample& s) { return s.sums.momentum; });
   add_vector("angular_momentum", "N m s", "angular momentum about the world origin",

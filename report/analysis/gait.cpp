@@ -267,8 +267,10 @@ Gait gait(const Scenario& s, const Recording& r) {
 std::string growth(const Scenario& s, const Recording& r, const Judged& judged, const Gait& gait) {
   if (gait.full_size > r.simulated) {
     const double needed = gait.full_size + kPeriodsNeeded * gait.period;
-    return fmt::format("the set points still grow: they have their full size at {:.4g} s of {:.4g}; take {}", gait.full_size,
-                       r.simulated, std::isfinite(needed) ? fmt::format("duration: {:.4g}", needed) : "another rate");
+    return fmt::format(
+        "the set points still grow: they reach their full size at {:.4g} s, but the run ends at {:.4g} s; take "
+        "{}",
+        gait.full_size, r.simulated, std::isfinite(needed) ? fmt::format("duration: {:.4g}", needed) : "another rate");
   }
   if (gait.ahead != nullptr && !(gait.full_size > 0)) {
     if (std::string text = grows(s, judged, gait); !text.empty()) return text;

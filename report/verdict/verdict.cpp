@@ -116,8 +116,9 @@ void decide(const CheckedRun& run, Verdict& made) {
     made.word = Word::infeasible;
     made.decided_by = deciding->id;
     if (found.inexact) {
-      made.checks[static_cast<std::size_t>(deciding - made.checks.data())].text += fmt::format(
-          "; certain, though torques are off by up to about {}", texts::rough_percent(torque_error(run.record).share));
+      made.checks[static_cast<std::size_t>(deciding - made.checks.data())].text +=
+          fmt::format("; this is certain, although torques are off by up to about {}",
+                      texts::rough_percent(torque_error(run.record).share));
     }
   } else if (made.reason = not_judged(run, made.checks); made.reason.code != ReasonCode::none) {
     made.word = Word::not_judged;

@@ -80,9 +80,9 @@ std::vector<SummaryNumber> motion_numbers() {
        .definition = "`created` over the same energy as in `residual_share`.",
        .value = [](R r) { return or_null(created_share(r.scenario, r.record)); }},
       {.key = "fell",
-       .definition = "True if the centre of mass came below `limits.height` of its height above the ground at "
-                     "the start and in the pose of its set points (the check `fall` of the verdict); null if the base does not "
-                     "float or there is no ground.",
+       .definition = "True if the centre of mass came below `limits.height` times the lower of two heights above the ground: "
+                     "at the start, and in the pose of the set points (the check `fall` of the verdict); null if the base does "
+                     "not float or there is no ground.",
        .value = [](R r) { return fallen(r); }},
       {.key = "airborne_share",
        .definition = "Share of the control ticks in the judged window at which the ground carries less than 5 % "

@@ -94,7 +94,7 @@ class Expression:
         return [(group.rpartition("__")[0], kind, match[group]) for group, kind in self.kinds.items() if match[group] is not None]
 
 
-WITHIN = (r"(?:; with the error of the torques (?:{low:pct} to {high:pct}|slightly less or slightly more than {low:pct}) of the limit"
+WITHIN = (r"(?:; with the error of the torques, this is (?:{low:pct} to {high:pct}|slightly less or slightly more than {low:pct}) of the limit"
           r"|; joint {other} takes, with the error of its torque, "
           r"(?:{other_low:pct} to {other_high:pct}|slightly less or slightly more than {other_low:pct}) of its limit)?")
 LIMITED = (r"no joint is at the limit of its (?:voltage|current|actuator)"
@@ -151,10 +151,9 @@ JUDGED = {
     "in_ground": r"no body goes through the ground|body {worst} goes {value:length} into the ground",
     "slip": r"no foot slides under load|feet under load slide {slip:length} on average, {value:pct} of the way of {way:length}; farthest foot {foot:words}, {slid:length}",
     "airborne": r"the ground carries less than {weight:pct} of the weight for {value:pct} of the judged time",
-    "stability": r"a note: no foot bears a load for {aloft:pct} of the time; else the centre of mass stays {way:length} within the "
+    "stability": r"a note: no foot bears a load for {aloft:pct} of the time; otherwise the centre of mass stays {way:length} within the "
                  r"support polygon|statically stable: the centre of mass stays {way:length} within the support polygon"
-                 r"|a note: the centre of mass comes {way:length} out of the support polygon, and is out of it {outside:pct} of the "
-                 r"time on the ground, as it may be in a dynamic gait",
+                 r"|a note: the centre of mass leaves the support polygon by up to {way:length} and is outside for {outside:pct} of the time on the ground, as may happen in a dynamic gait",
     "field": r"the robot stays on its heightfield|the robot leaves its heightfield at t = {t:.2f} s, x {x:.3g} m, y {y:.3g} m: "
              r"beyond it the heights of the border continue",
     "periodic": r"the motion repeats every {period:.4g} s|the set points repeat, but the motion does not settle to a period",
@@ -180,7 +179,7 @@ JUDGED = {
 }
 # Sentences on missing evidence: of the check `evidence`, and of a verdict that is not judged.
 MISSING = (r"{left:.3g} s(?: after {start:.3g} s)? are {held:.2g} of a gait's 3 periods of {period:.4g} s; take duration: {take:.4g}"
-           r"|the set points still grow: they have their full size at {full_at:.4g} s of {simulated:.4g}; take (?:duration: {take_full:.4g}"
+           r"|the set points still grow: they reach their full size at {full_at:.4g} s, but the run ends at {simulated:.4g} s; take (?:duration: {take_full:.4g}"
            r"|another rate)|the set points still grow: those of joint .*"
            r"|the set points {way}: the {level} of joint {grower} changes by {by:.2g} rad per period of {each:.3g} s, with a range of {width:.3g} rad"
            r"|the motors of module {powerful} \({heavy:.4g} kg\) have {power:.3g} W: {density:.3g} W/kg, but no motor has more than 1500 W/kg"
@@ -227,7 +226,7 @@ NOT_JUDGED = (
     r"ticks")
 SPREAD = (r"(?:; the motion is not predictable: in {rollouts:d} rollouts that differ by next to nothing, "
           r"(?:the margin is {margin_low:pct} to {margin_high:pct}|this check cannot judge {without:d} of them))?")
-CERTAIN = r"(?:; certain, though torques are off by up to about {off_by:rough})?"
+CERTAIN = r"(?:; this is certain, although torques are off by up to about {off_by:rough})?"
 EXPRESSIONS = {check: Expression(text if check == "outcome" else f"(?:{text}){SPREAD}{CERTAIN}") for check, text in JUDGED.items()}
 WHY_NOT = Expression(NOT_JUDGED)
 LACKS = Expression(MISSING)

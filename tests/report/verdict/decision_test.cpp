@@ -23,7 +23,7 @@ TEST(Decision, AFailureBeyondTheErrorDecides) {
   const Verdict surely = with(0.085, 12 - 0.12 * window);
   EXPECT_EQ(surely.word, Word::infeasible) << surely.why();
   EXPECT_EQ(surely.decided_by, "voltage");
-  EXPECT_TRUE(contains(surely.why(), "; certain, though torques are off by up to about 8.5 %")) << surely.why();
+  EXPECT_TRUE(contains(surely.why(), "; this is certain, although torques are off by up to about 8.5 %")) << surely.why();
   const Verdict perhaps = with(0.085, 12 - 0.105 * window);
   EXPECT_EQ(perhaps.word, Word::not_judged);
   EXPECT_TRUE(contains(perhaps.why(),
