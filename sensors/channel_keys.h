@@ -38,7 +38,10 @@ struct ChannelKeys {
     constexpr double kMost = 1e9;
     constexpr double kLongest = 10;  // s
     constexpr double kFinest = 1e-12;
-    f.periods("period", period, {"s", 0, kLongest, "Time between samples, whole control periods; 0: every control tick."});
+    f.periods("period", period,
+              {"s", 0, kLongest,
+               "Time between samples, a whole number of control periods; 0: every control "
+               "tick."});
     f.number("gain", gain, {"", -kMost, kMost, "Nominal factor on the true value."});
     f.number("gain_deviation", gain_deviation,
              {"", 0, 10, "Standard deviation of the factor, as a share of `gain`; drawn once per run, normal."});
@@ -59,8 +62,9 @@ struct ChannelKeys {
         {unit.value, -kMost, kMost,
          "[smallest, largest] value, to which samples are clamped before they are rounded to the resolution; []: no limit."});
     f.number("resolution", resolution, {unit.value, 0, kMost, "Step of the values, which are multiples of it; 0: exact."});
-    f.periods("delay", delay_least, delay_most,
-              {"s", 0, kLongest, "Delay, whole control periods; [a, b]: a delay in this range, drawn once per run."});
+    f.periods(
+        "delay", delay_least, delay_most,
+        {"s", 0, kLongest, "Delay, a whole number of control periods; [a, b]: a delay in this range, drawn once per run."});
     f.number(
         "lost", lost,
         {"", 0, 1, "Share of the samples that are lost; the last received sample is then held. The first sample is not lost."});

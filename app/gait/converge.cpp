@@ -187,8 +187,8 @@ int converge(const ConvergeArguments& arguments) {
 void add_converge(Commands& commands) {
   add_command<ConvergeArguments>(
       commands, "converge",
-      "Halve the step: errors against the finest step, their order, and the step that is accurate to 1 %.", converge,
-      [](CLI::App& command, ConvergeArguments& arguments) {
+      "Halve the step, and print the errors against the finest step, their order, and the step that is accurate to 1 %.",
+      converge, [](CLI::App& command, ConvergeArguments& arguments) {
         add_scenario(command, arguments);
         command.add_option("--halvings", arguments.halvings, "number of halvings (default 2; an order needs 2)")
             ->check(CLI::Range(1, 8));

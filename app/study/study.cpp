@@ -329,7 +329,7 @@ int rerun_study(const StudyArguments& a) {
 }  // namespace
 
 void add_study(Commands& commands) {
-  CLI::App* study = commands.app.add_subcommand("study", "Look at a study, merge its shards, repeat one of its runs.");
+  CLI::App* study = commands.app.add_subcommand("study", "Look at a study, merge its shards, or repeat one of its runs.");
   study->require_subcommand(1);
   const auto folder = [](CLI::App& command, StudyArguments& a) {
     command.add_option("DIR", a.folder, "folder of the study")->required()->check(not_empty);

@@ -69,7 +69,7 @@ struct VerifyKeys {
         "halve_step", verify.halve_step,
         "Simulate these points again with half the step (with half of physics.accuracy if the integrator chooses its steps).");
     f.text("engine", verify.engine,
-           "Simulate these points again in this engine, with its default step; none: no other engine.");
+           "Simulate these points again in this engine, with its default step; `none`: in no other engine.");
     f.number("change", verify.change,
              {"", 1e-6, 10, "Largest relative change of an objective for which a point counts as verified."});
     f.flag("worlds", verify.worlds,
@@ -77,8 +77,9 @@ struct VerifyKeys {
            "their usual errors, then all drawn within tolerances; gears always `directional`.");
     f.number("share", verify.share, {"", 0, 1, "Least share of the worlds in which a verified point breaks no limit."});
     static constexpr std::array kFaults{"none", "each"};
-    f.choice("faults", verify.faults, kFaults,
-             "each: simulate the winner again with each joint dead in turn, from t = 0; the results are printed, not ranked.");
+    f.choice(
+        "faults", verify.faults, kFaults,
+        "`each`: simulate the winner again with each joint dead in turn, from t = 0; the results are printed, not ranked.");
   }
 };
 

@@ -28,7 +28,8 @@ void judge_gear_peak(const CheckedRun& run, Check& made) {
     find_first(
         run, 0, kTorquePeak, [&](std::size_t j, double now) { return rating(j) > 0 && now > rating(j); }, made);
   }
-  made.text = fmt::format("the gear of joint {} passes on up to {:.3g} N m of {:.3g} N m", made.worst, made.value, made.limit);
+  made.text =
+      fmt::format("the gear of joint {} passes on up to {:.3g} N m (rated {:.3g} N m)", made.worst, made.value, made.limit);
   widen(run.scenario, bars, made);
 }
 
@@ -39,7 +40,7 @@ void judge_gear_continuous(const CheckedRun& run, Check& made) {
               return Rated{run.summary.judged.joints[j].torque_rms, run.motors.joint(j).gear_continuous.value_or(0), kNoTime};
             });
   if (made.status == CheckStatus::not_judged) return;
-  made.text = fmt::format("the gear of joint {} takes {:.3g} N m RMS of {:.3g} N m", made.worst, made.value, made.limit);
+  made.text = fmt::format("the gear of joint {} takes {:.3g} N m RMS (rated {:.3g} N m)", made.worst, made.value, made.limit);
   widen(run.scenario, bars, made);
 }
 

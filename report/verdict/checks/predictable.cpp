@@ -21,8 +21,8 @@ std::vector<CheckKind> checks::predictable() {
     made.remedy = "judge several runs with other seeds or starts; a smaller step does not help";
   };
   return {{"predictable", CheckGroup::trust, "", "Motion is predictable",
-           fmt::format("change of a joint's torque under gravity times {} ({}, if that suffices), as RMS relative to the "
-                       "joint's peak",
+           fmt::format("change of a joint's torque (RMS, relative to its peak) under gravity times {}, or times {} if that "
+                       "already changes the torques",
                        disturbed(StepError::kIll), disturbed(StepError::kChaotic)),
            "",
            "above " + texts::percent(kAccurate) +

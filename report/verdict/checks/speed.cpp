@@ -31,7 +31,7 @@ std::vector<CheckKind> checks::speed() {
     find_first(
         run, by_rating ? 0 : run.summary.judged.first_row, kSpeedPeak,
         [&](std::size_t j, double now) { return now > (by_rating ? rating(j) : no_load(j)); }, made);
-    made.text = fmt::format("joint {} turns at up to {:.3g} rad/s of {:.3g} rad/s", made.worst, made.value, made.limit);
+    made.text = fmt::format("joint {} turns at up to {:.3g} rad/s (limit {:.3g} rad/s)", made.worst, made.value, made.limit);
     if (made.status != CheckStatus::fail) return;
     made.text += by_rating ? ", more than it is rated for" : ", faster than its motor can drive it: the load drives it";
   };

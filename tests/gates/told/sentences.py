@@ -126,12 +126,12 @@ JUDGED = {
     "voltage": f"(?:{LIMITED})" + NEAR,
     "current": f"(?:{LIMITED})" + NEAR,
     "envelope": r"the torque of joint {worst} is {value:pct} of its (?:motor|actuator)'s limit at that speed",
-    "speed": r"joint {worst} turns at up to {value:.3g} rad/s of {limit:.3g} rad/s(?:, more than it is rated for|, faster than its motor can drive it: the load drives it)?",
+    "speed": r"joint {worst} turns at up to {value:.3g} rad/s \(limit {limit:.3g} rad/s\)(?:, more than it is rated for|, faster than its motor can drive it: the load drives it)?",
     "stall": r"no driven joint rests|joint {worst} has a stall torque of {limit:.3g} N m and holds {value:.3g} N m at rest(?: for 0\.1 s from "
              r"{from:.2f} s)?" + WITHIN,
     "heat": r"the motor of joint {worst} takes {value:.3g} A RMS, {share:pct} of its continuous rating" + WITHIN,
-    "gear_peak": r"the gear of joint {worst} passes on up to {value:.3g} N m of {limit:.3g} N m" + WITHIN,
-    "gear_continuous": r"the gear of joint {worst} takes {value:.3g} N m RMS of {limit:.3g} N m" + WITHIN,
+    "gear_peak": r"the gear of joint {worst} passes on up to {value:.3g} N m \(rated {limit:.3g} N m\)" + WITHIN,
+    "gear_continuous": r"the gear of joint {worst} takes {value:.3g} N m RMS \(rated {limit:.3g} N m\)" + WITHIN,
     "tracking": r"joint {worst} is up to {value:th} rad from its set point",
     "stops": r"no joint leaves its range"
              r"|no joint with a motor leaves its range; {worst} without a motor is up to " + RESTS +
