@@ -20,7 +20,7 @@ Default (chosen): an exact sensor.
       encoders: {type: encoder, joints: "*", resolution: 0.00511, noise: 0.0035, delay: 0.015})";
 
 void EncoderSensor::Settings::fields(Fields& f) {
-  f.names("joints", joints, Among::joints, "Joints that have an encoder: a name, a pattern, or a list of these.");
+  f.names("joints", joints, Among::joints, "Joints that have an encoder: a name, a pattern, or a list of names and patterns.");
   ChannelKeys::fields(f);
   f.flag("speed", speed, "true: a tachometer measures the speed; false: the speed is the difference of the angles.");
   f.group("tachometer", tachometer, "Channel of the speed, with `speed: true`.");

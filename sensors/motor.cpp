@@ -25,7 +25,7 @@ Source: none; the quantities are those of the actuator. Default (chosen): an exa
       motors: {type: motor, joints: "*", measures: current, current: {noise: 0.01, range: [-2, 2]}})";
 
 void MotorSensor::Settings::fields(Fields& f) {
-  f.names("joints", joints, Among::motors, "Joints with a motor: a name, a pattern, or a list of these.");
+  f.names("joints", joints, Among::motors, "Joints with a motor: a name, a pattern, or a list of names and patterns.");
   f.words("measures", measures, kMotorWords, "Quantities that are measured: `current`, `torque`, or both.");
   f.group(kCurrent, current, "Channel of the current.");
   f.group(kTorque, torque, "Channel of the torque.");

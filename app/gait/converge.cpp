@@ -122,7 +122,7 @@ std::string verdict(const std::vector<ConvergenceRow>& rows, const Runs& runs) {
     return "no step can be recommended: the resolution of sensors amplifies rounding errors, so that runs do not converge";
   const auto within_rule = [&](double step) { return !(runs.allowed > 0) || step <= runs.allowed; };
   const ConvergenceRow& last = *worst_at(rows, runs.steps.size() - 1).first;
-  std::string text = fmt::format("none of these values is both allowed and accurate to 1 % of {}", last.name);
+  std::string text = fmt::format("no value that was tried is both allowed and accurate to 1 % of {}", last.name);
   for (std::size_t i = 0; i < runs.steps.size(); ++i) {
     const auto [row, error] = worst_at(rows, i);
     if (!(error <= kGood) || !within_rule(runs.steps[i])) continue;

@@ -127,7 +127,8 @@ void add_export(Commands& commands) {
       [](CLI::App& command, ExportArguments& arguments) {
         offering(
             command.add_option("SOURCE", arguments.source.file),
-            "csv: run folder or trace file; gltf: the same, or a scenario file; mjcf, urdf: scenario file, or a name of {}",
+            "csv: run folder or trace file; gltf: run folder, trace file or scenario file; mjcf, urdf: scenario file, or a "
+            "name of {}",
             {.kinds = {"scenarios"}})
             ->required()
             ->transform(named_file_or_run);

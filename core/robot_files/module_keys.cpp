@@ -137,7 +137,7 @@ void ModuleKeys::fields(Fields& f) {
   optional(f).other("actuator", kPluginMap,
                     "Motor of every driven hinge: type, and keys of that actuator (gaitlab explain actuator TYPE).");
   optional(f).other("controller", kPluginMap,
-                    "Controller of these motors: type, and its keys without period (gaitlab explain controller TYPE).");
+                    "Controller of every driven hinge: type, and its keys without period (gaitlab explain controller TYPE).");
 }
 
 }  // namespace gaitlab

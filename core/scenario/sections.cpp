@@ -117,7 +117,7 @@ void PhysicsFields::fields(Fields& f) {
   if (catalog == nullptr && physics.estimate == Estimate::full) return;
   f.choice("estimate", physics.estimate, enum_names<Estimate>(),
            "Estimate of the torque error. full: from additional rollouts, with finer and coarser steps and with gravity times "
-           "1 + 1e-9, which add a fourth to the run time (a tenth if the step is given: only windows of a rollout have other "
+           "1 + 1e-9, which add a quarter to the run time (a tenth if the step is given: only windows of a rollout have other "
            "steps). off: no estimate; the run is bit-identical, but the verdict lacks evidence.");
 }
 

@@ -70,8 +70,9 @@ void judge_length(const Recording& r, const Summary& summary, Evidence& made) {
                               (summary.judged.to - summary.judged.from) / period, period, after(start));
   if (held >= kPeriodsNeeded * (1 - kEstimate)) return;
   const std::string needed = fmt::format("{:.4g}", start + kPeriodsNeeded * period);
-  made.not_shown = {fmt::format("{:.3g} s{} are {:.2g} of a gait's {:g} periods of {:.4g} s; take duration: {}", left,
-                                after(start), held, kPeriodsNeeded, period, needed),
+  made.not_shown = {fmt::format("{:.3g} s{} contain only {:.2g} of the {:g} periods of {:.4g} s that a gait needs; take "
+                                "duration: {}",
+                                left, after(start), held, kPeriodsNeeded, period, needed),
                     "duration", "", "duration=" + needed};
 }
 

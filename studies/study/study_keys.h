@@ -65,16 +65,16 @@ struct VerifyKeys {
         "best", verify.best,
         {"", 1, 100,
          "Number of best points to verify. If none is verified, the next best points follow, up to four times this number."});
-    f.flag(
-        "halve_step", verify.halve_step,
-        "Simulate these points again with half the step (with half of physics.accuracy if the integrator chooses its steps).");
+    f.flag("halve_step", verify.halve_step,
+           "Simulate the best points again with half the step (with half of physics.accuracy if the integrator chooses its "
+           "steps).");
     f.text("engine", verify.engine,
-           "Simulate these points again in this engine, with its default step; `none`: in no other engine.");
+           "Simulate the best points again in this engine, with its default step; `none`: in no other engine.");
     f.number("change", verify.change,
              {"", 1e-6, 10, "Largest relative change of an objective for which a point counts as verified."});
     f.flag("worlds", verify.worlds,
-           "Simulate these points again in up to 16 worlds: friction, R, Kt, mass and supply changed one by one to an end of "
-           "their usual errors, then all drawn within tolerances; gears always `directional`.");
+           "Simulate the best points again in up to 16 worlds: friction, R, Kt, mass and supply changed one by one to an end "
+           "of their usual errors, then all drawn within tolerances; gears always `directional`.");
     f.number("share", verify.share, {"", 0, 1, "Least share of the worlds in which a verified point breaks no limit."});
     static constexpr std::array kFaults{"none", "each"};
     f.choice(

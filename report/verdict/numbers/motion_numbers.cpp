@@ -99,7 +99,7 @@ std::vector<SummaryNumber> motion_numbers() {
        .value = [](R r) { return held(r, &Posture::height_max); }},
       {.key = "tilt.max",
        .unit = "rad",
-       .definition = "Largest angle between the base's z axis and the vertical at these ticks (the check "
+       .definition = "Largest angle between the base's z axis and the vertical at these control ticks (the check "
                      "`upright` of the verdict uses the turn since the start).",
        .value = [](R r) { return held(r, &Posture::tilt_max); }},
       {.key = "limit_cycle.found",

@@ -178,7 +178,7 @@ JUDGED = {
     "law": r"every joint-step satisfies the law of its motor and stop|{value:.0f} joint-steps do not satisfy the law of their motor or stop: their torques are wrong",
 }
 # Sentences on missing evidence: of the check `evidence`, and of a verdict that is not judged.
-MISSING = (r"{left:.3g} s(?: after {start:.3g} s)? are {held:.2g} of a gait's 3 periods of {period:.4g} s; take duration: {take:.4g}"
+MISSING = (r"{left:.3g} s(?: after {start:.3g} s)? contain only {held:.2g} of the 3 periods of {period:.4g} s that a gait needs; take duration: {take:.4g}"
            r"|the set points still grow: they reach their full size at {full_at:.4g} s, but the run ends at {simulated:.4g} s; take (?:duration: {take_full:.4g}"
            r"|another rate)|the set points still grow: those of joint .*"
            r"|the set points {way}: the {level} of joint {grower} changes by {by:.2g} rad per period of {each:.3g} s, with a range of {width:.3g} rad"

@@ -88,7 +88,7 @@ TEST(Decision, AllLacksAreNamed) {
   const Verdict verdict = made.judged();
   EXPECT_EQ(verdict.word, Word::not_judged);
   EXPECT_TRUE(contains(verdict.reason.text,
-                       "take physics.accuracy: 0.0005; and 4 s are 1 of a gait's 3 periods of 4 s; take "
+                       "take physics.accuracy: 0.0005; and 4 s contain only 1 of the 3 periods of 4 s that a gait needs; take "
                        "duration: 12; so far: joint "))
       << verdict.reason.text;
   EXPECT_EQ(verdict.retry, (std::vector<std::string>{"physics.accuracy=0.0005", "duration=12"}));

@@ -83,9 +83,9 @@ TEST(Shown, StepsDoNotDrift) { EXPECT_NE(equation("0.2*sign(sin(2*pi*u/0.97 + in
 TEST(Shown, APeriodLongerThanTheRun) {
   const std::string frames =
       "cpg={type: keyframes, model: {frames: [{time: 0, angles: 0}, {time: 500, angles: 0.3}, {time: 1000, angles: 0}]}}";
-  expect_not_judged(caterpillar({frames}), "16 s are 0.016 of a gait's 3 periods of 1000 s");
-  expect_not_judged(snake({frames}), "6 s are 0.006 of a gait's 3 periods of 1000 s");
-  expect_not_judged(caterpillar({"cpg.frequency=0.01"}), "of a gait's 3 periods of 100 s");
+  expect_not_judged(caterpillar({frames}), "16 s contain only 0.016 of the 3 periods of 1000 s that a gait needs");
+  expect_not_judged(snake({frames}), "6 s contain only 0.006 of the 3 periods of 1000 s that a gait needs");
+  expect_not_judged(caterpillar({"cpg.frequency=0.01"}), "of the 3 periods of 100 s that a gait needs");
   expect_not_judged(equation("0.4*sin(0.002*pi*u + index)", "8"), "the set points still grow");
 }
 

@@ -200,12 +200,17 @@ TEST(Units, CurrentsDocksAndContacts) {
   EXPECT_EQ(
       warned({.motor = motor + "i_continuous: 200"}),
       "i_continuous of m0/h is 200 A, 168 times the current that its motor draws at rest under 12 V, 1.19 A; expected less "
-      "than that: is it in mA (0.2 A)?\n");
+      "than the current at rest: is it in mA (0.2 A)?\n");
   EXPECT_EQ(warned({.motor = motor + "i_continuous: 0.5, i_max: 20"}), "");
-  EXPECT_TRUE(contains(warned({.motor = motor + "i_max: 300"}), "expected at most 30 times that: is it in mA (0.3 A)?"));
-  EXPECT_TRUE(contains(warned({}, {"contact.stiffness=10"}), "expected at most a tenth of that: is it in N/mm (10000 N/m)?"));
+  EXPECT_TRUE(contains(warned({.motor = motor + "i_max: 300"}),
+                       "expected at most 30 times the current at rest: is it in mA "
+                       "(0.3 A)?"));
+  EXPECT_TRUE(
+      contains(warned({}, {"contact.stiffness=10"}), "expected at most a tenth of that size: is it in N/mm (10000 N/m)?"));
   EXPECT_EQ(warned({}, {"contact.stiffness=1000"}), "");
-  EXPECT_TRUE(contains(warned({}, {"contact.slip_speed=10"}), "expected less than that: is it in mm/s (0.01 m/s)?"));
+  EXPECT_TRUE(contains(warned({}, {"contact.slip_speed=10"}),
+                       "expected less than the speed of the parts: is it in mm/s (0.01 "
+                       "m/s)?"));
   EXPECT_EQ(warned({}, {"contact.slip_speed=0.1"}), "");
 }
 
@@ -235,7 +240,7 @@ TEST(Units, LoadsOfDocksAndContactElements) {
   EXPECT_TRUE(
       contains(warned("all: shapes", "all: [{body: b, sphere: [0.1, 0, 0], radius: 0.06}]"),
                "the contact element m0/b/s0 of radius 0.06 m is 0.035 m below the lowest shape of the robot at the start; "
-               "the largest edge of its body is 0.1 m; expected at most a quarter of that: is it the diameter (0.03 m)?"));
+               "the largest edge of its body is 0.1 m; expected at most a quarter of that edge: is it the diameter (0.03 m)?"));
   EXPECT_EQ(warned("all: shapes", "all: [{body: b, sphere: [0.1, 0, 0], radius: 0.04}]"), "");
 }
 
