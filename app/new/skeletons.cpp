@@ -166,8 +166,8 @@ duration: 2                     # s
 )";
 
 constexpr const char* kControllerTest =
-    R"(# The weight of the free half, 0.13 N m, over the spring, 60 V/rad of a motor with 0.38 N m/V, is 0.006 rad. Let go, the joint
-# falls to its stop, 1.6 rad.
+    R"(# The free half loads the joint with 0.13 N m. The spring, 60 V/rad times 0.38 N m/V, yields by 0.006 rad. Without it,
+# the joint falls to its stop, 1.6 rad.
 foreach(joint m0/active m0/passive)
   get(error per_joint ${joint} tracking_error rms)
   expect(error LESS 0.01 "rad: it does not hold ${joint}")

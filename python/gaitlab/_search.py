@@ -22,8 +22,8 @@ class Search(Child):
                 table = gaitlab.rollouts(scenario, points).to_pandas()
                 search.tell(table.assign(objective=table["speed"]))
 
-    file: a study file (docs/studies.md) with one run per point. folder: of the journal (default runs/optimize-NAME); a search that
-    was ended goes on there. method, runs, seed: instead of the file's.
+    file: a study file (docs/studies.md) with one run per point. folder: the folder of the journal (default runs/optimize-NAME); a
+    search that was ended continues in it. method, runs, seed: values that replace those of the file.
     """
 
     def __init__(

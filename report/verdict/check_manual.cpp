@@ -28,7 +28,7 @@ std::vector<Meaning> meanings() {
            "No check fails, and none is too close to its limit. At least one limit of the motors was judged, and for a "
            "floating base on a ground also fall and in_ground. The run is evidence: long enough, borne by the ground, and "
            "accurate. With contact.law bullet, whose solver keeps bodies apart, fall and in_ground may be missing, and unknown "
-           "evidence (torque error, the ground's share of the weight) is named beside the word."},
+           "evidence (torque error, the ground's share of the weight) is named beside the verdict."},
           {Word::infeasible,
            fmt::format("A check fails, in a run that is accurate and shows the gait. In a run that is too short, or whose gait "
                        "is not at full size, only a check of the whole run counts (fall, upright, stops, collision, in_ground, "
@@ -47,9 +47,9 @@ std::vector<Meaning> meanings() {
 std::string about_evidence() {
   return fmt::format(
       "Evidence. Long enough, from the start of the gait on (the end of a ramp, the last change of `at`, the landing): two "
-      "periods, if the motion repeats within {settled}, of which one is judged; else three periods of the set points; where "
-      "set points do not repeat, {time:g} s. At full size: a ramp or rate of the cpg ends within the run; for other cpgs the "
-      "range of a set point grows by at most {growth} in three periods after the run, which the cpg computes without the "
+      "periods, if the motion repeats within {settled}, of which one is judged; otherwise three periods of the set points; if "
+      "the set points do not repeat, {time:g} s. At full size: a ramp or rate of the cpg ends within the run; for other cpgs "
+      "the range of a set point grows by at most {growth} in three periods after the run, which the cpg computes without the "
       "robot; mean and RMS of a set point in the first and the last period of the window differ by at most {drift} of its "
       "range; some set point changes by more than {moves} of its range. Borne, for a floating base: the ground carries at "
       "least half of the weight on average. Accurate: torque error at most limits.torque_error (and {torque}, whatever that "
@@ -58,7 +58,7 @@ std::string about_evidence() {
       "physically possible (docs/modules.md), or `accept` of the scenario names the row; else the run is not judged, whatever "
       "its checks say. Predictable: if gravity times {disturbed} changes the torques, all of four equally valid rollouts must "
       "pass a check, or all must fail it; otherwise its value is too close to its limit. Limits that the scenario changes, and "
-      "numbers that it accepts, are beside the word, or under `rests on`.",
+      "numbers that it accepts, are beside the verdict, or under `rests on`.",
       fmt::arg("settled", texts::percent(kSettled)), fmt::arg("time", kLeastTime),
       fmt::arg("growth", texts::percent(Gait::kMostGrowth)), fmt::arg("drift", texts::percent(Gait::kMostDrift)),
       fmt::arg("moves", texts::percent(kMoves)), fmt::arg("torque", texts::percent(Limits::kMostTorqueError)),
