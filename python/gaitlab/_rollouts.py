@@ -78,8 +78,8 @@ def rollouts(
     scenario: a Scenario, or the path or name of one.
     overrides: mappings from key to value, or a DataFrame with a column per key. A row that the scenario refuses is a row of the
         table with the outcome `refused`.
-    threads: number (default: the processors that this process may use). lanes: largest number of rollouts side by side in a thread; 0: as
-        many as engine and processor allow. Neither changes the results.
+    threads: number (default: the processors that this process may use). lanes: largest number of rollouts side by side in a
+        thread; 0: as many as engine and processor allow. Neither changes the results.
     estimate_every: the torque error is estimated for one row in this number (docs/studies.md, accuracy of the step); 1: for every
         row, which takes up to half as long again. Columns that depend on it are NaN in the other rows.
     quantities: names of the columns, also `torque.peak[m3/active]` and `margin.ID[LIMIT]`; default: those of every run
