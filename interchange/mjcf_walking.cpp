@@ -149,11 +149,9 @@ std::string MjcfWalking::motor_comment() const {
   };
   if (!drives_.by_set_points) {
     return fmt::format(
-        " Controls are the commands of actuator {}, {}, under the law of its motors linearised about rest, within their torque "
-        "limit. "
-        "Controller {} "
-        "is "
-        "not in this file.",
+        " Controls are the commands of actuator {}, {}. Its motors follow their law, linearised about rest, within their "
+        "torque "
+        "limit. Controller {} is not in this file.",
         name(s_.actuator), drives_.command_unit, name(s_.controller));
   }
   std::string out = fmt::format(

@@ -50,7 +50,7 @@ void BodyKeys::fields(Fields& f) {
   optional(f).vector("inertia", tensor,
                      any("kg m^2",
                          "xx, yy, zz, xy, xz, yz about the COM, body axes; elements of the tensor (xy: -sum of m x y). Without "
-                         "it: that of the shapes at uniform density."));
+                         "this key: inertia of the shapes at uniform density."));
   optional(f).list("shape", outline,
                    "Outline of the body. Each shape has exactly one of box, cylinder, half_cylinder and sphere.");
 }

@@ -197,7 +197,7 @@ void Limits::fields(Fields& f) {
   f.number("tracking_error", tracking_error,
            {"rad", kPositive, 1000,
             "Largest allowed difference of set point and angle; up to twice this difference is a warning, a larger one a "
-            "failure. Default: the axis of the paper's figure 14."});
+            "failure. Default: the axis range in figure 14 of the paper."});
   f.number(
       "saturated_share", saturated_share,
       {"", 0, 1,
@@ -225,10 +225,10 @@ void Limits::fields(Fields& f) {
            {"", 0, 1,
             "Share of the time that a joint may be beyond its range; a smaller share is a warning. Default: our "
             "choice."});
-  f.number(
-      "start_jump", start_jump,
-      {"rad", 0, 100,
-       "Jump of a set point at t = 0 above which there is a warning. Default: half of the axis of the paper's figure 14."});
+  f.number("start_jump", start_jump,
+           {"rad", 0, 100,
+            "Jump of a set point at t = 0 above which there is a warning. Default: half of the axis range in figure 14 of the "
+            "paper."});
   f.number(
       "touch", touch,
       {"m", 0, 10,
@@ -244,7 +244,7 @@ void Limits::fields(Fields& f) {
       "energy_residual", energy_residual,
       {"", 0, 1,
        "Share of the energy drawn that may be unaccounted for without a warning; above 5 % a run is not judged. Default: the "
-       "error of the torques that is judged."});
+       "torque error of an accurate run."});
   f.number(
       "energy_created", energy_created,
       {"", 0, 1, "Largest energy created by back-driven gears (eq. 2), as a share of the energy drawn. Default: our choice."});

@@ -22,8 +22,8 @@ void check_search(const Study& study, Problems& problems) {
                                     row.several ? "two or three objectives" : "one objective", searches_text(!row.several)));
   }
   if (row.multiple > 1 && (population % row.multiple != 0 || (population > 0 && population < row.population))) {
-    problems.add(place, fmt::format("a population of {} does not suit {}; expected a multiple of {} from {}", population,
-                                    method, row.multiple, row.population));
+    problems.add(place, fmt::format("a population of {} does not suit {}; expected a multiple of {} that is at least {}",
+                                    population, method, row.multiple, row.population));
   } else if (population > 0 && population < row.population) {
     problems.add(
         place, fmt::format("a population of {} is too small for {}; expected at least {}", population, method, row.population));

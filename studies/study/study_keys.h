@@ -48,7 +48,7 @@ struct MethodKeys {
         {"", 2, 1e7, "Samples of sobol_indices, preferably a power of 2; each has two points more than there are parameters."});
     f.integer("population", study.search.population,
               {"", 0, 10000,
-               "Points of a generation, at least 5 (scbo 1, sade 7; nsga2: a multiple of 4 from 8). 0: 4 + 3 ln n for n "
+               "Points of a generation, at least 5 (scbo 1, sade 7; nsga2: a multiple of 4, at least 8). 0: 4 + 3 ln n for n "
                "parameters, rounded up to a multiple of 8, at least 16."});
     f.integer("instances", study.search.instances, {"", 1, 1000, "Searches side by side, which share the budget."});
     f.integer("restarts", study.search.restarts,

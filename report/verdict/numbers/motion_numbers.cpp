@@ -29,8 +29,8 @@ std::vector<SummaryNumber> motion_numbers() {
   return {
       {.key = "energy.electrical",
        .unit = "J",
-       .definition = "Energy that the whole robot draws from the supply. This and all other numbers of the "
-                     "group are the ledger ([equations](equations.md), 8) at the last row of the trace.",
+       .definition = "Energy that the whole robot draws from the supply. This and all other numbers of the group are entries "
+                     "of the ledger ([equations](equations.md), 8) at the last row of the trace.",
        .value = [](R r) { return r.record.ledger.electrical; },
        .line = {100, "energy", texts::drawn}},
       {.key = "energy.copper",

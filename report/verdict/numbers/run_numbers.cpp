@@ -193,9 +193,9 @@ std::vector<SummaryNumber> run_numbers() {
        .definition = "Start of the judged window: whole periods up to the end, without the first after "
                      "the start of the gait. The gait starts when a ramp of the cpg has ended, after the last change of "
                      "the run, and when the ground carries half of the weight in the mean of each period from then on. "
-                     "The period belongs to the limit cycle, else to the set points. If fewer than two periods are left, the "
-                     "window starts 2 s after the start of the gait, or after a fifth of the rest, whichever is earlier; if "
-                     "the set points do not repeat, it starts at 0.",
+                     "The period is that of the limit cycle or, without one, of the set points. If fewer than two periods are "
+                     "left, the window starts 2 s after the start of the gait, or after a fifth of the rest, whichever is "
+                     "earlier; if the set points do not repeat, it starts at 0.",
        .value = [](R r) { return r.summary.judged.from; },
        .line = {42, "judged", texts::window}},
       {.key = "judged.to",

@@ -222,7 +222,7 @@ std::vector<Finding> voltages(const Subject& subject) {
   return each_setting(
       subject.scenario, subject.scenario.actuator, "actuator", "voltage",
       [](const std::string& name, double value, std::size_t) {
-        return fmt::format("the data of the motor of {} hold at {} V", name, number_text(value));
+        return fmt::format("the data of the motor of {} are for {} V", name, number_text(value));
       },
       [](double value, std::size_t) { return value; });
 }
@@ -236,7 +236,7 @@ std::vector<Finding> supplies(const Subject& subject) {
   return each_setting(
       s, s.actuator, "actuator", "u_max",
       [&](const std::string& name, double value, std::size_t j) {
-        return fmt::format("the supply of the motor of {} is {} V, but its data hold at {} V", name, number_text(value),
+        return fmt::format("the supply of the motor of {} is {} V, but its data are for {} V", name, number_text(value),
                            number_text(data->value[j]));
       },
       [&](double value, std::size_t j) { return value > 0 ? value / data->value[j] : 1; });

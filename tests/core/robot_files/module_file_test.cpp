@@ -266,7 +266,7 @@ TEST_F(ModuleFileTest, Faces) {
 
 TEST_F(ModuleFileTest, ShapesAndContacts) {
   EXPECT_EQ(error("{box: [0.1, 0.1, 0.1]}", "{box: [0.1, 0.1, 0.1], sphere: 1}"),
-            "DIR/m.yaml:10:9: error: the shape has 2 of box, cylinder, half_cylinder and sphere; expected one");
+            "DIR/m.yaml:10:9: error: the shape has 2 of box, cylinder, half_cylinder and sphere; expected exactly one of them");
   EXPECT_EQ(error("{box: [0.1, 0.1, 0.1]}", "{half_cylinder: [0.1, 0]}"),
             "DIR/m.yaml:10:31: error: half_cylinder[1] is 0 m; expected more than 0 m");
   EXPECT_EQ(error("sphere: [0, 0, 0], radius: 0.1", "sphere: [0, 0, 0]"), "DIR/m.yaml:18:9: error: missing key 'radius'");

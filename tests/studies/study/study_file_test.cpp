@@ -159,7 +159,7 @@ TEST_F(StudyFile, ASearchIsChecked) {
             "s.yaml:1:1: error: method pso is for one objective; expected nsga2");
   EXPECT_EQ(search("budget: {runs: 64}\nmethod: {type: nsga2, population: 18}\nobjective: [{maximize: speed}, {minimize: "
                    "torque.peak}]\n"),
-            "s.yaml:1:1: error: a population of 18 does not suit method nsga2; expected a multiple of 4 from 8");
+            "s.yaml:1:1: error: a population of 18 does not suit method nsga2; expected a multiple of 4 that is at least 8");
   EXPECT_EQ(search("budget: {runs: 64, wall: 1 h}\n"), "s.yaml:4:20: error: unknown key 'wall'; known keys: runs");
   EXPECT_EQ(search("budget: {runs: 64}\nverify: {engine: bulet}\n"),
             "s.yaml:5:18: error: verify.engine 'bulet' is not known; did you mean 'bullet'?");

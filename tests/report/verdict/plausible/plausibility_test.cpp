@@ -190,7 +190,7 @@ TEST(Plausibility, SettingsOfMotors) {
     return found.size() == 1 ? found[0] : fmt::format("{}", found.size());
   };
   EXPECT_TRUE(contains(with("u_max: 111"),
-                       "the supply of the motor of m0/hinge is 111 V, but its data hold at 12 V; expected 0.3 to 3"));
+                       "the supply of the motor of m0/hinge is 111 V, but its data are for 12 V; expected 0.3 to 3"));
   EXPECT_EQ(with("u_max: 7.4"), "0");
   // 5 kg m^2 * 10.2 rad/s / 1.8 N m = 28.3 s; 0.0005 kg m^2 take 2.8 ms.
   EXPECT_TRUE(contains(with("rotor_inertia: 5"),
