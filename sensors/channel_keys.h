@@ -50,7 +50,7 @@ struct ChannelKeys {
               "Standard deviation of the zero, a constant error that is drawn once per "
               "run, normal."});
     f.number("bias", bias, {unit.value, -kMost, kMost, "Constant error that is the same in every run."});
-    f.number("walk", walk, {unit.walk, 0, kMost, "Strength of an error that wanders: its deviation after 1 s."});
+    f.number("walk", walk, {unit.walk, 0, kMost, "Strength of a random walk of the error: its standard deviation after 1 s."});
     f.number("walk_time", walk_time,
              {"s", 0, 1e9, "Correlation time of the walk, which bounds its deviation to walk (walk_time/2)^0.5; 0: no bound."});
     f.number("noise", noise,

@@ -43,7 +43,7 @@ const std::array<Tolerance, 8> kTolerances{{
     {"R", share("Deviation of the winding resistance of a motor, as a share.")},
     {"Kt", share("Deviation of the torque constant of a motor, as a share; its back-EMF constant follows.")},
     {"gear_friction", share("Deviation of a gear's loss (1 - efficiency), as a share.")},
-    {"supply", share("Deviation of the voltage limit of all motors, as a share; one draw for the robot, as for its battery.")},
+    {"supply", share("Deviation of the motors' voltage limit, as a share; one draw for the whole robot, as for its battery.")},
 }};
 
 const std::array<BuiltNumber, 10> kBuiltNumbers{{
@@ -62,7 +62,7 @@ const std::array<BuiltNumber, 10> kBuiltNumbers{{
     {"R", Of::motors, Deviation::R, 1, factor("Factor on the winding resistance of a motor.")},
     {"Kt", Of::motors, Deviation::Kt, 1, factor("Factor on the torque constant and the back-EMF constant of a motor.")},
     {"gear_friction", Of::motors, Deviation::gear_friction, 1, factor("Factor on a gear's loss (1 - efficiency).")},
-    {"supply", Of::robot, Deviation::supply, 1, factor("Factor on the voltage limits of all motors.")},
+    {"supply", Of::robot, Deviation::supply, 1, factor("Factor on the motors' voltage limits.")},
 }};
 
 void Tolerances::fields(Fields& f) {

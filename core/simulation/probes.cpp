@@ -312,8 +312,8 @@ void Probes::select(const Scenario& scenario) {
   sources_.resize(kept);
   if (!want_reactions_ || scenario.contact.model().element_forces) return;
   throw InputError(scenario.place("trace.columns"),
-                   "reactions are computed from contact forces, but contact.law: bullet has impulses, some not at contact "
-                   "elements; remove the columns reaction.*, or take contact.law: penalty");
+                   "reactions are computed from contact forces, but contact.law: bullet has impulses, some of which do not act "
+                   "at contact elements; remove the columns reaction.*, or take contact.law: penalty");
 }
 
 void Probes::fill(Out row, Out rest) const {

@@ -23,8 +23,8 @@ struct PlainKeys {
            "break no limit.");
     f.integer("estimate_every", study.estimate_every,
               {"", 0, 1e9,
-               "N: the torque error is estimated for one point in N, drawn by the seed, in additional lanes; 1: all points, 0: "
-               "none. The best points, which `gaitlab optimize` verifies, always have an estimate."});
+               "The torque error is estimated for one point in this number, drawn by the seed, in additional lanes; 1: for all "
+               "points, 0: for none. The best points, which `gaitlab optimize` verifies, always have an estimate."});
     f.texts("quantities", study.quantities,
             "Quantities of a run that tables and figures show, by name with * and ?; default: the speed. A quantity of one "
             "joint, torque.peak[m3/*], becomes a column.");
