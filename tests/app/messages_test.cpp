@@ -265,7 +265,7 @@ TEST_F(Messages, HowLongARunTakes) {
   EXPECT_TRUE(contains(never.out, " years")) << never.out;
   const Result refused = call(endless + " --set trace.period=3e-5");
   EXPECT_EQ(refused.code, 2);
-  EXPECT_TRUE(contains(refused.err, " (TMPDIR), which has ")) << refused.err;
+  EXPECT_TRUE(contains(refused.err, " (TMPDIR), but that has ")) << refused.err;
   EXPECT_TRUE(contains(refused.err, "\nok.yaml: note: the run takes about ")) << refused.err;
   EXPECT_TRUE(contains(refused.err, " years")) << refused.err;
 }
