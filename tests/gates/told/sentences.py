@@ -94,15 +94,18 @@ class Expression:
         return [(group.rpartition("__")[0], kind, match[group]) for group, kind in self.kinds.items() if match[group] is not None]
 
 
-WITHIN = (r"(?:; with the error of the torques, this is (?:{low:pct} to {high:pct}|slightly less or slightly more than {low:pct}) of the limit"
+WITHIN = (r"(?:; with the error of the torques, this is (?:{low:pct} to {high:pct}|slightly less or slightly more than {low:pct}) "
+          r"of the limit"
           r"|; joint {other} takes, with the error of its torque, "
           r"(?:{other_low:pct} to {other_high:pct}|slightly less or slightly more than {other_low:pct}) of its limit)?")
 LIMITED = (r"no joint is at the limit of its (?:voltage|current|actuator)"
-           r"|{parts:d} of {driven:d} joints? reach(?:es)? the limit of (?:its|their) (?:voltage|current|actuator): first {first_part}, "
+           r"|{parts:d} of {driven:d} joints? reach(?:es)? the limit of (?:its|their) (?:voltage|current|actuator): first "
+           r"{first_part}, "
            r"at {first:.2f} s; (?:worst {worst}, )?(?:{share:part} of the judged time, up to {stretch:brief} on end from {from:.2f} s"
            r"|{stretch:brief} on end from {from:.2f} s, (?:more than |of at most ){most:g} control periods \({limit:.3g} s\), "
            r"in all {share:part} of the judged time)")
-NEAR = (r"(?:; joint {near_joint} may be at that limit, within the error of its torque \({error:rough}\), for up to {near:part} of the judged time, {near_on_end:brief} on end)?")
+NEAR = (r"(?:; joint {near_joint} may be at that limit, within the error of its torque \({error:rough}\), for up to {near:part} of "
+        r"the judged time, {near_on_end:brief} on end)?")
 
 
 def dock_sentence(does, unit):
@@ -126,8 +129,10 @@ JUDGED = {
     "voltage": f"(?:{LIMITED})" + NEAR,
     "current": f"(?:{LIMITED})" + NEAR,
     "envelope": r"the torque of joint {worst} is {value:pct} of its (?:motor|actuator)'s limit at that speed",
-    "speed": r"joint {worst} turns at up to {value:.3g} rad/s \(limit {limit:.3g} rad/s\)(?:, more than it is rated for|, faster than its motor can drive it: the load drives it)?",
-    "stall": r"no driven joint rests|joint {worst} has a stall torque of {limit:.3g} N m and holds {value:.3g} N m at rest(?: for 0\.1 s from "
+    "speed": r"joint {worst} turns at up to {value:.3g} rad/s \(limit {limit:.3g} rad/s\)(?:, more than it is rated for|, faster "
+             r"than its motor can drive it: the load drives it)?",
+    "stall": r"no driven joint rests|joint {worst} has a stall torque of {limit:.3g} N m and holds {value:.3g} N m at rest(?: for "
+             r"0\.1 s from "
              r"{from:.2f} s)?" + WITHIN,
     "heat": r"the motor of joint {worst} takes {value:.3g} A RMS, {share:pct} of its continuous rating" + WITHIN,
     "gear_peak": r"the gear of joint {worst} passes on up to {value:.3g} N m \(rated {limit:.3g} N m\)" + WITHIN,
@@ -149,22 +154,29 @@ JUDGED = {
     "dock_bending": dock_sentence("bent", "N m"),
     "dock_torsion": dock_sentence("twisted", "N m"),
     "in_ground": r"no body goes through the ground|body {worst} goes {value:length} into the ground",
-    "slip": r"no foot slides under load|feet under load slide {slip:length} on average, {value:pct} of the way of {way:length}; farthest foot {foot:words}, {slid:length}",
+    "slip": r"no foot slides under load|feet under load slide {slip:length} on average, {value:pct} of the way of {way:length}; "
+            r"farthest foot {foot:words}, {slid:length}",
     "airborne": r"the ground carries less than {weight:pct} of the weight for {value:pct} of the judged time",
-    "stability": r"a note: no foot bears a load for {aloft:pct} of the time; otherwise the centre of mass stays {way:length} within the "
+    "stability": r"a note: no foot bears a load for {aloft:pct} of the time; otherwise the centre of mass stays {way:length} within "
+                 r"the "
                  r"support polygon|statically stable: the centre of mass stays {way:length} within the support polygon"
-                 r"|a note: the centre of mass leaves the support polygon by up to {way:length} and is outside for {outside:pct} of the time on the ground, as may happen in a dynamic gait",
+                 r"|a note: the centre of mass leaves the support polygon by up to {way:length} and is outside for {outside:pct} of "
+                 r"the time on the ground, as may happen in a dynamic gait",
     "field": r"the robot stays on its heightfield|the robot leaves its heightfield at t = {t:.2f} s, x {x:.3g} m, y {y:.3g} m: "
              r"beyond it the heights of the border continue",
     "periodic": r"the motion repeats every {period:.4g} s|the set points repeat, but the motion does not settle to a period",
-    "evidence": r"judged over (?:{periods:d} periods? of {period:.4g} s|{inside:.3g} periods of {period:.4g} s(?: after {start:.3g} s)?; the motion does "
+    "evidence": r"judged over (?:{periods:d} periods? of {period:.4g} s|{inside:.3g} periods of {period:.4g} s(?: after {start:.3g} "
+                r"s)?; the motion does "
                 r"not settle|the {simulated:.3g} s of the run; the set points do not repeat)(?:; not known: {unknown:words})?"
                 r"(?:; limits: {limits:words})?(?:; accepted: {accepted:words})?",
     "torque_error": r"the torque of joint {worst} is off by about {value:rough} of its peak, estimated by comparison with other step lengths(?: in windows of the run; "
                     r"`gaitlab converge` compares whole runs)?",
     "predictable": r"(?:from t = {from:.4g} s on \(joint {worst}\) the motion is (?:not predictable|ill-conditioned): )?gravity times "
                    r"{times:words} changes the torques by (?:about )?{value:rough} of their peak"
-                   r"(?: \(in proportion to 1 \+ 1e-9\))?(?:; in {rollouts:d} rollouts that differ by next to nothing, the torque peaks at {low_peak:.3g}(?: to {high_peak:.3g})? N m \(RMS {low_rms:.3g}(?: to {high_rms:.3g})?\), the travel is {low_way:length}(?: to {high_way:length})? and the least margin is (?:{low_margin:pct}(?: to {high_margin:pct})?|no number))?",
+                   r"(?: \(in proportion to 1 \+ 1e-9\))?(?:; in {rollouts:d} rollouts that differ by next to nothing, the torque "
+                   r"peaks at {low_peak:.3g}(?: to {high_peak:.3g})? N m \(RMS {low_rms:.3g}(?: to {high_rms:.3g})?\), the travel "
+                   r"is {low_way:length}(?: to {high_way:length})? and the least margin is (?:{low_margin:pct}(?: to "
+                   r"{high_margin:pct})?|no number))?",
     "creep": r"where a real ground would hold the feet, they creep {crept:length}, {value:pct} of the travel of {way:length}"
              r"(?:; contact\.slip_speed: {half:.3g} would halve it)?",
     "ledger": r"{value:pct} of the energy is unaccounted for(?:: {missing:.3g} J, of {drawn:.3g} J drawn)?",
@@ -175,14 +187,19 @@ JUDGED = {
     "step": r"the step is too long in {value:pct} of the control ticks|h lambda exceeds 1 in {value:pct} of the control ticks",
     "coarse": r"in {value:rough} of the time the shortest steps of the integrator did not reach the accuracy {accuracy:rough}"
               r"(?:: the result depends on the steps, and smaller steps may not change this)?",
-    "law": r"every joint-step satisfies the law of its motor and stop|{value:.0f} joint-steps do not satisfy the law of their motor or stop: their torques are wrong",
+    "law": r"every joint-step satisfies the law of its motor and stop|{value:.0f} joint-steps do not satisfy the law of their motor "
+           r"or stop: their torques are wrong",
 }
 # Sentences on missing evidence: of the check `evidence`, and of a verdict that is not judged.
-MISSING = (r"{left:.3g} s(?: after {start:.3g} s)? contain only {held:.2g} of the 3 periods of {period:.4g} s that a gait needs; take duration: {take:.4g}"
-           r"|the set points still grow: they reach their full size at {full_at:.4g} s, but the run ends at {simulated:.4g} s; take (?:duration: {take_full:.4g}"
+MISSING = (r"{left:.3g} s(?: after {start:.3g} s)? contain only {held:.2g} of the 3 periods of {period:.4g} s that a gait needs; "
+           r"take duration: {take:.4g}"
+           r"|the set points still grow: they reach their full size at {full_at:.4g} s, but the run ends at {simulated:.4g} s; take "
+           r"(?:duration: {take_full:.4g}"
            r"|another rate)|the set points still grow: those of joint .*"
-           r"|the set points {way}: the {level} of joint {grower} changes by {by:.2g} rad per period of {each:.3g} s, with a range of {width:.3g} rad"
-           r"|the motors of module {powerful} \({heavy:.4g} kg\) have {power:.3g} W: {density:.3g} W/kg, but no motor has more than 1500 W/kg"
+           r"|the set points {way}: the {level} of joint {grower} changes by {by:.2g} rad per period of {each:.3g} s, with a range "
+           r"of {width:.3g} rad"
+           r"|the motors of module {powerful} \({heavy:.4g} kg\) have {power:.3g} W: {density:.3g} W/kg, but no motor has more than "
+           r"1500 W/kg"
            r"(?: \(and {weaker:d} more\))?; give values that are physically possible, or accept: \[power\]"
            r"|the run of {simulated:.3g} s is shorter than the required {least:g} s; take a longer duration"
            r"|the ground carries {borne:pct} of the weight on average, less than {half:pct}: the robot is not on it"
@@ -193,7 +210,8 @@ MISSING = (r"{left:.3g} s(?: after {start:.3g} s)? contain only {held:.2g} of th
            r"|no set point changes(?: after {full:.3g} s)?: (?:cpg {cpg} moves no joint|there is no cpg)"
            r"(?:; check its frequency, amplitudes, frames or equations)?"
            r"|the torque of joint {inaccurate} is off by about {off:rough} of its peak, more than {most:pct}; take .*"
-           r"|from t = {parted:.4g} s on \(joint {unpredictable}\) the motion is not predictable: gravity times {times:words} changes the "
+           r"|from t = {parted:.4g} s on \(joint {unpredictable}\) the motion is not predictable: gravity times {times:words} "
+           r"changes the "
            r"torques by {change:rough} of their peak; .*"
            r"|the error of the torques is not estimated; take physics\.estimate: full"
            r"|{residual:pct} of the energy is unaccounted for, more than {kept:pct}; take .*"
@@ -209,7 +227,8 @@ NOT_JUDGED = (
     r"|the base rolls: it makes a whole turn in every period"
     r"|the robot turns over at {over:.2f} s, and the run is too short to show whether it rolls"
     r"|nothing drives the joints(?:, or statistics of all steps were not recorded)?"
-    r"|the actuator (?:is not made of DC motors, and has no (?:voltage|stall torque)|states no limit|has torque at any speed, and states no "
+    r"|the actuator (?:is not made of DC motors, and has no (?:voltage|stall torque)|states no limit|has torque at any speed, and "
+    r"states no "
     r"largest speed)"
     r"|no (?:continuous current of the motors|(?:largest|continuous) torque of the gears) is stated \(actuator\.\w+\)"
     r"|the solver of contact\.law bullet keeps bodies apart and above the ground|no body has a shape, or the run has no poses"
