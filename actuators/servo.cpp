@@ -70,7 +70,7 @@ void ServoActuator::Settings::fields(Fields& f) {
   const PerJoint usual_voltage = that_holds(&DcMotor::u_max);
   const PerJoint usual_current = that_holds(&DcMotor::i_max);
   f.limit("u_max", u_max, usual_voltage,
-          {"V", 0, 1e6, "Supply voltage of the driver: commands are limited to +- this value; 0: `voltage`."});
+          {"V", 0, 1e6, "Supply voltage of the driver: commands are limited to +- this value; 0: the value of `voltage`."});
   f.limit("i_max", i_max, usual_current,
           {"A", 0, 1e6, "Absolute rating: the current is limited to +- this value; 0: the stall current at `u_max`."});
   f.per_joint("rotor_inertia", rotor_inertia, {"kg m^2", 0, 1e3, "Inertia of rotor and gear, at the joint."});

@@ -95,7 +95,7 @@ void print_retry(const ScenarioArguments& arguments, const report::Verdict& verd
 void take_demand(const Scenario& scenario, const Recording& recording, const report::Summary& summary, report::Verdict& verdict,
                  bool quiet) {
   if (Judged::limited(summary.judged.joints) == 0) {
-    verdict.demand_doubt = "no motor reaches a limit, so that the gait demands what this run shows";
+    verdict.demand_doubt = "no motor reaches a limit, so that this run shows all that the gait demands";
     return;
   }
   Catalog catalog = standard_catalog();  // the plugins of the run are already loaded

@@ -5,7 +5,8 @@
 
 namespace gaitlab::controllers {
 
-const char* const Pid::kManual = R"(Sampled PID with a filtered derivative, once per control period Ts, zero-order hold.
+const char* const Pid::kManual =
+    R"(A PID controller with a filtered derivative, sampled once per control period Ts; the command is held in between.
 
     P_k = Kp e_k
     I_k = I_{k-1} + Ki Ts e_{k-1}

@@ -19,9 +19,9 @@ constexpr std::size_t kMostProblems = 200;  // largest number of problems in a m
 constexpr std::size_t kMostBytes =
     500;  // largest length of a problem, as a second safeguard; texts of users are clipped earlier
 
-/// Number of bytes of the control character in UTF-8 that begins at `i`, or 0 if none does. Control characters are those of
-/// ASCII, the second set (U+0080 to U+009F), line separators (U+2028, U+2029), bidirectional marks, because they display a text
-/// in another order than its bytes, and U+FFFE and U+FFFF, which no text may contain.
+/// Number of bytes of the control character in UTF-8 that begins at `i`; 0 for other characters. Control characters are those
+/// of ASCII, the second set (U+0080 to U+009F), line separators (U+2028, U+2029), bidirectional marks, because they display a
+/// text in another order than its bytes, and U+FFFE and U+FFFF, which no text may contain.
 std::size_t control_at(std::string_view text, std::size_t i) noexcept {
   const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
   const unsigned second = byte(i + 1);

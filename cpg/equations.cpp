@@ -13,7 +13,7 @@ const char* const Equations::kManual =
     x_i'   = 2 (X_i - x_i)
     theta_i = x_i + r_i sin(phi_i)
 
-Every text is written for one joint, i, and holds for all. A name alone is joint i's: phi is phi[i].
+Every text is written for one joint, i, and holds for all. A name without brackets belongs to joint i: phi is phi[i].
 
 states      NAME: derivative, 1/s. initial: NAME: value at the start; a state not named there starts at 0.
 output      set point, rad.

@@ -24,8 +24,9 @@ const char* const Hopf::kManual = R"(Hopf oscillators: a stable circle of radius
 amplitude and lag are exact. d: duty_factor, the share of the period (stance) in which the set point falls; in the rest (swing)
 it rises. With d = 0.5, omega = 2 pi f. Otherwise b is the sharpness of the transition between the two angular speeds, c makes
 the period 1 / f, and the lag is a time: L / (2 pi) of the period. Start: the phases of the limit cycle with r = 0.01 (phase 0,
-with a note, if the lags around a closed loop of couplings contradict one another). Alone, r^2 = 1 / (1 + (1 / r0^2 - 1)
-exp(-2 a t)). For f h <= 0.05 (h: cpg.step); with d other than 0.5 f h b <= 0.6. Stable for (2 a + w) h < 2.
+with a note, if the lags around a closed loop of couplings contradict one another). Without couplings,
+r^2 = 1 / (1 + (1 / r0^2 - 1) exp(-2 a t)). Accurate for f h <= 0.05 (h: cpg.step), and with d other than 0.5 for f h b <= 0.6.
+Stable for (2 a + w) h < 2.
 Reference: L. Righetti, A. J. Ijspeert, Pattern generators with sensory feedback for the control of quadruped locomotion, IEEE
 ICRA 2008, 819-824 (where x is the set point, and omega changes from swing to stance with the sign of y). The coupling by the
 difference to the rotated state is our own choice.

@@ -20,7 +20,7 @@ const char* const PhaseOscillator::kManual = R"(A network of phase oscillators w
     x_i'   = a_x (X_i - x_i)
     theta_i = x_i + r_i sin(phi_i)
 
-A coupling {from: j, to: i, weight: w, phase_lag: L} pulls to phi_i = phi_j + L (psi_ij = -L in the paper's symbols).
+A coupling {from: j, to: i, weight: w, phase_lag: L} pulls phi_i towards phi_j + L (psi_ij = -L in the paper's symbols).
 Start: on the limit cycle (sums of lags along the couplings; if they contradict one another around a cycle, phi = 0 and a
 note), r = 0, x = X. Source: Chariot, Filippi, Verlinden 2012, eq. 7-10 and 16-19.
 

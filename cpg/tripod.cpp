@@ -17,12 +17,12 @@ const char* const Tripod::kManual =
     R"(Alternating groups of legs: one stands and pushes the body on, the other swings forward; legs are found from the assembly.
 
     stance:  a = A (1 - 2 u)          u: 0 to 1 over the stance, duty_factor of the period
-    swing:   a = -A cos(pi s)         s: 0 to 1 over the swing; |a| is never below the stance's, so it crosses quickly
-    hip = a (towards +x), ankle = -hip + tilt        the foot is flat but for its tilt, 0 in the swing
+    swing:   a = -A cos(pi s)         s: 0 to 1 over the swing; |a| is never below that of the stance: the leg crosses quickly
+    hip = a (towards +x), ankle = -hip + tilt        the foot is flat except for its tilt, which is 0 in the swing
     tilt in stance: so that all feet that stand reach the same depth below their hips,
         l cos(a) + z cos(tilt) + x sin(tilt) = D,   D = (largest l cos(a) of the legs that stand) + z cos(d') + x sin(d')
-        d' = d sin^2(pi s), s: progress of the legs that swing (0 while none does); tilt at most 0.65
-    tilt in swing: 0, after what is left of the stance has faded over the first fifth and before the next grows over the last
+        d' = d sin^2(pi s), s: progress of the legs that swing (0 while no leg swings); tilt at most 0.65
+    tilt in swing: 0; the stance's tilt fades over the first fifth of the swing, and the next stance's grows over the last fifth
 
 l: hip to ankle; z, x: depth of the sole below the ankle and its half length; all from the robot. In order alternate with
 duty_factor 0.5 all legs that stand have the same a, and tilt = d sin^2(pi u): the body is low when the feet are farthest and

@@ -36,9 +36,9 @@ const char* const VanDerPol::kManual =
 
 T, A: period and peak of x on the limit cycle for p = 1 (mu = 1: 6.6632869, 2.0086), found by integration when the CPG is made.
 phi_i: phase, the time since x rose through 0 as a share of the period, 2 pi in all, read from the angle of (x, y) by a table of
-the limit cycle. So every mu has the common keys exactly; a lag is a time, L / (2 pi) of the period. The coupling (chosen)
-changes the pace and not the orbit; it can stop an oscillator, but not turn it back. Start: on the limit cycle at the phases
-of the lags (if they contradict one another around a cycle: at phase 0, with a note), r = 0.
+the limit cycle. So the common keys are realised exactly for every mu; a lag is a time, L / (2 pi) of the period. The coupling
+(chosen) changes the pace and not the orbit; it can stop an oscillator, but not reverse it. Start: on the limit cycle at the
+phases of the lags (if they contradict one another around a cycle: at phase 0, with a note), r = 0.
 Accurate for f h T max(1, mu) <= 0.3, where h is cpg.step. Above this, RK4 first deviates and then diverges.
 Reference: B. van der Pol, On relaxation-oscillations, Philosophical Magazine 2 (1926) 978-992.
 

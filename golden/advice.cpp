@@ -93,8 +93,8 @@ std::vector<std::size_t> wide(const Golden& golden) {
 std::string explanation(const Number& number, const Band& band, const Scenario& scenario) {
   if (band.ensemble > band.halving && quantised(scenario)) {
     return fmt::format(
-        "the band is {} standard errors of the difference of two means over {} starts; a longer run spreads less. If a sensor "
-        "has noise of the deviation resolution/sqrt(12) in place of its resolution, the golden needs only one run",
+        "the band is {} standard errors of the difference of two means over {} starts; a longer run has less spread. If a "
+        "sensor has noise of the deviation resolution/sqrt(12) in place of its resolution, the golden needs only one run",
         kStandardErrors, kStarts);
   }
   if (band.ensemble > band.halving) {

@@ -140,7 +140,7 @@ std::string origin_changes(const GoldenProvenance& then, const GoldenProvenance&
   add("engine", then.engine, now.engine);
   add("integrator", then.integrator, now.integrator);
   add("step", then.step, now.step);
-  return text + "  the scenario has changed; the golden does not contain the approved one, which is not UTF-8\n";
+  return text + "  the scenario has changed; the golden does not contain the approved scenario, which is not UTF-8\n";
 }
 
 std::string verdict_change(const Golden& golden, const GoldenRun& run, std::size_t width) {

@@ -116,8 +116,10 @@ void MjcfWalking::write_controls(Xml& key) const {
 }
 
 std::string MjcfWalking::contact_comment() const {
-  if (!touches()) return " Nothing touches.";
-  std::string out = " The contact elements, geoms of group 3 with a site each, touch the ground, and nothing else touches.";
+  if (!touches()) return " Nothing touches anything.";
+  std::string out =
+      " Only the contact elements, geoms of group 3 with a site each, touch the ground; no other geoms touch "
+      "anything.";
   if (std::ranges::any_of(s_.ground.boxes(), [](const Box& box) { return box.mass > 0; })) {
     out += " Boxes with a mass are fixed here.";
   }
@@ -147,11 +149,9 @@ std::string MjcfWalking::motor_comment() const {
   };
   if (!drives_.by_set_points) {
     return fmt::format(
-        " Controls are the commands of actuator {}, {}, under the law of its motors linearised about rest, within their torque "
-        "limit. "
-        "Controller {} "
-        "is "
-        "not in this file.",
+        " Controls are the commands of actuator {}, {}. Its motors follow their law, linearised about rest, within their "
+        "torque "
+        "limit. Controller {} is not in this file.",
         name(s_.actuator), drives_.command_unit, name(s_.controller));
   }
   std::string out = fmt::format(
@@ -163,13 +163,13 @@ std::string MjcfWalking::motor_comment() const {
       name(s_.actuator), number_text(s_.control_period));
   if (drives_.derivative) out += ", the filter of D, and D of the set point";
   if (drives_.integral) out += ", Ki";
-  return out + ", the limit of the command, and what else the actuator's law has beyond a line.";
+  return out + ", the command limit, and whatever else makes the actuator's law nonlinear.";
 }
 
 std::string MjcfWalking::comment() const {
   std::string out = contact_comment() + motor_comment();
   if (s_.cpg.entry != nullptr) out += fmt::format(" Gait: cpg {}, which is not in this file.", s_.cpg.entry->name);
-  if (!s_.sensors.empty()) out += " Sensors have no errors and delays; currents, loads and tilt are left out.";
+  if (!s_.sensors.empty()) out += " Sensors have no errors or delays; currents, loads and tilt are left out.";
   return out;
 }
 

@@ -63,8 +63,8 @@ class Urdf {
     std::string names;
     for (const Joint& joint : robot_.joints) {
       if (joint.driven() || !(joint.passive->stiffness > 0)) continue;
-      names += fmt::format("{}{} N m/rad at rest at {} on {}", names.empty() ? "" : ", ", text({joint.passive->stiffness}),
-                           text({joint.passive->rest}), joint.name);
+      names += fmt::format("{}{} N m/rad on {} (at rest at {} rad)", names.empty() ? "" : ", ",
+                           text({joint.passive->stiffness}), joint.name, text({joint.passive->rest}));
     }
     return names.empty() ? "" : fmt::format(" Springs of hinges: {}.", names);
   }

@@ -162,7 +162,7 @@ class BodyWalk {
       return wrong(joint, fmt::format("is {}; a module has revolute, continuous and fixed joints", type_name(joint.type)));
     }
     if (joint.mimic != nullptr)
-      wrong(joint, fmt::format("mimics {}; every hinge of a module moves alone", in_quotes(joint.mimic->joint_name)));
+      wrong(joint, fmt::format("mimics {}; every hinge of a module moves independently", in_quotes(joint.mimic->joint_name)));
     made.hinge.lo = free ? -kNoStop : joint.limits->lower;
     made.hinge.hi = free ? kNoStop : joint.limits->upper;
     add_motor(joint, made);

@@ -129,7 +129,10 @@ ModuleText module_text(const UrdfBodies& parts, const std::string& name, const s
   made.text += fmt::format(
       "actuator: {{type: servo, voltage: {}, {}, efficiency_model: directional, source: {}}}\ncontroller: {{type: pid, {}, Kd: "
       "0}}\n",
-      number_text(kVoltage), motor_text(*common), yaml_text("chosen: the voltage; the rest are effort and velocity in " + from),
+      number_text(kVoltage), motor_text(*common),
+      yaml_text("chosen: the voltage; torque and speed are the effort and velocity "
+                "in " +
+                from),
       gain_text(*common));
   return made;
 }

@@ -27,7 +27,7 @@ class UrdfText {
   [[nodiscard]] std::size_t find(const std::string& tag, std::size_t from) const;
 
   [[nodiscard]] SourceLocation place_of(std::size_t offset) const;
-  /// Place of the link or joint that one of urdfdom's messages names; the file if none does.
+  /// Place of the link or joint that one of urdfdom's messages names; the file if the message names neither.
   [[nodiscard]] SourceLocation place_in(const std::vector<std::string>& messages) const;
 
   std::string file_;

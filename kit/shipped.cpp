@@ -25,8 +25,9 @@ std::string one_of_two(const std::string& word, const std::string& shipped, Fold
   const bool folder = fs::is_directory(word, none);
   const bool own = !folder || taken == Folders::all || (taken == Folders::runs && kind_of_file(word) == FileKind::run);
   say(word, "note",
-      own ? fmt::format("is the {} of that name, not the one that comes with gaitlab", folder ? "folder" : "file")
-          : "is the one that comes with gaitlab; the folder of that name is not a scenario");
+      own ? fmt::format("{} is the {} './{}', not the one of that name that comes with gaitlab", in_quotes(word),
+                        folder ? "folder" : "file", word)
+          : fmt::format("{} is the one that comes with gaitlab; the folder of that name is not a scenario", in_quotes(word)));
   return own ? word : shipped;
 }
 

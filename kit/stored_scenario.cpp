@@ -139,7 +139,7 @@ void note_row_stride(const Scenario& seen, std::size_t stride) {
   if (stride <= 1) return;
   say(seen.file, "note",
       fmt::format(
-          "figure and page use one of {} rows, {:.3g} s apart, because all rows need more than {:.3g} MB; the trace has "
+          "figure and page use only one row in {}, {:.3g} s apart, because all rows need more than {:.3g} MB; the trace has "
           "all rows",
           stride, seen.trace.period, static_cast<double>(kMostInMemory) / 1e6));
 }

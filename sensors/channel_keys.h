@@ -38,23 +38,33 @@ struct ChannelKeys {
     constexpr double kMost = 1e9;
     constexpr double kLongest = 10;  // s
     constexpr double kFinest = 1e-12;
-    f.periods("period", period, {"s", 0, kLongest, "Time between samples, whole control periods; 0: every control tick."});
-    f.number("gain", gain, {"", -kMost, kMost, "Nominal factor of the true value."});
+    f.periods("period", period,
+              {"s", 0, kLongest,
+               "Time between samples, a whole number of control periods; 0: every control "
+               "tick."});
+    f.number("gain", gain, {"", -kMost, kMost, "Nominal factor on the true value."});
     f.number("gain_deviation", gain_deviation,
-             {"", 0, 10, "Deviation of the factor, as a share of `gain`; drawn once a run, normal."});
-    f.number("zero", zero, {unit.value, 0, kMost, "Deviation of the zero: a constant error, drawn once a run, normal."});
-    f.number("bias", bias, {unit.value, -kMost, kMost, "Constant error that is known: the same in every run."});
-    f.number("walk", walk, {unit.walk, 0, kMost, "Strength of an error that wanders: its deviation after 1 s."});
+             {"", 0, 10, "Standard deviation of the factor, as a share of `gain`; drawn once per run, normal."});
+    f.number("zero", zero,
+             {unit.value, 0, kMost,
+              "Standard deviation of the zero, a constant error that is drawn once per "
+              "run, normal."});
+    f.number("bias", bias, {unit.value, -kMost, kMost, "Constant error that is the same in every run."});
+    f.number("walk", walk, {unit.walk, 0, kMost, "Strength of a random walk of the error: its standard deviation after 1 s."});
     f.number("walk_time", walk_time,
              {"s", 0, 1e9, "Correlation time of the walk, which bounds its deviation to walk (walk_time/2)^0.5; 0: no bound."});
-    f.number("noise", noise, {unit.value, 0, kMost, "Deviation of the noise of a sample, normal and independent."});
+    f.number("noise", noise,
+             {unit.value, 0, kMost,
+              "Standard deviation of the noise, which is normal and independent for each "
+              "sample."});
     f.numbers(
         "range", range,
         {unit.value, -kMost, kMost,
          "[smallest, largest] value, to which samples are clamped before they are rounded to the resolution; []: no limit."});
     f.number("resolution", resolution, {unit.value, 0, kMost, "Step of the values, which are multiples of it; 0: exact."});
-    f.periods("delay", delay_least, delay_most,
-              {"s", 0, kLongest, "Delay, whole control periods; [a, b]: one of these delays, drawn once a run."});
+    f.periods(
+        "delay", delay_least, delay_most,
+        {"s", 0, kLongest, "Delay, a whole number of control periods; [a, b]: a delay in this range, drawn once per run."});
     f.number(
         "lost", lost,
         {"", 0, 1, "Share of the samples that are lost; the last received sample is then held. The first sample is not lost."});

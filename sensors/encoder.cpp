@@ -13,13 +13,14 @@ const char* const EncoderSensor::kManual = R"(Encoders or potentiometers of join
 The controller and the CPG get the measured angle and speed of these joints in place of the true ones; trace columns
 joint.J.measured and joint.J.measured_speed. All keys are those of a channel (docs/real-robot.md). speed: true measures the speed by a
 tachometer, a channel with separate keys. Every joint has separate draws. One joint has at most one encoder.
-Source: quantisation as additive noise of q/sqrt(12), Widrow and Kollar, Quantization Noise, 2008. Defaults (chosen): exact.
+Source: quantisation as additive noise of q/sqrt(12), Widrow and Kollar, Quantization Noise, 2008.
+Default (chosen): an exact sensor.
 
     sensors:
       encoders: {type: encoder, joints: "*", resolution: 0.00511, noise: 0.0035, delay: 0.015})";
 
 void EncoderSensor::Settings::fields(Fields& f) {
-  f.names("joints", joints, Among::joints, "Joints that have an encoder: a name, a pattern, or a list of these.");
+  f.names("joints", joints, Among::joints, "Joints that have an encoder: a name, a pattern, or a list of names and patterns.");
   ChannelKeys::fields(f);
   f.flag("speed", speed, "true: a tachometer measures the speed; false: the speed is the difference of the angles.");
   f.group("tachometer", tachometer, "Channel of the speed, with `speed: true`.");

@@ -30,12 +30,12 @@ const char* const ImuSensor::kManual = R"(An inertial measurement unit on a body
     roll = atan2(R32, R33), pitch = atan2(-R31, sqrt(R32^2 + R33^2))        rad
 
 R: body axes to world axes; w: angular velocity; v: velocity of the point; Ts: control period; g: gravity. At rest the
-accelerometer gives -g. It measures the mean over the last control period, so that it works with any contact law and engine.
-Roll and pitch do not contain the turn about the vertical. A gyroscope of noise density N has noise: N/sqrt(T), where T is the
-time between samples, and walk: K. All values are separate channels (Measured::channels). Trace columns sensor.NAME.gyro_x,
-sensor.NAME.accelerometer_x, sensor.NAME.roll ...
+accelerometer gives -g. The accelerometer measures the mean over the last control period, so that it works with any contact law
+and engine. Roll and pitch do not contain the turn about the vertical. A gyroscope of noise density N has noise: N/sqrt(T),
+where T is the time between samples, and walk: K. All values are separate channels (Measured::channels). Trace columns
+sensor.NAME.gyro_x, sensor.NAME.accelerometer_x, sensor.NAME.roll ...
 Each quantity has the keys of a channel (docs/real-robot.md), and its numbers have common losses and delay.
-Source: IEEE Std 952-1997 (gyroscopes), IEEE Std 1293 (accelerometers). Defaults (chosen): exact.
+Source: IEEE Std 952-1997 (gyroscopes), IEEE Std 1293 (accelerometers). Default (chosen): an exact sensor.
 
     sensors:
       imu: {type: imu, body: m0/active, gyro: {noise: 0.01}, accelerometer: {noise: 0.05, range: [-20, 20]}})";
@@ -43,7 +43,7 @@ Source: IEEE Std 952-1997 (gyroscopes), IEEE Std 1293 (accelerometers). Defaults
 void ImuSensor::Settings::fields(Fields& f) {
   f.name("body", body, Among::bodies, "Body that carries the sensor; required.");
   f.vector("position", position, {"m", -1000, 1000, "Place of the sensor, from the origin of the body's frame, body axes."});
-  f.words("measures", measures, kImuWords, "Quantities that are measured: gyro, accelerometer, tilt, or some of them.");
+  f.words("measures", measures, kImuWords, "Quantities that are measured: `gyro`, `accelerometer`, `tilt`, or some of them.");
   f.group(kGyro, gyro, "Channel of the angular velocity.");
   f.group(kAccelerometer, accelerometer, "Channel of the specific force.");
   f.group(kTilt, tilt, "Channel of roll and pitch.");

@@ -12,7 +12,7 @@ const char* const LoadSensor::kManual =
 CPG and controller get `touches` of these modules in place of the true contact (a force above 0). The loads are separate values
 (Measured::channels). Trace columns sensor.NAME.MODULE, sensor.NAME.MODULE.touching and sensor.NAME.BODY. The keys are those of a
 channel (docs/real-robot.md). Every module and body has its own draws. A robot without contact elements measures 0.
-Source: none. Defaults (chosen): exact, and a switch at 1 N and 0.5 N.
+Source: none. Defaults (chosen): an exact sensor, `touch` 1 N and `release` 0.5 N.
 
     sensors:
       feet: {type: load, modules: [m5, m6], noise: 0.2})";

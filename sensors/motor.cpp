@@ -19,14 +19,14 @@ const char* const MotorSensor::kManual = R"(Current and torque of the motors of 
 CPG and controller get the measured torque of these joints in place of the true one. The current is a separate value
 (Measured::channels). Trace columns joint.J.measured_current and joint.J.measured_torque. Both are left limits: they belong to
 the command in force before the tick. Each has the keys of a channel (docs/real-robot.md) and, for every joint, its own draws.
-Source: none; the quantities are those of the actuator. Defaults (chosen): exact.
+Source: none; the quantities are those of the actuator. Default (chosen): an exact sensor.
 
     sensors:
       motors: {type: motor, joints: "*", measures: current, current: {noise: 0.01, range: [-2, 2]}})";
 
 void MotorSensor::Settings::fields(Fields& f) {
-  f.names("joints", joints, Among::motors, "Joints with a motor: a name, a pattern, or a list of these.");
-  f.words("measures", measures, kMotorWords, "Quantities that are measured: current, torque, or both.");
+  f.names("joints", joints, Among::motors, "Joints with a motor: a name, a pattern, or a list of names and patterns.");
+  f.words("measures", measures, kMotorWords, "Quantities that are measured: `current`, `torque`, or both.");
   f.group(kCurrent, current, "Channel of the current.");
   f.group(kTorque, torque, "Channel of the torque.");
 }

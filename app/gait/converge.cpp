@@ -122,7 +122,7 @@ std::string verdict(const std::vector<ConvergenceRow>& rows, const Runs& runs) {
     return "no step can be recommended: the resolution of sensors amplifies rounding errors, so that runs do not converge";
   const auto within_rule = [&](double step) { return !(runs.allowed > 0) || step <= runs.allowed; };
   const ConvergenceRow& last = *worst_at(rows, runs.steps.size() - 1).first;
-  std::string text = fmt::format("none of these values is both allowed and accurate to 1 % of {}", last.name);
+  std::string text = fmt::format("no value that was tried is both allowed and accurate to 1 % of {}", last.name);
   for (std::size_t i = 0; i < runs.steps.size(); ++i) {
     const auto [row, error] = worst_at(rows, i);
     if (!(error <= kGood) || !within_rule(runs.steps[i])) continue;
@@ -187,8 +187,8 @@ int converge(const ConvergeArguments& arguments) {
 void add_converge(Commands& commands) {
   add_command<ConvergeArguments>(
       commands, "converge",
-      "Halve the step: errors against the finest step, their order, and the step that is accurate to 1 %.", converge,
-      [](CLI::App& command, ConvergeArguments& arguments) {
+      "Halve the step, and print the errors against the finest step, their order, and the step that is accurate to 1 %.",
+      converge, [](CLI::App& command, ConvergeArguments& arguments) {
         add_scenario(command, arguments);
         command.add_option("--halvings", arguments.halvings, "number of halvings (default 2; an order needs 2)")
             ->check(CLI::Range(1, 8));

@@ -116,7 +116,7 @@ Remedied take_remedy(const Scenario& scenario, report::Verdict& verdict, const R
   const std::string json = report::to_json(made);
   verdict.remedy = report::shown_remedy(json, made.scenario, verdict.word);
   if (made.interrupted) {
-    say("gaitlab remedy", "error", "interrupted; the run is complete, and its remedy is that of the runs so far");
+    say("gaitlab remedy", "error", "interrupted; the run is complete, and its remedy covers the runs so far");
   } else if (arguments.map && !made.map) {
     say("--map", "note", "the map is left out, because frequency or amplitude cannot be changed in this scenario");
   }
@@ -134,8 +134,8 @@ Remedied take_remedy(const Scenario& scenario, report::Verdict& verdict, const R
 
 void add_remedy(Commands& commands) {
   add_command<RemedyArguments>(
-      commands, "remedy", "Search single settings that would make a gait feasible; for a feasible gait, its reserves.", remedy,
-      [](CLI::App& command, RemedyArguments& arguments) {
+      commands, "remedy", "Search single settings that would make a gait feasible; for a feasible gait, search its reserves.",
+      remedy, [](CLI::App& command, RemedyArguments& arguments) {
         add_scenario(command, arguments, named_file_or_run);
         offering(command.get_option("SCENARIO"), "scenario file (YAML), or a run folder", {});
         command.add_option("--out", arguments.out, "run folder (default runs/NAME, then NAME-2 ...); new or empty");

@@ -237,7 +237,7 @@ void add_rerun(Commands& commands) {
                                     .add_flag("--verify", arguments.verify,
                                               "write nothing; compare with the recorded trace; exit code 4 if it differs")
                                     ->excludes(out_option);
-                                command.add_flag("--quiet", arguments.quiet, "no progress, no summary on the terminal");
+                                command.add_flag("--quiet", arguments.quiet, "print no progress and no summary");
                               });
 }
 

@@ -47,8 +47,8 @@ std::string faster_engine(std::span<const Scenario> scenarios, double seconds, c
       if (!std::ranges::all_of(other, [](const Scenario& s) { return s.physics.adapts(); })) continue;
       const double then = time_of(other);
       if (!(then > 0 && then < seconds / 2)) return "";
-      return fmt::format("engine articulated: {}, for the same equations, solved to physics.accuracy (--set {})", about(then),
-                         fmt::join(sets, " --set "));
+      return fmt::format("engine articulated would take {} for the same equations, solved to physics.accuracy (--set {})",
+                         about(then), fmt::join(sets, " --set "));
     } catch (const InputError&) {  // further options may make it acceptable
     }
   }

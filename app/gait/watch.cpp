@@ -198,7 +198,7 @@ int watch(const WatchArguments& a) {
     if (stopped()) break;
     const auto there = std::ranges::count_if(files, [](const FileRead& file) { return file.stamp != FileStamp{}; });
     if (!a.quiet) {
-      say(fmt::format("{}: waiting for a change of {}; Ctrl-C ends\n", a.file,
+      say(fmt::format("{}: waiting for a change of {}; Ctrl-C ends the watch\n", a.file,
                       counted(static_cast<std::size_t>(there), "file")));
     }
     (void)std::fflush(stdout);

@@ -178,7 +178,7 @@ std::string explain_named(const std::string& kind_name, const std::string& name,
   std::error_code none;
   const bool file = std::filesystem::exists(name, none) && !std::filesystem::is_directory(name, none);
   if (module && (name.ends_with(".yaml") || file)) {
-    if (known) say(name, "note", "is the file of that name, not the module type that comes with gaitlab");
+    if (known) say(name, "note", fmt::format("'{0}' is the file './{0}', not the module type that comes with gaitlab", name));
     return module_manual(name, catalog);
   }
   if (known) return kind->manual(name, catalog);
@@ -207,7 +207,9 @@ int explain(const ManualArguments& arguments) {
 
 void add_explain(Commands& commands) {
   add_command<ManualArguments>(
-      commands, "explain", "Print the manual of KIND NAME, or of a single word; without them, that of the scenario file.",
+      commands, "explain",
+      "Print the manual of KIND NAME, or of a single word; without arguments, the manual of the scenario "
+      "file.",
       explain, [](CLI::App& command, ManualArguments& arguments) {
         offering(command.add_option("KIND", arguments.kind),
                  "a kind of {}; or, without NAME, any name that this command prints, a section or key of a scenario or module "

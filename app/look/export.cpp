@@ -81,7 +81,7 @@ void write_gltf(const ExportArguments& arguments, const Scenario& scenario, cons
   const Heightfield* relief = scenario.ground.relief();
   if (relief == nullptr) return;
   if (const std::size_t stride = interchange::drawn_stride(*relief); stride > 1)
-    say(arguments.source.file, "note", fmt::format("one height of every {} in x and in y is drawn", stride));
+    say(arguments.source.file, "note", fmt::format("only one height in {} along x and y is drawn", stride));
 }
 
 void export_gltf(const ExportArguments& arguments) {
@@ -123,11 +123,12 @@ int export_to(const ExportArguments& arguments) {
 
 void add_export(Commands& commands) {
   add_command<ExportArguments>(
-      commands, "export", "Write the trace of a run, the robot of a scenario, or how it moved, in another format.", export_to,
+      commands, "export", "Write a trace, a robot or its motion in another format.", export_to,
       [](CLI::App& command, ExportArguments& arguments) {
         offering(
             command.add_option("SOURCE", arguments.source.file),
-            "csv: run folder or trace file; gltf: the same, or a scenario file; mjcf, urdf: scenario file, or a name of {}",
+            "csv: run folder or trace file; gltf: run folder, trace file or scenario file; mjcf, urdf: scenario file, or a "
+            "name of {}",
             {.kinds = {"scenarios"}})
             ->required()
             ->transform(named_file_or_run);

@@ -66,7 +66,7 @@ std::string stated(double value, const char* unit) { return value > 0 ? fmt::for
 
 std::string spring_of(const Passive& p) {
   std::string text = "no motor";
-  if (p.stiffness > 0) text += fmt::format(", spring {:.4g} N m/rad to {:.4g} rad", p.stiffness, p.rest);
+  if (p.stiffness > 0) text += fmt::format(", spring {:.4g} N m/rad (at rest at {:.4g} rad)", p.stiffness, p.rest);
   if (p.damping > 0) text += fmt::format(", damper {:.4g} N m s/rad", p.damping);
   if (p.friction > 0) text += fmt::format(", friction {:.4g} N m", p.friction);
   return text;

@@ -38,7 +38,9 @@ struct NewFileArguments {
 void check_file_name(const std::string& what, const std::string& name) {
   const SourceLocation place{"gaitlab new " + what};
   if (!is_name(name, "_-") || std::isalpha(static_cast<unsigned char>(name[0])) == 0) {
-    throw InputError(place, "name " + in_quotes(name) + " is not allowed; expected letters, digits, _ and -, a letter first");
+    throw InputError(place, "name " + in_quotes(name) +
+                                " is not allowed; expected letters, digits, `_` and `-`, beginning "
+                                "with a letter");
   }
 }
 
@@ -104,7 +106,7 @@ NamedModule named_module(const NewFileArguments& arguments) {
   std::error_code none;
   const bool file = fs::exists(name, none) && !fs::is_directory(name, none);
   if (file && known != shipped.end())
-    say(name, "note", "is the file of that name, not the module type that comes with gaitlab");
+    say(name, "note", fmt::format("'{0}' is the file './{0}', not the module type that comes with gaitlab", name));
   if (file) return {name, false};
   if (known != shipped.end()) {
     Problems problems;

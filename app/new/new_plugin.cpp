@@ -38,7 +38,9 @@ void check_name(const Skeleton& skeleton, const std::string& name) {
   constexpr std::array kTargets{"all", "clean", "depend", "help", "install", "package", "test"};  // CMake's own targets
   const SourceLocation place{fmt::format("gaitlab new plugin {}", word(skeleton.kind))};
   if (!is_name(name, "_") || name[0] == '_' || std::isdigit(static_cast<unsigned char>(name[0])) != 0) {
-    throw InputError(place, "name " + in_quotes(name) + " is not allowed; expected letters, digits and _, a letter first");
+    throw InputError(place, "name " + in_quotes(name) +
+                                " is not allowed; expected letters, digits and `_`, beginning with a "
+                                "letter");
   }
   if (std::find(kTargets.begin(), kTargets.end(), name) != kTargets.end()) {
     throw InputError(place, fmt::format("name '{}' is a target of CMake; choose another", name));

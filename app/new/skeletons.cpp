@@ -5,7 +5,7 @@ namespace gaitlab::app {
 namespace {
 
 constexpr const char* kCpg =
-    R"(// CPG @NAME@: a chain of phase oscillators, to be made your own. Purpose of every function: core/plugin/cpg.h.
+    R"(// CPG @NAME@: a chain of phase oscillators, as a starting point. Purpose of every function: core/plugin/cpg.h.
 #include <cmath>
 #include <numbers>
 
@@ -96,7 +96,7 @@ expect(distance GREATER 0.05 "m: it does not walk")
 )";
 
 constexpr const char* kController =
-    R"(// Controller @NAME@: a spring and a damper between joint and set point, to be made your own. Purpose of every function:
+    R"(// Controller @NAME@: a spring and a damper between joint and set point, as a starting point. Purpose of every function:
 // core/plugin/controller.h.
 #include "core/plugin/plugin.h"
 
@@ -166,8 +166,8 @@ duration: 2                     # s
 )";
 
 constexpr const char* kControllerTest =
-    R"(# The weight of the free half, 0.13 N m, over the spring, 60 V/rad of a motor with 0.38 N m/V, is 0.006 rad. Let go, the joint
-# falls to its stop, 1.6 rad.
+    R"(# The free half loads the joint with 0.13 N m. The spring, 60 V/rad times 0.38 N m/V, yields by 0.006 rad. Without it,
+# the joint falls to its stop, 1.6 rad.
 foreach(joint m0/active m0/passive)
   get(error per_joint ${joint} tracking_error rms)
   expect(error LESS 0.01 "rad: it does not hold ${joint}")
@@ -175,7 +175,7 @@ endforeach()
 )";
 
 constexpr const char* kActuator =
-    R"(// Actuator @NAME@: a motor whose torque falls linearly with its speed, to be made your own. Purpose of every function:
+    R"(// Actuator @NAME@: a motor whose torque falls linearly with its speed, as a starting point. Purpose of every function:
 // core/plugin/actuator.h.
 #include <algorithm>
 #include <vector>

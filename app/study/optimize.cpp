@@ -333,7 +333,8 @@ void add_optimize(Commands& commands) {
         command
             .add_option(
                 "--seeds", a.seeds,
-                "N searches, with seeds from --seed on, in folders seed-N; the median and the spread of their best values")
+                "run N searches, with seeds from --seed on, in folders seed-N, and print the median and the spread of their "
+                "best values")
             ->check(CLI::Range(2, 99));
         command
             .add_option("--method", a.method,

@@ -56,7 +56,7 @@ void print_seeds(const SeedSearches& s) {
     verified += std::isfinite(found.verified) ? 1 : 0;
     objective = objective_text(journal.head());
   }
-  fmt::print("\nbest kept and best verified point of each seed, by {}:\n{}", objective, aligned(rows, 2));
+  fmt::print("\nfor each seed, the best kept point and the best verified point, by {}:\n{}", objective, aligned(rows, 2));
   fmt::print("{} of {} seeds verified a point", verified, s.count);
   if (!best.empty()) {
     fmt::print("; best of {}: median {:.4g}, from {:.4g} to {:.4g}", counted(best.size(), "seed"),

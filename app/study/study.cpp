@@ -173,7 +173,7 @@ int merge_study(const StudyArguments& a) {
   const std::uint64_t lacking = shards.count == 0 && rows < all->head().runs ? all->head().runs - rows : 0;
   if (lacking > 0) {
     say(a.folder, "error",
-        fmt::format("{} of {} runs have not ended; continue with: {}", lacking, all->head().runs, all->head().command));
+        fmt::format("{} of {} runs have not finished; continue with: {}", lacking, all->head().runs, all->head().command));
   }
   return missing.count() > 0 || lacking > 0 ? 1 : 0;
 }
@@ -329,7 +329,7 @@ int rerun_study(const StudyArguments& a) {
 }  // namespace
 
 void add_study(Commands& commands) {
-  CLI::App* study = commands.app.add_subcommand("study", "Look at a study, merge its shards, repeat one of its runs.");
+  CLI::App* study = commands.app.add_subcommand("study", "Look at a study, merge its shards, or repeat one of its runs.");
   study->require_subcommand(1);
   const auto folder = [](CLI::App& command, StudyArguments& a) {
     command.add_option("DIR", a.folder, "folder of the study")->required()->check(not_empty);

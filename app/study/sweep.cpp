@@ -143,7 +143,7 @@ void repeatable(CLI::Option* option) {
 
 void add_sweep(Commands& commands) {
   add_command<SweepArguments>(
-      commands, "sweep", "Run a scenario at many points: a journal, a table and a map.", sweep_study,
+      commands, "sweep", "Run a scenario at many points, and write a journal, a table and a map.", sweep_study,
       [](CLI::App& command, SweepArguments& a) {
         add_scenario(command, a);
         offering(command.get_option("SCENARIO"), "file of a scenario or study (YAML), or a name of {} or {}",

@@ -56,7 +56,7 @@ std::string values_text(studies::Journal& journal, std::uint64_t run) {
   return text.empty() ? "" : text + "\n";
 }
 
-/// Least and largest objective in the worlds of a point: `, in worlds 0.0139 to 0.0146`. Empty without worlds.
+/// Least and largest objective in the worlds of a point: `, 0.0139 to 0.0146 in the worlds`. Empty without worlds.
 std::string in_worlds_text(const std::vector<Verification>& all, std::uint64_t run) {
   double least = std::numeric_limits<double>::infinity();
   double most = -least;
@@ -65,7 +65,7 @@ std::string in_worlds_text(const std::vector<Verification>& all, std::uint64_t r
     least = std::min(least, v.objectives.front());
     most = std::max(most, v.objectives.front());
   }
-  return least <= most ? fmt::format(", in worlds {:.4g} to {:.4g}", least, most) : "";
+  return least <= most ? fmt::format(", {:.4g} to {:.4g} in the worlds", least, most) : "";
 }
 
 /// Text on a point: its runs with their objectives, and the reasons that reject it.
@@ -89,7 +89,8 @@ std::string point_text(studies::Journal& journal, const std::vector<Verification
       reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", clipped(v.what()), one_line(v.reason));
     if (v.kind == TrialKind::quarter_step) {
       below +=
-          "  the other engine's default step was too long at times (check step), so that the run with a quarter of it counts\n";
+          "  the other engine's default step was too long at times (check step), so that its run with a quarter of that step "
+          "counts\n";
     }
     if (v.kind == TrialKind::limit)
       below += fmt::format("  the gait stands; the study's step was too long: {}{}\n", objective_cell(v), unit);
@@ -118,7 +119,7 @@ std::string guard_text(const studies::JournalHead& head, const WorldCount& count
   for (const Verification& fall : count.falls) {
     const bool known =
         std::ranges::find(head.quantities, "margin." + fall.check, &studies::Quantity::name) != head.quantities.end();
-    if (known) return fmt::format("a margin as guard, `guards: {{{}: {{margin: 0.1}}}}`, or ", fall.check);
+    if (known) return fmt::format("a guard with a margin, `guards: {{{}: {{margin: 0.1}}}}`, or ", fall.check);
   }
   return "";
 }
@@ -150,11 +151,11 @@ std::string nearest_text(studies::Journal& journal) {
   if (share == all.end()) return "";
   const WorldCount count = studies::counted_worlds(all, share->run);
   const bool most = count.stood < count.of / 2;
-  return fmt::format("run {} is nearest: it {}; {}; {}`robust: true` searches gaits with reserve{}", share->run,
+  return fmt::format("run {} is nearest: it {}; {}; to search gaits with a reserve, take {}`robust: true`{}", share->run,
                      one_line(share->reason), falls_text(count), guard_text(journal.head(), count),
                      most && paper_gears(journal.head())
                          ? "; gears are directional in every world: `set: [actuator.efficiency_model=directional]` "
-                           "searches with them"
+                           "has such gears in the search"
                          : "");
 }
 

@@ -243,7 +243,7 @@ int swap_cpgs(const SwapArguments& given) {
 
 void add_swap(Commands& commands) {
   add_command<SwapArguments>(
-      commands, "swap", "Run scenarios under several CPGs: one table, one figure, CSV and JSON.", swap_cpgs,
+      commands, "swap", "Run scenarios under several CPGs, and write one table, one figure, CSV and JSON.", swap_cpgs,
       [](CLI::App& command, SwapArguments& arguments) {
         add_scenario(command, arguments);
         command.remove_option(command.get_option("SCENARIO"));

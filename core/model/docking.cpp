@@ -140,7 +140,7 @@ class DockRows {
         alike ? fmt::format("face {} of module {} and face {} of module {} are both {}; active docks on passive",
                             dock.child_face, dock.child_module, dock.parent_face, dock.parent_module, name_of(child.gender))
               : fmt::format(
-                    "face {} of module {} is of gender {}, face {} of module {} of gender {}; active docks on passive, "
+                    "face {} of module {} has gender {}, but face {} of module {} has gender {}; active docks on passive, and "
                     "none on none",
                     dock.child_face, dock.child_module, name_of(child.gender), dock.parent_face, dock.parent_module,
                     name_of(parent.gender));
@@ -152,7 +152,8 @@ class DockRows {
     if (child.connector != parent.connector) {
       problems_.add(
           dock.place,
-          fmt::format("face {} of module {} has connector {}, face {} of module {} {}; only faces with the same connector dock",
+          fmt::format("face {} of module {} has connector {}, but face {} of module {} has {}; only faces with the same "
+                      "connector dock",
                       dock.child_face, dock.child_module, in_marks(child.connector), dock.parent_face, dock.parent_module,
                       in_marks(parent.connector)));
     }

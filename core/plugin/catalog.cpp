@@ -67,7 +67,7 @@ void Catalog::add(const Entry& entry) {
   const std::string name(entry.name);
   if (!is_plugin_name(name)) {
     throw std::invalid_argument(std::string(word(entry.kind)) + " '" + name + "' of " + origin_ +
-                                " has an invalid name; expected a letter, then letters, digits, _ and -");
+                                " has an invalid name; expected a letter, then letters, digits, `_` and `-`");
   }
   for (const Registered& known : entries_) {
     if (known.entry.kind == entry.kind && known.name == name) {

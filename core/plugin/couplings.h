@@ -34,9 +34,9 @@ enum class CouplingRule { chain, parent, siblings, mirror, all };
 
 inline constexpr const char* kCouplingRules[] = {"chain", "parent", "siblings", "mirror", "all"};
 inline constexpr const char* kCouplingRulesAbout =
-    "Rule for the joint that each joint follows. chain: the previous one; parent: the next towards the base; siblings: parent, "
-    "and joints "
-    "with the same parent; mirror: a right joint follows its left counterpart; all: every other joint; or a list.";
+    "Rule for the joint that each joint follows. chain: the previous one; parent: the next towards the base; siblings: as "
+    "parent, and also joints with the same parent; mirror: a right joint follows its left counterpart; all: every other joint; "
+    "or a list.";
 
 /// Number of the joint that is the mirror image of `joint` (which has y < 0) in the plane y = 0 at zero angles, or -1. The axes
 /// of the joint and its image are parallel after reflection, but their positive directions of rotation may be opposite.

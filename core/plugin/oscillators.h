@@ -23,7 +23,8 @@ struct OscillatorKeys {
     f.per_joint(
         "phase_lag", phase_lag,
         {"rad", -100, 100,
-         "Lead of each joint over the joint that it follows by the rule; the row also contains joints of amplitude 0."});
+         "Lead of each joint over the joint that it follows by the rule of the couplings; joints of amplitude 0 are followed, "
+         "too."});
     f.rule_or_list("couplings", rule, kCouplingRules, couplings, kCouplingRulesAbout);
   }
 

@@ -39,7 +39,7 @@ class CsvReader {
     if (rest_.empty()) return false;
     ++line_number_;
     const std::size_t end = rest_.find('\n');
-    if (end == std::string_view::npos) throw error(rest_.size(), "the last line does not end: the file is truncated");
+    if (end == std::string_view::npos) throw error(rest_.size(), "the last line has no line end: the file is truncated");
     line_ = rest_.substr(0, end);
     rest_.remove_prefix(end + 1);
     if (!line_.empty() && line_.back() == '\r') line_.remove_suffix(1);
@@ -81,7 +81,7 @@ std::string read_name(const CsvReader& reader, std::size_t& offset) {
   std::string name;
   while (true) {
     const std::size_t quote = line.find('"', offset);
-    if (quote == std::string_view::npos) throw reader.error(start, "the quoted column name does not end");
+    if (quote == std::string_view::npos) throw reader.error(start, "the quoted column name has no closing quote");
     name += line.substr(offset, quote - offset);
     offset = quote + 1;
     if (offset == line.size() || line[offset] != '"') break;

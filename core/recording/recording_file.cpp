@@ -48,18 +48,18 @@ void each_number(OfRecording& r, Visit visit) {
   visit("stability.source", "", "source of that lambda: 0 motor, 1 stop, 2 contact, 3 passive hinge", r.worst.source);
   visit("stability.index", "", "number of that joint or contact element", r.worst.index);
   visit("stability.time", "s", "time of that tick", r.worst_time);
-  visit("energy.electrical", "J", "drawn by the motors", r.ledger.electrical);
-  visit("energy.copper", "J", "lost in the motors' windings", r.ledger.copper);
-  visit("energy.gear", "J", "lost in the gears, minus the energy that they created", r.ledger.gear);
-  visit("energy.contact", "J", "given to the ground along its normal", r.ledger.contact);
-  visit("energy.friction", "J", "given to the ground along its surface", r.ledger.friction);
-  visit("energy.stops", "J", "given to the hinge stops", r.ledger.stops);
-  visit("energy.stored", "J", "kinetic and potential, minus the value at the start", r.ledger.stored);
-  visit(kHinges, "J", "lost in dampers and friction of passive hinges", r.ledger.hinges);
+  visit("energy.electrical", "J", "energy drawn by the motors", r.ledger.electrical);
+  visit("energy.copper", "J", "energy lost in the motors' windings", r.ledger.copper);
+  visit("energy.gear", "J", "energy lost in the gears, minus the energy that they created", r.ledger.gear);
+  visit("energy.contact", "J", "energy given to the ground along its normal", r.ledger.contact);
+  visit("energy.friction", "J", "energy given to the ground along its surface", r.ledger.friction);
+  visit("energy.stops", "J", "energy given to the hinge stops", r.ledger.stops);
+  visit("energy.stored", "J", "kinetic and potential energy, minus the value at the start", r.ledger.stored);
+  visit(kHinges, "J", "energy lost in dampers and friction of passive hinges", r.ledger.hinges);
   visit(kCurrent + std::string("peak"), "A", "largest sum of the magnitudes of all motors' currents", r.current_peak);
   visit(kCurrent + std::string("rms"), "A", "RMS of that sum", r.current_rms);
   visit("solves", "", "solves of the equations of motion", r.tally.solves);
-  visit("off_law", "", "joint-steps that ended off the law of their motor or stop", r.tally.off);
+  visit("off_law", "", "joint-steps that do not satisfy the law of their motor or stop", r.tally.off);
   visit("coarse_time", "s", "time in which the steps did not reach the accuracy", r.tally.coarse);
   visit("torque_error.estimated", "", "1: the torque error was estimated", r.tally.estimated);
   for (const PartingName& one : kPartings) {

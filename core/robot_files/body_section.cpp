@@ -28,7 +28,9 @@ void add_shape(const Node& node, ShapeKeys shape, BodyType& body, Problems& prob
     shape.kind = static_cast<Shape::Kind>(k);
   }
   if (kinds != 1 && node.kind == Node::Kind::map) {
-    problems.add(node.place, fmt::format("the shape has {} of box, cylinder, half_cylinder and sphere; expected one", kinds));
+    problems.add(node.place, fmt::format("the shape has {} of box, cylinder, half_cylinder and sphere; expected exactly one of "
+                                         "them",
+                                         kinds));
   }
   shape.in_body = {rpy(shape.turn), shape.origin};
   body.shapes.emplace_back(shape);

@@ -73,7 +73,7 @@ class ModuleReader {
 
   void check_name(const std::string& name, const SourceLocation& place) {
     if (!is_name(name, "_-"))
-      problems_.add(place, "name " + in_quotes(name) + " is not allowed; expected letters, digits, _ and -");
+      problems_.add(place, "name " + in_quotes(name) + " is not allowed; expected letters, digits, `_` and `-`");
   }
   void check_name(const Node* node) {
     if (node != nullptr && node->kind == Node::Kind::scalar) check_name(node->text, node->place);
@@ -165,7 +165,7 @@ class ModuleReader {
     for (const auto& [key, of_shapes] : {std::pair("feet", keys.feet_of_shapes), std::pair("all", keys.all_of_shapes)}) {
       if (!without || !of_shapes) continue;
       const SourceLocation& place = node.find(key)->place;
-      problems_.add(place, fmt::format("{} is shapes, but no body has a shape; expected a list of maps", key));
+      problems_.add(place, fmt::format("{} is `shapes`, but no body has a shape; expected a list of maps", key));
     }
     feet_of_shapes_ = keys.feet_of_shapes;
     all_of_shapes_ = keys.all_of_shapes;

@@ -50,7 +50,7 @@ void BodyKeys::fields(Fields& f) {
   optional(f).vector("inertia", tensor,
                      any("kg m^2",
                          "xx, yy, zz, xy, xz, yz about the COM, body axes; elements of the tensor (xy: -sum of m x y). Without "
-                         "it: that of the shapes at uniform density."));
+                         "this key: inertia of the shapes at uniform density."));
   optional(f).list("shape", outline,
                    "Outline of the body. Each shape has exactly one of box, cylinder, half_cylinder and sphere.");
 }
@@ -69,7 +69,7 @@ void HingeKeys::fields(Fields& f) {
   source_field(f, source);
   required(f).text("name", name, "Name of the hinge and of its joint.");
   required(f).text("parent", of_parent, "A body's name.");
-  required(f).text("child", of_child, "A body's name, which moves with the hinge.");
+  required(f).text("child", of_child, "Name of the body that moves with the hinge.");
   frame_fields(f, origin, turn);
   required(f).vector("axis", span_of(axis), any("", "Axis, hinge frame, of any length."));
   Marked(f, Need::required, "free", &free)
@@ -84,7 +84,7 @@ void FaceKeys::fields(Fields& f) {
   source_field(f, source);
   required(f).integer("id", number, {"", 0, 1000, "Number of the face in build files."});
   required(f).text("body", of_body, "A body's name.");
-  required(f).choice("gender", gender, enum_names<Gender>(), "An active face docks on a passive one, none on none.");
+  required(f).choice("gender", gender, enum_names<Gender>(), "`active` docks on `passive`, and `none` on `none`.");
   f.text("connector", connector, "Name of the connector; only faces with the same connector dock.");
   f.integers("turns", quarters, {"", 0, 3, "Orientations in which the face docks, times pi/2."});
   required(f).vector("origin", span_of(origin), any("m", "Middle of the face, body frame."));
@@ -105,7 +105,8 @@ void ContactsKeys::fields(Fields& f) {
   source_field(f, source);
   Marked(f, Need::optional, "shapes", &feet_of_shapes)
       .list("feet", feet,
-            "Elements for contact.on: feet, on the free block of every module without children. Without it: those of all.");
+            "Elements for contact.on: feet, on the free block of every module without children. Without this key: those of "
+            "`all`.");
   Marked(f, Need::preset, "shapes", &all_of_shapes)
       .list("all", all, "Elements for contact.on: all; shapes: the vertices of boxes and cylinders, and spheres.");
 }
@@ -131,12 +132,12 @@ void ModuleKeys::fields(Fields& f) {
   optional(f).by_name("connectors", connectors, "{tension: ..., shear: ...}",
                       "Largest loads of the connectors of faces, by name; a load that is missing is not judged.");
   f.other(kMayOverlap, kPairs,
-          "Pairs [BODY, BODY] that the check collision leaves out, by names or patterns; of a pair that is not left out, "
-          "overlap with all hinges at 0 is by design.");
+          "Pairs [BODY, BODY] that the check collision leaves out, by names or patterns; for other pairs, the overlap with all "
+          "hinges at 0 is by design.");
   optional(f).other("actuator", kPluginMap,
                     "Motor of every driven hinge: type, and keys of that actuator (gaitlab explain actuator TYPE).");
   optional(f).other("controller", kPluginMap,
-                    "Controller of these motors: type, and its keys without period (gaitlab explain controller TYPE).");
+                    "Controller of every driven hinge: type, and its keys without period (gaitlab explain controller TYPE).");
 }
 
 }  // namespace gaitlab

@@ -65,7 +65,7 @@ void TypeLibrary::define(const Node& types) {
   for (std::size_t i = 0; i < types.keys.size(); ++i) {
     const auto& [name, place] = types.keys[i];
     if (!is_name(name, "_-")) {
-      problems_.add(place, "type name " + in_quotes(name) + " is not allowed; expected letters, digits, _ and -");
+      problems_.add(place, "type name " + in_quotes(name) + " is not allowed; expected letters, digits, `_` and `-`");
     }
     defined_[name] = &types.items[i];
   }
@@ -84,7 +84,7 @@ std::optional<std::size_t> TypeLibrary::find(const Node& node) {
   const std::string path = path_from(folder_, node.text);
   if (const std::string name = shipped_name(node.text); !name.empty() && !fs::exists(path)) {
     if (seen_.emplace("no file " + path, Index{}).second)
-      problems_.add(node.place, fmt::format("there is no file '{}'; modules: {} names the shipped one", path, name));
+      problems_.add(node.place, fmt::format("there is no file '{}'; `modules: {}` names the shipped one", path, name));
     return {};
   }
   return read_file(path, node.place);

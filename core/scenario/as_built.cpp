@@ -36,29 +36,33 @@ using Of = BuiltNumber::Of;
 }  // namespace
 
 const std::array<Tolerance, 8> kTolerances{{
-    {"mass", share("Deviation of the mass of a module, as a share. Its moments of inertia follow its mass.")},
-    {"inertia", share("Further deviation of the moments of inertia of a module, as a share.")},
+    {"mass", share("Deviation of a module's mass, as a share. The moments of inertia follow the mass.")},
+    {"inertia", share("Further deviation of a module's moments of inertia, as a share.")},
     {"dock_angle", {"rad", 0, kMostAngle, "Deviation of the angle of a dock, about each of three axes."}},
-    {"foot_friction", share("Deviation of the coefficient of friction under the contact elements of a module, as a share.")},
+    {"foot_friction", share("Deviation of the friction coefficient under a module's contact elements, as a share.")},
     {"R", share("Deviation of the winding resistance of a motor, as a share.")},
     {"Kt", share("Deviation of the torque constant of a motor, as a share; its back-EMF constant follows.")},
-    {"gear_friction", share("Deviation of the lost share 1 - efficiency of a gear, as a share.")},
-    {"supply", share("Deviation of the voltage limit of all motors, as a share; one draw for the robot, as for its battery.")},
+    {"gear_friction", share("Deviation of a gear's loss (1 - efficiency), as a share.")},
+    {"supply", share("Deviation of the motors' voltage limit, as a share; one draw for the whole robot, as for its battery.")},
 }};
 
 const std::array<BuiltNumber, 10> kBuiltNumbers{{
-    {"mass", Of::modules, Deviation::mass, 1, factor("Factor on the mass of a module and its moments of inertia.")},
-    {"inertia", Of::modules, Deviation::inertia, 1, factor("Further factor on the moments of inertia of a module.")},
+    {"mass", Of::modules, Deviation::mass, 1, factor("Factor on a module's mass and moments of inertia.")},
+    {"inertia", Of::modules, Deviation::inertia, 1, factor("Further factor on a module's moments of inertia.")},
     {"dock_x", Of::modules, Deviation::dock_angle, 0,
      angle("Angle of a module at the dock to its parent, about the normal of the parent's face.")},
-    {"dock_y", Of::modules, Deviation::dock_angle, 0, angle("The same about the reference direction of the parent's face.")},
-    {"dock_z", Of::modules, Deviation::dock_angle, 0, angle("The same about normal x reference.")},
+    {"dock_y", Of::modules, Deviation::dock_angle, 0,
+     angle("Angle of a module at the dock to its parent, about the reference "
+           "direction of the parent's face.")},
+    {"dock_z", Of::modules, Deviation::dock_angle, 0,
+     angle("Angle of a module at the dock to its parent, about normal x "
+           "reference of the parent's face.")},
     {"foot_friction", Of::modules, Deviation::foot_friction, 1,
-     factor("Factor on the coefficient of friction under the contact elements of a module.")},
+     factor("Factor on the friction coefficient under a module's contact elements.")},
     {"R", Of::motors, Deviation::R, 1, factor("Factor on the winding resistance of a motor.")},
     {"Kt", Of::motors, Deviation::Kt, 1, factor("Factor on the torque constant and the back-EMF constant of a motor.")},
-    {"gear_friction", Of::motors, Deviation::gear_friction, 1, factor("Factor on the lost share 1 - efficiency of a gear.")},
-    {"supply", Of::robot, Deviation::supply, 1, factor("Factor on the voltage limits of all motors.")},
+    {"gear_friction", Of::motors, Deviation::gear_friction, 1, factor("Factor on a gear's loss (1 - efficiency).")},
+    {"supply", Of::robot, Deviation::supply, 1, factor("Factor on the motors' voltage limits.")},
 }};
 
 void Tolerances::fields(Fields& f) {

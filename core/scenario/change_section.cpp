@@ -226,11 +226,15 @@ void FaultKeys::fields(Fields& f) {
   f.names("joint", fault.joints, Among::motors, "Joints that get the fault: names or patterns.");
   f.choice("kind", fault.kind, enum_names<FaultKind>(),
            "dead: command 0, so that the motor brakes. open: no current and no torque. stuck: held at its angle. weak: its "
-           "torque times share. lost: a share of its set points never arrives. late: set points are older by delay. none: the "
-           "fault ends.");
+           "torque is multiplied by `share`. lost: a share of its set points never arrives. late: its set points are delayed "
+           "by `delay`. none: the fault ends.");
   if (all || fault.kind == weak || fault.kind == lost)
     f.number("share", fault.share, {"", 0, 1, "weak: share of the torque that is left; lost: share of lost set points."});
-  if (all || fault.kind == late) f.periods("delay", fault.delay, {"s", 0, kLongestDelay, "late: whole control periods."});
+  if (all || fault.kind == late)
+    f.periods("delay", fault.delay,
+              {"s", 0, kLongestDelay,
+               "late: delay, a whole number of "
+               "control periods."});
 }
 
 std::vector<Change> read_changes(const Node& root, const Scenario& scenario, JointNames joints, const ReadSegment& read,

@@ -26,7 +26,7 @@ struct ChangeKeys {
 };
 /// Sentences for the manual on the other keys.
 inline constexpr const char* kAboutChanges =
-    "Changes at times of the run, by rising times; each has set, fault or both (docs/real-robot.md).";
+    "Changes during the run, in order of time; each has `set`, `fault` or both (docs/real-robot.md).";
 inline constexpr const char* kAboutSet =
     "New values of keys of cpg and controller, such as {cpg.frequency: 0.5}; not `type`, `period`, `step` or a key that "
     "changes the number of states.";

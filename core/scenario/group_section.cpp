@@ -23,7 +23,7 @@ std::string refused_name(const std::string& name, const std::vector<std::string>
   }
   const bool letter = !name.empty() && ((name[0] >= 'a' && name[0] <= 'z') || (name[0] >= 'A' && name[0] <= 'Z'));
   if (is_name(name, "_-") && letter && name != "default") return "";
-  return in_quotes(name) + " is not a name of a group; expected a letter, then letters, digits, _ and -, and not default";
+  return in_quotes(name) + " is not a name of a group; expected a letter, then letters, digits, `_` and `-`, but not `default`";
 }
 
 /// The message for a member that matches no joint, or "". `groups` is the section.

@@ -66,10 +66,12 @@ void load(const PluginEntry& entry, const SourceLocation& place, const std::stri
   const fs::path canonical = fs::canonical(path, failure);
   if (failure || !fs::is_regular_file(canonical, failure)) {
     const std::string why = failure ? failure.message() : "not a regular file";
-    problems.add(
-        place, fmt::format("plugin '{}' cannot be loaded: {} (tried '{}'{})", one_line(entry.path), why,
-                           fs::absolute(path).lexically_normal().string(),
-                           entry.hash.empty() ? "" : "; a record contains only its name, so that --plugin must give the file"));
+    problems.add(place,
+                 fmt::format("plugin '{}' cannot be loaded: {} (tried '{}'{})", one_line(entry.path), why,
+                             fs::absolute(path).lexically_normal().string(),
+                             entry.hash.empty() ? ""
+                                                : "; a record contains only the plugin's name, so that --plugin must give "
+                                                  "the file"));
     return;
   }
   if (const PluginTrust& trust = catalog.trust(); !trust.all && !trust.files.contains(canonical.string())) {

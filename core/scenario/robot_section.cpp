@@ -59,7 +59,7 @@ std::vector<Dock> read_connections(Reader& reader, const std::string& folder, st
   if (name.value.ends_with(".dat") && !std::filesystem::exists(path, none)) {
     const bool shipped = std::filesystem::exists(fmt::format("{}/robots/{}.dat", data_folder(), stem), none);
     if (shipped) {
-      problems.add(build->place, fmt::format("there is no file '{}'; build: {} names the shipped one", path, stem));
+      problems.add(build->place, fmt::format("there is no file '{}'; `build: {}` names the shipped one", path, stem));
       return {};
     }
   }
@@ -125,7 +125,7 @@ class TypeChoice {
             {place, "unknown key " + in_quotes(key) + " in modules; expected the number of a module, or `default`", {}, key});
       } else if (static_cast<std::size_t>(module.value) >= count_) {
         problems_.add(place, fmt::format("there is no module {}; the robot has {}", module.value,
-                                         count_ == 1 ? "module 0 alone" : fmt::format("modules 0 to {}", count_ - 1)));
+                                         count_ == 1 ? "only module 0" : fmt::format("modules 0 to {}", count_ - 1)));
       } else {
         own_[static_cast<std::size_t>(module.value)] = &modules_.items[i];
       }

@@ -18,15 +18,17 @@ void ScenarioChecks::name() {
   if (is_name(scenario_.name, "_.-") && scenario_.name[0] != '.') return;
   if (node != nullptr && node->kind != Node::Kind::scalar) return;
   problems_.add(node != nullptr ? node->place : SourceLocation{scenario_.file},
-                "name " + in_quotes(scenario_.name) + " is not allowed; expected letters, digits, _ . and -, not a . first" +
+                "name " + in_quotes(scenario_.name) +
+                    " is not allowed; expected letters, digits, `_`, `.` and `-`, but no `.` "
+                    "at the start" +
                     (node != nullptr ? "" : " (it is the file's name; give another with name:)"));
 }
 
 void ScenarioChecks::height(const Node& position, bool given, const Node* on_ground) {
   if (on_ground == nullptr || scenario_.on_ground != given) return;
   problems_
-      .add(position.place, given ? "position has a height and on_ground is true; expected [x, y], or no on_ground"
-                                 : "position has no height and on_ground is false; expected [x, y, z], or no on_ground")
+      .add(position.place, given ? "position has a height, but on_ground is true; expected [x, y], or no on_ground"
+                                 : "position has no height, but on_ground is false; expected [x, y, z], or no on_ground")
       .notes.emplace_back(on_ground->place, "on_ground is here");
 }
 

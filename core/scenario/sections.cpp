@@ -117,7 +117,7 @@ void PhysicsFields::fields(Fields& f) {
   if (catalog == nullptr && physics.estimate == Estimate::full) return;
   f.choice("estimate", physics.estimate, enum_names<Estimate>(),
            "Estimate of the torque error. full: from additional rollouts, with finer and coarser steps and with gravity times "
-           "1 + 1e-9, which add a fourth to the run time (a tenth if the step is given: only windows of a rollout have other "
+           "1 + 1e-9, which add a quarter to the run time (a tenth if the step is given: only windows of a rollout have other "
            "steps). off: no estimate; the run is bit-identical, but the verdict lacks evidence.");
 }
 
@@ -196,13 +196,13 @@ void Limits::fields(Fields& f) {
             "Default: our choice."});
   f.number("tracking_error", tracking_error,
            {"rad", kPositive, 1000,
-            "Largest allowed difference of set point and angle; up to twice this is a warning, more is a failure. Default: the "
-            "axis of the paper's figure 14."});
+            "Largest allowed difference of set point and angle; up to twice this difference is a warning, a larger one a "
+            "failure. Default: the axis range in figure 14 of the paper."});
   f.number(
       "saturated_share", saturated_share,
       {"", 0, 1,
-       "Share of the judged window that a joint may be at a limit of its motor; less is a warning, more a failure. Default: "
-       "chosen."});
+       "Share of the judged window that a joint may be at a limit of its motor; a smaller share is a warning, a larger one a "
+       "failure. Default: chosen."});
   f.number(
       "saturated_periods", saturated_periods,
       {"", 0, 1e6,
@@ -210,8 +210,8 @@ void Limits::fields(Fields& f) {
        "point takes one or two."});
   f.number("height", height,
            {"", 0, 1,
-            "Share of a height of the centre of mass, below which the robot has fallen: the lower of its heights in the start "
-            "pose, on the ground, and in the pose of the set points. Default: our choice."});
+            "Height of the centre of mass below which the robot has fallen, as a share of the lower of two heights: in the "
+            "start pose, on the ground, and in the pose of the set points. Default: our choice."});
   f.number("tilt", tilt,
            {"rad", kPositive, 4,
             "Tilt of the robot from its start above which the verdict warns (below the horizontal it fails, unless the base "
@@ -219,34 +219,39 @@ void Limits::fields(Fields& f) {
   f.number(
       "beyond_range", beyond_range,
       {"rad", 0, 100,
-       "Largest angle of a joint beyond its range; less is a warning. Default: our choice, the deflection of a soft stop."});
+       "Largest angle of a joint beyond its range; a smaller angle is a warning. Default: our choice, the deflection of a soft "
+       "stop."});
   f.number("beyond_range_share", beyond_range_share,
-           {"", 0, 1, "Share of the time that a joint may be beyond its range; less is a warning. Default: our choice."});
-  f.number(
-      "start_jump", start_jump,
-      {"rad", 0, 100,
-       "Jump of a set point at t = 0 above which there is a warning. Default: half of the axis of the paper's figure 14."});
+           {"", 0, 1,
+            "Share of the time that a joint may be beyond its range; a smaller share is a warning. Default: our "
+            "choice."});
+  f.number("start_jump", start_jump,
+           {"rad", 0, 100,
+            "Jump of a set point at t = 0 above which there is a warning. Default: half of the axis range in figure 14 of the "
+            "paper."});
   f.number(
       "touch", touch,
       {"m", 0, 10,
        "Overlap of two bodies above which there is a warning. The default covers the error of cylinders (computed as prisms) "
        "and the deflection of a hinge's stop."});
   f.number("collision", collision,
-           {"m", 0, 10, "Largest overlap of two bodies; less is a warning, more a failure. Default: our choice."});
+           {"m", 0, 10,
+            "Largest overlap of two bodies; a smaller one is a warning, a larger one a failure. Default: our "
+            "choice."});
   f.number("sink", sink,
            {"m", 0, 10, "Largest depth of a body in the ground. The default covers the compression of the ground."});
   f.number(
       "energy_residual", energy_residual,
       {"", 0, 1,
        "Share of the energy drawn that may be unaccounted for without a warning; above 5 % a run is not judged. Default: the "
-       "error of the torques that is judged."});
+       "torque error of an accurate run."});
   f.number(
       "energy_created", energy_created,
       {"", 0, 1, "Largest energy created by back-driven gears (eq. 2), as a share of the energy drawn. Default: our choice."});
   f.number("slip", slip,
            {"", 0, 1e6,
-            "Largest slip distance of the feet, weighted by their loads, as a share of the robot's path; more is a warning. "
-            "Default: our choice."});
+            "Largest slip distance of the feet, weighted by their loads, as a share of the robot's path; a larger distance is "
+            "a warning. Default: our choice."});
   f.number(
       "torque_error", torque_error,
       {"", kPositive, 1,
@@ -254,8 +259,8 @@ void Limits::fields(Fields& f) {
        "0.1 count as 0.1, because with a larger error neither torques nor motion are known. Default: chosen."});
   f.number("progress", progress,
            {"", 0, 1000,
-            "Least travel per period, as a share of the robot's extent; less is a failure. With the default, 0, less than a "
-            "hundredth is a warning."});
+            "Least travel per period, as a share of the robot's extent; a smaller travel is a failure. With the default, 0, a "
+            "travel below a hundredth is a warning."});
 }
 
 SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems* problems, const std::string& actuator_type)
@@ -313,8 +318,8 @@ void SectionFields::fields(Fields& f) {
   if (!writing || !scenario.figure.joints.empty()) f.group("figure", scenario.figure, "Content of figure.svg.");
   f.integer("seed", scenario.seed,
             {"", 0, 9e18,
-             "Seed of all draws: of the robot within its tolerances, of the noise, zeros, delays and losses of its sensors, "
-             "and of lost set points (at)."});
+             "Seed of all draws: the robot within its tolerances; noise, zeros, delays and losses of its sensors; lost set "
+             "points (`at`)."});
 }
 
 std::vector<std::string> joint_names(const Robot& robot) {

@@ -34,7 +34,8 @@ class SensorReader {
   void read(const std::string& name, const SourceLocation& place, const Node& node) {
     if (!is_name(name, "_-") || !std::isalpha(static_cast<unsigned char>(name[0])) || name == kType) {
       problems_.add(place,
-                    fmt::format("{} is not a name of a sensor; expected a letter, then letters, digits, _ and -, and not {}",
+                    fmt::format("{} is not a name of a sensor; expected a letter, then letters, digits, `_` and `-`, but not "
+                                "`{}`",
                                 in_quotes(name), kType));
       return;
     }

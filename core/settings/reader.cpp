@@ -254,7 +254,7 @@ void Reader::on(const char* key, const field::Map& field) {
       return;                              // the following keys are fragments of the text
     }
     if (!is_name(name, "_") || name[0] == '_' || (name[0] >= '0' && name[0] <= '9')) {
-      problems_.add(place, in_quotes(name) + " is not a name; expected a letter, then letters, digits and _");
+      problems_.add(place, in_quotes(name) + " is not a name; expected a letter, then letters, digits and `_`");
       continue;
     }
     read_named(node->items[i], fmt::format("{}.{}", key, clipped(name)), field.kind, field.value.emplace_back(Named{name}));

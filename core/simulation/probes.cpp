@@ -75,7 +75,8 @@ void Probes::add(std::string name, std::string unit, std::string definition, con
 void Probes::add_steps(const Robot& robot) {
   add("steps.solves", "", "solves of the equations of motion from t = 0 to this row; 0: the engine does not count them",
       sample_.tally.solves);
-  add("steps.off", "", "joint-steps from t = 0 to this row that ended off the law of their motor or stop", sample_.tally.off);
+  add("steps.off", "", "joint-steps from t = 0 to this row that do not satisfy the law of their motor or stop",
+      sample_.tally.off);
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     add(fmt::format("torque_error.{}", j), "N m",
         "estimate of the motor torque's error from the length of the steps, RMS from t = 0 to this row, of joint " +
@@ -206,17 +207,17 @@ void Probes::add_energy(const Robot& robot) {
     add(std::string("energy.") + entry, "J", std::string(definition) + ", from t = 0",
         [value](const Sample& s) { return s.ledger.*value; });
   };
-  ledger("electrical", "drawn by the motors", &Ledger::electrical);
-  ledger("copper", "lost in the motors' windings", &Ledger::copper);
-  ledger("gear", "lost in the gears; negative: created by eq. 2", &Ledger::gear);
-  ledger("stored", "kinetic and potential, minus the value at the start", &Ledger::stored);
-  ledger("contact", "given to the ground along its normal", &Ledger::contact);
-  ledger("friction", "given to the ground along its surface", &Ledger::friction);
-  ledger("stops", "given to the hinge stops", &Ledger::stops);
+  ledger("electrical", "energy drawn by the motors", &Ledger::electrical);
+  ledger("copper", "energy lost in the motors' windings", &Ledger::copper);
+  ledger("gear", "energy lost in the gears (negative: created by eq. 2)", &Ledger::gear);
+  ledger("stored", "kinetic and potential energy, minus the value at the start", &Ledger::stored);
+  ledger("contact", "energy given to the ground along its normal", &Ledger::contact);
+  ledger("friction", "energy given to the ground along its surface", &Ledger::friction);
+  ledger("stops", "energy given to the hinge stops", &Ledger::stops);
   if (!std::ranges::all_of(robot.joints, [](const Joint& joint) { return joint.driven(); })) {
-    ledger("hinges", "lost in dampers and friction of passive hinges", &Ledger::hinges);
+    ledger("hinges", "energy lost in dampers and friction of passive hinges", &Ledger::hinges);
   }
-  add("energy.residual", "J", "electrical minus all the others: the error of the integration, from t = 0",
+  add("energy.residual", "J", "electrical energy minus all other entries, from t = 0: the error of the integration",
       [](const Sample& s) { return s.ledger.residual(); });
   add_vector("momentum", "N s", "linear momentum, world axes", [](const Sample& s) { return s.sums.momentum; });
   add_vector("angular_momentum", "N m s", "angular momentum about the world origin",
@@ -311,8 +312,8 @@ void Probes::select(const Scenario& scenario) {
   sources_.resize(kept);
   if (!want_reactions_ || scenario.contact.model().element_forces) return;
   throw InputError(scenario.place("trace.columns"),
-                   "reactions are computed from contact forces, but contact.law: bullet has impulses, some not at contact "
-                   "elements; remove the columns reaction.*, or take contact.law: penalty");
+                   "reactions are computed from contact forces, but contact.law: bullet has impulses, some of which do not act "
+                   "at contact elements; remove the columns reaction.*, or take contact.law: penalty");
 }
 
 void Probes::fill(Out row, Out rest) const {

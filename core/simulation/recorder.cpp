@@ -24,7 +24,7 @@ constexpr double kTickRows = 2e-3;           // shortest interval between rows o
 /// Error for rows that exceed the memory or the disk. Rows are kept until the end of the run.
 TooManyRows too_many_rows(const Scenario& s, const RowsNeeded& needed, const std::string& there_is) {
   return {s.place("duration"),
-          fmt::format("the run would record {:.3g} rows of {:.0f} columns, {:.3g} GB, and {}: take a longer trace.period than "
+          fmt::format("the run would record {:.3g} rows of {:.0f} columns, {:.3g} GB, {}: take a longer trace.period than "
                       "{:.3g} s, fewer trace.columns, or a shorter duration",
                       needed.rows, needed.columns, needed.bytes() / 1e9, there_is, s.trace.period)};
 }
@@ -39,22 +39,23 @@ void check_space(const Scenario& s, const RowsNeeded& needed) {
   };
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
-    check(static_cast<double>(limit.rlim_cur), "ulimit -v allows", "memory");
+    check(static_cast<double>(limit.rlim_cur), "but ulimit -v allows", "memory");
   if (needed.bytes() > static_cast<double>(kMostInMemory)) {
     std::error_code error;
     const std::filesystem::space_info disk = std::filesystem::space(spill_folder(), error);
     constexpr double kWithFile = 1 + kFileShare;  // space for the values and for the file made from them
     if (!error && kWithFile * needed.bytes() > static_cast<double>(disk.available)) {
-      throw too_many_rows(s, needed,
-                          fmt::format("needs {:.3g} GB in {} (TMPDIR), which has {:.3g} GB", kWithFile * needed.bytes() / 1e9,
-                                      spill_folder().string(), static_cast<double>(disk.available) / 1e9));
+      throw too_many_rows(
+          s, needed,
+          fmt::format("which needs {:.3g} GB in {} (TMPDIR), but that has {:.3g} GB", kWithFile * needed.bytes() / 1e9,
+                      spill_folder().string(), static_cast<double>(disk.available) / 1e9));
     }
     if (!error) return;
-    check(static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)), "this machine has",
+    check(static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)), "but this machine has",
           "memory");
   }
   double container = 0;
-  if (std::ifstream("/sys/fs/cgroup/memory.max") >> container) check(container, "this container has", "memory");
+  if (std::ifstream("/sys/fs/cgroup/memory.max") >> container) check(container, "but this container has", "memory");
 }
 
 }  // namespace
@@ -92,7 +93,7 @@ void Recorder::reserve_rows(const Scenario& s) {
     try {
       table.values.reserve(static_cast<std::size_t>(rows + 3) * table.columns.size());
     } catch (const std::bad_alloc&) {
-      throw too_many_rows(s, rows_needed(), "that much memory is not available");
+      throw too_many_rows(s, rows_needed(), "but that much memory is not available");
     }
   };
   for (Trace* table : {&recording.trace, &recording.rest}) reserve(*table, s.duration / s.trace.period);

@@ -57,7 +57,7 @@ def cpg(name: str, **settings: Union[float, tuple[Any, ...]]) -> Callable[[_Clas
             raise TypeError(f"a CPG has a method output(t, x, setpoint); {made.__name__} has none")
         states = getattr(made, "states", 0)
         if isinstance(states, int) and states > 0 and not (hasattr(made, "derivative") or hasattr(made, "event")):
-            raise TypeError(f"{made.__name__} has states, but no derivative(m, x, rate) and no event(m, x), which change them")
+            raise TypeError(f"{made.__name__} has states, but neither derivative(m, x, rate) nor event(m, x), which would change them")
         _native.add_cpg(name, made, numbers)
         return made
 

@@ -18,8 +18,8 @@ class Evaluator(Child):
         with gaitlab.Evaluator("study.yaml", "runs/mine") as study:
             answers = study.evaluate([{"cpg.frequency": 0.5}, {"cpg.frequency": 1.0}])
 
-    file: a study file (docs/studies.md). folder: of the journal (default runs/evaluate-NAME); a point that has rows there is
-    answered from them. threads: default the processors that this process may use.
+    file: a study file (docs/studies.md). folder: the folder of the journal (default runs/evaluate-NAME); a point with rows in this
+    journal is answered from them. threads: number of threads (default: the processors that this process may use).
     """
 
     def __init__(

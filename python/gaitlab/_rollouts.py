@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class Rollouts(Mapping[str, "np.ndarray[Any, Any]"]):
-    """A row per rollout, in the order of the overrides: table["speed"] is an array; NaN where a quantity is not known."""
+    """A row per rollout, in the order of the overrides: table["speed"] is an array; NaN for unknown quantities."""
 
     def __init__(self, raw: Mapping[str, Any], overrides: Sequence[Mapping[str, Any]], index: Any = None) -> None:
         self.values: "np.ndarray[Any, Any]" = raw["values"]  # type: ignore[assignment]
@@ -73,13 +73,13 @@ def rollouts(
     quantities: Sequence[str] = (),
     progress: Union[Callable[[int, int], object], None] = None,
 ) -> Rollouts:
-    """Simulates the scenario under each of `overrides`, with the bits of `gaitlab sweep`, and writes nothing.
+    """Simulates the scenario under each of `overrides`, bit-identical to `gaitlab sweep`, and writes nothing.
 
     scenario: a Scenario, or the path or name of one.
     overrides: mappings from key to value, or a DataFrame with a column per key. A row that the scenario refuses is a row of the
         table with the outcome `refused`.
-    threads: default: the processors that this process may use. lanes: largest number of rollouts side by side in a thread; 0: as
-        many as engine and processor allow. Neither changes a bit.
+    threads: number (default: the processors that this process may use). lanes: largest number of rollouts side by side in a
+        thread; 0: as many as engine and processor allow. Neither changes the results.
     estimate_every: the torque error is estimated for one row in this number (docs/studies.md, accuracy of the step); 1: for every
         row, which takes up to half as long again. Columns that depend on it are NaN in the other rows.
     quantities: names of the columns, also `torque.peak[m3/active]` and `margin.ID[LIMIT]`; default: those of every run

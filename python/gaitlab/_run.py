@@ -100,7 +100,7 @@ def run(
 
 
 def read(folder: Union[str, "os.PathLike[str]"], *, plugins: Plugins = "refuse") -> Run:
-    """Reads a run folder, or a trace.h5, and judges the run. Raises InputError if it is not one.
+    """Reads a run folder, or a trace.h5, and judges the run. Raises InputError if it is neither.
 
     plugins: as in Scenario. By default a folder whose scenario names plugin libraries is refused, because it may come from others.
     """

@@ -98,7 +98,7 @@ class Scenario:
         return Check(**self._native.check())
 
     def with_(self, settings: Mapping[str, Any]) -> "Scenario":
-        """The scenario with further settings. It shares the robot and what else the settings do not change."""
+        """The scenario with further settings. It shares the robot and everything else that the settings do not change."""
         settings = mapping(settings)
         other = Scenario.__new__(Scenario)
         other.path, other._plugins = self.path, self._plugins
@@ -117,7 +117,7 @@ class Scenario:
 
 
 def scenario_of(given: Union[Scenario, str, "os.PathLike[str]"]) -> Scenario:
-    """A scenario, also of its path or name."""
+    """A scenario that is given as such, or by its path or name."""
     if isinstance(given, Scenario):
         return given
     if isinstance(given, (str, os.PathLike)):

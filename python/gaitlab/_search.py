@@ -22,8 +22,8 @@ class Search(Child):
                 table = gaitlab.rollouts(scenario, points).to_pandas()
                 search.tell(table.assign(objective=table["speed"]))
 
-    file: a study file (docs/studies.md) with one run per point. folder: of the journal (default runs/optimize-NAME); a search that
-    was ended goes on there. method, runs, seed: instead of the file's.
+    file: a study file (docs/studies.md) with one run per point. folder: the folder of the journal (default runs/optimize-NAME); a
+    search that was ended continues in it. method, runs, seed: values that replace those of the file.
     """
 
     def __init__(
@@ -48,8 +48,8 @@ class Search(Child):
 
     def ask(self, n: Optional[int] = None) -> "pandas.DataFrame":
         """The next points, at most n: a column per parameter, and as index the number of the point. Without n all points that the
-        method offers now, its generation. Empty if the search has ended. Raises RunError if all points of the generation are asked
-        and some are not told."""
+        method offers now, its generation. Empty if the search has ended. Raises RunError if all points of the generation
+        were given out, but results are missing."""
         import pandas
 
         if n is not None and n < 1:

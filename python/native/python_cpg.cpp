@@ -136,7 +136,7 @@ struct BoundObject {
     start = attribute(self, "start");
     states = states_of(attribute(self, "states"));
     if (states > 0 && derivative.is_none() && event.is_none())
-      throw std::runtime_error("has states, but no derivative(m, x, rate) and no event(m, x), which change them");
+      throw std::runtime_error("has states, but neither derivative(m, x, rate) nor event(m, x), which would change them");
     measured = py::module_::import("types").attr("SimpleNamespace")();
   }
   const py::object& of(const Measured& m) {

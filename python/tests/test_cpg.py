@@ -130,7 +130,7 @@ class Exceptions(unittest.TestCase):
             self.assertRegex(outcome, rf"{method}\(\) returned {returned}; expected a method that fills its argument")
         outcome = self.outcome("test_fills_none", output=lambda self, t, x, setpoint: None)
         self.assertRegex(outcome, r"output\(\) filled no set point; expected a method that fills its argument, as in setpoint\[:\]")
-        with self.assertRaisesRegex(TypeError, r"Made has states, but no derivative\(m, x, rate\) and no event\(m, x\)"):
+        with self.assertRaisesRegex(TypeError, r"Made has states, but neither derivative\(m, x, rate\) nor event\(m, x\)"):
             register("test_states", states=1)
         with self.assertRaisesRegex(TypeError, r'gaitlab.cpg\("test_none"\) decorates a class, not int'):
             gaitlab.cpg("test_none")(3)
@@ -154,7 +154,7 @@ class Exceptions(unittest.TestCase):
             with self.subTest(said), self.assertRaisesRegex((gaitlab.InputError, gaitlab.RunError), said):
                 register("test_states", states=states, event=leave)
                 gaitlab.run(of_class("test_states"))
-        with self.assertRaisesRegex((gaitlab.InputError, gaitlab.RunError), "has states, but no derivative"):
+        with self.assertRaisesRegex((gaitlab.InputError, gaitlab.RunError), "has states, but neither derivative"):
             register("test_states", __init__=lambda self, joints, settings: setattr(self, "states", 1))
             gaitlab.run(of_class("test_states"))
 

@@ -315,7 +315,7 @@ class Plugins(InFolder):
         run = gaitlab.run(first)
         self.assertEqual(run.outcome, "done")
         folder = run.save()
-        with self.assertRaisesRegex(gaitlab.InputError, "a record contains only its name"):
+        with self.assertRaisesRegex(gaitlab.InputError, "a record contains only the plugin's name"):
             gaitlab.read(folder, plugins="trust")
         self.assertEqual(digest(gaitlab.read(folder, plugins=["wave.so"])), digest(run))
         shutil.copy("wave.so", folder)

@@ -224,13 +224,13 @@ std::string drifts(const Scenario& s, const Recording& r, double from, double to
   const Periods::Change most = periods.change(between, from, to, Gait::kMostDrift);
   if (!(most.over > 1)) return "";
   const bool moves = std::abs(most.mean) >= std::abs(most.rms);
-  return fmt::format("the set points {}: {} of joint {} changes by {:.2g} {} per period of {:.3g} s, of a range of {:.3g}",
+  const char* const of_unit = periods.free(most.column) ? "rad/s" : "rad";
+  return fmt::format("the set points {}: {} of joint {} changes by {:.2g} {} per period of {:.3g} s, with a range of {:.3g} {}",
                      moves          ? "drift"
                      : most.rms > 0 ? "grow"
                                     : "shrink",
                      moves ? "the mean" : "the RMS", driven_names(*s.robot)[most.column],
-                     (moves ? most.mean : most.rms) * period / between, periods.free(most.column) ? "rad/s" : "rad", period,
-                     most.range);
+                     (moves ? most.mean : most.rms) * period / between, of_unit, period, most.range, of_unit);
 }
 
 /// Time from which the recorded set points have the size of their last period, s. It is for CPGs that state none, such as
@@ -267,8 +267,10 @@ Gait gait(const Scenario& s, const Recording& r) {
 std::string growth(const Scenario& s, const Recording& r, const Judged& judged, const Gait& gait) {
   if (gait.full_size > r.simulated) {
     const double needed = gait.full_size + kPeriodsNeeded * gait.period;
-    return fmt::format("the set points still grow: they have their full size at {:.4g} s of {:.4g}; take {}", gait.full_size,
-                       r.simulated, std::isfinite(needed) ? fmt::format("duration: {:.4g}", needed) : "another rate");
+    return fmt::format(
+        "the set points still grow: they reach their full size at {:.4g} s, but the run ends at {:.4g} s; take "
+        "{}",
+        gait.full_size, r.simulated, std::isfinite(needed) ? fmt::format("duration: {:.4g}", needed) : "another rate");
   }
   if (gait.ahead != nullptr && !(gait.full_size > 0)) {
     if (std::string text = grows(s, judged, gait); !text.empty()) return text;

@@ -218,10 +218,10 @@ void add_missing(std::vector<std::string>& missing, const Scenario& scenario, co
   if (r.rows() > 1) std::ranges::move(left_out(scenario, signals), std::back_inserter(missing));
   if (stride > 1) {
     missing.push_back(fmt::format(
-        "one row of every {} is shown, to keep the page small; verdict and numbers are of the whole recording", stride));
+        "only one row in {} is shown, to keep the page small; verdict and numbers are those of the whole recording", stride));
   }
   if (const std::size_t heights = height_stride(scenario.ground); heights > 1) {
-    missing.push_back(fmt::format("one height of every {} in x and in y is drawn; the robot walked on all", heights));
+    missing.push_back(fmt::format("only one height in {} along x and y is drawn; the robot walked on all heights", heights));
   }
 }
 

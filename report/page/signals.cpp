@@ -157,7 +157,7 @@ std::vector<std::string> left_out(const Scenario& scenario, const std::vector<Si
             ? "the loads of docks were not recorded"
             : fmt::format("the loads of docks are not known under contact.law: {}", scenario.contact.model().text));
   }
-  if (has("foot.*") && !has("foot.*.fx")) missing.emplace_back("of feet the vertical load on their modules is known alone");
+  if (has("foot.*") && !has("foot.*.fx")) missing.emplace_back("for feet, only the vertical load on their modules is known");
   return missing;
 }
 

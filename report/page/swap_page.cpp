@@ -137,7 +137,8 @@ std::string verdict_cell(const Verdict& verdict) {
 std::string swap_page(const std::string& name, const std::vector<SwapEntry>& entries) {
   std::string head =
       "<th scope=\"col\">CPG</th><th scope=\"col\" class=\"l\">verdict</th>"
-      "<th scope=\"col\" class=\"l\">every joint over time<small>of its motor: pale 0, dark red all</small></th>";
+      "<th scope=\"col\" class=\"l\">every joint over time<small>share of its motor's torque: pale 0, dark red "
+      "all</small></th>";
   for (const Shown& one : kShown) head += fmt::format("<th scope=\"col\">{}<small>{}</small></th>", one.head, one.under);
   std::string rows;
   for (const SwapEntry& entry : entries) {

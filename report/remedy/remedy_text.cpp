@@ -185,7 +185,7 @@ void add_interruption(const Remedy& remedy, Lines& lines) {
               Tone::doubtful);
   }
   if (std::ranges::none_of(remedy.answers, &RemedyAnswer::stopped)) untried.emplace_back("frequency and amplitude together");
-  const char* const shown = lines.lines.empty() ? "which show no answer yet" : "which show the above";
+  const char* const shown = lines.lines.empty() ? "which show no answer yet" : "on which the lines above rest";
   std::string text = fmt::format("interrupted after {}, {}", counted(remedy.runs, "run"), shown);
   if (!untried.empty()) text += fmt::format("; not tried to the end: {}", fmt::join(untried, ", "));
   lines.add(text, Tone::doubtful);
@@ -221,7 +221,7 @@ std::vector<ScreenLine> remedy_lines(const Remedy& remedy) {
   add_open(remedy, lines);
   if (remedy.finer.empty() || remedy.word == Word::not_judged) return lines.lines;
   Lines all;
-  all.add(fmt::format("with {} the run is accurate enough, and {}; from there:", fmt::join(remedy.finer, " "),
+  all.add(fmt::format("with {} the run is accurate enough, and {}; starting from these settings:", fmt::join(remedy.finer, " "),
                       name_of(remedy.word)));
   for (const ScreenLine& line : lines.lines) all.add(line.text, line.tone);
   return all.lines;

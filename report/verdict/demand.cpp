@@ -101,7 +101,8 @@ Demand demand(const Scenario& twin, const Recording& record, const Summary& summ
   if (thrown_up(twin, free, record)) {
     made.doubt = "without motor limits the robot is thrown up, so that these torques do not belong to the gait";
   } else if (limited) {
-    made.doubt = fmt::format("the gait reaches even {:g} times these limits: it needs more", kDemandTimes);
+    made.doubt = fmt::format("the gait reaches the motor limits even if they are {:g} times as large: it needs more than that",
+                             kDemandTimes);
   }
   return made;
 }

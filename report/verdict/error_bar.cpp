@@ -22,7 +22,7 @@ void widen(const Scenario& scenario, std::span<const ErrorBar> bars, Check& made
   if (texts::percent(named.least) == texts::percent(named.most)) range = "slightly less or slightly more than 100 %";
   made.status = CheckStatus::too_close;
   made.text += named.part == made.worst
-                   ? fmt::format("; with the error of the torques {} of the limit", range)
+                   ? fmt::format("; with the error of the torques, this is {} of the limit", range)
                    : fmt::format("; joint {} takes, with the error of its torque, {} of its limit", named.part, range);
   const double error = std::max(named.error, scenario.limits.most_torque_error());
   made.remedy = "take " + torque_remedy(scenario, error);

@@ -56,9 +56,10 @@ void judge_length(const Recording& r, const Summary& summary, Evidence& made) {
     return;
   }
   if (!(period > 0)) {
-    made.rests_on = fmt::format("these {:.3g} s; the set points do not repeat", r.simulated);
+    made.rests_on = fmt::format("the {:.3g} s of the run; the set points do not repeat", r.simulated);
     if (r.simulated < kLeastTime * (1 - kRelative)) {
-      made.not_shown = {fmt::format("{:.3g} s are less than {:g} s; take a longer duration", r.simulated, kLeastTime),
+      made.not_shown = {fmt::format("the run of {:.3g} s is shorter than the required {:g} s; take a longer duration",
+                                    r.simulated, kLeastTime),
                         "duration", "", fmt::format("duration={:g}", kLeastTime)};
     }
     return;
@@ -69,8 +70,9 @@ void judge_length(const Recording& r, const Summary& summary, Evidence& made) {
                               (summary.judged.to - summary.judged.from) / period, period, after(start));
   if (held >= kPeriodsNeeded * (1 - kEstimate)) return;
   const std::string needed = fmt::format("{:.4g}", start + kPeriodsNeeded * period);
-  made.not_shown = {fmt::format("{:.3g} s{} are {:.2g} of a gait's {:g} periods of {:.4g} s; take duration: {}", left,
-                                after(start), held, kPeriodsNeeded, period, needed),
+  made.not_shown = {fmt::format("{:.3g} s{} contain only {:.2g} of the {:g} periods of {:.4g} s that a gait needs; take "
+                                "duration: {}",
+                                left, after(start), held, kPeriodsNeeded, period, needed),
                     "duration", "", "duration=" + needed};
 }
 
@@ -117,7 +119,7 @@ void judge_support(const Scenario& s, const Summary& summary, Evidence& made, st
                     "contact"};
 }
 
-/// Limits that the scenario changes, as `limits: torque_error 1 of the scenario, 0.05 by default`; empty if it changes none.
+/// Limits that the scenario changes, as `limits: torque_error 1 in the scenario, 0.05 by default`; empty if it changes none.
 std::string changed_limits(const Limits& limits) {
   const SettingsNumbers given = SettingsNumbers::of(limits);
   const SettingsNumbers preset = SettingsNumbers::of(Limits());
@@ -127,7 +129,7 @@ std::string changed_limits(const Limits& limits) {
     const double by_default = preset.all()[k].value.common;
     if (one.value.common == by_default) continue;
     changed.push_back(
-        fmt::format("{} {} of the scenario, {:.4g} by default", one.key, with_unit(one.value.common, one.unit), by_default));
+        fmt::format("{} {} in the scenario, {:.4g} by default", one.key, with_unit(one.value.common, one.unit), by_default));
   }
   return changed.empty() ? "" : fmt::format("limits: {}", fmt::join(changed, "; "));
 }
@@ -176,7 +178,7 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made, std::vec
   }
   if (!driven || error.estimated) return;
   if (s.physics.estimated_by_others) {
-    unknown.emplace_back("the error of the torques, which the study estimates at other points");
+    unknown.emplace_back("the error of the torques, which the study estimates only at other points");
   } else if (s.physics.estimate == Estimate::off) {
     if (made.not_trusted.empty()) {
       made.not_trusted = {"the error of the torques is not estimated; take physics.estimate: full", "physics.estimate", "",

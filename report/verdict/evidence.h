@@ -45,8 +45,8 @@ struct Evidence {
   bool inexact = false;       ///< true if not_trusted is only a torque error of at most kMostError
   bool falls_freely = false;  ///< true if nothing can carry the robot: no ground, no gravity, or no contact elements
   bool repeats = false;       ///< true if the set points repeat
-  std::string rests_on;       ///< extent of the run: `3 periods of 4 s`, or `these 18 s; the set points do not repeat`
-  /// Limits that the scenario changes, and implausible numbers that it accepts: `limits: torque_error 1 of the scenario, 0.05
+  std::string rests_on;       ///< extent of the run: `3 periods of 4 s`, or `the 18 s of the run; the set points do not repeat`
+  /// Limits that the scenario changes, and implausible numbers that it accepts: `limits: torque_error 1 in the scenario, 0.05
   /// by default`. Empty without them.
   std::string conditions;
   /// The missing pieces of evidence, the most important one first. An impossible number is returned alone, and so is a free

@@ -77,11 +77,11 @@ std::vector<QuantityText> common_quantities() {
   std::vector<QuantityText> all;
   for (const Quantity& quantity : quantities()) all.push_back(text_of(quantity));
   all.push_back({"feasible", "", "1 if the verdict is `feasible`, else 0."});
-  all.push_back({"margin", "", "Least margin of the checks that can fail: 0 or more where all are kept."});
+  all.push_back({"margin", "", "Least margin of the checks that can fail: 0 or more if none of them fails."});
   for (const CheckKind& kind : check_kinds()) {
     all.push_back(
         {std::string(kMarginOf) + kind.id, "",
-         fmt::format("Margin of check {} ({}): room to its limit as a share of the limit, negative beyond it; -1 of a "
+         fmt::format("Margin of check {} ({}): distance to its limit as a share of the limit, negative beyond it; -1 for a "
                      "warning without a limit.",
                      kind.id, kind.definition)});
   }

@@ -121,8 +121,8 @@ std::string loop_text(const Scenario& s, const std::vector<PositionLoop>& loops)
                       equal ? "every joint" : s.robot->joints[nearest.joint].name, nearest.Kp);
   const double most = nearest.Kp_of(1);
   if (!nearest.bounded || !(most > 0)) return text;
-  return fmt::format("{}; settles up to {:.4g} N m/rad (Kp {:.4g} V/rad) with {}", text, nearest.stiffness * most / nearest.Kp,
-                     most, commands_text(s, nearest));
+  return fmt::format("{}; the loop settles up to {:.4g} N m/rad (Kp {:.4g} V/rad) with {}", text,
+                     nearest.stiffness * most / nearest.Kp, most, commands_text(s, nearest));
 }
 
 }  // namespace gaitlab::report

@@ -63,8 +63,8 @@ std::vector<PositionLoop> position_loops(const Scenario& scenario);
 /// `commands every 0.015 s, angles up to 0.03 s old`.
 std::string commands_text(const Scenario& scenario, const PositionLoop& loop);
 
-/// Line of `gaitlab check`: `k = 38.2 N m/rad at every joint (Kp 100 V/rad); settles up to 116.1 N m/rad (Kp 304 V/rad) with
-/// commands every 0.015 s`. If joints differ: the range of k, and the numbers of the joint nearest to its bound.
+/// Line of `gaitlab check`: `k = 38.2 N m/rad at every joint (Kp 100 V/rad); the loop settles up to 116.1 N m/rad (Kp 304
+/// V/rad) with commands every 0.015 s`. If joints differ: the range of k, and the numbers of the joint nearest to its bound.
 std::string loop_text(const Scenario& scenario, const std::vector<PositionLoop>& loops);
 
 }  // namespace gaitlab::report

@@ -19,9 +19,9 @@ struct RolledColumn {
   double (*value)(const Rolled& run);
 };
 const std::array kRolledColumns{
-    RolledColumn{{"torque_peak", "N m", "largest motor torque of all joints"},
+    RolledColumn{{"torque_peak", "N m", "largest motor torque over all joints"},
                  [](const Rolled& run) { return largest(run.record, &JointStatistics::torque_peak); }},
-    RolledColumn{{"torque_rms", "N m", "largest RMS of a motor torque of all joints"},
+    RolledColumn{{"torque_rms", "N m", "largest RMS of a motor torque over all joints"},
                  [](const Rolled& run) { return largest(run.record, &JointStatistics::torque_rms); }},
     RolledColumn{{"distance", "m", "travel of the centre of mass"}, [](const Rolled& run) { return run.summary.distance; }},
     RolledColumn{

@@ -61,8 +61,8 @@ std::string spread_text(const Trace& spread) {
   };
   const auto torque = [](double value) { return fmt::format("{:.3g}", value); };
   return fmt::format(
-      "of {} rollouts that differ by next to nothing the torque peaks at {} N m (RMS {}), the travel is {}, the least margin "
-      "{}",
+      "in {} rollouts that differ by next to nothing, the torque peaks at {} N m (RMS {}), the travel is {} and the least "
+      "margin is {}",
       spread.rows(), text("torque_peak", torque), text("torque_rms", torque), text("distance", texts::length),
       text(kLeastMargin, texts::percent));
 }

@@ -21,7 +21,7 @@ inline constexpr std::size_t kSpread = 3;  ///< number of rollouts that spread()
 struct Between {
   double low, high;
 };
-/// Text `of 4 rollouts that differ by next to nothing the torque peaks at 0.91 to 1.3 N m, ...`; empty if the table has no
+/// Text `in 4 rollouts that differ by next to nothing, the torque peaks at 0.91 to 1.3 N m, ...`; empty if the table has no
 /// rows.
 std::string spread_text(const Trace& spread);
 /// Least and largest value of a column. Nothing if the column is missing or one of its values is not known.

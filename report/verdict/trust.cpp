@@ -42,7 +42,7 @@ std::string finer_setting(const Scenario& s, double share) {
 
 std::string torque_remedy(const Scenario& s, double share) {
   if (quantised(s))
-    return "noise of the deviation resolution/sqrt(12) in place of the resolution of sensors, which amplifies rounding errors";
+    return "for sensors, noise of deviation resolution/sqrt(12) instead of a resolution, which amplifies rounding errors";
   std::string text = finer_setting(s, share);
   if (const std::size_t sign = text.find('='); sign != std::string::npos) text.replace(sign, 1, ": ");
   if (s.physics.adapts()) return text;

@@ -22,7 +22,7 @@ namespace gaitlab::report {
 namespace {
 
 constexpr const char* kRowsAlone =
-    "only the rows of the trace are left, which miss the peaks between them; gaitlab rerun takes every step";
+    "only the rows of the trace are left, which miss the peaks between them; gaitlab rerun evaluates every step";
 
 /// Key that orders failing checks. Checks of the robot as a whole come first, because a fallen robot has no gait; then the
 /// check with the least margin.
@@ -54,8 +54,8 @@ void take_spread(const Trace& spread, Check& made) {
   const std::optional<Between> margins = between(spread, margin_column(made.id));
   if (without == 0 && (!margins || !(margins->low < 0 && margins->high >= 0))) return;
   made.status = CheckStatus::too_close;
-  made.text += fmt::format("; the motion is not predictable: of {} rollouts that differ by next to nothing ", spread.rows());
-  made.text += without > 0 ? fmt::format("{} cannot be judged by this", without)
+  made.text += fmt::format("; the motion is not predictable: in {} rollouts that differ by next to nothing, ", spread.rows());
+  made.text += without > 0 ? fmt::format("this check cannot judge {} of them", without)
                            : fmt::format("the margin is {} to {}", texts::percent(margins->low), texts::percent(margins->high));
   made.remedy = "judge several runs with other seeds or starts";
 }
@@ -116,8 +116,9 @@ void decide(const CheckedRun& run, Verdict& made) {
     made.word = Word::infeasible;
     made.decided_by = deciding->id;
     if (found.inexact) {
-      made.checks[static_cast<std::size_t>(deciding - made.checks.data())].text += fmt::format(
-          "; certain, though torques are off by up to about {}", texts::rough_percent(torque_error(run.record).share));
+      made.checks[static_cast<std::size_t>(deciding - made.checks.data())].text +=
+          fmt::format("; this is certain, although torques are off by up to about {}",
+                      texts::rough_percent(torque_error(run.record).share));
     }
   } else if (made.reason = not_judged(run, made.checks); made.reason.code != ReasonCode::none) {
     made.word = Word::not_judged;

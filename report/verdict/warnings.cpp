@@ -87,7 +87,7 @@ void check_encoder(const Scenario& s, const std::vector<PositionLoop>& loops, st
   const double less = kStep / share(*most);
   out.push_back({s.nearest_place("sensors"),
                  fmt::format("one step of the encoder of joint {}, {:.3g} rad, commands {:.3g} N m, {:.3g} % of the {:.3g} N m "
-                             "that its motor has at rest: these steps decide the torques; take resolution: {:.4g} or less, or "
+                             "that its motor has at rest: such steps dominate the torques; take resolution: {:.4g} or less, or "
                              "Kp: {:.4g} or less",
                              s.robot->joints[most->joint].name, most->resolution, most->step, 100 * share(*most), most->stall,
                              two_digits(most->resolution * less), two_digits(most->Kp * less))});
@@ -118,8 +118,8 @@ void note_design(const Scenario& s, std::vector<Warning>& out) {
     const bool known = t < s.module_documents->size();
     const double depth = 1000 * design.depth(a, b);  // mm
     out.push_back({known ? (*s.module_documents)[t].place : s.nearest_place("robot"),
-                   fmt::format("bodies {} and {} of {} are {:.3g} mm in one another with all hinges at 0{}: only more than "
-                               "{:.3g} mm is a collision",
+                   fmt::format("bodies {} and {} of {} overlap by {:.3g} mm with all hinges at 0{}: only more than {:.3g} mm "
+                               "counts as a collision",
                                type.bodies[a].name, type.bodies[b].name, clipped(type.name), depth, more, kTurned * depth),
                    false});
   }

@@ -132,7 +132,7 @@ Shards shards_in(const fs::path& folder) {
     }
     if (shards.count != 0 && shard->count != shards.count) {
       throw InputError(SourceLocation{(folder / "shards").string()},
-                       fmt::format("holds shards of {} and of {}; expected shards of one division",
+                       fmt::format("holds shards of a division into {} and of one into {}; expected the shards of one division",
                                    std::min(shard->count, shards.count), std::max(shard->count, shards.count)));
     }
     shards.count = shard->count;

@@ -170,7 +170,7 @@ std::vector<Problem> short_runs(const Plan& plan) {
     if (!(least > 0) || shortest * least >= kPeriodsNeeded * kRounding) continue;
     notes.push_back(
         {p.place, fmt::format("a gait of {} Hz has {:.2g} periods in {} s; without a limit cycle a verdict needs {:g}: "
-                              "take duration={:.4g}, or a low of {:.3g}",
+                              "take duration={:.4g}, or `low: {:.3g}`",
                               number_text(least), shortest * least, number_text(shortest), kPeriodsNeeded,
                               kPeriodsNeeded / least, kPeriodsNeeded / shortest)});
   }

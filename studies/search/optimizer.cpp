@@ -161,11 +161,10 @@ class Optimizer {
     const std::uint64_t run = first * plan_.points().runs_of_point();
     if (run >= added_ * plan_.points().runs_of_point() || !before_[run]) return;
     if (journal_.row(run)[1] != plan_.row(run).point) {
-      throw InputError(
-          SourceLocation{"study.db"},
-          fmt::format(
-              "run {} is at another point than this program requires, by method {} of {}; choose another folder (--out)", run,
-              name_of(plan_.study().method), enum_row(plan_.study().method).of_pagmo ? evolution_library() : "this build"));
+      throw InputError(SourceLocation{"study.db"},
+                       fmt::format("run {} is at another point than method {} of {} requires; choose another folder (--out)",
+                                   run, name_of(plan_.study().method),
+                                   enum_row(plan_.study().method).of_pagmo ? evolution_library() : "this build"));
     }
   }
 

@@ -102,7 +102,7 @@ std::string broken_limits(const Plan& plan, const Trial& trial, const PointResul
     const bool said = breaks && std::ranges::find(broken, of_verdict) != broken.end();
     if (!doubted.empty() && !said) why.add(in_scenario(row) + doubted);
     if (had_long_steps(plan, row))
-      why.add("the step of this run was too long at times (check step), so that a run with a shorter step may stand");
+      why.add("the step of this run was too long at times (check step), so that a shorter step may verify the point");
     return why.text;
   }
   return "";

@@ -56,8 +56,8 @@ void read_followers_of(const Node& node, Parameter& parameter, Problems& problem
     problems.add(
         parameter.place,
         in_quotes(name) +
-            " cannot be a parameter of the study with `sets`; expected a name of letters, digits and _, a letter first, as in "
-            "hip0: {low: 0.1, high: 0.2, sets: {cpg.offset.hips: hip0}}");
+            " cannot be a parameter of the study with `sets`; expected a name of letters, digits and `_` that begins with a "
+            "letter, as in hip0: {low: 0.1, high: 0.2, sets: {cpg.offset.hips: hip0}}");
   }
   if (node.kind != Node::Kind::map || node.keys.empty()) {
     problems.add(node.place, name + ".sets is " + (node.kind == Node::Kind::map ? "empty" : found(node)) +
@@ -200,7 +200,7 @@ void read_law(const Node& node, Variation& v, Problems& problems) {
   } else if (uniform != nullptr) {
     v.law = Variation::Law::uniform;
     read_pair(*uniform, v, "uniform: [LOW, HIGH]", problems);
-    if (!(v.a <= v.b)) problems.add(uniform->place, v.key + " is not uniform: [LOW, HIGH] with LOW up to HIGH");
+    if (!(v.a <= v.b)) problems.add(uniform->place, v.key + " is not uniform: [LOW, HIGH] with LOW at most HIGH");
   } else {
     v.law = Variation::Law::values;
     read_values(*values, v.key + ".values", v.values, v.words, problems);

@@ -49,7 +49,7 @@ bool is_unreadable(const NamedScenario& named, Problems& problems) {
     for (const auto& [name, path] : shipped_files("scenario")) names.push_back(name);
     const std::string near = gaitlab::nearest(std::filesystem::path(named.file).stem().string(), names);
     problems.add(named.place, fmt::format("file '{}' {}{}", named.file, error.problems().front().text,
-                                          near.empty() ? "" : fmt::format("; scenario: {} names a shipped one", near)));
+                                          near.empty() ? "" : fmt::format("; `scenario: {}` names a shipped one", near)));
     return true;
   }
 }

@@ -109,7 +109,7 @@ Naming Scorer::find(const std::string& name, const std::string& joint) const {
   if (!joint.empty() && std::ranges::find(of_joints, name) != of_joints.end())
     return {{}, "no joint is called " + in_quotes(joint) + offer(joint, joints_, "joints")};
   if (!joint.empty() && column_of(columns_, name) < columns_.size())
-    return {{}, in_quotes(name) + " is of the whole robot; expected it without [" + clipped(joint) + "]"};
+    return {{}, in_quotes(name) + " applies to the whole robot; expected it without [" + clipped(joint) + "]"};
   return {
       {},
       "unknown quantity " + in_quotes(name) + offer(name, joint.empty() ? names_of(offer_.common) : of_joints, "quantities")};

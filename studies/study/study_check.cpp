@@ -15,15 +15,15 @@ void check_search(const Study& study, Problems& problems) {
   const std::string method = std::string("method ") + name_of(study.method);
   const std::int64_t population = study.search.population;
   if (std::ranges::none_of(study.parameters, [](const Parameter& p) { return p.values.empty(); }))
-    problems.add(place, method + " has nothing to search: no parameter has low and high");
+    problems.add(place, method + " has nothing to search: no parameter has `low` and `high`");
   const auto& row = enum_row(study.method);
   if (row.several != (study.objectives.size() > 1)) {
     problems.add(place, fmt::format("{} is for {}; expected {}", method,
                                     row.several ? "two or three objectives" : "one objective", searches_text(!row.several)));
   }
   if (row.multiple > 1 && (population % row.multiple != 0 || (population > 0 && population < row.population))) {
-    problems.add(place, fmt::format("a population of {} does not suit {}; expected a multiple of {} from {}", population,
-                                    method, row.multiple, row.population));
+    problems.add(place, fmt::format("a population of {} does not suit {}; expected a multiple of {} that is at least {}",
+                                    population, method, row.multiple, row.population));
   } else if (population > 0 && population < row.population) {
     problems.add(
         place, fmt::format("a population of {} is too small for {}; expected at least {}", population, method, row.population));
@@ -77,7 +77,8 @@ void check_parameter(const Study& study, const Parameter& p, Problems& problems)
   if (study.method == Method::grid && !p.in_grid())
     problems.add(p.place, p.key + " has no count; expected one for a grid, or method: {type: random} or sobol");
   if (study.of_sensitivity() && !p.values.empty()) {
-    problems.add(p.place, fmt::format("{} has values one by one; method {} needs low and high", p.key, name_of(study.method)));
+    problems.add(p.place,
+                 fmt::format("{} has a list of values, but method {} needs `low` and `high`", p.key, name_of(study.method)));
   }
   if (study.method != Method::grid && p.count > 0 && !study.asked) {
     problems.add(p.place,
@@ -116,7 +117,8 @@ std::string wrong_budget(const Study& study) {
   }
   if (runs == 0) return fmt::format("missing budget: {{runs: N}}, which {} needs", method);
   if (is_search(study.method) && runs < least_runs(study)) {
-    return fmt::format("a budget of {} runs is less than the {} of the searches' first generation", runs, least_runs(study));
+    return fmt::format("a budget of {} runs is too small: the first generation of all searches has {} runs", runs,
+                       least_runs(study));
   }
   if (runs >= study.runs_of_point()) return "";
   return fmt::format("a budget of {} runs is less than the {} {} of one point", runs, study.runs_of_point(),

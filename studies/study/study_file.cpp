@@ -51,7 +51,7 @@ void read_named_scenarios(const Node& node, Study& study, Problems& problems) {
     const auto& [name, place] = node.keys[k];
     const Node& file = node.items[k];
     if (!is_name(name, "_.-"))
-      problems.add(place, "scenario name " + in_quotes(name) + " is not allowed; expected letters, digits, _ . and -");
+      problems.add(place, "scenario name " + in_quotes(name) + " is not allowed; expected letters, digits, `_`, `.` and `-`");
     if (file.kind != Node::Kind::scalar) {
       problems.add(file.place, "scenario " + clipped(name) + " is " + found(file) + "; expected the name of a file");
     } else {
@@ -145,27 +145,27 @@ Explainer study_keys() {
   explainer.row(
       "  KEY.sets", "", "none", "{KEY: EXPRESSION, ...}",
       "KEY is a parameter of the study, and these keys of the scenario are computed from it: legs: {low: 0, high: 1, sets: "
-      "{cpg.offset: 0.3*legs - 0.1}}. Expressions are over all parameters that are numbers.");
+      "{cpg.offset: 0.3*legs - 0.1}}. Expressions can use all parameters that are numbers.");
   explainer.row("replicates", "", "none", "",
                 "Runs of each point that differ in their seed and in the values that `vary` draws; the draws are the same for "
                 "every point.");
   explainer.row("  count", "", "required", "1 to 1e6", "Runs of each point.");
   explainer.row("  vary.KEY", "", "", "normal: [MEAN, DEVIATION] (with low, high), uniform: [LOW, HIGH], values: [...]",
-                "Distribution of a key of the scenario; {times: LAW}: distribution of a factor of the point's value.");
+                "Distribution of the values of a scenario key; {times: LAW}: distribution of a factor on the point's value.");
   explainer.row("  combine", "", "worst", "mean, worst, median, quantile(Q) or share(Q)",
                 "Combination of the replicates of a point, in all its scenarios, into one value.");
   explainer.row("objective", "", "{maximize: QUANTITY}", "{maximize: EXPRESSION} or {minimize: EXPRESSION}",
                 "Order of the points; default: by the first of `quantities`. A list of two or three: the Pareto front, the "
                 "points that no other point beats in all objectives.");
-  explainer.row("constraints", "", "[]", "texts a <= b, a >= b or a == b", "Conditions that a point must satisfy.");
+  explainer.row("constraints", "", "[]", "texts: `a <= b`, `a >= b` or `a == b`", "Conditions that a point must satisfy.");
   explainer.row("guards", "", "verdict", "verdict, none or {CHECK: LIMIT, CHECK: {margin: M}, CHECK: true or false}",
-                "Checks of the verdict that a point must pass. verdict: the verdict must be `feasible`. Checks by id extend or "
-                "change this: another limit, a least margin, true (required) or false (ignored).");
-  explainer.row("stop", "", "[]", "texts EXPRESSION or EXPRESSION after SECONDS",
-                "Rules that end a run early, evaluated once every simulated second on quantities of the run so far: fell, or "
-                "those of a joint.");
+                "Checks of the verdict that a point must pass. verdict: the verdict must be `feasible`. A map changes this for "
+                "single checks, by id: another limit, a least margin, true (required) or false (ignored).");
+  explainer.row("stop", "", "[]", "texts: `EXPRESSION` or `EXPRESSION after SECONDS`",
+                "Rules that end a run early, evaluated once every simulated second on quantities of the run so far: `fell`, or "
+                "quantities of a joint.");
   explainer.row("start", "", "[]", "[{PARAMETER: VALUE, ...}, ...]",
-                "Points of the first block of a search, after the scenario's own values, which it always contains. A parameter "
+                "Points that a search runs first, after the scenario's own values, which it always runs. A parameter "
                 "that is left out has the scenario's value.");
   MethodKeys method{study};
   explainer.group("method", method, "Choice of the points.");
@@ -194,7 +194,9 @@ void check_name(const Study& study, const Node& root, Problems& problems) {
   if (is_name(study.name, "_.-") && study.name[0] != '.') return;
   const Node* name = root.find("name");
   problems.add(name != nullptr ? name->place : root.place,
-               "name " + in_quotes(study.name) + " is not allowed; expected letters, digits, _ . and -, not a . first");
+               "name " + in_quotes(study.name) +
+                   " is not allowed; expected letters, digits, `_`, `.` and `-`, but no `.` at "
+                   "the start");
 }
 
 /// Stores the places of keys for later messages.

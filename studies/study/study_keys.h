@@ -23,8 +23,8 @@ struct PlainKeys {
            "break no limit.");
     f.integer("estimate_every", study.estimate_every,
               {"", 0, 1e9,
-               "N: the torque error is estimated for one point in N, drawn by the seed, in additional lanes; 1: all points, 0: "
-               "none. The best points, which `gaitlab optimize` verifies, always have an estimate."});
+               "The torque error is estimated for one point in this number, drawn by the seed, in additional lanes; 1: for all "
+               "points, 0: for none. The best points, which `gaitlab optimize` verifies, always have an estimate."});
     f.texts("quantities", study.quantities,
             "Quantities of a run that tables and figures show, by name with * and ?; default: the speed. A quantity of one "
             "joint, torque.peak[m3/*], becomes a column.");
@@ -48,7 +48,7 @@ struct MethodKeys {
         {"", 2, 1e7, "Samples of sobol_indices, preferably a power of 2; each has two points more than there are parameters."});
     f.integer("population", study.search.population,
               {"", 0, 10000,
-               "Points of a generation, at least 5 (scbo 1, sade 7; nsga2: a multiple of 4 from 8). 0: 4 + 3 ln n for n "
+               "Points of a generation, at least 5 (scbo 1, sade 7; nsga2: a multiple of 4, at least 8). 0: 4 + 3 ln n for n "
                "parameters, rounded up to a multiple of 8, at least 16."});
     f.integer("instances", study.search.instances, {"", 1, 1000, "Searches side by side, which share the budget."});
     f.integer("restarts", study.search.restarts,
@@ -65,20 +65,21 @@ struct VerifyKeys {
         "best", verify.best,
         {"", 1, 100,
          "Number of best points to verify. If none is verified, the next best points follow, up to four times this number."});
-    f.flag(
-        "halve_step", verify.halve_step,
-        "Simulate these points again with half the step (with half of physics.accuracy if the integrator chooses its steps).");
+    f.flag("halve_step", verify.halve_step,
+           "Simulate the best points again with half the step (with half of physics.accuracy if the integrator chooses its "
+           "steps).");
     f.text("engine", verify.engine,
-           "Simulate these points again in this engine, with its default step; none: no other engine.");
+           "Simulate the best points again in this engine, with its default step; `none`: in no other engine.");
     f.number("change", verify.change,
              {"", 1e-6, 10, "Largest relative change of an objective for which a point counts as verified."});
     f.flag("worlds", verify.worlds,
-           "Simulate these points again in up to 16 worlds: friction, R, Kt, mass and supply changed one by one to an end of "
-           "their usual errors, then all drawn within tolerances; gears always `directional`.");
+           "Simulate the best points again in up to 16 worlds: friction, R, Kt, mass and supply changed one by one to an end "
+           "of their usual errors, then all drawn within tolerances; gears always `directional`.");
     f.number("share", verify.share, {"", 0, 1, "Least share of the worlds in which a verified point breaks no limit."});
     static constexpr std::array kFaults{"none", "each"};
-    f.choice("faults", verify.faults, kFaults,
-             "each: simulate the winner again with each joint dead in turn, from t = 0; the results are printed, not ranked.");
+    f.choice(
+        "faults", verify.faults, kFaults,
+        "`each`: simulate the winner again with each joint dead in turn, from t = 0; the results are printed, not ranked.");
   }
 };
 

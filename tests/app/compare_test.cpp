@@ -162,7 +162,7 @@ TEST_F(CompareCommand, UnreadableInput) {
   make_run("huge", "t,x\n0,1\n", R"({"distance": 1e999})");
   expect_refused("a huge", "huge/summary.json: error: holds a number that is outside the range of a double");
   folder.write("half.csv", "t,x\n0,1\n0.5,");
-  expect_refused("a half.csv", "half.csv:3:5: error: the last line does not end: the file is truncated");
+  expect_refused("a half.csv", "half.csv:3:5: error: the last line has no line end: the file is truncated");
   folder.write("half.h5", "gaitlab-trace-1\n");
   expect_refused("a half.h5", "half.h5: error: is truncated: 16 bytes");
   EXPECT_EQ(compare("a").code, 2);

@@ -67,14 +67,14 @@ TEST_F(PaperFigure, RecipesAreReadStrictly) {
       "figure.yaml:2:28: error: no column 'joint.m0/pasive.torque' in run 'creep'; did you mean 'joint.m0/passive.torque'?");
   refused(
       kRuns + "panels: [{left: {columns: [joint.1.torque, joint.1.angle]}}]\n",
-      "figure.yaml:2:27: error: joint.1.torque is in N m, joint.1.angle in rad: an axis has one unit; draw one of them on the "
-      "other axis");
+      "figure.yaml:2:27: error: joint.1.torque is in N m and joint.1.angle in rad, but an axis has only one unit; draw one of "
+      "them on the other axis");
   refused(kRuns + "panels: [{kind: envelope, joints: [m0/activ]}]\n",
           "figure.yaml:2:36: error: no joint 'm0/activ'; did you mean 'm0/active'?");
   refused(kRuns + "panels: [{to: 2, left: {columns: [com.x]}}]\n",
-          "figure.yaml:2:15: error: to is 2 s, beyond the end of the run at 0.5 s");
+          "figure.yaml:2:15: error: `to` is 2 s, beyond the end of the run at 0.5 s");
   refused(kRuns + "panels: [{kind: curves}]\n",
-          "figure.yaml:2:10: error: nothing is drawn; expected left: {columns: [...]}, or right");
+          "figure.yaml:2:10: error: no curve is drawn; expected `left: {columns: [...]}` or the same with `right`");
   refused(kRuns + "panels: [{kind: views}]\n", "figure.yaml:2:10: error: missing key 'times', a list of times in s");
   refused(kRuns + "panels: [{kind: heap}]\n", "figure.yaml:2:17: error: kind 'heap' is unknown; did you mean 'heat'?");
   refused(kRuns + "panels: [{kind: views, times: [0.1, 3]}]\n",
@@ -96,14 +96,14 @@ TEST_F(PaperFigure, AStretchThatTheRunDoesNotHold) {
   for (const std::string kind : {"curves, left: {columns: [com.x]}", "heat", "envelope"}) {
     const std::string column = std::to_string(23 + kind.size());
     const std::string panel = kRuns + "panels: [{kind: " + kind + ", ";
-    refused(panel + "to: 2}]\n", "figure.yaml:2:" + column + ": error: to is 2 s, beyond the end of the run at 0.5 s");
+    refused(panel + "to: 2}]\n", "figure.yaml:2:" + column + ": error: `to` is 2 s, beyond the end of the run at 0.5 s");
     refused(panel + "from: 0.6}]\n", "figure.yaml:2:" + std::to_string(25 + kind.size()) +
-                                         ": error: from is 0.6 s, not before the end of the run at 0.5 s");
+                                         ": error: `from` is 0.6 s, not before the end of the run at 0.5 s");
   }
   refused(kRuns + "panels: [{kind: heat, from: 0.101, to: 0.102}]\n",
           "figure.yaml:2:29: error: the run has fewer than two rows from 0.101 s to 0.102 s; expected a longer interval");
   refused(kRuns + "panels: [{kind: heat, from: 0.2, to: 0.1}]\n",
-          "figure.yaml:2:38: error: to is 0.1 s, not after from, 0.2 s");
+          "figure.yaml:2:38: error: `to` is 0.1 s, which is not after `from`, 0.2 s");
 }
 
 TEST_F(PaperFigure, HingesWithoutAMotorAreLeftOut) {
@@ -139,7 +139,7 @@ TEST_F(PaperFigure, TitlesMarksMotorsAndLogarithms) {
   refused(kRuns + "panels: [{left: {columns: [joint.1.speed], log: true, range: [0, 10]}}]\n",
           "figure.yaml:2:62: error: range begins at 0; expected numbers above 0 on a logarithmic axis");
   refused(kRuns + "panels: [{left: {columns: [joint.1.speed], log: true, least: 3}}]\n",
-          "figure.yaml:2:62: error: least extends a linear axis; remove least, or log");
+          "figure.yaml:2:62: error: `least` extends a linear axis; remove `least` or `log`");
 }
 
 TEST_F(PaperFigure, SameBytesTwice) {
@@ -319,8 +319,8 @@ TEST_F(PaperFigure, EveryKindIsDrawn) {
   for (const char* file : {"f.pdf", "f-a.csv", "f-b.csv", "f-c.csv", "f-d.csv"}) EXPECT_TRUE(fs::exists(folder / file)) << file;
   EXPECT_TRUE(contains(all.out, "f.pdf: 181.9 x ")) << all.out;
   refused(kRuns + "panels: [{kind: footfalls}]\n",
-          "figure.yaml:2:17: error: footfalls need four legs or more: chains of modules that are docked to "
-          "the left and right (+-y) of a spine and end in contacts: feet");
+          "figure.yaml:2:17: error: footfalls need four legs or more; a leg is a chain of modules, docked to the left or right "
+          "(+-y) of a spine, that ends in contact elements");
 }
 
 /// Runs of CSV files have units, which follow from the names of the columns.
@@ -334,8 +334,8 @@ TEST_F(PaperFigure, RunsOfCsvHaveUnits) {
   EXPECT_TRUE(read(folder / "g.csv") == read(folder / "h.csv"));
   EXPECT_TRUE(contains(read(folder / "g.svg"), "torque (N m)"));
   refused("runs: {creep: csv}\npanels: [{left: {columns: [joint.1.torque, joint.1.angle]}}]\n",
-          "figure.yaml:2:27: error: joint.1.torque is in N m, joint.1.angle in rad: an axis has one unit; draw one of them on "
-          "the other axis");
+          "figure.yaml:2:27: error: joint.1.torque is in N m and joint.1.angle in rad, but an axis has only one unit; draw one "
+          "of them on the other axis");
 }
 
 /// Missing loads of feet are an error, because a foot without a known load would be drawn as unloaded.

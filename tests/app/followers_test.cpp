@@ -87,8 +87,8 @@ TEST_F(FollowersOfNumbers, WrongOnesAreRefused) {
   EXPECT_EQ(error("name: {low: 1, high: 2, sets: {cpg.offset: name}}").substr(0, 41),
             "s.yaml:4:14: error: name is a key of the ");
   EXPECT_EQ(error("cpg.legs: {low: 1, high: 2, sets: {cpg.offset: 1}}"),
-            "s.yaml:4:14: error: 'cpg.legs' cannot be a parameter of the study with `sets`; expected a name of "
-            "letters, digits and _, a letter first, as in hip0: {low: 0.1, high: 0.2, sets: {cpg.offset.hips: hip0}}\n");
+            "s.yaml:4:14: error: 'cpg.legs' cannot be a parameter of the study with `sets`; expected a name of letters, digits "
+            "and `_` that begins with a letter, as in hip0: {low: 0.1, high: 0.2, sets: {cpg.offset.hips: hip0}}\n");
   EXPECT_EQ(error("legs: {low: 0, high: 1, sets: {}}"),
             "s.yaml:4:44: error: legs.sets is empty; expected keys of the scenario with expressions: {cpg.offset: 0.3*legs}\n");
   EXPECT_EQ(error("legs: {values: [a, b], sets: {cpg.offset: 1}}"),

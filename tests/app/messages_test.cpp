@@ -246,7 +246,7 @@ TEST_F(Messages, WhatTheMachineCannotHold) {
             .c_str());
     if (WEXITSTATUS(status) != 2 && read(folder_ / "err").find("Sanitizer") != std::string::npos) continue;  // takes more
     EXPECT_EQ(WEXITSTATUS(status), 2) << duration;
-    EXPECT_TRUE(contains(read(folder_ / "err"), std::string(", and ") + there_is + ": take a longer trace.period"))
+    EXPECT_TRUE(contains(read(folder_ / "err"), std::string(", but ") + there_is + ": take a longer trace.period"))
         << read(folder_ / "err");
   }
 }
@@ -265,7 +265,7 @@ TEST_F(Messages, HowLongARunTakes) {
   EXPECT_TRUE(contains(never.out, " years")) << never.out;
   const Result refused = call(endless + " --set trace.period=3e-5");
   EXPECT_EQ(refused.code, 2);
-  EXPECT_TRUE(contains(refused.err, " (TMPDIR), which has ")) << refused.err;
+  EXPECT_TRUE(contains(refused.err, " (TMPDIR), but that has ")) << refused.err;
   EXPECT_TRUE(contains(refused.err, "\nok.yaml: note: the run takes about ")) << refused.err;
   EXPECT_TRUE(contains(refused.err, " years")) << refused.err;
 }

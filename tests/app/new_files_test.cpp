@@ -158,7 +158,7 @@ TEST_F(NewFiles, AFileIsNeverReplaced) {
 }
 
 TEST_F(NewFiles, NamesAreChecked) {
-  const std::string rule = " is not allowed; expected letters, digits, _ and -, a letter first\n";
+  const std::string rule = " is not allowed; expected letters, digits, `_` and `-`, beginning with a letter\n";
   EXPECT_EQ(refused("module 3legs"), "gaitlab new module: error: name '3legs'" + rule);
   EXPECT_EQ(refused("module ../up"), "gaitlab new module: error: name '../up'" + rule);
   EXPECT_EQ(refused("scenario a.b"), "gaitlab new scenario: error: name 'a.b'" + rule);

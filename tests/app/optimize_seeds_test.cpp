@@ -22,7 +22,7 @@ TEST_F(OptimizeSeeds, AreSearchesWithASummary) {
   const Result result = call("optimize s.yaml --seeds 2 --seed 7 --out o");
   EXPECT_EQ(result.code, 3) << result.err;
   EXPECT_TRUE(contains(result.out,
-                       "\nbest kept and best verified point of each seed, by torque.peak, N m:\n"
+                       "\nfor each seed, the best kept point and the best verified point, by torque.peak, N m:\n"
                        "  seed  runs  kept"))
       << result.out;
   EXPECT_TRUE(contains(result.out, "\n0 of 2 seeds verified a point; best of 2 seeds: median ")) << result.out;

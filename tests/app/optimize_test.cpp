@@ -169,7 +169,8 @@ TEST_F(Optimize, AShareOfTheWorldsDecides) {
   EXPECT_EQ(count.stood, 15 - count.fell_drawn);
   const std::string nearest = fmt::format(
       "fell: none of the best points was verified; run {} is nearest: it stands in {} of 16 worlds; 16 are needed; falls by "
-      "mass +3 % (0.824 kg): mass <= 0.8001 (0.824); and in {} of 7 draws; `robust: true` searches gaits with reserve\n",
+      "mass +3 % (0.824 kg): mass <= 0.8001 (0.824); and in {} of 7 draws; to search gaits with a reserve, take `robust: "
+      "true`\n",
       tried.front().run, count.stood, count.fell_drawn);
   EXPECT_TRUE(fell.err.ends_with(nearest)) << fell.err << nearest;
   EXPECT_NE(fell.err.find("verification of the best point: 1 run\npoints that stand, in worlds: 16 runs\nverification of the "
@@ -217,7 +218,8 @@ TEST_F(Optimize, WhatNobodyCouldJudgeIsNotVerified) {
   EXPECT_NE(result.out.find("not verified (as run "), std::string::npos) << result.out;
   for (const studies::Verification& v : journal("o").verifications())
     EXPECT_EQ(v.reason.rfind("not judged: ", 0), 0U) << v.what() << ": " << v.reason;
-  EXPECT_NE(result.out.find("half step: not judged: 0.3 s are 0.3 of a gait's 3 periods of 1 s; take duration: 3;"),
+  EXPECT_NE(result.out.find(
+                "half step: not judged: 0.3 s contain only 0.3 of the 3 periods of 1 s that a gait needs; take duration: 3;"),
             std::string::npos)
       << result.out;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "o/best"));
@@ -275,7 +277,7 @@ TEST_F(Optimize, CommandsAreToldApart) {
   }
   const Result few = call("optimize s.yaml --runs 9");
   EXPECT_EQ(few.code, 2);
-  EXPECT_EQ(few.err, "--runs: error: a budget of 9 runs is less than the 16 of the searches' first generation\n");
+  EXPECT_EQ(few.err, "--runs: error: a budget of 9 runs is too small: the first generation of all searches has 16 runs\n");
   ASSERT_EQ(call("optimize s.yaml --method random --out r --quiet").code, 0);  // random points instead of a search
   EXPECT_TRUE(journal("r").generations().empty());
   EXPECT_EQ(call("optimize s.yaml --out r --quiet").code, 2);  // the folder contains a different study

@@ -242,7 +242,7 @@ TEST_F(Plugins, ANewOneNeedsANameThatCanBeOne) {
     EXPECT_FALSE(std::filesystem::exists(folder / "made")) << arguments;
     return result.err;
   };
-  const std::string rule = " is not allowed; expected letters, digits and _, a letter first\n";
+  const std::string rule = " is not allowed; expected letters, digits and `_`, beginning with a letter\n";
   EXPECT_EQ(refused("cpg 3legs"), "gaitlab new plugin cpg: error: name '3legs'" + rule);
   EXPECT_EQ(refused("cpg ../up"), "gaitlab new plugin cpg: error: name '../up'" + rule);
   EXPECT_EQ(refused("cpg test"), "gaitlab new plugin cpg: error: name 'test' is a target of CMake; choose another\n");

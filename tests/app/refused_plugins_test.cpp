@@ -47,7 +47,7 @@ TEST_F(RefusedPlugins, WhatLooksAtARunLoadsNone) {
   const Result absent = call("report a --plugins-from-scenario");
   EXPECT_EQ(absent.code, 2);
   EXPECT_TRUE(contains(absent.err, "plugin 'wave.so' cannot be loaded: No such file or directory (tried '") &&
-              contains(absent.err, "; a record contains only its name, so that --plugin must give the file)"))
+              contains(absent.err, "; a record contains only the plugin's name, so that --plugin must give the file)"))
       << absent.err;
   EXPECT_EQ(call("report a --plugin '" + library_ + "'").code, 0);
   fs::copy_file(library_, folder_ / "a/wave.so");

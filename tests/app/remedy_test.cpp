@@ -121,7 +121,9 @@ TEST_F(RemedyCommand, ARunThatIsTooCoarseHasThatOfAFinerRun) {
   const std::string finer = verdict["retry"][0];
   const Result result = call("remedy coarse --by i_max --no-report");
   ASSERT_EQ(result.code, 0) << result.err;
-  EXPECT_TRUE(contains(result.out, "remedy    with " + finer + " the run is accurate enough, and feasible; from there:"))
+  EXPECT_TRUE(contains(result.out, "remedy    with " + finer +
+                                       " the run is accurate enough, and feasible; starting from these "
+                                       "settings:"))
       << result.out;
   const json remedy = read_json("coarse/remedy.json");
   EXPECT_EQ(remedy["verdict"], "not judged") << "of the run";

@@ -91,7 +91,7 @@ class FasterEngine : public ::testing::Test {
  protected:
   static Result check(const std::string& arguments) { return gaitlab("check " + arguments, "."); }
   static std::string advised(const std::string& text) {
-    const std::size_t at = text.find("engine articulated: about ");
+    const std::size_t at = text.find("engine articulated would take about ");
     if (at == std::string::npos) return "";
     const std::size_t open = text.find("(--set ", at), close = text.find(')', open);
     return text.substr(open + 1, close - open - 1);

@@ -88,7 +88,9 @@ TEST_F(Shard, ThatAreDamagedOrOthersAreRefusedAndNothingIsLost) {
 
   ASSERT_EQ(call("sweep two.yaml --grid cpg.phase_lag=0.5:1.5:6 --out t2 --quiet --shard 0/2").code, 0);
   std::filesystem::copy(folder_ / "t2/shards/0-of-2.db", folder_ / "s/shards/0-of-2.db");
-  refused("study merge s", "s/shards: error: holds shards of 2 and of 3; expected shards of one division");
+  refused("study merge s",
+          "s/shards: error: holds shards of a division into 2 and of one into 3; expected the shards of one "
+          "division");
 }
 
 // If shards have different budgets, the largest budget counts, in any order of the shards.

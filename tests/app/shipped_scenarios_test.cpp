@@ -86,7 +86,7 @@ TEST(ShippedNames, OfNewScenariosFollowTheSameOrder) {
   std::string own = read(kScenarios + "modules/y1.yaml");
   folder.write("y1", own + "# mine\n");
   const Result file = gaitlab("new scenario b --module y1 --count 2", folder / "");
-  EXPECT_TRUE(contains(file.err, "y1: note: is the file of that name, not the module type that comes with gaitlab\n"))
+  EXPECT_TRUE(contains(file.err, "y1: note: 'y1' is the file './y1', not the module type that comes with gaitlab\n"))
       << file.err;
   EXPECT_TRUE(contains(read(folder / "b.yaml"), "modules: ./y1")) << read(folder / "b.yaml");
   fs::rename(folder / "y1", folder / "y1.yaml");

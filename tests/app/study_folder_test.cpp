@@ -183,7 +183,7 @@ TEST_F(StudyFolder, AnArrayOfOneTaskMerges) {
   fs::copy(folder_ / "one/study.db", folder_ / "two/shards/0-of-1.db");
   EXPECT_EQ(call("study merge two").out, "two/study.db: 4 of 4 runs\n");
   studies::Database(folder_ / "one/study.db", studies::Database::Mode::write).execute("DELETE FROM run WHERE run = 2");
-  ends("study merge one", 1, "one: error: 1 of 4 runs have not ended; continue with: gaitlab sweep two.yaml ");
+  ends("study merge one", 1, "one: error: 1 of 4 runs have not finished; continue with: gaitlab sweep two.yaml ");
 }
 
 // On a file system without flock(), such as Lustre without -o flock, a study is written without a lock.

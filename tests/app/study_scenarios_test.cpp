@@ -154,7 +154,7 @@ TEST_F(StudyScenarios, AreSearchedAndVerifiedTogether) {
                 "gaitlab_study: 1\nscenarios: {short: two.yaml, long: three.yaml}\n"
                 "parameters: {cpg.amplitude: {low: 0.05, high: 0.2}}\nbudget: {runs: 31}\n");
   EXPECT_EQ(call("optimize few.yaml").err,
-            "few.yaml:1:1: error: a budget of 31 runs is less than the 32 of the searches' first generation\n");
+            "few.yaml:1:1: error: a budget of 31 runs is too small: the first generation of all searches has 32 runs\n");
 }
 
 TEST_F(StudyScenarios, AreAskedTogether) {
@@ -187,7 +187,7 @@ TEST_F(StudyScenarios, WrongOnesAreRefused) {
             "e.yaml:2:12: error: scenarios is 'two.yaml'; expected 1 to 1000 names with their files: {flat: flat.yaml, rubble: "
             "rubble.yaml}\n");
   EXPECT_EQ(error(parameters, "scenarios: {a b: two.yaml, c: [1]}"),
-            "e.yaml:2:13: error: scenario name 'a b' is not allowed; expected letters, digits, _ . and -\n"
+            "e.yaml:2:13: error: scenario name 'a b' is not allowed; expected letters, digits, `_`, `.` and `-`\n"
             "e.yaml:2:31: error: scenario c is a list; expected the name of a file\n");
   EXPECT_TRUE(contains(error(parameters, "scenarios: {a: two.yaml, b: none.yaml}"), "none.yaml"));
 }

@@ -73,7 +73,7 @@ TEST_F(Sweep, NotesRunsThatAreTooShortForAVerdict) {
   EXPECT_EQ(swept.code, 0);
   EXPECT_EQ(swept.err,
             "--random cpg.frequency=0.25:1: note: a gait of 0.25 Hz has 0.75 periods in 3 s; without a limit cycle a "
-            "verdict needs 3: take duration=12, or a low of 1\n");
+            "verdict needs 3: take duration=12, or `low: 1`\n");
 }
 
 TEST_F(Sweep, ItsFilesAreMadeAnew) {

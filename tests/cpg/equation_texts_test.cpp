@@ -79,7 +79,7 @@ TEST_F(EquationTexts, KnowWhereAWordMayStand) {
   EXPECT_EQ(wrong("parameters: {sin: 1}"), "8:18: error: 'sin' has a fixed meaning in equations; choose another name");
   EXPECT_EQ(wrong("parameters: {depth: 1}"), "8:18: error: 'depth' has a fixed meaning in equations; choose another name");
   EXPECT_EQ(wrong("parameters: {phi: 1}"), "8:18: error: 'phi' is a parameter and a state; give one of them another name");
-  EXPECT_EQ(wrong("parameters: {1a: 1}"), "8:18: error: '1a' is not a name; expected a letter, then letters, digits and _");
+  EXPECT_EQ(wrong("parameters: {1a: 1}"), "8:18: error: '1a' is not a name; expected a letter, then letters, digits and `_`");
 }
 
 TEST_F(EquationTexts, LackNothing) {

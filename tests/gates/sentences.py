@@ -44,7 +44,7 @@ MUST |= {check: ("pass", "fail") for check in ("outcome", "fall", "in_ground")}
 MUST |= {"progress": ("pass", "warn", "fail"), "stability": ("pass",), "evidence": ("pass", "not judged"), "supply": ("pass",),
          "step": ("pass",), "coarse": ("pass",), "law": ("pass",)}
 WORDS = ("feasible", "infeasible", "not judged", "failed")
-REASONS = ("of a gait's 3 periods", "so far: ", "makes energy", "moves no joint", "off by about", "nothing drives the joints",
+REASONS = ("that a gait needs", "so far: ", "makes energy", "moves no joint", "off by about", "nothing drives the joints",
            "the shortest steps", "there is no gravity", "falls freely")
 
 

@@ -87,8 +87,8 @@ TEST(GoldenReport, NamesTheSettingsThatChanged) {
   now.resolved = "name: \"walk\"\nKp: 97\n\n";
   now.scenario = hash(now.resolved);
   EXPECT_EQ(golden::origin_changes(golden.origin, now),
-            "  engine: bullet -> articulated\n  the scenario has changed; the golden does not contain the approved one, which "
-            "is not UTF-8\n");
+            "  engine: bullet -> articulated\n  the scenario has changed; the golden does not contain the approved scenario, "
+            "which is not UTF-8\n");
   golden.origin.resolved = kText;
   EXPECT_EQ(golden::origin_changes(golden.origin, now), "  Kp: 100 -> 97\n");
   now.resolved = "name: fast\nKp: 97\n";

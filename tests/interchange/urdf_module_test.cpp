@@ -173,7 +173,7 @@ TEST_F(FromUrdf, RefusesInOneList) {
       "r:3:1: error: link 'b' has no mass; expected inertial (only a link between two hinges may have none)\n"
       "r:7:1: error: joint 'ab' is prismatic;" +
           others + "r:8:1: error: joint 'ac' is floating;" + others + "r:9:1: error: joint 'ad' is planar;" + others +
-          "r:10:1: error: joint 'ae' mimics 'ad'; every hinge of a module moves alone\n"
+          "r:10:1: error: joint 'ae' mimics 'ad'; every hinge of a module moves independently\n"
           "r:10:1: error: joint 'ae' has effort 1000000; expected the torque at rest, N m, of its motor, above 0 and below "
           "1000000\n"
           "r:10:1: error: joint 'ae' has velocity 0; expected the no-load speed, rad/s, of its motor, above 0 and below "

@@ -70,8 +70,10 @@ TEST(ModuleTypes, OnlyLikeConnectorsDock) {
   const std::string b = cube("b", faces(", connector: roficom"), kMotor);
   const std::string c = cube("c", faces(), kMotor);
   const std::string other = error_of(robot(a + b, "{0: a, 1: b}", "[[0, 1, 1, 0, 0]]"));
-  EXPECT_TRUE(contains(
-      other, "face 0 of module 1 has connector 'roficom', face 1 of module 0 'hook'; only faces with the same connector dock"))
+  EXPECT_TRUE(
+      contains(other,
+               "face 0 of module 1 has connector 'roficom', but face 1 of module 0 has 'hook'; only faces with the same "
+               "connector dock"))
       << other;
   const std::string none = error_of(robot(a + c, "{0: a, 1: c}", "[[0, 1, 1, 0, 0]]"));
   EXPECT_TRUE(contains(
@@ -83,8 +85,8 @@ TEST(ModuleTypes, OnlyLikeConnectorsDock) {
   EXPECT_EQ(error_of(robot(c, "c", "[[0, 1, 1, 0, 3]]")), kNoError);
   const std::string mixed = error_of(robot(c, "{0: c, 1: mtran}", "[[1, 1, 1, 0, 0]]"));
   EXPECT_TRUE(contains(mixed,
-                       "wrong gender: face 1 of module 1 is of gender active, face 1 of module 0 of gender none; active docks "
-                       "on passive, none on none, so module 1 has no face that fits"))
+                       "wrong gender: face 1 of module 1 has gender active, but face 1 of module 0 has gender none; active "
+                       "docks on passive, and none on none, so module 1 has no face that fits"))
       << mixed;
 }
 

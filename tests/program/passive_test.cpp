@@ -268,7 +268,7 @@ TEST(PassiveHinge, IsExported) {
   const std::string urdf = interchange::to_urdf(s);
   EXPECT_TRUE(contains(urdf, R"(<joint name="m0/castor" type="continuous">)")) << urdf;
   EXPECT_TRUE(contains(urdf, R"(<dynamics damping="0.01" friction="0.002"/>)")) << urdf;
-  EXPECT_TRUE(contains(urdf, "Springs of hinges: 0.5 N m/rad at rest at 0.2 on m0/castor.")) << urdf;
+  EXPECT_TRUE(contains(urdf, "Springs of hinges: 0.5 N m/rad on m0/castor (at rest at 0.2 rad).")) << urdf;
 }
 
 TEST(PassiveHinge, AloneNeedsNoActuator) {

@@ -223,7 +223,7 @@ TEST_F(Converge, SaysThatNoOrderIsSeen) {
       "3, 2, 3], [2, 6, 5, 2, 1]]}\nphysics: {engine: articulated, step: 2.5e-3}\ncontact: {stiffness: 1e6, damping: "
       "1e7}\ncpg: {type: tripod}\nduration: 0.6\n");
   const std::string text = of("s.yaml");
-  EXPECT_TRUE(contains(text, "none of these values is both allowed and accurate to 1 % of joint.")) << text;
+  EXPECT_TRUE(contains(text, "no value that was tried is both allowed and accurate to 1 % of joint.")) << text;
   EXPECT_TRUE(std::regex_search(
       text,
       std::regex("; the (observed order, 0[.][0-4][0-9]?, is too low|order is not clear enough) to predict other values\n")))

@@ -177,8 +177,8 @@ class CurvesOfPanel final : public PaperPanel {
       const FoundColumn& b = curves_[k].column;
       if (a.unit == b.unit) continue;
       source.problem({key, "columns"},
-                     fmt::format("{} is in {}, {} in {}: an axis has one unit; draw one of them on the other axis", a.name,
-                                 a.unit.empty() ? "no unit" : a.unit, b.name, b.unit.empty() ? "no unit" : b.unit));
+                     fmt::format("{} is in {} and {} in {}, but an axis has only one unit; draw one of them on the other axis",
+                                 a.name, a.unit.empty() ? "no unit" : a.unit, b.name, b.unit.empty() ? "no unit" : b.unit));
       return;
     }
   }
@@ -356,8 +356,8 @@ void curves_fields(PanelRecipe& panel, Fields& f) {
   f.group("right", panel.right, "Curves of the right axis; the zeros of both axes coincide if that wastes little paper.");
   f.text("stance", panel.stance, "Leg whose stance is shaded, named as in the footfalls of figure.svg: m5 front left.");
   f.text("motor", panel.motor,
-         "Joint whose motor is shown: time at a limit of voltage or current is shaded, and its torque at rest is drawn as a "
-         "line if the curve of its torque comes near it.");
+         "Joint whose motor is shown: the time at a voltage or current limit is shaded, and a line marks the motor's torque at "
+         "rest if the torque curve comes near it.");
   f.numbers("marks", panel.marks, {"s", 0, kLongestTime, "Times that a dotted line marks."});
   panel.time_fields(f);
   panel.height_field(f);
@@ -365,7 +365,7 @@ void curves_fields(PanelRecipe& panel, Fields& f) {
 
 const char* no_curves(const PanelRecipe& panel) {
   const bool none = panel.left.columns.empty() && panel.right.columns.empty();
-  return none ? "nothing is drawn; expected left: {columns: [...]}, or right" : nullptr;
+  return none ? "no curve is drawn; expected `left: {columns: [...]}` or the same with `right`" : nullptr;
 }
 
 }  // namespace

@@ -155,7 +155,7 @@ class EnvelopeOfPanel final : public PaperPanel {
 
 const PanelKind kEnvelopePanel{
     .name = "envelope",
-    .about = "Torque of joints over their speed, in front of the largest torque of their motors at each speed.",
+    .about = "Torque of joints over their speed, with the largest torque that their motors have at each speed.",
     .one_run = true,
     .fields = [](PanelRecipe& panel, Fields& f) { panel.joint_fields(f); },
     .lacking = nothing_lacks,

@@ -31,10 +31,10 @@ const PaperRun& PanelSource::run() const {
 PanelSource::Stretch PanelSource::stretch(double end) const {
   const PanelRecipe& asked = panel();
   if (asked.to > end + kSlack) {
-    problem({"to"}, fmt::format("to is {}, beyond the end of the run at {}", with_unit(asked.to, "s"), with_unit(end, "s")));
+    problem({"to"}, fmt::format("`to` is {}, beyond the end of the run at {}", with_unit(asked.to, "s"), with_unit(end, "s")));
   } else if (asked.from >= end) {
     problem({"from"},
-            fmt::format("from is {}, not before the end of the run at {}", with_unit(asked.from, "s"), with_unit(end, "s")));
+            fmt::format("`from` is {}, not before the end of the run at {}", with_unit(asked.from, "s"), with_unit(end, "s")));
   }
   return {asked.from, asked.to > 0 ? asked.to : end};
 }

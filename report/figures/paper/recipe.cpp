@@ -96,12 +96,12 @@ void AxisRecipe::fields(Fields& f) {
   f.number("least", least, {"", 0, 1e300, "The axis extends at least this far below and above zero; not with log."});
   f.flag("log", log, "Logarithmic axis; values that are not above 0 leave a gap.");
   if (!range.empty() && (range.size() != 2 || !(range[0] < range[1])))
-    f.problem("range", "range is not [from, to] with from below to");
+    f.problem("range", "range is not [FROM, TO] with FROM less than TO");
   if (log && !range.empty() && !(range[0] > 0)) {
     f.problem("range",
               fmt::format("range begins at {}; expected numbers above 0 on a logarithmic axis", number_text(range[0])));
   }
-  if (log && least > 0) f.problem("least", "least extends a linear axis; remove least, or log");
+  if (log && least > 0) f.problem("least", "`least` extends a linear axis; remove `least` or `log`");
 }
 
 PanelRecipe::PanelRecipe() : kind(kPanelKinds[0]) {}
@@ -119,7 +119,7 @@ void PanelRecipe::time_fields(Fields& f) {
   f.number("from", from, {"s", 0, kLongestTime, "Start of the drawn time."});
   f.number_or("to", to, "end", {"s", kPositive, kLongestTime, "End of the drawn time."});
   if (to > 0 && from >= to)
-    f.problem("to", fmt::format("to is {} s, not after from, {} s", number_text(to), number_text(from)));
+    f.problem("to", fmt::format("`to` is {} s, which is not after `from`, {} s", number_text(to), number_text(from)));
 }
 
 void PanelRecipe::height_field(Fields& f) { f.number_or("height", height, "auto", {"mm", 10, 500, "Height of the frame."}); }

@@ -24,8 +24,8 @@ class FootfallsOfPanel final : public PaperPanel {
     const std::vector<double> time = row_times(run.recording);
     if (legs.empty() || time.empty()) {
       source.problem({"kind"},
-                     "footfalls need four legs or more: chains of modules that are docked to the left and right (+-y) of a "
-                     "spine and end in contacts: feet");
+                     "footfalls need four legs or more; a leg is a chain of modules, docked to the left or right (+-y) of a "
+                     "spine, that ends in contact elements");
       return;
     }
     if (const std::string lacks = lacking_load(run.scenario, run.recording, legs); !lacks.empty()) {

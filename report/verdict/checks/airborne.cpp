@@ -16,7 +16,7 @@ std::vector<CheckKind> checks::airborne() {
     made.text = fmt::format("the ground carries less than {} of the weight for {} of the judged time",
                             texts::percent(kAirborne), texts::percent(made.value));
   };
-  return {{"airborne", CheckGroup::ground, "", "Keeps to the ground",
+  return {{"airborne", CheckGroup::ground, "", "Stays on the ground",
            fmt::format("share of the window in which the ground carries less than {} of the weight", texts::percent(kAirborne)),
            "", "any", CheckSpan::window, "cpg", "a slower gait", judge}};
 }

@@ -64,9 +64,9 @@ inline constexpr const char* kUndriven = "nothing drives the joints";
 inline constexpr const char* kNoPoses = "the run has no poses";
 inline constexpr const char* kMoreSupport = "take a gait with more support";
 inline constexpr const char* kGentler =
-    "a smaller amplitude or frequency, or a stronger motor; --demand computes what is missing";
+    "a smaller amplitude or frequency, or a stronger motor; --demand computes how much is missing";
 inline constexpr const char* kSmaller = "smaller amplitudes or offsets";
-inline constexpr const char* kShorter = "a smaller physics.accuracy, or a smaller physics.step where one is given";
+inline constexpr const char* kShorter = "a smaller physics.accuracy, or a smaller physics.step if one is given";
 
 // A judge receives its check with id, title and unit, with the status `not judged`, and without numbers and text. A judge that
 // cannot judge the run keeps this status and sets the text to the reason.

@@ -29,8 +29,8 @@ std::vector<CheckKind> checks::collision() {
                             found->pairs == 1 ? "es" : "", one.name, other.name, texts::length(found->depth));
   };
   return {{"collision", CheckGroup::structure, "m", "Bodies keep apart",
-           fmt::format("deepest overlap of two bodies, of bodies of one module the part beyond {:.3g} times their overlap with "
-                       "all hinges at 0; pairs of may_overlap are left out; in the whole run, at control ticks",
+           fmt::format("deepest overlap of two bodies at control ticks; if both belong to one module, only the part beyond "
+                       "{:.3g} times their overlap with all hinges at 0; pairs in may_overlap are left out",
                        kTurned),
            "above limits.collision", "above limits.touch", CheckSpan::whole_run, "robot",
            "smaller amplitudes or offsets, or may_overlap for bodies whose shapes are rougher than the real ones", judge}};

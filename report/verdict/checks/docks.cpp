@@ -119,13 +119,13 @@ void judge_docks(const Scenario& scenario, const Recording& record, DockQuantity
   const DockPeak worst = take_worst(peaks, made);
   const DockCheck& is = load_of(quantity);
   if (std::isnan(worst.value) && !worst.limited()) {
-    made.text = "the module types do not state what a dock holds";
+    made.text = "the module types do not state the largest loads of docks";
     return;
   }
   made.text = worst.value > 0 ? fmt::format("{}'s dock is {} by up to {:.3g} {}", made.worst, is.does, worst.value, is.unit)
                               : fmt::format("no dock is {}", is.does);
   if (!worst.limited()) {
-    made.text += "; the module types do not state what a dock holds";
+    made.text += "; the module types do not state the largest loads of docks";
     return;
   }
   made.limit = worst.limit;
@@ -137,15 +137,16 @@ void judge_docks(const Scenario& scenario, const Recording& record, DockQuantity
   made.text += fmt::format(
       ", {} of what it holds{}{}", texts::percent(std::max(0.0, worst.share())),
       chosen(made.source) ? " by a chosen figure" : "",
-      unstated > 0 ? fmt::format("; {} of {} docks are not judged: what they hold is not stated", unstated, peaks.size()) : "");
+      unstated > 0 ? fmt::format("; {} of {} docks are not judged: their largest loads are not stated", unstated, peaks.size())
+                   : "");
 }
 
 std::vector<CheckKind> checks::docks() {
   std::vector<CheckKind> rows;
   for (const DockCheck& one : kDockChecks) {
     rows.push_back({one.id, CheckGroup::structure, one.unit, one.title,
-                    fmt::format("largest {} of a dock against its rating, of the whole run, at control ticks", one.load),
-                    "above what the dock holds", "above limits.warn_share of it", CheckSpan::whole_run, "robot", one.gentler,
+                    fmt::format("largest {} of a dock at control ticks, compared with its rating", one.load),
+                    "above the rating", "above limits.warn_share of the rating", CheckSpan::whole_run, "robot", one.gentler,
                     judge_dock, false, true, true});
   }
   return rows;

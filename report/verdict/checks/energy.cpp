@@ -5,7 +5,7 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr const char* kNoEnergies = "the folder contains only rows, and no energies of all steps";
+constexpr const char* kNoEnergies = "the folder contains only rows of the trace, but the energies need all steps";
 
 /// Reason why energies are not judged. Empty if they are.
 std::string no_energies(const CheckedRun& run) {
@@ -59,12 +59,15 @@ void judge_supply(const CheckedRun& run, Check& made) {
 std::vector<CheckKind> checks::energy() {
   return {
       {"ledger", CheckGroup::trust, "", "Energy adds up",
-       fmt::format("residual of the energy over the energy drawn (or stored, or for lifting the robot by {}, if that is more)",
+       fmt::format("energy that is unaccounted for, relative to the energy drawn (or stored, or needed to lift the robot by "
+                   "{}, if that is more)",
                    texts::length(kLifted)),
        "", fmt::format("above limits.energy_residual; above {} the verdict is not judged", texts::percent(kTrustedResidual)),
        CheckSpan::whole_run, "physics.step", kShorter, judge_ledger},
       {"created", CheckGroup::trust, "", "Gears create no energy",
-       "energy that back-driven gears create (eq. 2) over the energy of check ledger", "", "above limits.energy_created",
+       "energy that back-driven gears create (eq. 2), relative to the same energy as in check `ledger`", "",
+       "above "
+       "limits.energy_created",
        CheckSpan::whole_run, "actuator", "actuator.efficiency_model: directional", judge_created},
       {"supply", CheckGroup::trust, "J", "Motors draw energy", "energy drawn from the supply", "", "below 0",
        CheckSpan::whole_run, "actuator", "Kt, Ks and the efficiency of the motors", judge_supply, true}};

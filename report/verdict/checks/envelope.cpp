@@ -16,7 +16,7 @@ std::vector<CheckKind> checks::envelope() {
                             texts::percent(made.value), run.has_dc_motors ? "motor" : "actuator");
   };
   return {{"envelope", CheckGroup::motor, "", "Torque within reach",
-           "largest torque over the largest torque of the actuator at that speed in that direction, over all steps", "",
+           "largest torque, as a share of the actuator's torque at that speed and in that direction, over all steps", "",
            "above limits.warn_share", CheckSpan::window, "actuator", kGentler, judge}};
 }
 

@@ -19,7 +19,7 @@ std::vector<CheckKind> checks::evidence() {
     made.remedy = lacks.front()->remedy;
     made.place = run.scenario.nearest_place(lacks.front()->key);
   };
-  return {{"evidence", CheckGroup::trust, "s", "Long enough, borne and to be trusted",
+  return {{"evidence", CheckGroup::trust, "s", "Long enough, borne by the ground and accurate",
            "judged time, the ground's share of the weight, and the errors of torques and energy", "", "", CheckSpan::window,
            "duration", "the check's text names the missing evidence", judge}};
 }

@@ -11,7 +11,8 @@ std::vector<CheckKind> checks::fall() {
       return;
     }
     if (!run.fall) {
-      made.text = heights(run.scenario, run.record).empty() ? kNoPoses : "the start pose has its centre of mass in the ground";
+      made.text =
+          heights(run.scenario, run.record).empty() ? kNoPoses : "the centre of mass is in the ground in the start pose";
       return;
     }
     take_limit(made, "height", &Limits::height, run);
@@ -19,7 +20,7 @@ std::vector<CheckKind> checks::fall() {
     made.from = run.fall->time.value_or(run.fall->lowest_time);
     made.to = run.fall->lowest_time;
     made.status = run.fall->time ? CheckStatus::fail : CheckStatus::pass;
-    const std::string share = texts::percent(made.value) + (run.fall->told ? " of the height of its set points' pose"
+    const std::string share = texts::percent(made.value) + (run.fall->told ? " of its height in the pose of the set points"
                                                                            : " of its height above the ground at the start");
     made.text = "the centre of mass keeps at least " + share;
     if (made.status == CheckStatus::pass) return;
@@ -35,9 +36,9 @@ std::vector<CheckKind> checks::fall() {
   };
   return {
       {"fall", CheckGroup::run, "", "Does not fall",
-       "least height of the centre of mass above the ground, at control ticks, over the lower of two heights: in the start "
-       "pose, lowered onto the ground, and in the pose of the set points at that time, upright (mean orientation of all links "
-       "as at the start) on its lowest contact elements",
+       "least height of the centre of mass above the ground at control ticks, relative to the lower of two heights: the one in "
+       "the start pose, lowered onto the ground, and the one in the pose of the set points at that time, upright (mean "
+       "orientation of all links as at the start) on its lowest contact elements",
        "below limits.height", "", CheckSpan::whole_run, "limits.height", "a gait with more support, or limits.height", judge,
        true}};
 }

@@ -28,7 +28,8 @@ void judge_gear_peak(const CheckedRun& run, Check& made) {
     find_first(
         run, 0, kTorquePeak, [&](std::size_t j, double now) { return rating(j) > 0 && now > rating(j); }, made);
   }
-  made.text = fmt::format("the gear of joint {} passes on up to {:.3g} N m of {:.3g} N m", made.worst, made.value, made.limit);
+  made.text =
+      fmt::format("the gear of joint {} passes on up to {:.3g} N m (rated {:.3g} N m)", made.worst, made.value, made.limit);
   widen(run.scenario, bars, made);
 }
 
@@ -39,7 +40,7 @@ void judge_gear_continuous(const CheckedRun& run, Check& made) {
               return Rated{run.summary.judged.joints[j].torque_rms, run.motors.joint(j).gear_continuous.value_or(0), kNoTime};
             });
   if (made.status == CheckStatus::not_judged) return;
-  made.text = fmt::format("the gear of joint {} takes {:.3g} N m RMS of {:.3g} N m", made.worst, made.value, made.limit);
+  made.text = fmt::format("the gear of joint {} takes {:.3g} N m RMS (rated {:.3g} N m)", made.worst, made.value, made.limit);
   widen(run.scenario, bars, made);
 }
 
@@ -63,13 +64,15 @@ std::optional<GearPeak> gear_load(const Recording& record, std::size_t joint, do
 
 std::vector<CheckKind> checks::gears() {
   return {{"gear_peak", CheckGroup::motor, "N m", "Gears bear the peaks",
-           "largest torque that the gear passes on in the whole run (that of the motor less what turns its rotor) against its "
-           "rating",
-           "above actuator.gear_torque_peak", "above limits.warn_share of it", CheckSpan::whole_run,
+           "largest torque that the gear passes on (the motor's torque minus the torque that turns its rotor), compared with "
+           "its rating",
+           "above actuator.gear_torque_peak", "above limits.warn_share of the rating", CheckSpan::whole_run,
            "actuator.gear_torque_peak", "a softer start or landing, or another gear", judge_gear_peak, false, false, true},
           {"gear_continuous", CheckGroup::motor, "N m", "Gears last",
-           "RMS torque in the window against the rating of the gear, over all steps", "above actuator.gear_torque_continuous",
-           "above limits.warn_share of it", CheckSpan::window, "actuator.gear_torque_continuous", kGentler,
+           "RMS torque in the window, over all steps, compared with the gear's rating",
+           "above "
+           "actuator.gear_torque_continuous",
+           "above limits.warn_share of the rating", CheckSpan::window, "actuator.gear_torque_continuous", kGentler,
            judge_gear_continuous, false, false, true}};
 }
 

@@ -16,8 +16,9 @@ std::vector<CheckKind> checks::heat() {
     widen(run.scenario, bars, made);
   };
   return {{"heat", CheckGroup::motor, "A", "Motors stay cool",
-           "RMS current in the window against the continuous rating, over all steps", "above actuator.i_continuous",
-           "above limits.warn_share of it", CheckSpan::window, "actuator.i_continuous", kGentler, judge, false, false, true}};
+           "RMS current in the window, over all steps, compared with the continuous rating", "above actuator.i_continuous",
+           "above limits.warn_share of the rating", CheckSpan::window, "actuator.i_continuous", kGentler, judge, false, false,
+           true}};
 }
 
 }  // namespace gaitlab::report

@@ -24,10 +24,10 @@ std::vector<CheckKind> checks::in_ground() {
     made.worst = run.scenario.robot->bodies[found->body].name;
     made.remedy = run.scenario.contact.on == ContactSet::all
                       ? "take a larger contact.stiffness, if it is too small for this load"
-                      : "set contact.on: all, with which all parts of the robot touch the ground";
+                      : "set contact.on: all, so that every part of the robot can touch the ground";
   };
   return {{"in_ground", CheckGroup::ground, "m", "Bodies stay above the ground",
-           "depth of a body in the ground, of the whole run, at control ticks", "above limits.sink", "", CheckSpan::whole_run,
+           "largest depth of a body in the ground, at control ticks", "above limits.sink", "", CheckSpan::whole_run,
            "contact.on", "contact.on: all, or a larger contact.stiffness", judge}};
 }
 

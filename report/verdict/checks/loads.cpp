@@ -20,7 +20,8 @@ std::string unknown_of_feet(const CheckedRun& run) {
 
 bool walks(double way, Check& made) {
   constexpr double kLeastWay = 0.01;  // m, least distance for a share of slip or creep
-  made.text = fmt::format("the robot goes {}: less than {} is not walking", texts::length(way), texts::length(kLeastWay));
+  made.text = fmt::format("the robot goes only {}: less than {} does not count as walking", texts::length(way),
+                          texts::length(kLeastWay));
   return way >= kLeastWay;
 }
 

@@ -10,8 +10,8 @@ std::vector<CheckKind> checks::outcome() {
     made.status = run.record.outcome.done() ? CheckStatus::pass : CheckStatus::fail;
     made.text = run.record.outcome.done() ? "the run came to its end" : run.record.outcome.text();
   };
-  return {{"outcome", CheckGroup::run, "s", "Run finished", "simulated time against the duration", "the run ended early", "",
-           CheckSpan::whole_run, "duration", "the message of the run names the remedy", judge, true}};
+  return {{"outcome", CheckGroup::run, "s", "Run finished", "simulated time, compared with the duration", "the run ended early",
+           "", CheckSpan::whole_run, "duration", "the message of the run names the remedy", judge, true}};
 }
 
 }  // namespace gaitlab::report

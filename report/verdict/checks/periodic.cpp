@@ -16,11 +16,11 @@ std::vector<CheckKind> checks::periodic() {
     made.source = "chosen";
     made.status = cycle.found ? CheckStatus::pass : CheckStatus::warn;
     made.text = cycle.found ? fmt::format("the motion repeats every {:.4g} s", cycle.period)
-                            : "the set points repeat, and the motion does not settle to a period";
+                            : "the set points repeat, but the motion does not settle to a period";
   };
   return {{"periodic", CheckGroup::trust, "", "Repeats",
-           "error of the limit cycle: difference of angles and set points from their values a period later", "",
-           texts::percent(kMostCycleError) + " and more, of set points that repeat", CheckSpan::window, "duration",
+           "error of the limit cycle: difference of angles and set points from their values one period later", "",
+           texts::percent(kMostCycleError) + " and more, if the set points repeat", CheckSpan::window, "duration",
            "a longer duration", judge}};
 }
 

@@ -18,15 +18,17 @@ std::vector<CheckKind> checks::predictable() {
     made.first_part = made.worst;
     made.from = made.to = made.first = apart.time;
     if (run.record.spread.rows() > 0) made.text += "; " + spread_text(run.record.spread);
-    made.remedy = "judge several runs with other seeds or starts; no smaller step helps";
+    made.remedy = "judge several runs with other seeds or starts; a smaller step does not help";
   };
   return {{"predictable", CheckGroup::trust, "", "Motion is predictable",
-           fmt::format("change of a joint's torque, RMS over its peak, under gravity times {} ({}, if that suffices)",
+           fmt::format("change of a joint's torque (RMS, relative to its peak) under gravity times {}, or times {} if that "
+                       "already changes the torques",
                        disturbed(StepError::kIll), disturbed(StepError::kChaotic)),
            "",
            "above " + texts::percent(kAccurate) +
                ", or physics.accuracy; a check that some of four rollouts fail is then too close to its limit",
-           CheckSpan::whole_run, "physics.gravity", "several runs with other seeds or starts; no smaller step helps", judge}};
+           CheckSpan::whole_run, "physics.gravity", "several runs with other seeds or starts; a smaller step does not help",
+           judge}};
 }
 
 }  // namespace gaitlab::report

@@ -139,11 +139,11 @@ std::vector<CheckKind> checks::progress() {
   return {
       {"progress", CheckGroup::run, "m", "Goes somewhere",
        "travel of the centre of mass per period (without periods: in the window)",
-       "below limits.progress of the robot's extent (diagonal of the box around links and contact elements at the start) where "
+       "below limits.progress of the robot's extent (diagonal of the box around links and contact elements at the start) if "
        "that is set; or the robot slides down its ground faster and faster: gravity does more work along the ground than the "
        "motors",
-       "below a hundredth of the robot's extent (without periods: a tenth), with as little turning", CheckSpan::window,
-       "limits.progress", "limits.progress, if standing still must be a failure", judge, true}};
+       "below a hundredth of the robot's extent (without periods: a tenth), if the robot hardly turns either",
+       CheckSpan::window, "limits.progress", "limits.progress, if standing still is to count as a failure", judge, true}};
 }
 
 }  // namespace gaitlab::report

@@ -192,10 +192,11 @@ void judge_saturation(const CheckedRun& run, Check& made) {
   if (!found.widest || !too_close(found.bars)) return;
   made.error = run.torque_error(found.widest->joint);
   made.status = CheckStatus::too_close;
-  made.text +=
-      fmt::format("; joint {} is within the error of its torque, {}, of that limit for up to {} of the judged time, {} on end",
-                  run.joint(found.widest->joint), texts::rough_percent(made.error), texts::share_of_time(found.widest->share),
-                  time_on_end(found.widest->longest.length()));
+  made.text += fmt::format(
+      "; joint {} may be at that limit, within the error of its torque ({}), for up to {} of the judged time, {} "
+      "on end",
+      run.joint(found.widest->joint), texts::rough_percent(made.error), texts::share_of_time(found.widest->share),
+      time_on_end(found.widest->longest.length()));
   const double error = std::max(made.error, run.limits().most_torque_error());
   made.remedy = "take " + torque_remedy(run.scenario, error);
   made.retry = finer_setting(run.scenario, error);
@@ -207,12 +208,12 @@ constexpr const char* kSaturated =
 }  // namespace
 
 std::vector<CheckKind> checks::saturation() {
-  return {{"voltage", CheckGroup::motor, "", "Voltage suffices",
-           "share of the window at the limit of the voltage, over all steps", kSaturated, "any", CheckSpan::window,
-           "actuator.u_max", kGentler, judge_saturation<MotorLimit::voltage, kVoltageLimited>},
+  return {{"voltage", CheckGroup::motor, "", "Voltage suffices", "share of the window at the voltage limit, over all steps",
+           kSaturated, "any", CheckSpan::window, "actuator.u_max", kGentler,
+           judge_saturation<MotorLimit::voltage, kVoltageLimited>},
           {"current", CheckGroup::motor, "", "Current suffices",
-           "share of the window at the limit of the current (of other actuators: of their limit), over all steps", kSaturated,
-           "any", CheckSpan::window, "actuator.i_max", kGentler, judge_saturation<MotorLimit::current, kCurrentLimited>}};
+           "share of the window at the current limit (of other actuators: at their limit), over all steps", kSaturated, "any",
+           CheckSpan::window, "actuator.i_max", kGentler, judge_saturation<MotorLimit::current, kCurrentLimited>}};
 }
 
 }  // namespace gaitlab::report

@@ -37,13 +37,15 @@ std::vector<CheckKind> checks::slip() {
     made.from = window.time(window.start);
     made.to = window.loads.at(window.loads.rows() - 1, 0);
     made.text = made.worst.empty() ? "no foot slides under load"
-                                   : fmt::format("under load the weight slides {}, {} of the way of {}; farthest foot {}, {}",
-                                                 texts::length(slip), texts::percent(made.value), texts::length(way),
-                                                 foot_names(run.scenario, feet)[worst], texts::length(farthest));
+                                   : fmt::format(
+                                         "feet under load slide {} on average, {} of the way of {}; farthest foot {}, "
+                                         "{}",
+                                         texts::length(slip), texts::percent(made.value), texts::length(way),
+                                         foot_names(run.scenario, feet)[worst], texts::length(farthest));
   };
   return {{"slip", CheckGroup::ground, "", "Feet hold",
-           "slip distance of the loaded feet over the distance of the centre of mass, both at control ticks", "",
-           "above limits.slip", CheckSpan::window, "ground.friction", "feet that are lifted higher, or ground.friction",
+           "slip distance of the feet, weighted by load, relative to the distance of the centre of mass, both at control ticks",
+           "", "above limits.slip", CheckSpan::window, "ground.friction", "feet that are lifted higher, or ground.friction",
            judge}};
 }
 

@@ -31,15 +31,16 @@ std::vector<CheckKind> checks::speed() {
     find_first(
         run, by_rating ? 0 : run.summary.judged.first_row, kSpeedPeak,
         [&](std::size_t j, double now) { return now > (by_rating ? rating(j) : no_load(j)); }, made);
-    made.text = fmt::format("joint {} turns at up to {:.3g} rad/s of {:.3g} rad/s", made.worst, made.value, made.limit);
+    made.text = fmt::format("joint {} turns at up to {:.3g} rad/s (limit {:.3g} rad/s)", made.worst, made.value, made.limit);
     if (made.status != CheckStatus::fail) return;
-    made.text += by_rating ? ", more than it is rated for" : ", faster than its motor can drive it: the load does";
+    made.text += by_rating ? ", more than it is rated for" : ", faster than its motor can drive it: the load drives it";
   };
   return {
       {"speed", CheckGroup::motor, "rad/s", "Speed within reach",
-       "largest speed, over all steps: in the window against the speed at which the actuator has no torque left, in the whole "
-       "run against the rated one",
-       "above that speed", "above limits.warn_share of it", CheckSpan::window, "actuator.speed_max", kGentler, judge}};
+       "largest speed, over all steps: in the window, compared with the speed at which the actuator has no torque left; in the "
+       "whole run, with the rated speed",
+       "above the speed limit", "above limits.warn_share of the speed limit", CheckSpan::window, "actuator.speed_max", kGentler,
+       judge}};
 }
 
 }  // namespace gaitlab::report

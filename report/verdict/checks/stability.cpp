@@ -28,19 +28,19 @@ std::vector<CheckKind> checks::stability() {
     made.text =
         made.value >= 0 && aloft > 0
             ? fmt::format(
-                  "a note: no foot bears a load for {} of the time; else the centre of mass stays {} within the "
-                  "support polygon",
+                  "a note: no foot bears a load for {} of the time; otherwise the centre of mass stays {} within the support "
+                  "polygon",
                   texts::percent(static_cast<double>(aloft) / static_cast<double>(aloft + seen)), texts::length(made.value))
         : made.value >= 0
             ? fmt::format("statically stable: the centre of mass stays {} within the support polygon",
                           texts::length(made.value))
             : fmt::format(
-                  "a note: the centre of mass comes {} out of the support polygon, and is out of it {} of the "
-                  "time on the ground, as it may be in a dynamic gait",
+                  "a note: the centre of mass leaves the support polygon by up to {} and is outside for {} of the time on the "
+                  "ground, as may happen in a dynamic gait",
                   texts::length(-made.value), texts::percent(static_cast<double>(outside) / static_cast<double>(seen)));
   };
   return {{"stability", CheckGroup::ground, "m", "Stands on its feet",
-           "least distance of the centre of mass to the edge of the support polygon, inside positive", "", "",
+           "least distance from the centre of mass to the edge of the support polygon; positive inside", "", "",
            CheckSpan::window, "cpg", "only a note: a dynamic gait may fall from foot to foot", judge, false, true}};
 }
 

@@ -115,7 +115,8 @@ std::vector<CheckKind> checks::stall() {
       made.first = soonest.held.first;
       made.first_part = run.joint(soonest.joint);
     }
-    made.text = fmt::format("joint {} at rest: stall {:.3g} N m, held {:.3g} N m", made.worst, made.limit, made.value);
+    made.text = fmt::format("joint {} has a stall torque of {:.3g} N m and holds {:.3g} N m at rest", made.worst, made.limit,
+                            made.value);
     if (!whole) {
       made.from = torque.from;
       made.to = torque.to;
@@ -127,9 +128,11 @@ std::vector<CheckKind> checks::stall() {
   };
   return {{"stall", CheckGroup::motor, "N m", "Motors hold at rest",
            fmt::format("torque of a joint while it turns at less than {} of its no-load speed, RMS over all this time and over "
-                       "any {:g} s on end, against the stall torque at the supply",
+                       "any {:g} s on end, compared with the stall torque at the supply voltage",
                        texts::percent(kAtRest), kLeastRest),
-           "above that stall torque, if the law of the motor allows it", "RMS over all this time above half of it",
+           "above the stall torque, if the motor's law allows that",
+           "RMS over all the time at rest above half of the stall "
+           "torque",
            CheckSpan::window, "actuator.stall_torque",
            "a pose with less load, or a stronger motor; with efficiency_model: directional friction of the gear helps to hold",
            judge}};

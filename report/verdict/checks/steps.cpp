@@ -18,7 +18,7 @@ void judge_step(const CheckedRun& run, Check& made) {
   if (passes(made, made.limit)) return;
   const auto contacts = contact_elements(*run.scenario.robot, run.scenario.contact.on);
   made.from = made.to = r.worst_time;
-  made.text = fmt::format("in {} of the control ticks", texts::percent(made.value));
+  made.text = fmt::format("h lambda exceeds 1 in {} of the control ticks", texts::percent(made.value));
   made.remedy = step_advice(run.scenario, contacts, r.worst, fmt::format("at t = {:.2f} s", r.worst_time));
 }
 
@@ -39,10 +39,10 @@ void judge_law(const CheckedRun& run, Check& made) {
   if (left_open(made, run.driven() ? "" : kUndriven)) return;
   made.value = run.record.tally.off;
   made.limit = 0;
-  made.text = "every joint-step ends on the law of its motor and stop";
+  made.text = "every joint-step satisfies the law of its motor and stop";
   if (passes(made, made.limit)) return;
   made.text =
-      fmt::format("{:.0f} joint-steps ended off the law of their motor or stop: the torques there are wrong", made.value);
+      fmt::format("{:.0f} joint-steps do not satisfy the law of their motor or stop: their torques are wrong", made.value);
   made.remedy = "the torque of the actuator must fall with the joint's speed";
 }
 
@@ -53,11 +53,11 @@ std::vector<CheckKind> checks::steps() {
            "", "above " + texts::percent(kTooLong), CheckSpan::whole_run, "physics.step", "a smaller physics.step", judge_step},
           {"coarse", CheckGroup::trust, "", "Steps reach the accuracy",
            "share of the time in which the shortest steps do not reach physics.accuracy", "",
-           fmt::format("above {}, and the verdict is not judged", texts::percent(kTrustedCoarse)), CheckSpan::whole_run,
+           fmt::format("above {}; the verdict is then not judged", texts::percent(kTrustedCoarse)), CheckSpan::whole_run,
            "physics.step", "damping, or bounds on the drive of the joints", judge_coarse},
           {"law", CheckGroup::trust, "", "Torques satisfy the law of their motor",
-           "number of joint-steps that end off the law of their motor or stop", "", "any", CheckSpan::whole_run, "physics.step",
-           "an actuator whose torque falls with the speed", judge_law}};
+           "number of joint-steps that do not satisfy the law of their motor or stop", "", "any", CheckSpan::whole_run,
+           "physics.step", "an actuator whose torque falls with the speed", judge_law}};
 }
 
 }  // namespace gaitlab::report

@@ -122,12 +122,12 @@ std::vector<CheckKind> checks::stops() {
   };
   return {
       {"stops", CheckGroup::motion, "rad", "Joints keep their ranges",
-       "largest excess over the range of the hinge, of the whole run, over all steps",
+       "largest excess over the range of the hinge, over all steps",
        fmt::format(
-           "above limits.beyond_range, or for more than limits.beyond_range_share of the time; of a hinge without a motor, "
-           "which is meant to touch its stop, above {:g} rad ({:g} N m of the stop), or limits.beyond_range if that is more",
+           "above limits.beyond_range, or for more than limits.beyond_range_share of the time; for a hinge without a motor, "
+           "which is meant to touch its stop, above {:g} rad ({:g} N m from the stop), or limits.beyond_range if that is more",
            kRestsBeyond, HingeStop::kStiffness * kRestsBeyond),
-       "any, of joints with a motor", CheckSpan::whole_run, "cpg", kSmaller, judge}};
+       "any excess of a joint with a motor", CheckSpan::whole_run, "cpg", kSmaller, judge}};
 }
 
 }  // namespace gaitlab::report

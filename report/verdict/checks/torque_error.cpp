@@ -11,9 +11,13 @@ std::vector<CheckKind> checks::torque_error() {
     made.limit = run.limits().most_torque_error();
     made.source = threshold("torque_error", run.limits().torque_error, Limits().torque_error);
     name_joint(made, run, error.joint);
-    made.text = fmt::format("the torque of joint {} is off by about {} of its peak, estimated from other steps{}", made.worst,
-                            texts::rough_percent(made.value),
-                            run.scenario.physics.adapts() ? "" : " in windows; `gaitlab converge` compares whole runs");
+    made.text = fmt::format(
+        "the torque of joint {} is off by about {} of its peak, estimated by comparison with other step "
+        "lengths{}",
+        made.worst, texts::rough_percent(made.value),
+        run.scenario.physics.adapts() ? ""
+                                      : " in windows of the run; `gaitlab converge` compares whole "
+                                        "runs");
     if (passes(made, std::min(torque_error_limit(run.scenario), made.limit))) return;
     // A shorter step does not help in a chaotic motion.
     if (predictability(run.scenario, run.record) != Predictability::chaotic)
@@ -24,7 +28,10 @@ std::vector<CheckKind> checks::torque_error() {
     made.first_part = run.joint(event.joint);
   };
   return {
-      {"torque_error", CheckGroup::trust, "", "Torques are accurate", "estimated error of a joint's torque over its peak", "",
+      {"torque_error", CheckGroup::trust, "", "Torques are accurate",
+       "estimated error of a joint's torque, relative to its "
+       "peak",
+       "",
        fmt::format(
            "above physics.accuracy ({} with a given step); above limits.torque_error, at most {}, the verdict is not judged",
            texts::percent(kAccurate), texts::percent(Limits::kMostTorqueError)),

@@ -40,11 +40,11 @@ std::vector<CheckKind> checks::upright() {
         fmt::format("the robot turns over at {:.2f} s: it tilts by up to {:.3g} rad from its start", made.from, made.value);
     made.remedy = kMoreSupport;
   };
-  return {
-      {"upright", CheckGroup::run, "rad", "Stays upright",
-       "largest tilt from the start, of the base or of the mean of all links by mass, whichever is less, at control ticks",
-       "the axes that pointed upwards, of the base and of that mean, point below the horizontal, except for a base that rolls",
-       "above limits.tilt", CheckSpan::whole_run, "limits.tilt", "a gait with more support", judge}};
+  return {{"upright", CheckGroup::run, "rad", "Stays upright",
+           "largest tilt from the start, of the base or of the mean of all links by mass, whichever is less, at control ticks",
+           "both in the base and in that mean, the axis that pointed upwards points below the horizontal; not for a base that "
+           "rolls",
+           "above limits.tilt", CheckSpan::whole_run, "limits.tilt", "a gait with more support", judge}};
 }
 
 }  // namespace gaitlab::report

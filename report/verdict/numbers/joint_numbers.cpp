@@ -42,7 +42,7 @@ std::vector<SummaryNumber> joint_numbers() {
        .golden = {.place = 70, .needs_motor = true}},
       {.key = "per_joint.J.torque.peak_time",
        .unit = "s",
-       .definition = "Start of the step in which it was reached.",
+       .definition = "Start of the step in which this peak was reached.",
        .of_joint = of_whole_run(&F::torque_peak_time)},
       {.key = "per_joint.J.torque.rms",
        .unit = "N m",
@@ -73,13 +73,13 @@ std::vector<SummaryNumber> joint_numbers() {
        .of_joint = of_whole_run(&F::error_peak)},
       {.key = "per_joint.J.tracking_error.at_start",
        .unit = "rad",
-       .definition = "The same in the first step: a jump of the set point at t = 0.",
+       .definition = "Largest magnitude of set point minus angle in the first step: a jump of the set point at t = 0.",
        .of_joint = of_whole_run(&F::start_jump)},
       {.key = "per_joint.J.saturated.voltage",
-       .definition = "Share of the time in saturation 1.",
+       .definition = "Share of the time at the voltage limit (saturation 1).",
        .of_joint = of_whole_run(&F::saturated_voltage)},
       {.key = "per_joint.J.saturated.current",
-       .definition = "Share of the time in saturation 2.",
+       .definition = "Share of the time at the current limit (saturation 2).",
        .of_joint = of_whole_run(&F::saturated_current)},
       {.key = "per_joint.J.judged.torque.peak",
        .unit = "N m",
@@ -90,8 +90,8 @@ std::vector<SummaryNumber> joint_numbers() {
        .swap = {40, " peak torque", "         N m of joint", -29, texts::torque_cell}},
       {.key = "per_joint.J.judged.torque.peak_time",
        .unit = "s",
-       .definition = "Its time: the end of the control tick (or of the few ticks, in a long run) in which it "
-                     "was reached.",
+       .definition = "Time of this peak: the end of the control tick (or of the few ticks, in a long run) in which it was "
+                     "reached.",
        .of_joint = of_window(&JudgedJoint::torque_peak_time)},
       {.key = "per_joint.J.judged.torque.rms",
        .unit = "N m",
@@ -104,7 +104,7 @@ std::vector<SummaryNumber> joint_numbers() {
        .of_joint = of_window(&JudgedJoint::error_peak)},
       {.key = "per_joint.J.judged.tracking_error.peak_time",
        .unit = "s",
-       .definition = "Its time, defined in the same way.",
+       .definition = "Time of this peak, defined as `judged.torque.peak_time`.",
        .of_joint = of_window(&JudgedJoint::error_peak_time)},
       {.key = "per_joint.J.judged.saturated.voltage",
        .definition = "Share of the window at the voltage limit.",
@@ -148,7 +148,7 @@ std::vector<SummaryNumber> joint_numbers() {
        .golden = {.place = 65, .needs_motor = true},
        .swap = {60, "tracking", "error, rad", 10, texts::tracking_cell}},
       {.key = "tracking_error.joint",
-       .definition = "Joint of this error.",
+       .definition = "Joint with this error.",
        .words = true,
        .value =
            [](R r) {
@@ -156,7 +156,7 @@ std::vector<SummaryNumber> joint_numbers() {
            }},
       {.key = "tracking_error.time",
        .unit = "s",
-       .definition = "Start of the step in which it was reached.",
+       .definition = "Start of the step in which this peak was reached.",
        .value = [](R r) { return tracked(r, &F::error_peak_time); }},
   };
 }

@@ -29,8 +29,8 @@ std::vector<SummaryNumber> motion_numbers() {
   return {
       {.key = "energy.electrical",
        .unit = "J",
-       .definition = "Energy that the whole robot draws from the supply. This and all other numbers of the "
-                     "group are the ledger ([equations](equations.md), 8) at the last row of the trace.",
+       .definition = "Energy that the whole robot draws from the supply. This and all other numbers of the group are entries "
+                     "of the ledger ([equations](equations.md), 8) at the last row of the trace.",
        .value = [](R r) { return r.record.ledger.electrical; },
        .line = {100, "energy", texts::drawn}},
       {.key = "energy.copper",
@@ -77,12 +77,12 @@ std::vector<SummaryNumber> motion_numbers() {
                      "1 mm, if that is more).",
        .value = [](R r) { return or_null(residual_share(r.scenario, r.record)); }},
       {.key = "energy.created_share",
-       .definition = "`created` over the same energy.",
+       .definition = "`created` over the same energy as in `residual_share`.",
        .value = [](R r) { return or_null(created_share(r.scenario, r.record)); }},
       {.key = "fell",
-       .definition = "True if the centre of mass came below `limits.height` of its height above the ground at "
-                     "the start and in the pose of its set points (the check `fall` of the verdict); null for a base that is "
-                     "not floating, and without a ground.",
+       .definition = "True if the centre of mass came below `limits.height` times the lower of two heights above the ground: "
+                     "at the start, and in the pose of the set points (the check `fall` of the verdict); null if the base does "
+                     "not float or there is no ground.",
        .value = [](R r) { return fallen(r); }},
       {.key = "airborne_share",
        .definition = "Share of the control ticks in the judged window at which the ground carries less than 5 % "
@@ -95,11 +95,11 @@ std::vector<SummaryNumber> motion_numbers() {
        .value = [](R r) { return held(r, &Posture::height_min); }},
       {.key = "height.max",
        .unit = "m",
-       .definition = "Largest height at these ticks.",
+       .definition = "Largest height of the centre of mass at these control ticks.",
        .value = [](R r) { return held(r, &Posture::height_max); }},
       {.key = "tilt.max",
        .unit = "rad",
-       .definition = "Largest angle between the base's z axis and the vertical at these ticks (the check "
+       .definition = "Largest angle between the base's z axis and the vertical at these control ticks (the check "
                      "`upright` of the verdict uses the turn since the start).",
        .value = [](R r) { return held(r, &Posture::tilt_max); }},
       {.key = "limit_cycle.found",
@@ -114,11 +114,11 @@ std::vector<SummaryNumber> motion_numbers() {
        .value = [](R r) { return r.summary.limit_cycle.from; }},
       {.key = "limit_cycle.period",
        .unit = "s",
-       .definition = "Its period, or that of the best candidate; 0 without a candidate.",
+       .definition = "Period of the motion, or of the best candidate; 0 without a candidate.",
        .value = [](R r) { return r.summary.limit_cycle.period; },
        .compare = {210}},
       {.key = "limit_cycle.error",
-       .definition = "Its repetition error; 1 without a candidate.",
+       .definition = "Repetition error of this period; 1 without a candidate.",
        .value = [](R r) { return r.summary.limit_cycle.error; }},
       {.key = "stability.max",
        .definition = "Largest h lambda at the control ticks ([equations](equations.md)).",

@@ -109,8 +109,8 @@ std::vector<SummaryNumber> run_numbers() {
                      "the engine does not count them.",
        .value = [](R r) { return r.record.tally.solves; }},
       {.key = "off_law",
-       .definition = "Joint-steps that ended off the law of their motor or stop; if above 0, the torques in "
-                     "these steps are wrong.",
+       .definition = "Joint-steps that do not satisfy the law of their motor or stop; if above 0, the torques in these steps "
+                     "are wrong.",
        .value = [](R r) { return r.record.tally.off; }},
       {.key = "coarse_time",
        .unit = "s",
@@ -118,8 +118,8 @@ std::vector<SummaryNumber> run_numbers() {
        .value = [](R r) { return r.record.tally.coarse; }},
       {.key = "torque_error.worst",
        .definition = "Estimate of the integration error of the torques: RMS over the joint's largest torque (at "
-                     "least 2 % of the largest torque of all joints), of the worst joint "
-                     "([equations](equations.md), 7); `torque_error` is null without an estimate.",
+                     "least 2 % of the largest torque of all joints), for the worst joint ([equations](equations.md), 7); "
+                     "`torque_error` is null without an estimate.",
        .value = [](R r) { return estimated(r, [](const TorqueError& e) { return e.share; }); }},
       {.key = "torque_error.joint",
        .definition = "The worst joint.",
@@ -132,8 +132,8 @@ std::vector<SummaryNumber> run_numbers() {
        .list = true},
       {.key = "torque_event.time",
        .unit = "s",
-       .definition = "First time at which the estimated error of a torque exceeds `accuracy` (1 % if the step "
-                     "is given) of its peak; `torque_event` is null if none does.",
+       .definition = "First time at which the estimated error of a torque exceeds the share `accuracy` (1 % if the step is "
+                     "given) of the torque's peak; `torque_event` is null if no error exceeds it.",
        .value = [](R r) { return r.record.tally.event.time < 0 ? Json() : Json(r.record.tally.event.time); }},
       {.key = "torque_event.joint",
        .definition = "Joint of that torque.",
@@ -143,14 +143,14 @@ std::vector<SummaryNumber> run_numbers() {
        .unit = "s",
        .definition = "First time at which a torque changes by more than `accuracy` under gravity times 1 + 1e-6 "
                      "(computed as 1000 times the change under 1 + 1e-9); if a torque as a whole (RMS over the peak) changes "
-                     "by more than `accuracy` under 1 + 1e-9, the first such time under 1 + 1e-9; the duration if there is "
-                     "none. `predictable` is null if this was not tested.",
+                     "by more than `accuracy` under 1 + 1e-9, the first such time under 1 + 1e-9; the duration if no torque "
+                     "changes that much. `predictable` is null if this was not tested.",
        .value = [](R r) { return tried(r, [&] { return apart(r).time < 0 ? r.record.simulated : apart(r).time; }); }},
       {.key = "predictable.chaotic",
-       .definition = "Change of the torques under gravity times 1 + 1e-9: RMS over the joint's peak, of the worst joint.",
+       .definition = "Change of the torques under gravity times 1 + 1e-9: RMS over the joint's peak, for the worst joint.",
        .value = [](R r) { return tried(r, [&] { return r.record.tally.chaotic.share; }); }},
       {.key = "predictable.ill",
-       .definition = "The same times 1000: the change under gravity times 1 + 1e-6, in proportion.",
+       .definition = "`chaotic` times 1000: an estimate of the change under gravity times 1 + 1e-6, in proportion.",
        .value = [](R r) { return tried(r, [&] { return r.record.tally.ill.share; }); }},
       {.key = "spread.torque_peak",
        .unit = "N m",
@@ -161,16 +161,16 @@ std::vector<SummaryNumber> run_numbers() {
        .list = true},
       {.key = "spread.torque_rms",
        .unit = "N m",
-       .definition = "The same for the largest RMS of a motor torque.",
+       .definition = "Least and largest value of the largest RMS of a motor torque, over the same rollouts.",
        .value = [](R r) { return spread_of(r, "torque_rms"); },
        .list = true},
       {.key = "spread.distance",
        .unit = "m",
-       .definition = "The same for `distance`.",
+       .definition = "Least and largest value of `distance`, over the same rollouts.",
        .value = [](R r) { return spread_of(r, "distance"); },
        .list = true},
       {.key = "spread.margin",
-       .definition = "The same for the least margin of the checks that can fail.",
+       .definition = "Least and largest value of the least margin of the checks that can fail, over the same rollouts.",
        .value = [](R r) { return spread_of(r, kLeastMargin); },
        .list = true},
       {.key = "duration",
@@ -193,9 +193,9 @@ std::vector<SummaryNumber> run_numbers() {
        .definition = "Start of the judged window: whole periods up to the end, without the first after "
                      "the start of the gait. The gait starts when a ramp of the cpg has ended, after the last change of "
                      "the run, and when the ground carries half of the weight in the mean of each period from then on. "
-                     "The period belongs to the limit cycle, else to the set points. If not two periods are left, the "
-                     "window starts 2 s after that, or after a fifth of the rest, whichever is earlier; if the set "
-                     "points do not repeat, at 0.",
+                     "The period is that of the limit cycle or, without one, of the set points. If fewer than two periods are "
+                     "left, the window starts 2 s after the start of the gait, or after a fifth of the rest, whichever is "
+                     "earlier; if the set points do not repeat, it starts at 0.",
        .value = [](R r) { return r.summary.judged.from; },
        .line = {42, "judged", texts::window}},
       {.key = "judged.to",
@@ -204,7 +204,8 @@ std::vector<SummaryNumber> run_numbers() {
        .value = [](R r) { return r.summary.judged.to; }},
       {.key = "judged.joint",
        .definition = "The most loaded joint in the window: longest at a limit, then largest torque RMS, then "
-                     "largest peak. `judged.joint` and the next two are null if no joint has a motor.",
+                     "largest peak. `judged.joint`, `judged.saturated` and `judged.joints_at_limit` are null if no joint has a "
+                     "motor.",
        .words = true,
        .value = [](R r) { return of_motors(r, [&](const Judged& j) { return r.scenario.robot->joints[j.order[0]].name; }); },
        .compare = {.place = 215, .if_different = true}},
@@ -225,7 +226,7 @@ std::vector<SummaryNumber> run_numbers() {
        .value = [](R r) { return of_motors(r, [&](const Judged&) { return or_null(r.record.current_peak); }); }},
       {.key = "robot_current.rms",
        .unit = "A",
-       .definition = "RMS of that sum over the whole run.",
+       .definition = "RMS of the sum of the magnitudes of all motors' currents, over the whole run.",
        .value = [](R r) { return of_motors(r, [&](const Judged&) { return or_null(r.record.current_rms); }); }},
       {.key = "wall_time",
        .unit = "s",
@@ -276,7 +277,7 @@ std::vector<SummaryNumber> run_numbers() {
        .swap = {20, "travel x, y", "m", 19, texts::travel_cell}},
       {.key = "displacement.y",
        .unit = "m",
-       .definition = "The same for y: the second element.",
+       .definition = "y of the centre of mass at the end minus y at the start: the second element of the array.",
        .value = [](R r) { return r.summary.displacement_y; },
        .compare = {140}},
       {.key = "distance",

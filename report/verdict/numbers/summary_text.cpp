@@ -86,7 +86,7 @@ std::string joint_table(const Summary& s, const Scenario& scenario) {
   const bool marked =
       std::ranges::any_of(s.judged.joints, [](const JudgedJoint& j) { return j.peak_limit != MotorLimit::none; });
   return text + "  order: the most loaded joint first, by time at a limit, then RMS, then peak\n" +
-         (marked ? "  u, i: the peak is at the limit of voltage (u), of current (i)\n" : "");
+         (marked ? "  u, i: the peak is at the voltage limit (u) or the current limit (i)\n" : "");
 }
 
 std::string start_warning(const Scenario& scenario) {

@@ -15,8 +15,8 @@ std::string to_text(const Summary& summary, const Scenario& scenario, const Reco
 /// Table of the joints in the judged window, one row per joint, the most loaded joint first.
 std::string joint_table(const Summary& summary, const Scenario& scenario);
 
-/// Warning that part of the robot starts below the ground; empty if none does. This happens if the scenario states the height,
-/// or if only contact elements touch the ground.
+/// Warning that part of the robot starts below the ground; empty for other robots. This happens if the scenario states the
+/// height, or if only contact elements touch the ground.
 std::string start_warning(const Scenario& scenario);
 
 }  // namespace gaitlab::report

@@ -227,8 +227,8 @@ Doubts doubts(const Scenario& s) {
   Doubts made;
   if (!rows.empty()) {
     rows.insert(rows.begin(), s.accept.begin(), s.accept.end());
-    made.refused =
-        fmt::format("{}; state physics that can be, or accept: [{}]", fmt::join(impossible, "; "), fmt::join(rows, ", "));
+    made.refused = fmt::format("{}; give values that are physically possible, or accept: [{}]", fmt::join(impossible, "; "),
+                               fmt::join(rows, ", "));
   }
   if (!accepted.empty()) made.accepted = fmt::format("accepted: {}", fmt::join(accepted, ", "));
   return made;
@@ -250,8 +250,8 @@ void check_accepted(const Scenario& s) {
   if (idle.empty()) return;
   const bool one = idle.size() == 1;
   std::string remedy = one ? "remove it" : "remove them";
-  if (!others.empty()) remedy = fmt::format("unusual are those of {}", fmt::join(others, " and "));
-  throw InputError(s.place("accept"), fmt::format("accept names {}, and no number of {} is unusual; {}",
+  if (!others.empty()) remedy = fmt::format("the unusual numbers are those of {}", fmt::join(others, " and "));
+  throw InputError(s.place("accept"), fmt::format("accept names {}, but no number of {} is unusual; {}",
                                                   fmt::join(idle, " and "), one ? "this row" : "these rows", remedy));
 }
 

@@ -210,7 +210,8 @@ std::vector<Finding> moments(const Subject& subject) {
     const auto ratio = [one, stated, of_shapes](double factor) { return one.judged(worst_ratio(stated, of_shapes, factor)); };
     found.push_back({one.place("inertia"),
                      {one.part()},
-                     fmt::format("{} has principal moments up to {:.3g} kg m^2, and {} at uniform density {:.3g} kg m^2",
+                     fmt::format("{} has principal moments up to {:.3g} kg m^2, but at uniform density {} would have up to "
+                                 "{:.3g} kg m^2",
                                  one.name(), stated[2], one.outline(), of_shapes[2]),
                      ratio(1),
                      [ratio](const Slip& slip) { return ratio(slip.corrected(1)); },
@@ -284,9 +285,9 @@ std::vector<Impossible> impossible_moments(const Scenario& s) {
     const double largest = sorted_moments(body.inertia)[2];
     const double times = largest / (body.mass * kAway * size * kAway * size);
     if (!(size > 0) || !(times > 1)) return;
-    found.push_back({times, fmt::format("{:.3g} kg m^2 of body {} of {} of {} kg: that of a ring of radius {:.2g} m, and the "
-                                        "body's extent is {:.2g} m",
-                                        largest, in_quotes(body.name), clipped(type.name), number_text(body.mass),
+    found.push_back({times, fmt::format("body {} of {} ({} kg) has a moment of inertia of {:.3g} kg m^2, as much as a ring of "
+                                        "radius {:.2g} m, but the body's extent is {:.2g} m",
+                                        in_quotes(body.name), clipped(type.name), number_text(body.mass), largest,
                                         std::sqrt(largest / body.mass), size)});
   });
   return found;
@@ -318,9 +319,9 @@ std::vector<Impossible> impossible_densities(const Scenario& s) {
     const double volume = body.volume > 0 ? body.volume : united(body.shapes).volume;
     const double density = body.mass / volume;
     if (!(density > kMost)) return;
-    found.push_back({density / kMost, fmt::format("{} kg of body {} of {} in {:.3g} cm^3: {:.3g} kg/m^3, and no metal has more "
-                                                  "than {:g}",
-                                                  number_text(body.mass), in_quotes(body.name), clipped(type.name),
+    found.push_back({density / kMost, fmt::format("body {} of {} has {} kg in {:.3g} cm^3: {:.3g} kg/m^3, but no metal has "
+                                                  "more than {:g} kg/m^3",
+                                                  in_quotes(body.name), clipped(type.name), number_text(body.mass),
                                                   volume * 1e6, density, kMost)});
   });
   return found;
@@ -343,7 +344,7 @@ std::vector<PlausibleNumber> plausible_bodies() {
       {"hinge",
        0,
        4,
-       "expected at most four times that",
+       "expected at most four times that edge",
        {{"is origin in mm", of_milli}, {"is origin in cm", of_centi}, {kShapesInMm, of_milli, 1}, {kShapesInCm, of_centi, 1}},
        {kLengthsInMm, kLengthsInCm},
        hinges},
@@ -357,7 +358,7 @@ std::vector<PlausibleNumber> plausible_bodies() {
       {"moments",
        0.05,
        5,
-       "expected 0.05 to 5 times that",
+       "expected 0.05 to 5 times the moments at uniform density",
        {{"is it in kg cm^2", of_square_cm},
         {"is it in kg mm^2", square_mm},
         {"is it in g cm^2", of_gram_square_cm},
@@ -371,7 +372,7 @@ std::vector<PlausibleNumber> plausible_bodies() {
       {"face",
        0,
        0.25,
-       "expected at most a quarter of that",
+       "expected at most a quarter of that edge",
        {{"is origin in mm", of_milli}, {"is origin in cm", of_centi}},
        {kLengthsInMm, kLengthsInCm, kShapesInMm, kShapesInCm},
        faces},

@@ -177,9 +177,9 @@ std::vector<Impossible> impossible_torques(const Scenario& s) {
     const double times = most[j] / (kMost * held);
     if (!s.robot->joints[j].driven() || !available.known(j) || !(times > 1)) continue;
     found.push_back(
-        {times, fmt::format("{:.4g} N m of the motor of {} at rest: {:.3g} times the weight of the whole robot ({:.4g} "
-                            "kg) at a distance of its extent ({:.3g} m), and at most {:g} can be",
-                            most[j], s.robot->joints[j].name, kMost * times, s.robot->mass, edge, kMost)});
+        {times, fmt::format("the motor of {} has {:.4g} N m at rest: {:.3g} times the weight of the whole robot ({:.4g} kg) at "
+                            "a distance of its extent ({:.3g} m), but at most {:g} times is possible",
+                            s.robot->joints[j].name, most[j], kMost * times, s.robot->mass, edge, kMost)});
   }
   return found;
 }
@@ -193,9 +193,9 @@ std::vector<Impossible> impossible_powers(const Scenario& s) {
     const double power = power_of(motors, nullptr) / mass;
     if (!(mass > 0) || !(power > kMost)) continue;
     found.push_back(
-        {power / kMost, fmt::format("{:.3g} W of the motors of module m{} of {:.4g} kg: {:.3g} W/kg, and no motor has "
-                                    "more than {:g}",
-                                    power * mass, module, mass, power, kMost)});
+        {power / kMost, fmt::format("the motors of module m{} ({:.4g} kg) have {:.3g} W: {:.3g} W/kg, but no motor has more "
+                                    "than {:g} W/kg",
+                                    module, mass, power * mass, power, kMost)});
   }
   return found;
 }
@@ -222,7 +222,7 @@ std::vector<Finding> voltages(const Subject& subject) {
   return each_setting(
       subject.scenario, subject.scenario.actuator, "actuator", "voltage",
       [](const std::string& name, double value, std::size_t) {
-        return fmt::format("the data of the motor of {} hold at {} V", name, number_text(value));
+        return fmt::format("the data of the motor of {} are for {} V", name, number_text(value));
       },
       [](double value, std::size_t) { return value; });
 }
@@ -236,7 +236,7 @@ std::vector<Finding> supplies(const Subject& subject) {
   return each_setting(
       s, s.actuator, "actuator", "u_max",
       [&](const std::string& name, double value, std::size_t j) {
-        return fmt::format("the supply of the motor of {} is {} V, and its data hold at {} V", name, number_text(value),
+        return fmt::format("the supply of the motor of {} is {} V, but its data are for {} V", name, number_text(value),
                            number_text(data->value[j]));
       },
       [&](double value, std::size_t j) { return value > 0 ? value / data->value[j] : 1; });
@@ -272,8 +272,10 @@ std::vector<Finding> rotors(const Subject& subject) {
   return each_setting(
       s, s.actuator, "actuator", "rotor_inertia",
       [&](const std::string& name, double value, std::size_t j) {
-        return fmt::format("rotor_inertia of {} is {} kg m^2 at the joint, so that the motor alone takes {:.3g} s to its speed",
-                           name, number_text(value), time(value, j));
+        return fmt::format(
+            "rotor_inertia of {} is {} kg m^2 at the joint, so that the motor alone takes {:.3g} s to reach its "
+            "speed",
+            name, number_text(value), time(value, j));
       },
       time);
 }
@@ -310,7 +312,7 @@ std::vector<PlausibleNumber> plausible_motors() {
       {"stall torque",
        0,
        60,
-       "expected at most 60",
+       "expected at most 60 times",
        {{"is it in kgf cm", of_kgf_cm}, {"is it in N cm", of_centi}, {"is it in mN m", of_milli}},
        {},
        stall_torques,
@@ -331,11 +333,11 @@ std::vector<PlausibleNumber> plausible_motors() {
        1,
        impossible_powers},
       {"voltage", 0.5, 1000, "expected 0.5 to 1000 V", {{"is it in mV", of_milli}}, {}, voltages},
-      {"supply", 0.3, 3, "expected 0.3 to 3 times that", {}, {"voltage"}, supplies},
+      {"supply", 0.3, 3, "expected 0.3 to 3 times the voltage of its data", {}, {"voltage"}, supplies},
       {"continuous current",
        0,
        1,
-       "expected less than that",
+       "expected less than the current at rest",
        {{"is it in mA", of_milli}},
        {"voltage", "supply", "stall torque"},
        continuous_currents,
@@ -344,7 +346,7 @@ std::vector<PlausibleNumber> plausible_motors() {
       {"largest current",
        0,
        30,
-       "expected at most 30 times that",
+       "expected at most 30 times the current at rest",
        {{"is it in mA", of_milli}},
        {"voltage", "supply", "stall torque"},
        largest_currents,

@@ -120,7 +120,7 @@ TEST_F(Csv, SaysWhereAndWhat) {
   EXPECT_EQ(complaint("t,,a\n"), "1:3: error: empty column name");
   EXPECT_EQ(complaint("t,\n"), "1:3: error: empty column name");
   EXPECT_EQ(complaint("\n0\n"), "1:1: error: empty column name");
-  EXPECT_EQ(complaint("t,\"a\n0,1\n"), "1:3: error: the quoted column name does not end");
+  EXPECT_EQ(complaint("t,\"a\n0,1\n"), "1:3: error: the quoted column name has no closing quote");
   EXPECT_EQ(complaint("t,\"a\"b\n"), "1:6: error: expected a comma after the quoted column name");
   EXPECT_EQ(complaint("t,a\n0,1\n0.1\n"), "3:4: error: 1 cells, expected 2");
   EXPECT_EQ(complaint("t,a\n0,1,2\n"), "2:5: error: more than 2 cells");
@@ -130,7 +130,7 @@ TEST_F(Csv, SaysWhereAndWhat) {
   EXPECT_EQ(complaint("t,a\n0, 1\n"), "2:3: error: \" 1\" is not a number");
   EXPECT_EQ(complaint("t,a\n0,\"1\"\n"), "2:3: error: \"\"1\"\" is not a number");
   EXPECT_EQ(complaint("t,a\n0,1e400\n"), "2:3: error: 1e400 is outside the range of a double");
-  EXPECT_EQ(complaint("t,a\n0,1\n0.1,1.2"), "3:8: error: the last line does not end: the file is truncated");
+  EXPECT_EQ(complaint("t,a\n0,1\n0.1,1.2"), "3:8: error: the last line has no line end: the file is truncated");
 }
 
 TEST_F(Csv, SaysThatAFileCannotBeRead) {

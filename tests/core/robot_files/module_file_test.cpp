@@ -56,7 +56,7 @@ TEST_F(ModuleFileTest, KeysAndVersion) {
   EXPECT_EQ(error("gaitlab_module: 1", "gaitlab_module: 4"),
             "DIR/m.yaml:1:17: error: gaitlab_module is 4; expected 1, the only format version");
   EXPECT_EQ(error("name: duo", "name: my duo"),
-            "DIR/m.yaml:2:7: error: name 'my duo' is not allowed; expected letters, digits, _ and -");
+            "DIR/m.yaml:2:7: error: name 'my duo' is not allowed; expected letters, digits, `_` and `-`");
   EXPECT_EQ(error("mass: 0.5", "mas: 0.5"), "DIR/m.yaml:6:5: error: unknown key 'mas'; did you mean 'mass'?");
   EXPECT_EQ(error("range: [-1.5, 1.5]", "range: [-1.5, .inf]"),
             "DIR/m.yaml:12:89: error: range[1] is .inf; expected a finite number in rad");
@@ -266,7 +266,7 @@ TEST_F(ModuleFileTest, Faces) {
 
 TEST_F(ModuleFileTest, ShapesAndContacts) {
   EXPECT_EQ(error("{box: [0.1, 0.1, 0.1]}", "{box: [0.1, 0.1, 0.1], sphere: 1}"),
-            "DIR/m.yaml:10:9: error: the shape has 2 of box, cylinder, half_cylinder and sphere; expected one");
+            "DIR/m.yaml:10:9: error: the shape has 2 of box, cylinder, half_cylinder and sphere; expected exactly one of them");
   EXPECT_EQ(error("{box: [0.1, 0.1, 0.1]}", "{half_cylinder: [0.1, 0]}"),
             "DIR/m.yaml:10:31: error: half_cylinder[1] is 0 m; expected more than 0 m");
   EXPECT_EQ(error("sphere: [0, 0, 0], radius: 0.1", "sphere: [0, 0, 0]"), "DIR/m.yaml:18:9: error: missing key 'radius'");

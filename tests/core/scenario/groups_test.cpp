@@ -65,8 +65,8 @@ TEST_F(GroupsTest, WrongGroups) {
   EXPECT_EQ(error(with("{m0/h: [m1/h]}")),
             "DIR/s.yaml:5:10: error: 'm0/h' is the name of a joint; expected another name for the group");
   EXPECT_EQ(error(with("{default: [m1/h]}")),
-            "DIR/s.yaml:5:10: error: 'default' is not a name of a group; expected a letter, then letters, digits, _ and -, and "
-            "not default");
+            "DIR/s.yaml:5:10: error: 'default' is not a name of a group; expected a letter, then letters, digits, `_` and `-`, "
+            "but not `default`");
   EXPECT_EQ(error(with("{none: []}")), "DIR/s.yaml:5:16: error: group 'none' has no joint");
   EXPECT_EQ(error(with("{a: {b: 1}}")),
             "DIR/s.yaml:5:13: error: group a is a map; expected joints: [m3/hinge, \"m[4-6]/hinge\"]");

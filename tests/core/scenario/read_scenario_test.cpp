@@ -78,12 +78,14 @@ TEST_F(ScenarioTest, UnknownKeysBeyondThoseThatArePrintedGetNoOffer) {
 TEST_F(ScenarioTest, VersionAndName) {
   EXPECT_EQ(error("gaitlab: 2\nfuture: 1\n"), "DIR/s.yaml:1:10: error: gaitlab is 2; expected 1, the only format version");
   EXPECT_EQ(error(kShort + "name: a/b\n"),
-            "DIR/s.yaml:3:7: error: name 'a/b' is not allowed; expected letters, digits, _ . and -, not a . first");
+            "DIR/s.yaml:3:7: error: name 'a/b' is not allowed; expected letters, digits, `_`, `.` and `-`, but no `.` at the "
+            "start");
   EXPECT_EQ(error(kShort + "name: ..\n"),
-            "DIR/s.yaml:3:7: error: name '..' is not allowed; expected letters, digits, _ . and -, not a . first");
+            "DIR/s.yaml:3:7: error: name '..' is not allowed; expected letters, digits, `_`, `.` and `-`, but no `.` at the "
+            "start");
   EXPECT_EQ(folder_.shown(test::message_of([&] { read_scenario(folder_.write("my walk.yaml", kShort), {}, catalog_); })),
-            "DIR/my walk.yaml: error: name 'my walk' is not allowed; expected letters, digits, _ . and -, not a . first (it is "
-            "the file's name; give another with name:)");
+            "DIR/my walk.yaml: error: name 'my walk' is not allowed; expected letters, digits, `_`, `.` and `-`, but no `.` at "
+            "the start (it is the file's name; give another with name:)");
 }
 
 TEST_F(ScenarioTest, AMissingFile) {
@@ -191,10 +193,10 @@ TEST_F(ScenarioTest, APositionOfTwoNumbersKeepsOnGround) {
 
 TEST_F(ScenarioTest, ErrorsOfAPositionNameBothForms) {
   EXPECT_EQ(error("robot: {modules: duo, on_ground: true, position: [0, 0, 1]}\nduration: 1\n"),
-            "DIR/s.yaml:1:50: error: position has a height and on_ground is true; expected [x, y], or no on_ground\n"
+            "DIR/s.yaml:1:50: error: position has a height, but on_ground is true; expected [x, y], or no on_ground\n"
             "DIR/s.yaml:1:34: note: on_ground is here");
   EXPECT_EQ(error("robot: {modules: duo, on_ground: false, position: [0, 1]}\nduration: 1\n"),
-            "DIR/s.yaml:1:51: error: position has no height and on_ground is false; expected [x, y, z], or no on_ground\n"
+            "DIR/s.yaml:1:51: error: position has no height, but on_ground is false; expected [x, y, z], or no on_ground\n"
             "DIR/s.yaml:1:34: note: on_ground is here");
   const std::string forms = "; expected [x, y] (on_ground gives the height) or [x, y, z] (on_ground is off)";
   EXPECT_EQ(error("robot: {modules: duo, position: []}\nduration: 1\n"),

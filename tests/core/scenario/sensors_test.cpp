@@ -109,8 +109,8 @@ TEST_F(SensorsTest, WrongForms) {
   EXPECT_EQ(wrong("sensors: {e: {type: encodr}}"), "DIR/s.yaml:5:21: error: type 'encodr' is unknown; did you mean 'encoder'?");
   EXPECT_EQ(
       wrong("sensors: {1st: {type: encoder}}"),
-      "DIR/s.yaml:5:11: error: '1st' is not a name of a sensor; expected a letter, then letters, digits, _ and -, and not "
-      "type");
+      "DIR/s.yaml:5:11: error: '1st' is not a name of a sensor; expected a letter, then letters, digits, `_` and `-`, but not "
+      "`type`");
   EXPECT_EQ(wrong("sensors: {e: {type: encoder, nose: 1}}"),
             "DIR/s.yaml:5:30: error: unknown key 'nose'; did you mean 'noise'?");
   EXPECT_EQ(wrong("sensors: {b: {type: imu, body: m0/a, gyro: {nose: 1}}}"),

@@ -94,25 +94,27 @@ class Expression:
         return [(group.rpartition("__")[0], kind, match[group]) for group, kind in self.kinds.items() if match[group] is not None]
 
 
-WITHIN = (r"(?:; with the error of the torques (?:{low:pct} to {high:pct}|slightly less or slightly more than {low:pct}) of the limit"
+WITHIN = (r"(?:; with the error of the torques, this is (?:{low:pct} to {high:pct}|slightly less or slightly more than {low:pct}) "
+          r"of the limit"
           r"|; joint {other} takes, with the error of its torque, "
           r"(?:{other_low:pct} to {other_high:pct}|slightly less or slightly more than {other_low:pct}) of its limit)?")
 LIMITED = (r"no joint is at the limit of its (?:voltage|current|actuator)"
-           r"|{parts:d} of {driven:d} joints? reach(?:es)? the limit of (?:its|their) (?:voltage|current|actuator): first {first_part}, "
+           r"|{parts:d} of {driven:d} joints? reach(?:es)? the limit of (?:its|their) (?:voltage|current|actuator): first "
+           r"{first_part}, "
            r"at {first:.2f} s; (?:worst {worst}, )?(?:{share:part} of the judged time, up to {stretch:brief} on end from {from:.2f} s"
            r"|{stretch:brief} on end from {from:.2f} s, (?:more than |of at most ){most:g} control periods \({limit:.3g} s\), "
            r"in all {share:part} of the judged time)")
-NEAR = (r"(?:; joint {near_joint} is within the error of its torque, {error:rough}, of that limit for up to {near:part} of the "
-        r"judged time, {near_on_end:brief} on end)?")
+NEAR = (r"(?:; joint {near_joint} may be at that limit, within the error of its torque \({error:rough}\), for up to {near:part} of "
+        r"the judged time, {near_on_end:brief} on end)?")
 
 
 def dock_sentence(does, unit):
     return (rf"(?:{{worst}}'s dock is {does} by up to {{value:.3g}} {unit}|no dock is {does})"
-            r"(?:; the module types do not state what a dock holds|, {share:pct} of what it holds(?: by a chosen figure)?"
-            r"(?:; {open:d} of {docks:d} docks are not judged: what they hold is not stated)?)" + WITHIN)
+            r"(?:; the module types do not state the largest loads of docks|, {share:pct} of what it holds(?: by a chosen figure)?"
+            r"(?:; {open:d} of {docks:d} docks are not judged: their largest loads are not stated)?)" + WITHIN)
 
 
-HEIGHT = r"(?:its height above the ground at the start|the height of its set points' pose)"
+HEIGHT = r"(?:its height above the ground at the start|its height in the pose of the set points)"
 RESTS = r"{value:.3g} rad beyond its stop, which gives {torque:.3g} N m"
 JUDGED = {
     "outcome": r"the run came to its end|(?s:.+)",
@@ -127,13 +129,14 @@ JUDGED = {
     "voltage": f"(?:{LIMITED})" + NEAR,
     "current": f"(?:{LIMITED})" + NEAR,
     "envelope": r"the torque of joint {worst} is {value:pct} of its (?:motor|actuator)'s limit at that speed",
-    "speed": r"joint {worst} turns at up to {value:.3g} rad/s of {limit:.3g} rad/s(?:, more than it is rated for|, faster than its "
-             r"motor can drive it: the load does)?",
-    "stall": r"no driven joint rests|joint {worst} at rest: stall {limit:.3g} N m, held {value:.3g} N m(?: for 0\.1 s from "
+    "speed": r"joint {worst} turns at up to {value:.3g} rad/s \(limit {limit:.3g} rad/s\)(?:, more than it is rated for|, faster "
+             r"than its motor can drive it: the load drives it)?",
+    "stall": r"no driven joint rests|joint {worst} has a stall torque of {limit:.3g} N m and holds {value:.3g} N m at rest(?: for "
+             r"0\.1 s from "
              r"{from:.2f} s)?" + WITHIN,
     "heat": r"the motor of joint {worst} takes {value:.3g} A RMS, {share:pct} of its continuous rating" + WITHIN,
-    "gear_peak": r"the gear of joint {worst} passes on up to {value:.3g} N m of {limit:.3g} N m" + WITHIN,
-    "gear_continuous": r"the gear of joint {worst} takes {value:.3g} N m RMS of {limit:.3g} N m" + WITHIN,
+    "gear_peak": r"the gear of joint {worst} passes on up to {value:.3g} N m \(rated {limit:.3g} N m\)" + WITHIN,
+    "gear_continuous": r"the gear of joint {worst} takes {value:.3g} N m RMS \(rated {limit:.3g} N m\)" + WITHIN,
     "tracking": r"joint {worst} is up to {value:th} rad from its set point",
     "stops": r"no joint leaves its range"
              r"|no joint with a motor leaves its range; {worst} without a motor is up to " + RESTS +
@@ -151,47 +154,54 @@ JUDGED = {
     "dock_bending": dock_sentence("bent", "N m"),
     "dock_torsion": dock_sentence("twisted", "N m"),
     "in_ground": r"no body goes through the ground|body {worst} goes {value:length} into the ground",
-    "slip": r"no foot slides under load|under load the weight slides {slip:length}, {value:pct} of the way of {way:length}; "
+    "slip": r"no foot slides under load|feet under load slide {slip:length} on average, {value:pct} of the way of {way:length}; "
             r"farthest foot {foot:words}, {slid:length}",
     "airborne": r"the ground carries less than {weight:pct} of the weight for {value:pct} of the judged time",
-    "stability": r"a note: no foot bears a load for {aloft:pct} of the time; else the centre of mass stays {way:length} within the "
+    "stability": r"a note: no foot bears a load for {aloft:pct} of the time; otherwise the centre of mass stays {way:length} within "
+                 r"the "
                  r"support polygon|statically stable: the centre of mass stays {way:length} within the support polygon"
-                 r"|a note: the centre of mass comes {way:length} out of the support polygon, and is out of it {outside:pct} of the "
-                 r"time on the ground, as it may be in a dynamic gait",
+                 r"|a note: the centre of mass leaves the support polygon by up to {way:length} and is outside for {outside:pct} of "
+                 r"the time on the ground, as may happen in a dynamic gait",
     "field": r"the robot stays on its heightfield|the robot leaves its heightfield at t = {t:.2f} s, x {x:.3g} m, y {y:.3g} m: "
              r"beyond it the heights of the border continue",
-    "periodic": r"the motion repeats every {period:.4g} s|the set points repeat, and the motion does not settle to a period",
-    "evidence": r"judged over (?:{periods:d} periods? of {period:.4g} s|{inside:.3g} periods of {period:.4g} s(?: after {start:.3g} s)?; the motion does "
-                r"not settle|these {simulated:.3g} s; the set points do not repeat)(?:; not known: {unknown:words})?"
+    "periodic": r"the motion repeats every {period:.4g} s|the set points repeat, but the motion does not settle to a period",
+    "evidence": r"judged over (?:{periods:d} periods? of {period:.4g} s|{inside:.3g} periods of {period:.4g} s(?: after {start:.3g} "
+                r"s)?; the motion does "
+                r"not settle|the {simulated:.3g} s of the run; the set points do not repeat)(?:; not known: {unknown:words})?"
                 r"(?:; limits: {limits:words})?(?:; accepted: {accepted:words})?",
-    "torque_error": r"the torque of joint {worst} is off by about {value:rough} of its peak, estimated from other steps(?: in windows; "
+    "torque_error": r"the torque of joint {worst} is off by about {value:rough} of its peak, estimated by comparison with other step lengths(?: in windows of the run; "
                     r"`gaitlab converge` compares whole runs)?",
     "predictable": r"(?:from t = {from:.4g} s on \(joint {worst}\) the motion is (?:not predictable|ill-conditioned): )?gravity times "
                    r"{times:words} changes the torques by (?:about )?{value:rough} of their peak"
-                   r"(?: \(in proportion to 1 \+ 1e-9\))?(?:; of {rollouts:d} rollouts that differ by next "
-                   r"to nothing the torque peaks at {low_peak:.3g}(?: to {high_peak:.3g})? N m \(RMS {low_rms:.3g}(?: to {high_rms:.3g})?\), the "
-                   r"travel is {low_way:length}(?: to {high_way:length})?, the least margin (?:{low_margin:pct}(?: to {high_margin:pct})?|no number))?",
-    "creep": r"feet that hold creep {crept:length}, {value:pct} of the travel of {way:length}"
+                   r"(?: \(in proportion to 1 \+ 1e-9\))?(?:; in {rollouts:d} rollouts that differ by next to nothing, the torque "
+                   r"peaks at {low_peak:.3g}(?: to {high_peak:.3g})? N m \(RMS {low_rms:.3g}(?: to {high_rms:.3g})?\), the travel "
+                   r"is {low_way:length}(?: to {high_way:length})? and the least margin is (?:{low_margin:pct}(?: to "
+                   r"{high_margin:pct})?|no number))?",
+    "creep": r"where a real ground would hold the feet, they creep {crept:length}, {value:pct} of the travel of {way:length}"
              r"(?:; contact\.slip_speed: {half:.3g} would halve it)?",
     "ledger": r"{value:pct} of the energy is unaccounted for(?:: {missing:.3g} J, of {drawn:.3g} J drawn)?",
     "created": r"gears that are driven backwards create {value:pct} of the energy \(eq\. 2\)"
                r"(?:; take actuator\.efficiency_model: directional)?",
     "supply": r"the motors draw {value:.3g} J|the motors gave {gave:.3g} J back to their supply instead of drawing any, so that the "
               r"cost of transport is negative: the robot went down, or a motor makes energy",
-    "step": r"the step is too long in {value:pct} of the control ticks|in {value:pct} of the control ticks",
+    "step": r"the step is too long in {value:pct} of the control ticks|h lambda exceeds 1 in {value:pct} of the control ticks",
     "coarse": r"in {value:rough} of the time the shortest steps of the integrator did not reach the accuracy {accuracy:rough}"
               r"(?:: the result depends on the steps, and smaller steps may not change this)?",
-    "law": r"every joint-step ends on the law of its motor and stop|{value:.0f} joint-steps ended off the law of their motor or "
-           r"stop: the torques there are wrong",
+    "law": r"every joint-step satisfies the law of its motor and stop|{value:.0f} joint-steps do not satisfy the law of their motor "
+           r"or stop: their torques are wrong",
 }
 # Sentences on missing evidence: of the check `evidence`, and of a verdict that is not judged.
-MISSING = (r"{left:.3g} s(?: after {start:.3g} s)? are {held:.2g} of a gait's 3 periods of {period:.4g} s; take duration: {take:.4g}"
-           r"|the set points still grow: they have their full size at {full_at:.4g} s of {simulated:.4g}; take (?:duration: {take_full:.4g}"
+MISSING = (r"{left:.3g} s(?: after {start:.3g} s)? contain only {held:.2g} of the 3 periods of {period:.4g} s that a gait needs; "
+           r"take duration: {take:.4g}"
+           r"|the set points still grow: they reach their full size at {full_at:.4g} s, but the run ends at {simulated:.4g} s; take "
+           r"(?:duration: {take_full:.4g}"
            r"|another rate)|the set points still grow: those of joint .*"
-           r"|the set points {way}: the {level} of joint {grower} changes by {by:.2g} rad per period of {each:.3g} s, of a range of {width:.3g}"
-           r"|{power:.3g} W of the motors of module {powerful} of {heavy:.4g} kg: {density:.3g} W/kg, and no motor has more than 1500"
-           r"(?: \(and {weaker:d} more\))?; state physics that can be, or accept: \[power\]"
-           r"|{simulated:.3g} s are less than {least:g} s; take a longer duration"
+           r"|the set points {way}: the {level} of joint {grower} changes by {by:.2g} rad per period of {each:.3g} s, with a range "
+           r"of {width:.3g} rad"
+           r"|the motors of module {powerful} \({heavy:.4g} kg\) have {power:.3g} W: {density:.3g} W/kg, but no motor has more than "
+           r"1500 W/kg"
+           r"(?: \(and {weaker:d} more\))?; give values that are physically possible, or accept: \[power\]"
+           r"|the run of {simulated:.3g} s is shorter than the required {least:g} s; take a longer duration"
            r"|the ground carries {borne:pct} of the weight on average, less than {half:pct}: the robot is not on it"
            r"|there is no gravity, so that no ground bears the robot(?:; take physics\.gravity, or base: fixed)?"
            r"|the robot falls freely: (?:there is no ground(?:; take base: fixed, or a ground)?"
@@ -200,7 +210,8 @@ MISSING = (r"{left:.3g} s(?: after {start:.3g} s)? are {held:.2g} of a gait's 3 
            r"|no set point changes(?: after {full:.3g} s)?: (?:cpg {cpg} moves no joint|there is no cpg)"
            r"(?:; check its frequency, amplitudes, frames or equations)?"
            r"|the torque of joint {inaccurate} is off by about {off:rough} of its peak, more than {most:pct}; take .*"
-           r"|from t = {parted:.4g} s on \(joint {unpredictable}\) the motion is not predictable: gravity times {times:words} changes the "
+           r"|from t = {parted:.4g} s on \(joint {unpredictable}\) the motion is not predictable: gravity times {times:words} "
+           r"changes the "
            r"torques by {change:rough} of their peak; .*"
            r"|the error of the torques is not estimated; take physics\.estimate: full"
            r"|{residual:pct} of the energy is unaccounted for, more than {kept:pct}; take .*"
@@ -216,24 +227,25 @@ NOT_JUDGED = (
     r"|the base rolls: it makes a whole turn in every period"
     r"|the robot turns over at {over:.2f} s, and the run is too short to show whether it rolls"
     r"|nothing drives the joints(?:, or statistics of all steps were not recorded)?"
-    r"|the actuator (?:is not made of DC motors, and has no (?:voltage|stall torque)|states no limit|has torque at any speed, and states no "
+    r"|the actuator (?:is not made of DC motors, and has no (?:voltage|stall torque)|states no limit|has torque at any speed, and "
+    r"states no "
     r"largest speed)"
     r"|no (?:continuous current of the motors|(?:largest|continuous) torque of the gears) is stated \(actuator\.\w+\)"
     r"|the solver of contact\.law bullet keeps bodies apart and above the ground|no body has a shape, or the run has no poses"
-    r"|{shaped:d} of {bodies:d} bodies have a shape|the start pose has its centre of mass in the ground"
+    r"|{shaped:d} of {bodies:d} bodies have a shape|the centre of mass is in the ground in the start pose"
     r"|judged only (?:above a ground|on a heightfield|on a plane without boxes)|the robot starts beside its heightfield"
     r"|the robot has no dock|no foot bears a load"
     r"|not available with contact\.law: bullet, which yields impulses that do not all act at contact elements"
-    r"|the robot goes {way:length}: less than {least_way:length} is not walking"
+    r"|the robot goes only {way:length}: less than {least_way:length} does not count as walking"
     r"|the robot goes {value:.3g} m (?:per period|in the judged time), less than {limit:.3g} m"
     r"|the set points do not repeat|the run does not show the gait|the error of the torques was not estimated in this run"
     r"|not tested: (?:no rollout under a disturbed gravity was made|a disturbed gravity changes no torque of this robot)"
     r"|the integrator does not choose its steps by an accuracy|no damping rate \(lambda\) was recorded"
     r"|loads were not recorded: .*|statistics of all steps were not recorded: .*|the robot has no size, or the run has no control "
     r"ticks")
-SPREAD = (r"(?:; the motion is not predictable: of {rollouts:d} rollouts that differ by next to nothing "
-          r"(?:the margin is {margin_low:pct} to {margin_high:pct}|{without:d} cannot be judged by this))?")
-CERTAIN = r"(?:; certain, though torques are off by up to about {off_by:rough})?"
+SPREAD = (r"(?:; the motion is not predictable: in {rollouts:d} rollouts that differ by next to nothing, "
+          r"(?:the margin is {margin_low:pct} to {margin_high:pct}|this check cannot judge {without:d} of them))?")
+CERTAIN = r"(?:; this is certain, although torques are off by up to about {off_by:rough})?"
 EXPRESSIONS = {check: Expression(text if check == "outcome" else f"(?:{text}){SPREAD}{CERTAIN}") for check, text in JUDGED.items()}
 WHY_NOT = Expression(NOT_JUDGED)
 LACKS = Expression(MISSING)

@@ -196,7 +196,7 @@ def changed_limits(record):
     """Limits that are not the defaults, in words."""
     def number(value):
         return repr(float(value)).removesuffix(".0") if abs(value) < 1e15 else repr(value)
-    return "; ".join(f"{key} {number(record.limits[key])}{UNITS.get(key, '')} of the scenario, {'%.4g' % preset} by default"
+    return "; ".join(f"{key} {number(record.limits[key])}{UNITS.get(key, '')} in the scenario, {'%.4g' % preset} by default"
                      for key, preset in LIMITS.items() if record.limits[key] != preset)
 
 

@@ -18,7 +18,7 @@ CAN_FAIL = {"outcome", "fall", "progress", "upright", "voltage", "current", "spe
 
 # Kinds of missing evidence, and words of their sentences.
 LACK = {"makes energy": ["makes energy"], "moves nothing": ["moves no joint", "there is no cpg"], "grows": ["the set points "], "torque error": ["the torque of joint"],
-        "energy": ["the energy is unaccounted"], "coarse": ["the shortest steps"], "short": ["a gait's", "are less than"],
+        "energy": ["the energy is unaccounted"], "coarse": ["the shortest steps"], "short": ["that a gait needs", "shorter than the required"],
         "not on it": ["the robot is not on it"], "no gravity": ["there is no gravity"], "falls freely": ["falls freely"]}
 INSTANT = 0.1  # an interval shorter than this is reported by its start, s
 

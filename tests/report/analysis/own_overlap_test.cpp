@@ -143,8 +143,8 @@ duration: 1
   const std::vector<Warning> notes = setup_warnings(s);
   EXPECT_TRUE(std::ranges::any_of(notes, [](const Warning& note) {
     return !note.severe && note.text ==
-                               "bodies trunk and leg of dog are 10 mm in one another with all hinges at 0: only "
-                               "more than 14.1 mm is a collision";
+                               "bodies trunk and leg of dog overlap by 10 mm with all hinges at 0: only more than 14.1 mm "
+                               "counts as a collision";
   }));
 }
 

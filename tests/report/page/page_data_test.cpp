@@ -160,7 +160,7 @@ TEST(PageData, OfALargeHeightfieldSaysWhichHeightsAreDrawn) {
   const std::string file = folder.write("flat.txt", rows);
   const Scenario s = shipped("pendulum.yaml", {"duration=0.02", "ground.type=heightfield", "ground.heightfield.file=" + file});
   const Opened page(data_of(s, run(s)));
-  EXPECT_EQ(page.meta["missing"].back(), "one height of every 2 in x and in y is drawn; the robot walked on all");
+  EXPECT_EQ(page.meta["missing"].back(), "only one height in 2 along x and y is drawn; the robot walked on all heights");
   EXPECT_EQ(page.meta["ground"]["heightfield"]["ny"], 101);
 }
 

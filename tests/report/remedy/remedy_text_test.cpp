@@ -80,8 +80,8 @@ TEST(RemedyText, NamesSettingsThatDoNotHelp) {
   interrupted.interrupted = true;
   interrupted.runs = 7;
   EXPECT_EQ(lines_of(interrupted), (Lines{"no i_max from a fifth to five times the present value makes it feasible alone",
-                                          "interrupted after 7 runs, which show the above; not tried to the end: larger u_max "
-                                          "and i_max together"}));
+                                          "interrupted after 7 runs, on which the lines above rest; not tried to the end: "
+                                          "larger u_max and i_max together"}));
 }
 
 }  // namespace

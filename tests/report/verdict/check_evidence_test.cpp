@@ -240,7 +240,7 @@ TEST(CheckEvidence, AnErrorBarWhoseEndsArePrintedAlike) {
   made.worst = "m1";
   widen(rated_gait().scenario, bars, made);
   EXPECT_EQ(made.status, CheckStatus::too_close);
-  EXPECT_EQ(made.text, "; with the error of the torques slightly less or slightly more than 100 % of the limit");
+  EXPECT_EQ(made.text, "; with the error of the torques, this is slightly less or slightly more than 100 % of the limit");
 }
 
 /// If the ground does not carry the robot, this is reported first, with the setting that causes it, because neither a longer

@@ -23,7 +23,7 @@ TEST(Decision, AFailureBeyondTheErrorDecides) {
   const Verdict surely = with(0.085, 12 - 0.12 * window);
   EXPECT_EQ(surely.word, Word::infeasible) << surely.why();
   EXPECT_EQ(surely.decided_by, "voltage");
-  EXPECT_TRUE(contains(surely.why(), "; certain, though torques are off by up to about 8.5 %")) << surely.why();
+  EXPECT_TRUE(contains(surely.why(), "; this is certain, although torques are off by up to about 8.5 %")) << surely.why();
   const Verdict perhaps = with(0.085, 12 - 0.105 * window);
   EXPECT_EQ(perhaps.word, Word::not_judged);
   EXPECT_TRUE(contains(perhaps.why(),
@@ -88,7 +88,7 @@ TEST(Decision, AllLacksAreNamed) {
   const Verdict verdict = made.judged();
   EXPECT_EQ(verdict.word, Word::not_judged);
   EXPECT_TRUE(contains(verdict.reason.text,
-                       "take physics.accuracy: 0.0005; and 4 s are 1 of a gait's 3 periods of 4 s; take "
+                       "take physics.accuracy: 0.0005; and 4 s contain only 1 of the 3 periods of 4 s that a gait needs; take "
                        "duration: 12; so far: joint "))
       << verdict.reason.text;
   EXPECT_EQ(verdict.retry, (std::vector<std::string>{"physics.accuracy=0.0005", "duration=12"}));

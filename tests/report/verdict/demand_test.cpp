@@ -89,7 +89,7 @@ TEST(Demand, SaysWhatMakesItDoubtful) {
   EXPECT_EQ(thrown.doubt, "without motor limits the robot is thrown up, so that these torques do not belong to the gait");
   const Demand limited = demand(twin({"actuator.i_max=0.005"}), weak.record, weak.summary);
   EXPECT_TRUE(limited.known);
-  EXPECT_EQ(limited.doubt, "the gait reaches even 20 times these limits: it needs more");
+  EXPECT_EQ(limited.doubt, "the gait reaches the motor limits even if they are 20 times as large: it needs more than that");
   const Scenario wild = scenario(
       "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 0.2\n"
       "cpg: {type: equations, model: {states: {phi: exp(700)*exp(700)}, output: phi}}\n");

@@ -69,7 +69,7 @@ TEST(Earned, AGearThatBreaksAtTheLanding) {
 TEST(Earned, APieceOfAPeriod) {
   const Told brief(shipped("hexapod.yaml", {"physics.engine=articulated", "duration=0.05"}));
   EXPECT_EQ(brief.made.word, Word::not_judged);
-  EXPECT_EQ(brief.made.why(), "0.05 s are 0.025 of a gait's 3 periods of 2 s; take duration: 6");
+  EXPECT_EQ(brief.made.why(), "0.05 s contain only 0.025 of the 3 periods of 2 s that a gait needs; take duration: 6");
   // The remedy, a longer run, makes the run feasible.
   EXPECT_EQ(Told(shipped("hexapod.yaml", {"physics.engine=articulated", "duration=6"})).made.word, Word::feasible);
 }
@@ -263,14 +263,14 @@ TEST(Earned, FramesPlayedOnce) {
   EXPECT_EQ(quick.made.word, Word::infeasible);
   const Told slow = bend(2);
   EXPECT_EQ(slow.made.word, Word::feasible) << slow.made.why();
-  EXPECT_EQ(slow.made.rests_on, "these 20 s; the set points do not repeat");
+  EXPECT_EQ(slow.made.rests_on, "the 20 s of the run; the set points do not repeat");
 }
 
 /// Wheels have no period, also if the settings contain a frequency that their CPG does not use. They are judged after 2 s.
 TEST(Earned, WheelsAreJudgedAfterTwoSeconds) {
   const auto drive = [](const char* duration) { return Told(shipped("library/linkbot-drive.yaml", {duration})).made; };
   EXPECT_EQ(drive("duration=6").word, Word::feasible) << drive("duration=6").why();
-  EXPECT_EQ(drive("duration=6").rests_on, "these 6 s; the set points do not repeat");
+  EXPECT_EQ(drive("duration=6").rests_on, "the 6 s of the run; the set points do not repeat");
   EXPECT_EQ(drive("duration=3").word, Word::feasible) << drive("duration=3").why();
   EXPECT_EQ(drive("duration=1").word, Word::not_judged);
 }
@@ -281,7 +281,8 @@ TEST(Earned, FramesThatRepeatHaveTheirPeriod) {
       shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=3", "cpg.type=keyframes",
                                    "cpg.model.frames=[{time: 0, angles: 0}, {time: 0.8, angles: 0.2}, {time: 2, angles: 0}]"}));
   EXPECT_EQ(brief.made.word, Word::not_judged);
-  EXPECT_TRUE(contains(brief.made.why(), "3 s are 1.5 of a gait's 3 periods of 2 s; take duration: 6")) << brief.made.why();
+  EXPECT_TRUE(contains(brief.made.why(), "3 s contain only 1.5 of the 3 periods of 2 s that a gait needs; take duration: 6"))
+      << brief.made.why();
 }
 
 /// A base that turns over at every hop, by the angles of its hinges, does not count as rolling, nor the robot as turned over.

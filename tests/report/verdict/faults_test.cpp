@@ -65,7 +65,8 @@ TEST(FaultVerdict, TheOtherJointsDecide) {
 TEST(FaultVerdict, NeedsThreePeriodsAfterTheLastChange) {
   const JudgedRun short_run({"duration=18", "at=[{t: 10, fault: {joint: m3/active, kind: dead}}]"});
   EXPECT_EQ(short_run.judged.word, Word::not_judged);
-  EXPECT_EQ(short_run.judged.reason.text, "8 s after 10 s are 2 of a gait's 3 periods of 4 s; take duration: 22");
+  EXPECT_EQ(short_run.judged.reason.text,
+            "8 s after 10 s contain only 2 of the 3 periods of 4 s that a gait needs; take duration: 22");
   const JudgedRun changed({"duration=18", "at=[{t: 10, set: {cpg.frequency: 0.5}}]"});
   EXPECT_EQ(changed.judged.word, Word::feasible) << changed.judged.why();
   EXPECT_NEAR(changed.summary.limit_cycle.period, 2, 0.01);

@@ -138,13 +138,14 @@ TEST(PositionLoop, IsALineOfCheck) {
     const Scenario s = shipped("caterpillar.yaml", sets);
     return loop_text(s, position_loops(s));
   };
-  EXPECT_EQ(text({}),
-            "k = 38.2 N m/rad at every joint (Kp 100 V/rad); settles up to 116.1 N m/rad (Kp 304 V/rad) with commands every "
-            "0.015 s");
   EXPECT_EQ(
-      text({"controller.Kp={default: 100, m3/active: 50}"}),
-      "k = 19.1 to 38.2 N m/rad; k = 38.2 N m/rad at m0/active (Kp 100 V/rad); settles up to 116.1 N m/rad (Kp 304 V/rad) with "
-      "commands every 0.015 s");
+      text({}),
+      "k = 38.2 N m/rad at every joint (Kp 100 V/rad); the loop settles up to 116.1 N m/rad (Kp 304 V/rad) with commands every "
+      "0.015 s");
+  EXPECT_EQ(text({"controller.Kp={default: 100, m3/active: 50}"}),
+            "k = 19.1 to 38.2 N m/rad; k = 38.2 N m/rad at m0/active (Kp 100 V/rad); the loop settles up to 116.1 N m/rad (Kp "
+            "304 V/rad) with "
+            "commands every 0.015 s");
   EXPECT_EQ(text({"actuator.Ks=0"}), "k = 38.2 N m/rad at every joint (Kp 100 V/rad)") << "no back-EMF, no bound";
   EXPECT_TRUE(contains(text({"sensors={type: encoder, period: 0.03, delay: 0.03}"}),
                        "commands every 0.015 s, angles every 0.03 s, angles up to 0.03 s old"));

@@ -39,9 +39,10 @@ void expect_not_judged(const Verdict& made, const std::string& reason) {
 
 /// The duration of the growth follows from a key: the ramp or the rate.
 TEST(Shown, SetPointsThatGrow) {
-  expect_not_judged(verdict_of(shipped("hexapod.yaml", {"physics.engine=articulated", "duration=6", "cpg.frequency=1",
-                                                        "cpg.amplitude=0.8", "cpg.model.ramp=60"})),
-                    "the set points still grow: they have their full size at 60 s of 6; take duration: 63");
+  expect_not_judged(
+      verdict_of(shipped("hexapod.yaml", {"physics.engine=articulated", "duration=6", "cpg.frequency=1", "cpg.amplitude=0.8",
+                                          "cpg.model.ramp=60"})),
+      "the set points still grow: they reach their full size at 60 s, but the run ends at 6 s; take duration: 63");
   expect_not_judged(snake({"cpg.model.ramp=30"}), "at 30 s of 6; take duration: 33");
   expect_not_judged(caterpillar({"cpg.model.amplitude_rate=0.005"}), "at 782.4 s of 16;");
   expect_not_judged(caterpillar({"cpg={type: kuramoto_amplitude, frequency: 1, model: {amplitude_rate: 0.5}}"}),
@@ -83,9 +84,9 @@ TEST(Shown, StepsDoNotDrift) { EXPECT_NE(equation("0.2*sign(sin(2*pi*u/0.97 + in
 TEST(Shown, APeriodLongerThanTheRun) {
   const std::string frames =
       "cpg={type: keyframes, model: {frames: [{time: 0, angles: 0}, {time: 500, angles: 0.3}, {time: 1000, angles: 0}]}}";
-  expect_not_judged(caterpillar({frames}), "16 s are 0.016 of a gait's 3 periods of 1000 s");
-  expect_not_judged(snake({frames}), "6 s are 0.006 of a gait's 3 periods of 1000 s");
-  expect_not_judged(caterpillar({"cpg.frequency=0.01"}), "of a gait's 3 periods of 100 s");
+  expect_not_judged(caterpillar({frames}), "16 s contain only 0.016 of the 3 periods of 1000 s that a gait needs");
+  expect_not_judged(snake({frames}), "6 s contain only 0.006 of the 3 periods of 1000 s that a gait needs");
+  expect_not_judged(caterpillar({"cpg.frequency=0.01"}), "of the 3 periods of 100 s that a gait needs");
   expect_not_judged(equation("0.4*sin(0.002*pi*u + index)", "8"), "the set points still grow");
 }
 
@@ -100,7 +101,7 @@ TEST(Shown, NoSetPointChanges) {
 /// A chirp passes through a period with which a longer run would seem to repeat.
 TEST(Shown, AChirpDoesNotRepeat) {
   const Verdict made = equation("0.1*sin(2*pi*(0.5*u + 0.01*u*u) + index)");
-  EXPECT_EQ(made.rests_on, "these 20 s; the set points do not repeat");
+  EXPECT_EQ(made.rests_on, "the 20 s of the run; the set points do not repeat");
   EXPECT_EQ(made.from, 0);
 }
 

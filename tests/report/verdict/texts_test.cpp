@@ -62,11 +62,11 @@ TEST(VerdictManual, HasNoTwoBlankLinesAndStaysInItsColumns) {
   for (const CheckKind& kind : check_kinds()) check(explain_check(kind), 80);
   const std::string speed =
       "speed: Speed within reach\n"
-      "  value    largest speed, over all steps: in the window against the speed at\n"
-      "           which the actuator has no torque left, in the whole run against the\n"
-      "           rated one, rad/s\n"
+      "  value    largest speed, over all steps: in the window, compared with the\n"
+      "           speed at which the actuator has no torque left; in the whole run,\n"
+      "           with the rated speed, rad/s\n"
       "  over     the judged window\n"
-      "  fails    above that speed\n";
+      "  fails    above the speed limit\n";
   const auto kind = std::ranges::find_if(check_kinds(), [](const CheckKind& one) { return std::string(one.id) == "speed"; });
   EXPECT_EQ(explain_check(*kind).substr(0, speed.size()), speed);
 }

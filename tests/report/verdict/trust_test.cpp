@@ -55,12 +55,12 @@ TEST_F(Doubts, NameTheJointWhoseTorqueIsOff) {
   EXPECT_EQ(only(), "0 warnings");
   r.tally.torque_error[0] = 0.0201;
   EXPECT_EQ(only(),
-            "the torque of joint m0/active is off by about 2 % of its peak, estimated from other steps; take physics.accuracy: "
-            "0.002");
+            "the torque of joint m0/active is off by about 2 % of its peak, estimated by comparison with other step lengths; "
+            "take physics.accuracy: 0.002");
   r.tally.torque_error[1] = 0.001;  // the peak of a joint counts as at least 2 % of the largest peak
   EXPECT_EQ(only(),
-            "the torque of joint m0/passive is off by about 5 % of its peak, estimated from other steps; take "
-            "physics.accuracy: 0.001");
+            "the torque of joint m0/passive is off by about 5 % of its peak, estimated by comparison with other step lengths; "
+            "take physics.accuracy: 0.001");
   r.tally.estimated = false;
   EXPECT_EQ(only(), "0 warnings");
 }
@@ -70,7 +70,9 @@ TEST_F(Doubts, BeginAtTheAccuracyThatTheScenarioRequests) {
   r.tally.torque_error[0] = 0.00099;
   EXPECT_EQ(only(), "0 warnings");
   r.tally.torque_error[0] = 0.004;
-  EXPECT_TRUE(contains(only(), "off by about 0.4 % of its peak, estimated from other steps; take physics.accuracy: 0.0001"))
+  EXPECT_TRUE(contains(only(),
+                       "off by about 0.4 % of its peak, estimated by comparison with other step lengths; take "
+                       "physics.accuracy: 0.0001"))
       << only();
   s = hexapod({"physics.engine=articulated", "physics.accuracy=0.1"});
   r.tally.torque_error[0] = 0.04;
@@ -89,8 +91,8 @@ TEST_F(Doubts, NameAMotionThatNobodyCanPredict) {
   EXPECT_EQ(
       only(),
       "from t = 0.5 s on (joint m0/passive) the motion is ill-conditioned: gravity times 1 + 1e-6 changes the torques by "
-      "about 1 % of their peak (in proportion to 1 + 1e-9); judge several runs with other seeds or starts; no smaller step "
-      "helps");
+      "about 1 % of their peak (in proportion to 1 + 1e-9); judge several runs with other seeds or starts; a smaller step does "
+      "not help");
   r.tally.chaotic = {0.75, 0, 0.01};
   EXPECT_EQ(predictability(s, r), Predictability::ill);
   r.tally.chaotic.share = 0.0101;
@@ -105,8 +107,8 @@ TEST_F(Doubts, OfferAStepThatFits) {
   EXPECT_EQ(s.physics.integrator->name, "implicit");
   // With order 1, an error of half of 1 % requires an eighth of the step of 1 ms. All periods are multiples of 0.125 ms.
   EXPECT_EQ(only(),
-            "the torque of joint m0/active is off by about 4 % of its peak, estimated from other steps in windows; `gaitlab "
-            "converge` compares whole runs; "
+            "the torque of joint m0/active is off by about 4 % of its peak, estimated by comparison with other step lengths in "
+            "windows of the run; `gaitlab converge` compares whole runs; "
             "take physics.step: "
             "0.000125, or physics.integrator: adaptive without a step");
   s = hexapod({"physics.engine=articulated", "physics.integrator=extrapolated", "physics.step=1e-3"});
@@ -155,7 +157,7 @@ TEST_F(Doubts, SayWhatIsOffItsLaw) {
   r.tally.off = 3;
   EXPECT_EQ(
       only(),
-      "3 joint-steps ended off the law of their motor or stop: the torques there are wrong; the torque of the actuator must "
+      "3 joint-steps do not satisfy the law of their motor or stop: their torques are wrong; the torque of the actuator must "
       "fall with the joint's speed");
 }
 
@@ -307,10 +309,10 @@ TEST(Trust, AnActuatorThatAnImplicitStepCannotSolveIsNeverSilent) {
     }
   }
   const std::string text = said(" --set actuator.dry=0.1 --set physics.step=5e-3 --set duration=0.05");
-  EXPECT_TRUE(contains(text, " joint-steps ended off the law of their motor or stop: the torques there are wrong")) << text;
+  EXPECT_TRUE(contains(text, " joint-steps do not satisfy the law of their motor or stop: their torques are wrong")) << text;
   const auto json = nlohmann::json::parse(read(folder / fmt::format("out{}/summary.json", runs)));
   EXPECT_GT(json.at("off_law"), 0);
-  EXPECT_FALSE(contains(said(" --set actuator.rise=-0.05"), " joint-steps ended off"));  // torque decreases with the speed
+  EXPECT_FALSE(contains(said(" --set actuator.rise=-0.05"), " joint-steps do not satisfy"));  // torque decreases with the speed
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ TEST(SetupWarnings, TellAnEncoderWhoseStepsDecideTheTorques) {
   expect_one(of("paper-caterpillar.yaml", {"sensors={type: encoder, resolution: 0.00153}"}), true,
              "one step of the encoder of joint m0/active, 0.00153 rad, commands 0.917 N m, 46.6 % of the 1.97 N m that its "
              "motor has at "
-             "rest: these steps decide the torques; take resolution: 0.00032 or less, or Kp: 330 or less");
+             "rest: such steps dominate the torques; take resolution: 0.00032 or less, or Kp: 330 or less");
   EXPECT_TRUE(of("paper-caterpillar.yaml", {"sensors={type: encoder, resolution: 0.00032}"}).empty());
   EXPECT_TRUE(of("caterpillar.yaml", {"sensors={type: encoder, resolution: 0.00511}"}).empty())
       << "10 bit on 300 degrees: 9.9 %";

@@ -226,7 +226,7 @@ TEST(Verify, NamesAStepThatWasTooLong) {
     ASSERT_EQ(found.size(), 1U);
     EXPECT_TRUE(found[0].starts_with("the verdict is infeasible: because")) << found[0];
     EXPECT_EQ(found[0].ends_with(
-                  "; the step of this run was too long at times (check step), so that a run with a shorter step may stand"),
+                  "; the step of this run was too long at times (check step), so that a shorter step may verify the point"),
               margin < 0)
         << found[0];
   }

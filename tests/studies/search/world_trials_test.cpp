@@ -212,7 +212,7 @@ TEST(VerificationText, NamesTheWorldsInWhichAPointFalls) {
       {0, studies::TrialKind::worlds, "", {0.0662}, 0, Word::feasible, ""}};
   made.journal.write(all);
   const std::string ways =
-      "as run 0.0646, half step 0.0654, bullet 0.06615, limit 0.0662, in worlds 0.055 to 0.06)\n"
+      "as run 0.0646, half step 0.0654, bullet 0.06615, limit 0.0662, 0.055 to 0.06 in the worlds)\n"
       "  cpg.frequency 0.6\n"
       "  the gait stands; the study's step was too long: 0.0662 m/s\n"
       "  falls by supply -10 % (6.66 V): voltage of m5/passive; and in 1 of 1 draw\n"
@@ -229,8 +229,8 @@ TEST(VerificationText, NamesTheWorldsInWhichAPointFalls) {
   EXPECT_EQ(
       app::nearest_text(made.journal),
       "run 0 is nearest: it stands in 1 of 3 worlds; 3 are needed; falls by supply -10 % (6.66 V): voltage of m5/passive; "
-      "and in 1 of 1 draw; a margin as guard, `guards: {voltage: {margin: 0.1}}`, or `robust: true` searches gaits with "
-      "reserve");
+      "and in 1 of 1 draw; to search gaits with a reserve, take a guard with a margin, `guards: {voltage: {margin: 0.1}}`, or "
+      "`robust: true`");
 }
 
 }  // namespace

@@ -88,8 +88,8 @@ TEST(Parameters, ThatAreWrongSayWhere) {
   for (const char* name : {"a.b", "2a", "_a", "pi", "and", "or", "not"}) {
     EXPECT_EQ(wrong(std::string("{") + name + ": {low: 0, high: 1, sets: {k: 1}}}"),
               Texts{std::string("1:14: '") + name +
-                    "' cannot be a parameter of the study with `sets`; expected a name of letters, digits and _, a letter "
-                    "first, as in hip0: {low: 0.1, high: 0.2, sets: {cpg.offset.hips: hip0}}"});
+                    "' cannot be a parameter of the study with `sets`; expected a name of letters, digits and `_` that begins "
+                    "with a letter, as in hip0: {low: 0.1, high: 0.2, sets: {cpg.offset.hips: hip0}}"});
   }
 }
 
@@ -193,7 +193,7 @@ TEST(ReplicatesKey, CombinesByName) {
 TEST(ReplicatesKey, ThatIsWrongSaysWhy) {
   const auto wrong = [](const std::string& law) { return ReadReplicates("{count: 2, vary: {k: " + law + "}}").wrong; };
   EXPECT_EQ(wrong("{uniform: [1, 1]}"), Texts{}) << "one value";
-  EXPECT_EQ(wrong("{uniform: [2, 1]}"), Texts{"1:44: k is not uniform: [LOW, HIGH] with LOW up to HIGH"});
+  EXPECT_EQ(wrong("{uniform: [2, 1]}"), Texts{"1:44: k is not uniform: [LOW, HIGH] with LOW at most HIGH"});
   EXPECT_EQ(wrong("{uniform: [1]}"), Texts{"1:44: k is not uniform: [LOW, HIGH]"});
   EXPECT_EQ(wrong("{uniform: [1, 2, 3]}"), Texts{"1:44: k is not uniform: [LOW, HIGH]"});
   EXPECT_EQ(wrong("{uniform: [one, 2]}"), Texts{"1:44: k is not uniform: [LOW, HIGH]"});

@@ -78,7 +78,7 @@ TEST_F(StudyFile, ItsSensitivityIsChecked) {
   EXPECT_EQ(parameters(both, "method: {type: morris}\nbudget: {runs: 100}\n"),
             "s.yaml:1:1: error: method morris takes no budget of runs; expected method: {trajectories: N}");
   EXPECT_EQ(parameters("cpg.frequency: {values: [0.5, 1]}", "method: {type: morris}\n"),
-            "s.yaml:3:14: error: cpg.frequency has values one by one; method morris needs low and high");
+            "s.yaml:3:14: error: cpg.frequency has a list of values, but method morris needs `low` and `high`");
 }
 
 TEST_F(StudyFile, ItsParametersAreChecked) {
@@ -121,7 +121,7 @@ TEST_F(StudyFile, ItsExpressionsAreChecked) {
   EXPECT_EQ(with("constraints: ['torque.rms[m9/active] <= 1']\n"),
             "s.yaml:4:16: error: no joint is called 'm9/active'; did you mean 'm0/active'?");
   EXPECT_EQ(with("constraints: ['speed[m0/active] <= 1']\n"),
-            "s.yaml:4:16: error: 'speed' is of the whole robot; expected it without [m0/active]");
+            "s.yaml:4:16: error: 'speed' applies to the whole robot; expected it without [m0/active]");
   EXPECT_EQ(with("guards: {stop: 0.1}\n"), "s.yaml:4:10: error: unknown check 'stop'; did you mean 'stops'?");
   EXPECT_EQ(with("guards: {slip: false, voltge: {margin: 0.1}}\n"),
             "s.yaml:4:23: error: unknown check 'voltge'; did you mean 'voltage'?");
@@ -142,9 +142,9 @@ TEST_F(StudyFile, ASearchIsChecked) {
   EXPECT_EQ(search("budget: {runs: 64}\nobjective: [{maximize: speed}, {minimize: torque.peak}]\n"), kNoError);
   EXPECT_EQ(search(""), "s.yaml:1:1: error: missing budget: {runs: N}, which method scbo needs");
   EXPECT_EQ(search("budget: {runs: 15}\n"),
-            "s.yaml:1:1: error: a budget of 15 runs is less than the 16 of the searches' first generation");
+            "s.yaml:1:1: error: a budget of 15 runs is too small: the first generation of all searches has 16 runs");
   EXPECT_EQ(search("budget: {runs: 63}\nmethod: {type: cma, instances: 2}\nreplicates: {count: 2}\n"),
-            "s.yaml:1:1: error: a budget of 63 runs is less than the 64 of the searches' first generation");
+            "s.yaml:1:1: error: a budget of 63 runs is too small: the first generation of all searches has 64 runs");
   EXPECT_EQ(search("budget: {runs: 64}\nmethod: {type: cmaes}\n"),
             "s.yaml:5:16: error: type 'cmaes' is unknown; known names: grid, random, sobol, morris, sobol_indices, scbo, "
             "cma_gp, cma, xnes, sade, pso, nsga2");
@@ -159,7 +159,7 @@ TEST_F(StudyFile, ASearchIsChecked) {
             "s.yaml:1:1: error: method pso is for one objective; expected nsga2");
   EXPECT_EQ(search("budget: {runs: 64}\nmethod: {type: nsga2, population: 18}\nobjective: [{maximize: speed}, {minimize: "
                    "torque.peak}]\n"),
-            "s.yaml:1:1: error: a population of 18 does not suit method nsga2; expected a multiple of 4 from 8");
+            "s.yaml:1:1: error: a population of 18 does not suit method nsga2; expected a multiple of 4 that is at least 8");
   EXPECT_EQ(search("budget: {runs: 64, wall: 1 h}\n"), "s.yaml:4:20: error: unknown key 'wall'; known keys: runs");
   EXPECT_EQ(search("budget: {runs: 64}\nverify: {engine: bulet}\n"),
             "s.yaml:5:18: error: verify.engine 'bulet' is not known; did you mean 'bullet'?");
@@ -169,14 +169,14 @@ TEST_F(StudyFile, ASearchIsChecked) {
       "bullet, articulated");
   EXPECT_EQ(search("budget: {runs: 64}\nverify: {best: 0}\n").substr(0, 27), "s.yaml:5:16: error: best is");
   EXPECT_EQ(parameters("cpg.type: {values: [hopf, sine]}", "method: {type: cma}\nbudget: {runs: 64}\n"),
-            "s.yaml:1:1: error: method cma has nothing to search: no parameter has low and high");
+            "s.yaml:1:1: error: method cma has nothing to search: no parameter has `low` and `high`");
 }
 
 TEST_F(StudyFile, StartPointsAreChecked) {
   const std::string head = "budget: {runs: 64}\n";
   EXPECT_EQ(search(head + "start: []\n"), kNoError);
   EXPECT_EQ(search("budget: {runs: 17}\nstart: [{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}]\n"),
-            "s.yaml:1:1: error: a budget of 17 runs is less than the 18 of the searches' first generation");
+            "s.yaml:1:1: error: a budget of 17 runs is too small: the first generation of all searches has 18 runs");
   EXPECT_EQ(search(head + "method: {type: scbo, population: 1001}\n"),
             "s.yaml:1:1: error: a population of 1001 is too large for method scbo; expected at most 1000");
   EXPECT_EQ(search(head + "start: 3\n"), "s.yaml:5:8: error: start is 3; expected a list of points: [{cpg.frequency: 0.5}]");

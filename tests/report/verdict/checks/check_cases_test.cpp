@@ -269,11 +269,11 @@ TEST(CheckCases, ASpreadMakesTooCloseWhatItBringsToTheOtherSide) {
   EXPECT_EQ(with({0.5, 0.4, 0.3, 0.6}).status, CheckStatus::pass);
   const Check other_side = with({0.5, 0.4, -0.1, 0.6});
   EXPECT_EQ(other_side.status, CheckStatus::too_close);
-  EXPECT_TRUE(contains(other_side.text, "of 4 rollouts that differ by next to nothing the margin is -10 % to 60 %"))
+  EXPECT_TRUE(contains(other_side.text, "in 4 rollouts that differ by next to nothing, the margin is -10 % to 60 %"))
       << other_side.text;
   const Check diverged = with({0.5, 0.4, std::nan(""), 0.6});
   EXPECT_EQ(diverged.status, CheckStatus::too_close);
-  EXPECT_TRUE(contains(diverged.text, "of 4 rollouts that differ by next to nothing 1 cannot be judged by this"))
+  EXPECT_TRUE(contains(diverged.text, "in 4 rollouts that differ by next to nothing, this check cannot judge 1 of them"))
       << diverged.text;
 }
 

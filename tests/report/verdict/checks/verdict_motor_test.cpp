@@ -37,7 +37,7 @@ TEST(Verdict, JudgesSpeedsByTheOneWithoutTorque) {
   EXPECT_EQ(with(0.9 * no_load).status, CheckStatus::warn);
   EXPECT_EQ(with(1.01 * no_load).status, CheckStatus::fail);
   EXPECT_EQ(with(1.01 * no_load).worst, "m3/passive");
-  EXPECT_TRUE(contains(with(1.01 * no_load).text, "the load does"));
+  EXPECT_TRUE(contains(with(1.01 * no_load).text, "the load drives it"));
   const Scenario rated = shipped("caterpillar.yaml", {"duration=4", "physics.engine=articulated", "actuator.speed_max=1.2"});
   EXPECT_EQ(report::motors(rated, 0).joint(0).speed_max, 1.2);
 }
@@ -67,7 +67,7 @@ TEST(Verdict, JudgesRatings) {
     EXPECT_EQ(with(rating, 1.3 * value).status(id), CheckStatus::pass) << id;
     EXPECT_EQ(with(rating, 1.1 * value).status(id), CheckStatus::warn) << id;
     EXPECT_EQ(with(rating, 0.9 * value).status(id), CheckStatus::fail) << id;
-    EXPECT_FALSE(contains(with(rating, 0.9 * value).check(id).text, "the load does")) << id;
+    EXPECT_FALSE(contains(with(rating, 0.9 * value).check(id).text, "the load drives it")) << id;
     EXPECT_NEAR(with(rating, value).check(id).value, value, 1e-6 * value) << id;
     EXPECT_EQ(with(rating, value).check(id).source,
               "chosen: no source stated for " + std::string(rating) +

@@ -131,8 +131,8 @@ TEST(Plausibility, Moments) {
     return odd_numbers({{"[3.605e-05, 3.275e-05, 3.275e-05", "[3.605e" + power + ", 3.275e" + power + ", 3.275e" + power}});
   };
   EXPECT_EQ(with("-04"),
-            OddTexts({"15:18: body 'head' of emerge has principal moments up to 0.00036 kg m^2, and its shapes at uniform "
-                      "density 3.61e-05 kg m^2; expected 0.05 to 5 times that"}));
+            OddTexts({"15:18: body 'head' of emerge has principal moments up to 0.00036 kg m^2, but at uniform density its "
+                      "shapes would have up to 3.61e-05 kg m^2; expected 0.05 to 5 times the moments at uniform density"}));
   for (const auto& [power, unit] :
        {std::pair{"+04", "g mm^2"}, {"+02", "g cm^2"}, {"+01", "kg mm^2"}, {"-01", "kg cm^2"}, {"-02", "g m^2"}}) {
     const OddTexts found = with(power);
@@ -148,7 +148,7 @@ TEST(Plausibility, Faces) {
                    {"docks: [[0, 1, 1, 0, 0], [0, 2, 1, 1, 0], [0, 3, 1, 2, 0]]", "docks: []"}}),
       OddTexts(
           {"21:51: face 1 of emerge is 47 m from the surface of body 'head', whose largest edge is 0.052 m; expected at most a "
-           "quarter of that: is origin in mm?"}));
+           "quarter of that edge: is origin in mm?"}));
 }
 
 TEST(Plausibility, Motors) {
@@ -156,7 +156,7 @@ TEST(Plausibility, Motors) {
       odd_numbers({{"stall_torque: 1.8", "stall_torque: 18.3"}}),
       OddTexts(
           {"27:21: the stall torque of m0/hinge, 18.3 N m, holds 121 times the weight of its module (0.2 kg) at a distance of "
-           "its length (0.077 m); expected at most 60: is it in kgf cm (1.795 N m)? (and 3 more)"}));
+           "its length (0.077 m); expected at most 60 times: is it in kgf cm (1.795 N m)? (and 3 more)"}));
   const auto end = [](const std::string& from, const std::string& to) {
     const OddTexts found = odd_numbers({{from, to}});
     return found.size() == 1 ? found[0].substr(std::min(found[0].size(), found[0].rfind(": ")))
@@ -190,11 +190,11 @@ TEST(Plausibility, SettingsOfMotors) {
     return found.size() == 1 ? found[0] : fmt::format("{}", found.size());
   };
   EXPECT_TRUE(contains(with("u_max: 111"),
-                       "the supply of the motor of m0/hinge is 111 V, and its data hold at 12 V; expected 0.3 to 3"));
+                       "the supply of the motor of m0/hinge is 111 V, but its data are for 12 V; expected 0.3 to 3"));
   EXPECT_EQ(with("u_max: 7.4"), "0");
   // The start takes 5 kg m^2 * 10.2 rad/s / 1.8 N m = 28.3 s; with 0.0005 kg m^2 it takes 2.8 ms.
-  EXPECT_TRUE(
-      contains(with("rotor_inertia: 5"), "takes 28.3 s to its speed; expected at most 1 s: is it in kg cm^2? (and 3 more)"));
+  EXPECT_TRUE(contains(with("rotor_inertia: 5"),
+                       "takes 28.3 s to reach its speed; expected at most 1 s: is it in kg cm^2? (and 3 more)"));
   EXPECT_EQ(with("rotor_inertia: 0.002"), "0");
   const OddTexts gain = odd_numbers({{"Kp: 50", "Kp: -50"}});
   ASSERT_EQ(gain.size(), 1U);
@@ -220,14 +220,14 @@ TEST(Plausibility, Hinges) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0],
             "18:58: hinge 'hinge' of emerge is 35 m from the shapes of body 'body', whose largest edge is 0.052 m; expected at "
-            "most four times that: is origin in mm?");
+            "most four times that edge: is origin in mm?");
   const OddTexts shape = odd_numbers({{"0.052], origin: [0.0235,", "0.052], origin: [23.5,"},
                                       {"        com: [0.0235, 0, 0]\n", ""},
                                       {"        inertia: [3.605e-05, 3.275e-05, 3.275e-05, 0, 0, 0]\n", ""}});
   ASSERT_EQ(shape.size(), 1U) << "and not its faces";
   EXPECT_TRUE(
-      shape[0].ends_with("from the shapes of body 'head', whose largest edge is 0.052 m; expected at most four times that: "
-                         "are the origins of its shapes in mm?"))
+      shape[0].ends_with("from the shapes of body 'head', whose largest edge is 0.052 m; expected at most four times that "
+                         "edge: are the origins of its shapes in mm?"))
       << shape[0];
   EXPECT_EQ(odd_numbers({{"child: head, axis", "child: head, origin: [0.2, 0, 0], axis"}}), OddTexts())
       << "0.2 m from a box of 0.052 m";
@@ -261,10 +261,10 @@ TEST(Plausibility, BodiesWithoutShapes) {
 /// A message does not suggest a correction that would give another implausible number.
 TEST(Plausibility, QuestionsMakeSense) {
   const auto end = [](const OddTexts& found) { return found.size() == 1 ? found[0].substr(found[0].rfind("; ")) : "none"; };
-  EXPECT_EQ(end(odd_numbers({}, {"robot.position=[0, 0, 0.4]"})), "; expected at most that height")
+  EXPECT_EQ(end(odd_numbers({}, {"robot.position=[0, 0, 0.4]"})), "; expected at most the length of that edge")
       << "0.4 mm is in the ground";
   EXPECT_EQ(odd_numbers({}, {"robot.position=[0, 0, 0.4]", "physics.gravity=[0, 0, 0]"}), OddTexts());
-  EXPECT_EQ(end(odd_numbers({}, {"trace.period=0.3"})), "; expected at most a tenth of that")
+  EXPECT_EQ(end(odd_numbers({}, {"trace.period=0.3"})), "; expected at most a tenth of that time")
       << "0.3 ms are 7000 rows a period";
   EXPECT_EQ(end(odd_numbers({{"com: [0.0235", "com: [0.09"}})), "; expected a point in their convex hull") << "0.09 mm is 0";
 }
@@ -274,7 +274,7 @@ TEST(Plausibility, UnexplainedPartsShareAWarning) {
   const OddTexts found = odd_numbers({{"[3.605e-05, 3.275e-05, 3.275e-05", "[3.605e-04, 3.275e-04, 3.275e-04"},
                                       {"[5.408e-05, 3.604e-05, 3.604e-05", "[5.408e-04, 3.604e-04, 3.604e-04"}});
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_TRUE(found[0].ends_with("expected 0.05 to 5 times that (and 1 more)")) << found[0];
+  EXPECT_TRUE(found[0].ends_with("expected 0.05 to 5 times the moments at uniform density (and 1 more)")) << found[0];
 }
 
 TEST(Plausibility, PlaceOfAMotor) {
@@ -305,14 +305,14 @@ TEST(Plausibility, Sections) {
   EXPECT_EQ(odd_numbers({}, {"robot.position=[0, 0, 50]"}),
             OddTexts({"--set robot.position=[0, 0, 50]: the lowest point of the robot starts 49.97 m above the ground; the "
                       "robot's largest "
-                      "edge is 0.308 m; expected at most that height: is position in mm (0.05 m)?"}));
+                      "edge is 0.308 m; expected at most the length of that edge: is position in mm (0.05 m)?"}));
   EXPECT_EQ(odd_numbers({}, {"robot.position=[0, 0, 0.3]"}), OddTexts());
   EXPECT_EQ(odd_numbers({}, {"ground.friction=80"}),
             OddTexts({"--set ground.friction=80: ground.friction is 80; expected at most 3 (rubber on "
                       "concrete: about 1): is it in percent (0.8)?"}));
   EXPECT_EQ(odd_numbers({}, {"trace.period=5"}),
-            OddTexts({"--set trace.period=5: trace.period is 5 s, and the set points repeat every 2 s; "
-                      "expected at most a tenth of that: is it in ms (0.005 s)?"}));
+            OddTexts({"--set trace.period=5: trace.period is 5 s, but the set points repeat every 2 s; "
+                      "expected at most a tenth of that time: is it in ms (0.005 s)?"}));
   EXPECT_EQ(odd_numbers({}, {"trace.period=0.2"}), OddTexts());
   EXPECT_EQ(odd_numbers({}, {"controller.period=15", "duration=60"}),
             OddTexts({"--set controller.period=15: controller.period is 15 s; expected at most 0.5 s: is it in ms (0.015 s)?"}))
@@ -332,14 +332,14 @@ TEST(Plausibility, Angles) {
 TEST(Plausibility, SetPoints) {
   EXPECT_EQ(
       odd_numbers({}, {"cpg.amplitude=2"}),
-      OddTexts({"--set cpg.amplitude=2: the set points of m0/hinge go from -2 to 2 rad, and its range from -1.57 to 1.57 rad; "
+      OddTexts({"--set cpg.amplitude=2: the set points of m0/hinge go from -2 to 2 rad, but its range from -1.57 to 1.57 rad; "
                 "expected set points in the range (and 3 more)"}));
   EXPECT_EQ(odd_numbers({}, {"cpg.offset=3"}).size(), 1U);
   const OddTexts fast = odd_numbers({}, {"cpg.frequency=8"});
   ASSERT_EQ(fast.size(), 1U);
   // An amplitude of 0.5 rad at 8 Hz is 0.5 * 2 pi * 8 = 25.1 rad/s. Over 15 ms, the mean is sin(0.377) / 0.377 of this, 24.5
   // rad/s.
-  EXPECT_TRUE(contains(fast[0], "move at up to 24.5 rad/s, and its motor at 10.2 rad/s without load")) << fast[0];
+  EXPECT_TRUE(contains(fast[0], "move at up to 24.5 rad/s, but its motor reaches only 10.2 rad/s without load")) << fast[0];
   EXPECT_EQ(odd_numbers({{"range: [-1.57, 1.57]", "range: free"}}, {"cpg.amplitude=2"}), OddTexts()) << "without stops";
 }
 
@@ -349,8 +349,8 @@ TEST(Plausibility, BodiesInOnePlace) {
                                        "[[0, 1, 2, 0, 2], [0, 2, 2, 1, 2], [0, 3, 2, 2, 2], [0, 4, 2, 3, 2]]"}});
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0],
-            "31:62: m0/head and m4/head are 47 mm in one another at the start; 2 pairs of bodies overlap; expected bodies "
-            "apart: look at the docks and at initial.angles");
+            "31:62: m0/head and m4/head overlap by 47 mm at the start; 2 pairs of bodies overlap; expected bodies that do not "
+            "overlap: look at the docks and at initial.angles");
 }
 
 /// The texts of docs/modules.md name the rows of the list.

@@ -39,7 +39,7 @@ struct Links {
 void expect_refused(const Verdict& made, const std::string& reason, const std::string& row) {
   EXPECT_EQ(made.word, Word::not_judged) << made.why();
   EXPECT_TRUE(made.why().starts_with(reason)) << made.why();
-  EXPECT_TRUE(made.why().ends_with("; state physics that can be, or accept: [" + row + "]")) << made.why();
+  EXPECT_TRUE(made.why().ends_with("; give values that are physically possible, or accept: [" + row + "]")) << made.why();
 }
 
 /// A run has no verdict until the number is corrected or accepted. An accepted number is part of `rests_on`.
@@ -47,14 +47,14 @@ TEST(Possible, ImpossibleMomentsAreNotJudged) {
   const Links heavy{.inertia = "1", .motor = "stall_torque: 10, no_load_speed: 10"};
   expect_refused(
       heavy.judged(),
-      "1 kg m^2 of body 'a' of link of 0.1 kg: that of a ring of radius 3.2 m, and the body's extent is 0.12 m (and 1 "
-      "more)",
+      "body 'a' of link (0.1 kg) has a moment of inertia of 1 kg m^2, as much as a ring of radius 3.2 m, but the body's "
+      "extent is 0.12 m (and 1 more)",
       "moments");
   const Verdict accepted = heavy.judged({"accept=[moments]"});
   EXPECT_EQ(accepted.word, Word::feasible) << accepted.why();
   EXPECT_TRUE(accepted.rests_on.ends_with(
-      "; accepted: moments (1 kg m^2 of body 'a' of link of 0.1 kg: that of a ring of radius 3.2 m, and the body's extent is "
-      "0.12 m (and 1 more))"))
+      "; accepted: moments (body 'a' of link (0.1 kg) has a moment of inertia of 1 kg m^2, as much as a ring of radius 3.2 m, "
+      "but the body's extent is 0.12 m (and 1 more))"))
       << accepted.rests_on;
   EXPECT_EQ(Links{}.judged().word, Word::feasible);
 }
@@ -67,20 +67,20 @@ TEST(Possible, LimitsOfTheRanges) {
   EXPECT_EQ((Links{.mass = "5.7"}.doubts().refused), "");
   EXPECT_EQ(
       (Links{.mass = "5.8"}.doubts().refused),
-      "5.8 kg of body 'a' of link in 250 cm^3: 2.32e+04 kg/m^3, and no metal has more than 23000 (and 1 more); state physics "
-      "that can be, or accept: [density]");
+      "body 'a' of link has 5.8 kg in 250 cm^3: 2.32e+04 kg/m^3, but no metal has more than 23000 kg/m^3 (and 1 more); give "
+      "values that are physically possible, or accept: [density]");
   // The weight of 0.2 kg has the moment 0.416 N m over the diagonal of (0.2, 0.05, 0.05) m.
   EXPECT_EQ((Links{.motor = "stall_torque: 41.5, no_load_speed: 1"}.doubts().refused), "");
   EXPECT_EQ(
       (Links{.motor = "stall_torque: 41.8, no_load_speed: 1"}.doubts({"physics.gravity=[0, 0, -1]"}).refused),
-      "41.8 N m of the motor of m0/h at rest: 100 times the weight of the whole robot (0.2 kg) at a distance of its extent "
-      "(0.212 m), and at most 100 can be; state physics that can be, or accept: [stall torque]");
+      "the motor of m0/h has 41.8 N m at rest: 100 times the weight of the whole robot (0.2 kg) at a distance of its extent "
+      "(0.212 m), but at most 100 times is possible; give values that are physically possible, or accept: [stall torque]");
   // The largest power is 0.2 kg x 1500 W/kg = 300 W = 30 N m x 40 rad/s / 4.
   EXPECT_EQ((Links{.motor = "stall_torque: 30, no_load_speed: 39.9"}.doubts().refused), "");
   EXPECT_EQ(
       (Links{.motor = "stall_torque: 30, no_load_speed: 40.1"}.doubts().refused),
-      "301 W of the motors of module m0 of 0.2 kg: 1.5e+03 W/kg, and no motor has more than 1500; state physics that can be, "
-      "or accept: [power]");
+      "the motors of module m0 (0.2 kg) have 301 W: 1.5e+03 W/kg, but no motor has more than 1500 W/kg; give values that are "
+      "physically possible, or accept: [power]");
 }
 
 /// Shapes may be a part of a body only, and a body without shapes has the extent of its points.
@@ -99,7 +99,7 @@ TEST(Possible, BodiesThatAreLargerThanTheirShapes) {
     return doubts(scenario(bodies)).refused;
   };
   EXPECT_EQ(bare("0.0009"), "") << "0.1 kg at 0.1 m, twice the distance of the com from the hinge: 0.001 kg m^2";
-  EXPECT_TRUE(contains(bare("0.0011"), "and the body's extent is 0.05 m"));
+  EXPECT_TRUE(contains(bare("0.0011"), "but the body's extent is 0.05 m"));
 }
 
 /// Several rows report impossible numbers, and one is accepted. A failing check does not precede them.
@@ -108,7 +108,8 @@ TEST(Possible, ImpossibleComesBeforeInfeasible) {
   const Sets falls{"limits.height=1", "robot.position=[0, 0, 0.3]"};
   Sets sets = falls;
   sets.emplace_back("accept=power");
-  expect_refused(wild.judged(sets), "1 kg m^2 of body 'a' of link", "power, moments, stall torque");
+  expect_refused(wild.judged(sets), "body 'a' of link (0.1 kg) has a moment of inertia of 1 kg m^2",
+                 "power, moments, stall torque");
   sets.back() = "accept=[power, moments, stall torque]";
   EXPECT_EQ(wild.judged(sets).word, Word::infeasible);
 }
@@ -129,10 +130,10 @@ TEST(Possible, AcceptedRowsDoNotWarn) {
     return "";
   };
   EXPECT_EQ(refused(Links{}, "[density]"),
-            "--set accept=[density]: error: accept names density, and no number of this row is unusual; remove it");
+            "--set accept=[density]: error: accept names density, but no number of this row is unusual; remove it");
   EXPECT_EQ(refused(unusual, "[density, power]"),
-            "--set accept=[density, power]: error: accept names density and power, and no number of these rows is unusual; "
-            "unusual are those of moments");
+            "--set accept=[density, power]: error: accept names density and power, but no number of these rows is unusual; the "
+            "unusual numbers are those of moments");
 }
 
 /// The words of the key are the rows that have a second range.
@@ -155,7 +156,7 @@ TEST(ChangedLimits, AreNamedBesideTheWord) {
   const Verdict made = Links{}.judged({"limits={torque_error: 1, tracking_error: 1000, saturated_share: 1}"});
   EXPECT_EQ(made.word, Word::feasible) << made.why();
   EXPECT_TRUE(
-      made.rests_on.ends_with("; limits: tracking_error 1000 rad of the scenario, 0.1 by default; saturated_share 1 of the "
+      made.rests_on.ends_with("; limits: tracking_error 1000 rad in the scenario, 0.1 by default; saturated_share 1 in the "
                               "scenario, 0.01 by default; torque_error 1 of the scenario, 0.05 by default"))
       << made.rests_on;
   EXPECT_FALSE(contains(Links{}.judged({"limits.tilt=1.0471975511965976"}).rests_on, "limits")) << "the default";
@@ -199,12 +200,17 @@ TEST(Units, CurrentsDocksAndContacts) {
   EXPECT_EQ(
       warned({.motor = motor + "i_continuous: 200"}),
       "i_continuous of m0/h is 200 A, 168 times the current that its motor draws at rest under 12 V, 1.19 A; expected less "
-      "than that: is it in mA (0.2 A)?\n");
+      "than the current at rest: is it in mA (0.2 A)?\n");
   EXPECT_EQ(warned({.motor = motor + "i_continuous: 0.5, i_max: 20"}), "");
-  EXPECT_TRUE(contains(warned({.motor = motor + "i_max: 300"}), "expected at most 30 times that: is it in mA (0.3 A)?"));
-  EXPECT_TRUE(contains(warned({}, {"contact.stiffness=10"}), "expected at most a tenth of that: is it in N/mm (10000 N/m)?"));
+  EXPECT_TRUE(contains(warned({.motor = motor + "i_max: 300"}),
+                       "expected at most 30 times the current at rest: is it in mA "
+                       "(0.3 A)?"));
+  EXPECT_TRUE(
+      contains(warned({}, {"contact.stiffness=10"}), "expected at most a tenth of that size: is it in N/mm (10000 N/m)?"));
   EXPECT_EQ(warned({}, {"contact.stiffness=1000"}), "");
-  EXPECT_TRUE(contains(warned({}, {"contact.slip_speed=10"}), "expected less than that: is it in mm/s (0.01 m/s)?"));
+  EXPECT_TRUE(contains(warned({}, {"contact.slip_speed=10"}),
+                       "expected less than the speed of the parts: is it in mm/s (0.01 "
+                       "m/s)?"));
   EXPECT_EQ(warned({}, {"contact.slip_speed=0.1"}), "");
 }
 
@@ -234,7 +240,7 @@ TEST(Units, LoadsOfDocksAndContactElements) {
   EXPECT_TRUE(
       contains(warned("all: shapes", "all: [{body: b, sphere: [0.1, 0, 0], radius: 0.06}]"),
                "the contact element m0/b/s0 of radius 0.06 m is 0.035 m below the lowest shape of the robot at the start; "
-               "the largest edge of its body is 0.1 m; expected at most a quarter of that: is it the diameter (0.03 m)?"));
+               "the largest edge of its body is 0.1 m; expected at most a quarter of that edge: is it the diameter (0.03 m)?"));
   EXPECT_EQ(warned("all: shapes", "all: [{body: b, sphere: [0.1, 0, 0], radius: 0.04}]"), "");
 }
 
