@@ -77,7 +77,8 @@ TEST(ModuleTypes, OnlyLikeConnectorsDock) {
       << other;
   const std::string none = error_of(robot(a + c, "{0: a, 1: c}", "[[0, 1, 1, 0, 0]]"));
   EXPECT_TRUE(contains(
-      none, "face 0 of module 1 has connector none, face 1 of module 0 'hook'; only faces with the same connector dock"))
+      none,
+      "face 0 of module 1 has connector none, but face 1 of module 0 has 'hook'; only faces with the same connector dock"))
       << none;
   const std::string turn = error_of(robot(a, "a", "[[0, 1, 1, 0, 1]]"));
   EXPECT_TRUE(contains(turn, "orientation 1 is not one of the turns of face 0 (a): 0, 2")) << turn;

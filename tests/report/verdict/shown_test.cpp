@@ -43,11 +43,12 @@ TEST(Shown, SetPointsThatGrow) {
       verdict_of(shipped("hexapod.yaml", {"physics.engine=articulated", "duration=6", "cpg.frequency=1", "cpg.amplitude=0.8",
                                           "cpg.model.ramp=60"})),
       "the set points still grow: they reach their full size at 60 s, but the run ends at 6 s; take duration: 63");
-  expect_not_judged(snake({"cpg.model.ramp=30"}), "at 30 s of 6; take duration: 33");
-  expect_not_judged(caterpillar({"cpg.model.amplitude_rate=0.005"}), "at 782.4 s of 16;");
+  expect_not_judged(snake({"cpg.model.ramp=30"}), "at 30 s, but the run ends at 6 s; take duration: 33");
+  expect_not_judged(caterpillar({"cpg.model.amplitude_rate=0.005"}), "at 782.4 s, but the run ends at 16 s;");
   expect_not_judged(caterpillar({"cpg={type: kuramoto_amplitude, frequency: 1, model: {amplitude_rate: 0.5}}"}),
-                    "at 23.34 s of 16;");
-  expect_not_judged(caterpillar({"cpg={type: van_der_pol, frequency: 1, model: {amplitude_rate: 0.2}}"}), "at 19.56 s of 16;");
+                    "at 23.34 s, but the run ends at 16 s;");
+  expect_not_judged(caterpillar({"cpg={type: van_der_pol, frequency: 1, model: {amplitude_rate: 0.2}}"}),
+                    "at 19.56 s, but the run ends at 16 s;");
 }
 
 /// Equations state no times, so that the CPG alone is simulated for three periods after the run.

@@ -62,9 +62,9 @@ TEST(VerdictManual, HasNoTwoBlankLinesAndStaysInItsColumns) {
   for (const CheckKind& kind : check_kinds()) check(explain_check(kind), 80);
   const std::string speed =
       "speed: Speed within reach\n"
-      "  value    largest speed, over all steps: in the window, compared with the\n"
-      "           speed at which the actuator has no torque left; in the whole run,\n"
-      "           with the rated speed, rad/s\n"
+      "  value    largest speed, over all steps: in the window, compared with the speed\n"
+      "           at which the actuator has no torque left; in the whole run, with the\n"
+      "           rated speed, rad/s\n"
       "  over     the judged window\n"
       "  fails    above the speed limit\n";
   const auto kind = std::ranges::find_if(check_kinds(), [](const CheckKind& one) { return std::string(one.id) == "speed"; });

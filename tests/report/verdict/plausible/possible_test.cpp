@@ -157,7 +157,7 @@ TEST(ChangedLimits, AreNamedBesideTheWord) {
   EXPECT_EQ(made.word, Word::feasible) << made.why();
   EXPECT_TRUE(
       made.rests_on.ends_with("; limits: tracking_error 1000 rad in the scenario, 0.1 by default; saturated_share 1 in the "
-                              "scenario, 0.01 by default; torque_error 1 of the scenario, 0.05 by default"))
+                              "scenario, 0.01 by default; torque_error 1 in the scenario, 0.05 by default"))
       << made.rests_on;
   EXPECT_FALSE(contains(Links{}.judged({"limits.tilt=1.0471975511965976"}).rests_on, "limits")) << "the default";
 }
