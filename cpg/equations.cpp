@@ -31,10 +31,11 @@ angle rad, speed rad/s, torque N m, touching (1 while the joint's module touches
     sin cos tan tanh exp log sqrt abs sign        of one number; log: natural; sign(0) = 0
     min(a, b)  max(a, b)  clamp(x, low, high)  if(condition, then, else)
 
-From loose to tight: or, and, not, comparison, + -, * /, sign, ^ (from the right: -2^2 = -4). Limits: 32 states, 64 parameters,
-4000 characters and 500 numbers, names and operators a text, 64 levels. There are no loops, no other calls, no random numbers. A
-state or set point that is not finite (1/0, log(-1)) ends the run and is named. Stable if RK4 is stable with cpg.step. Write a
-text of several lines after |, and a text that YAML would read as something else in quotes. The default, written out:
+From loose to tight: or, and, not, comparison, + -, * /, sign, ^ (from the right: -2^2 = -4). Limits: 32 states and
+64 parameters; in each text, 4000 characters, 500 numbers, names and operators in all, and 64 levels of nesting. There are no
+loops, no other calls, no random numbers. A state or set point that is not finite (1/0, log(-1)) ends the run and is named.
+Stable if RK4 is stable with cpg.step. Write a text of several lines after |, and a text that YAML would read as something else
+in quotes. The default, written out:
 scenarios/caterpillar-equations.yaml.
 Reference: Chariot, Filippi, Verlinden 2012, eq. 7-10 (the default); their outlook asks for equations in the input.
 

@@ -27,7 +27,7 @@ namespace gaitlab::golden {
 
 namespace {
 
-constexpr double kRowEvery = 0.02;     // s; a gait has about 0.5 Hz, and spikes of contacts do not drift
+constexpr double kRowEvery = 0.02;     // s; follows a gait of 0.5 Hz, without most of the spikes of contacts
 constexpr double kLeastTravel = 0.01;  // m; for a robot that travels less, the cost of transport is noise
 
 std::vector<std::string> usual_columns(const Scenario& scenario) {

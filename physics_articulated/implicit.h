@@ -262,8 +262,8 @@ class Implicit {
     return result;
   }
 
-  /// Lanes where a law at the end speeds of the iterate differs from the force in the solve. Counts such motors and stops in
-  /// missed_.
+  /// Lanes where the law of a motor, end stop or contact, at the end speeds of the iterate, differs from the force in the
+  /// solve. Sets missed_ to the number of joints whose motor or end stop differs.
   math::Mask<T> misses(std::span<const T> x, In command, double h) {
     for (std::size_t j = 0; j < joints_; ++j) end_[j] = speeds(x)[j] + T(h) * now_.a[6 + j];
     motors.linearise(command, end_);

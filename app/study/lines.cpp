@@ -30,14 +30,14 @@ std::string Lines::take(std::size_t size) {
   ++number_;
   if (size > kLongest) {
     throw InputError(SourceLocation{"stdin", number_, 1},
-                     fmt::format("is longer than {} bytes; expected a shorter one", kLongest));
+                     fmt::format("the line is longer than {} bytes; expected a shorter line", kLongest));
   }
   std::string line = text_.substr(at_, size);
   at_ = std::min(at_ + size + 1, text_.size());
   blank_ = is_blank(line) ? blank_ + size + 1 : 0;
   if (blank_ > kLongest) {
     throw InputError(SourceLocation{"stdin", number_, 1},
-                     fmt::format("follows {} bytes of blank lines; expected the end of the input", kLongest));
+                     fmt::format("the line follows {} bytes of blank lines; expected the end of the input", kLongest));
   }
   return line;
 }

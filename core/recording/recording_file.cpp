@@ -59,7 +59,7 @@ void each_number(OfRecording& r, Visit visit) {
   visit(kCurrent + std::string("peak"), "A", "largest sum of the magnitudes of all motors' currents", r.current_peak);
   visit(kCurrent + std::string("rms"), "A", "RMS of that sum", r.current_rms);
   visit("solves", "", "solves of the equations of motion", r.tally.solves);
-  visit("off_law", "", "joint-steps that do not satisfy the law of their motor or stop", r.tally.off);
+  visit("off_law", "", "joint-steps that do not satisfy the law of their motor or end stop", r.tally.off);
   visit("coarse_time", "s", "time in which the steps did not reach the accuracy", r.tally.coarse);
   visit("torque_error.estimated", "", "1: the torque error was estimated", r.tally.estimated);
   for (const PartingName& one : kPartings) {

@@ -91,11 +91,11 @@ std::string not_buildable(const Scenario& scenario, const Actuator* actuator, co
     if (!scenario.robot->joints[j].driven() || factor == 1 || motors[j].efficiency > 0) continue;
     const double lost = (1 - motors[j].efficiency) / factor;  // lost share of the gear in the drawings
     const std::string wrong = fmt::format(
-        "gear_friction {:.4g} of {} makes its efficiency {:.4g}, which was {:.4g}; expected an efficiency above 0, ", factor,
-        scenario.robot->joints[j].name, motors[j].efficiency, 1 - lost);
+        "gear_friction {:.4g} changes the gear efficiency of {} from {:.4g} to {:.4g}; expected an efficiency above 0, ",
+        factor, scenario.robot->joints[j].name, 1 - lost, motors[j].efficiency);
     if (of_motors.starts_with(kTolerancesSection)) {
-      return wrong +
-             fmt::format("for every seed with a deviation below {:.4g} (this is seed {})", (1 / lost - 1) / 3, scenario.seed);
+      return wrong + fmt::format("which every seed gives with a deviation below {:.4g} (this is seed {})", (1 / lost - 1) / 3,
+                                 scenario.seed);
     }
     return wrong + fmt::format("thus a factor below {:.4g}", 1 / lost);
   }

@@ -75,7 +75,7 @@ void Probes::add(std::string name, std::string unit, std::string definition, con
 void Probes::add_steps(const Robot& robot) {
   add("steps.solves", "", "solves of the equations of motion from t = 0 to this row; 0: the engine does not count them",
       sample_.tally.solves);
-  add("steps.off", "", "joint-steps from t = 0 to this row that do not satisfy the law of their motor or stop",
+  add("steps.off", "", "joint-steps from t = 0 to this row that do not satisfy the law of their motor or end stop",
       sample_.tally.off);
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     add(fmt::format("torque_error.{}", j), "N m",

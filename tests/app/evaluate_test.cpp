@@ -159,7 +159,7 @@ TEST_F(Evaluate, RefusesLinesThatAreNoQuestionsAndLosesNothing) {
           "stdin:4:1: error: physics.step is null; expected a number\n"
           "stdin:4:1: error: unknown parameter 'cpg.phase_lga'; did you mean 'cpg.phase_lag'?");
   refuses(R"({"id": 1, "parameters": {"cpg.phase_lag": [[1]]}})", "stdin:4:1: error: holds values within values" + expected);
-  refuses(std::string(2 << 20, '['), "stdin:4:1: error: is longer than 1048576 bytes; expected a shorter one");
+  refuses(std::string(2 << 20, '['), "stdin:4:1: error: the line is longer than 1048576 bytes; expected a shorter line");
   EXPECT_EQ(studies::Journal(folder_ / "e/study.db").rows(), 1U);
   EXPECT_EQ(answers(ask(question("1", "0.7"))).size(), 1U);
 }

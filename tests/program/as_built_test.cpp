@@ -203,7 +203,8 @@ TEST(AsBuilt, WrongInput) {
       {"as_built={foot_friction: {\"m*\": 1, \"*1\": 2}}",
        "module 'm1' is given 1 by 'm*' and 2 by '*1'; give it by its name, which beats patterns"},
       {"as_built={gear_friction: 9}",
-       "gear_friction 9 of m0/active makes its efficiency -1.7, which was 0.7; expected an efficiency above 0, thus a factor "
+       "gear_friction 9 changes the gear efficiency of m0/active from 0.7 to -1.7; expected an efficiency above 0, thus a "
+       "factor "
        "below 3.333"},
   };
   for (const auto& [set, text] : messages) EXPECT_TRUE(contains(wrong(set), "error: " + text)) << wrong(set);

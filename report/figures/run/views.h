@@ -10,7 +10,8 @@
 
 namespace gaitlab::report {
 
-/// The robot at one instant, m, in the plane of the view: x is along the direction of travel, y up, and the ground is at y = 0.
+/// The robot at one instant, in the plane of the view; lengths in m. x is along the direction of travel, y is up, and the
+/// ground is at y = 0.
 struct View {
   double time = 0;                   ///< s
   std::vector<Outline> outlines;     ///< outlines of the bodies from far to near, as side_view returns them

@@ -20,8 +20,9 @@ std::vector<CheckKind> checks::fall() {
     made.from = run.fall->time.value_or(run.fall->lowest_time);
     made.to = run.fall->lowest_time;
     made.status = run.fall->time ? CheckStatus::fail : CheckStatus::pass;
-    const std::string share = texts::percent(made.value) + (run.fall->told ? " of its height in the pose of the set points"
-                                                                           : " of its height above the ground at the start");
+    const std::string share =
+        texts::percent(made.value) + (run.fall->told ? " of the height that it would have with all joints at their set points"
+                                                     : " of its height above the ground at the start");
     made.text = "the centre of mass keeps at least " + share;
     if (made.status == CheckStatus::pass) return;
     made.text =

@@ -39,10 +39,10 @@ void judge_law(const CheckedRun& run, Check& made) {
   if (left_open(made, run.driven() ? "" : kUndriven)) return;
   made.value = run.record.tally.off;
   made.limit = 0;
-  made.text = "every joint-step satisfies the law of its motor and stop";
+  made.text = "every joint-step satisfies the law of its motor and end stop";
   if (passes(made, made.limit)) return;
   made.text =
-      fmt::format("{:.0f} joint-steps do not satisfy the law of their motor or stop: their torques are wrong", made.value);
+      fmt::format("{:.0f} joint-steps do not satisfy the law of their motor or end stop: their torques are wrong", made.value);
   made.remedy = "the torque of the actuator must fall with the joint's speed";
 }
 
@@ -56,7 +56,7 @@ std::vector<CheckKind> checks::steps() {
            fmt::format("above {}; the verdict is then not judged", texts::percent(kTrustedCoarse)), CheckSpan::whole_run,
            "physics.step", "damping, or bounds on the drive of the joints", judge_coarse},
           {"law", CheckGroup::trust, "", "Torques satisfy the law of their motor",
-           "number of joint-steps that do not satisfy the law of their motor or stop", "", "any", CheckSpan::whole_run,
+           "number of joint-steps that do not satisfy the law of their motor or end stop", "", "any", CheckSpan::whole_run,
            "physics.step", "an actuator whose torque falls with the speed", judge_law}};
 }
 

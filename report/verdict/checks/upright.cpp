@@ -32,12 +32,12 @@ std::vector<CheckKind> checks::upright() {
     made.from = found->over.value_or(found->tilt_time);
     made.to = found->tilt_time;
     made.status = found->over ? CheckStatus::fail : made.value > run.limits().tilt ? CheckStatus::warn : CheckStatus::pass;
-    made.text = fmt::format("the robot tilts by up to {:.3g} rad from its start", made.value);
+    made.text = fmt::format("the robot tilts by up to {:.3g} rad from its orientation at the start", made.value);
     if (made.status == CheckStatus::warn) made.text += fmt::format(", more than {:.3g} rad (limits.tilt)", run.limits().tilt);
     if (!found->over) return;
     made.first = *found->over;
-    made.text =
-        fmt::format("the robot turns over at {:.2f} s: it tilts by up to {:.3g} rad from its start", made.from, made.value);
+    made.text = fmt::format("the robot turns over at {:.2f} s: it tilts by up to {:.3g} rad from its orientation at the start",
+                            made.from, made.value);
     made.remedy = kMoreSupport;
   };
   return {{"upright", CheckGroup::run, "rad", "Stays upright",

@@ -24,12 +24,12 @@ std::string percent(double share) {
   if (share > kMostShare) return "more than 1000 %";
   if (share < -kMostShare) return "less than -1000 %";
   if (std::abs(share) >= 1) return fmt::format("{:.0f} %", 100 * share);
-  if (share > 0 && share < kLeastShare) return "0.0001 % and less";
+  if (share > 0 && share < kLeastShare) return "less than 0.0001 %";
   return std::abs(share) < kLeastShare ? "0 %" : fmt::format("{:.3g} %", 100 * share);
 }
 
 std::string rough_percent(double share) {
-  if (share > kMostShare) return "1000 % and more";
+  if (share > kMostShare) return "more than 1000 %";
   if (share > 0 && share < kLeastShare) return percent(share);
   return share >= 1 ? fmt::format("{:.0f} %", 100 * share) : fmt::format("{:.{}g} %", 100 * share, share < 0.1 ? 2 : 3);
 }

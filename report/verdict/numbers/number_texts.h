@@ -9,9 +9,10 @@ namespace gaitlab::report::texts {
 
 using Lines = std::vector<std::string>;
 
-/// Percentage with three digits. Values for which more digits have no meaning become `more than 1000 %` or `0.0001 % and less`.
+/// Percentage with three digits. Values for which more digits have no meaning become `more than 1000 %` or `less than 0.0001
+/// %`.
 std::string percent(double share);
-/// Percentage of an estimate, with two digits, or three from 10 % on. Above 1000 % it is `1000 % and more`.
+/// Percentage of an estimate, with two digits, or three from 10 % on. Above 1000 % it is `more than 1000 %`.
 std::string rough_percent(double share);
 
 /// Percentage of a time, which consists of steps: with three digits, or `less than 0.01 %`.

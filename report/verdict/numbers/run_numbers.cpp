@@ -109,7 +109,8 @@ std::vector<SummaryNumber> run_numbers() {
                      "the engine does not count them.",
        .value = [](R r) { return r.record.tally.solves; }},
       {.key = "off_law",
-       .definition = "Joint-steps that do not satisfy the law of their motor or stop; if above 0, the torques in these steps "
+       .definition = "Number of joint-steps that do not satisfy the law of their motor or end stop; if it is above 0, the "
+                     "torques in these steps "
                      "are wrong.",
        .value = [](R r) { return r.record.tally.off; }},
       {.key = "coarse_time",

@@ -143,8 +143,8 @@ TEST(LoadMeter, ARollingSphereSlidesByItsCycloid) {
   EXPECT_NEAR(made["slip"], round->radius * (kAngle - std::sin(kAngle)), kSingle * round->radius);
 }
 
-/// A sphere spins in place by an angle a until another of its points touches. The point that touched before has moved by r sin
-/// a along x.
+/// A sphere turns about the y axis by an angle a, with its centre fixed, so that another of its points touches. The point that
+/// touched before has moved by r sin a along x.
 TEST(LoadMeter, TheWayIsThatOfThePointThatTouchedBefore) {
   LoadedRobot made;
   const auto& elements = made.elements();

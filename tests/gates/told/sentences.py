@@ -6,9 +6,9 @@ and more three digits), d (a whole number)."""
 import re
 
 NUMBER = r"[-+]?(?:\d+\.?\d*(?:e[-+]?\d+)?|nan|inf)"
-WITH_UNIT = {"pct": rf"more than 1000 %|less than -1000 %|0\.0001 % and less|{NUMBER} %",
+WITH_UNIT = {"pct": rf"more than 1000 %|less than -1000 %|less than 0\.0001 %|{NUMBER} %",
              "part": rf"less than 0\.01 %|{NUMBER} %", "brief": rf"less than 1 ms|{NUMBER} s",
-             "rough": rf"1000 % and more|0\.0001 % and less|{NUMBER} %", "length": rf"more than 1000 km|{NUMBER} (?:mm|m|km)"}
+             "rough": rf"more than 1000 %|less than 0\.0001 %|{NUMBER} %", "length": rf"more than 1000 km|{NUMBER} (?:mm|m|km)"}
 
 
 def percent(value):
@@ -17,13 +17,13 @@ def percent(value):
     if abs(value) >= 1:
         return "%.0f %%" % (100 * value)
     if abs(value) < 1e-6:
-        return "0.0001 % and less" if value > 0 else "0 %"
+        return "less than 0.0001 %" if value > 0 else "0 %"
     return "%.3g %%" % (100 * value)
 
 
 def rough_percent(value):
     if value > 10:
-        return "1000 % and more"
+        return "more than 1000 %"
     if 0 < value < 1e-6:
         return percent(value)
     return "%.0f %%" % (100 * value) if value >= 1 else "%.*g %%" % (2 if value < 0.1 else 3, 100 * value)
@@ -114,7 +114,7 @@ def dock_sentence(does, unit):
             r"(?:; {open:d} of {docks:d} docks are not judged: their largest loads are not stated)?)" + WITHIN)
 
 
-HEIGHT = r"(?:its height above the ground at the start|its height in the pose of the set points)"
+HEIGHT = r"(?:its height above the ground at the start|the height that it would have with all joints at their set points)"
 RESTS = r"{value:.3g} rad beyond its stop, which gives {torque:.3g} N m"
 JUDGED = {
     "outcome": r"the run came to its end|(?s:.+)",
@@ -124,8 +124,8 @@ JUDGED = {
     "progress": r"the robot goes {value:.3g} m (?:per period|in the judged time)(?:, less than {limit:.3g} m)?"
                 r"|the robot slides down: gravity does {fallen:.3g} J of work, the motors {driven:.3g} J, and its speed grows "
                 r"{value:.3g} times from the first half of the judged time to the second",
-    "upright": r"the robot turns over at {from:.2f} s: it tilts by up to {value:.3g} rad from its start"
-               r"|the robot tilts by up to {value:.3g} rad from its start(?:, more than {tilt:.3g} rad \(limits\.tilt\))?",
+    "upright": r"the robot turns over at {from:.2f} s: it tilts by up to {value:.3g} rad from its orientation at the start"
+               r"|the robot tilts by up to {value:.3g} rad from its orientation at the start(?:, more than {tilt:.3g} rad \(limits\.tilt\))?",
     "voltage": f"(?:{LIMITED})" + NEAR,
     "current": f"(?:{LIMITED})" + NEAR,
     "envelope": r"the torque of joint {worst} is {value:pct} of its (?:motor|actuator)'s limit at that speed",
@@ -187,7 +187,7 @@ JUDGED = {
     "step": r"the step is too long in {value:pct} of the control ticks|h lambda exceeds 1 in {value:pct} of the control ticks",
     "coarse": r"in {value:rough} of the time the shortest steps of the integrator did not reach the accuracy {accuracy:rough}"
               r"(?:: the result depends on the steps, and smaller steps may not change this)?",
-    "law": r"every joint-step satisfies the law of its motor and stop|{value:.0f} joint-steps do not satisfy the law of their motor "
+    "law": r"every joint-step satisfies the law of its motor and end stop|{value:.0f} joint-steps do not satisfy the law of their motor "
            r"or stop: their torques are wrong",
 }
 # Sentences on missing evidence: of the check `evidence`, and of a verdict that is not judged.

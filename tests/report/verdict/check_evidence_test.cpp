@@ -184,7 +184,7 @@ TEST(CheckEvidence, TheBarOfAStretch) {
   EXPECT_EQ(with(0, 3.05), CheckStatus::too_close) << "less 3 %";
   EXPECT_EQ(with(0, 3.15), CheckStatus::fail);
   EXPECT_EQ(with(4, 3.15), CheckStatus::fail);
-  // A row that is partly at a limit, of voltage or current, counts with its recorded time.
+  // If a joint is at a limit of voltage or current for part of a row, the recorded time at the limit counts, not the whole row.
   for (const TickColumn column : {kVoltageLimited, kCurrentLimited}) {
     Case partly = rated_gait();
     off(0.03)(partly);

@@ -21,14 +21,14 @@ TEST(NumberTexts, SharesHaveNoPowersOfTen) {
   EXPECT_EQ(texts::percent(-0.05), "-5 %");
   EXPECT_EQ(texts::percent(-14.9), "less than -1000 %");
   EXPECT_EQ(texts::percent(1e-6), "0.0001 %");
-  EXPECT_EQ(texts::percent(1e-9), "0.0001 % and less");
+  EXPECT_EQ(texts::percent(1e-9), "less than 0.0001 %");
   EXPECT_EQ(texts::percent(-1e-9), "0 %");
   EXPECT_EQ(texts::percent(HUGE_VAL), "more than 1000 %");
   EXPECT_EQ(texts::percent(std::nan("")), "nan %");
   EXPECT_EQ(texts::rough_percent(0.0123), "1.2 %");
   EXPECT_EQ(texts::rough_percent(1.0345), "103 %");
-  EXPECT_EQ(texts::rough_percent(1060), "1000 % and more");
-  EXPECT_EQ(texts::rough_percent(1e-9), "0.0001 % and less");
+  EXPECT_EQ(texts::rough_percent(1060), "more than 1000 %");
+  EXPECT_EQ(texts::rough_percent(1e-9), "less than 0.0001 %");
 }
 
 TEST(NumberTexts, SharesOfATimeConsistOfSteps) {

@@ -155,10 +155,10 @@ TEST_F(Doubts, NameWhatIsNotFinite) {
 
 TEST_F(Doubts, SayWhatIsOffItsLaw) {
   r.tally.off = 3;
-  EXPECT_EQ(
-      only(),
-      "3 joint-steps do not satisfy the law of their motor or stop: their torques are wrong; the torque of the actuator must "
-      "fall with the joint's speed");
+  EXPECT_EQ(only(),
+            "3 joint-steps do not satisfy the law of their motor or end stop: their torques are wrong; the torque of the "
+            "actuator must "
+            "fall with the joint's speed");
 }
 
 TEST_F(Doubts, SayWhereTheShortestStepsWereTooLong) {
@@ -309,7 +309,8 @@ TEST(Trust, AnActuatorThatAnImplicitStepCannotSolveIsNeverSilent) {
     }
   }
   const std::string text = said(" --set actuator.dry=0.1 --set physics.step=5e-3 --set duration=0.05");
-  EXPECT_TRUE(contains(text, " joint-steps do not satisfy the law of their motor or stop: their torques are wrong")) << text;
+  EXPECT_TRUE(contains(text, " joint-steps do not satisfy the law of their motor or end stop: their torques are wrong"))
+      << text;
   const auto json = nlohmann::json::parse(read(folder / fmt::format("out{}/summary.json", runs)));
   EXPECT_GT(json.at("off_law"), 0);
   EXPECT_FALSE(contains(said(" --set actuator.rise=-0.05"), " joint-steps do not satisfy"));  // torque decreases with the speed

@@ -5,7 +5,7 @@ import { capital, number, percent } from "../data/numbers";
 
 type Setting = RemedyMap["frequency"];
 
-const pitch = 20; // distance of the cells, px
+const pitch = 20; // distance between the centres of adjacent cells, px
 const left = 46;
 const top = 4;
 const bottom = 34;
