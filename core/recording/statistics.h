@@ -76,7 +76,7 @@ struct Parting {
 /// Counts and error estimates of the steps of a rollout since the start.
 struct StepTally {
   double solves = 0;       ///< solutions of the equations of motion; 0 if not counted
-  double off = 0;          ///< number of joints that ended a step off the law of motor or stop, summed over the steps
+  double off = 0;          ///< number of joints that ended a step off the law of motor or end stop, summed over the steps
   double coarse = 0;       ///< time in which the shortest steps of an integrator did not reach the accuracy, s
   bool estimated = false;  ///< true if a torque error has been estimated so far (core/simulation/step_error.h)
   Parting event;           ///< for the rollout with other steps that differs first; its `share` is the estimated error
