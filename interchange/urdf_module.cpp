@@ -130,7 +130,7 @@ ModuleText module_text(const UrdfBodies& parts, const std::string& name, const s
       "actuator: {{type: servo, voltage: {}, {}, efficiency_model: directional, source: {}}}\ncontroller: {{type: pid, {}, Kd: "
       "0}}\n",
       number_text(kVoltage), motor_text(*common),
-      yaml_text("the voltage is chosen, because URDF has none; torque and speed are the effort and velocity in " + from),
+      yaml_text("chosen: the voltage, because URDF has none; torque and speed are the effort and velocity in " + from),
       gain_text(*common));
   return made;
 }

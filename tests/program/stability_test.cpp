@@ -123,7 +123,7 @@ TEST(LambdaRule, WarnsInTheSameWordsWhereTheGroundBindsLater) {
                                     "--set duration=4.5 --out out",
                                 folder / "");
   EXPECT_EQ(result.code, 0);
-  EXPECT_NE(result.err.find("warning: in "), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("warning: h lambda exceeds 1 in "), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("step 2.5e-05 s is too long: the largest allowed is "), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("set by the contact m"), std::string::npos) << result.err;
 }
