@@ -90,7 +90,7 @@ for command in optimize\ --ask evaluate; do
   endless() { "$program" $command "$work/many.yaml" --quiet --out "$work/endless" >/dev/null 2>"$work/log"; }
   code=0
   head -c 100000000 /dev/zero | endless || code=$?
-  ((code == 2)) && said "stdin:1:1: error: is longer than 1048576 bytes" || bad "$command: zeros without end: exit code $code"
+  ((code == 2)) && said "stdin:1:1: error: the line is longer than 1048576 bytes" || bad "$command: zeros without end: exit code $code"
   code=0
   tr '\0' '\n' </dev/zero | head -c 100000000 | endless || code=$?
   ((code == 2)) && said "stdin:1048577:1: error: the line follows 1048576 bytes of blank lines" || bad "$command: blank lines without end: exit code $code"
