@@ -230,11 +230,9 @@ void FaultKeys::fields(Fields& f) {
            "by `delay`. none: the fault ends.");
   if (all || fault.kind == weak || fault.kind == lost)
     f.number("share", fault.share, {"", 0, 1, "weak: share of the torque that is left; lost: share of lost set points."});
-  if (all || fault.kind == late)
-    f.periods("delay", fault.delay,
-              {"s", 0, kLongestDelay,
-               "late: delay, a whole number of "
-               "control periods."});
+  if (all || fault.kind == late) {
+    f.periods("delay", fault.delay, {"s", 0, kLongestDelay, "late: delay, a whole number of control periods."});
+  }
 }
 
 std::vector<Change> read_changes(const Node& root, const Scenario& scenario, JointNames joints, const ReadSegment& read,
