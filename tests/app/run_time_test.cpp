@@ -13,7 +13,7 @@ const Label kLongRunTime("FasterEngine.OtherCommandsNameItOnce:FasterEngine.RunA
 using app::estimated_seconds;
 
 /// Estimate of a run with these settings, s.
-double estimate(const std::string& name, std::vector<std::string> sets, const RowsNeeded& rows = {}) {
+double estimate(const std::string& name, const std::vector<std::string>& sets, const RowsNeeded& rows = {}) {
   return estimated_seconds(shipped(name + ".yaml", sets), rows);
 }
 
