@@ -31,7 +31,8 @@ template <class T>
 class Implicit {
  public:
   static constexpr int kSolves = 100;               ///< largest number of solves in one step; most steps need 1
-  static constexpr double kTorqueTolerance = 1e-9;  ///< share of the largest torque of a motor at rest
+  static constexpr double kTorqueTolerance = 1e-9;  ///< least share of the largest torque of a motor at rest
+  static constexpr double kShareOfAccuracy = 1e-3;  ///< share of the relative accuracy of the torques
   static constexpr double kStopTolerance = 1e-9;    ///< N m
   static constexpr double kRounding = 1e-11;        ///< relative rounding error of the torque of a passive hinge, due to q
 
@@ -159,6 +160,13 @@ class Implicit {
     return x.subspan(StateLayout::kAngles + joints_, joints_);
   }
 
+  /// Lets every motor miss its law by a thousandth of the relative accuracy of the torques (decision 48). The torque of a
+  /// directional gear is curved, so that each smaller miss takes a further solve.
+  void allow(const T& accuracy) {
+    const T least = kTorqueTolerance, share = T(kShareOfAccuracy) * accuracy;
+    torque_tolerance_ = math::select(share > least, share, least);
+  }
+
   Body<T> body;
   Contacts<T> contacts;
   Motors<T> motors;
@@ -270,7 +278,7 @@ class Implicit {
     math::Mask<T> any = contacts.off(h);
     missed_ = T(0.0);
     for (std::size_t j = 0; j < joints_; ++j) {
-      const auto motor = math::abs(motors.law[j] - now_.torque[j]) > kTorqueTolerance * motors.scale[j];
+      const auto motor = math::abs(motors.law[j] - now_.torque[j]) > torque_tolerance_ * motors.scale[j];
       // The rounding error of the torque of a passive spring may exceed the tolerance of a stop.
       const T allowed = tree_.passive.empty() ? T(kStopTolerance) : T(kStopTolerance) + T(kRounding) * math::abs(now_.stop[j]);
       const auto stop = math::abs(stopped(x, j, end_[j], h).torque - now_.stop[j]) > allowed;
@@ -376,6 +384,7 @@ class Implicit {
   std::vector<T> place_, stop_, stop_slope_, force_, diagonal_, end_;
   Iterate now_, next_;
   T missed_ = 0.0;
+  T torque_tolerance_ = kTorqueTolerance;  ///< share of the largest torque of a motor at rest
 };
 
 }  // namespace gaitlab::articulated

@@ -1,7 +1,6 @@
 // Motors of a step for a scalar type T: their law at any speed, and the tangent of the law for a solve.
 #pragma once
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -45,19 +44,11 @@ class Motors {
     if (dc_.empty()) return;
     const DcMotor* from = actuator_->dc_motors() + lanes.first;
     for (BasicDcMotor<T>& to : dc_) {
+      const auto places = to.constants();
       for (std::size_t l = 0; l < math::kLanes<T>; ++l, ++from) {
-        const std::array values{from->R,
-                                from->Kt,
-                                from->Ks,
-                                from->gear,
-                                from->efficiency,
-                                from->u_max,
-                                from->i_max,
-                                from->reversal_speed,
-                                from->back_emf_damping};
-        const std::array places{
-            &to.R, &to.Kt, &to.Ks, &to.gear, &to.efficiency, &to.u_max, &to.i_max, &to.reversal_speed, &to.back_emf_damping};
-        for (std::size_t k = 0; k < values.size(); ++k) math::lane(*places[k], l) = values[k];
+        DcMotor one = *from;
+        const auto values = one.constants();
+        for (std::size_t k = 0; k < values.size(); ++k) math::lane(*places[k], l) = *values[k];
       }
       from += lanes.all - math::kLanes<T>;
     }

@@ -26,7 +26,8 @@ struct History {
   [[nodiscard]] std::size_t solves() const { return joints; }
   [[nodiscard]] std::size_t off() const { return joints + 1; }  ///< number of torques that differ from their law after a step
   [[nodiscard]] std::size_t coarse() const { return joints + 2; }  ///< time in which the shortest steps missed the accuracy, s
-  [[nodiscard]] std::size_t size() const { return joints + 3; }
+  [[nodiscard]] std::size_t quiet() const { return joints + 3; }   ///< time without limits and slipping, s
+  [[nodiscard]] std::size_t size() const { return joints + 4; }
 };
 
 /// A state, and the parts [from, to) of the steps that led to it.

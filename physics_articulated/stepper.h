@@ -3,8 +3,7 @@
 #include <algorithm>
 
 #include "core/math/runge_kutta.h"
-#include "physics_articulated/implicit.h"
-#include "physics_articulated/step_parts.h"
+#include "physics_articulated/agreement.h"
 
 namespace gaitlab::articulated {
 
@@ -33,7 +32,7 @@ class Stepper {
         layout{tree.lo.size()},
         method_(method),
         joints_(tree.lo.size()),
-        accuracy_(accuracy),
+        agreement_(accuracy),
         history_(layout.size(), T(0.0)),
         solos_(solos),
         of_solo_(StateLayout::kAngles + 2 * joints_),
@@ -45,6 +44,7 @@ class Stepper {
     levels_.assign(kLevels, {zero, 0, way, way, way, way, way, way, {std::vector<math::Mask<T>>(joints_), {}}});
     limits_ = levels_[0].limits;
     halved_.assign(kHalvings, zero);
+    if (method == Method::adaptive) implicit.allow(accuracy);
     parts_.assign(method == Method::adaptive ? std::clamp<std::size_t>(kRoom / size_of_part(), 8, kMostParts) : 4,
                   Part<T>(joints_));
   }
@@ -61,7 +61,11 @@ class Stepper {
       const math::Mask<T> all = T(0.0) <= T(0.0);
       if (method_ == Method::implicit) single(x, command, h, all);
       if (method_ == Method::extrapolated) adapt(x, command, h, all, kLevels);
-      if (method_ == Method::adaptive) adapt(x, command, h, all, 0);
+      if (method_ == Method::adaptive) {
+        agreement_.begin(history_[layout.quiet()]);
+        adapt(x, command, h, all, 0);
+        history_[layout.quiet()] = agreement_.quiet(h);
+      }
     }
     close();
   }
@@ -80,16 +84,6 @@ class Stepper {
   static constexpr std::size_t kLevels = 7;  ///< number of lengths of an adaptive step, h to h / 64
   static constexpr std::size_t kShortest = std::size_t{1} << (kLevels - 1);
   static constexpr std::size_t kHalvings = 6;  ///< depth of halving a step whose search does not converge
-  // Largest allowed difference between the results of two orders, in units of the accuracy. Together with the scales of the
-  // base below, these are the least strict values that bring the gaits and limits of docs/validation.md within the accuracy.
-  static constexpr double kSecondOrder = 1, kThirdOrder = 2;
-  static constexpr double kBaseSpeed = 0.02, kBaseTurn = 0.2;  ///< m/s, rad/s; scales of differences of the base speeds
-  // An undamped speed error becomes a position error, which changes a torque long after the step that caused the error.
-  static constexpr double kAtLimit = 0.25;  ///< factor on the tolerance of a joint whose motor is at its limit
-  static constexpr double kLoose =
-      0.5;  ///< factor on the tolerance of the base if a motor is at its limit or most of the load slides
-  static constexpr double kFloor = 0.01;  ///< least scale of the accuracy, as a share of the largest torque at rest
-
   static constexpr std::size_t kMostParts = 1 + 7 * ((std::size_t{1} << kLevels) - 1);
   static constexpr std::size_t kRoom = 32 << 20;  ///< bytes of parts that the constructor allocates
   [[nodiscard]] std::size_t size_of_part() const { return sizeof(Part<T>) + 3 * joints_ * sizeof(T); }
@@ -177,34 +171,6 @@ class Stepper {
     weigh({{}, 1, used_}, which, 1, true);
   }
 
-  /// Lanes in which no speed differs by more than `share` of the accuracy. The difference of a joint speed is converted to a
-  /// torque, relative to the largest torque of the joint so far. The difference of the base speeds is relative to kBaseSpeed
-  /// and kBaseTurn, because errors of the base change the torques only later. A motor at its limit and
-  /// sliding contacts make the tolerance smaller.
-  template <class Difference>
-  math::Mask<T> within(double share, const math::Mask<T>& which, const Limits<T>& limits, Difference difference) {
-    math::Mask<T> within = which;
-    const T allowed = share * accuracy_;
-    math::Mask<T> loose = limits.slide;
-    for (std::size_t j = 0; j < joints_; ++j) {
-      const T& peak = history_[layout.peak() + j];
-      const T least = kFloor * implicit.motors.scale[j];
-      const T apart = implicit.motors.per_speed[j] * math::abs(difference(StateLayout::kAngles + joints_ + j));
-      const math::Mask<T>& limited = limits.motor[j];
-      const T here = math::select(limited, kAtLimit * allowed, allowed);
-      within = math::mask_and(within, apart <= here * math::select(peak > least, peak, least));
-      loose = math::mask_or(loose, limited);
-    }
-    const T of_base = math::select(loose, kLoose * allowed, allowed);
-    for (const auto& [first, speed] :
-         {std::pair(StateLayout::kVelocity, kBaseSpeed), {StateLayout::kAngularVelocity, kBaseTurn}}) {
-      const Vec<T> apart{difference(first), difference(first + 1), difference(first + 2)};
-      const T most = speed * of_base;
-      within = math::mask_and(within, dot(apart, apart) <= most * most);
-    }
-    return within;
-  }
-
   /// Lanes whose state is finite. Shorter steps cannot repair the other lanes.
   static math::Mask<T> finite(std::span<const T> x) {
     T sum = 0.0;
@@ -283,7 +249,11 @@ class Stepper {
     const std::size_t first = used_;
     const Limits<T>& limits = one_and_two(own, command, h, which, before);
     const auto &one = own.whole.x, &two = own.halves.x, &four = own.quarters.x;
-    auto second = within(kSecondOrder, which, limits, [&](std::size_t e) { return two[e] - one[e]; });
+    const auto agree = [&](double share, const math::Mask<T>& in, const Limits<T>& after, const auto& difference) {
+      const std::span<const T> peak(&history_[layout.peak()], joints_);
+      return agreement_.within(share, in, after, implicit.motors, peak, difference);
+    };
+    auto second = agree(Agreement<T>::kSecondOrder, which, limits, [&](std::size_t e) { return two[e] - one[e]; });
     if (fixed) second = which;
     weigh(own.whole, second, -1, false);
     weigh(own.halves, second, 2, true);
@@ -291,7 +261,8 @@ class Stepper {
     math::Mask<T> third{};
     if (math::any_lane(more)) {
       this->four(own, command, h, more);
-      third = within(kThirdOrder, more, limits_, [&](std::size_t e) { return 2.0 * (four[e] - two[e]) - (two[e] - one[e]); });
+      third = agree(Agreement<T>::kThirdOrder, more, limits_,
+                    [&](std::size_t e) { return 2.0 * (four[e] - two[e]) - (two[e] - one[e]); });
       if (level + 1 == kLevels) {
         T& coarse = history_[layout.coarse()];
         coarse = coarse + select(math::fresh(more, third), T(h), T(0.0));
@@ -380,7 +351,7 @@ class Stepper {
 
   Method method_;
   std::size_t joints_;
-  T accuracy_;
+  Agreement<T> agreement_;
   std::vector<T> history_, sum_, stage_, rate_;
   std::vector<Level<T>> levels_;
   Limits<T> limits_;

@@ -1,5 +1,6 @@
 // DC motor with gear: pure functions with their slopes, elementwise over joints and lanes.
 #pragma once
+#include <array>
 #include <limits>
 
 #include "core/math/functions.h"
@@ -22,6 +23,16 @@ struct BasicDcMotor {
   V R = 1.0, Kt = 0.0, Ks = 0.0, gear = 1.0, efficiency = 1.0, u_max = 0.0, i_max = 0.0;
   V reversal_speed = 0.0;  ///< joint speed, rad/s; 0 for eq. 2 as printed
   V back_emf_damping = Kt * Ks * gear * gear / R;
+  V log_efficiency = math::log(efficiency);  ///< <= 0
+  V driven = math::exp(-log_efficiency);  ///< 1 / eta, with the rounding of exp(): share of a gear that is driven by its joint
+  V driving = math::exp(log_efficiency);  ///< eta, with the same rounding
+
+  [[nodiscard]] std::array<V*, 12> constants() {
+    return {&R,      &Kt,     &Ks, &gear, &efficiency, &u_max, &i_max, &reversal_speed, &back_emf_damping, &log_efficiency,
+            &driven, &driving};
+  }
+  /// Computes the constants that follow from others, after a change of others.
+  void derive() { *this = {R, Kt, Ks, gear, efficiency, u_max, i_max, reversal_speed}; }
 
   struct Effort {
     V torque;                        ///< N m
@@ -77,10 +88,11 @@ struct BasicDcMotor {
     const auto directional = reversal_speed > zero;
     if (!math::any_lane(directional)) return {efficiency, zero};
     const V along = select(current < zero, -speed, speed) / select(directional, reversal_speed, one);
-    const V loss = math::log(efficiency);  // <= 0
-    const V eta = math::exp(loss * math::clamp(along, -one, one));
-    return {select(directional, eta, efficiency), select(math::mask_and(directional, math::abs(along) < one),
-                                                         -eta * loss / select(directional, reversal_speed, one), zero)};
+    const auto turning_over = math::mask_and(directional, math::abs(along) < one);
+    V eta = select(directional, select(along < zero, driven, driving), efficiency);
+    if (!math::any_lane(turning_over)) return {eta, zero};
+    eta = select(turning_over, math::exp(log_efficiency * math::clamp(along, -one, one)), eta);
+    return {eta, select(turning_over, -eta * log_efficiency / select(directional, reversal_speed, one), zero)};
   }
 };
 

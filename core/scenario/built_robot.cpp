@@ -28,7 +28,7 @@ DcMotor built(DcMotor motor, const MotorBuild& build, bool limited_at_stall) {
   motor.u_max *= build.supply;
   motor.efficiency = 1 - build.gear_friction * (1 - motor.efficiency);
   if (limited_at_stall) motor.i_max = motor.u_max / motor.R;
-  motor.back_emf_damping = motor.Kt * motor.Ks * motor.gear * motor.gear / motor.R;
+  motor.derive();
   return motor;
 }
 
