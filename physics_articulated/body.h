@@ -6,6 +6,7 @@
 #include "core/math/functions.h"
 #include "core/simulation/state_layout.h"
 #include "physics_articulated/cholesky.h"
+#include "physics_articulated/other_dynamics.h"
 #include "physics_articulated/spatial.h"
 #include "physics_articulated/tree.h"
 
@@ -23,7 +24,9 @@ namespace gaitlab::articulated {
 template <class T>
 class Body {
  public:
-  Body(const Tree<T>& tree, const Vec<T>& gravity) : tree_(tree), gravity_(gravity), links_(tree.links.size()) {}
+  /// With `other`, which is for one lane only, weight, centrifugal and gyroscopic forces are those that cause its acceleration.
+  Body(const Tree<T>& tree, const Vec<T>& gravity, OtherDynamics* other = nullptr)
+      : tree_(tree), gravity_(gravity), links_(tree.links.size()), other_(other), fall_(6 + tree.lo.size()) {}
 
   /// Computes poses, velocities, inertias, weight, and centrifugal and gyroscopic forces from the state.
   void forward_kinematics(std::span<const T> state) {
@@ -32,6 +35,9 @@ class Body {
     for (std::size_t i = 1; i < links_.size(); ++i) {
       place_link(i, state);
       weigh(i);
+    }
+    if constexpr (math::kLanes<T> == 1) {
+      if (other_ != nullptr) take_forces(state);
     }
   }
 
@@ -200,6 +206,19 @@ class Body {
     l.at_rest.f = cross(l.V.w, momentum) - weight;
   }
 
+  /// Sets the forces at rest to those that cause the acceleration of `other_`: p = -I A.
+  void take_forces(std::span<const T> state) {
+    other_->fall(state, fall_);
+    const Vec<T> turning = cross(links_[0].V.w, links_[0].V.v);
+    links_[0].A = {{fall_[3], fall_[4], fall_[5]}, Vec<T>{fall_[0], fall_[1], fall_[2]} - turning};
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      Link& l = links_[i];
+      if (i > 0) l.A = links_[tree_.links[i].parent].A + l.c + fall_[6 + tree_.links[i].joint] * l.S;
+      const Force<T> causes = rigid(tree_.links[i].mass, l.moment, l.about_origin) * l.A;
+      l.at_rest = {-causes.n, -causes.f};
+    }
+  }
+
   /// Computes accelerations from the base outwards. If `moving`, they include velocity-dependent terms.
   void spread(const Motion<T>& base, bool moving, std::span<T> out) {
     links_[0].A = base;
@@ -257,6 +276,8 @@ class Body {
   std::vector<Link> links_;
   Cholesky<T, 6> free_;    // factor of the articulated inertia of the base: angular, then linear
   Cholesky<T, 3> planar_;  // factor for a planar base: rotation about y, x, z
+  OtherDynamics* other_;
+  std::vector<T> fall_;  // acceleration of other_
 };
 
 }  // namespace gaitlab::articulated

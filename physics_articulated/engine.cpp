@@ -64,8 +64,9 @@ articulated::Method method_of(const std::string& name) {
 
 class ArticulatedPlant final : public Plant {
  public:
-  explicit ArticulatedPlant(const PlantSettings& s)
+  ArticulatedPlant(const PlantSettings& s, std::unique_ptr<articulated::OtherDynamics> dynamics)
       : settings_(s),
+        dynamics_(std::move(dynamics)),
         layout_{s.robot->joints.size(), 1 + s.others.size()},
         explicit_(method_of(s.integrator) == articulated::Method::rk4),
         x_(layout_.size() / layout_.lanes),
@@ -80,7 +81,7 @@ class ArticulatedPlant final : public Plant {
     if (width == kWidths.end() || !width->runs()) {
       throw std::invalid_argument("no kernel for so many rollouts side by side on this processor");
     }
-    KernelSettings settings{rollouts, s.actuator, method_of(s.integrator), articulated::query, {}};
+    KernelSettings settings{rollouts, s.actuator, method_of(s.integrator), articulated::query, dynamics_.get(), {}};
     if (layout_.lanes > 1) own_solos_ = articulated::make_solos(settings);
     for (const auto& solo : own_solos_) solos_.push_back({solo.get()});
     settings.solos = solos_;
@@ -113,6 +114,7 @@ class ArticulatedPlant final : public Plant {
 
   void accelerate(std::size_t lane, const RobotState& state, In torque, std::span<const BodyWrench> wrenches,
                   Acceleration& out) override {
+    if (dynamics_ != nullptr) return dynamics_->accelerate(state, torque, wrenches, out);
     StateLayout{layout_.joints, 1}.write(state, 0, x_);
     models_[lane]->accelerate(x_, state, torque, wrenches, out);
   }
@@ -138,6 +140,7 @@ class ArticulatedPlant final : public Plant {
 
  private:
   PlantSettings settings_;
+  std::unique_ptr<articulated::OtherDynamics> dynamics_;
   StateLayout layout_;
   bool explicit_;
   Out numbers_, kept_;
@@ -151,23 +154,34 @@ class ArticulatedPlant final : public Plant {
 
 }  // namespace
 
+std::vector<Integrator> implicit_integrators() {
+  std::vector<Integrator> all = integrators();
+  std::erase_if(all, [](const Integrator& one) { return method_of(one.name) == articulated::Method::rk4; });
+  return all;
+}
+
+std::unique_ptr<Plant> make_implicit_plant(const PlantSettings& settings,
+                                           std::unique_ptr<articulated::OtherDynamics> dynamics) {
+  return std::make_unique<ArticulatedPlant>(settings, std::move(dynamics));
+}
+
 void register_articulated(Catalog& catalog) {
-  catalog.add(Engine{"articulated",
-                     "Our own articulated-body recursion, implicit in motors, stops and contacts: long steps, no Bullet.\n\n"
-                     "    M (v+ - v) = h (weight - c + tau(v+) + sum J^T f(v+))        q+ = q (+) h v+\n\n"
-                     "tau: torques of motors and stops, f: forces of the ground, all by their laws at the velocity v+ of the "
-                     "step's end, which\n"
-                     "Newton's method with a line search finds for any h (docs/equations.md, 7). Integrators:\n\n"
-                     "    adaptive      takes steps of the control period or a whole part of it, at most 5 ms, and divides "
-                     "each until two orders\n"
-                     "                  agree to physics.accuracy (0.01: 1 % of the torques). The default, with step: auto.\n"
-                     "    implicit      order 1, steps as given by physics.step. The default where a step is given.\n"
-                     "    extrapolated  order 2, steps as given: two half steps and a whole one.\n"
-                     "    rk4           order 4, explicit; its step must be at most 1 / lambda (docs/equations.md, 7).\n\n"
-                     "The summary gives an estimate of the torque error of the steps.",
-                     integrators(), 5e-4, widths(), true,
-                     [](const PlantSettings& s) -> std::unique_ptr<Plant> { return std::make_unique<ArticulatedPlant>(s); },
-                     0});
+  catalog.add(Engine{
+      "articulated",
+      "Our own articulated-body recursion, implicit in motors, stops and contacts: long steps, no Bullet.\n\n"
+      "    M (v+ - v) = h (weight - c + tau(v+) + sum J^T f(v+))        q+ = q (+) h v+\n\n"
+      "tau: torques of motors and stops, f: forces of the ground, all by their laws at the velocity v+ of the "
+      "step's end, which\n"
+      "Newton's method with a line search finds for any h (docs/equations.md, 7). Integrators:\n\n"
+      "    adaptive      takes steps of the control period or a whole part of it, at most 5 ms, and divides "
+      "each until two orders\n"
+      "                  agree to physics.accuracy (0.01: 1 % of the torques). The default, with step: auto.\n"
+      "    implicit      order 1, steps as given by physics.step. The default where a step is given.\n"
+      "    extrapolated  order 2, steps as given: two half steps and a whole one.\n"
+      "    rk4           order 4, explicit; its step must be at most 1 / lambda (docs/equations.md, 7).\n\n"
+      "The summary gives an estimate of the torque error of the steps.",
+      integrators(), 5e-4, widths(), true,
+      [](const PlantSettings& s) -> std::unique_ptr<Plant> { return std::make_unique<ArticulatedPlant>(s, nullptr); }, 0});
 }
 
 }  // namespace gaitlab

@@ -38,7 +38,7 @@ class Implicit {
 
   Implicit(const Tree<T>& tree, const Environment<T>& environment, const Actuator* actuator,
            const LaneRange& lanes = {0, math::kLanes<T>})
-      : body(tree, environment.gravity),
+      : body(tree, environment.gravity, environment.dynamics),
         contacts(tree, environment),
         motors(actuator, tree.lo.size(), tree.passive, lanes),
         holds(tree.lo.size()),

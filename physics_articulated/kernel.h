@@ -51,6 +51,7 @@ struct KernelSettings {
   const Actuator* actuator = nullptr;
   Method method = Method::adaptive;
   Touch<double> (*query)(const Ground&, const Vec<double>& centre, double radius) = nullptr;
+  OtherDynamics* dynamics = nullptr;  ///< for a kernel of one lane; must outlive the kernel
   std::span<const SoloOfLane> solos;  ///< one per lane or none, for a kernel of several lanes; must outlive the kernel
 };
 
@@ -59,6 +60,7 @@ template <class T>
 Environment<T> environment(const KernelSettings& s) {
   Environment<T> all;
   all.query = s.query;
+  all.dynamics = s.dynamics;
   for (std::size_t l = 0; l < s.rollouts.size(); ++l) {
     const Rollout& one = s.rollouts[l];
     put(all.gravity, l, one.gravity);

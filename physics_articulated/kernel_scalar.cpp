@@ -9,7 +9,7 @@ class ScalarSolo final : public Solo {
  public:
   ScalarSolo(const KernelSettings& s, std::size_t lane)
       : tree_(s.rollouts[lane].tree),
-        environment_(environment<double>({s.rollouts.subspan(lane, 1), s.actuator, s.method, s.query, {}})),
+        environment_(environment<double>({s.rollouts.subspan(lane, 1), s.actuator, s.method, s.query, nullptr, {}})),
         lanes_{lane, s.rollouts.size()},
         implicit_(tree_, environment_, s.actuator, lanes_) {
     if (s.method == Method::adaptive) implicit_.allow(s.rollouts[lane].accuracy);

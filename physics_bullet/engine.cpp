@@ -16,6 +16,8 @@
 #include "core/laws/passive_hinge.h"
 #include "core/simulation/stability.h"
 #include "core/simulation/step_advice.h"
+#include "physics_articulated/engine.h"
+#include "physics_bullet/bullet_dynamics.h"
 #include "physics_bullet/multibody.h"
 #include "physics_bullet/solver_plant.h"
 
@@ -232,6 +234,17 @@ void check_joints(const PlantSettings& s) {
   }
 }
 
+std::vector<Integrator> integrators() {
+  std::vector<Integrator> all = {{"semi_implicit", 1}, {kRk4, 4}};
+  std::ranges::move(implicit_integrators(), std::back_inserter(all));
+  return all;
+}
+
+bool is_implicit(const std::string& integrator) {
+  const std::vector<Integrator> all = implicit_integrators();
+  return std::ranges::find(all, integrator, &Integrator::name) != all.end();
+}
+
 /// Allocates memory for Bullet, which does not check the result of malloc.
 void* allocate(std::size_t size) {
   void* block = std::malloc(size);
@@ -258,13 +271,14 @@ void register_bullet(Catalog& catalog) {
       "penalty law for torques. It has no snapshots, goldens, reaction columns, rotor inertia and heightfield.\n\n"
       "    contact: {law: bullet, on: all}\n"
       "    ground: {type: boxes, boxes: [{center: [0.5, 0, 0.05], size: [0.1, 0.1, 0.1], mass: 0.2}]}",
-      {{"semi_implicit", 1}, {kRk4, 4}},
+      integrators(),
       kLongestBulletStep,
       {1},
       true,
       [](const PlantSettings& s) -> std::unique_ptr<Plant> {
         check_joints(s);
         if (s.contact == ContactLaw::solver) return make_solver_plant(s);
+        if (is_implicit(s.integrator)) return make_implicit_plant(s, make_bullet_dynamics(s));
         return std::make_unique<BulletPlant>(s);
       },
       1e-3,

@@ -100,7 +100,7 @@ void PhysicsFields::fields(Fields& f) {
     f.one_of("integrator", integrator, integrators.pointers, "Integrator of the engine.");
     physics.integrator = engine.integrator(integrator);
     physics.adaptive_step = step <= 0 && physics.adapts();
-    physics.chosen_step = step <= 0 && chooses;
+    physics.chosen_step = step <= 0 && chooses && !physics.adapts();
     if (step > 0 || !physics.adapts()) physics.step = step > 0 ? step : engine.step;
     if (physics.adapts() || catalog != nullptr) {  // read always, but written only if it has an effect
       f.number(

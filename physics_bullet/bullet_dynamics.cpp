@@ -1,0 +1,66 @@
+#include "physics_bullet/bullet_dynamics.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/dynamics/rotor_inertia.h"
+#include "physics_bullet/multibody.h"
+
+namespace gaitlab {
+
+namespace {
+
+class BulletDynamics final : public articulated::OtherDynamics {
+ public:
+  explicit BulletDynamics(const PlantSettings& s)
+      : robot_(*s.robot),
+        gravity_(s.gravity),
+        layout_{robot_.joints.size(), 1},
+        body_(robot_, s.base, s.contacts),
+        kinematics_(robot_) {
+    for (auto* values : {&state_.q, &state_.qd, &acceleration_.joints}) values->resize(layout_.joints);
+    const In inertia = s.actuator == nullptr ? In() : s.actuator->reflected_inertia();
+    if (std::ranges::any_of(inertia, [](double value) { return value > 0; })) rotors_.emplace(robot_, s.base, inertia);
+  }
+
+  void fall(In state, Out out) override {
+    layout_.read(state, 0, state_);
+    kinematics_.update(robot_, state_);
+    body_.load(state_, kinematics_, gravity_, {}, {});
+    body_.accelerate(state_, acceleration_);
+    for (std::size_t i = 0; i < 3; ++i) {
+      out[i] = acceleration_.linear[static_cast<Eigen::Index>(i)];
+      out[3 + i] = acceleration_.angular[static_cast<Eigen::Index>(i)];
+    }
+    std::ranges::copy(acceleration_.joints, out.begin() + 6);
+  }
+
+  void accelerate(const RobotState& state, In torque, std::span<const BodyWrench> wrenches, Acceleration& out) override {
+    kinematics_.update(robot_, state);
+    body_.load(state, kinematics_, gravity_, torque, wrenches);
+    body_.accelerate(state, out);
+    if (!rotors_) return;
+    rotors_->update(kinematics_);
+    rotors_->add_to(out);
+  }
+
+ private:
+  const Robot& robot_;
+  Vec3 gravity_;
+  StateLayout layout_;
+  bullet::MultiBody body_;
+  Kinematics kinematics_;
+  std::optional<RotorInertia> rotors_;
+  RobotState state_;
+  Acceleration acceleration_;
+};
+
+}  // namespace
+
+std::unique_ptr<articulated::OtherDynamics> make_bullet_dynamics(const PlantSettings& settings) {
+  return std::make_unique<BulletDynamics>(settings);
+}
+
+}  // namespace gaitlab
