@@ -99,7 +99,7 @@ int remedy(const RemedyArguments& arguments) {
 Remedied take_remedy(const Scenario& scenario, report::Verdict& verdict, const RunArguments& arguments) try {
   if (!arguments.remedy) return {};
   Catalog catalog = standard_catalog();  // the plugins of the run are already loaded
-  const StoredScenario same{"", scenario.file + " (its remedy)", resolved(scenario, FilePaths::whole)};
+  const StoredScenario same{scenario.file + " (its remedy)", resolved(scenario, FilePaths::whole)};
   const auto search = [&] {
     Progress progress(arguments.quiet);
     const report::RemedyTask task{
