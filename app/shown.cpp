@@ -99,7 +99,7 @@ void take_demand(const Scenario& scenario, const Recording& recording, const rep
     return;
   }
   Catalog catalog = standard_catalog();  // the plugins of the run are already loaded
-  const StoredScenario same{"", scenario.file + " (its demand twin)", resolved(scenario, FilePaths::whole)};
+  const StoredScenario same{scenario.file + " (its demand twin)", resolved(scenario, FilePaths::whole)};
   Scenario twin = read_stored(same, catalog, OtherPlugins::taken);
   if (!report::raise_limits(twin)) {
     verdict.demand_doubt = "the limits of the actuator cannot be raised: it declares none, or one of them is 0";

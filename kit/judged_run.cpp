@@ -17,18 +17,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A value of the run's summary.json. Null if the key is missing, or if the file cannot be read.
-nlohmann::json summarised(const fs::path& folder, const char* key) try {
-  const nlohmann::json summary = read_summary(folder);
-  const auto found = summary.find(key);
-  return found != summary.end() ? *found : nlohmann::json();
-} catch (const InputError&) {
-  return {};
+/// The run's summary.json, or an empty object if it cannot be read.
+nlohmann::json summary_or_none(const fs::path& folder) {
+  try {
+    return read_summary(folder);
+  } catch (const InputError&) {
+    return nlohmann::json::object();
+  }
 }
 
 /// Real time of the simulation, s, which only summary.json contains; 0 if it is missing.
-double wall_time(const fs::path& folder) {
-  const nlohmann::json value = summarised(folder, "wall_time");
+double wall_time(const nlohmann::json& told) {
+  const nlohmann::json value = told.value("wall_time", nlohmann::json());
   const double seconds = value.is_number() ? value.get<double>() : 0;
   return std::isfinite(seconds) && seconds >= 0 ? seconds : 0;
 }
@@ -44,40 +44,41 @@ std::vector<std::string> told_missing(std::vector<std::string> missing, const fs
 }  // namespace
 
 report::PageData JudgedRun::page_data(std::size_t most) const {
-  return report::page_data(read.scenario, recording(), summary, verdict, told_missing(read.stored.missing, trace), most);
+  return report::page_data(read.scenario, recording(), summary, verdict, told_missing(read.stored.missing, read.stored.file),
+                           most);
 }
 
 void JudgedRun::keep_demand() {
-  const fs::path file = trace.parent_path() / "verdict.json";
+  const fs::path file = folder() / "verdict.json";
   if (kind_of(file) != fs::file_type::regular || report::take_demand(verdict, read_file(file, kMostJson))) return;
   say(file.string(), "note", "belongs to another recording; its --demand results are not shown");
 }
 
 void JudgedRun::keep_remedy() {
-  const fs::path file = trace.parent_path() / kRemedyFile;
+  const fs::path file = folder() / kRemedyFile;
   if (kind_of(file) != fs::file_type::regular) return;
   verdict.remedy = report::shown_remedy(read_file(file, kMostJson), scenario_hash, verdict.word);
   if (verdict.remedy.empty()) say(file.string(), "note", "is damaged or belongs to another run or verdict; it is not shown");
 }
 
 JudgedRun read_judged(const std::string& name, Catalog& catalog) {
-  const fs::path trace = trace_file(name);
-  JudgedRun run{name, trace, read_run(name, catalog)};
+  JudgedRun run{name, read_run(name, catalog)};
   Scenario& scenario = run.read.scenario;
   Recording& recording = run.read.stored.recording;
   run.scenario_hash = hash(resolved(scenario));
   run.period = scenario.trace.period;
+  const nlohmann::json told = summary_or_none(run.folder());
   // A CSV file alone does not contain the outcome.
-  if (run.read.stored.origin.outcome.empty()) {
-    const nlohmann::json told = summarised(trace.parent_path(), "outcome");
-    if (told.is_string()) recording.outcome = Outcome::of(told.get<std::string>());
+  if (const nlohmann::json outcome = told.value("outcome", nlohmann::json());
+      outcome.is_string() && run.read.stored.origin.outcome.empty()) {
+    recording.outcome = Outcome::of(outcome.get<std::string>());
   }
   run.all = thin_rows(recording);
   if (run.all) {
     scenario = with_row_stride(scenario, run.all->stride);
     note_row_stride(scenario, run.all->stride);
   }
-  run.summary = report::summarise(scenario, recording, wall_time(trace.parent_path()));
+  run.summary = report::summarise(scenario, recording, wall_time(told));
   run.summary.build = run.read.stored.origin.build;
   run.overlaps = report::overlaps(scenario, recording);
   run.verdict = report::verdict(scenario, recording, run.summary, run.overlaps);

@@ -13,10 +13,9 @@ namespace gaitlab::kit {
 inline constexpr const char* kRemedyFile = "remedy.json";  ///< name of the remedy in a run folder
 
 struct JudgedRun {
-  std::string name;             ///< folder as the user typed it
-  std::filesystem::path trace;  ///< path of the trace file
-  StoredRun read;               ///< run whose scenario has the trace period of the kept rows
-  double period = 0;            ///< trace period of the run, s
+  std::string name;   ///< folder as the user typed it
+  StoredRun read;     ///< run whose scenario has the trace period of the kept rows
+  double period = 0;  ///< trace period of the run, s
   std::string scenario_hash = {};
   std::optional<AllRows> all = {};  ///< all rows, if thin_rows() removed some
   report::Summary summary = {};
@@ -24,6 +23,7 @@ struct JudgedRun {
   report::Verdict verdict = {};
 
   [[nodiscard]] const Recording& recording() const { return read.stored.recording; }
+  [[nodiscard]] std::filesystem::path folder() const { return read.stored.file.parent_path(); }
   [[nodiscard]] report::PageData page_data(std::size_t most = report::kMostData) const;
   /// Adds the results of an earlier --demand to the verdict, from verdict.json, because recordings do not contain them.
   void keep_demand();

@@ -9,8 +9,8 @@
 
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
+#include "core/files/file_kind.h"
 #include "core/files/spill.h"
-#include "core/recording/h5.h"
 #include "core/recording/run_files.h"
 #include "core/scenario/plugin_files.h"
 #include "core/scenario/read_scenario.h"
@@ -40,13 +40,21 @@ std::vector<PluginFile> recorded_plugins(const StoredScenario& stored) {
 
 }  // namespace
 
-StoredScenario stored_scenario(const std::string& run) {
-  const fs::path yaml = fs::path(run) / "scenario.resolved.yaml";
+StoredTrace& OpenedRun::trace() {
+  if (!trace_) {
+    trace_ = read_trace(run_);
+    trace_->beside.clear();  // may be as large as the trace
+  }
+  return *trace_;
+}
+
+StoredScenario OpenedRun::scenario() {
+  const fs::path yaml = fs::path(run_) / "scenario.resolved.yaml";
   std::error_code none;
-  if (fs::exists(yaml, none)) return {yaml.string(), yaml.string(), read_file(yaml, kMostScenario)};
-  const fs::path trace = trace_file(run);
-  if (trace.extension() == ".h5") return {"", trace.string() + " (its scenario)", read_h5(trace).origin.scenario};
-  throw InputError(SourceLocation{trace.string()},
+  if (fs::exists(yaml, none)) return {yaml.string(), read_file(yaml, kMostScenario), true};
+  const fs::path file = trace_file(run_);
+  if (file.extension() == ".h5") return {file.string() + " (its scenario)", trace().origin.scenario};
+  throw InputError(SourceLocation{file.string()},
                    "a CSV trace does not contain its scenario, and there is no file " + yaml.string());
 }
 
@@ -66,19 +74,11 @@ Scenario read_stored(const StoredScenario& stored, Catalog& catalog, OtherPlugin
     for (const PluginFile& file : recorded_plugins(stored)) paths.push_back(file.path);
     sets.push_back("plugins=" + paths.dump());
   }
-  return stored.file.empty() ? read_record(stored.text, stored.shown, sets, catalog)
-                             : read_scenario(stored.file, sets, catalog, ReadAs::record);
+  if (stored.is_file) expect_kind(stored.shown, FileKind::scenario);
+  return read_record(stored.text, stored.shown, sets, catalog);
 }
 
 namespace {
-
-/// Scenario stored in the recording or, if the recording is a CSV file alone, in the run folder.
-StoredScenario scenario_of(const std::string& run, const StoredRecording& read) {
-  if (read.origin.scenario.empty()) return stored_scenario(run);
-  const fs::path trace = trace_file(run);
-  const fs::path holds = trace.extension() == ".csv" ? trace.parent_path() / kBesideCsv : trace;
-  return {"", holds.string() + " (its scenario)", read.origin.scenario};
-}
 
 /// Throws InputError if the recording does not fit the scenario, which only happens for files that were exchanged or changed.
 void check_fit(const std::string& run, const Scenario& scenario, const Recording& recording) {
@@ -123,7 +123,10 @@ void name_units(const Scenario& scenario, Trace& trace) {
 
 StoredRun read_run(const std::string& run, Catalog& catalog) {
   StoredRecording stored = read_recording(run);
-  Scenario scenario = read_stored(scenario_of(run, stored), catalog, OtherPlugins::taken);
+  const std::string& inside = stored.origin.scenario;  // empty if the recording is a CSV file alone
+  const StoredScenario text =
+      inside.empty() ? OpenedRun(run).scenario() : StoredScenario{stored.tables.string() + " (its scenario)", inside};
+  Scenario scenario = read_stored(text, catalog, OtherPlugins::taken);
   if (stored.missing.empty()) check_fit(run, scenario, stored.recording);
   name_units(scenario, stored.recording.trace);
   return {std::move(stored), std::move(scenario)};

@@ -1,5 +1,6 @@
 // A recorded run and its scenario, read from the run folder alone.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,14 +10,24 @@
 namespace gaitlab::kit {
 
 struct StoredScenario {
-  std::string file;   ///< path of scenario.resolved.yaml; empty if the text comes from inside trace.h5
   std::string shown;  ///< name of the file in messages
   std::string text;
+  bool is_file = false;  ///< true if `text` is the content of the file `shown`, scenario.resolved.yaml
 };
 
-/// Reads scenario.resolved.yaml of a run folder or, if it is missing, the text inside trace.h5. `run` is the folder or the
-/// trace.h5 file. Throws InputError if neither contains a scenario.
-StoredScenario stored_scenario(const std::string& run);
+/// A run folder, or a trace file, whose trace is read once, when it is first needed.
+class OpenedRun {
+ public:
+  explicit OpenedRun(std::string run) : run_(std::move(run)) {}
+  /// The trace without the tables beside it. Throws the InputErrors of read_trace.
+  StoredTrace& trace();
+  /// scenario.resolved.yaml or, if it is missing, the text inside trace.h5. Throws InputError if neither contains a scenario.
+  [[nodiscard]] StoredScenario scenario();
+
+ private:
+  std::string run_;
+  std::optional<StoredTrace> trace_;
+};
 
 /// A plugin library whose file has changed since the run.
 struct PluginChange {

@@ -55,7 +55,7 @@ int remedy_of_run(const RemedyArguments& arguments) {
   const StopOnSignal stop(StopOnSignal::Second::is_ignored);
   const Remedied remedied = take_remedy(scenario, run.verdict, arguments);
   if (remedied.json.empty()) return 1;
-  const fs::path folder = run.trace.parent_path();
+  const fs::path folder = run.folder();
   if (!remedied.complete && fs::exists(folder / kRemedyFile)) {
     say((folder / kRemedyFile).string(), "note", "is an earlier remedy and is kept");
     print_lines(remedied.lines);
@@ -99,7 +99,7 @@ int remedy(const RemedyArguments& arguments) {
 Remedied take_remedy(const Scenario& scenario, report::Verdict& verdict, const RunArguments& arguments) try {
   if (!arguments.remedy) return {};
   Catalog catalog = standard_catalog();  // the plugins of the run are already loaded
-  const StoredScenario same{"", scenario.file + " (its remedy)", resolved(scenario, FilePaths::whole)};
+  const StoredScenario same{scenario.file + " (its remedy)", resolved(scenario, FilePaths::whole)};
   const auto search = [&] {
     Progress progress(arguments.quiet);
     const report::RemedyTask task{

@@ -12,8 +12,6 @@
 #include "core/build_id.h"
 #include "core/errors.h"
 #include "core/recording/compare.h"
-#include "core/recording/csv.h"
-#include "core/recording/h5.h"
 #include "core/recording/run_files.h"
 #include "core/scenario/resolved.h"
 #include "core/settings/changed_settings.h"
@@ -37,14 +35,10 @@ namespace fs = std::filesystem;
 constexpr double kTolerance = 1e-9;  // RMS difference / range of the column
 constexpr std::size_t kColumnsShown = 10;
 
-/// Files and data of the recorded run.
-struct Past {
-  fs::path file;  ///< path of the trace
-  Trace trace;
-  std::string scenario;          ///< text of the scenario inside trace.h5, or ""
-  std::string build;             ///< build id, or "" if it was not recorded
-  std::optional<Outcome> ended;  ///< outcome in summary.json; nothing without this file
-  std::string summary_hash;      ///< hash of the trace to which summary.json belongs, or ""
+/// The trace of the recorded run with its origin, as far as it is recorded, and data of summary.json.
+struct Past : StoredTrace {
+  std::optional<Outcome> ended = {};  ///< outcome in summary.json; nothing without this file
+  std::string summary_hash = {};      ///< hash of the trace to which summary.json belongs, or ""
 };
 
 bool is_there(const fs::path& file) {
@@ -52,17 +46,8 @@ bool is_there(const fs::path& file) {
   return fs::exists(file, none);
 }
 
-Past read_past(const fs::path& run) {
-  Past past;
-  past.file = trace_file(run);
-  if (past.file.extension() == ".h5") {
-    StoredTrace stored = read_h5(past.file);
-    past.trace = std::move(stored.trace);
-    past.scenario = std::move(stored.origin.scenario);
-    past.build = std::move(stored.origin.build);
-  } else {
-    past.trace = read_csv(past.file);
-  }
+Past read_past(const fs::path& run, StoredTrace trace) {
+  Past past{std::move(trace)};
   if (past.trace.rows() == 0 || past.trace.columns.front().name != "t") {
     throw InputError(SourceLocation{past.file.string()},
                      "is not the trace of a run: it has no rows, or its first column is not t");
@@ -75,7 +60,7 @@ Past read_past(const fs::path& run) {
   };
   if (!text("outcome").empty()) past.ended = Outcome::of(text("outcome"));
   past.summary_hash = text("trace_hash");
-  if (past.build.empty()) past.build = text("build");
+  if (past.origin.build.empty()) past.origin.build = text("build");
   return past;
 }
 
@@ -115,19 +100,19 @@ Again run_again(const Scenario& scenario, const Past& past, bool early) {
 std::vector<std::string> changes(const StoredScenario& stored, const Past& past, const Scenario& scenario, const Again& again,
                                  const Catalog& catalog) {
   std::vector<std::string> found;
-  if (past.build.empty()) {
+  if (past.origin.build.empty()) {
     found.push_back(fmt::format("build: not recorded; now {}", build_id()));
-  } else if (past.build != build_id()) {
-    found.push_back(fmt::format("build: then {}, now {}", past.build, build_id()));
+  } else if (past.origin.build != build_id()) {
+    found.push_back(fmt::format("build: then {}, now {}", past.origin.build, build_id()));
   }
   const std::vector<PluginChange> plugins = changed_plugins(stored, catalog);
   for (const PluginChange& plugin : plugins) {
     found.push_back(fmt::format("plugin {}: the file has changed: hash then {}, now {}", plugin.path, plugin.then, plugin.now));
   }
-  if (!past.scenario.empty() && past.scenario != stored.text) {
+  if (!past.origin.scenario.empty() && past.origin.scenario != stored.text) {
     found.push_back(fmt::format("scenario: {} differs from the scenario in {}:\n    {}", stored.shown,
                                 past.file.filename().string(),
-                                fmt::join(changed_settings(past.scenario, stored.text), "\n    ")));
+                                fmt::join(changed_settings(past.origin.scenario, stored.text), "\n    ")));
   }
   const std::string now = resolved(scenario);
   if (plugins.empty() && now != stored.text) {  // the resolved scenario contains the plugins' hashes
@@ -188,8 +173,9 @@ bool judge(const std::string& run, const Scenario& scenario, const Trace& then, 
 }
 
 int verify(const std::string& run, const PluginArguments& plugins) {
-  const StoredScenario stored = stored_scenario(run);
-  const Past past = read_past(run);
+  OpenedRun recorded(run);
+  const StoredScenario stored = recorded.scenario();
+  const Past past = read_past(run, std::move(recorded.trace()));
   Catalog catalog = careful_catalog(plugins);
   const Scenario scenario = read_stored(stored, catalog, OtherPlugins::taken);
   const bool early = ended_early(past, scenario);
@@ -222,7 +208,7 @@ int rerun(const RerunArguments& arguments) {
   as.format = format_of(arguments.run);
   as.no_page = true;
   Catalog catalog = careful_catalog(arguments.plugins);
-  return run(read_stored(stored_scenario(arguments.run), catalog, OtherPlugins::refused), as);
+  return run(read_stored(OpenedRun(arguments.run).scenario(), catalog, OtherPlugins::refused), as);
 }
 
 }  // namespace

@@ -82,12 +82,11 @@ void print_robots(const Json& a, const Json& b) {
 }
 
 /// Prints the settings that differ between the scenarios of the two runs. They are not known if a run is a CSV file alone.
-void print_settings(const CompareArguments& arguments) {
+void print_settings(OpenedRun& a, OpenedRun& b, bool all) {
   std::vector<std::string> changed;
   try {
-    const std::string a = stored_scenario(arguments.a).text;
-    const std::string b = stored_scenario(arguments.b).text;
-    changed = changed_settings(a, b, arguments.all ? std::string::npos : kMostShown);
+    const std::string then = a.scenario().text;
+    changed = changed_settings(then, b.scenario().text, all ? std::string::npos : kMostShown);
   } catch (const InputError&) {
     fmt::print("\nsettings: not compared, because a CSV file contains none\n");
     return;
@@ -185,8 +184,9 @@ void print_summaries(const Json& a, const Json& b) {
 Json summary_of(const std::string& run) { return std::filesystem::is_directory(run) ? read_summary(run) : Json(); }
 
 int compare(const CompareArguments& arguments) {
-  const Trace a = read_trace(arguments.a);
-  const Trace b = read_trace(arguments.b);
+  OpenedRun run_a(arguments.a), run_b(arguments.b);
+  const Trace& a = run_a.trace().trace;
+  const Trace& b = run_b.trace().trace;
   const Json summary_a = summary_of(arguments.a);
   const Json summary_b = summary_of(arguments.b);
   CompareOptions options;
@@ -195,11 +195,11 @@ int compare(const CompareArguments& arguments) {
   check_patterns(options, a, b);
   const TraceDifference difference = gaitlab::compare(a, b, options);
 
-  fmt::print("A: {} ({} rows)\n", one_line(trace_file(arguments.a).string()), a.rows());
-  fmt::print("B: {} ({} rows)\n", one_line(trace_file(arguments.b).string()), b.rows());
+  fmt::print("A: {} ({} rows)\n", one_line(run_a.trace().file.string()), a.rows());
+  fmt::print("B: {} ({} rows)\n", one_line(run_b.trace().file.string()), b.rows());
   for (const std::string& finding : difference.findings) fmt::print("{}\n", finding);
   print_robots(summary_a, summary_b);
-  print_settings(arguments);
+  print_settings(run_a, run_b, arguments.all);
   if (!summary_a.is_null() && !summary_b.is_null()) {
     print_summaries(summary_a, summary_b);
   } else {

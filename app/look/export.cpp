@@ -36,7 +36,7 @@ void refuse_sets(const ExportArguments& arguments, const char* expected) {
 
 void export_trace(const ExportArguments& arguments) {
   refuse_sets(arguments, "--to mjcf or urdf");
-  const Trace trace = read_trace(arguments.source.file);
+  const Trace trace = read_trace(arguments.source.file).trace;
   write_csv(trace, arguments.file, Existing::refused);
   fmt::print("{}: {} rows of {} columns\n", one_line(arguments.file), trace.rows(), trace.columns.size());
 }

@@ -269,7 +269,7 @@ Scenario scenario_in_row(const Journal& journal, const std::vector<std::string>&
   const studies::JournalHead& head = journal.head();
   std::vector<std::string> sets = settings_of_row(journal, names, row);
   const auto read = [&] {
-    return read_stored({"", (fs::path(a.folder) / studies::kJournalFile).string(), scenario_of_row(head, names, row)}, catalog,
+    return read_stored({(fs::path(a.folder) / studies::kJournalFile).string(), scenario_of_row(head, names, row)}, catalog,
                        OtherPlugins::refused, sets);
   };
   const std::vector<std::string>& worlds = head.worlds;

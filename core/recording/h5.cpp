@@ -114,7 +114,9 @@ StoredTrace read_h5(const std::filesystem::path& path) {
   if (bytes.size() < kUserBlock || !is_whole(bytes))
     throw InputError(place, "is corrupt or was changed by another program: its bytes are not those that were written");
   try {
-    return from_image(bytes);
+    StoredTrace stored = from_image(bytes);
+    stored.file = path;
+    return stored;
   } catch (const ImageError& error) {
     throw InputError(place, fmt::format("is corrupt: {}", error.what()));
   }

@@ -42,7 +42,9 @@ class NoImage : public RunError {
   using RunError::RunError;
 };
 
+/// Contents of a trace file; a CSV file gives only the trace.
 struct StoredTrace {
+  std::filesystem::path file;
   Trace trace;
   Provenance origin;
   std::vector<Beside> beside;

@@ -222,16 +222,16 @@ void write_recording(const Recording& r, const Provenance& origin, const std::st
 namespace {
 
 /// Reads a recording of rows only, and lists the missing parts.
-void take_rows_alone(const fs::path& file, StoredRecording& read) {
+void take_rows_alone(StoredRecording& read) {
   const Trace& trace = read.recording.trace;
   if (trace.rows() > 0) read.recording.simulated = trace.at(trace.rows() - 1, 0);
   if (!std::isfinite(read.recording.simulated) || read.recording.simulated < 0) {
-    throw unfit(file, fmt::format("its last row is at t = {}", read.recording.simulated));
+    throw unfit(read.file, fmt::format("its last row is at t = {}", read.recording.simulated));
   }
   read.missing.push_back(
       fmt::format("{} contains only rows: peaks, shares of time, energies and the torque error are not known, because they are "
                   "computed from every step",
-                  file.string()));
+                  read.file.string()));
   std::vector<std::string> absent;
   for (const std::string& pattern : report_columns()) {
     if (pattern.starts_with("box.") || pattern.ends_with(".measured")) continue;  // exist only for moving boxes and encoders
@@ -244,35 +244,30 @@ void take_rows_alone(const fs::path& file, StoredRecording& read) {
 }  // namespace
 
 StoredRecording read_recording(const fs::path& folder) {
-  const fs::path file = trace_file(folder);
-  const fs::path beside = file.parent_path() / kBesideCsv;
-  const bool csv = file.extension() == ".csv";
+  StoredTrace stored = read_trace(folder);
   StoredRecording read;
-  StoredTrace stored;
-  if (csv) {
-    read.recording.trace = read_csv(file);
-    std::error_code none;
-    if (fs::exists(beside, none)) {
-      stored = read_h5(beside);
-      if (stored.origin.csv_hash != hash(read.recording.trace)) {
-        throw InputError(SourceLocation{file.string()}, "is not the file that recording.h5 belongs to, or was changed");
-      }
+  read.file = stored.file;
+  read.recording.trace = std::move(stored.trace);
+  const fs::path beside = read.file.parent_path() / kBesideCsv;
+  std::error_code none;
+  if (read.file.extension() == ".csv" && fs::exists(beside, none)) {
+    stored = read_h5(beside);
+    if (stored.origin.csv_hash != hash(read.recording.trace)) {
+      throw InputError(SourceLocation{read.file.string()}, "is not the file that recording.h5 belongs to, or was changed");
     }
-  } else {
-    stored = read_h5(file);
-    read.recording.trace = std::move(stored.trace);
   }
+  read.tables = stored.file;
   read.origin = std::move(stored.origin);
   if (!stored.beside.empty()) {
     read.recording.outcome = Outcome::of(read.origin.outcome);
     const bool done = read.recording.outcome.done();
-    take_tables(csv ? beside : file, stored.beside, read.recording);
+    take_tables(read.tables, stored.beside, read.recording);
     if (done != read.recording.outcome.done()) {
-      throw unfit(csv ? beside : file, fmt::format("outcome is {}, but {} is {}", read.origin.outcome, kEnded,
-                                                   name_of(read.recording.outcome.ended)));
+      throw unfit(read.tables, fmt::format("outcome is {}, but {} is {}", read.origin.outcome, kEnded,
+                                           name_of(read.recording.outcome.ended)));
     }
   } else {
-    take_rows_alone(file, read);
+    take_rows_alone(read);
   }
   return read;
 }

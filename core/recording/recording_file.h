@@ -21,6 +21,8 @@ void write_recording(const Recording& recording, const Provenance& origin, const
 
 /// A recording that was read from a run folder.
 struct StoredRecording {
+  std::filesystem::path file;    ///< trace.h5 or trace.csv
+  std::filesystem::path tables;  ///< file of the scenario and of the other tables: recording.h5 beside trace.csv, else `file`
   Recording recording;
   Provenance origin;
   std::vector<std::string> missing;  ///< one sentence for each missing part of the folder; empty if it is complete

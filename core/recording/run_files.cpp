@@ -11,7 +11,6 @@
 #include "core/files/file_kind.h"
 #include "core/files/shallow_json.h"
 #include "core/recording/csv.h"
-#include "core/recording/h5.h"
 
 namespace gaitlab {
 
@@ -44,9 +43,9 @@ fs::path trace_file(const fs::path& run) {
   throw InputError(place, "holds neither trace.h5 nor trace.csv: it is not a run folder");
 }
 
-Trace read_trace(const fs::path& run) {
+StoredTrace read_trace(const fs::path& run) {
   const fs::path file = trace_file(run);
-  return file.extension() == ".h5" ? read_h5(file).trace : read_csv(file);
+  return file.extension() == ".h5" ? read_h5(file) : StoredTrace{file, read_csv(file), {}, {}};
 }
 
 nlohmann::json read_summary(const fs::path& folder) {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 
-#include "core/recording/trace.h"
+#include "core/recording/h5.h"
 
 namespace gaitlab {
 
@@ -12,7 +12,7 @@ namespace gaitlab {
 std::filesystem::path trace_file(const std::filesystem::path& run);
 
 /// Reads the trace of a run. Throws InputError as trace_file, read_h5 and read_csv.
-Trace read_trace(const std::filesystem::path& run);
+StoredTrace read_trace(const std::filesystem::path& run);
 
 /// Reads the object in summary.json of a run folder. Throws InputError if the file is missing, not JSON (at FILE:LINE:COL), or
 /// not an object.

@@ -37,6 +37,8 @@ namespace gaitlab {
 
 class ScenarioReader {
  public:
+  enum class ReadAs { scenario, record, module_type };
+
   ScenarioReader(const std::string& path, Catalog& catalog, ReadAs as = ReadAs::scenario)
       : path_(path), catalog_(catalog), as_(as) {
     scenario_.file = path;
@@ -343,17 +345,17 @@ class ScenarioReader {
   TouchedSections touched_;
 };
 
-Scenario read_scenario(const std::string& path, const std::vector<std::string>& sets, Catalog& catalog, ReadAs as) {
+Scenario read_scenario(const std::string& path, const std::vector<std::string>& sets, Catalog& catalog) {
   expect_kind(path, FileKind::scenario);
-  return ScenarioReader(path, catalog, as).read(read_text(path), sets);
+  return ScenarioReader(path, catalog).read(read_text(path), sets);
 }
 
 Scenario read_record(const std::string& text, const std::string& file, const std::vector<std::string>& sets, Catalog& catalog) {
-  return ScenarioReader(file, catalog, ReadAs::record).read(text, sets);
+  return ScenarioReader(file, catalog, ScenarioReader::ReadAs::record).read(text, sets);
 }
 
 Scenario read_module(const std::string& path, Catalog& catalog) {
-  return ScenarioReader("module", catalog, ReadAs::module_type).read(scenario_of_module(path), {});
+  return ScenarioReader("module", catalog, ScenarioReader::ReadAs::module_type).read(scenario_of_module(path), {});
 }
 
 ScenarioTemplate::ScenarioTemplate(std::string path, std::vector<std::string> sets, Catalog& catalog)

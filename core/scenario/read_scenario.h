@@ -10,21 +10,16 @@ namespace gaitlab {
 
 class ScenarioReader;
 
-/// Purpose of reading. A `record` is the scenario of an earlier run, whose limits may contradict each other, because older
-/// versions allowed that. A `module_type` is a single module, for a table of its parts. Its angles are 0, even if a hinge
-/// cannot reach 0.
-enum class ReadAs { scenario, record, module_type };
-
 /// Reads and checks a scenario file. `sets` are texts `key.path=value`, applied in order. Loads the scenario's plugins into the
 /// catalog. Throws InputError with every problem found, each at FILE:LINE:COL.
-Scenario read_scenario(const std::string& path, const std::vector<std::string>& sets, Catalog& catalog,
-                       ReadAs as = ReadAs::scenario);
+Scenario read_scenario(const std::string& path, const std::vector<std::string>& sets, Catalog& catalog);
 
-/// The scenario of an earlier run from its text, read as a `record`. Messages call the text `file`, and relative paths start at
-/// the folder of `file`.
+/// The scenario of an earlier run from its text. Its limits may contradict each other, because older versions allowed that.
+/// Messages call the text `file`, and relative paths start at the folder of `file`.
 Scenario read_record(const std::string& text, const std::string& file, const std::vector<std::string>& sets, Catalog& catalog);
 
-/// Scenario with a single module of the type in a file, without ground. Throws InputError with every problem found.
+/// Scenario with a single module of the type in a file, without ground. Its angles are 0, even if a hinge cannot reach 0.
+/// Throws InputError with every problem found.
 Scenario read_module(const std::string& path, Catalog& catalog);
 
 /// A scenario that is parsed, assembled and checked only once, for many rollouts that differ in a few settings.

@@ -161,7 +161,7 @@ TEST_F(PaperFigure, AnotherRunCanBeNamed) {
 TEST_F(PaperFigure, TheNumbersAreThoseOfTheTrace) {
   ASSERT_EQ(draw(kTwin, "-o f.svg").code, 0);
   const Trace drawn = read_csv(folder / "f.csv");
-  const Trace trace = read_trace(folder / "run");
+  const Trace trace = read_trace(folder / "run").trace;
   ASSERT_EQ(drawn.columns.size(), 3U);
   EXPECT_EQ(drawn.columns[0].name, "t [s]");
   EXPECT_EQ(drawn.columns[1].name, "joint.1.angle [rad]");
@@ -293,7 +293,7 @@ TEST_F(PaperFigure, TheEnvelopeIsThatOfEquations1And2) {
 TEST_F(PaperFigure, TheHeatMapIsTheShareOfTheTorqueAtThatSpeed) {
   ASSERT_EQ(draw(kRuns + "panels: [{kind: heat, joints: ['1']}]\n", "-o f.svg").code, 0);
   const Trace data = read_csv(folder / "f.csv");
-  const Trace trace = read_trace(folder / "run");
+  const Trace trace = read_trace(folder / "run").trace;
   ASSERT_EQ(data.columns.size(), 2U);
   double largest = 0;
   for (std::size_t row = 0; row < trace.rows(); ++row) {

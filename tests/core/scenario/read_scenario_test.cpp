@@ -227,9 +227,9 @@ TEST_F(ScenarioTest, LimitsThatContradictOneAnother) {
                 "0.0005 m by default, and limits.collision, above which they are a failure, is 0.0001 m; expected limits.touch "
                 "of at most 0.0001 m, or limits.collision of at least 0.0005 m");
   // The resolved scenario of an old run is read as a record, which permits touch above collision.
-  const std::string old = folder_.write("old.yaml", kShort + "limits: {touch: 0.02, collision: 0.01}\n");
-  EXPECT_EQ(read_scenario(old, {}, catalog_, ReadAs::record).limits.touch, 0.02);
-  EXPECT_EQ(read_scenario(old, {}, catalog_, ReadAs::record).limits.meeting(), 0.01);
+  const Scenario old = read_record(kShort + "limits: {touch: 0.02, collision: 0.01}\n", folder_ / "old.yaml", {}, catalog_);
+  EXPECT_EQ(old.limits.touch, 0.02);
+  EXPECT_EQ(old.limits.meeting(), 0.01);
 }
 
 TEST_F(ScenarioTest, LimitsBeyondWhatTheyAreSharesOf) {
