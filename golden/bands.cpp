@@ -6,8 +6,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "golden/starts.h"
-
 namespace gaitlab::golden {
 
 namespace {

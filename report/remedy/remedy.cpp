@@ -9,7 +9,6 @@
 #include "core/files/hash.h"
 #include "core/scenario/resolved.h"
 #include "report/remedy/finer_remedy.h"
-#include "report/remedy/remedy_ratings.h"
 #include "report/remedy/remedy_work.h"
 
 namespace gaitlab::report {
@@ -48,7 +47,7 @@ class Search {
   }
 
   Remedy made() {
-    made_.ratings = ratings_needed(task_, made_.settings);
+    made_.ratings = ratings_needed(task_.scenario, task_.verdict, made_.settings);
     made_.ratings_suffice = made_.word == Word::infeasible && only_ratings(task_.verdict);
     for (const RemedyKey& key : remedy_keys()) {
       if (!task_.by.empty() && std::ranges::count(task_.by, key.name) == 0) continue;

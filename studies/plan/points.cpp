@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <boost/random/sobol.hpp>
 #include <cmath>
 
 #include "core/math/functions.h"
@@ -54,14 +53,6 @@ std::vector<double> shares(const Study& study, std::uint64_t point) {
 }
 
 }  // namespace
-
-std::vector<double> sobol_point(std::size_t dimensions, std::uint64_t number) {
-  boost::random::sobol sequence(dimensions);
-  sequence.discard(number * dimensions);
-  std::vector<double> shares(dimensions);
-  for (double& share : shares) share = static_cast<double>(std::uint64_t{sequence()} >> 11U) * 0x1p-53;
-  return shares;
-}
 
 double between(const Parameter& p, double share) {
   if (share <= 0) return p.low;

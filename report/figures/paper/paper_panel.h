@@ -9,6 +9,7 @@
 #include "core/recording/recording.h"
 #include "core/scenario/scenario.h"
 #include "report/figures/paper/panel_kinds.h"
+#include "report/figures/paper/recipe.h"
 #include "report/figures/run/views.h"
 #include "report/plot/font.h"
 #include "report/plot/legend.h"
