@@ -35,9 +35,9 @@ using Change = std::vector<std::pair<const RemedyKey*, double>>;
 
 struct Stopped {};
 
-class Search {
+class RemedySearch {
  public:
-  Search(const RemedyTask& task, std::atomic<bool>& stop)
+  RemedySearch(const RemedyTask& task, std::atomic<bool>& stop)
       : task_(task),
         stop_(stop),
         made_{RemedySettings(resolved(task.scenario)), hash(resolved(task.scenario))},
@@ -382,7 +382,7 @@ class Search {
 }  // namespace
 
 Remedy remedy(const RemedyTask& task, std::atomic<bool>& stop) {
-  if (task.verdict.word != Word::not_judged) return Search(task, stop).made();
+  if (task.verdict.word != Word::not_judged) return RemedySearch(task, stop).made();
   if (!task.verdict.retry_is_finer) throw no_verdict(task);
   return remedy_of_finer_run(task, stop);
 }

@@ -124,7 +124,7 @@ void Plan::finish(Row& row, const Scenario& scenario, const Recording& recording
     row.verdict = Word::failed;
     return;
   }
-  Measured measured = measure(scenario, recording);
+  RunMeasured measured = measure(scenario, recording);
   row.quantities = std::move(measured.quantities);
   row.verdict = measured.verdict;
   row.message = std::move(measured.why);
