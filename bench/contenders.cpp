@@ -28,35 +28,35 @@ const std::vector<double> kLonger{5e-4, 1e-3, 1.25e-3, 5e-3 / 3, 2.5e-3, 5e-3};
 // Accuracies for steps of 5 ms, which the integrator divides.
 const std::vector<double> kAccuracies{0.05, 0.02, 0.01, 0.003, 0.001};
 
-void add_bullet(Field& field) {
+void add_bullet(ContenderField& field) {
   const auto penalty = sets("bullet", "semi_implicit");
   field.references.push_back({"bullet", penalty, {2.5e-5, 1.25e-5}});
-  field.contenders.push_back({"bullet", Group::bullet, "bullet", penalty, kShort});
+  field.contenders.push_back({"bullet", ContenderGroup::bullet, "bullet", penalty, kShort});
   const std::vector<std::string> solver{"physics.engine=bullet", "contact.law=bullet", "physics.estimate=off"};
   field.references.push_back({"bullet solver", solver, {1e-4, 5e-5}});
-  field.contenders.push_back({"bullet solver", Group::bullet_solver, "bullet solver", solver, {2.5e-4, 5e-4, 1e-3}});
+  field.contenders.push_back({"bullet solver", ContenderGroup::bullet_solver, "bullet solver", solver, {2.5e-4, 5e-4, 1e-3}});
 }
 
-void add_mujoco(Field& field, const Engine* engine) {
+void add_mujoco(ContenderField& field, const Engine* engine) {
   // The settings that a user would choose have one common reference, because they differ only in the integration method.
   field.references.push_back({"mujoco user", sets("mujoco", "euler"), {1e-5, 5e-6}});
   for (const char* integrator : {"euler", "implicit", "implicitfast"}) {
     if (!has(engine, integrator)) continue;
-    field.contenders.push_back({fmt::format("mujoco {}", integrator), Group::mujoco_user, "mujoco user",
+    field.contenders.push_back({fmt::format("mujoco {}", integrator), ContenderGroup::mujoco_user, "mujoco user",
                                 sets("mujoco", integrator), std::string(integrator) == "implicit" ? kImplicit : kUser});
   }
   // Set-up dcmotor limits the current instead of the torque at rest, and therefore converges to another limit.
   if (has(engine, "dcmotor")) {
     const auto motors = sets("mujoco", "dcmotor");
     field.references.push_back({"mujoco dcmotor", motors, {1e-5, 5e-6}});
-    field.contenders.push_back({"mujoco dcmotor", Group::mujoco_user, "mujoco dcmotor", motors, kUser});
+    field.contenders.push_back({"mujoco dcmotor", ContenderGroup::mujoco_user, "mujoco dcmotor", motors, kUser});
   }
   const auto best = sets("mujoco", "armature");
   field.references.push_back({"mujoco armature", best, {5e-5, 2.5e-5}});
-  field.contenders.push_back({"mujoco armature", Group::mujoco_best, "mujoco armature", best, kLong});
+  field.contenders.push_back({"mujoco armature", ContenderGroup::mujoco_best, "mujoco armature", best, kLong});
 }
 
-void add_articulated(Field& field, const Engine& engine, std::vector<std::string>& left_out) {
+void add_articulated(ContenderField& field, const Engine& engine, std::vector<std::string>& left_out) {
   field.references.push_back({"articulated", sets("articulated", "extrapolated"), {1e-4, 5e-5}});
   for (const std::size_t lanes : {1U, 4U, 8U}) {
     if (lanes > engine.lanes.back()) {
@@ -66,7 +66,7 @@ void add_articulated(Field& field, const Engine& engine, std::vector<std::string
     for (const char* integrator : {"implicit", "extrapolated"}) {
       const std::string name =
           lanes == 1 ? fmt::format("articulated {}", integrator) : fmt::format("articulated {} x{}", integrator, lanes);
-      field.contenders.push_back({name, Group::ours, "articulated", sets("articulated", integrator),
+      field.contenders.push_back({name, ContenderGroup::ours, "articulated", sets("articulated", integrator),
                                   std::string(integrator) == "implicit" ? kLong : kLonger, lanes});
     }
     for (const double accuracy : kAccuracies) {
@@ -74,7 +74,7 @@ void add_articulated(Field& field, const Engine& engine, std::vector<std::string
       adaptive.push_back(fmt::format("physics.accuracy={}", accuracy));
       const std::string name = fmt::format("articulated adaptive {}", accuracy);
       field.contenders.push_back({lanes == 1 ? name : fmt::format("{} x{}", name, lanes),
-                                  Group::ours,
+                                  ContenderGroup::ours,
                                   "articulated",
                                   std::move(adaptive),
                                   {kLonger.back()},
@@ -84,13 +84,13 @@ void add_articulated(Field& field, const Engine& engine, std::vector<std::string
   auto estimated = sets("articulated", "adaptive");
   estimated.back() = "physics.estimate=full";
   field.contenders.push_back(
-      {"articulated adaptive, estimated", Group::ours, "articulated", std::move(estimated), {kLonger.back()}});
+      {"articulated adaptive, estimated", ContenderGroup::ours, "articulated", std::move(estimated), {kLonger.back()}});
 }
 
 }  // namespace
 
-Field field(const Catalog& catalog, std::vector<std::string>& left_out) {
-  Field all;
+ContenderField field(const Catalog& catalog, std::vector<std::string>& left_out) {
+  ContenderField all;
   if (catalog.engine("bullet") != nullptr) add_bullet(all);
   if (catalog.engine("mujoco") != nullptr) add_mujoco(all, catalog.engine("mujoco"));
   if (const Engine* ours = catalog.engine("articulated")) add_articulated(all, *ours, left_out);

@@ -15,26 +15,26 @@ struct Reference {
   std::vector<double> steps;      ///< s, decreasing, at least two
 };
 
-enum class Group { bullet, bullet_solver, mujoco_user, mujoco_best, ours };
+enum class ContenderGroup { bullet, bullet_solver, mujoco_user, mujoco_best, ours };
 
 struct Contender {
   std::string name;
-  Group group = Group::ours;
+  ContenderGroup group = ContenderGroup::ours;
   std::string reference;          ///< name of the Reference for the errors
   std::vector<std::string> sets;  ///< arguments of --set
   std::vector<double> steps;      ///< s
   std::size_t lanes = 1;          ///< number of rollouts that are simulated side by side
 };
 
-struct Field {
+struct ContenderField {
   std::vector<Reference> references;
   std::vector<Contender> contenders;
 };
 
 /// All contenders that are possible with the engines in the catalog. `left_out` receives sentences about those that are not.
-Field field(const Catalog& catalog, std::vector<std::string>& left_out);
+ContenderField field(const Catalog& catalog, std::vector<std::string>& left_out);
 
-/// Name of a second reference, against which the errors of Group::ours are measured too.
+/// Name of a second reference, against which the errors of ContenderGroup::ours are measured too.
 inline constexpr const char* kOther = "bullet";
 
 }  // namespace gaitlab::versus

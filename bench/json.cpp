@@ -22,30 +22,30 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* word(Group group) {
+const char* word(ContenderGroup group) {
   switch (group) {
-    case Group::bullet:
+    case ContenderGroup::bullet:
       return "bullet";
-    case Group::bullet_solver:
+    case ContenderGroup::bullet_solver:
       return "bullet solver";
-    case Group::mujoco_user:
+    case ContenderGroup::mujoco_user:
       return "mujoco as a user sets it up";
-    case Group::mujoco_best:
+    case ContenderGroup::mujoco_best:
       return "mujoco at its best";
-    case Group::ours:
+    case ContenderGroup::ours:
       break;
   }
   return "ours";
 }
 
-Json errors(const TorqueError& error) { return {{"worst", error.worst}, {"median", error.median}}; }
+Json errors(const RaceTorqueError& error) { return {{"worst", error.worst}, {"median", error.median}}; }
 
 void add_course(Json& out, const Course& course) {
   out["travel"] = course.travel;
   out["contact_force"] = course.force;
 }
 
-Json to_json(const Point& p) {
+Json to_json(const RacePoint& p) {
   Json out{
       {"scenario", p.scenario}, {"contender", p.contender}, {"group", word(p.group)}, {"step", p.step}, {"lanes", p.lanes}};
   if (!p.ran()) {
@@ -65,7 +65,7 @@ Json to_json(const Point& p) {
 
 }  // namespace
 
-std::string json(const Results& results, const RaceSettings& settings) {
+std::string json(const RaceResults& results, const RaceSettings& settings) {
   Json out;
   out["machine"] = {{"processor", processor()}, {"cores", std::thread::hardware_concurrency()}};
   out["versions"] = {{"gaitlab", build_id()}, {"bullet", bullet_version()}, {"mujoco", mujoco_version()}};
@@ -79,7 +79,7 @@ std::string json(const Results& results, const RaceSettings& settings) {
     add_course(reference, c.course);
     out["references"].push_back(std::move(reference));
   }
-  for (const Point& p : results.points) out["points"].push_back(to_json(p));
+  for (const RacePoint& p : results.points) out["points"].push_back(to_json(p));
   out["left_out"] = results.left_out;
   return out.dump(1) + "\n";
 }

@@ -30,7 +30,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-TorqueError torque_error(const Torques& torques, const Torques& reference, double from) {
+RaceTorqueError torque_error(const Torques& torques, const Torques& reference, double from) {
   const std::size_t joints = reference.joints();
   std::vector<double> errors;
   for (std::size_t j = 0; j < joints; ++j) {
@@ -81,8 +81,8 @@ std::string strays(const Course& seen, const Course& bullet) {
   return out;
 }
 
-Measured measure(const std::vector<Scenario>& lanes, double least) {
-  Measured measured;
+TimedRun measure(const std::vector<Scenario>& lanes, double least) {
+  TimedRun measured;
   double runs = 0;
   Timing sum;
   while (runs == 0 || sum.wall < least) {

@@ -15,13 +15,13 @@ struct Torques {
 };
 
 /// Torque error over the rows from a time on: RMS of the difference / largest torque of the joint in the reference.
-struct TorqueError {
+struct RaceTorqueError {
   double worst = 0, median = 0;  ///< over the joints; upper median
   std::size_t joint = 0;         ///< index of the joint with the largest error
 };
 /// Torque error over the rows from `from` (s) on. Both arguments must have the same rows and joints, with at least one row in
 /// that interval. The error of a joint whose reference torque is 0 throughout is 0.
-TorqueError torque_error(const Torques& torques, const Torques& reference, double from);
+RaceTorqueError torque_error(const Torques& torques, const Torques& reference, double from);
 
 /// Travel of the robot and force on the ground. Two engines that differ in these do not simulate the same walk. Torque errors
 /// do not reveal that, because the torques of a falling robot converge too.
@@ -41,14 +41,14 @@ inline constexpr double kApart = 0.1;
 struct Timing {
   double wall = 0, cpu = 0;  ///< s per run, of the clock and of this process
 };
-struct Measured {
+struct TimedRun {
   Timing timing;
   Torques torques;  ///< torques in lane 0
   Course course;    ///< course in lane 0, over the second half of the run
 };
 /// Simulates the lanes side by side, repeatedly until `least` seconds of real time have passed. Throws the exceptions of
 /// Simulation.
-Measured measure(const std::vector<Scenario>& lanes, double least);
+TimedRun measure(const std::vector<Scenario>& lanes, double least);
 
 double median(std::vector<double> values);  ///< upper median; 0 without values
 

@@ -94,11 +94,11 @@ class SetPoints {
       rows_.push_back(row);
     }
   }
-  [[nodiscard]] double at(double t, std::size_t joint, Between between) const {
+  [[nodiscard]] double at(double t, std::size_t joint, BetweenTicks between) const {
     const Series recorded = record_.joint(joint, "setpoint");
     const auto tick = std::min(static_cast<std::size_t>((t + kSlack) / period_), rows_.size() - 1);
     const double now = recorded[rows_[tick]];
-    if (between == Between::held || tick + 1 == rows_.size()) return now;
+    if (between == BetweenTicks::held || tick + 1 == rows_.size()) return now;
     return now + (recorded[rows_[tick + 1]] - now) * (t / period_ - static_cast<double>(tick));
   }
 
@@ -136,7 +136,7 @@ Walk recorded_walk(const Recording& record, double from) {
                    com(last, "com.z"));
 }
 
-Walk walk_in_mujoco(const std::string& mjcf, const Scenario& s, const Recording& record, double from, Between between) {
+Walk walk_in_mujoco(const std::string& mjcf, const Scenario& s, const Recording& record, double from, BetweenTicks between) {
   const MujocoModel model = load_mjcf(mjcf);
   const MujocoData data(mj_makeData(model.get()));
   mj_resetDataKeyframe(model.get(), data.get(), 0);

@@ -37,11 +37,12 @@ Walk recorded_walk(const Recording& record, double from);
 
 /// Controls between two ticks of the controller: held at the values of the last tick, or interpolated linearly to those of the
 /// next.
-enum class Between { held, line };
+enum class BetweenTicks { held, line };
 
 /// Walk in MuJoCo of the exported robot, from keyframe `start`, with the set points of a run as controls. Throws RunError if
 /// MuJoCo warns, for example about a diverged simulation.
-Walk walk_in_mujoco(const std::string& mjcf, const Scenario& scenario, const Recording& record, double from, Between between);
+Walk walk_in_mujoco(const std::string& mjcf, const Scenario& scenario, const Recording& record, double from,
+                    BetweenTicks between);
 
 }  // namespace versus
 }  // namespace gaitlab

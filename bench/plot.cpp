@@ -44,23 +44,23 @@ struct Decades {
   }
 };
 
-std::vector<std::string> unique(const Results& results, std::string Point::*name) {
+std::vector<std::string> unique(const RaceResults& results, std::string RacePoint::*name) {
   std::vector<std::string> names;
-  for (const Point& p : results.points) {
+  for (const RacePoint& p : results.points) {
     if (p.ran() && std::ranges::find(names, p.*name) == names.end()) names.push_back(p.*name);
   }
   return names;
 }
 
-bool drawn(const Point& p) { return p.ran() && p.error.worst > 0; }
+bool drawn(const RacePoint& p) { return p.ran() && p.error.worst > 0; }
 
 class ScenarioPanel {
  public:
-  ScenarioPanel(report::Svg& svg, const Results& results, const std::string& scenario, double top) : svg_(svg), top_(top) {
+  ScenarioPanel(report::Svg& svg, const RaceResults& results, const std::string& scenario, double top) : svg_(svg), top_(top) {
     Decades speed;
     Decades error;
     error.add(kGood);
-    for (const Point& p : results.points) {
+    for (const RacePoint& p : results.points) {
       if (p.scenario != scenario || !drawn(p)) continue;
       speed.add(p.speed());
       error.add(p.error.worst);
@@ -73,10 +73,10 @@ class ScenarioPanel {
     frame(speed, error, scenario);
   }
 
-  void curve(const std::vector<const Point*>& points, const report::Style& style) {
+  void curve(const std::vector<const RacePoint*>& points, const report::Style& style) {
     std::vector<report::Point> line;
     line.reserve(points.size());
-    for (const Point* p : points) line.push_back({x_(std::log10(p->speed())), y_(std::log10(p->error.worst))});
+    for (const RacePoint* p : points) line.push_back({x_(std::log10(p->speed())), y_(std::log10(p->error.worst))});
     svg_.polyline(line, style);
     for (const report::Point& at : line) svg_.circle(at, kMark, {.stroke = style.stroke, .fill = style.stroke});
   }
@@ -113,9 +113,9 @@ class ScenarioPanel {
 
 }  // namespace
 
-std::string plot(const Results& results) {
-  const std::vector<std::string> scenarios = unique(results, &Point::scenario);
-  const std::vector<std::string> contenders = unique(results, &Point::contender);
+std::string plot(const RaceResults& results) {
+  const std::vector<std::string> scenarios = unique(results, &RacePoint::scenario);
+  const std::vector<std::string> contenders = unique(results, &RacePoint::contender);
   const std::size_t lines = (contenders.size() + 2) / 3;  // three entries per line
   double top = kTitleHeight + kLegendLine * static_cast<double>(lines) + kHead;
   constexpr std::string_view kTitle = "Cost of a simulated second, and error of its torques";
@@ -131,11 +131,11 @@ std::string plot(const Results& results) {
   for (const std::string& scenario : scenarios) {
     ScenarioPanel panel(svg, results, scenario, top);
     for (std::size_t c = 0; c < contenders.size(); ++c) {
-      std::vector<const Point*> points;
-      for (const Point& p : results.points) {
+      std::vector<const RacePoint*> points;
+      for (const RacePoint& p : results.points) {
         if (p.scenario == scenario && p.contender == contenders[c] && drawn(p)) points.push_back(&p);
       }
-      std::ranges::sort(points, {}, &Point::step);
+      std::ranges::sort(points, {}, &RacePoint::step);
       panel.curve(points, style_of(c));
     }
     top += kHeight + kFoot + kHead;

@@ -13,7 +13,7 @@ namespace {
 
 /// A contender at one step, with the scenarios of its lanes and its references.
 struct Runner {
-  Point point;
+  RacePoint point;
   std::vector<Scenario> lanes;
   const Converged* reference = nullptr;
   const Converged* bullet = nullptr;  ///< reference kOther
@@ -23,14 +23,14 @@ class Race {
  public:
   Race(const RaceSettings& settings, Catalog& catalog) : settings_(settings), catalog_(catalog) {}
 
-  Results run() {
-    const Field all = field(catalog_, results_.left_out);
+  RaceResults run() {
+    const ContenderField all = field(catalog_, results_.left_out);
     for (const std::string& file : settings_.scenarios) run(file, all);
     return std::move(results_);
   }
 
  private:
-  void run(const std::string& file, const Field& all) {
+  void run(const std::string& file, const ContenderField& all) {
     const std::string name = scenario(file, {}, 0).name;  // throws the errors of the scenario file
     std::vector<const Contender*> contenders;
     for (const Contender& c : all.contenders) {
@@ -79,7 +79,7 @@ class Race {
       for (const double step : r.steps) {
         settings_.say(fmt::format("{}: reference {}, step {} s", name, r.name, step));
         before = std::move(converged.torques);
-        Measured measured = measure({scenario(file, r.sets, step)}, 0);
+        TimedRun measured = measure({scenario(file, r.sets, step)}, 0);
         converged.torques = std::move(measured.torques);
         converged.course = measured.course;
       }
@@ -125,10 +125,10 @@ class Race {
   }
 
   void step(Runner& r) const {
-    Point& p = r.point;
+    RacePoint& p = r.point;
     if (!p.note.empty()) return;
     try {
-      const Measured measured = measure(r.lanes, settings_.least);
+      const TimedRun measured = measure(r.lanes, settings_.least);
       p.course = measured.course;
       if (r.bullet != nullptr) p.note = strays(p.course, r.bullet->course);
       if (!p.note.empty()) return;
@@ -137,7 +137,7 @@ class Race {
       if (p.wall.size() > 1) return;  // repetitions of a run have equal torques
       p.error = torque_error(measured.torques, r.reference->torques, settings_.seconds / 2);
       p.worst_joint = r.lanes[0].robot->joints[p.error.joint].name;
-      if (p.group == Group::ours && r.bullet != nullptr) {
+      if (p.group == ContenderGroup::ours && r.bullet != nullptr) {
         p.other = torque_error(measured.torques, r.bullet->torques, settings_.seconds / 2);
       }
     } catch (const std::runtime_error& error) {  // the step is refused, or the run diverged
@@ -147,23 +147,23 @@ class Race {
 
   const RaceSettings& settings_;
   Catalog& catalog_;
-  Results results_;
+  RaceResults results_;
 };
 
 }  // namespace
 
-double Point::slowest() const { return seconds / *std::ranges::max_element(wall); }
-double Point::fastest() const { return seconds / *std::ranges::min_element(wall); }
+double RacePoint::slowest() const { return seconds / *std::ranges::max_element(wall); }
+double RacePoint::fastest() const { return seconds / *std::ranges::min_element(wall); }
 
-const Point* Results::fastest(const std::string& scenario, Group group, double error) const {
-  const Point* best = nullptr;
-  for (const Point& p : points) {
+const RacePoint* RaceResults::fastest(const std::string& scenario, ContenderGroup group, double error) const {
+  const RacePoint* best = nullptr;
+  for (const RacePoint& p : points) {
     if (p.scenario != scenario || p.group != group || !p.ran() || p.error.worst > error) continue;
     if (best == nullptr || p.cpu_speed() > best->cpu_speed()) best = &p;
   }
   return best;
 }
 
-Results race(const RaceSettings& settings, Catalog& catalog) { return Race(settings, catalog).run(); }
+RaceResults race(const RaceSettings& settings, Catalog& catalog) { return Race(settings, catalog).run(); }
 
 }  // namespace gaitlab::versus

@@ -26,22 +26,22 @@ struct Converged {
   std::string scenario, name;
   double step = 0;  ///< s
   Torques torques;
-  TorqueError left;  ///< error of the run with the next longer step against this run
+  RaceTorqueError left;  ///< error of the run with the next longer step against this run
   Course course;
 };
 
 /// Results of a contender with one step.
-struct Point {
+struct RacePoint {
   std::string scenario, contender;
-  Group group = Group::ours;
+  ContenderGroup group = ContenderGroup::ours;
   double step = 0;  ///< s
   std::size_t lanes = 1;
-  double seconds = 0;  ///< s, simulated time of a run, summed over the lanes
-  std::string note;    ///< reason not to count the result: the step was refused, the run diverged, or the walk differs from
-                       ///< bullet's
-  TorqueError error;   ///< against the reference of the engine
+  double seconds = 0;     ///< s, simulated time of a run, summed over the lanes
+  std::string note;       ///< reason not to count the result: the step was refused, the run diverged, or the walk differs from
+                          ///< bullet's
+  RaceTorqueError error;  ///< against the reference of the engine
   std::string worst_joint;
-  std::optional<TorqueError> other;  ///< against kOther, for Group::ours
+  std::optional<RaceTorqueError> other;  ///< against kOther, for ContenderGroup::ours
   Course course;
   std::vector<double> wall, cpu;  ///< s per run; one value per round
 
@@ -53,18 +53,18 @@ struct Point {
   [[nodiscard]] double cpu_speed() const { return seconds / median(cpu); }
 };
 
-struct Results {
+struct RaceResults {
   std::vector<Converged> references;
-  std::vector<Point> points;
+  std::vector<RacePoint> points;
   std::vector<std::string> left_out;  ///< sentences on contenders and references that could not run
 
   /// Fastest result of `group` in `scenario` whose error of the worst joint is at most `error`; nullptr if there is none.
-  [[nodiscard]] const Point* fastest(const std::string& scenario, Group group, double error) const;
+  [[nodiscard]] const RacePoint* fastest(const std::string& scenario, ContenderGroup group, double error) const;
 };
 
 /// Runs the race. A result whose walk differs from that of reference kOther (strays(), bench/measure.h) gets a note and does
 /// not count. A reference whose walk differs is left out, with all contenders that are measured against it. Throws InputError
 /// for a scenario that cannot be read.
-Results race(const RaceSettings& settings, Catalog& catalog);
+RaceResults race(const RaceSettings& settings, Catalog& catalog);
 
 }  // namespace gaitlab::versus

@@ -44,11 +44,11 @@ std::string lay_out(const std::vector<Row>& rows, bool markdown) {
 std::string percent(double share) {
   return share < 0.1 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
 }
-std::string times(const Point& p, const Point* than) {
+std::string times(const RacePoint& p, const RacePoint* than) {
   return than == nullptr ? "-" : fmt::format("{:.3g}", p.cpu_speed() / than->cpu_speed());
 }
 
-Row row(const Point& p, const Point* mujoco, const Point* bullet) {
+Row row(const RacePoint& p, const RacePoint* mujoco, const RacePoint* bullet) {
   Row row{p.contender, fmt::format("{:.4g}", 1e3 * p.step)};
   for (std::string cell : {percent(p.error.worst), percent(p.error.median), p.other ? percent(p.other->worst) : "-",
                            fmt::format("{:.3g}", p.speed()), fmt::format("{:.3g} .. {:.3g}", p.slowest(), p.fastest()),
@@ -58,20 +58,20 @@ Row row(const Point& p, const Point* mujoco, const Point* bullet) {
   return row;
 }
 
-std::vector<std::string> scenarios(const Results& results) {
+std::vector<std::string> scenarios(const RaceResults& results) {
   std::vector<std::string> names;
-  for (const Point& p : results.points) {
+  for (const RacePoint& p : results.points) {
     if (names.empty() || names.back() != p.scenario) names.push_back(p.scenario);
   }
   return names;
 }
 
 /// The fastest results that count at error kGood: one per group, and for gaitlab's engines one per number of lanes.
-std::vector<const Point*> fastest(const Results& results, const std::string& scenario) {
-  std::vector<const Point*> best;
-  for (const Point& p : results.points) {
+std::vector<const RacePoint*> fastest(const RaceResults& results, const std::string& scenario) {
+  std::vector<const RacePoint*> best;
+  for (const RacePoint& p : results.points) {
     if (p.scenario != scenario || !p.ran() || p.error.worst > kGood) continue;
-    const auto at = std::ranges::find_if(best, [&](const Point* b) { return b->group == p.group && b->lanes == p.lanes; });
+    const auto at = std::ranges::find_if(best, [&](const RacePoint* b) { return b->group == p.group && b->lanes == p.lanes; });
     if (at == best.end()) {
       best.push_back(&p);
     } else if (p.cpu_speed() > (*at)->cpu_speed()) {
@@ -81,25 +81,25 @@ std::vector<const Point*> fastest(const Results& results, const std::string& sce
   return best;
 }
 
-std::string best_table(const Results& results, const std::string& scenario, bool markdown) {
-  const Point* mujoco = results.fastest(scenario, Group::mujoco_best, kGood);
-  const Point* bullet = results.fastest(scenario, Group::bullet, kGood);
+std::string best_table(const RaceResults& results, const std::string& scenario, bool markdown) {
+  const RacePoint* mujoco = results.fastest(scenario, ContenderGroup::mujoco_best, kGood);
+  const RacePoint* bullet = results.fastest(scenario, ContenderGroup::bullet, kGood);
   std::vector<Row> rows{head()};
-  for (const Point* p : fastest(results, scenario)) rows.push_back(row(*p, mujoco, bullet));
+  for (const RacePoint* p : fastest(results, scenario)) rows.push_back(row(*p, mujoco, bullet));
   return lay_out(rows, markdown);
 }
 
 /// Reasons why results do not count, one line each.
-std::string reasons(const Results& results, const std::string& scenario) {
+std::string reasons(const RaceResults& results, const std::string& scenario) {
   std::string out;
-  for (const Point& p : results.points) {
+  for (const RacePoint& p : results.points) {
     if (p.scenario != scenario || p.note.empty()) continue;
     out += fmt::format("- left out: {} at {:.4g} ms: {}\n", p.contender, 1e3 * p.step, p.note);
   }
   return out;
 }
 
-std::string references(const Results& results, const std::string& scenario) {
+std::string references(const RaceResults& results, const std::string& scenario) {
   std::string out;
   for (const Converged& c : results.references) {
     if (c.scenario != scenario) continue;
@@ -110,7 +110,7 @@ std::string references(const Results& results, const std::string& scenario) {
   return out;
 }
 
-std::string left_out(const Results& results) {
+std::string left_out(const RaceResults& results) {
   std::string out;
   for (const std::string& sentence : results.left_out) out += fmt::format("- left out: {}\n", sentence);
   return out;
@@ -118,14 +118,14 @@ std::string left_out(const Results& results) {
 
 }  // namespace
 
-std::string table(const Results& results, bool markdown) {
+std::string table(const RaceResults& results, bool markdown) {
   const std::string title = markdown ? "### " : "";
   std::string out;
   for (const std::string& scenario : scenarios(results)) {
-    const Point* mujoco = results.fastest(scenario, Group::mujoco_best, kGood);
-    const Point* bullet = results.fastest(scenario, Group::bullet, kGood);
+    const RacePoint* mujoco = results.fastest(scenario, ContenderGroup::mujoco_best, kGood);
+    const RacePoint* bullet = results.fastest(scenario, ContenderGroup::bullet, kGood);
     std::vector<Row> rows{head()};
-    for (const Point& p : results.points) {
+    for (const RacePoint& p : results.points) {
       if (p.scenario == scenario && p.ran()) rows.push_back(row(p, mujoco, bullet));
     }
     out += fmt::format("{}{}\n\n{}\n{}{}: the fastest with at most {} of error\n\n{}\n", title, scenario,
@@ -137,7 +137,7 @@ std::string table(const Results& results, bool markdown) {
   return out + left_out(results);
 }
 
-std::string digest(const Results& results) {
+std::string digest(const RaceResults& results) {
   std::string out;
   for (const std::string& scenario : scenarios(results)) {
     out += fmt::format("### {}: the fastest with at most {} of error\n\n{}\n{}{}\n", scenario, percent(kGood),

@@ -58,7 +58,7 @@ int versus_of(int argc, char** argv) {
 
   Catalog catalog = app::standard_catalog();
   register_mujoco(catalog);
-  const versus::Results results = versus::race(settings, catalog);
+  const versus::RaceResults results = versus::race(settings, catalog);
   std::filesystem::create_directories(out);
   write_file(out + "/versus.json", versus::json(results, settings));
   write_file(out + "/versus.svg", versus::plot(results));

@@ -30,8 +30,8 @@ std::string row(const std::string& file, double seconds, Catalog& catalog) {
   simulation.run();
   const Recording record = simulation.take_recording(0);
   const versus::Walk ours = versus::recorded_walk(record, kFrom);
-  const versus::Walk theirs =
-      versus::walk_in_mujoco(interchange::to_mjcf(s, interchange::MjcfModel::walking), s, record, kFrom, versus::Between::line);
+  const versus::Walk theirs = versus::walk_in_mujoco(interchange::to_mjcf(s, interchange::MjcfModel::walking), s, record, kFrom,
+                                                     versus::BetweenTicks::line);
   std::size_t worst = 0;
   for (std::size_t j = 0; j < ours.rms.size(); ++j) {
     if (std::abs(theirs.rms[j] - ours.rms[j]) > std::abs(theirs.rms[worst] - ours.rms[worst])) worst = j;

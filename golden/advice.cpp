@@ -90,7 +90,7 @@ std::vector<std::size_t> wide(const Golden& golden) {
 }
 
 /// Reason for the width of a number's band, and the remedy.
-std::string explanation(const Number& number, const Band& band, const Scenario& scenario) {
+std::string explanation(const GoldenNumber& number, const Band& band, const Scenario& scenario) {
   if (band.ensemble > band.halving && quantised(scenario)) {
     return fmt::format(
         "the band is {} standard errors of the difference of two means over {} starts; a longer run has less spread. If a "
@@ -154,7 +154,7 @@ std::string wide_numbers(const Golden& golden, const Scenario& scenario) {
   const std::vector<double> scale = scales(golden.numbers);
   std::string text;
   for (std::size_t k = 0; k < std::min(found.size(), kMostExplained); ++k) {
-    const Number& number = golden.numbers[found[k]];
+    const GoldenNumber& number = golden.numbers[found[k]];
     const Band& band = golden.number_bands[found[k]];
     const double most = number.value + std::copysign(band.width() * scale[found[k]], number.value);
     const auto with_its_unit = [&](double value) {

@@ -6,8 +6,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "golden/starts.h"
-
 namespace gaitlab::golden {
 
 namespace {
@@ -53,8 +51,8 @@ Band column_band(Band band, double scale, double range, double natural) {
   return {band.ensemble * scale / natural, band.halving * scale / natural, kConstantBand, natural};
 }
 
-const Number& number(const GoldenRun& run, const std::string& name) {
-  const auto named = [&](const Number& n) { return n.name == name; };
+const GoldenNumber& number(const GoldenRun& run, const std::string& name) {
+  const auto named = [&](const GoldenNumber& n) { return n.name == name; };
   const auto found = std::find_if(run.numbers.begin(), run.numbers.end(), named);
   if (found == run.numbers.end()) throw std::invalid_argument("a run to calibrate with has no number " + name);
   return *found;
@@ -76,10 +74,10 @@ std::vector<double> scales(const Trace& trace, const std::vector<Band>& bands) {
   return found;
 }
 
-std::vector<double> scales(const std::vector<Number>& numbers) {
+std::vector<double> scales(const std::vector<GoldenNumber>& numbers) {
   std::vector<Extent> extents;
   extents.reserve(numbers.size());
-  for (const Number& number : numbers) extents.push_back({number.unit, std::abs(number.value)});
+  for (const GoldenNumber& number : numbers) extents.push_back({number.unit, std::abs(number.value)});
   return scales_of(extents);
 }
 

@@ -12,7 +12,7 @@ namespace gaitlab::golden {
 /// Content of a golden from a run (trace with `t` first, numbers, word of the verdict), and data for messages about the run.
 struct GoldenRun {
   Trace trace;
-  std::vector<Number> numbers;
+  std::vector<GoldenNumber> numbers;
   std::vector<std::string> joints = {};  ///< joint names, by their numbers in the columns
   std::vector<double> natural = {};  ///< natural scale of each column, in its unit; 0 if its unit has none (natural_scales.h)
   std::optional<Word> verdict = {};  ///< empty if the run was not judged
@@ -28,7 +28,7 @@ std::vector<double> scales(const Trace& trace);
 std::vector<double> scales(const Trace& trace, const std::vector<Band>& bands);
 
 /// Scales of single numbers, computed as those of columns, but from the absolute value of the number instead of the range.
-std::vector<double> scales(const std::vector<Number>& numbers);
+std::vector<double> scales(const std::vector<GoldenNumber>& numbers);
 
 /// Mean square of the difference of a column between two traces with equal rows, in the unit of the column squared.
 double mean_square(const Trace& a, const Trace& b, std::size_t column);
@@ -48,6 +48,8 @@ inline constexpr double kConstantRange = 1e-6, kConstantBand = 1e-5;
 /// weight with small torques. Start angles that differ by 1e-7 rad change these torques permanently, by 6e-6 of the motors'
 /// torques.
 inline constexpr double kNarrowBand = 1e-4;
+/// Number of starts over which the numbers of a quantised scenario are averaged (starts.h).
+inline constexpr int kStarts = 16;
 /// Band of a mean over starts, in standard errors of the difference of two such means. Student's t with 15 degrees of freedom
 /// exceeds 6 once in 40 000 numbers.
 inline constexpr double kStandardErrors = 6;

@@ -83,21 +83,21 @@ GoldenCase case_of(const fs::path& file, const std::optional<std::string>& golde
     if (golden || is_there(c.folder)) {
       c.golden = read_golden(c.folder);
     } else if (!must) {
-      c.verdict = Verdict::skipped;
+      c.verdict = CaseVerdict::skipped;
     } else {
       throw InputError(SourceLocation{c.file},
                        fmt::format("has no golden ({} does not exist); make it: gaitlab approve {} --reason TEXT",
                                    c.folder.string(), c.file));
     }
   } catch (const InputError& error) {
-    c.fail(Verdict::bad_input, error.what());
+    c.fail(CaseVerdict::bad_input, error.what());
   }
   return c;
 }
 
 GoldenCase orphan(const fs::path& golden) {
   GoldenCase c{golden.string()};
-  c.fail(Verdict::bad_input,
+  c.fail(CaseVerdict::bad_input,
          fmt::format(
              "{}: error: has no scenario ({} does not exist); rename or remove this golden in the same way as its scenario",
              c.file, fs::path(golden).replace_extension(".yaml").string()));
@@ -138,7 +138,7 @@ void read_case(GoldenCase& c, const std::optional<std::string>& engine, Catalog&
     c.scenario = std::move(scenario);
   } catch (const InputError& error) {
     if (error.problems().front().place.file == "--engine") throw;  // the error is not in the scenario
-    c.fail(Verdict::bad_input, error.what());
+    c.fail(CaseVerdict::bad_input, error.what());
   }
 }
 
@@ -149,15 +149,15 @@ void judge(GoldenCase& c, const Attempt& outcome, const Attempt* halved) {
     if (outcome.error) std::rethrow_exception(outcome.error);
     if (halved != nullptr && halved->error) std::rethrow_exception(halved->error);
   } catch (const InputError& error) {
-    c.fail(Verdict::bad_input, error.what());
+    c.fail(CaseVerdict::bad_input, error.what());
     return;
   } catch (const RunError& error) {
-    c.fail(Verdict::run_failed, fmt::format("{}: error: {}", c.file, error.what()));
+    c.fail(CaseVerdict::run_failed, fmt::format("{}: error: {}", c.file, error.what()));
     return;
   }
   c.run = outcome.run;
   c.difference = compare(*c.golden, c.run, c.other_engine, halved != nullptr ? &halved->run : nullptr);
-  if (!c.difference.passed()) c.verdict = Verdict::regression;
+  if (!c.difference.passed()) c.verdict = CaseVerdict::regression;
   try {
     // If the columns are the same, the golden may belong to a scenario that was renamed and changed. This is a regression,
     // whose message contains both names.
@@ -165,13 +165,13 @@ void judge(GoldenCase& c, const Attempt& outcome, const Attempt* halved) {
     if (!c.given_golden && (c.run.trace.columns.size() != columns || c.difference.columns.size() + 1 != columns))
       check_own(*c.golden, c.folder, *c.scenario, c.difference);
   } catch (const InputError& error) {
-    c.fail(Verdict::bad_input, error.what());
+    c.fail(CaseVerdict::bad_input, error.what());
   }
 }
 
 }  // namespace
 
-void GoldenCase::fail(Verdict as, std::string text) {
+void GoldenCase::fail(CaseVerdict as, std::string text) {
   verdict = as;
   problem = std::move(text);
 }
@@ -239,25 +239,25 @@ void run_cases(std::vector<GoldenCase>& cases, const TestArguments& arguments, c
     if (!c.scenario) continue;
     const Attempt& run = *outcome++;
     judge(c, run, c.halved ? &*outcome++ : nullptr);
-    if (arguments.fail_infeasible && c.verdict == Verdict::passed && report::has_motors(*c.scenario) &&
+    if (arguments.fail_infeasible && c.verdict == CaseVerdict::passed && report::has_motors(*c.scenario) &&
         c.run.verdict != Word::feasible)
-      c.fail(Verdict::infeasible, fmt::format("{}: {}: {}", c.file, name_of(*c.run.verdict), c.run.why));
+      c.fail(CaseVerdict::infeasible, fmt::format("{}: {}: {}", c.file, name_of(*c.run.verdict), c.run.why));
   }
 }
 
-std::string to_string(Verdict verdict) {
+std::string to_string(CaseVerdict verdict) {
   switch (verdict) {
-    case Verdict::passed:
+    case CaseVerdict::passed:
       return "passed";
-    case Verdict::skipped:
+    case CaseVerdict::skipped:
       return "skipped: no golden";
-    case Verdict::infeasible:
+    case CaseVerdict::infeasible:
       return "INFEASIBLE";
-    case Verdict::bad_input:
+    case CaseVerdict::bad_input:
       return "NOT TESTED";
-    case Verdict::run_failed:
+    case CaseVerdict::run_failed:
       return "RUN FAILED";
-    case Verdict::regression:
+    case CaseVerdict::regression:
       break;
   }
   return "FAILED";

@@ -26,7 +26,7 @@ struct TestArguments {
 
 /// Result of a case, in the order from best to worst. The exit code of the program is that of the first of these results that
 /// any case has: bad_input 2, run_failed 1, regression 4, infeasible 3.
-enum class Verdict { passed, skipped, infeasible, bad_input, run_failed, regression };
+enum class CaseVerdict { passed, skipped, infeasible, bad_input, run_failed, regression };
 
 struct GoldenCase {
   std::string file;                       ///< path of the scenario, as given or found
@@ -38,13 +38,13 @@ struct GoldenCase {
   std::optional<Scenario> halved = {};    ///< the scenario with half its step, if the golden's bands are not those of its step
   GoldenRun run = {};
   GoldenDifference difference = {};
-  Verdict verdict = Verdict::passed;
+  CaseVerdict verdict = CaseVerdict::passed;
   std::string problem = {};  ///< text for stderr with the reason why no comparison was possible
   std::string figure = {};   ///< path of a file with the columns outside their bands
   std::string page = {};     ///< path of a file with both runs
   double seconds = 0;        ///< duration of the run, for reports only, s
 
-  void fail(Verdict as, std::string text);
+  void fail(CaseVerdict as, std::string text);
 };
 
 /// Path of the golden of a scenario. Throws InputError if another scenario in the same folder (walk.yml for walk.yaml) would
@@ -69,6 +69,6 @@ void run_cases(std::vector<GoldenCase>& cases, const TestArguments& arguments,
                const std::function<void(double)>& progress = {});
 
 /// Text such as `passed`, `FAILED` or `skipped: no golden`.
-std::string to_string(Verdict verdict);
+std::string to_string(CaseVerdict verdict);
 
 }  // namespace gaitlab::golden

@@ -128,10 +128,10 @@ class Comparison {
   void compare_numbers() {
     const std::vector<double> scale = scales(golden_.numbers);
     for (std::size_t i = 0; i < golden_.numbers.size(); ++i) {
-      const Number& number = golden_.numbers[i];
+      const GoldenNumber& number = golden_.numbers[i];
       if (other_engine_ && number.name.ends_with(".torque.peak")) continue;
       const auto now =
-          std::find_if(run_.numbers.begin(), run_.numbers.end(), [&](const Number& n) { return n.name == number.name; });
+          std::find_if(run_.numbers.begin(), run_.numbers.end(), [&](const GoldenNumber& n) { return n.name == number.name; });
       if (now == run_.numbers.end()) {
         find(fmt::format("{} is only in the golden", readable_number(number.name)));
         continue;

@@ -24,7 +24,7 @@ struct Band {
 };
 
 /// A number of the summary.
-struct Number {
+struct GoldenNumber {
   std::string name, unit;
   double value = 0;
   std::optional<double> at_start = {};   ///< time of a peak that precedes the judged window, s
@@ -52,7 +52,7 @@ struct Golden {
   /// Mean square of the error of rounding each column of the trace, in the column's unit squared.
   std::vector<double> rounding;
   std::vector<Band> bands;  ///< one band per column of the trace; the band of `t` is empty
-  std::vector<Number> numbers;
+  std::vector<GoldenNumber> numbers;
   std::vector<Band> number_bands;  ///< one band per element of `numbers`
   Word verdict = Word::not_judged;
   std::vector<std::string> selected = {};  ///< patterns of the columns that the user has chosen; empty for the usual ones

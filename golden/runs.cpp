@@ -58,12 +58,12 @@ const report::SummaryNumber* time_of(const report::SummaryNumber& number) {
   return nullptr;
 }
 
-std::vector<Number> numbers(const Scenario& scenario, const Recording& record) {
+std::vector<GoldenNumber> numbers(const Scenario& scenario, const Recording& record) {
   const report::Summary summary = report::summarise(scenario, record, 0);
   std::vector<const report::SummaryNumber*> kept = report::placed(&report::SummaryNumber::golden);
   if (!report::has_motors(scenario))
     std::erase_if(kept, [](const report::SummaryNumber* number) { return number->golden.needs_motor; });
-  std::vector<Number> all;
+  std::vector<GoldenNumber> all;
   for (const report::SummaryNumber* number : kept) {
     if (number->of_joint == nullptr) all.push_back({number->name(), number->unit, number->value({scenario, record, summary})});
   }
@@ -215,13 +215,13 @@ std::vector<Attempt> golden_runs(const std::vector<Scenario>& scenarios, int job
   return outcomes;
 }
 
-std::vector<Number> golden_numbers(const GoldenRun& run) {
+std::vector<GoldenNumber> golden_numbers(const GoldenRun& run) {
   const auto distance =
-      std::find_if(run.numbers.begin(), run.numbers.end(), [](const Number& n) { return n.name == "distance"; });
-  std::vector<Number> kept = run.numbers;
+      std::find_if(run.numbers.begin(), run.numbers.end(), [](const GoldenNumber& n) { return n.name == "distance"; });
+  std::vector<GoldenNumber> kept = run.numbers;
   if (distance->value > kLeastTravel) return kept;
   for (const report::SummaryNumber& entry : report::summary_numbers()) {
-    if (entry.golden.needs_travel) std::erase_if(kept, [&](const Number& number) { return number.name == entry.name(); });
+    if (entry.golden.needs_travel) std::erase_if(kept, [&](const GoldenNumber& number) { return number.name == entry.name(); });
   }
   return kept;
 }

@@ -34,7 +34,7 @@ std::vector<Attempt> golden_runs(const std::vector<Scenario>& scenarios, int job
 /// Numbers that a golden of this run contains. These are all numbers except the costs of transport if the robot travels less
 /// than 10 mm, because these costs are then noise. The golden of a comparison selects the numbers, so that a run on the other
 /// side of that limit is still compared.
-std::vector<Number> golden_numbers(const GoldenRun& run);
+std::vector<GoldenNumber> golden_numbers(const GoldenRun& run);
 
 /// Origin of a golden's run, for Golden::origin.
 GoldenProvenance golden_origin(const Scenario& scenario);

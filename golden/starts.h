@@ -8,9 +8,6 @@
 
 namespace gaitlab::golden {
 
-/// Number of starts over which the numbers of a quantised scenario are averaged.
-inline constexpr int kStarts = 16;
-
 /// Scenario for member number `member` of an ensemble: `scenario` with each initial joint angle changed by up to 1e-7 rad. The
 /// changes depend only on scenario.seed, `member` and the joint, by splitmix64 of a counter.
 Scenario perturbed(const Scenario& scenario, int member);

@@ -58,7 +58,7 @@ double reach(const BodyType& type) {
 
 class GltfScene {
  public:
-  GltfScene(const Scenario& s, Motion motion, const GltfLook& look)
+  GltfScene(const Scenario& s, RobotMotion motion, const GltfLook& look)
       : s_(s), robot_(*s.robot), motion_(std::move(motion)), look_(look) {}
 
   Gltf write() {
@@ -231,7 +231,7 @@ class GltfScene {
 
   const Scenario& s_;
   const Robot& robot_;
-  Motion motion_;
+  RobotMotion motion_;
   const GltfLook& look_;
   Glb file_;
   std::map<std::string, std::size_t> materials_;                       ///< index of each material, by its name
@@ -244,7 +244,7 @@ class GltfScene {
 }  // namespace
 
 Gltf to_gltf(const Scenario& scenario, const Recording* recording, const GltfLook& look) {
-  Motion moves = recording != nullptr ? motion(scenario, *recording, kGltfRate) : standing(scenario);
+  RobotMotion moves = recording != nullptr ? motion(scenario, *recording, kGltfRate) : standing(scenario);
   return GltfScene(scenario, std::move(moves), look).write();
 }
 

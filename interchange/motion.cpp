@@ -76,7 +76,7 @@ class Frames {
 
 }  // namespace
 
-RobotState Motion::state(std::size_t frame) const {
+RobotState RobotMotion::state(std::size_t frame) const {
   RobotState s;
   s.position = base.places[frame];
   s.orientation = base.turns[frame];
@@ -85,16 +85,16 @@ RobotState Motion::state(std::size_t frame) const {
   return s;
 }
 
-Motion standing(const Scenario& scenario) {
+RobotMotion standing(const Scenario& scenario) {
   const RobotState start = start_state(scenario);
-  Motion made{{0}, {{start.position}, {start.orientation.normalized()}}, {}, fixed_boxes(scenario.ground)};
+  RobotMotion made{{0}, {{start.position}, {start.orientation.normalized()}}, {}, fixed_boxes(scenario.ground)};
   for (const double angle : start.q) made.angles.push_back({angle});
   return made;
 }
 
-Motion motion(const Scenario& scenario, const Recording& recording, double rate) {
+RobotMotion motion(const Scenario& scenario, const Recording& recording, double rate) {
   const Frames frames(scenario, recording, rate);
-  Motion made{frames.times(), frames.way("base."), {}, fixed_boxes(scenario.ground)};
+  RobotMotion made{frames.times(), frames.way("base."), {}, fixed_boxes(scenario.ground)};
   for (std::size_t j = 0; j < scenario.robot->joints.size(); ++j)
     made.angles.push_back(frames.column(fmt::format("joint.{}.angle", j)));
   for (std::size_t b = 0; b < made.boxes.size(); ++b) {

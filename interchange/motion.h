@@ -14,7 +14,7 @@ struct Way {
   std::vector<Quat> turns;   ///< rotation from the object's axes to the world's axes
 };
 
-struct Motion {
+struct RobotMotion {
   std::vector<float> times;                 ///< s, times of the frames, strictly rising
   Way base;                                 ///< poses of the base frame
   std::vector<std::vector<double>> angles;  ///< rad; one list per joint with one angle per frame
@@ -25,11 +25,11 @@ struct Motion {
 };
 
 /// Motion with a single frame, the robot's initial state.
-Motion standing(const Scenario& scenario);
+RobotMotion standing(const Scenario& scenario);
 
 /// Motion at the last trace row and at trace rows that are at least 1/rate s apart. Requires recording.has_states(robot).
 /// Throws InputError for a number that is not finite.
-Motion motion(const Scenario& scenario, const Recording& recording, double rate);
+RobotMotion motion(const Scenario& scenario, const Recording& recording, double rate);
 
 /// True if the recording contains the motion of box `number` in `ground.boxes`.
 bool has_way(const Recording& recording, std::size_t number);

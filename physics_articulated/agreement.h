@@ -34,7 +34,7 @@ class Agreement {
   /// Lanes of `which` in which no speed differs by more than `share` of the accuracy. `difference(e)` is that of entry e of the
   /// state. `peak` contains the largest torque of each joint so far, N m.
   template <class Difference>
-  math::Mask<T> within(double share, const math::Mask<T>& which, const Limits<T>& limits, const Motors<T>& motors,
+  math::Mask<T> within(double share, const math::Mask<T>& which, const StepLimits<T>& limits, const StepMotors<T>& motors,
                        std::span<const T> peak, Difference difference) {
     math::Mask<T> within = which;
     math::Mask<T> loose = limits.slide;

@@ -22,10 +22,10 @@ namespace gaitlab::articulated {
 /// forward_kinematics() is called first, then solve() any number of times. respond() uses the matrix of the last solve(). The
 /// state has the entries of StateLayout, SI; the quaternion may have any length except 0. Only the constructor allocates.
 template <class T>
-class Body {
+class TreeBody {
  public:
   /// With `other`, which is for one lane only, weight, centrifugal and gyroscopic forces are those that cause its acceleration.
-  Body(const Tree<T>& tree, const Vec<T>& gravity, OtherDynamics* other = nullptr)
+  TreeBody(const Tree<T>& tree, const Vec<T>& gravity, OtherDynamics* other = nullptr)
       : tree_(tree), gravity_(gravity), links_(tree.links.size()), other_(other), fall_(6 + tree.lo.size()) {}
 
   /// Computes poses, velocities, inertias, weight, and centrifugal and gyroscopic forces from the state.
@@ -55,11 +55,11 @@ class Body {
     }
 
    private:
-    friend Body;
-    Load(Inertia<T>& I, Force<T>& p, const Motion<T>& bias) : I_(I), p_(p), bias_(bias) {}
+    friend TreeBody;
+    Load(Inertia<T>& I, Force<T>& p, const SpatialMotion<T>& bias) : I_(I), p_(p), bias_(bias) {}
     Inertia<T>& I_;
     Force<T>& p_;
-    const Motion<T>& bias_;
+    const SpatialMotion<T>& bias_;
   };
 
   /// Computes v' in `out` (6 + joints entries). `torque` (N m) and `diagonal` (kg m^2) have one entry per joint. loads(link,
@@ -144,20 +144,20 @@ class Body {
 
  private:
   struct Link {
-    Mat<T> R;             ///< axes of the link in the world
-    Vec<T> r;             ///< origin of the link, relative to the origin of the base frame
-    Motion<T> S;          ///< motion for unit speed of the joint
-    Motion<T> V;          ///< velocity
-    Motion<T> c;          ///< velocity-dependent acceleration of the joint
-    Motion<T> bias;       ///< acceleration for v' = 0
-    Vec<T> moment;        ///< mass times COM
-    Sym<T> about_origin;  ///< inertia about the origin
-    Force<T> at_rest;     ///< initial value of p: weight, centrifugal and gyroscopic forces
-    Inertia<T> I;         ///< articulated inertia: rigid inertia plus the parts of the children
-    Force<T> p;           ///< bias force, including the parts of the children
-    Force<T> U;           ///< I S
-    T inverse, u;         ///< 1 / (S^T I S + diagonal); net torque on the joint
-    Motion<T> A;          ///< acceleration
+    Mat<T> R;               ///< axes of the link in the world
+    Vec<T> r;               ///< origin of the link, relative to the origin of the base frame
+    SpatialMotion<T> S;     ///< motion for unit speed of the joint
+    SpatialMotion<T> V;     ///< velocity
+    SpatialMotion<T> c;     ///< velocity-dependent acceleration of the joint
+    SpatialMotion<T> bias;  ///< acceleration for v' = 0
+    Vec<T> moment;          ///< mass times COM
+    Sym<T> about_origin;    ///< inertia about the origin
+    Force<T> at_rest;       ///< initial value of p: weight, centrifugal and gyroscopic forces
+    Inertia<T> I;           ///< articulated inertia: rigid inertia plus the parts of the children
+    Force<T> p;             ///< bias force, including the parts of the children
+    Force<T> U;             ///< I S
+    T inverse, u;           ///< 1 / (S^T I S + diagonal); net torque on the joint
+    SpatialMotion<T> A;     ///< acceleration
   };
 
   static void add_scaled(Force<T>& to, const T& s, const Force<T>& U) {
@@ -220,9 +220,9 @@ class Body {
   }
 
   /// Computes accelerations from the base outwards. If `moving`, they include velocity-dependent terms.
-  void spread(const Motion<T>& base, bool moving, std::span<T> out) {
+  void spread(const SpatialMotion<T>& base, bool moving, std::span<T> out) {
     links_[0].A = base;
-    const Motion<T>& a = base;
+    const SpatialMotion<T>& a = base;
     out[0] = a.v.x;
     out[1] = a.v.y;
     out[2] = a.v.z;
@@ -231,8 +231,8 @@ class Body {
     out[5] = a.w.z;
     for (std::size_t i = 1; i < links_.size(); ++i) {
       Link& l = links_[i];
-      const Motion<T>& parent = links_[tree_.links[i].parent].A;
-      const Motion<T> carried = moving ? parent + l.c : parent;
+      const SpatialMotion<T>& parent = links_[tree_.links[i].parent].A;
+      const SpatialMotion<T> carried = moving ? parent + l.c : parent;
       const T qdd = l.inverse * (l.u - dot(carried, l.U));
       out[6 + tree_.links[i].joint] = qdd;
       l.A = carried + qdd * l.S;
@@ -255,7 +255,7 @@ class Body {
     }
   }
 
-  [[nodiscard]] Motion<T> base_acceleration() const {
+  [[nodiscard]] SpatialMotion<T> base_acceleration() const {
     const Force<T>& p = links_[0].p;
     if (tree_.base == Base::floating) {
       std::array<T, 6> a{-p.n.x, -p.n.y, -p.n.z, -p.f.x, -p.f.y, -p.f.z};

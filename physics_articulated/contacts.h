@@ -96,7 +96,7 @@ class Contacts {
 
   /// Fills touching() at the present place of the body, to which it has moved for `ahead` seconds at its velocities. With
   /// `reach` > 0 (s), elements that may touch within this time are included.
-  void find(const Body<T>& body, double ahead, double reach) {
+  void find(const TreeBody<T>& body, double ahead, double reach) {
     touching_.clear();
     std::size_t e = 0;
     for (std::size_t link = 0; link + 1 < first_.size(); ++link) {
@@ -134,8 +134,8 @@ class Contacts {
     }
   }
 
-  /// Adds the contact forces and resistances on a link in Body::solve.
-  void load(std::size_t link, typename Body<T>::Load load, double h) const {
+  /// Adds the contact forces and resistances on a link in TreeBody::solve.
+  void load(std::size_t link, typename TreeBody<T>::Load load, double h) const {
     for (std::size_t i = first_[link]; i < first_[link + 1]; ++i) {
       const Contact<T>& c = touching_[i];
       if (!math::any_lane(math::mask_or(c.friction_limit > T(0.0), math::mask_or(c.fn > T(0.0), c.normal_damping > T(0.0)))))
@@ -145,8 +145,8 @@ class Contacts {
     }
   }
 
-  /// Stores the result of Body::solve.
-  void solved(const Body<T>& body, double h) {
+  /// Stores the result of TreeBody::solve.
+  void solved(const TreeBody<T>& body, double h) {
     for (Contact<T>& c : touching_) {
       c.next_change = T(h) * body.change(c.link, c.x);
       c.next_held = c.force(c.next_change);
@@ -236,14 +236,14 @@ class Contacts {
   static constexpr double kFrictionFloor = 1e-9;  // N
 
   /// Largest gap at which find() includes an element of the link, m, with a margin for rounding errors.
-  [[nodiscard]] T reach_of(const Body<T>& body, std::size_t link, double reach) const {
+  [[nodiscard]] T reach_of(const TreeBody<T>& body, std::size_t link, double reach) const {
     const Vec<T> v = body.velocity(link, body.point(link, {}));
     const Vec<T>& w = body.turning(link);
     const T speed = math::sqrt(dot(v, v)) + math::sqrt(dot(w, w)) * extent_[link];
     return T(kRoom * reach) * speed + T(kRoom * kPull * reach * reach + kRoom - 1);
   }
   /// Height of the centre of an element, m, with the same bits as in find().
-  [[nodiscard]] T height(const Body<T>& body, std::size_t link, const TreePoint<T>& point) const {
+  [[nodiscard]] T height(const TreeBody<T>& body, std::size_t link, const TreePoint<T>& point) const {
     return body.height(link, point.centre) + body.origin().z;
   }
 

@@ -15,8 +15,8 @@ namespace {
 using articulated::ContactForce;
 using articulated::Kernel;
 using articulated::KernelSettings;
+using articulated::LaneConstants;
 using articulated::LaneModel;
-using articulated::Rollout;
 using articulated::vec3;
 
 /// Kernels by number of rollouts side by side.
@@ -41,13 +41,13 @@ std::vector<std::size_t> widths() {
 
 /// Integrators of the engine; the first is the default.
 struct Offer {
-  articulated::Method method;
+  articulated::StepMethod method;
   const char* name;
   int order;  ///< 0 for an integrator that divides its steps
 };
 constexpr std::array kOffers{
-    Offer{articulated::Method::adaptive, "adaptive", 0}, Offer{articulated::Method::implicit, "implicit", 1},
-    Offer{articulated::Method::extrapolated, "extrapolated", 2}, Offer{articulated::Method::rk4, "rk4", 4}};
+    Offer{articulated::StepMethod::adaptive, "adaptive", 0}, Offer{articulated::StepMethod::implicit, "implicit", 1},
+    Offer{articulated::StepMethod::extrapolated, "extrapolated", 2}, Offer{articulated::StepMethod::rk4, "rk4", 4}};
 
 std::vector<Integrator> integrators() {
   std::vector<Integrator> all;
@@ -55,7 +55,7 @@ std::vector<Integrator> integrators() {
   return all;
 }
 
-articulated::Method method_of(const std::string& name) {
+articulated::StepMethod method_of(const std::string& name) {
   const auto found = std::find_if(kOffers.begin(), kOffers.end(), [&](const Offer& one) { return one.name == name; });
   if (found != kOffers.end()) return found->method;
   if (!name.empty()) throw std::invalid_argument("engine articulated has no integrator '" + name + "'");
@@ -68,10 +68,10 @@ class ArticulatedPlant final : public Plant {
       : settings_(s),
         dynamics_(std::move(dynamics)),
         layout_{s.robot->joints.size(), 1 + s.others.size()},
-        explicit_(method_of(s.integrator) == articulated::Method::rk4),
+        explicit_(method_of(s.integrator) == articulated::StepMethod::rk4),
         x_(layout_.size() / layout_.lanes),
         state_{.q = std::vector<double>(layout_.joints), .qd = std::vector<double>(layout_.joints)} {
-    std::vector<Rollout> rollouts;
+    std::vector<LaneConstants> rollouts;
     for (std::size_t l = 0; l < layout_.lanes; ++l) {
       const LaneSettings& own = l == 0 ? settings_ : settings_.others[l - 1];
       rollouts.push_back(articulated::rollout(own, s.base));
@@ -156,7 +156,7 @@ class ArticulatedPlant final : public Plant {
 
 std::vector<Integrator> implicit_integrators() {
   std::vector<Integrator> all = integrators();
-  std::erase_if(all, [](const Integrator& one) { return method_of(one.name) == articulated::Method::rk4; });
+  std::erase_if(all, [](const Integrator& one) { return method_of(one.name) == articulated::StepMethod::rk4; });
   return all;
 }
 

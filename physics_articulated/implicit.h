@@ -152,7 +152,7 @@ class Implicit {
       diagonal_[j] = rotor[j] + (h > 0 ? T(h) * (motors.slope[j] + stop_slope_[j]) : T(0.0));
     }
     body.solve(force_, diagonal_, next_.a,
-               [&](std::size_t link, typename Body<T>::Load load) { contacts.load(link, load, h); });
+               [&](std::size_t link, typename TreeBody<T>::Load load) { contacts.load(link, load, h); });
   }
 
   [[nodiscard]] std::span<T> speeds(std::span<T> x) const { return x.subspan(StateLayout::kAngles + joints_, joints_); }
@@ -167,9 +167,9 @@ class Implicit {
     torque_tolerance_ = math::select(share > least, share, least);
   }
 
-  Body<T> body;
+  TreeBody<T> body;
   Contacts<T> contacts;
-  Motors<T> motors;
+  StepMotors<T> motors;
   Holds<T> holds;              ///< their time is set before step() and evaluate()
   std::vector<T> rotor;        ///< reflected inertia of each joint, kg m^2
   StepResult<T> done;          ///< result of the last step

@@ -9,7 +9,7 @@
 namespace gaitlab::articulated {
 
 /// Constants of one rollout. `ground` must outlive the kernel.
-struct Rollout {
+struct LaneConstants {
   Tree<double> tree;
   Vec<double> gravity;
   PenaltyContact law;
@@ -47,9 +47,9 @@ class Kernel : public MotorLaws {
 /// Input of a kernel. All rollouts have the same structure, and their number is the width of the kernel. Joints of the actuator
 /// have the index joint * lanes + lane.
 struct KernelSettings {
-  std::span<const Rollout> rollouts;
+  std::span<const LaneConstants> rollouts;
   const Actuator* actuator = nullptr;
-  Method method = Method::adaptive;
+  StepMethod method = StepMethod::adaptive;
   Touch<double> (*query)(const Ground&, const Vec<double>& centre, double radius) = nullptr;
   OtherDynamics* dynamics = nullptr;  ///< for a kernel of one lane; must outlive the kernel
   std::span<const SoloOfLane> solos;  ///< one per lane or none, for a kernel of several lanes; must outlive the kernel
@@ -62,7 +62,7 @@ Environment<T> environment(const KernelSettings& s) {
   all.query = s.query;
   all.dynamics = s.dynamics;
   for (std::size_t l = 0; l < s.rollouts.size(); ++l) {
-    const Rollout& one = s.rollouts[l];
+    const LaneConstants& one = s.rollouts[l];
     put(all.gravity, l, one.gravity);
     put(all.law.kn, l, one.law.kn);
     put(all.law.k, l, one.law.k);

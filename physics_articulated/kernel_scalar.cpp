@@ -12,7 +12,7 @@ class ScalarSolo final : public Solo {
         environment_(environment<double>({s.rollouts.subspan(lane, 1), s.actuator, s.method, s.query, nullptr, {}})),
         lanes_{lane, s.rollouts.size()},
         implicit_(tree_, environment_, s.actuator, lanes_) {
-    if (s.method == Method::adaptive) implicit_.allow(s.rollouts[lane].accuracy);
+    if (s.method == StepMethod::adaptive) implicit_.allow(s.rollouts[lane].accuracy);
     torque = implicit_.done.torque;
     speed = implicit_.done.speed;
     angle = implicit_.done.angle;

@@ -35,7 +35,7 @@ class LaneKernel final : public Kernel {
 
   [[nodiscard]] StepEffort applied() const override {
     parts_.clear();
-    for (const Part<T>& part : stepper_.parts()) {
+    for (const StepPart<T>& part : stepper_.parts()) {
       if (part.h > 0 && !part.weighed()) continue;
       parts_.push_back(
           {numbers(part.torque), numbers(part.speed), numbers(part.angle), of(part.sum), of(part.share), !(part.h > 0)});
@@ -86,9 +86,9 @@ class LaneKernel final : public Kernel {
     for (std::size_t l = 0; l < s.rollouts.size(); ++l) put(all, l, s.rollouts[l].accuracy);
     return all;
   }
-  static Tree<T> trees(std::span<const Rollout> rollouts) {
+  static Tree<T> trees(std::span<const LaneConstants> rollouts) {
     std::vector<const Tree<double>*> each;
-    for (const Rollout& one : rollouts) each.push_back(&one.tree);
+    for (const LaneConstants& one : rollouts) each.push_back(&one.tree);
     return side_by_side<T>(each);
   }
   static Vec<double> of_lane(const Vec<T>& v, std::size_t lane) {

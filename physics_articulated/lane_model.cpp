@@ -13,7 +13,7 @@ Touch<double> query(const Ground& ground, const Vec<double>& centre, double radi
   return {touch.penetration, vec(touch.normal), vec(touch.point), touch.friction};
 }
 
-Rollout rollout(const LaneSettings& lane, Base base) {
+LaneConstants rollout(const LaneSettings& lane, Base base) {
   return {tree(*lane.robot, base, lane.contacts),
           vec(lane.gravity),
           lane.law,
@@ -51,7 +51,7 @@ void LaneModel::accelerate(In x, const RobotState& state, In torque, std::span<c
   std::ranges::fill(first_, end);
   next_.resize(end);
   for (std::size_t i = end; i-- > 0;) next_[i] = std::exchange(first_[own_.robot->bodies[wrenches[i].body].link], i);
-  body_.solve(torque, rotor_, a_, [&](std::size_t link, Body<double>::Load load) {
+  body_.solve(torque, rotor_, a_, [&](std::size_t link, TreeBody<double>::Load load) {
     for (std::size_t i = first_[link]; i < end; i = next_[i]) {
       const BodyWrench& w = wrenches[i];
       load.add_force(vec(w.point - state.position), vec(w.force));
@@ -80,7 +80,7 @@ Stability LaneModel::stability(In x, const RobotState& state, In command, bool s
   body_.forward_kinematics(x);
   contacts_.find(body_, 0, 0);
   contacts_.begin(0);
-  body_.solve(zero_, rotor_, a_, [](std::size_t, Body<double>::Load) {});  // factorises the mass matrix for apply
+  body_.solve(zero_, rotor_, a_, [](std::size_t, TreeBody<double>::Load) {});  // factorises the mass matrix for apply
   if (settings_.actuator != nullptr) {
     if (standing) std::fill(command_.begin(), command_.end(), 0.0);
     ask(standing ? In(command_) : command, standing ? In(zero_) : In(state.qd));

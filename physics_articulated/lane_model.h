@@ -9,7 +9,7 @@ namespace gaitlab::articulated {
 Touch<double> query(const Ground& ground, const Vec<double>& centre, double radius);
 
 /// Constants of a lane for the kernel. The settings must outlive the result.
-Rollout rollout(const LaneSettings& lane, Base base);
+LaneConstants rollout(const LaneSettings& lane, Base base);
 
 class LaneModel final : private InverseMass {
  public:
@@ -28,9 +28,9 @@ class LaneModel final : private InverseMass {
   const PlantSettings& settings_;
   const LaneSettings& own_;
   std::size_t lane_, lanes_;
-  Rollout constants_;
+  LaneConstants constants_;
   Environment<double> environment_;
-  Body<double> body_;
+  TreeBody<double> body_;
   Contacts<double> contacts_;
   std::vector<double> rotor_, a_, zero_;
   std::vector<double> command_, speed_, torque_, slope_;  // all lanes: joint * lanes + lane

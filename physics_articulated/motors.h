@@ -19,11 +19,11 @@ struct LaneRange {
 /// Evaluates motors. DC motors (Actuator::dc_motors) are evaluated here for all lanes at once, other motors by their plugin.
 /// Commands have the index joint * lanes + lane. Torques are in N m, slopes -dT/dw in N m s/rad.
 template <class T>
-class Motors {
+class StepMotors {
  public:
   /// `passive` lists the joints without a motor, which are treated as DC motors without voltage and torque. Motors other than
   /// DC motors require a kernel with all lanes of the actuator.
-  Motors(const Actuator* actuator, std::size_t joints, std::span<const std::size_t> passive, const LaneRange& lanes)
+  StepMotors(const Actuator* actuator, std::size_t joints, std::span<const std::size_t> passive, const LaneRange& lanes)
       : law(joints),
         law_slope(joints),
         torque(joints),

@@ -6,11 +6,11 @@ namespace gaitlab::articulated {
 
 /// Angular velocity w, and velocity v of the body at the origin; or the corresponding accelerations.
 template <class T>
-struct Motion {
+struct SpatialMotion {
   Vec<T> w, v;
 
-  friend Motion operator+(const Motion& a, const Motion& b) { return {a.w + b.w, a.v + b.v}; }
-  friend Motion operator*(const T& s, const Motion& a) { return {s * a.w, s * a.v}; }
+  friend SpatialMotion operator+(const SpatialMotion& a, const SpatialMotion& b) { return {a.w + b.w, a.v + b.v}; }
+  friend SpatialMotion operator*(const T& s, const SpatialMotion& a) { return {s * a.w, s * a.v}; }
   [[nodiscard]] Vec<T> at(const Vec<T>& x) const { return v + cross(w, x); }
 };
 
@@ -32,12 +32,12 @@ struct Force {
 };
 
 template <class T>
-T dot(const Motion<T>& m, const Force<T>& f) {
+T dot(const SpatialMotion<T>& m, const Force<T>& f) {
   return dot(m.w, f.n) + dot(m.v, f.f);
 }
 /// Time derivative of a motion m that moves with the velocity V.
 template <class T>
-Motion<T> cross(const Motion<T>& V, const Motion<T>& m) {
+SpatialMotion<T> cross(const SpatialMotion<T>& V, const SpatialMotion<T>& m) {
   return {cross(V.w, m.w), cross(V.w, m.v) + cross(V.v, m.w)};
 }
 template <class T>
@@ -52,7 +52,7 @@ struct Inertia {
   Mat<T> B;
   Sym<T> C;
 
-  friend Force<T> operator*(const Inertia& I, const Motion<T>& m) {
+  friend Force<T> operator*(const Inertia& I, const SpatialMotion<T>& m) {
     return {I.A * m.w + I.B * m.v, Vec<T>{dot(I.B.x, m.w), dot(I.B.y, m.w), dot(I.B.z, m.w)} + I.C * m.v};
   }
   Inertia& operator+=(const Inertia& b) {

@@ -8,7 +8,7 @@ namespace gaitlab::articulated {
 
 /// Motors and works at one time within a step, with their weights in sums over the step.
 template <class T>
-struct Part : StepResult<T> {
+struct StepPart : StepResult<T> {
   using StepResult<T>::StepResult;
   math::Mask<T> lanes{};  ///< lanes to which the part belongs
   double h = 0;           ///< duration of the part, s; 0 for the start of the step under the new command
@@ -32,14 +32,14 @@ struct History {
 
 /// A state, and the parts [from, to) of the steps that led to it.
 template <class T>
-struct Way {
+struct StepWay {
   std::vector<T> x;
   std::size_t from = 0, to = 0;
 };
 
 /// Lanes in which a motor is at its limit, by joint, and lanes in which most of the load slides; both after a solve.
 template <class T>
-struct Limits {
+struct StepLimits {
   std::vector<math::Mask<T>> motor;
   math::Mask<T> slide;
 };
@@ -50,8 +50,8 @@ template <class T>
 struct Level {
   std::vector<T> start;
   double at = 0;  ///< s, time of the start since the whole step began
-  Way<T> whole, halves, quarters, half, quarter, early;
-  Limits<T> limits;  ///< after the first two quarters
+  StepWay<T> whole, halves, quarters, half, quarter, early;
+  StepLimits<T> limits;  ///< after the first two quarters
 };
 
 /// States at the eighths of an adaptive step, in the lanes where a part of the divided step ended there.

@@ -7,7 +7,7 @@
 
 namespace gaitlab::articulated {
 
-enum class Method { adaptive, implicit, extrapolated, rk4 };
+enum class StepMethod { adaptive, implicit, extrapolated, rk4 };
 
 /// Advances the state by one step. The state has the entries of StateLayout, SI. The constructor allocates. Further memory is
 /// needed only if a search does not converge, or if a step is divided further than any before and the robot has more than about
@@ -26,8 +26,8 @@ template <class T>
 class Stepper {
  public:
   /// `solos` has an element for each lane, or none; they must outlive the stepper.
-  Stepper(const Tree<T>& tree, const Environment<T>& environment, const Actuator* actuator, Method method, const T& accuracy,
-          std::span<const SoloOfLane> solos)
+  Stepper(const Tree<T>& tree, const Environment<T>& environment, const Actuator* actuator, StepMethod method,
+          const T& accuracy, std::span<const SoloOfLane> solos)
       : implicit(tree, environment, actuator),
         layout{tree.lo.size()},
         method_(method),
@@ -40,13 +40,13 @@ class Stepper {
         eighths_(of_solo_.size()) {
     const std::vector<T> zero(StateLayout::kAngles + 2 * joints_, T(0.0));
     for (auto* state : {&sum_, &stage_, &rate_}) *state = zero;
-    const Way<T> way{zero, 0, 0};
+    const StepWay<T> way{zero, 0, 0};
     levels_.assign(kLevels, {zero, 0, way, way, way, way, way, way, {std::vector<math::Mask<T>>(joints_), {}}});
     limits_ = levels_[0].limits;
     halved_.assign(kHalvings, zero);
-    if (method == Method::adaptive) implicit.allow(accuracy);
-    parts_.assign(method == Method::adaptive ? std::clamp<std::size_t>(kRoom / size_of_part(), 8, kMostParts) : 4,
-                  Part<T>(joints_));
+    if (method == StepMethod::adaptive) implicit.allow(accuracy);
+    parts_.assign(method == StepMethod::adaptive ? std::clamp<std::size_t>(kRoom / size_of_part(), 8, kMostParts) : 4,
+                  StepPart<T>(joints_));
   }
 
   /// Advances x by a step h. `command` is constant, with index joint * lanes + lane.
@@ -54,14 +54,14 @@ class Stepper {
     used_ = 0;
     eighths_.clear();
     contact = friction = stops = hinges = T(0.0);
-    if (method_ == Method::rk4) {
+    if (method_ == StepMethod::rk4) {
       runge_kutta(x, command, h);
     } else {
       take_start(x, command);
       const math::Mask<T> all = T(0.0) <= T(0.0);
-      if (method_ == Method::implicit) single(x, command, h, all);
-      if (method_ == Method::extrapolated) adapt(x, command, h, all, kLevels);
-      if (method_ == Method::adaptive) {
+      if (method_ == StepMethod::implicit) single(x, command, h, all);
+      if (method_ == StepMethod::extrapolated) adapt(x, command, h, all, kLevels);
+      if (method_ == StepMethod::adaptive) {
         agreement_.begin(history_[layout.quiet()]);
         adapt(x, command, h, all, 0);
         history_[layout.quiet()] = agreement_.quiet(h);
@@ -73,7 +73,7 @@ class Stepper {
   /// Numbers kept from step to step, with the entries of History.
   std::span<T> history() { return history_; }
   [[nodiscard]] std::size_t most_parts() const { return parts_.size(); }  ///< largest number of parts if every search converges
-  [[nodiscard]] std::span<const Part<T>> parts() const { return {parts_.data(), used_}; }
+  [[nodiscard]] std::span<const StepPart<T>> parts() const { return {parts_.data(), used_}; }
   [[nodiscard]] const Eighths<T>& eighths() const { return eighths_; }
 
   Implicit<T> implicit;
@@ -86,12 +86,12 @@ class Stepper {
   static constexpr std::size_t kHalvings = 6;  ///< depth of halving a step whose search does not converge
   static constexpr std::size_t kMostParts = 1 + 7 * ((std::size_t{1} << kLevels) - 1);
   static constexpr std::size_t kRoom = 32 << 20;  ///< bytes of parts that the constructor allocates
-  [[nodiscard]] std::size_t size_of_part() const { return sizeof(Part<T>) + 3 * joints_ * sizeof(T); }
+  [[nodiscard]] std::size_t size_of_part() const { return sizeof(StepPart<T>) + 3 * joints_ * sizeof(T); }
 
   /// Adds a part for the start of the step under the new command, because the motor torques there may be peaks.
   void take_start(std::span<const T> x, In command) {
     implicit.motors.linearise(command, implicit.speeds(x));
-    Part<T>& part = add_part();
+    StepPart<T>& part = add_part();
     part.torque = implicit.motors.law;
     std::ranges::copy(implicit.speeds(x), part.speed.begin());
     std::copy_n(x.begin() + StateLayout::kAngles, joints_, part.angle.begin());
@@ -100,9 +100,9 @@ class Stepper {
     part.h = 0;
   }
 
-  Part<T>& add_part() {
+  StepPart<T>& add_part() {
     if (used_ == parts_.size()) parts_.emplace_back(joints_);
-    Part<T>& part = parts_[used_++];
+    StepPart<T>& part = parts_[used_++];
     part.sum = part.share = part.off = T(0.0);
     return part;
   }
@@ -144,7 +144,7 @@ class Stepper {
     }
     history_[layout.solves()] = history_[layout.solves()] + math::select(which, implicit.solves, T(0.0));
     const bool halve = halvings < kHalvings && math::any_lane(implicit.unfinished);
-    Part<T>& part = add_part();
+    StepPart<T>& part = add_part();
     static_cast<StepResult<T>&>(part) = implicit.done;
     part.lanes = halve ? math::fresh(which, implicit.unfinished) : which;
     part.h = h;
@@ -157,9 +157,9 @@ class Stepper {
 
   /// Sets the weights of Richardson's extrapolation for the parts of a way in the lanes `which`. If `finest`, these parts
   /// represent the motion.
-  void weigh(const Way<T>& way, const math::Mask<T>& which, double weight, bool finest) {
+  void weigh(const StepWay<T>& way, const math::Mask<T>& which, double weight, bool finest) {
     for (std::size_t i = way.from; i < way.to; ++i) {
-      Part<T>& part = parts_[i];
+      StepPart<T>& part = parts_[i];
       const auto here = math::mask_and(which, part.lanes);
       part.sum = math::select(here, T(weight * part.h), part.sum);
       part.share = math::select(here, T(finest ? part.h : 0.0), part.share);
@@ -179,27 +179,27 @@ class Stepper {
   }
 
   /// Limits after the last solve of each lane.
-  void look(Limits<T>& limits) const {
+  void look(StepLimits<T>& limits) const {
     for (std::size_t j = 0; j < joints_; ++j) limits.motor[j] = implicit.motors.at_limit(j);
     limits.slide = math::mask_or(math::fresh(implicit.contacts.mostly_slide(), apart_), math::mask_and(slide_, apart_));
   }
 
   /// Takes an implicit step from `start` to way.x. If `start` is the end of another way, the new way includes the parts of that
   /// way.
-  void go(Way<T>& way, const std::vector<T>& start, In command, double h, const math::Mask<T>& which, double at) {
+  void go(StepWay<T>& way, const std::vector<T>& start, In command, double h, const math::Mask<T>& which, double at) {
     std::copy(start.begin(), start.end(), way.x.begin());
     way.from = used_;
     settle(way.x, command, h, which, at);
     way.to = used_;
   }
-  void go(Way<T>& way, const Way<T>& before, In command, double h, const math::Mask<T>& which, double at) {
+  void go(StepWay<T>& way, const StepWay<T>& before, In command, double h, const math::Mask<T>& which, double at) {
     go(way, before.x, command, h, which, at);
     way.from = before.from;
   }
 
   /// Takes the whole step and the two halves of a level. If this level is the first half of the level `before`, whose four
   /// quarters missed the accuracy, it copies the steps that `before` has already taken.
-  const Limits<T>& one_and_two(Level<T>& own, In command, double h, const math::Mask<T>& which, const Level<T>* before) {
+  const StepLimits<T>& one_and_two(Level<T>& own, In command, double h, const math::Mask<T>& which, const Level<T>* before) {
     if (before != nullptr) {
       own.whole = before->half;
       own.half = before->quarter;
@@ -226,7 +226,7 @@ class Stepper {
   void drop(Level<T>& own, std::size_t first) {
     used_ = first;
     const std::size_t of_quarter = own.quarter.to - own.quarter.from;
-    for (Way<T>* way : {&own.half, &own.early}) {
+    for (StepWay<T>* way : {&own.half, &own.early}) {
       if (way->from < first) continue;  // belongs to the previous level
       const std::size_t from = used_;
       for (std::size_t i = way->from; i < way->to; ++i) std::swap(parts_[used_++], parts_[i]);
@@ -247,9 +247,9 @@ class Stepper {
     std::copy(x.begin(), x.end(), own.start.begin());
     own.at = fixed ? 0 : h * static_cast<double>(end) / static_cast<double>(kShortest >> level) - h;
     const std::size_t first = used_;
-    const Limits<T>& limits = one_and_two(own, command, h, which, before);
+    const StepLimits<T>& limits = one_and_two(own, command, h, which, before);
     const auto &one = own.whole.x, &two = own.halves.x, &four = own.quarters.x;
-    const auto agree = [&](double share, const math::Mask<T>& in, const Limits<T>& after, const auto& difference) {
+    const auto agree = [&](double share, const math::Mask<T>& in, const StepLimits<T>& after, const auto& difference) {
       const std::span<const T> peak(&history_[layout.peak()], joints_);
       return agreement_.within(share, in, after, implicit.motors, peak, difference);
     };
@@ -290,7 +290,7 @@ class Stepper {
   /// Computes sums over the parts, and peaks.
   void close() {
     for (std::size_t i = 0; i < used_; ++i) {
-      const Part<T>& part = parts_[i];
+      const StepPart<T>& part = parts_[i];
       if (!(part.h > 0) || !part.weighed()) continue;
       const T weight = part.sum / T(part.h);
       contact = contact + weight * part.contact;
@@ -323,7 +323,7 @@ class Stepper {
     constexpr auto kReach = math::RungeKutta::kReach;
     std::copy(x.begin(), x.end(), stage_.begin());
     std::copy(x.begin(), x.end(), sum_.begin());
-    Part<T>& part = add_part();
+    StepPart<T>& part = add_part();
     part.lanes = T(0.0) <= T(0.0);
     part.h = h;
     part.sum = part.share = T(h);
@@ -349,19 +349,19 @@ class Stepper {
     normalise<T>(x);
   }
 
-  Method method_;
+  StepMethod method_;
   std::size_t joints_;
   Agreement<T> agreement_;
   std::vector<T> history_, sum_, stage_, rate_;
   std::vector<Level<T>> levels_;
-  Limits<T> limits_;
+  StepLimits<T> limits_;
   std::span<const SoloOfLane> solos_;
   std::vector<double> of_solo_, command_of_solo_;
   Eighths<T> eighths_;
   math::Mask<T> apart_{};  ///< lanes whose last step was taken by a solo
   math::Mask<T> slide_{};  ///< lanes of apart_ in which most of the load slides
   std::vector<std::vector<T>> halved_;
-  std::vector<Part<T>> parts_;
+  std::vector<StepPart<T>> parts_;
   std::size_t used_ = 0;
 };
 

@@ -218,7 +218,7 @@ class SolverPlant final : public Plant {
   StateLayout layout_;
   Out numbers_;
   bullet::MultiBody body_;
-  bullet::World world_;
+  bullet::BulletWorld world_;
   Kinematics kinematics_, after_;
   RobotState state_;
   std::vector<double> torque_, slope_, limited_, limited_slope_, applied_, start_speed_, least_, most_;

@@ -47,19 +47,19 @@ void OneIslandWorld::solveConstraints(btContactSolverInfo& info) {
   for (int i = 0; i < m_multiBodies.size(); ++i) m_multiBodies[i]->processDeltaVeeMultiDof2();
 }
 
-World::Neighbours::Neighbours(const Robot& robot) {
+BulletWorld::Neighbours::Neighbours(const Robot& robot) {
   for (const Link& link : robot.links) parents_.push_back(link.parent);
 }
 
 /// True for links with at most two joints between them: the same link, parents and grandparents, children and grandchildren,
 /// siblings.
-bool World::Neighbours::near(int i, int j) const {
+bool BulletWorld::Neighbours::near(int i, int j) const {
   const auto parent = [&](int link) { return link < 0 ? -1 : parents_[static_cast<std::size_t>(link)]; };
   const bool siblings = parent(i) == parent(j) && parent(i) >= 0;
   return i == j || parent(i) == j || parent(j) == i || parent(parent(i)) == j || parent(parent(j)) == i || siblings;
 }
 
-bool World::Neighbours::needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const {
+bool BulletWorld::Neighbours::needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const {
   if ((a->m_collisionFilterGroup & b->m_collisionFilterMask) == 0 ||
       (b->m_collisionFilterGroup & a->m_collisionFilterMask) == 0)
     return false;
@@ -68,7 +68,7 @@ bool World::Neighbours::needBroadphaseCollision(btBroadphaseProxy* a, btBroadpha
   return i < 0 || j < 0 || !near(i, j);
 }
 
-World::World(const PlantSettings& s, MultiBody& body)
+BulletWorld::BulletWorld(const PlantSettings& s, MultiBody& body)
     : body_(body),
       dispatcher_(&configuration_),
       neighbours_(*s.robot),
@@ -91,7 +91,7 @@ World::World(const PlantSettings& s, MultiBody& body)
   }
 }
 
-World::~World() {
+BulletWorld::~BulletWorld() {
   // Objects are removed in the opposite order of creation, because pairs of the broadphase refer to them.
   for (auto* rows : {&motors_, &stops_}) {
     for (const auto& row : *rows) world_.removeMultiBodyConstraint(row.get());
@@ -100,7 +100,7 @@ World::~World() {
   world_.removeMultiBody(&body_.bullet());
 }
 
-void World::add_robot(const Robot& robot, double friction) {
+void BulletWorld::add_robot(const Robot& robot, double friction) {
   for (std::size_t b = 0; b < robot.bodies.size(); ++b) {
     const Body& of = robot.bodies[b];
     const BodyType& type = robot.types[robot.modules[of.module].type].bodies[of.type];
@@ -129,7 +129,8 @@ void World::add_robot(const Robot& robot, double friction) {
   for (const MultiBody::Compound& outline : outlines_) add(outline, kOutlines, kOutlines | kFixed | kMoving);
 }
 
-btRigidBody& World::add_body(double mass, btCollisionShape& shape, const Pose& pose, double friction, int group, int mask) {
+btRigidBody& BulletWorld::add_body(double mass, btCollisionShape& shape, const Pose& pose, double friction, int group,
+                                   int mask) {
   btVector3 inertia(0, 0, 0);
   if (mass > 0) shape.calculateLocalInertia(mass, inertia);
   ground_.push_back(std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(mass, nullptr, &shape, inertia)));
@@ -142,7 +143,7 @@ btRigidBody& World::add_body(double mass, btCollisionShape& shape, const Pose& p
   return body;
 }
 
-void World::add_ground(const Ground& ground) {
+void BulletWorld::add_ground(const Ground& ground) {
   if (!ground.exists()) return;
   add_body(0, plane_, {}, ground.friction, kPlane, kElements | kMoving);
   for (std::size_t b = 0; b < ground.boxes().size(); ++b) {
@@ -157,7 +158,7 @@ void World::add_ground(const Ground& ground) {
   }
 }
 
-void World::boxes(std::span<BoxMotion> out) const {
+void BulletWorld::boxes(std::span<BoxMotion> out) const {
   for (const auto& [b, body] : moving_) {
     const btQuaternion turn = body->getWorldTransform().getRotation();
     out[b] = {vec(body->getWorldTransform().getOrigin()), Quat(turn.w(), turn.x(), turn.y(), turn.z()),
@@ -165,7 +166,7 @@ void World::boxes(std::span<BoxMotion> out) const {
   }
 }
 
-void World::step(const Kinematics& k, double h) {
+void BulletWorld::step(const Kinematics& k, double h) {
   for (const std::vector<MultiBody::Compound>* compounds : {&body_.compounds(), &std::as_const(outlines_)}) {
     for (const MultiBody::Compound& compound : *compounds) {
       compound.collider->setWorldTransform(bt(body_.frame(compound.link, k)));
@@ -175,7 +176,7 @@ void World::step(const Kinematics& k, double h) {
   world_.stepSimulation(h, 0);  // 0: one step of exactly h
 }
 
-WorldTouch World::touch(const btPersistentManifold& manifold, const btManifoldPoint& p) {
+WorldTouch BulletWorld::touch(const btPersistentManifold& manifold, const btManifoldPoint& p) {
   const auto side = [](const btCollisionObject& object, int child, const btVector3& point) {
     WorldTouch::Side s;
     s.point = vec(point);

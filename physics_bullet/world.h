@@ -48,12 +48,12 @@ struct WorldTouch {
 /// - Boxes that have a mass move, and touch one another, fixed boxes and the plane. They exist only in Bullet.
 /// The caller owns position and velocity of the robot. step() reads them from the MultiBody, and leaves the new velocities
 /// there.
-class World {
+class BulletWorld {
  public:
-  World(const PlantSettings& settings, MultiBody& body);
-  ~World();
-  World(const World&) = delete;
-  World& operator=(const World&) = delete;
+  BulletWorld(const PlantSettings& settings, MultiBody& body);
+  ~BulletWorld();
+  BulletWorld(const BulletWorld&) = delete;
+  BulletWorld& operator=(const BulletWorld&) = delete;
 
   [[nodiscard]] JointRow& motor(std::size_t joint) { return *motors_[joint]; }
   [[nodiscard]] JointRow& stop(std::size_t joint) { return *stops_[joint]; }

@@ -98,7 +98,7 @@ void check_finite(const GoldenRun& run, const std::string& which) {
     throw RunError(fmt::format("{}: {} is not finite at t = {:.6g} s; nothing was written", which,
                                label(run, trace.columns[at % columns].name), trace.at(at / columns, 0)));
   }
-  for (const Number& number : run.numbers) {
+  for (const GoldenNumber& number : run.numbers) {
     if (!std::isfinite(number.value))
       throw RunError(fmt::format("{}: {} is not finite; nothing was written", which, readable_number(number.name)));
   }

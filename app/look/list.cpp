@@ -7,7 +7,7 @@
 #include "core/robot_files/module_manual.h"
 #include "core/scenario/manual.h"
 #include "core/scenario/schema.h"
-#include "report/figures/paper/panel_kinds.h"
+#include "report/figures/paper/recipe.h"
 #include "report/verdict/check_manual.h"
 #include "studies/study/study_file.h"
 

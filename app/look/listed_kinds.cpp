@@ -15,6 +15,7 @@
 #include "core/settings/text_file.h"
 #include "core/settings/wording.h"
 #include "report/figures/paper/panel_kinds.h"
+#include "report/figures/paper/recipe.h"
 #include "report/verdict/check_manual.h"
 
 namespace gaitlab::app {

@@ -57,7 +57,7 @@ bool try_all(const studies::Plan& plan, std::size_t scenario, std::vector<Way>& 
   return run_all(tried, {}, measure.reads, stopped(), [&](std::size_t k, RolloutEnd&& end) {
     progress(++done, tried.size());
     if (!end.refused.empty() || !end.recording.outcome.done()) return;
-    const studies::Measured measured = measure(end.rollout.scenario, end.recording);
+    const studies::RunMeasured measured = measure(end.rollout.scenario, end.recording);
     const double value = plan.scorer().score(measured.quantities, measured.verdict).objective();
     if (std::isfinite(value)) of[k]->objective = value;
     of[k]->error = report::torque_error(end.recording);

@@ -314,7 +314,7 @@ int rerun_study(const StudyArguments& a) {
     fmt::print("the study ended this run early: {}; the repeated run has no such rule\n", one_line(cell("message")));
     return code == 2 ? 2 : 0;
   }
-  const studies::Measured measured = quantity_measure(head.quantities, scenario)(scenario, again.stored.recording);
+  const studies::RunMeasured measured = quantity_measure(head.quantities, scenario)(scenario, again.stored.recording);
   const std::vector<std::string> found =
       differences(names, row, journal.columns(), measured.quantities, again.stored.recording.outcome, journal.head().told);
   if (found.empty()) {

@@ -41,20 +41,20 @@ studies::QuantityOffer quantity_offer() {
   for (const report::CheckKind& kind : report::check_kinds())
     offer.checks.push_back({kind.id, kind.unit, kind.definition, kind.can_fail(), limited(kind)});
   for (report::QuantityText& text : report::quantities_of_joints()) offer.of_joints.push_back(offered(std::move(text)));
-  for (const report::Quantity& quantity : report::quantities()) {
+  for (const report::SummaryQuantity& quantity : report::quantities()) {
     if (report::known_so_far(quantity)) offer.so_far.push_back(quantity.name);
   }
   for (const report::SummaryNumber& number : report::summary_numbers()) {
     const std::string name = number.of_joint != nullptr ? report::short_name(number) : "";
-    const auto known = [&](const report::Quantity& quantity) { return quantity.name == name; };
+    const auto known = [&](const report::SummaryQuantity& quantity) { return quantity.name == name; };
     // False for a name like energy.electrical, which is also a number of the whole run.
     const bool own = std::ranges::none_of(report::quantities(), known);
-    if (!name.empty() && own && report::known_so_far({name, &number, report::Quantity::Of::joint}))
+    if (!name.empty() && own && report::known_so_far({name, &number, report::SummaryQuantity::Of::joint}))
       offer.so_far.push_back(name);
   }
   offer.value_so_far = [](const std::string& name, const std::string& joint, const Scenario& scenario,
                           const Recording& so_far) {
-    const std::optional<report::Quantity> quantity =
+    const std::optional<report::SummaryQuantity> quantity =
         report::find_quantity(joint.empty() ? name : name + "[" + joint + "]", *scenario.robot);
     return quantity ? report::value_so_far(*quantity, scenario, so_far) : std::nan("");
   };
@@ -73,7 +73,7 @@ studies::Measure quantity_measure(const std::vector<studies::Quantity>& columns,
   const report::RunMeasure of_run = report::run_measure(names, *scenario.robot);
   const auto measure = [measured = of_run.measured](const Scenario& of, const Recording& recording) {
     report::MeasuredRun run = measured(of, recording);
-    return studies::Measured{
+    return studies::RunMeasured{
         std::move(run.quantities), run.verdict, std::move(run.why), {std::move(run.check), std::move(run.part)}};
   };
   return {measure, of_run.reads};

@@ -15,7 +15,7 @@ namespace gaitlab::app {
 
 namespace {
 
-using studies::Estimate;
+using studies::IndexEstimate;
 using studies::Sensitivity;
 
 /// Indices of the parameters in order of influence, the largest first. Parameters with equal or unknown influence stay in the
@@ -57,7 +57,9 @@ std::string basis(const Sensitivity& s) {
 
 std::string number_cell(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "-"; }
 
-std::string band_cell(const Estimate& e) { return std::isfinite(e.low) ? fmt::format("{:.3g} to {:.3g}", e.low, e.high) : "-"; }
+std::string band_cell(const IndexEstimate& e) {
+  return std::isfinite(e.low) ? fmt::format("{:.3g} to {:.3g}", e.low, e.high) : "-";
+}
 
 std::string table_of(const Sensitivity& s) {
   std::vector<std::vector<std::string>> rows{{"parameter"}};
@@ -91,7 +93,7 @@ std::string csv_of(const std::vector<Sensitivity>& all) {
   for (const Sensitivity& s : all) {
     for (std::size_t k = 0; k < s.parameters.size(); ++k) {
       for (const studies::Measure95& measure : s.measures) {
-        const Estimate& e = measure.of[k];
+        const IndexEstimate& e = measure.of[k];
         text += csv_cell(s.output) + "," + csv_cell(s.parameters[k]) + "," + measure.name + "," + cell(e.value) + "," +
                 cell(e.low) + "," + cell(e.high) + "\n";
       }

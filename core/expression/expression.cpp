@@ -27,7 +27,7 @@ std::string found(const Token& token) {
 
 class Lexer {
  public:
-  Lexer(std::string_view text, Names names) : text_(text), names_(names) {}
+  Lexer(std::string_view text, NameSyntax names) : text_(text), names_(names) {}
 
   /// The text up to the next `]`, without blanks at both ends. The position advances past the `]`.
   Token bracketed() {
@@ -91,7 +91,7 @@ class Lexer {
     const auto dotted = [&] {
       return at_ + 1 < text_.size() && text_[at_] == '.' && (is_letter(text_[at_ + 1]) || text_[at_ + 1] == '_');
     };
-    while (names_ == Names::figures && dotted()) {
+    while (names_ == NameSyntax::figures && dotted()) {
       ++at_;
       word();
     }
@@ -114,13 +114,13 @@ class Lexer {
   }
 
   std::string_view text_;
-  Names names_;
+  NameSyntax names_;
   std::size_t at_ = 0;
 };
 
 class Parser {
  public:
-  Parser(std::string_view text, Names names) : lexer_(text, names), names_(names) { advance(); }
+  Parser(std::string_view text, NameSyntax names) : lexer_(text, names), names_(names) { advance(); }
 
   Term whole() {
     Term term = expression();
@@ -261,7 +261,7 @@ class Parser {
     const Token name = token_;
     advance();
     Term term{Term::Kind::name, name.offset, std::string(name.text)};
-    if (at("[") && names_ == Names::figures) {
+    if (at("[") && names_ == NameSyntax::figures) {
       term.joint = lexer_.bracketed().text;
       advance();
     } else if (at("[")) {
@@ -270,7 +270,7 @@ class Parser {
     } else if (at("(")) {
       advance();
       term.kind = Term::Kind::call;
-      if (name.text == "sum" && names_ == Names::joints) {
+      if (name.text == "sum" && names_ == NameSyntax::joints) {
         term.kind = Term::Kind::sum;
         take("j", "'j': sum(j in neighbours, TERM)");
         take("in", "'in': sum(j in neighbours, TERM)");
@@ -303,14 +303,14 @@ class Parser {
   }
 
   Lexer lexer_;
-  Names names_;
+  NameSyntax names_;
   Token token_;
   std::size_t terms_ = 0, levels_ = 0;
 };
 
 }  // namespace
 
-Term parse(const std::string& text, Names names) {
+Term parse(const std::string& text, NameSyntax names) {
   if (text.size() > kMostText) {
     throw Fault{kMostText, "longer than " + std::to_string(kMostText) + " characters"};
   }

@@ -14,7 +14,7 @@ struct Term {
   std::size_t offset = 0;  ///< position in the text, bytes
   std::string name = {};   ///< name of a value, function or operator
   Index index = Index::none;
-  std::string joint = {};  ///< for Names::figures: text within [ ]; empty without brackets
+  std::string joint = {};  ///< for NameSyntax::figures: text within [ ]; empty without brackets
   double number = 0;
   std::vector<Term> arguments = {};  ///< arguments of a call, or the summed term of a sum
 };
@@ -30,7 +30,7 @@ inline constexpr std::size_t kMostTerms = 500;  ///< nodes of a tree
 inline constexpr std::size_t kMostLevels = 64;  ///< nesting depth of brackets, signs and powers
 
 /// Syntax of names.
-enum class Names {
+enum class NameSyntax {
   joints,  ///< `phi[i]`, `w[i,j]`: values per joint, with sums over neighbours
   figures  ///< `torque.peak[m3/active]`: names with dots, and the name of a joint in brackets
 };
@@ -45,11 +45,11 @@ enum class Names {
 ///     product := factor { ("*" | "/") factor }
 ///     factor := ("-" | "+") factor | primary [ "^" factor ]
 ///     primary := NUMBER | name | NAME "(" expression { "," expression } ")" | "(" expression ")"
-/// Names::joints adds the rules
+/// NameSyntax::joints adds the rules
 ///     name := NAME [ "[" ("i" | "j" | "i" "," "j") "]" ]
 ///     primary := "sum" "(" "j" "in" "neighbours" "," expression ")"
-/// and Names::figures the rule
+/// and NameSyntax::figures the rule
 ///     name := NAME { "." NAME } [ "[" JOINT "]" ]
-Term parse(const std::string& text, Names names = Names::joints);
+Term parse(const std::string& text, NameSyntax names = NameSyntax::joints);
 
 }  // namespace gaitlab::expression

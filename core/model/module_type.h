@@ -23,6 +23,13 @@ struct Shape {
   Vec3 size = Vec3::Zero();  ///< box: x y z; cylinders: radius, length, 0; sphere: radius, 0, 0
 };
 
+template <>
+struct EnumNames<Shape::Kind> {
+  using enum Shape::Kind;
+  static constexpr EnumName<Shape::Kind> kTable[] = {
+      {box, "box"}, {cylinder, "cylinder"}, {half_cylinder, "half_cylinder"}, {sphere, "sphere"}};
+};
+
 struct BodyType {
   std::string name;
   double mass = 0;              ///< kg; 0 only for a body between two hinges

@@ -18,9 +18,9 @@ constexpr double kAsGood = 0.01;     // share of the mean square; shifts that di
 constexpr std::size_t kProducts = 1000000;
 constexpr Index kMargin = 2;  // samples that the cubic needs in addition to the whole shift
 
-class Search {
+class ShiftSearch {
  public:
-  Search(std::span<const double> first, std::span<const double> second, Index reach)
+  ShiftSearch(std::span<const double> first, std::span<const double> second, Index reach)
       : a_(first), b_(second), reach_(reach), begin_(reach + kMargin), end_(static_cast<Index>(first.size()) - begin_) {}
 
   // Best shift, in samples.
@@ -132,7 +132,7 @@ TimeShift best_shift(std::span<const double> first, std::span<const double> seco
   const double samples = std::min(kShare * static_cast<double>(first.size()), kReach / spacing);
   const auto reach = static_cast<Index>(samples);
   if (reach < 1 || !(none.rms > 0)) return none;  // the window has 0.9 n - 4 samples; not empty for n >= 20
-  const TimeShift found = Search(first, second, reach).best();
+  const TimeShift found = ShiftSearch(first, second, reach).best();
   return found.time == 0 ? none : TimeShift{found.time * spacing, found.rms};
 }
 

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/model/solid.h"
-#include "core/settings/reader.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab {
@@ -17,15 +16,13 @@ Mat3 inertia_matrix(const std::array<double, 6>& inertia) {
   return (Mat3() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
 }
 
-constexpr const char* kShapeKinds[] = {"box", "cylinder", "half_cylinder", "sphere"};  // in the order of Shape::Kind
-
 /// Adds a shape to the body.
 void add_shape(const Node& node, ShapeKeys shape, BodyType& body, Problems& problems) {
   std::size_t kinds = 0;
-  for (std::size_t k = 0; k < std::size(kShapeKinds); ++k) {
-    if (node.find(kShapeKinds[k]) == nullptr) continue;
+  for (const auto& [kind, name] : enum_table<Shape::Kind>()) {
+    if (node.find(name) == nullptr) continue;
     ++kinds;
-    shape.kind = static_cast<Shape::Kind>(k);
+    shape.kind = kind;
   }
   if (kinds != 1 && node.kind == Node::Kind::map) {
     problems.add(node.place, fmt::format("the shape has {} of box, cylinder, half_cylinder and sphere; expected exactly one of "
@@ -59,16 +56,12 @@ void inertia_of_shapes(BodyType& body, bool with_com, const SourceLocation& plac
 
 }  // namespace
 
-bool complete_body(const Node& node, const SourceLocation& place, BodyKeys& body, Problems& problems) {
+bool complete_body(const Node& node, const SourceLocation& place, bool read, BodyKeys& body, Problems& problems) {
   const std::size_t before = problems.size();
-  Problems faults;  // of the keys, which are read again only to find out whether there are faults
-  Reader reader(node, "", faults, nullptr);
-  body.fields(reader);
-  reader.finish();
   for (std::size_t i = 0; i < body.outline.size(); ++i)
     add_shape(node.find("shape")->items[i], body.outline[i], body, problems);
   body.inertia = inertia_matrix(body.tensor);
-  const bool sound = faults.empty() && problems.size() == before;
+  const bool sound = read && problems.size() == before;
   if (!sound || !(body.mass > 0) || node.find("inertia") != nullptr) return sound;
   if (const std::string why = no_inertia(body); !why.empty()) {
     problems.add(place, why);

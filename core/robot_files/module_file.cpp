@@ -29,6 +29,7 @@ class ModuleReader {
     Reader reader(document_, "the module type", problems_, nullptr);
     keys.fields(reader);
     reader.finish();  // the keys within `actuator` and `controller` are read when the plugins of their types are known
+    faulty_ = reader.faulty();
     check_name(document_.find("name"));
     type_.name = keys.name;
     type_.lattice = keys.lattice;
@@ -81,7 +82,8 @@ class ModuleReader {
 
   void add_body(const Node& node, BodyKeys& keys) {
     const SourceLocation& place = document_.find("bodies")->keys[names_.size()].second;
-    bodies_are_sound_ = complete_body(node, place, keys, problems_) && bodies_are_sound_;
+    const bool read = std::ranges::find(faulty_, &node) == faulty_.end();
+    bodies_are_sound_ = complete_body(node, place, read, keys, problems_) && bodies_are_sound_;
     names_.push_back(keys.name);
     places_.bodies.push_back(place);
     type_.bodies.emplace_back(keys);
@@ -190,7 +192,8 @@ class ModuleReader {
   ModuleType type_;
   ModulePlaces places_;
   std::vector<std::string> names_;
-  bool bodies_are_sound_ = true;  ///< false if a body has a fault, such as a missing shape
+  std::vector<const Node*> faulty_;  ///< elements of lists and maps whose keys have a fault
+  bool bodies_are_sound_ = true;     ///< false if a body has a fault, such as a missing shape
   bool feet_of_shapes_ = false, all_of_shapes_ = false, feet_are_all_ = false;
 };
 

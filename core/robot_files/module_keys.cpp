@@ -36,11 +36,11 @@ constexpr field::Other kPairs{
 void ShapeKeys::fields(Fields& f) {
   source_field(f, source);
   frame_fields(f, origin, turn);
-  one_of(f).vector("box", span_of(size), positive("m", "Edges along x, y, z."));
-  one_of(f).vector("cylinder", span_of(size).first(2), positive("m", "Radius and length, along y."));
-  one_of(f).vector("half_cylinder", span_of(size).first(2),
+  one_of(f).vector(name_of(Shape::Kind::box), span_of(size), positive("m", "Edges along x, y, z."));
+  one_of(f).vector(name_of(Shape::Kind::cylinder), span_of(size).first(2), positive("m", "Radius and length, along y."));
+  one_of(f).vector(name_of(Shape::Kind::half_cylinder), span_of(size).first(2),
                    positive("m", "Radius and length, along y; the half on the side of +x."));
-  one_of(f).number("sphere", size.x(), positive("m", "Radius."));
+  one_of(f).number(name_of(Shape::Kind::sphere), size.x(), positive("m", "Radius."));
 }
 
 void BodyKeys::fields(Fields& f) {

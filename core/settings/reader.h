@@ -61,6 +61,8 @@ class Reader final : public Fields {
   void require(std::initializer_list<const char*> keys);
   /// Reports every key that was not read.
   void finish();
+  /// Elements of lists and of maps by name, of this map alone, in which a fault was found.
+  [[nodiscard]] const std::vector<const Node*>& faulty() const { return faulty_; }
 
  private:
   void on(const char* key, const field::Number& field);
@@ -124,6 +126,7 @@ class Reader final : public Fields {
   const Elsewhere* elsewhere_ = nullptr;
   const JointGroups* groups_ = &kNoGroups;
   std::vector<std::string> known_, only_;
+  std::vector<const Node*> faulty_;
   std::vector<std::pair<std::string, std::size_t>> missing_;  ///< required keys that are missing, each with its problem
   Need need_ = Need::preset;                                  ///< of the field that is read
   std::string or_word_;                                       ///< end of a message, about the word that the field permits

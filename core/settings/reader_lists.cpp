@@ -88,6 +88,7 @@ void Reader::read_elements(const char* key, const Node& node, const field::List&
   list.resize(list.self, 0);  // so that no element keeps a value of the default or of an earlier file
   list.resize(list.self, node.items.size());
   for (std::size_t i = 0; i < node.items.size(); ++i) {
+    const std::size_t before = problems_.size();
     if (list.name != nullptr) list.name(list.self, i) = node.keys[i].first;
     Reader reader(node.items[i], list.name != nullptr ? in_quotes(node.keys[i].first) : element(key, i), problems_, joints_,
                   folder_);
@@ -95,6 +96,7 @@ void Reader::read_elements(const char* key, const Node& node, const field::List&
     reader.groups(*groups_);
     list.visit(list.self, i, reader);
     reader.finish();
+    if (problems_.size() > before) faulty_.push_back(&node.items[i]);
   }
 }
 

@@ -222,9 +222,9 @@ double depth_of(const Convex& piece, const Ground& ground) {
 }
 
 /// Collisions and sunk bodies found in the rows so far.
-class Search {
+class OverlapSearch {
  public:
-  Search(const Scenario& scenario, const std::vector<Piece>& pieces)
+  OverlapSearch(const Scenario& scenario, const std::vector<Piece>& pieces)
       : pieces_(pieces),
         can_(scenario),
         limits_(scenario.limits),
@@ -304,7 +304,7 @@ Overlaps overlaps(const Scenario& scenario, const Recording& r) {
   const std::vector<Piece> pieces = pieces_of(robot);
   std::set<std::size_t> shaped;
   for (const Piece& piece : pieces) shaped.insert(piece.body);
-  Search search(scenario, pieces);
+  OverlapSearch search(scenario, pieces);
   Kinematics k(robot);
   Row there(pieces);
   for (std::size_t row = 0; row < states.size(); ++row) {
@@ -319,7 +319,7 @@ Overlaps overlaps(const Scenario& scenario, const Recording& r) {
 
 std::optional<Collision> collision_in(const Scenario& scenario, const RobotState& state) {
   const std::vector<Piece> pieces = pieces_of(*scenario.robot);
-  Search search(scenario, pieces);
+  OverlapSearch search(scenario, pieces);
   Kinematics k(*scenario.robot);
   k.place(*scenario.robot, state);
   Row there(pieces);

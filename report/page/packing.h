@@ -8,7 +8,7 @@
 namespace gaitlab::report {
 
 /// A series of numbers in a Packing. Each value is an integer times the quantum.
-struct Channel {
+struct PageChannel {
   std::string name, unit;
   double quantum = 1;
   std::size_t count = 0;
@@ -24,13 +24,13 @@ struct Channel {
 class Packing {
  public:
   void add(std::string name, std::string unit, double quantum, const std::vector<double>& values);
-  [[nodiscard]] const std::vector<Channel>& channels() const { return channels_; }
+  [[nodiscard]] const std::vector<PageChannel>& channels() const { return channels_; }
   [[nodiscard]] const std::string& bytes() const { return bytes_; }
   /// Bytes of all channels, compressed by zlib, in Base64. Throws std::bad_alloc.
   [[nodiscard]] std::string text() const;
 
  private:
-  std::vector<Channel> channels_;
+  std::vector<PageChannel> channels_;
   std::string bytes_;
 };
 

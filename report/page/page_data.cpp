@@ -181,7 +181,8 @@ double fastest_joint(const Recording& r) {
 
 nlohmann::ordered_json channels_json(const Packing& packing) {
   Json all = Json::array();
-  for (const Channel& channel : packing.channels()) all.push_back({channel.name, channel.unit, channel.quantum, channel.count});
+  for (const PageChannel& channel : packing.channels())
+    all.push_back({channel.name, channel.unit, channel.quantum, channel.count});
   return all;
 }
 

@@ -17,19 +17,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* kind_name(Shape::Kind kind) {
-  switch (kind) {
-    case Shape::Kind::box:
-      return "box";
-    case Shape::Kind::cylinder:
-      return "cylinder";
-    case Shape::Kind::half_cylinder:
-      return "half_cylinder";
-    default:
-      return "sphere";
-  }
-}
-
 std::string key_of(const ModuleType& type, std::size_t body) { return type.name + "/" + type.bodies[body].name; }
 
 /// Number of docks between a module and the first one.
@@ -114,7 +101,7 @@ Json RobotTree::geometry() const {
     for (std::size_t b = 0; b < type.bodies.size(); ++b) {
       Json shapes = Json::array();
       for (const Shape& shape : type.bodies[b].shapes)
-        shapes.push_back({{"kind", kind_name(shape.kind)}, {"pose", json_of(shape.in_body)}, {"size", json_of(shape.size)}});
+        shapes.push_back({{"kind", name_of(shape.kind)}, {"pose", json_of(shape.in_body)}, {"size", json_of(shape.size)}});
       all[key_of(type, b)] = shapes;
     }
   }

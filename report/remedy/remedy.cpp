@@ -9,7 +9,6 @@
 #include "core/files/hash.h"
 #include "core/scenario/resolved.h"
 #include "report/remedy/finer_remedy.h"
-#include "report/remedy/remedy_ratings.h"
 #include "report/remedy/remedy_work.h"
 
 namespace gaitlab::report {
@@ -36,9 +35,9 @@ using Change = std::vector<std::pair<const RemedyKey*, double>>;
 
 struct Stopped {};
 
-class Search {
+class RemedySearch {
  public:
-  Search(const RemedyTask& task, std::atomic<bool>& stop)
+  RemedySearch(const RemedyTask& task, std::atomic<bool>& stop)
       : task_(task),
         stop_(stop),
         made_{RemedySettings(resolved(task.scenario)), hash(resolved(task.scenario))},
@@ -48,7 +47,7 @@ class Search {
   }
 
   Remedy made() {
-    made_.ratings = ratings_needed(task_, made_.settings);
+    made_.ratings = ratings_needed(task_.scenario, task_.verdict, made_.settings);
     made_.ratings_suffice = made_.word == Word::infeasible && only_ratings(task_.verdict);
     for (const RemedyKey& key : remedy_keys()) {
       if (!task_.by.empty() && std::ranges::count(task_.by, key.name) == 0) continue;
@@ -383,7 +382,7 @@ class Search {
 }  // namespace
 
 Remedy remedy(const RemedyTask& task, std::atomic<bool>& stop) {
-  if (task.verdict.word != Word::not_judged) return Search(task, stop).made();
+  if (task.verdict.word != Word::not_judged) return RemedySearch(task, stop).made();
   if (!task.verdict.retry_is_finer) throw no_verdict(task);
   return remedy_of_finer_run(task, stop);
 }

@@ -8,9 +8,8 @@
 
 #include "core/scenario/scenario.h"
 #include "core/simulation/batch.h"
-#include "report/remedy/remedy_keys.h"
+#include "report/remedy/remedy_ratings.h"
 #include "report/remedy/remedy_run.h"
-#include "report/verdict/verdict.h"
 
 namespace gaitlab::report {
 
@@ -30,16 +29,6 @@ struct RemedyAnswer {
   std::string refused = {};    ///< message of the reader about the first value beyond `until`; empty if it was simulated
   double refused_at = 1;       ///< factor of that value
   std::vector<std::string> sets = {};  ///< settings of the answer, in the form of --set
-};
-
-/// A rated load, which does not act on the motion, and the rating that suffices.
-struct RatingNeeded {
-  std::string check, part;  ///< the part that exceeds its rating most
-  std::string setting;      ///< last part of the key, such as `i_continuous`
-  double rating = 0, now = 0;
-  std::string unit;
-  std::size_t parts = 1;  ///< number of parts beyond their ratings
-  bool same = true;       ///< true if all parts have the same rating; otherwise only the factor rating / now suffices for all
 };
 
 /// Verdicts over frequency and amplitude, by row (amplitude) and column (frequency).

@@ -31,16 +31,16 @@ bool only_ratings(const Verdict& verdict) {
   return std::ranges::none_of(verdict.checks, [](const Check& check) { return exceeds(check) && !kind_of(check).rating; });
 }
 
-std::vector<RatingNeeded> ratings_needed(const RemedyTask& task, const RemedySettings& settings) {
+std::vector<RatingNeeded> ratings_needed(const Scenario& scenario, const Verdict& verdict, const RemedySettings& settings) {
   std::vector<RatingNeeded> ratings;
-  for (const Check& check : task.verdict.checks) {
+  for (const Check& check : verdict.checks) {
     if (!exceeds(check)) continue;
     const CheckKind& kind = kind_of(check);
     if (!kind.rating) continue;
     const std::string path = kind.key;
     ratings.push_back({check.id, check.worst, path.substr(path.rfind('.') + 1),
                        rounded_setting(check.value * (1 + check.error), 0, true), check.limit, check.unit, check.parts,
-                       same_ratings(task.scenario, settings, kind)});
+                       same_ratings(scenario, settings, kind)});
   }
   return ratings;
 }

@@ -1,12 +1,25 @@
 // Rated loads that a run exceeds, with the ratings that suffice.
 #pragma once
+#include <string>
 #include <vector>
 
-#include "report/remedy/remedy.h"
+#include "core/scenario/scenario.h"
+#include "report/remedy/remedy_keys.h"
+#include "report/verdict/verdict.h"
 
 namespace gaitlab::report {
 
-std::vector<RatingNeeded> ratings_needed(const RemedyTask& task, const RemedySettings& settings);
+/// A rated load, which does not act on the motion, and the rating that suffices.
+struct RatingNeeded {
+  std::string check, part;  ///< the part that exceeds its rating most
+  std::string setting;      ///< last part of the key, such as `i_continuous`
+  double rating = 0, now = 0;
+  std::string unit;
+  std::size_t parts = 1;  ///< number of parts beyond their ratings
+  bool same = true;       ///< true if all parts have the same rating; otherwise only the factor rating / now suffices for all
+};
+
+std::vector<RatingNeeded> ratings_needed(const Scenario& scenario, const Verdict& verdict, const RemedySettings& settings);
 
 /// True if the run exceeds no other limits than ratings.
 bool only_ratings(const Verdict& verdict);

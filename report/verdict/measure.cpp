@@ -69,13 +69,13 @@ class OfVerdict {
   std::optional<double> limit_;
 };
 
-QuantityText text_of(const Quantity& quantity) { return {quantity.name, quantity.number->unit, quantity.meaning()}; }
+QuantityText text_of(const SummaryQuantity& quantity) { return {quantity.name, quantity.number->unit, quantity.meaning()}; }
 
 }  // namespace
 
 std::vector<QuantityText> common_quantities() {
   std::vector<QuantityText> all;
-  for (const Quantity& quantity : quantities()) all.push_back(text_of(quantity));
+  for (const SummaryQuantity& quantity : quantities()) all.push_back(text_of(quantity));
   all.push_back({"feasible", "", "1 if the verdict is `feasible`, else 0."});
   all.push_back({"margin", "", "Least margin of the checks that can fail: 0 or more if none of them fails."});
   for (const CheckKind& kind : check_kinds()) {
@@ -96,8 +96,8 @@ std::vector<QuantityText> quantities_of_joints() {
   return all;
 }
 
-std::optional<Quantity> find_quantity(const std::string& name, const Robot& robot) {
-  const auto at = std::ranges::find(quantities(), name, &Quantity::name);
+std::optional<SummaryQuantity> find_quantity(const std::string& name, const Robot& robot) {
+  const auto at = std::ranges::find(quantities(), name, &SummaryQuantity::name);
   if (at != quantities().end()) return *at;
   const std::size_t open = name.find('[');
   if (open == std::string::npos || !name.ends_with(']')) return {};
@@ -109,7 +109,7 @@ std::optional<Quantity> find_quantity(const std::string& name, const Robot& robo
 }
 
 std::optional<QuantityText> describe_quantity(const std::string& name, const Robot& robot) {
-  if (const std::optional<Quantity> found = find_quantity(name, robot)) return text_of(*found);
+  if (const std::optional<SummaryQuantity> found = find_quantity(name, robot)) return text_of(*found);
   if (!OfVerdict::find(name)) return {};
   for (QuantityText& one : common_quantities()) {
     if (one.name == name.substr(0, name.find('['))) return QuantityText{name, one.unit, one.meaning};
@@ -120,7 +120,7 @@ std::optional<QuantityText> describe_quantity(const std::string& name, const Rob
 namespace {
 
 /// Quantity of each column for a robot. Nothing for a column of the verdict, and for a joint that the robot does not have.
-using QuantityColumns = std::vector<std::optional<Quantity>>;
+using QuantityColumns = std::vector<std::optional<SummaryQuantity>>;
 
 QuantityColumns quantity_columns(const std::vector<std::string>& names, const Robot& robot) {
   QuantityColumns quantities;

@@ -22,7 +22,7 @@ std::vector<QuantityText> common_quantities();
 std::vector<QuantityText> quantities_of_joints();
 
 /// A summary number by its name, `torque.peak` or `torque.peak[m3/active]`. Nothing if the robot does not have it.
-std::optional<Quantity> find_quantity(const std::string& name, const Robot& robot);
+std::optional<SummaryQuantity> find_quantity(const std::string& name, const Robot& robot);
 /// Text of a quantity of this robot: a summary number, `feasible`, `margin`, `margin.ID` or `margin.ID[LIMIT]`. Nothing if the
 /// name is unknown.
 std::optional<QuantityText> describe_quantity(const std::string& name, const Robot& robot);

@@ -71,7 +71,7 @@ BoundStudy::BoundStudy(Study study, const QuantityOffer& offer, Catalog& catalog
   find_columns(offer);
   choose_shown();
   if (shown_.empty()) problems_.raise();  // the default objective is the first shown quantity
-  if (Text& first = study_.objectives.front().expression; first.text.empty()) first.text = columns_[shown_.front()].name;
+  if (FormulaText& first = study_.objectives.front().expression; first.text.empty()) first.text = columns_[shown_.front()].name;
   make_scorers(offer, catalog);
 }
 

@@ -1,11 +1,11 @@
 #include "studies/plan/designs.h"
 
 #include <array>
+#include <boost/random/sobol.hpp>
 #include <numeric>
 #include <utility>
 
 #include "core/math/random.h"
-#include "studies/plan/points.h"
 
 namespace gaitlab::studies {
 
@@ -14,6 +14,14 @@ namespace {
 enum class MorrisDraw : std::uint64_t { order = 101, level, direction };
 
 }  // namespace
+
+std::vector<double> sobol_point(std::size_t dimensions, std::uint64_t number) {
+  boost::random::sobol sequence(dimensions);
+  sequence.discard(number * dimensions);
+  std::vector<double> shares(dimensions);
+  for (double& share : shares) share = static_cast<double>(std::uint64_t{sequence()} >> 11U) * 0x1p-53;
+  return shares;
+}
 
 std::vector<double> morris_shares(std::uint64_t seed, std::size_t parameters, std::uint64_t point) {
   const std::uint64_t trajectory = point / (parameters + 1);

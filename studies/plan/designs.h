@@ -1,9 +1,12 @@
-// Points of a sensitivity study, whose coordinates are shares of parameter ranges: 0 is low, 1 is high.
+// Points of designs, whose coordinates are shares of parameter ranges: 0 is low, 1 is high.
 #pragma once
 #include <cstdint>
 #include <vector>
 
 namespace gaitlab::studies {
+
+/// A point of a Sobol sequence in the unit cube.
+std::vector<double> sobol_point(std::size_t dimensions, std::uint64_t number);
 
 /// Point of a design by Morris (1991) on four levels. Each trajectory begins at a random point of {0, 1/3, 2/3, 1}^n and
 /// changes one parameter after the other, in a random order, by 2/3 up or down. Point number k is step k mod (n + 1) of

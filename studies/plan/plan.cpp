@@ -9,7 +9,6 @@
 #include "core/math/random.h"
 #include "studies/journal/results.h"
 #include "studies/plan/draws.h"
-#include "studies/plan/plan_checks.h"
 #include "studies/plan/worlds.h"
 #include "studies/study/number.h"
 
@@ -18,7 +17,7 @@ namespace gaitlab::studies {
 Plan::Plan(Study study, const QuantityOffer& offer, Catalog& catalog)
     : bound_(std::move(study), offer, catalog), scenario_digest_(hash128(bound_.scenario_text())), points_(bound_.study()) {
   Problems problems = bound_.problems();
-  check_settings(*this, problems);
+  check_settings(problems);
   problems.raise();
   all_estimated_ = draws_too_few();
 }
@@ -125,7 +124,7 @@ void Plan::finish(Row& row, const Scenario& scenario, const Recording& recording
     row.verdict = Word::failed;
     return;
   }
-  Measured measured = measure(scenario, recording);
+  RunMeasured measured = measure(scenario, recording);
   row.quantities = std::move(measured.quantities);
   row.verdict = measured.verdict;
   row.message = std::move(measured.why);

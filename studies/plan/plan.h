@@ -71,6 +71,13 @@ class Plan {
   [[nodiscard]] bool drawn_for_estimate(const std::string& point) const;
   [[nodiscard]] bool draws_too_few() const;
 
+  /// Tries each listed value of each parameter with the scenario's other keys. If it is refused, tries it with every
+  /// combination of the other listed values, at the low and then the high ends of the ranges. Adds the values that are always
+  /// refused, because no run could have them. A value counts as possible if there are more than 1000 combinations. If no value
+  /// is added, tries the settings of the first and the last run. If both are refused, adds the problems of the first, such as a
+  /// misspelt key. Adds nothing at places that already have a problem.
+  void check_settings(Problems& problems) const;
+
   BoundStudy bound_;
   std::string scenario_digest_;
   Points points_;

@@ -127,9 +127,9 @@ Problems wrong_values(const Plan& plan) {
 
 }  // namespace
 
-void check_settings(const Plan& plan, Problems& problems) {
-  Problems found = wrong_values(plan);
-  if (found.empty()) found = wrong_corners(plan);
+void Plan::check_settings(Problems& problems) const {
+  Problems found = wrong_values(*this);
+  if (found.empty()) found = wrong_corners(*this);
   const std::vector<Problem> before = problems.list();
   for (const Problem& one : found.list()) {
     const auto same = [&](const Problem& other) { return to_string(other.place) == to_string(one.place); };

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <boost/random/sobol.hpp>
 #include <cmath>
 
 #include "core/math/functions.h"
@@ -17,9 +16,9 @@ namespace gaitlab::studies {
 namespace {
 
 // Purpose of a draw, which is the first word of every hash.
-enum class Draw : std::uint64_t { point = 1, seed, variation };  // kSearchDraw and kEstimateDraw continue this list
+enum class PointDraw : std::uint64_t { point = 1, seed, variation };  // kSearchDraw and kEstimateDraw continue this list
 
-std::uint64_t word(Draw draw) { return static_cast<std::uint64_t>(draw); }
+std::uint64_t word(PointDraw draw) { return static_cast<std::uint64_t>(draw); }
 
 /// Value of a list at a share in [0, 1) of its length.
 const std::string& pick(const std::vector<std::string>& values, double share) {
@@ -30,13 +29,13 @@ std::string rounded(double value) { return number_text(number_of(fmt::format("{:
 
 double draw_between(const Variation& v, std::uint64_t seed, std::uint64_t replicate, std::uint64_t number) {
   const auto uniform_between = [&] {
-    return v.a + (v.b - v.a) * math::uniform({word(Draw::variation), seed, replicate, number});
+    return v.a + (v.b - v.a) * math::uniform({word(PointDraw::variation), seed, replicate, number});
   };
   if (v.law == Variation::Law::uniform) return uniform_between();
   constexpr std::uint64_t kPatience = 1000;  // number of draws after which the limits count as too narrow
   double value = v.a;
   for (std::uint64_t k = 0; k < kPatience; ++k) {
-    value = v.a + v.b * math::normal({word(Draw::variation), seed, replicate, number, k});
+    value = v.a + v.b * math::normal({word(PointDraw::variation), seed, replicate, number, k});
     if (value >= v.low.value_or(value) && value <= v.high.value_or(value)) return value;
   }
   return std::min(std::max(value, v.low.value_or(value)), v.high.value_or(value));
@@ -49,19 +48,11 @@ std::vector<double> shares(const Study& study, std::uint64_t point) {
   if (study.method == Method::sobol) return sobol_point(n, point);
   std::vector<double> shares(n);
   for (std::size_t k = 0; k < n; ++k)
-    shares[k] = math::uniform({word(Draw::point), static_cast<std::uint64_t>(study.seed), point, k});
+    shares[k] = math::uniform({word(PointDraw::point), static_cast<std::uint64_t>(study.seed), point, k});
   return shares;
 }
 
 }  // namespace
-
-std::vector<double> sobol_point(std::size_t dimensions, std::uint64_t number) {
-  boost::random::sobol sequence(dimensions);
-  sequence.discard(number * dimensions);
-  std::vector<double> shares(dimensions);
-  for (double& share : shares) share = static_cast<double>(std::uint64_t{sequence()} >> 11U) * 0x1p-53;
-  return shares;
-}
 
 double between(const Parameter& p, double share) {
   if (share <= 0) return p.low;
@@ -117,7 +108,7 @@ std::vector<std::string> Points::drawn(std::uint64_t replicate, const std::map<s
     const Variation& v = study_.replicates.vary[k];
     const double by = v.times ? nominal.at(v.key) : 1;
     if (v.law == Variation::Law::values) {
-      const std::string& value = pick(v.values, math::uniform({word(Draw::variation), seed_word, replicate, k}));
+      const std::string& value = pick(v.values, math::uniform({word(PointDraw::variation), seed_word, replicate, k}));
       values.push_back(v.times ? rounded(by * number_of(value)) : value);
     } else {
       values.push_back(rounded(by * draw_between(v, seed_word, replicate, k)));
@@ -127,7 +118,8 @@ std::vector<std::string> Points::drawn(std::uint64_t replicate, const std::map<s
 }
 
 std::int64_t Points::seed(std::uint64_t replicate) const {
-  return static_cast<std::int64_t>(math::hash64({word(Draw::seed), static_cast<std::uint64_t>(study_.seed), replicate}) >> 11U);
+  return static_cast<std::int64_t>(math::hash64({word(PointDraw::seed), static_cast<std::uint64_t>(study_.seed), replicate}) >>
+                                   11U);
 }
 
 }  // namespace gaitlab::studies

@@ -38,9 +38,6 @@ class Points {
   std::vector<std::vector<std::string>> chosen_;
 };
 
-/// A point of a Sobol sequence in the unit cube.
-std::vector<double> sobol_point(std::size_t dimensions, std::uint64_t number);
-
 /// Value of a parameter at a share of its range: 0 is low, 1 is high. It is rounded to 12 digits, so that a grid of tenths is
 /// exact.
 double between(const Parameter& parameter, double share);

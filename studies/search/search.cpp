@@ -7,6 +7,7 @@
 
 #include "core/math/functions.h"
 #include "core/math/random.h"
+#include "studies/plan/designs.h"
 #include "studies/plan/draws.h"
 #include "studies/plan/points.h"
 #include "studies/search/box.h"

@@ -50,7 +50,7 @@ void estimate(Sensitivity& found, const Blocks& used, const Estimator& estimator
   for (std::size_t m = 0; m < found.measures.size(); ++m) {
     for (std::size_t p = 0; p < parameters; ++p) {
       std::vector<double>& all = resampled[m * parameters + p];
-      Estimate one{best[m * parameters + p], kNone, kNone};
+      IndexEstimate one{best[m * parameters + p], kNone, kNone};
       if (!all.empty()) {
         std::ranges::sort(all);
         const auto at = [&](double share) {

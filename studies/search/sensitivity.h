@@ -12,14 +12,14 @@ namespace gaitlab::studies {
 
 /// An estimate with its 95 % interval, by Efron's percentile bootstrap over 500 resamples of trajectories or rows. The
 /// resamples are the same for every call. NaN if not known.
-struct Estimate {
+struct IndexEstimate {
   double value, low, high;
 };
 
 /// A sensitivity measure with an estimate for each parameter.
 struct Measure95 {
   std::string name;
-  std::vector<Estimate> of;
+  std::vector<IndexEstimate> of;
 };
 
 struct Sensitivity {

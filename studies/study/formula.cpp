@@ -19,9 +19,9 @@ void collect_joints(const expression::Term& term, std::vector<std::pair<std::str
 
 }  // namespace
 
-Formula::Formula(const Text& text, const Names& names, Problems& problems) {
+Formula::Formula(const FormulaText& text, const Names& names, Problems& problems) {
   try {
-    term_ = expression::parse(text.text, expression::Names::figures);
+    term_ = expression::parse(text.text, expression::NameSyntax::figures);
   } catch (const expression::Fault& fault) {
     add_in(text.node, fault.offset, fault.what, problems);
     return;
@@ -80,7 +80,7 @@ bool Formula::names(const Term& term, const std::string& quantity) {
 std::vector<std::pair<std::string, std::string>> named_joints(const std::string& text) {
   std::vector<std::pair<std::string, std::string>> found;
   try {
-    collect_joints(expression::parse(text, expression::Names::figures), found);
+    collect_joints(expression::parse(text, expression::NameSyntax::figures), found);
   } catch (const expression::Fault&) {  // the constructor of Formula reports this fault
   }
   return found;

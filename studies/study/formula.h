@@ -13,7 +13,7 @@
 namespace gaitlab::studies {
 
 /// Text of an expression, with its place in the file.
-struct Text {
+struct FormulaText {
   std::string text;
   Node node;  ///< a scalar node, from which places within the text are computed
 };
@@ -30,7 +30,7 @@ class Formula {
  public:
   Formula() = default;
   /// Adds every fault to the problems at its place. After a fault, the formula must not be used.
-  Formula(const Text& text, const Names& names, Problems& problems);
+  Formula(const FormulaText& text, const Names& names, Problems& problems);
   /// Value of the expression for `quantities` by column. NaN if a quantity that it needs is not known.
   [[nodiscard]] double value(std::span<const double> quantities) const { return value(term_, quantities); }
   /// True if the expression is a comparison with this sign.

@@ -54,14 +54,14 @@ std::vector<Quantity> columns_of(const Study& study, const QuantityOffer& offer,
     const std::string name = full(quantity.name, joint);
     if (column_of(columns, name) == columns.size()) columns.push_back({name, quantity.unit, "This joint. " + quantity.meaning});
   };
-  const auto add_named = [&](const Text& text) {
+  const auto add_named = [&](const FormulaText& text) {
     for (const auto& [name, joint] : named_joints(text.text)) {
       const std::size_t at = column_of(offer.of_joints, name);
       if (at < offer.of_joints.size() && std::ranges::find(joints, joint) != joints.end()) add(offer.of_joints[at], joint);
     }
   };
   for (const Objective& objective : study.objectives) add_named(objective.expression);
-  for (const Text& text : study.constraints) add_named(text);
+  for (const FormulaText& text : study.constraints) add_named(text);
   for (const Guard& guard : study.guards) {
     const auto check = std::ranges::find(offer.checks, guard.check, &CheckOffer::id);
     if (guard.asks == Guard::Asks::limit && check != offer.checks.end() && check->limited) {
@@ -89,7 +89,7 @@ Scorer::Scorer(const Study& study, const std::vector<Quantity>& columns, const Q
     objectives_.emplace_back(objective.expression, names, problems);
     objective_texts_.push_back(objective.expression.text);
   }
-  for (const Text& text : study.constraints) {
+  for (const FormulaText& text : study.constraints) {
     const std::size_t before = problems.size();
     Formula formula(text, names, problems);
     const bool relation = formula.compares("<=") || formula.compares(">=") || formula.compares("==");

@@ -40,7 +40,7 @@ struct Cause {
 
 /// Result of one run: its quantities by column (NaN if not known), the word of its verdict, the reason for that word as a
 /// sentence, and its cause.
-struct Measured {
+struct RunMeasured {
   std::vector<double> quantities;
   Word verdict = Word::not_judged;
   std::string why;
@@ -49,9 +49,9 @@ struct Measured {
 /// Function that computes the quantities of a run, with the parts of the recording that the function reads. Several threads may
 /// call it at once.
 struct Measure {
-  std::function<Measured(const Scenario&, const Recording&)> measured;
+  std::function<RunMeasured(const Scenario&, const Recording&)> measured;
   Records reads;
-  Measured operator()(const Scenario& scenario, const Recording& recording) const { return measured(scenario, recording); }
+  RunMeasured operator()(const Scenario& scenario, const Recording& recording) const { return measured(scenario, recording); }
 };
 
 /// A limit of a study: a constraint or a guard.

@@ -18,7 +18,7 @@ namespace studies {
 /// A key of the scenario that is computed from a free parameter of the study.
 struct Follower {
   std::string key;
-  Text expression;  ///< expression over the parameters
+  FormulaText expression;  ///< expression over the parameters
   SourceLocation place = {};
 };
 
@@ -64,7 +64,7 @@ struct Replicates {
 };
 
 struct Objective {
-  Text expression;  ///< empty for the first quantity shown
+  FormulaText expression;  ///< empty for the first quantity shown
   bool maximize = true;
 };
 inline constexpr std::size_t kMostObjectives = 3;
@@ -82,7 +82,7 @@ struct Guard {
 
 /// A rule that ends a hopeless run: `when` is an expression that is tested from `after` seconds on.
 struct StopText {
-  Text when;
+  FormulaText when;
   double after = 0;  ///< s
 };
 
@@ -145,7 +145,7 @@ struct Study {
   Replicates replicates;
   bool robust = false;                   ///< true if the replicates of a point are its nominal run and its runs in the worlds
   std::vector<Objective> objectives{1};  ///< one, or several for a Pareto front
-  std::vector<Text> constraints;
+  std::vector<FormulaText> constraints;
   bool guarded = true;         ///< true if the checks of the verdict are guards; false for no guards
   std::vector<Guard> guards;   ///< guards that the study adds, or that replace checks of the verdict
   std::vector<Problem> notes;  ///< notes on files that hide shipped scenarios

@@ -60,11 +60,11 @@ Solved solve(RandomRobots& random, Base base, double resist) {
   const RobotState state = random.state(robot, base);
   const Vec3 gravity = random.vector(10);
   const articulated::Tree<double> tree = articulated::tree(robot, base, {});
-  articulated::Body<double> body(tree, vec(gravity));
+  articulated::TreeBody<double> body(tree, vec(gravity));
   std::vector<double> x(StateLayout::kAngles + 2 * robot.joints.size());
   StateLayout{robot.joints.size(), 1}.write(state, 0, x);
   for (std::size_t e = 3; e < 7; ++e) x[e] *= 1.3;  // the quaternion need not have the length 1
-  using Load = articulated::Body<double>::Load;
+  using Load = articulated::TreeBody<double>::Load;
   std::vector<std::pair<std::size_t, std::function<void(Load)>>> loads;
   body.forward_kinematics(x);
 

@@ -162,7 +162,7 @@ class CurvesOfPanel final : public PaperPanel {
   [[nodiscard]] PaperCurve curve_of(const PaperRun& run, const FoundColumn& column, Side side) const {
     PaperCurve curve{&run, column, side};
     const std::vector<double> time = row_times(run.recording);
-    const Rows rows = rows_within(time, from_, to_);
+    const RowRange rows = rows_within(time, from_, to_);
     const Series series = run.recording.series(column.name);
     for (std::size_t row = rows.first; row < rows.last && row < series.size(); ++row) {
       curve.time.push_back(time[row]);
@@ -345,7 +345,7 @@ class CurvesOfPanel final : public PaperPanel {
   bool several_runs_ = false;
   std::vector<PaperCurve> curves_;
   std::vector<Stance> stances_;
-  MotorLimits limits_;
+  MotorLimitMarks limits_;
   Side torque_side_ = Side::left;
   TwinTicks ticks_;
 };

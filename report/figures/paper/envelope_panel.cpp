@@ -31,7 +31,7 @@ class EnvelopeOfPanel final : public PaperPanel {
     const std::vector<std::size_t> joints = source.joints();
     const std::vector<std::string> names = joint_names(*run.scenario.robot);
     const std::vector<double> time = row_times(run.recording);
-    const Rows rows = source.rows(time);
+    const RowRange rows = source.rows(time);
     for (const std::size_t j : joints) {
       JointPath path{names[j], {}, {}};
       const std::optional<JointLoad> load = source.load(j);

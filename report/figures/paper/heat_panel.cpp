@@ -38,7 +38,7 @@ class HeatOfPanel final : public PaperPanel {
     height_ = source.height(kHeatRow * static_cast<double>(std::max<std::size_t>(joints_.size(), 3)) / source.px_per_mm);
     const std::vector<double> time = row_times(run.recording);
     const std::size_t before = source.problems.size();
-    const Rows rows = source.rows(time);
+    const RowRange rows = source.rows(time);
     if (source.problems.size() > before) return;
     from_ = time[rows.first];
     to_ = time[rows.last - 1];
@@ -94,7 +94,8 @@ class HeatOfPanel final : public PaperPanel {
  private:
   static Ticks percent() { return ticks_within(0, 100, 2); }
 
-  void fill(const Scenario& scenario, const std::vector<double>& time, const Rows& rows, const std::vector<JointLoad>& load) {
+  void fill(const Scenario& scenario, const std::vector<double>& time, const RowRange& rows,
+            const std::vector<JointLoad>& load) {
     const AvailableTorque available(scenario);
     const bool known = std::ranges::all_of(joints_, [&](std::size_t j) { return available.known(j); });
     double largest = 0;

@@ -24,16 +24,16 @@ constexpr LimitLook kLimits[] = {{MotorLimit::voltage, "#E3E3E3", "voltage limit
 
 }  // namespace
 
-void MotorLimits::shade(const Plot& plot) const {
+void MotorLimitMarks::shade(const Plot& plot) const {
   for (const Reached& each : reached)
     plot.band(each.from, each.to, std::ranges::find(kLimits, each.limit, &LimitLook::limit)->fill);
 }
 
-void MotorLimits::draw(const Plot& plot, Side torque) const {
+void MotorLimitMarks::draw(const Plot& plot, Side torque) const {
   for (const double most : rest) plot.level(most, kRestTorque, torque);
 }
 
-void MotorLimits::add_to(std::vector<LegendEntry>& legend) const {
+void MotorLimitMarks::add_to(std::vector<LegendEntry>& legend) const {
   for (const LimitLook& look : kLimits) {
     if (std::ranges::find(reached, look.limit, &Reached::limit) != reached.end())
       legend.push_back(line_entry(look.name, {.stroke = look.fill, .width = 11}, kPrintLine));
@@ -42,8 +42,8 @@ void MotorLimits::add_to(std::vector<LegendEntry>& legend) const {
     legend.push_back(line_entry(fmt::format("torque at rest, {:.3g} N m", std::abs(rest.front())), kRestTorque, kPrintLine));
 }
 
-MotorLimits motor_limits(const PaperRun& run, std::size_t joint, const Rows& rows) {
-  MotorLimits found;
+MotorLimitMarks motor_limits(const PaperRun& run, std::size_t joint, const RowRange& rows) {
+  MotorLimitMarks found;
   const std::vector<double> time = row_times(run.recording);
   const Series limit = run.recording.joint(joint, "saturation");
   const Series torque = run.recording.joint(joint, "torque");

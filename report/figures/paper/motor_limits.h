@@ -7,7 +7,7 @@
 
 namespace gaitlab::report {
 
-struct MotorLimits {
+struct MotorLimitMarks {
   struct Reached {
     MotorLimit limit;
     double from, to;  ///< s
@@ -21,6 +21,6 @@ struct MotorLimits {
   void add_to(std::vector<LegendEntry>& legend) const;
 };
 
-MotorLimits motor_limits(const PaperRun& run, std::size_t joint, const Rows& rows);
+MotorLimitMarks motor_limits(const PaperRun& run, std::size_t joint, const RowRange& rows);
 
 }  // namespace gaitlab::report

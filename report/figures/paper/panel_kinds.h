@@ -2,11 +2,14 @@
 #pragma once
 #include <memory>
 
-#include "report/figures/paper/recipe.h"
+namespace gaitlab {
+class Fields;
+}
 
 namespace gaitlab::report {
 
 class PaperPanel;
+struct PanelRecipe;
 struct PanelSource;
 
 /// A kind of panel. Each is defined in the file of its `PaperPanel`.

@@ -39,10 +39,10 @@ PanelSource::Stretch PanelSource::stretch(double end) const {
   return {asked.from, asked.to > 0 ? asked.to : end};
 }
 
-Rows PanelSource::rows(std::span<const double> time) const {
+RowRange PanelSource::rows(std::span<const double> time) const {
   const std::size_t before = problems.size();
   const Stretch asked = stretch(run().recording.simulated);
-  const Rows rows = rows_within(time, asked.from, asked.to);
+  const RowRange rows = rows_within(time, asked.from, asked.to);
   if (problems.size() == before && rows.last - rows.first < 2) {
     problem({panel().from > 0 ? "from" : "to"},
             fmt::format("the run has fewer than two rows from {} to {}; expected a longer interval", with_unit(asked.from, "s"),
@@ -100,8 +100,8 @@ Style curve_style(std::size_t n) {
   return {.stroke = line.colour, .width = 1.6, .dash = line.dash};
 }
 
-Rows rows_within(std::span<const double> time, double from, double to) {
-  Rows rows;
+RowRange rows_within(std::span<const double> time, double from, double to) {
+  RowRange rows;
   while (rows.first < time.size() && time[rows.first] < from - kSlack) ++rows.first;
   rows.last = rows.first;
   while (rows.last < time.size() && (to <= 0 || time[rows.last] <= to + kSlack)) ++rows.last;

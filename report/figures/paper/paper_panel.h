@@ -9,6 +9,7 @@
 #include "core/recording/recording.h"
 #include "core/scenario/scenario.h"
 #include "report/figures/paper/panel_kinds.h"
+#include "report/figures/paper/recipe.h"
 #include "report/figures/run/views.h"
 #include "report/plot/font.h"
 #include "report/plot/legend.h"
@@ -50,10 +51,10 @@ class PaperPanel {
 };
 
 /// Rows within [from, to] s: from `first` up to, but not including, `last`. `to` 0 means the end of the run.
-struct Rows {
+struct RowRange {
   std::size_t first = 0, last = 0;
 };
-Rows rows_within(std::span<const double> time, double from, double to);
+RowRange rows_within(std::span<const double> time, double from, double to);
 
 /// Speed (rad/s) and torque (N m) of a joint, one value per row.
 struct JointLoad {
@@ -79,7 +80,7 @@ struct PanelSource {
   };
   [[nodiscard]] Stretch stretch(double end) const;
   /// Rows of `run()` within the interval. Adds a problem if there are fewer than two.
-  [[nodiscard]] Rows rows(std::span<const double> time) const;
+  [[nodiscard]] RowRange rows(std::span<const double> time) const;
   /// Indices of the joints of `run()` that have a motor and match a pattern of the key `joints`, in ascending order. Adds a
   /// problem for a pattern without a match.
   [[nodiscard]] std::vector<std::size_t> joints() const;

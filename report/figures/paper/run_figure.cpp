@@ -166,7 +166,7 @@ std::string run_figure(const Scenario& scenario, const Recording& r, const Summa
   const std::vector<Drawn> drawn = drawn_joints(scenario, summary, legs);
   const double from = periods_from(summary);
   const std::vector<double> time = row_times(r);
-  const Rows shown = rows_within(time, from, 0);
+  const RowRange shown = rows_within(time, from, 0);
   Recipe recipe = screen_recipe(scenario.name);
   if (shown.last - shown.first > 1) {
     for (const Drawn& each : drawn) {

@@ -7,7 +7,7 @@ std::vector<CheckKind> checks::envelope() {
   const auto judge = [](const CheckedRun& run, Check& made) {
     rated(run, made, kEnvelopePeak, "the actuator states no limit", run.limits().warn_share, kNever, [&](std::size_t j) {
       const JudgedJoint& joint = run.summary.judged.joints[j];
-      return Rated{joint.envelope_peak, run.motors.joint(j).command ? 1.0 : 0.0, joint.envelope_peak_time};
+      return JointRated{joint.envelope_peak, run.motors.joint(j).command ? 1.0 : 0.0, joint.envelope_peak_time};
     });
     if (made.status == CheckStatus::not_judged) return;
     made.limit = run.limits().warn_share;

@@ -8,13 +8,14 @@ namespace {
 
 void judge_gear_peak(const CheckedRun& run, Check& made) {
   const auto rating = [&](std::size_t j) { return run.motors.joint(j).gear_peak.value_or(0); };
-  const std::vector<ErrorBar> bars = rated(
-      run, made, kTorquePeak, "no largest torque of the gears is stated (actuator.gear_torque_peak)", run.limits().warn_share,
-      1, [&](std::size_t j) {
-        const JudgedJoint& joint = run.summary.judged.whole[j];
-        const std::optional<GearPeak> passed = gear_load(run.record, j, rating(j));
-        return Rated{passed ? passed->torque : joint.torque_peak, rating(j), passed ? passed->time : joint.torque_peak_time};
-      });
+  const std::vector<ErrorBar> bars =
+      rated(run, made, kTorquePeak, "no largest torque of the gears is stated (actuator.gear_torque_peak)",
+            run.limits().warn_share, 1, [&](std::size_t j) {
+              const JudgedJoint& joint = run.summary.judged.whole[j];
+              const std::optional<GearPeak> passed = gear_load(run.record, j, rating(j));
+              return JointRated{passed ? passed->torque : joint.torque_peak, rating(j),
+                                passed ? passed->time : joint.torque_peak_time};
+            });
   if (made.status == CheckStatus::not_judged) return;
   bool measured = false;
   for (std::size_t j = 0; j < run.summary.judged.joints.size(); ++j) {
@@ -34,11 +35,11 @@ void judge_gear_peak(const CheckedRun& run, Check& made) {
 }
 
 void judge_gear_continuous(const CheckedRun& run, Check& made) {
-  const std::vector<ErrorBar> bars =
-      rated(run, made, kTorqueSquare, "no continuous torque of the gears is stated (actuator.gear_torque_continuous)",
-            run.limits().warn_share, 1, [&](std::size_t j) {
-              return Rated{run.summary.judged.joints[j].torque_rms, run.motors.joint(j).gear_continuous.value_or(0), kNoTime};
-            });
+  const std::vector<ErrorBar> bars = rated(
+      run, made, kTorqueSquare, "no continuous torque of the gears is stated (actuator.gear_torque_continuous)",
+      run.limits().warn_share, 1, [&](std::size_t j) {
+        return JointRated{run.summary.judged.joints[j].torque_rms, run.motors.joint(j).gear_continuous.value_or(0), kNoTime};
+      });
   if (made.status == CheckStatus::not_judged) return;
   made.text = fmt::format("the gear of joint {} takes {:.3g} N m RMS (rated {:.3g} N m)", made.worst, made.value, made.limit);
   widen(run.scenario, bars, made);

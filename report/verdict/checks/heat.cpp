@@ -5,11 +5,11 @@ namespace gaitlab::report {
 
 std::vector<CheckKind> checks::heat() {
   const auto judge = [](const CheckedRun& run, Check& made) {
-    const std::vector<ErrorBar> bars =
-        rated(run, made, kCurrentSquare, "no continuous current of the motors is stated (actuator.i_continuous)",
-              run.limits().warn_share, 1, [&](std::size_t j) {
-                return Rated{run.summary.judged.joints[j].current_rms, run.motors.joint(j).continuous.value_or(0), kNoTime};
-              });
+    const std::vector<ErrorBar> bars = rated(
+        run, made, kCurrentSquare, "no continuous current of the motors is stated (actuator.i_continuous)",
+        run.limits().warn_share, 1, [&](std::size_t j) {
+          return JointRated{run.summary.judged.joints[j].current_rms, run.motors.joint(j).continuous.value_or(0), kNoTime};
+        });
     if (made.status == CheckStatus::not_judged) return;
     made.text = fmt::format("the motor of joint {} takes {:.3g} A RMS, {} of its continuous rating", made.worst, made.value,
                             texts::percent(made.value / made.limit));

@@ -27,7 +27,7 @@ void find_first(const CheckedRun& run, std::size_t after, TickColumn column, con
 }
 
 /// Value of a joint, its limit, and the time of the value in s. NaN if not known; an infinite or 0 limit is not stated.
-struct Rated {
+struct JointRated {
   double value, limit, time;
 };
 
@@ -43,7 +43,7 @@ std::vector<ErrorBar> rated(const CheckedRun& run, Check& made, TickColumn colum
   for (std::size_t j = 0; j < run.summary.judged.joints.size(); ++j) {
     if (!run.judges(j, made.span)) continue;
     faulty = false;
-    const Rated of = rate(j);
+    const JointRated of = rate(j);
     if (!std::isfinite(of.limit) || !(of.limit > 0)) continue;
     const double share = of.value / of.limit;
     bars.push_back(ErrorBar::around(run.joint(j), share, run.torque_error(j)));

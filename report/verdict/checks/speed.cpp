@@ -15,11 +15,11 @@ std::vector<CheckKind> checks::speed() {
     broken.span = CheckSpan::whole_run;
     rated(run, broken, kSpeedPeak, none, share, 1, [&](std::size_t j) {
       const JudgedJoint& joint = run.summary.judged.whole[j];
-      return Rated{joint.speed_peak, rating(j), joint.speed_peak_time};
+      return JointRated{joint.speed_peak, rating(j), joint.speed_peak_time};
     });
     rated(run, made, kSpeedPeak, none, share, 1, [&](std::size_t j) {
       const JudgedJoint& joint = run.summary.judged.joints[j];
-      return Rated{joint.speed_peak, no_load(j), joint.speed_peak_time};
+      return JointRated{joint.speed_peak, no_load(j), joint.speed_peak_time};
     });
     const bool unreached = made.status != CheckStatus::not_judged;
     const bool worse = broken.status == CheckStatus::fail ||  // a longer run cannot undo a failure

@@ -2,8 +2,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "report/verdict/numbers/number_list.h"
 #include "report/verdict/numbers/number_texts.h"
+#include "report/verdict/numbers/numbers.h"
 
 namespace gaitlab::report {
 

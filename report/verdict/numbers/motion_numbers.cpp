@@ -5,8 +5,8 @@
 
 #include "report/analysis/fall.h"
 #include "report/analysis/posture.h"
-#include "report/verdict/numbers/number_list.h"
 #include "report/verdict/numbers/number_texts.h"
+#include "report/verdict/numbers/numbers.h"
 #include "report/verdict/trust.h"
 
 namespace gaitlab::report {

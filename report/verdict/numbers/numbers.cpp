@@ -5,8 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "report/verdict/numbers/number_list.h"
-
 namespace gaitlab::report {
 
 namespace {

@@ -65,6 +65,13 @@ struct SummaryNumber {
 
 /// All summary numbers, in the order of summary.json.
 const std::vector<SummaryNumber>& summary_numbers();
+/// Sections of that list, in its order.
+std::vector<SummaryNumber> run_numbers();
+std::vector<SummaryNumber> joint_numbers();
+std::vector<SummaryNumber> motion_numbers();
+
+/// JSON number, or null for NaN and infinity.
+nlohmann::ordered_json or_null(double value);
 
 /// Content of summary.json as a JSON object.
 nlohmann::ordered_json numbers_json(const RunData& run);

@@ -20,8 +20,8 @@ constexpr std::array<std::string_view, 11> kSoFar{
     "simulated",     "displacement.x", "displacement.y",       "distance", "speed", "path_length", "straightness",
     "forward_speed", "heading_change", "tracking_error.worst", "fell"};
 
-std::vector<Quantity> all_quantities() {
-  std::vector<Quantity> all;
+std::vector<SummaryQuantity> all_quantities() {
+  std::vector<SummaryQuantity> all;
   const auto has = [&](const std::string& name) {
     return std::ranges::any_of(summary_numbers(),
                                [&](const SummaryNumber& n) { return n.of_joint == nullptr && n.key == name; });
@@ -31,7 +31,7 @@ std::vector<Quantity> all_quantities() {
     if (number.of_joint == nullptr) {
       all.push_back({number.key, &number});
     } else if (!has(short_name(number))) {
-      all.push_back({short_name(number), &number, Quantity::Of::largest});
+      all.push_back({short_name(number), &number, SummaryQuantity::Of::largest});
     }
   }
   return all;
@@ -39,7 +39,7 @@ std::vector<Quantity> all_quantities() {
 
 }  // namespace
 
-double Quantity::value(const RunData& run) const {
+double SummaryQuantity::value(const RunData& run) const {
   if (of == Of::joint) return number->of_joint(run, joint);
   if (of == Of::largest) {
     double most = kNotKnown;
@@ -55,30 +55,30 @@ double Quantity::value(const RunData& run) const {
   return value.is_number() ? value.get<double>() : kNotKnown;
 }
 
-std::string Quantity::meaning() const {
+std::string SummaryQuantity::meaning() const {
   const std::string text = number->definition;
   return of == Of::largest ? "Largest over all joints. " + text : of == Of::joint ? "This joint. " + text : text;
 }
 
-const std::vector<Quantity>& quantities() {
-  static const std::vector<Quantity> kAll = all_quantities();
+const std::vector<SummaryQuantity>& quantities() {
+  static const std::vector<SummaryQuantity> kAll = all_quantities();
   return kAll;
 }
 
-bool known_so_far(const Quantity& quantity) {
+bool known_so_far(const SummaryQuantity& quantity) {
   const std::string_view key = quantity.number->key;
-  if (quantity.of == Quantity::Of::run) return std::ranges::find(kSoFar, key) != kSoFar.end();
+  if (quantity.of == SummaryQuantity::Of::run) return std::ranges::find(kSoFar, key) != kSoFar.end();
   return key.find(".judged.") == std::string_view::npos;
 }
 
-double value_so_far(const Quantity& quantity, const Scenario& scenario, const Recording& so_far) {
+double value_so_far(const SummaryQuantity& quantity, const Scenario& scenario, const Recording& so_far) {
   return quantity.value({scenario, so_far, travelled(so_far)});
 }
 
-std::optional<Quantity> joint_quantity(const std::string& name, const Robot& robot, std::size_t joint) {
+std::optional<SummaryQuantity> joint_quantity(const std::string& name, const Robot& robot, std::size_t joint) {
   for (const SummaryNumber& number : summary_numbers()) {
     if (number.of_joint != nullptr && short_name(number) == name)
-      return Quantity{name + "[" + robot.joints[joint].name + "]", &number, Quantity::Of::joint, joint};
+      return SummaryQuantity{name + "[" + robot.joints[joint].name + "]", &number, SummaryQuantity::Of::joint, joint};
   }
   return {};
 }

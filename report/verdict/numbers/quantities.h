@@ -10,7 +10,7 @@
 namespace gaitlab::report {
 
 /// A summary number as a quantity of a study.
-struct Quantity {
+struct SummaryQuantity {
   enum class Of { run, largest, joint };  ///< number of the whole run, largest of all joints, or number of one joint
   std::string name;
   const SummaryNumber* number = nullptr;
@@ -25,18 +25,18 @@ struct Quantity {
 
 /// Quantities of every run, in the order of summary.json: numbers of the whole run, and for numbers per joint the largest of
 /// all joints. A number per joint is left out if a number of the whole run has the same name (`energy.electrical`).
-const std::vector<Quantity>& quantities();
+const std::vector<SummaryQuantity>& quantities();
 
 /// True if the quantity can be computed before the run has ended: paths, joint statistics and `fell`.
-bool known_so_far(const Quantity& quantity);
+bool known_so_far(const SummaryQuantity& quantity);
 
 /// Value of a quantity for which known_so_far is true, from an incomplete recording (Simulation::watch).
-double value_so_far(const Quantity& quantity, const Scenario& scenario, const Recording& so_far);
+double value_so_far(const SummaryQuantity& quantity, const Scenario& scenario, const Recording& so_far);
 
 /// Name of a number per joint without its prefix: `torque.peak` for the key `per_joint.J.torque.peak`.
 std::string short_name(const SummaryNumber& number);
 
 /// Quantity of one joint, by its short name: `torque.peak`. Nothing if no number per joint has this name.
-std::optional<Quantity> joint_quantity(const std::string& name, const Robot& robot, std::size_t joint);
+std::optional<SummaryQuantity> joint_quantity(const std::string& name, const Robot& robot, std::size_t joint);
 
 }  // namespace gaitlab::report

@@ -3,8 +3,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "report/verdict/numbers/number_list.h"
 #include "report/verdict/numbers/number_texts.h"
+#include "report/verdict/numbers/numbers.h"
 #include "report/verdict/rolled.h"
 #include "report/verdict/spread.h"
 #include "report/verdict/trust.h"

@@ -8,10 +8,10 @@
 namespace gaitlab::expression {
 namespace {
 
-Term figure(const std::string& text) { return parse(text, Names::figures); }
+Term figure(const std::string& text) { return parse(text, NameSyntax::figures); }
 
 /// Position and message, `character: what`, of the error for a text that is refused.
-std::string refused(const std::string& text, Names names) {
+std::string refused(const std::string& text, NameSyntax names) {
   try {
     parse(text, names);
   } catch (const Fault& fault) {
@@ -34,13 +34,13 @@ TEST(Expression, NamesOfFiguresHoldDotsAndJoints) {
 }
 
 TEST(Expression, RefusesOtherNames) {
-  EXPECT_EQ(refused("torque.peak", Names::joints), "6: found '.', which has no meaning here");
-  EXPECT_EQ(refused("torque.", Names::figures), "6: found '.', which has no meaning here");
-  EXPECT_EQ(refused("torque.1", Names::figures), "6: found '.1'; expected an operator or the end of the text");
-  EXPECT_EQ(refused("torque..peak", Names::figures), "6: found '.', which has no meaning here");
-  EXPECT_EQ(refused("torque[m3", Names::figures), "9: found the end of the text; expected ']'");
-  EXPECT_EQ(refused("torque[ ]", Names::figures), "8: found nothing in [ ]; expected the name of a joint");
-  EXPECT_EQ(refused("phi[m3/active]", Names::joints), "4: found 'm3'; expected i or j");
+  EXPECT_EQ(refused("torque.peak", NameSyntax::joints), "6: found '.', which has no meaning here");
+  EXPECT_EQ(refused("torque.", NameSyntax::figures), "6: found '.', which has no meaning here");
+  EXPECT_EQ(refused("torque.1", NameSyntax::figures), "6: found '.1'; expected an operator or the end of the text");
+  EXPECT_EQ(refused("torque..peak", NameSyntax::figures), "6: found '.', which has no meaning here");
+  EXPECT_EQ(refused("torque[m3", NameSyntax::figures), "9: found the end of the text; expected ']'");
+  EXPECT_EQ(refused("torque[ ]", NameSyntax::figures), "8: found nothing in [ ]; expected the name of a joint");
+  EXPECT_EQ(refused("phi[m3/active]", NameSyntax::joints), "4: found 'm3'; expected i or j");
 }
 
 TEST(Expression, FunctionsAreKnownByTheirNames) {

@@ -138,7 +138,7 @@ TEST(Quantities, AreTheNumbersOfTheSummary) {
   const Summary summary = summarise(scenario, record, 1);
   const RunData data{scenario, record, summary};
   std::set<std::string> names;
-  for (const Quantity& quantity : quantities()) {
+  for (const SummaryQuantity& quantity : quantities()) {
     EXPECT_TRUE(names.insert(quantity.name).second) << quantity.name;
     EXPECT_FALSE(std::isinf(quantity.value(data))) << quantity.name;
     if (quantity.name == "speed") {

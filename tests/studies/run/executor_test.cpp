@@ -23,7 +23,7 @@ struct ExecutedJobs {
                                      const std::lock_guard lock(mutex);
                                      estimate = scenario.physics.estimate;
                                      estimated_by_others = scenario.physics.estimated_by_others;
-                                     studies::Measured measured;
+                                     studies::RunMeasured measured;
                                      measured.quantities.assign(study.plan->columns().size(), recording.simulated);
                                      measured.verdict = Word::feasible;
                                      measured.why = "why";

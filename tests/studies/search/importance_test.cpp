@@ -8,7 +8,7 @@
 
 #include "core/math/functions.h"
 #include "core/math/random.h"
-#include "studies/plan/points.h"
+#include "studies/plan/designs.h"
 
 namespace gaitlab::studies {
 namespace {

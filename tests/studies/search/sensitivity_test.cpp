@@ -45,8 +45,8 @@ TEST(Sensitivity, SobolIndicesOfIshigami) {
   constexpr double kTotal[] = {0.5576, 0.4424, 0.2437};
   constexpr double kFirst[] = {0.3139, 0.4424, 0};
   for (std::size_t k = 0; k < 3; ++k) {
-    const Estimate& total = found.measures[0].of[k];
-    const Estimate& first = found.measures[1].of[k];
+    const IndexEstimate& total = found.measures[0].of[k];
+    const IndexEstimate& first = found.measures[1].of[k];
     EXPECT_NEAR(total.value, kTotal[k], 0.03) << k;
     EXPECT_NEAR(first.value, kFirst[k], 0.03) << k;
     EXPECT_LE(total.low, total.value);

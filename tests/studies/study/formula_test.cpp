@@ -22,7 +22,7 @@ Naming column_named(const std::string& name, const std::string& joint) {
 }
 
 /// A text at line 3 of a study.
-Text study_text(const std::string& text) {
+FormulaText study_text(const std::string& text) {
   const Node study = parse_yaml("gaitlab_study: 1\nrules:\n  rule: " + text + "\n", "s.yaml");
   const Node node = *study.find("rules")->find("rule");
   return {node.text, node};

@@ -136,7 +136,7 @@ TEST(Guards, MarginsAreThoseOfTheVerdict) {
     columns.push_back({"margin." + check.id, "", ""});
     columns.push_back({"margin." + check.id + "[0.25]", "", ""});
   }
-  const studies::Measured measured = app::quantity_measure(columns, scenario)(scenario, record);
+  const studies::RunMeasured measured = app::quantity_measure(columns, scenario)(scenario, record);
   EXPECT_EQ(measured.verdict, verdict.word);
   EXPECT_EQ(measured.why, verdict.why());
   EXPECT_EQ(measured.quantities[0], verdict.word == Word::feasible ? 1 : 0);

@@ -48,8 +48,8 @@ TEST_P(StudyReads, AllThatIsJudged) {
     if (limits) {
       EXPECT_EQ(read.loads.columns.size(), whole.loads.columns.size());
     }
-    const studies::Measured expected = measure(scenario, whole);
-    const studies::Measured measured = measure(scenario, read);
+    const studies::RunMeasured expected = measure(scenario, whole);
+    const studies::RunMeasured measured = measure(scenario, read);
     EXPECT_EQ(measured.verdict, expected.verdict);
     EXPECT_EQ(measured.why, expected.why);
     for (std::size_t k = 0; k < columns.size(); ++k) {
