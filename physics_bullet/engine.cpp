@@ -235,14 +235,14 @@ void check_joints(const PlantSettings& s) {
 }
 
 std::vector<Integrator> integrators() {
-  std::vector<Integrator> all = {{"semi_implicit", 1}, {kRk4, 4}};
-  std::ranges::move(implicit_integrators(), std::back_inserter(all));
+  std::vector<Integrator> all = implicit_integrators();
+  all.insert(all.begin() + 1, {{"semi_implicit", 1}, {kRk4, 4}});  // defaults: the first one, and the first for a given step
   return all;
 }
 
 bool is_implicit(const std::string& integrator) {
   const std::vector<Integrator> all = implicit_integrators();
-  return std::ranges::find(all, integrator, &Integrator::name) != all.end();
+  return integrator.empty() || std::ranges::find(all, integrator, &Integrator::name) != all.end();
 }
 
 /// Allocates memory for Bullet, which does not check the result of malloc.
@@ -258,12 +258,20 @@ void register_bullet(Catalog& catalog) {
   btAlignedAllocSetCustom(allocate, std::free);
   catalog.add(Engine{
       "bullet",
-      "One btMultiBody, Bullet's articulated-body algorithm, penalty contacts, explicit integration.\n\n"
-      "Contacts act on the points and spheres of the compound shapes of the multibody. Every step must be at most 1 / lambda\n"
-      "long (lambda: largest eigenvalue of M^-1 (B + sum J^T G J), checked at the start and watched at every control tick).\n"
-      "step: auto, the default, is the longest up to 5e-5 s that divides the periods and is at most 0.8 / lambda at the "
-      "start,\n"
-      "0.45 / lambda where contacts set it: a gait that stands on half of its feet doubles their friction.\n\n"
+      "One btMultiBody, Bullet's articulated-body algorithm, penalty contacts.\n\n"
+      "Contacts act on the points and spheres of the compound shapes of the multibody. Integrators:\n\n"
+      "    adaptive       takes the accelerations under weight, centrifugal and gyroscopic forces from Bullet, and is implicit "
+      "in\n"
+      "                   motors, stops and contacts, with the steps of engine articulated, by physics.accuracy. The default, "
+      "with\n"
+      "                   step: auto.\n"
+      "    semi_implicit  order 1, explicit: Bullet alone. The default where a step is given. Every step must be at most\n"
+      "                   1 / lambda (lambda: largest eigenvalue of M^-1 (B + sum J^T G J), checked at the start and watched\n"
+      "                   at every control tick). step: auto is the longest up to 5e-5 s that divides the periods and is at\n"
+      "                   most 0.8 / lambda at the start, 0.45 / lambda where contacts set it: a gait that stands on half of\n"
+      "                   its feet doubles their friction.\n"
+      "    rk4            order 4, explicit, with the same limit.\n"
+      "    implicit, extrapolated  order 1 and 2, as adaptive with steps as given.\n\n"
       "contact.law: bullet takes Bullet's own collision world and constraint solver instead, for comparison and clutter: "
       "boxes\n"
       "that move, blocks that touch boxes and one another. Motors, stops and contacts are rows of one solve, stable at 1 ms,\n"

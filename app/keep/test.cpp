@@ -65,20 +65,21 @@ void print_table(const std::vector<GoldenCase>& cases) {
   for (const GoldenCase& c : cases) fmt::print("{}", row(widths, cells(c)));
 }
 
-std::size_t count(const std::vector<GoldenCase>& cases, Verdict verdict) {
+std::size_t count(const std::vector<GoldenCase>& cases, CaseVerdict verdict) {
   return static_cast<std::size_t>(
       std::count_if(cases.begin(), cases.end(), [&](const GoldenCase& c) { return c.verdict == verdict; }));
 }
 
 std::string counts(const std::vector<GoldenCase>& cases) {
-  std::string text = fmt::format("{} passed, {} failed", count(cases, Verdict::passed), count(cases, Verdict::regression));
-  const auto add = [&](Verdict verdict, const char* what) {
+  std::string text =
+      fmt::format("{} passed, {} failed", count(cases, CaseVerdict::passed), count(cases, CaseVerdict::regression));
+  const auto add = [&](CaseVerdict verdict, const char* what) {
     if (const std::size_t n = count(cases, verdict); n > 0) text += fmt::format(", {} {}", n, what);
   };
-  add(Verdict::infeasible, "infeasible");
-  add(Verdict::run_failed, "broke off");
-  add(Verdict::bad_input, "not tested");
-  add(Verdict::skipped, "skipped");
+  add(CaseVerdict::infeasible, "infeasible");
+  add(CaseVerdict::run_failed, "broke off");
+  add(CaseVerdict::bad_input, "not tested");
+  add(CaseVerdict::skipped, "skipped");
   return text;
 }
 
@@ -221,7 +222,7 @@ std::string failure(const GoldenCase& c, bool all) {
 /// Prints notes on cases that passed: numbers with wide bands, a changed verdict, and a changed resolved scenario.
 void print_notes(const std::vector<GoldenCase>& cases) {
   for (const GoldenCase& c : cases) {
-    if (c.verdict != Verdict::passed) continue;
+    if (c.verdict != CaseVerdict::passed) continue;
     if (const std::string names = wide_number_names(*c.golden); !names.empty()) {
       say(c.file, "note",
           fmt::format("numbers with bands above {}, which hide smaller changes: {}", percent(kWideNumber), names));
@@ -239,14 +240,14 @@ void print_notes(const std::vector<GoldenCase>& cases) {
 // ---- JUnit XML, as CI servers read it, without times, so that equal results give equal files
 
 std::string junit(const std::vector<GoldenCase>& cases) {
-  const std::size_t errors = count(cases, Verdict::bad_input) + count(cases, Verdict::run_failed);
+  const std::size_t errors = count(cases, CaseVerdict::bad_input) + count(cases, CaseVerdict::run_failed);
   double seconds = 0;  // sum over all runs, some of which may have been simulated at the same time
   for (const GoldenCase& c : cases) seconds += c.seconds;
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
   text += fmt::format(
       "<testsuite name=\"gaitlab test\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{:.3f}\">\n",
-      cases.size(), count(cases, Verdict::regression) + count(cases, Verdict::infeasible), errors,
-      count(cases, Verdict::skipped), seconds);
+      cases.size(), count(cases, CaseVerdict::regression) + count(cases, CaseVerdict::infeasible), errors,
+      count(cases, CaseVerdict::skipped), seconds);
   for (const GoldenCase& c : cases) {
     text += fmt::format("<testcase classname=\"golden\" name=\"{}\" time=\"{:.3f}\">", report::xml_escaped(c.file), c.seconds);
     const auto element = [&](const char* name, const std::string& message, const std::string& content) {
@@ -262,11 +263,11 @@ std::string junit(const std::vector<GoldenCase>& cases) {
       }
       return escaped;
     };
-    if (c.verdict == Verdict::regression) element("failure", outside(c.difference), lines(failure(c, false)));
-    if (c.verdict == Verdict::infeasible) element("failure", to_string(c.verdict), lines(c.problem));
-    if (c.verdict == Verdict::bad_input || c.verdict == Verdict::run_failed)
+    if (c.verdict == CaseVerdict::regression) element("failure", outside(c.difference), lines(failure(c, false)));
+    if (c.verdict == CaseVerdict::infeasible) element("failure", to_string(c.verdict), lines(c.problem));
+    if (c.verdict == CaseVerdict::bad_input || c.verdict == CaseVerdict::run_failed)
       element("error", to_string(c.verdict), lines(c.problem));
-    if (c.verdict == Verdict::skipped) element("skipped", "no golden", "");
+    if (c.verdict == CaseVerdict::skipped) element("skipped", "no golden", "");
     text += "</testcase>\n";
   }
   return text + "</testsuite>\n</testsuites>\n";
@@ -286,11 +287,11 @@ void check_report(const std::string& path) {
 }
 
 int exit_code(const std::vector<GoldenCase>& cases) {
-  if (count(cases, Verdict::bad_input) > 0) return 2;
-  if (count(cases, Verdict::run_failed) > 0) return 1;
-  if (count(cases, Verdict::regression) > 0) return 4;
-  if (count(cases, Verdict::infeasible) > 0) return 3;
-  return count(cases, Verdict::passed) == 0 ? 2 : 0;
+  if (count(cases, CaseVerdict::bad_input) > 0) return 2;
+  if (count(cases, CaseVerdict::run_failed) > 0) return 1;
+  if (count(cases, CaseVerdict::regression) > 0) return 4;
+  if (count(cases, CaseVerdict::infeasible) > 0) return 3;
+  return count(cases, CaseVerdict::passed) == 0 ? 2 : 0;
 }
 
 int test_goldens(const TestArguments& arguments) {
@@ -315,7 +316,7 @@ int test_goldens(const TestArguments& arguments) {
   print_table(cases);
   print_notes(cases);
   for (GoldenCase& c : cases) {
-    if (c.verdict == Verdict::regression) {
+    if (c.verdict == CaseVerdict::regression) {
       write([&] { figures.write(c); });
       fmt::print("\n{}: {}\n{}", c.file, outside(c.difference), failure(c, arguments.all));
     }
@@ -323,7 +324,7 @@ int test_goldens(const TestArguments& arguments) {
   }
   fmt::print("\n{}\n", counts(cases));
   if (arguments.junit) write([&] { write_file(*arguments.junit, junit(cases)); });
-  if (cases.size() == count(cases, Verdict::skipped))
+  if (cases.size() == count(cases, CaseVerdict::skipped))
     say("gaitlab", "error", "nothing was tested: no scenario has a golden; make one with gaitlab approve");
   const int code = exit_code(cases);
   return code == 0 && !written ? 1 : code;

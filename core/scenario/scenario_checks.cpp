@@ -39,9 +39,9 @@ void ScenarioChecks::law() {
   if (contact.has_step_of_its_own) {
     if (!(engine->solver_step > 0)) {
       refuse_law(*engine);
-    } else if (scenario_.physics.integrator != &engine->integrators.front()) {
-      problems_.add(place_of(root_, "physics", "integrator"), fmt::format("contact law '{}' works only with integrator {}",
-                                                                          contact.text, engine->integrators.front().name));
+    } else if (scenario_.physics.integrator != &engine->fixed()) {
+      problems_.add(place_of(root_, "physics", "integrator"),
+                    fmt::format("contact law '{}' works only with integrator {}", contact.text, engine->fixed().name));
     }
   }
   if (const GroundType& ground = scenario_.ground.type(); !contact.any_ground && !ground.plane_and_boxes) {

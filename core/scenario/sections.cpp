@@ -84,13 +84,14 @@ void PhysicsFields::fields(Fields& f) {
   double step = physics.adaptive_step ? 0 : physics.step;
   const bool own_step = enum_row(law).has_step_of_its_own;
   const bool chooses = known && !own_step && physics.engine->choose_step != nullptr;
-  if (known && !filled && !chooses && physics.engine->adaptive() == nullptr) {
+  if (known && !filled && !chooses && (own_step || physics.engine->adaptive() == nullptr)) {
     step = physics.engine->given_step(own_step);
   }
-  f.number_or("step", step, "auto",
-              {"s", 1e-9, 1,
-               "Time step; the default depends on engine, integrator and contact law. auto: chosen by accuracy (articulated), "
-               "or by the stability limit at the start (bullet). gaitlab converge shows the error of a step."});
+  f.number_or(
+      "step", step, "auto",
+      {"s", 1e-9, 1,
+       "Time step; the default depends on engine, integrator and contact law. auto: chosen by accuracy (integrator "
+       "adaptive), or by the stability limit at the start (semi_implicit, rk4). gaitlab converge shows the error of a step."});
   if (known) {
     const Engine& engine = *physics.engine;
     const bool stated = filled && physics.integrator != nullptr;

@@ -30,11 +30,11 @@ TEST(Versus, ErrorIsTheRmsOverTheJointsPeakBehindAMoment) {
   // The torques of two joints have rows at 0, 1, 2 s. The error excludes the first row.
   const versus::Torques reference{{0, 1, 2}, {100, 100, 2, -1, 1, -4}};
   const versus::Torques torques{{0, 1, 2}, {0, 0, 2.3, -1, 1.4, -4.4}};
-  const versus::TorqueError error = versus::torque_error(torques, reference, 0.5);
+  const versus::RaceTorqueError error = versus::torque_error(torques, reference, 0.5);
   EXPECT_EQ(error.joint, 0U);
   EXPECT_NEAR(error.worst, std::sqrt((0.09 + 0.16) / 2) / 2, 1e-15);  // tolerance for rounding errors
   EXPECT_NEAR(error.median, error.worst, 1e-15);                      // the median of two values is the larger value
-  const versus::TorqueError none = versus::torque_error(reference, reference, 0.5);
+  const versus::RaceTorqueError none = versus::torque_error(reference, reference, 0.5);
   EXPECT_EQ(none.worst, 0);
 }
 
@@ -79,7 +79,7 @@ TEST(Versus, ARobotThatFallsThroughTheGroundIsLeftOut) {
   settings.seconds = 0.2;
   settings.rounds = 1;
   settings.least = 0;
-  versus::Results results = versus::race(settings, catalog);
+  versus::RaceResults results = versus::race(settings, catalog);
   EXPECT_TRUE(results.points.empty());
   const std::string table = versus::table(results, true);
   EXPECT_NE(table.find("left out: hexapod: reference mujoco armature: "), std::string::npos) << table;
@@ -87,8 +87,8 @@ TEST(Versus, ARobotThatFallsThroughTheGroundIsLeftOut) {
 }
 
 TEST(Versus, APointThatIsLeftOutIsInNeitherTableNorPlot) {
-  versus::Results results;
-  versus::Point point;
+  versus::RaceResults results;
+  versus::RacePoint point;
   point.scenario = "walk";
   point.contender = "good";
   point.step = 1e-3;
@@ -104,7 +104,7 @@ TEST(Versus, APointThatIsLeftOutIsInNeitherTableNorPlot) {
   EXPECT_EQ(table.find("| bad "), std::string::npos);
   EXPECT_NE(table.find("- left out: bad at 1 ms: travels 1 m, under bullet 2 m\n"), std::string::npos) << table;
   EXPECT_EQ(versus::plot(results).find(">bad<"), std::string::npos);
-  EXPECT_EQ(results.fastest("walk", versus::Group::ours, 0.01), &results.points[0]);
+  EXPECT_EQ(results.fastest("walk", versus::ContenderGroup::ours, 0.01), &results.points[0]);
 }
 
 TEST(Versus, APageIsRenewedBetweenItsTwoLines) {
@@ -159,12 +159,12 @@ TEST(Versus, OverridesAndPatternsHoldForReferencesAndContenders) {
   settings.seconds = 0.02;
   settings.rounds = 1;
   settings.least = 0;
-  const versus::Results results = versus::race(settings, with_mujoco());
+  const versus::RaceResults results = versus::race(settings, with_mujoco());
   ASSERT_FALSE(results.references.empty());
   ASSERT_FALSE(results.points.empty());
   for (const versus::Converged& c : results.references) EXPECT_EQ(c.course.force, 0) << c.name;
   std::set<std::string> ran;
-  for (const versus::Point& p : results.points) {
+  for (const versus::RacePoint& p : results.points) {
     EXPECT_TRUE(p.ran() && p.course.force == 0) << p.step << p.note;
     ran.insert(p.contender);
   }
@@ -179,7 +179,7 @@ TEST(Versus, ARaceNamesEverybodyWithFiniteErrors) {
   settings.seconds = 0.1;
   settings.rounds = 1;
   settings.least = 0;
-  const versus::Results results = versus::race(settings, with_mujoco());
+  const versus::RaceResults results = versus::race(settings, with_mujoco());
   const auto json = nlohmann::json::parse(versus::json(results, settings));
   std::set<std::string> ran;
   for (const auto& point : json["points"]) {
@@ -194,7 +194,7 @@ TEST(Versus, ARaceNamesEverybodyWithFiniteErrors) {
   }
   std::vector<std::string> left_out;
   for (const versus::Contender& c : versus::field(with_mujoco(), left_out).contenders) {
-    if (c.group == versus::Group::bullet_solver) continue;  // may be absent if this Bullet does not support the law
+    if (c.group == versus::ContenderGroup::bullet_solver) continue;  // may be absent if this Bullet does not support the law
     EXPECT_TRUE(ran.contains(c.name)) << c.name;
   }
   const std::string table = versus::table(results, true);
@@ -203,7 +203,7 @@ TEST(Versus, ARaceNamesEverybodyWithFiniteErrors) {
     EXPECT_NE(table.find("| " + name), std::string::npos) << name;
     EXPECT_NE(plot.find(">" + name + "<"), std::string::npos) << name;
   }
-  const versus::Point* best = results.fastest("hexapod", versus::Group::mujoco_best, versus::kGood);
+  const versus::RacePoint* best = results.fastest("hexapod", versus::ContenderGroup::mujoco_best, versus::kGood);
   ASSERT_NE(best, nullptr);  // exists, because a step of 1 ms already gives an error of 1 %
   EXPECT_LE(best->error.worst, versus::kGood);
 }
