@@ -10,6 +10,7 @@
 #include "core/files/atomic_file.h"
 #include "core/scenario/other_engine.h"
 #include "core/scenario/read_scenario.h"
+#include "golden/runs.h"
 #include "report/verdict/numbers/numbers.h"
 #include "report/verdict/plausible/plausibility.h"
 #include "report/verdict/verdict.h"
@@ -105,7 +106,8 @@ GoldenCase orphan(const fs::path& golden) {
 }
 
 // Scenario with another engine. The step is that of the golden, for which the bands were measured, unless that golden has an
-// accuracy instead. The integrator has order 2 if the engine has one, so that its error is far below the bands.
+// accuracy instead. The integrator is explicit if the engine has one, because that shares nothing with the golden; otherwise it
+// has order 2, so that its error is far below the bands.
 Scenario with_engine(const std::string& file, const Scenario& scenario, const std::string& name, double step,
                      Catalog& catalog) {
   if (scenario.physics.engine->name == name) return scenario;
@@ -117,7 +119,7 @@ Scenario with_engine(const std::string& file, const Scenario& scenario, const st
                                  near.empty() ? fmt::format("there are: {}", fmt::join(catalog.engines(), ", "))
                                               : "did you mean '" + near + "'?"));
   }
-  const Integrator* extrapolated = engine->integrator("extrapolated");
+  const Integrator* extrapolated = engine->choose_step != nullptr ? nullptr : engine->integrator("extrapolated");
   const Integrator& integrator = extrapolated != nullptr ? *extrapolated : engine->fixed();
   // The step of a golden with an accuracy is the longest of its engine, and too long for an engine with given steps.
   const bool chooses = scenario.physics.adaptive_step && engine->choose_step != nullptr;
@@ -130,6 +132,7 @@ void read_case(GoldenCase& c, const std::optional<std::string>& engine, Catalog&
     report::check_accepted(scenario);
     const bool chosen = scenario.physics.adapts();
     if (engine) scenario = with_engine(c.file, scenario, *engine, c.golden->origin.step, catalog);
+    take_golden_accuracy(scenario);
     c.other_engine = scenario.physics.engine->name != c.golden->origin.engine;
     if (chosen && !scenario.physics.adapts()) {  // the bands contain no error of a given step
       c.halved = scenario;

@@ -226,6 +226,12 @@ std::vector<GoldenNumber> golden_numbers(const GoldenRun& run) {
   return kept;
 }
 
+bool take_golden_accuracy(Scenario& scenario) {
+  if (!scenario.physics.adapts() || scenario.places->contains("physics.accuracy")) return false;
+  scenario.physics.accuracy = kGoldenAccuracy;
+  return true;
+}
+
 GoldenProvenance golden_origin(const Scenario& scenario) {
   const Engine& engine = *scenario.physics.engine;
   const std::string build = build_id();

@@ -10,6 +10,13 @@
 
 namespace gaitlab::golden {
 
+/// Accuracy of the runs of a golden if the scenario states none. The bands of columns at the default accuracy would be wider than
+/// kWidestColumn.
+inline constexpr double kGoldenAccuracy = 0.001;
+/// Gives kGoldenAccuracy to a scenario whose integrator chooses its steps, unless the scenario states an accuracy. True if the
+/// accuracy has changed.
+bool take_golden_accuracy(Scenario& scenario);
+
 /// The scenario with the columns of a golden as its `trace.columns`: columns that a pattern of `selected` matches or, if it is
 /// empty, those of the usual columns that the scenario's own `trace.columns` match; and those that `before` has, if the run can
 /// have them. The usual columns are torque, current and angle of every joint (only the angle without motors) and the pose of

@@ -32,6 +32,9 @@ constexpr double kAny = std::numeric_limits<double>::infinity();
 constexpr std::array kStepCosts{
     StepCost{"bullet", "semi_implicit", ContactLaw::penalty, 0.4, 0.72, 0.05, 0, 0, 4000, true},
     StepCost{"bullet", "rk4", ContactLaw::penalty, 1.6, 2.9, 0.2, 0, 0, 4000, true},
+    StepCost{"bullet", "implicit", ContactLaw::penalty, 1.5, 0.85, 0.025, 0, 0, kAny, false},
+    StepCost{"bullet", "extrapolated", ContactLaw::penalty, 4, 2.3, 0.06, 0, 0, kAny, false},
+    StepCost{"bullet", "adaptive", ContactLaw::penalty, 1.5, 0.85, 0.025, 0, 0, kAny, false},  // cost of a solve
     StepCost{"bullet", "semi_implicit", ContactLaw::solver, 0, 4.5, 2, 8, 11, 4000, true},
     StepCost{"articulated", "implicit", ContactLaw::penalty, 1.1, 0.4, 0.025, 0, 0, kAny, false},
     StepCost{"articulated", "extrapolated", ContactLaw::penalty, 2.8, 1, 0.06, 0, 0, kAny, false},

@@ -65,7 +65,7 @@ class Agreement {
   static constexpr double kAtLimit = 0.25;  ///< factor on the tolerance of a joint whose motor is at its limit
   static constexpr double kLoose = 0.5;  ///< factor on that of the base if a motor is at its limit or most of the load slides
   // A motion without limits and slipping is smooth, and its errors are a fraction of the estimated ones.
-  static constexpr double kQuiet = 5;         ///< factor on the tolerances in such a motion
+  static constexpr double kQuiet = 2;         ///< factor on the tolerances in such a motion
   static constexpr double kQuietAfter = 0.5;  ///< s, time since the last limit or slip at which it is reached, linearly from 1
 
   T accuracy_;

@@ -36,8 +36,8 @@ std::string time_text(double seconds, const std::string& advice) {
 
 std::string faster_engine(std::span<const Scenario> scenarios, double seconds, const TimeOf& time_of, const ReadAgain& again) {
   constexpr double kWorthAdvice = 5;  // s
-  const auto explicit_engine = [](const Scenario& s) { return s.physics.engine->adaptive() == nullptr; };
-  if (!(seconds > kWorthAdvice) || !std::ranges::any_of(scenarios, explicit_engine)) return "";
+  const auto alone = [](const Scenario& s) { return s.physics.engine->lanes.size() == 1; };
+  if (!(seconds > kWorthAdvice) || !std::ranges::any_of(scenarios, alone)) return "";
   // The second and third options are needed if the scenario states a step or an integrator.
   std::vector<std::string> sets;
   for (const char* set : {"physics.engine=articulated", "physics.step=auto", "physics.integrator=adaptive"}) {

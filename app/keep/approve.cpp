@@ -236,7 +236,8 @@ int approve(const ApproveArguments& arguments) {
   const std::string why = reason(arguments);
   const fs::path folder = own_golden(arguments.file);
   Catalog catalog = standard_catalog();
-  const Scenario scenario = read({arguments.file, {}, {}, true}, catalog);
+  Scenario scenario = read({arguments.file, {}, {}, true}, catalog);
+  const bool more_accurate = take_golden_accuracy(scenario);
   check_target(folder);
   check_law(scenario);
   const std::optional<Golden> before = golden_before(folder, arguments.replace);
@@ -269,6 +270,10 @@ int approve(const ApproveArguments& arguments) {
   if (before && calibrates) fmt::print("{}", band_changes(*before, golden, base.joints));
   write_golden(golden, folder);
   tell(golden, base, folder, calibrates);
+  if (more_accurate) {
+    say(scenario.file, "note",
+        fmt::format("the golden is a run with physics.accuracy: {}, because the scenario states none", kGoldenAccuracy));
+  }
   say(wide_numbers(golden, scenario));
   return 0;
 }

@@ -200,22 +200,17 @@ void ScenarioChecks::automatic_step() {
   const Node* physics = root_.find("physics");
   const Node* step = physics == nullptr ? nullptr : physics->find("step");
   const Node* accuracy = physics == nullptr ? nullptr : physics->find("accuracy");
-  std::vector<std::string> able;
-  for (const std::string& name : catalog_.engines()) {
-    const Engine& engine = *catalog_.engine(name);
-    if (engine.adaptive() != nullptr) {
-      able.push_back(fmt::format("engine: {}, integrator: {}", name, engine.adaptive()->name));
-    }
-  }
+  const Integrator* const adaptive = scenario_.physics.engine->adaptive();
+  const bool able = adaptive != nullptr && !scenario_.contact.model().has_step_of_its_own;
   const std::string chosen =
       fmt::format("integrator '{}' of engine '{}'", scenario_.physics.integrator->name, scenario_.physics.engine->name);
   if (step != nullptr && step->text == "auto" && !scenario_.physics.chosen_step) {
-    problems_.add(step->place, fmt::format("{} cannot choose the step; expected a number of seconds, or {}", chosen,
-                                           fmt::join(able, " or ")));
+    problems_.add(step->place, fmt::format("{} cannot choose the step; expected a number of seconds{}", chosen,
+                                           able ? ", or integrator: " + adaptive->name : ""));
   }
   if (accuracy != nullptr) {
-    problems_.add(accuracy->place, fmt::format("{} uses the given step and ignores accuracy; remove accuracy, or use {}",
-                                               chosen, fmt::join(able, " or ")));
+    problems_.add(accuracy->place, fmt::format("{} uses the given step and ignores accuracy; remove accuracy{}", chosen,
+                                               able ? ", or use integrator: " + adaptive->name : ""));
   }
 }
 

@@ -95,7 +95,9 @@ void PhysicsFields::fields(Fields& f) {
   if (known) {
     const Engine& engine = *physics.engine;
     const bool stated = filled && physics.integrator != nullptr;
-    const Integrator& preset = stated ? *physics.integrator : step > 0 ? engine.fixed() : engine.integrators.front();
+    const Integrator& preset = stated                 ? *physics.integrator
+                               : step > 0 || own_step ? engine.fixed()
+                                                      : engine.integrators.front();
     const Names integrators(engine.integrator_names());
     std::string integrator = preset.name;
     f.one_of("integrator", integrator, integrators.pointers, "Integrator of the engine.");

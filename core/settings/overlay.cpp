@@ -248,8 +248,8 @@ std::string drop_engine_keys(Node& root, const std::vector<std::string>& sets, c
   const auto section = std::ranges::find(root.keys, "physics", [](const auto& key) { return key.first; });
   if (set == sets.end() || section == root.keys.end()) return "";
   Node& physics = root.items[static_cast<std::size_t>(section - root.keys.begin())];
-  const Node* name = physics.find("engine");
-  const Engine* engine = name == nullptr ? nullptr : catalog.engine(name->text);
+  const std::string name = physics.find("engine") == nullptr ? "" : physics.find("engine")->text;
+  const Engine* engine = catalog.engine(name);
   if (engine == nullptr) return "";  // the reader of the section reports an unknown engine
   const std::vector<std::string> integrators = engine->integrator_names();
   const std::string dropped = take_out(physics, "", [&](const std::string& key, const Node& value) {
@@ -257,7 +257,7 @@ std::string drop_engine_keys(Node& root, const std::vector<std::string>& sets, c
     if (key == "accuracy") return engine->adaptive() == nullptr;
     return key == "integrator" && std::ranges::find(integrators, value.text) == integrators.end();
   });
-  return dropped.empty() ? "" : fmt::format("physics: dropped {}, which engine {} does not have", dropped, clipped(name->text));
+  return dropped.empty() ? "" : fmt::format("physics: dropped {}, which engine {} does not have", dropped, clipped(name));
 }
 
 std::vector<std::string> drop_old_keys(Node& root, const std::vector<Retyped>& retyped, const Catalog& catalog) {

@@ -30,9 +30,10 @@ std::vector<std::string> other_engine_of(const Verify& verify, const Scenario& s
     return {};
   }
   const bool own_step = scenario.contact.model().has_step_of_its_own;
-  const bool adapts = engine->adaptive() != nullptr;
   const bool chooses = engine->choose_step != nullptr && !own_step;  // a stable step, up to the longest of the engine
-  const Integrator& integrator = adapts ? engine->integrators.front() : engine->fixed();
+  const bool adapts = engine->adaptive() != nullptr && !own_step;
+  // An explicit integrator shares nothing with the run, and is therefore the better check.
+  const Integrator& integrator = adapts && !chooses ? engine->integrators.front() : engine->fixed();
   const std::string step = adapts || chooses ? "auto" : number_text(engine->given_step(own_step));
   return engine_settings(scenario, name, integrator, step);
 }

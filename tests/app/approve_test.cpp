@@ -59,7 +59,7 @@ TEST_F(ApproveCommand, ApproveKeepsTheBandsOfTheSameGaitAlone) {
   EXPECT_EQ(after.history[2].number, 3);
   EXPECT_NE(after.bands[1].width(), before.bands[1].width());
   EXPECT_EQ(call("test good.yaml").code, 0);
-  folder.write("good.yaml", other_motor + "physics: {step: 1.25e-5}\n");
+  folder.write("good.yaml", finer(other_motor));
   EXPECT_EQ(call("test good.yaml").code, 0);  // an unchanged scenario is within its bands
 
   std::string smaller = kCaterpillar;
@@ -109,7 +109,7 @@ TEST_F(ApproveCommand, AStepAcrossTheLimitOfTransportIsNone) {
   const std::string text =
       "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\ncontact: {on: all}\n"
       "cpg: {type: phase_oscillator, frequency: 1, amplitude: 0.40458984374999996, phase_lag: 1.2}\n"
-      "duration: 0.1\n";  // the distance is 1.0001 mm, and 0.99995 mm with half of the step
+      "duration: 0.1\nphysics: {step: 2.5e-5}\n";  // the distance is 1.0001 mm, and 0.99995 mm with half of the step
   folder.write("edge.yaml", text);
   ASSERT_EQ(call("approve edge.yaml --reason 'on the edge'").code, 0);
   const std::string once = bytes("edge.golden");
@@ -117,7 +117,7 @@ TEST_F(ApproveCommand, AStepAcrossTheLimitOfTransportIsNone) {
   fs::remove_all(folder / "edge.golden");
   ASSERT_EQ(call("approve edge.yaml --reason 'on the edge' -j 2").code, 0);
   EXPECT_EQ(bytes("edge.golden"), once);
-  folder.write("edge.yaml", text + "physics: {step: 1.25e-5}\n");
+  folder.write("edge.yaml", finer(text));
   EXPECT_EQ(call("test edge.yaml").code, 0);
 }
 
@@ -147,7 +147,7 @@ std::string advised(const std::string& message, const std::string& key) {
 // The advice in the message of a refused approval leads to an approved golden in one step.
 TEST_F(ApproveCommand, WhatARefusalAdvisesHelps) {
   const auto approve_with = [&](const std::string& physics) {
-    folder.write("long.yaml", kCaterpillar + "physics: {engine: articulated, " + physics + "}\n");
+    folder.write("long.yaml", kGait + "physics: {engine: articulated, " + physics + "}\n");
     return call("approve long.yaml --reason 'as advised'");
   };
   const auto expect_helps = [&](const std::string& physics) {

@@ -6,9 +6,13 @@
 
 namespace gaitlab::test {
 
-inline const std::string kCaterpillar =
+inline const std::string kGait =
     "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\ncontact: {on: all}\n"
     "cpg: {type: phase_oscillator, frequency: 1, amplitude: 0.6, phase_lag: 1.2}\nduration: 0.1\n";
+/// The gait with steps whose error is far below the bands.
+inline const std::string kCaterpillar = kGait + "physics: {step: 2.5e-5}\n";
+/// A scenario with half of these steps.
+inline std::string finer(std::string text) { return text.replace(text.find("2.5e-5"), 6, "1.25e-5"); }
 
 /// Folder with the scenario good.yaml (two modules that creep for 0.1 s) and its golden, which `approve` has written once.
 class GoldenCommand : public ::testing::Test {

@@ -62,7 +62,7 @@ TEST_F(GoldenCommand, ApprovedIsGreen) {
 /// If a run agrees with its golden but is infeasible, the exit code is 3. Other errors have precedence.
 TEST_F(GoldenCommand, FailsWhatIsInfeasible) {
   // The run has three periods, which are sufficient evidence.
-  std::string walk = kCaterpillar + "physics: {engine: articulated, accuracy: 0.001}\n";
+  std::string walk = kGait + "physics: {engine: articulated, accuracy: 0.001}\n";
   walk.replace(walk.find("duration: 0.1"), 13, "duration: 3");
   walk.replace(walk.find("amplitude: 0.6"), 14, "amplitude: 0.1");
   folder.write("good.yaml", walk);
@@ -171,7 +171,7 @@ TEST_F(GoldenCommand, TellsAnotherVerdict) {
 }
 
 TEST_F(GoldenCommand, HalfTheStepIsNone) {
-  folder.write("good.yaml", kCaterpillar + "physics: {step: 1.25e-5}\n");
+  folder.write("good.yaml", finer(kCaterpillar));
   const Result result = call("test good.yaml");
   EXPECT_EQ(result.code, 0) << result.out;  // by calibration, differences are at most a third of each band
 }
@@ -249,7 +249,7 @@ TEST_F(GoldenCommand, UnreadableGoldenOrScenarioIsNotTested) {
   folder.write("other.yaml", kCaterpillar + "durtion: 1\n");
   result = call("test other.yaml");
   EXPECT_EQ(result.code, 2);
-  EXPECT_EQ(result.err, "other.yaml:6:1: error: unknown key 'durtion'; did you mean 'duration'?\n");
+  EXPECT_EQ(result.err, "other.yaml:7:1: error: unknown key 'durtion'; did you mean 'duration'?\n");
 }
 
 TEST_F(GoldenCommand, ARunThatDiverges) {
@@ -259,7 +259,7 @@ TEST_F(GoldenCommand, ARunThatDiverges) {
   folder.write("good.yaml", wild);
   Result result = call("test good.yaml");
   EXPECT_EQ(result.code, 1);
-  EXPECT_TRUE(result.err.starts_with("good.yaml: error: diverged at step 1, t = 5e-05 s: joint m1/passive turns at"));
+  EXPECT_TRUE(result.err.starts_with("good.yaml: error: diverged at step 1, t = 2.5e-05 s: joint m1/passive turns at"));
   folder.write("wild.yaml", wild);
   result = call("approve wild.yaml --reason 'it flies'");
   EXPECT_EQ(result.code, 1);

@@ -114,7 +114,8 @@ TEST_F(Program, DivergingRunKeepsWhatItHas) {
   folder.write(
       "wild.yaml",
       "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 0.1\nactuator: {type: torque, limit: 0}\n"
-      "controller: {type: hold, period: 0.05, command: {default: 0, m1/passive: 1e6}}\ntrace: {period: 2.5e-5}\n");
+      "controller: {type: hold, period: 0.05, command: {default: 0, m1/passive: 1e6}}\ntrace: {period: 2.5e-5}\n"
+      "physics: {step: 2.5e-5}\n");
   const Result result = gaitlab("run wild.yaml --out out", folder / "");
   EXPECT_EQ(result.code, 1);
   EXPECT_EQ(result.err,

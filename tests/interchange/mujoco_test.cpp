@@ -226,7 +226,7 @@ TEST(Mujoco, NamesTheIntegratorOfEitherEngine) {
 
 /// The exported hexapod is complete: names, contact elements, motors, start state.
 TEST(Mujoco, HoldsTheHexapodWithItsNames) {
-  const Scenario s = shipped("hexapod.yaml");
+  const Scenario s = shipped("hexapod.yaml", {"physics.step=2.5e-5"});
   InMujoco mujoco(s);
   const mjModel& m = mujoco.model();
   EXPECT_EQ(m.nbody, 1 + 33);

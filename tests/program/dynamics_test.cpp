@@ -243,8 +243,8 @@ TEST(ReactionColumns, CarryMotorAndStopTorquesAndNothingHoldsTheBase) {
 TEST(ReactionColumns, BalanceWithRotors) {
   // With one row per step, qdd follows from the speeds of two rows, because semi_implicit adds h qdd to the speeds. Rows
   // between which the command changes are skipped.
-  Scenario walking = shipped(
-      "caterpillar.yaml", {"duration=0.045", "trace.period=2.5e-5", "controller.period=0.02", "actuator.rotor_inertia=1e-8"});
+  Scenario walking = shipped("caterpillar.yaml", {"physics.integrator=semi_implicit", "duration=0.045", "trace.period=2.5e-5",
+                                                  "controller.period=0.02", "actuator.rotor_inertia=1e-8"});
   ASSERT_EQ(walking.physics.step, 2.5e-5);
   walking.trace.columns = {"reaction.base.*", "reaction.3.*", "joint.3.*"};
   const double rotor = 594 * 594 * 1e-8;  // n^2 J

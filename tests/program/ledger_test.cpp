@@ -17,7 +17,7 @@ Ledger ledger(const Scenario& s) { return run(s).ledger; }
 class LedgerOf : public testing::TestWithParam<const char*> {};
 
 TEST_P(LedgerOf, ExplainsTheElectricalEnergy) {
-  Scenario s = shipped(GetParam(), {kShort, kColumns});
+  Scenario s = shipped(GetParam(), {"physics.integrator=semi_implicit", kShort, kColumns});
   const Ledger at_default = ledger(s);
   s.physics.refine(2);
   const Ledger halved = ledger(s);

@@ -31,7 +31,7 @@ inline Scenario random_scenario(RandomRobots& random, Base base, double still = 
   s.initial.base_velocity = still * state.velocity;
   s.initial.base_angular_velocity = still * state.angular_velocity;
   s.physics.engine = catalog().engine("bullet");
-  s.physics.integrator = &s.physics.engine->integrators.front();
+  s.physics.integrator = &s.physics.engine->fixed();
   s.physics.gravity = random.vector(10);
   s.physics.step = 1e-3;
   return s;

@@ -106,9 +106,9 @@ TEST(RandomSteps, EndOnTheLawOfEveryMotor) {
   constexpr int kSteps = 40;
   int limited = 0;
   int changed = 0;
-  double worst = 0;
   StepTally tally;
   for (const char* integrator : {"implicit", "extrapolated", "adaptive"}) {
+    double worst = 0;
     for (std::uint32_t seed = 1; seed <= 120; ++seed) {
       RandomRobots random(seed);
       const Scenario s = at_limits(random);
@@ -140,10 +140,10 @@ TEST(RandomSteps, EndOnTheLawOfEveryMotor) {
       r.plant->tally(0, tally);
       EXPECT_EQ(tally.off, 0) << integrator << ", seed " << seed;
     }
+    // The search for the end of a step has a tolerance of 1e-9, or of a thousandth of the accuracy of 1 %. Rounding the speed at
+    // the end of the step adds 1e-13 at a back-EMF of 1e3 N m s/rad.
+    EXPECT_LE(worst, (integrator == std::string("adaptive") ? 1e-5 : 1e-9) * (1 + 1e-3)) << integrator;
   }
-  // The search for the end of a step has a tolerance of 1e-9. Rounding the speed at the end of the step adds 1e-13 at a
-  // back-EMF of 1e3 N m s/rad.
-  EXPECT_LE(worst, 1e-9 * (1 + 1e-3));
   EXPECT_GT(limited, 1000);
   EXPECT_GT(changed, 1000);
 }

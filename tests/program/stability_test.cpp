@@ -119,7 +119,7 @@ TEST(LambdaRule, AFixedRobotInTheAirStandsOnNothing) {
 TEST(LambdaRule, WarnsInTheSameWordsWhereTheGroundBindsLater) {
   const Folder folder;
   const Result result = gaitlab("run '" + kScenarios +
-                                    "caterpillar.yaml' --set ground.friction=1.2 --set contact.slip_speed=0.002 "
+                                    "caterpillar.yaml' --set physics.integrator=semi_implicit --set ground.friction=1.2 --set contact.slip_speed=0.002 "
                                     "--set duration=4.5 --out out",
                                 folder / "");
   EXPECT_EQ(result.code, 0);

@@ -42,7 +42,8 @@ TEST(StepSettings, ANumberAsksForTheIntegratorOfFirstOrder) {
   EXPECT_FALSE(p.adaptive_step);
   EXPECT_EQ(p.step, 1e-3);
   EXPECT_EQ(physics("engine: articulated, integrator: implicit").step, 5e-4);
-  EXPECT_EQ(physics("engine: bullet").integrator->name, "semi_implicit");
+  EXPECT_EQ(physics("engine: bullet, step: 2e-5").integrator->name, "semi_implicit");
+  EXPECT_EQ(physics("engine: bullet").integrator->name, "adaptive");
 }
 
 TEST(StepSettings, TheAdaptiveIntegratorTakesANumberForItsLongestStep) {
@@ -74,13 +75,12 @@ TEST(StepSettings, AStepIsAWholeShareOfTheControlPeriod) {
 TEST(StepSettings, AutoIsRefusedWhereNothingChoosesSteps) {
   EXPECT_EQ(error("engine: bullet, step: auto", "contact: {law: bullet, on: all}\n"),
             "s.yaml:4:33: error: integrator 'semi_implicit' of engine 'bullet' cannot choose the step; expected a number of "
-            "seconds, or "
-            "engine: articulated, integrator: adaptive\n");
+            "seconds\n");
   for (const char* integrator : {"implicit", "extrapolated", "rk4"}) {
     const std::string text = error(fmt::format("engine: articulated, integrator: {}, step: auto", integrator));
     EXPECT_TRUE(
         contains(text, fmt::format("error: integrator '{}' of engine 'articulated' cannot choose the step; expected a number "
-                                   "of seconds, or engine: articulated, integrator: adaptive\n",
+                                   "of seconds, or integrator: adaptive\n",
                                    integrator)))
         << text;
     EXPECT_TRUE(text.starts_with("s.yaml:4:")) << text;
@@ -90,39 +90,47 @@ TEST(StepSettings, AutoIsRefusedWhereNothingChoosesSteps) {
   EXPECT_EQ(error("engine: articulated, step: 0"), "s.yaml:4:38: error: step is 0 s; expected 1e-09 to 1 s\n");
 }
 
+/// Shipped scenario with the explicit integrator of engine bullet, which chooses its step.
+Scenario explicit_run(const std::string& name, std::vector<std::string> sets = {}) {
+  sets.insert(sets.begin(), "physics.integrator=semi_implicit");
+  return shipped(name, sets);
+}
+
 double h_lambda(const Scenario& s) { return s.physics.step * Simulation({&s, 1}).standing().rate; }
 
-/// The default step of bullet is the longest of a series, up to 5e-5 s, with h lambda of at most 0.8, and of at most 0.45 for
-/// contacts.
+/// The step of an explicit integrator is the longest of a series, up to 5e-5 s, with h lambda of at most 0.8, and of at most
+/// 0.45 for contacts.
 TEST(StepSettings, BulletChoosesTheLongestStepThatIsStable) {
-  const Scenario caterpillar = shipped("caterpillar.yaml");
+  const Scenario caterpillar = explicit_run("caterpillar.yaml");
   EXPECT_EQ(caterpillar.physics.step, 5e-5);
   EXPECT_LT(h_lambda(caterpillar), 0.8) << "its motors set it";
-  const Scenario hexapod = shipped("hexapod.yaml");
+  const Scenario hexapod = explicit_run("hexapod.yaml");
   EXPECT_EQ(hexapod.physics.step, 2.5e-5);
   EXPECT_LT(h_lambda(hexapod), 0.45) << "its feet set it";
   EXPECT_GT(2 * h_lambda(hexapod), 0.45);
-  const Scenario stiff = shipped("caterpillar.yaml", {"actuator.gear=3000"});
+  const Scenario stiff = explicit_run("caterpillar.yaml", {"actuator.gear=3000"});
   EXPECT_LT(stiff.physics.step, 1e-5) << "was refused, with a step to write";
   EXPECT_LE(h_lambda(stiff), 0.8);
   EXPECT_GT(2.5 * h_lambda(stiff), 0.8);
-  EXPECT_EQ(shipped("caterpillar.yaml", {"physics.step=auto"}).physics.step, 5e-5);
-  EXPECT_EQ(shipped("caterpillar.yaml", {"physics.step=2.5e-5"}).physics.step, 2.5e-5);
-  EXPECT_EQ(shipped("pendulum.yaml", {"physics.engine=bullet", "physics.step=auto"}).physics.step, 5e-5) << "nothing limits it";
+  EXPECT_EQ(explicit_run("caterpillar.yaml", {"physics.step=auto"}).physics.step, 5e-5);
+  EXPECT_EQ(explicit_run("caterpillar.yaml", {"physics.step=2.5e-5"}).physics.step, 2.5e-5);
+  EXPECT_EQ(explicit_run("pendulum.yaml", {"physics.engine=bullet", "physics.step=auto"}).physics.step, 5e-5)
+      << "nothing limits it";
 }
 
 TEST(StepSettings, AStepThatBulletChoosesDividesThePeriods) {
-  EXPECT_EQ(shipped("caterpillar.yaml", {"trace.period=0.00499"}).physics.step, 1e-5);
-  EXPECT_EQ(shipped("caterpillar.yaml", {"trace.period=2e-5"}).physics.step, 2e-5);
-  EXPECT_EQ(error("engine: bullet", "trace: {period: 0.0049999999}\n").substr(0, 23), "s.yaml:5:17: error: tra");
+  EXPECT_EQ(explicit_run("caterpillar.yaml", {"trace.period=0.00499"}).physics.step, 1e-5);
+  EXPECT_EQ(explicit_run("caterpillar.yaml", {"trace.period=2e-5"}).physics.step, 2e-5);
+  EXPECT_EQ(error("engine: bullet, integrator: semi_implicit", "trace: {period: 0.0049999999}\n").substr(0, 23),
+            "s.yaml:5:17: error: tra");
 }
 
-/// The default step of bullet follows from the settings of each point, as `sweep` creates them.
+/// The step of an explicit integrator follows from the settings of each point, as `sweep` creates them.
 TEST(StepSettings, AStepThatBulletChoosesFollowsWhatIsSet) {
-  const ScenarioTemplate caterpillar(kScenarios + "caterpillar.yaml", {}, catalog());
+  const ScenarioTemplate caterpillar(kScenarios + "caterpillar.yaml", {"physics.integrator=semi_implicit"}, catalog());
   EXPECT_EQ(caterpillar.with({"cpg.amplitude=0.3"}).physics.step, 5e-5);
   EXPECT_EQ(caterpillar.with({"actuator.gear=3000"}).physics.step,
-            shipped("caterpillar.yaml", {"actuator.gear=3000"}).physics.step);
+            explicit_run("caterpillar.yaml", {"actuator.gear=3000"}).physics.step);
   EXPECT_EQ(caterpillar.with({"trace.period=2e-5"}).physics.step, 2e-5);
 }
 
@@ -138,11 +146,9 @@ TEST(StepSettings, AccuracyIsANumberWithinItsRange) {
 /// The setting `accuracy` is refused for integrators with a fixed step, because it would have no effect.
 TEST(StepSettings, AccuracyIsForIntegratorsThatChooseTheirSteps) {
   for (const char* keys : {"engine: articulated, integrator: implicit, accuracy: 0.01",
-                           "engine: articulated, step: 1e-3, accuracy: 0.01", "engine: bullet, accuracy: 0.01"}) {
+                           "engine: articulated, step: 1e-3, accuracy: 0.01", "engine: bullet, step: 2e-5, accuracy: 0.01"}) {
     const std::string text = error(keys);
-    EXPECT_TRUE(contains(text,
-                         " uses the given step and ignores accuracy; remove accuracy, or use engine: articulated, "
-                         "integrator: adaptive\n"))
+    EXPECT_TRUE(contains(text, " uses the given step and ignores accuracy; remove accuracy, or use integrator: adaptive\n"))
         << text;
   }
 }
@@ -161,7 +167,8 @@ TEST(StepSettings, ResolvedSaysThemAndIsItself) {
            {"engine: articulated, integrator: adaptive, step: 5e-3",
             "  step: 0.005\n  integrator: adaptive\n  accuracy: 0.01\n"},
            {"engine: articulated, step: 1e-3", "  step: 0.001\n  integrator: implicit\n  gravity"},
-           {"engine: bullet", "  step: 2.5e-05\n  integrator: semi_implicit\n  gravity"}}) {
+           {"engine: bullet", "  step: auto\n  integrator: adaptive\n  accuracy: 0.01\n"},
+           {"engine: bullet, integrator: semi_implicit", "  step: 2.5e-05\n  integrator: semi_implicit\n  gravity"}}) {
     const Scenario s = scenario(kHead + motor + "physics: {" + keys + "}\n");
     const std::string text = resolved(s);
     EXPECT_TRUE(contains(text, expected)) << keys << "\n" << text;

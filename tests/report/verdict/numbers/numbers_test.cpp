@@ -89,7 +89,7 @@ TEST(Numbers, TheSummaryHoldsNothingElse) {
 /// The time of the largest tracking error agrees with a trace with a row per step. Rows contain left limits, so that a row
 /// contains the set point of the step before it, which starts at the previous row.
 TEST(Numbers, TheWorstTrackingErrorIsWhereTheTraceHasIt) {
-  const Scenario s = shipped("caterpillar.yaml", {"duration=0.3", "trace.period=2.5e-5"});
+  const Scenario s = shipped("caterpillar.yaml", {"physics.step=2.5e-5", "duration=0.3", "trace.period=2.5e-5"});
   const Recording r = run(s);
   const Json worst = Json::parse(to_json(summarise(s, r, 1), s, r)).at("tracking_error");
   const double largest = worst.at("worst");
@@ -115,7 +115,7 @@ TEST(Numbers, TheWorstTrackingErrorIsWhereTheTraceHasIt) {
 /// The time of a torque peak is that of the largest torque in a trace that has a row per step, or one step earlier. A new
 /// command acts from the start of a step, whose row contains the old command, and its torque decays with the back-EMF.
 TEST(Numbers, TheTimeOfAPeakIsWhereTheTraceHasIt) {
-  const Scenario s = shipped("caterpillar.yaml", {"duration=0.1", "trace.period=2.5e-5"});
+  const Scenario s = shipped("caterpillar.yaml", {"physics.step=2.5e-5", "duration=0.1", "trace.period=2.5e-5"});
   const Recording r = run(s);
   const Table table(r.trace);
   for (std::size_t j = 0; j < r.joints.size(); ++j) {
