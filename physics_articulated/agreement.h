@@ -22,10 +22,10 @@ class Agreement {
 
   /// Begins a whole step, `quiet` seconds after the last limit or slip.
   void begin(const T& quiet) {
-    const T share = T(1 / kQuietAfter) * quiet;
-    const T one = 1.0;
+    const auto up_to_one = [](const T& x) { return math::select(x < T(1.0), x, T(1.0)); };
     quiet_ = quiet;
-    of_quiet_ = accuracy_ * (one + T(kQuiet - 1) * math::select(share < one, share, one));
+    of_quiet_ =
+        accuracy_ * (T(1.0) + T(kQuiet - 1) * up_to_one(T(1 / kQuietAfter) * quiet) * up_to_one(T(1 / kQuietAt) * accuracy_));
     event_ = {};
   }
   /// Time since the last limit or slip, s, at the end of the whole step of `h` seconds.
@@ -64,9 +64,11 @@ class Agreement {
   // An undamped speed error becomes a position error, which changes a torque long after the step that caused the error.
   static constexpr double kAtLimit = 0.25;  ///< factor on the tolerance of a joint whose motor is at its limit
   static constexpr double kLoose = 0.5;  ///< factor on that of the base if a motor is at its limit or most of the load slides
-  // A motion without limits and slipping is smooth, and its errors are a fraction of the estimated ones.
+  // A motion without limits and slipping is smooth, and its error is a small share of the accuracy, the smaller the less
+  // accurate it is.
   static constexpr double kQuiet = 2;         ///< factor on the tolerances in such a motion
   static constexpr double kQuietAfter = 0.5;  ///< s, time since the last limit or slip at which it is reached, linearly from 1
+  static constexpr double kQuietAt = 0.01;    ///< accuracy at which it is reached, linearly from 1
 
   T accuracy_;
   T quiet_ = 0.0, of_quiet_ = 0.0;  ///< at the start of the whole step: time, s, and accuracy

@@ -164,7 +164,7 @@ TEST_F(ApproveCommand, WhatARefusalAdvisesHelps) {
   expect_helps("step: " + advised(result.err, "or physics.step"));
   expect_helps("integrator: extrapolated, step: " + advised(result.err, "extrapolated with physics.step"));
 
-  result = approve_with("step: auto");
+  result = approve_with("accuracy: 0.01");
   EXPECT_EQ(result.code, 2);
   expect_contains(result.err, "; take physics.accuracy: ");
   expect_helps("accuracy: " + advised(result.err, "take physics.accuracy"));

@@ -255,7 +255,7 @@ TEST_F(GoldenCommand, UnreadableGoldenOrScenarioIsNotTested) {
 TEST_F(GoldenCommand, ARunThatDiverges) {
   const std::string wild =
       "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 0.1\nactuator: {type: torque}\n"
-      "controller: {type: hold, period: 0.05, command: {default: 0, m1/passive: 1e6}}\n";
+      "controller: {type: hold, period: 0.05, command: {default: 0, m1/passive: 1e6}}\nphysics: {step: 2.5e-5}\n";
   folder.write("good.yaml", wild);
   Result result = call("test good.yaml");
   EXPECT_EQ(result.code, 1);

@@ -99,11 +99,11 @@ class FasterEngine : public ::testing::Test {
     return text.substr(open + 1, close - open - 1);
   }
   const std::string hexapod = "'" + kScenarios + "hexapod.yaml' --set physics.integrator=semi_implicit";
+  const std::string advice = "--set physics.engine=articulated --set physics.step=auto --set physics.integrator=adaptive";
 };
 
 TEST_F(FasterEngine, CheckNamesIt) {
   const Result first = check(hexapod);
-  const std::string advice = "--set physics.engine=articulated --set physics.step=auto --set physics.integrator=adaptive";
   EXPECT_EQ(advised(first.out), advice) << first.out;
   EXPECT_EQ(first.out, check(hexapod).out);  // reads no clock
   // A command that follows the advice does not get it again.
@@ -130,7 +130,7 @@ TEST_F(FasterEngine, OtherCommandsNameItOnce) {
   EXPECT_EQ(advised(sweep), "");
   // 600 runs of 0.2 s; a dry run simulates only eight of them.
   const std::string many = err("sweep " + hexapod + " --grid cpg.frequency=0.4:0.6:600 --dry-run --set duration=0.2 -j 1");
-  EXPECT_EQ(advised(many), "--set physics.engine=articulated") << many;
+  EXPECT_EQ(advised(many), advice) << many;
   EXPECT_EQ(many.find("engine articulated"), many.rfind("engine articulated")) << many;
   EXPECT_EQ(advised(err("sweep " + hexapod + " --grid cpg.frequency=0.4:0.6:600 --dry-run --set duration=0.2 --quiet")), "");
 }
@@ -145,10 +145,10 @@ TEST_F(FasterEngine, RunAndSwapNameItBeforeTheRuns) {
     return read(folder / "err");
   };
   const std::string one = err("run " + hexapod + " --set duration=2000 --set trace.period=1");
-  EXPECT_EQ(advised(one), "--set physics.engine=articulated") << one;
+  EXPECT_EQ(advised(one), advice) << one;
   EXPECT_TRUE(contains(one, "takes about ")) << one;
   const std::string swap = err("swap " + hexapod + " --cpg tripod --set duration=2000 --set trace.period=1");
-  EXPECT_EQ(advised(swap), "--set physics.engine=articulated") << swap;
+  EXPECT_EQ(advised(swap), advice) << swap;
   EXPECT_EQ(advised(err("run " + hexapod + " --quiet --out quiet --set duration=2000 --set trace.period=1")), "");
 }
 

@@ -97,7 +97,7 @@ TEST(EquationRuns, ThatLeaveTheNumbersNameJointAndState) {
 TEST(EquationRuns, TheFileWithItsEquationsWalksAsTheNativeModel) {
   const Recording native =
       run(shipped("caterpillar.yaml", {"duration=1", "physics.engine=articulated", "physics.accuracy=0.001"}));
-  const Recording written = run(shipped("caterpillar-equations.yaml", {"duration=1"}));
+  const Recording written = run(shipped("caterpillar-equations.yaml", {"duration=1", "physics.accuracy=0.001"}));
   ASSERT_EQ(native.trace.rows(), 201U);
   EXPECT_EQ(native.trace.values, written.trace.values);  // identical bits, because the operations have the same order
 }

@@ -1,5 +1,6 @@
 // Short events that the integrator `adaptive` once missed without a warning. The reference is engine articulated at a short
 // step.
+#include "report/verdict/trust.h"
 #include "tests/folders.h"
 #include "tests/labels.h"
 #include "tests/program/fixture.h"
@@ -33,12 +34,15 @@ TEST_P(Events, AreMetByTheSteps) {
   validate_below({"limits.events", "events within a step, torque at rows: worst joint, RMS over its peak",
                   "engine articulated at 50 us, order 2", ""},
                  torque_error(ours, truth), 0.01, "required: 1 %");
+  // At the default accuracy a larger error is possible, but the estimate shows it.
+  const Recording usual = run(made({}));
+  EXPECT_LE(torque_error(usual, truth), std::max(0.01, std::ranges::max(report::torque_errors(usual))));
 }
 
 // The errors were 5.7 %, 4.2 % and 5.1 % before the shortest step became H / 64 and undamped forces got a separate tolerance.
 INSTANTIATE_TEST_SUITE_P(Of, Events,
-                         testing::Values(Event{"arm-on-heightfield", 0.01}, Event{"limited-tree", 0.001},
-                                         Event{"falling-tree", 0.001}),
+                         testing::Values(Event{"arm-on-heightfield", 0.003}, Event{"limited-tree", 0.001},
+                                         Event{"falling-tree", 0.0005}),
                          [](const auto& info) {
                            std::string name = info.param.name;
                            std::replace(name.begin(), name.end(), '-', '_');

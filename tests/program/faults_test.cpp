@@ -150,7 +150,8 @@ TEST(Faults, AJamInMotionTakesHoldGradually) {
 
 // The hold of 50 N m s/rad is the fastest damper of the robot. The stability rule includes it before the run.
 TEST(Faults, AStuckJointShortensExplicitSteps) {
-  const Scenario s = faulty_caterpillar({"duration=0.09", "physics.integrator=semi_implicit", fault("stuck", "0.03")}, "bullet");
+  const Scenario s =
+      faulty_caterpillar({"duration=0.09", "physics.integrator=semi_implicit", fault("stuck", "0.03")}, "bullet");
   EXPECT_LT(s.physics.step, 5e-6);
   const Recording r = run(s);
   const Table table(r.trace);

@@ -140,8 +140,8 @@ TEST(RandomSteps, EndOnTheLawOfEveryMotor) {
       r.plant->tally(0, tally);
       EXPECT_EQ(tally.off, 0) << integrator << ", seed " << seed;
     }
-    // The search for the end of a step has a tolerance of 1e-9, or of a thousandth of the accuracy of 1 %. Rounding the speed at
-    // the end of the step adds 1e-13 at a back-EMF of 1e3 N m s/rad.
+    // The search for the end of a step has a tolerance of 1e-9, or of a thousandth of the accuracy of 1 %. Rounding the speed
+    // at the end of the step adds 1e-13 at a back-EMF of 1e3 N m s/rad.
     EXPECT_LE(worst, (integrator == std::string("adaptive") ? 1e-5 : 1e-9) * (1 + 1e-3)) << integrator;
   }
   EXPECT_GT(limited, 1000);

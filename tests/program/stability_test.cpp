@@ -118,10 +118,11 @@ TEST(LambdaRule, AFixedRobotInTheAirStandsOnNothing) {
 
 TEST(LambdaRule, WarnsInTheSameWordsWhereTheGroundBindsLater) {
   const Folder folder;
-  const Result result = gaitlab("run '" + kScenarios +
-                                    "caterpillar.yaml' --set physics.integrator=semi_implicit --set ground.friction=1.2 --set contact.slip_speed=0.002 "
-                                    "--set duration=4.5 --out out",
-                                folder / "");
+  const Result result = gaitlab(
+      "run '" + kScenarios +
+          "caterpillar.yaml' --set physics.integrator=semi_implicit --set ground.friction=1.2 --set contact.slip_speed=0.002 "
+          "--set duration=4.5 --out out",
+      folder / "");
   EXPECT_EQ(result.code, 0);
   EXPECT_NE(result.err.find("warning: h lambda exceeds 1 in "), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("step 2.5e-05 s is too long: the largest allowed is "), std::string::npos) << result.err;

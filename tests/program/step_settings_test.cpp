@@ -201,7 +201,7 @@ struct Converge : testing::Test {
 };
 
 TEST_F(Converge, HalvesTheAccuracy) {
-  const std::string text = of("'" + kScenarios + "caterpillar.yaml' --set physics.engine=articulated --set duration=0.3");
+  const std::string text = of("'" + kScenarios + "caterpillar.yaml' --set physics.engine=articulated --set duration=0.6");
   EXPECT_TRUE(contains(text, "caterpillar-8: error against accuracy 0.0025 (RMS over the rows")) << text;
   EXPECT_TRUE(std::regex_search(text, std::regex("\naccuracy +0[.]01 +0[.]005 +order\n"))) << text;
   EXPECT_TRUE(contains(text, "\naccuracy 0.01 is accurate to 1 %: the error is at most ")) << text;
@@ -210,7 +210,7 @@ TEST_F(Converge, HalvesTheAccuracy) {
   std::vector<Trace> traces;
   for (const char* accuracy : {"0.01", "0.005", "0.0025"}) {
     traces.push_back(run(shipped("caterpillar.yaml",
-                                 {"physics.engine=articulated", "duration=0.3", std::string("physics.accuracy=") + accuracy}))
+                                 {"physics.engine=articulated", "duration=0.6", std::string("physics.accuracy=") + accuracy}))
                          .trace);
   }
   const std::vector<ConvergenceRow> rows = convergence(traces, {"joint.3.torque"});
