@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/settings/wording.h"
+#include "report/verdict/hopeless.h"
 #include "report/verdict/measure.h"
 
 namespace gaitlab::app {
@@ -57,6 +58,12 @@ studies::QuantityOffer quantity_offer() {
     const std::optional<report::SummaryQuantity> quantity =
         report::find_quantity(joint.empty() ? name : name + "[" + joint + "]", *scenario.robot);
     return quantity ? report::value_so_far(*quantity, scenario, so_far) : std::nan("");
+  };
+  offer.lost_so_far = [](std::span<const studies::MarginGuard> guards, const Scenario& scenario, const Recording& so_far) {
+    std::vector<report::NeededMargin> needed;
+    for (const studies::MarginGuard& guard : guards) needed.push_back({guard.check, guard.name, guard.least});
+    report::LostCheck lost = report::lost_check(needed, scenario, so_far);
+    return studies::Cause{std::move(lost.check), std::move(lost.part)};
   };
   return offer;
 }

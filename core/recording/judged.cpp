@@ -98,6 +98,26 @@ std::size_t most(const std::vector<JudgedJoint>& joints, double JudgedJoint::*me
   return found;
 }
 
+/// Computes the statistics of a window. Its first row may be later than its start by `within` s.
+void measure_window(const Recording& r, double within, Judged& judged) {
+  judged.joints.resize(r.ticked());
+  judged.whole.resize(r.ticked());
+  const bool known = r.ticked() > 0 && !r.tick(0, kCurrentLimited).empty();
+  if (r.ticks.rows() > 0) judged.first_row = row_at(Series(r.ticks, 0), judged.from, std::max(kSameInstant, within));
+  for (std::size_t j = 0; known && j < r.ticked(); ++j) {
+    judged.joints[j] = from_ticks(r, j, judged.first_row);
+    judged.whole[j] = from_ticks(r, j, 0);
+  }
+  judged.order.resize(judged.joints.size());
+  std::iota(judged.order.begin(), judged.order.end(), 0);
+  std::stable_sort(judged.order.begin(), judged.order.end(), [&](std::size_t a, std::size_t b) {
+    const JudgedJoint& one = judged.joints[a];
+    const JudgedJoint& other = judged.joints[b];
+    return std::tuple(one.limited(), one.torque_rms, one.torque_peak) >
+           std::tuple(other.limited(), other.torque_rms, other.torque_peak);
+  });
+}
+
 }  // namespace
 
 std::size_t Judged::limited(const std::vector<JudgedJoint>& joints) {
@@ -121,24 +141,16 @@ double left_out_start(double end) { return std::min(kLongestStart, kShareOfStart
 Judged judge(const Recording& r, const MotionCycle& cycle, double period, double start) {
   Judged judged;
   window(judged, r.simulated, cycle, period, start);
-  judged.joints.resize(r.ticked());
-  judged.whole.resize(r.ticked());
-  const bool known = r.ticked() > 0 && !r.tick(0, kCurrentLimited).empty();
   // The estimated period must not decide whether a row at the start of the window belongs to it.
-  const double within = judged.periods > 0 ? kWholePeriod * cycle.period : 0;
-  if (r.ticks.rows() > 0) judged.first_row = row_at(Series(r.ticks, 0), judged.from, std::max(kSameInstant, within));
-  for (std::size_t j = 0; known && j < r.ticked(); ++j) {
-    judged.joints[j] = from_ticks(r, j, judged.first_row);
-    judged.whole[j] = from_ticks(r, j, 0);
-  }
-  judged.order.resize(judged.joints.size());
-  std::iota(judged.order.begin(), judged.order.end(), 0);
-  std::stable_sort(judged.order.begin(), judged.order.end(), [&](std::size_t a, std::size_t b) {
-    const JudgedJoint& one = judged.joints[a];
-    const JudgedJoint& other = judged.joints[b];
-    return std::tuple(one.limited(), one.torque_rms, one.torque_peak) >
-           std::tuple(other.limited(), other.torque_rms, other.torque_peak);
-  });
+  measure_window(r, judged.periods > 0 ? kWholePeriod * cycle.period : 0, judged);
+  return judged;
+}
+
+Judged judge_from(const Recording& r, double from) {
+  Judged judged;
+  judged.from = from;
+  judged.to = r.simulated;
+  measure_window(r, 0, judged);
   return judged;
 }
 

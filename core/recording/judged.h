@@ -62,5 +62,7 @@ double left_out_start(double end);
 /// is rounded down to a row of Recording::ticks. These rows cover all steps, so that the result does not depend on
 /// trace.period.
 Judged judge(const Recording& recording, const MotionCycle& cycle, double period, double start = 0);
+/// The same for the window from `from`, s, to the end of the recording, without a number of periods.
+Judged judge_from(const Recording& recording, double from);
 
 }  // namespace gaitlab

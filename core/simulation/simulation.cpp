@@ -78,10 +78,9 @@ bool Simulation::run(const std::function<void(double)>& progress, const std::ato
 }
 
 void Simulation::ask_watch() {
-  constexpr double kEvery = 1;     // s
   constexpr double kSlack = 1e-9;  // s; more than the rounding error of the sum of steps
-  if (done() || time() < asked_ + kEvery - kSlack) return;
-  asked_ += kEvery;
+  if (done() || time() < asked_ + kWatchPeriod - kSlack) return;
+  asked_ += kWatchPeriod;
   for (const auto& lane : lanes_) {
     if (lane->closed || !recorded(*lane)) continue;
     // Until the lane is closed, the recording lacks time and statistics.

@@ -57,6 +57,7 @@ class Simulation {
   /// time of the recording are then filled. The function returns "" to continue, or the reason for ending the lane. The calls
   /// for a lane do not depend on other lanes.
   void watch(std::function<std::string(std::size_t lane, const Recording& so_far)> watch) { watch_ = std::move(watch); }
+  static constexpr double kWatchPeriod = 1;  ///< s, time between two calls of this function for a lane
   /// Steps to the end and calls `progress(share of the steps)` about 200 times. Returns false if `stop` was set before the end.
   bool run(const std::function<void(double)>& progress = {}, const std::atomic<bool>* stop = nullptr);
 

@@ -251,6 +251,13 @@ double settled_from(const Scenario& s, const Recording& r, double start, double 
   return equal >= 2 && apart ? to - equal * unit : 0;
 }
 
+/// Sets the start of a gait with a known period and full size, in a run that ends at `end`, s.
+void find_start(const Scenario& s, const Recording& r, double end, double ramp, Gait& made) {
+  const double carried = made.period > 0 ? carried_from(s, r, made.period) : 0;
+  made.start = std::max({last_change(s, end), ramp < end ? ramp : 0, carried});
+  if (!(made.full_size > 0)) made.start = std::max(made.start, settled_from(s, r, made.start, made.period));
+}
+
 }  // namespace
 
 Gait gait(const Scenario& s, const Recording& r) {
@@ -258,9 +265,14 @@ Gait gait(const Scenario& s, const Recording& r) {
   const auto [stated, full_size, ramp] = stated_times(s);
   made.full_size = full_size;
   if (s.cpg.entry != nullptr) made.period = period_of(s, r, stated, made);
-  const double carried = made.period > 0 ? carried_from(s, r, made.period) : 0;
-  made.start = std::max({last_change(s, r.simulated), ramp < r.simulated ? ramp : 0, carried});
-  if (!(full_size > 0)) made.start = std::max(made.start, settled_from(s, r, made.start, made.period));
+  find_start(s, r, r.simulated, ramp, made);
+  return made;
+}
+
+Gait gait_so_far(const Scenario& s, const Recording& so_far) {
+  const StatedTimes stated = stated_times(s);
+  Gait made{.period = stated.period, .full_size = stated.full_size};
+  find_start(s, so_far, s.duration, stated.ramp, made);
   return made;
 }
 

@@ -17,6 +17,10 @@ enum class CheckGroup { run, motor, motion, structure, ground, trust };
 /// Time interval to which a check applies: the judged window or the whole run. A failure of a whole-run check remains a failure
 /// if the run is continued.
 enum class CheckSpan { window, whole_run };
+/// Value from which a check of a run that has not ended counts as lost (hopeless.h): `never`; beyond its limit, for the
+/// `extreme` of a whole run, which does not recover; beyond 1.5 times its limit, for a `peak` in the judged window; beyond five
+/// times its limit, for a `share` of the time, which the rest of the run can reduce.
+enum class Lost { never, extreme, peak, share };
 /// Kind of the robot's part with the least margin, named in Check::worst.
 enum class Part { none, joint, body, dock, foot };
 
@@ -116,6 +120,7 @@ struct CheckKind {
   bool least = false;         ///< the limit is a lower limit
   bool of_all_loads = false;  ///< true: without a stated limit the check needs Loads::recorded to compute its number
   bool rating = false;        ///< true: the limit is a rated load, which does not act on the motion
+  Lost lost = Lost::never;
   [[nodiscard]] bool can_fail() const { return !fails.empty(); }
 };
 /// All kinds of checks, in the order of the verdict.

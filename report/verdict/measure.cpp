@@ -117,6 +117,13 @@ std::optional<QuantityText> describe_quantity(const std::string& name, const Rob
   return {};
 }
 
+double margin_quantity(const std::string& name, const Check& check) {
+  const std::optional<OfVerdict> found = OfVerdict::find(name);
+  Verdict alone;
+  alone.checks.push_back(check);
+  return found && name.starts_with(std::string(kMarginOf) + check.id) ? found->value(alone) : std::nan("");
+}
+
 namespace {
 
 /// Quantity of each column for a robot. Nothing for a column of the verdict, and for a joint that the robot does not have.

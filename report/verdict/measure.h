@@ -27,6 +27,9 @@ std::optional<SummaryQuantity> find_quantity(const std::string& name, const Robo
 /// name is unknown.
 std::optional<QuantityText> describe_quantity(const std::string& name, const Robot& robot);
 
+/// Value of the quantity `margin.ID` or `margin.ID[LIMIT]` for this check, which has that id; NaN for another name.
+double margin_quantity(const std::string& name, const Check& check);
+
 /// Result of a run: its quantities (NaN if not known), the word of its verdict, the reason for that word as a sentence, and the
 /// id of the deciding check with its part. The last two are empty if no check decides.
 struct MeasuredRun {

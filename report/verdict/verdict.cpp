@@ -205,7 +205,8 @@ void leave_passes_out(Verdict& made) {
   }
 }
 
-/// Computes the check of a kind for the run.
+}  // namespace
+
 Check judged_check(const CheckKind& kind, const CheckedRun& run) {
   Check check{.id = kind.id,
               .group = kind.group,
@@ -228,8 +229,6 @@ Check judged_check(const CheckKind& kind, const CheckedRun& run) {
   check.text = without_folders(std::move(check.text), run.scenario);
   return check;
 }
-
-}  // namespace
 
 Verdict verdict(const Scenario& scenario, const Recording& record, const Summary& summary, const Overlaps& overlaps) {
   const CheckedRun run{scenario, record, summary, overlaps};

@@ -32,6 +32,13 @@ class Gather {
   std::vector<Brief> runs_;
 };
 
+/// True if a run counts as failed. A stopped run with a score, which breaks a limit, counts like a completed one if a point
+/// must not break a limit in any of its runs: the point is then not kept, and models learn from what ran.
+bool has_failed(const JournalHead& head, const Brief& run) {
+  const bool every = head.combine == name_of(Combine::worst) || head.combine == name_of(Combine::mean);
+  return !run.score || (run.outcome != name_of(Ended::done) && (run.outcome != name_of(Ended::stopped) || !every));
+}
+
 /// Largest violation of the nominal runs of a point in a robust study: the first replicate in each scenario. Infinite if one of
 /// them failed.
 double nominal_violation(const JournalHead& head, std::span<const Brief> runs) {
@@ -39,8 +46,7 @@ double nominal_violation(const JournalHead& head, std::span<const Brief> runs) {
   double largest = 0;
   for (const Brief& run : runs) {
     if (run.run % head.replicates % in_scenario != 0) continue;
-    const bool failed = run.outcome != "done" || !run.score;
-    largest = std::max(largest, failed ? std::numeric_limits<double>::infinity() : run.score->violation);
+    largest = std::max(largest, has_failed(head, run) ? std::numeric_limits<double>::infinity() : run.score->violation);
   }
   return largest;
 }
@@ -54,11 +60,12 @@ PointResult point_result(const JournalHead& head, std::span<const Brief> runs) {
   for (const Brief& run : runs) {
     if (run.verdict == Word::feasible) ++point.feasible_runs;
     if (run.verdict == Word::infeasible) ++point.infeasible_runs;
-    if (run.outcome != "done" || !run.score) {
+    if (has_failed(head, run)) {
       point.lived = point.failed == 0 ? run.simulated : std::min(point.lived, run.simulated);
       ++point.failed;
       continue;
     }
+    point.stopped += run.outcome == name_of(Ended::stopped) ? 1 : 0;
     for (std::size_t k = 0; k < head.objectives.size(); ++k)
       bad[k].push_back(head.objectives[k].maximize ? -run.score->objectives[k] : run.score->objectives[k]);
     violation.push_back(run.score->violation);

@@ -188,7 +188,7 @@ void BoundStudy::make_scorers(const QuantityOffer& offer, const Catalog& catalog
     columns[s] = s == 0 ? columns_ : columns_of(study_, offer, one.joints);
     scorer_ = std::make_unique<Scorer>(study_, columns[s], offer, one.joints, found[s]);
     one.other_engine = other_engine_of(study_.verify, one.nominal, catalog, found[s]);
-    stops_ = std::make_unique<StopRules>(study_, offer, one.joints, found[s]);
+    stops_ = std::make_unique<StopRules>(study_, offer, one.joints, scorer_->margins(), found[s]);
   }
   check_stops();
   if (std::ranges::all_of(found, &Problems::empty)) {

@@ -81,7 +81,9 @@ std::string definition(const BoundStudy& bound) {
     text += fmt::format("{}: {}\n", study.objectives[k].maximize ? "maximize" : "minimize", bound.scorer().objectives()[k]);
   for (const Limit& limit : bound.scorer().limits())
     text += fmt::format("{}: {}\n", limit.guard ? "guard" : "constraint", limit.text);
-  for (const std::string& stop : bound.stops().texts()) text += "stop: " + stop + "\n";
+  for (const std::string& stop : bound.stops().texts()) {
+    if (!study.told) text += "stop: " + stop + "\n";
+  }
   text += fmt::format("estimate_every: {}\n", study.estimate_every);
   std::string columns;
   for (const Quantity& column : bound.columns()) columns += column.name + "\n";

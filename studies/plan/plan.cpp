@@ -119,17 +119,25 @@ bool Plan::drawn_for_estimate(const std::string& point) const {
 void Plan::finish(Row& row, const Scenario& scenario, const Recording& recording, const Measure& measure) const {
   row.simulated = recording.simulated;
   row.outcome = name_of(recording.outcome.ended);
-  if (!recording.outcome.done()) {
+  const bool done = recording.outcome.done();
+  if (!done) {
     row.message = recording.outcome.message;
     row.verdict = Word::failed;
-    return;
   }
+  if (!done && recording.outcome.ended != Ended::stopped) return;
   RunMeasured measured = measure(scenario, recording);
   row.quantities = std::move(measured.quantities);
-  row.verdict = measured.verdict;
-  row.message = std::move(measured.why);
-  row.cause = std::move(measured.cause);
+  if (done) {
+    row.verdict = measured.verdict;
+    row.message = std::move(measured.why);
+    row.cause = std::move(measured.cause);
+  }
+  score(row);
+}
+
+void Plan::score(Row& row) const {
   row.score = scorer().score(row.quantities, row.verdict);
+  if (row.outcome != name_of(Ended::done) && row.score->kept()) row.score.reset();
 }
 
 }  // namespace gaitlab::studies

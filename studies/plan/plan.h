@@ -59,6 +59,8 @@ class Plan {
   [[nodiscard]] Row row(std::uint64_t run) const;
   /// Writes the results of the run into its row.
   void finish(Row& row, const Scenario& scenario, const Recording& recording, const Measure& measure) const;
+  /// Scores a row with quantities. A stopped run that breaks no limit gets no score, because it must not be kept.
+  void score(Row& row) const;
 
  private:
   /// Settings of the run's world in a robust study. `sets` are those of the run itself. Empty for the nominal run, and if the

@@ -9,8 +9,9 @@
 
 namespace gaitlab::studies {
 
-StopRules::StopRules(const Study& study, const QuantityOffer& offer, const std::vector<std::string>& joints, Problems& problems)
-    : offer_(offer) {
+StopRules::StopRules(const Study& study, const QuantityOffer& offer, const std::vector<std::string>& joints,
+                     std::span<const MarginGuard> guards, Problems& problems)
+    : guards_(guards.begin(), guards.end()), offer_(offer) {
   const auto is_of = [](const std::vector<Quantity>& quantities, const std::string& name) {
     return std::ranges::find(quantities, name, &Quantity::name) != quantities.end();
   };
@@ -32,22 +33,29 @@ StopRules::StopRules(const Study& study, const QuantityOffer& offer, const std::
     return {number};
   };
   for (const StopText& stop : study.stops) {
-    Formula when(stop.when, names, problems);
+    std::optional<Formula> when;
+    if (stop.when.text != kHopeless) when.emplace(stop.when, names, problems);
     rules_.push_back({stop.when.text + (stop.after > 0 ? fmt::format(" after {}", number_text(stop.after)) : ""), stop.after,
                       std::move(when)});
   }
 }
 
-std::string StopRules::reason(const Scenario& scenario, const Recording& so_far) const {
+std::string StopRules::reason(const Scenario& scenario, const Recording& so_far, bool whole) const {
   constexpr double kSlack = 1e-9;  // s: the time is a number of steps times the step, which may round below a whole second
   std::vector<double> values;
   for (const Rule& rule : rules_) {
     if (so_far.simulated < rule.after - kSlack) continue;
+    const auto text = [&] { return fmt::format("stopped by {} at t = {:.6g} s", rule.text, so_far.simulated); };
+    if (!rule.when) {
+      const Cause lost = whole || guards_.empty() ? Cause() : offer_.lost_so_far(guards_, scenario, so_far);
+      if (!lost.check.empty()) return text() + ": " + lost.text();
+      continue;
+    }
     if (values.empty()) {
       for (const auto& [name, joint] : quantities_) values.push_back(offer_.value_so_far(name, joint, scenario, so_far));
     }
-    const double holds = rule.when.value(values);
-    if (std::isfinite(holds) && holds != 0) return fmt::format("stopped by {} at t = {:.6g} s", rule.text, so_far.simulated);
+    const double holds = rule.when->value(values);
+    if (std::isfinite(holds) && holds != 0) return text();
   }
   return "";
 }

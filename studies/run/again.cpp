@@ -18,6 +18,7 @@ bool do_again(const Again& again, const Executor& executor, std::atomic<bool>& s
                     if (next == again.count) return {};
                     Job job = again.job(next++);
                     job.estimate = again.estimate;
+                    job.whole = true;
                     return job;
                   },
                   .begin = [](std::span<const std::uint64_t>) {},

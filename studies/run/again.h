@@ -9,9 +9,9 @@
 
 namespace gaitlab::studies {
 
-/// Second runs with the numbers 0 to count - 1. `told` is called before the first run with 0 and `count`. When a group of runs
-/// that were simulated together has ended, `take` is called with their rows, and then `told` with the number of all runs that
-/// have ended so far, and `count`. Calls do not overlap.
+/// Second runs with the numbers 0 to count - 1, which continue even if they are hopeless. `told` is called before the first run
+/// with 0 and `count`. When a group of runs that were simulated together has ended, `take` is called with their rows, and then
+/// `told` with the number of all runs that have ended so far, and `count`. Calls do not overlap.
 struct Again {
   std::size_t count = 0;
   std::function<Job(std::size_t number)> job;

@@ -24,15 +24,23 @@ std::string key_of(const Row& row) {
   return key_of(row.point, std::to_string(row.replicate), std::to_string(row.seed), row.scenario);
 }
 
-/// The lines of a definition that contain stop rules.
-std::string stop_lines(const std::string& definition) {
-  std::string lines;
+/// The lines of a definition that decide when runs are stopped: by expressions, and as hopeless, with the guards.
+struct StopLines {
+  std::string rules, hopeless;
+};
+
+StopLines stop_lines(const std::string& definition) {
+  StopLines lines;
+  std::string guards;
   for (std::size_t at = 0; at < definition.size();) {
     const std::size_t end = std::min(definition.find('\n', at), definition.size());
-    const std::string line = definition.substr(at, end - at);
-    if (line.starts_with("stop: ")) lines += line + "\n";
+    const std::string line = definition.substr(at, end - at) + "\n";
+    const std::string key = line.substr(0, line.find(": "));
+    if (key == "guard") guards += line;
+    if (key == "stop") (line.find(kHopeless) == key.size() + 2 ? lines.hopeless : lines.rules) += line;
     at = end + 1;
   }
+  if (!lines.hopeless.empty()) lines.hopeless += guards;
   return lines;
 }
 
@@ -150,7 +158,10 @@ Answers::Answers(const Plan& plan, std::filesystem::path file, const std::string
            "; use its answers anyway with --accept-build");
   }
   if (head.told) refuse("has results that another program gave; expected the journal of simulated runs");
-  if (stop_lines(head.definition) != stop_lines(definition(plan.bound())))
+  const StopLines theirs = stop_lines(head.definition);
+  const StopLines own = stop_lines(definition(plan.bound()));
+  stops_alike_ = theirs.hopeless == own.hopeless;
+  if (theirs.rules != own.rules)
     refuse("is of a study with other rules for stopping runs; its runs may have ended at other times");
   const std::vector<std::string> names = journal_->columns().all();
   for (const Quantity& quantity : plan.columns()) {
@@ -196,12 +207,14 @@ std::optional<Row> Answers::find(const Row& wanted) {
   if (there.size() <= verdict_ || !same_values(wanted, there)) return {};
   Row row = wanted;
   row.outcome = there[outcome_];
+  const bool stopped = row.outcome == name_of(Ended::stopped);
+  if (stopped && !stops_alike_) return {};
   row.message = there[message_];
   row.simulated = number_of(there[simulated_]);
   row.verdict = named_cell<Word>(there[verdict_], "verdict", journal_->file());
-  if (row.outcome != "done") return row;
+  if (row.outcome != name_of(Ended::done) && !stopped) return row;
   for (const std::size_t k : quantities_) row.quantities.push_back(there[k].empty() ? std::nan("") : number_of(there[k]));
-  row.score = plan_.scorer().score(row.quantities, row.verdict);
+  plan_.score(row);
   return row;
 }
 

@@ -18,7 +18,7 @@ class LocalWork {
                        .end = [this](std::vector<RolloutEnd>&& pack) { end(std::move(pack)); }};
     if (!plan_.stops().empty()) {
       stream.watch = [this](const Rollout& rollout, const Recording& so_far) {
-        return plan_.stops().reason(rollout.scenario, so_far);
+        return plan_.stops().reason(rollout.scenario, so_far, whole(rollout.number));
       };
     }
     const bool whole = run_pulled(stream, settings, measure_.reads, stop);
@@ -38,7 +38,7 @@ class LocalWork {
           physics.estimated_by_others = true;
         }
         const std::lock_guard lock(mutex_);
-        rows_[run] = std::move(job->row);
+        jobs_[run] = std::move(*job);
         return rollout;
       } catch (const InputError& error) {
         refuse(job->row, error.problems());
@@ -72,7 +72,12 @@ class LocalWork {
 
   Row take(std::uint64_t run) {
     const std::lock_guard lock(mutex_);
-    return std::move(rows_.extract(run).mapped());
+    return std::move(jobs_.extract(run).mapped().row);
+  }
+
+  bool whole(std::uint64_t run) {
+    const std::lock_guard lock(mutex_);
+    return jobs_.at(run).whole;
   }
 
   /// Marks the row of a run whose scenario is refused with its values. The message is the first problem.
@@ -91,7 +96,7 @@ class LocalWork {
   const Work& work_;
   std::vector<Row> refused_;  ///< rows refused by next(), which only one thread at a time calls
   std::mutex mutex_;          ///< guards the following members
-  std::map<std::uint64_t, Row> rows_;
+  std::map<std::uint64_t, Job> jobs_;
 };
 
 }  // namespace

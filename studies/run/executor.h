@@ -19,6 +19,7 @@ struct Job {
   std::vector<std::string> sets;
   std::size_t scenario = 0;
   bool estimate = false;  ///< true to estimate the torque error of this run, regardless of the random choice of points
+  bool whole = false;     ///< true to continue this run even if it is hopeless, because its numbers are evidence
 };
 
 /// Source of an executor's jobs and receiver of their rows.

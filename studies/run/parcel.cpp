@@ -44,7 +44,7 @@ Row row_of(const Json& json) {
 
 Bytes packed(std::span<const Job> jobs) {
   Json all = Json::array();
-  for (const Job& job : jobs) all.push_back(Json::array({json_of(job.row), job.sets, job.scenario, job.estimate}));
+  for (const Job& job : jobs) all.push_back(Json::array({json_of(job.row), job.sets, job.scenario, job.estimate, job.whole}));
   return Json::to_cbor(all);
 }
 
@@ -57,8 +57,8 @@ Bytes packed(std::span<const Row> rows) {
 std::vector<Job> jobs_of(const Bytes& bytes) {
   std::vector<Job> jobs;
   for (const Json& one : Json::from_cbor(bytes)) {
-    jobs.push_back(
-        {row_of(one.at(0)), one.at(1).get<std::vector<std::string>>(), one.at(2).get<std::size_t>(), one.at(3).get<bool>()});
+    jobs.push_back({row_of(one.at(0)), one.at(1).get<std::vector<std::string>>(), one.at(2).get<std::size_t>(),
+                    one.at(3).get<bool>(), one.at(4).get<bool>()});
   }
   return jobs;
 }

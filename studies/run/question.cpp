@@ -100,32 +100,33 @@ std::string question_text(std::uint64_t id, const Study& study, std::span<const 
 std::string answer(const Question& question, const JournalHead& head, std::span<const MarginGuard> guards,
                    std::span<const Brief> runs, std::span<const std::vector<std::string>> quantities) {
   std::string text = fmt::format(R"({{"id":{})", question.id);
-  const auto failed = std::ranges::find_if(runs, [](const Brief& run) { return run.outcome != "done"; });
+  const auto early = std::ranges::find_if(runs, [](const Brief& run) { return run.outcome != "done"; });
   const PointResult point = runs.empty() ? PointResult{} : point_result(head, runs);
-  const bool done = !runs.empty() && point.failed == 0;  // `share` tolerates some failed replicates
+  const bool scored = !runs.empty() && point.failed == 0;  // `share` tolerates some failed replicates
+  const bool done = scored && point.stopped == 0;
   if (runs.empty()) {
     text += R"(,"run":null,"outcome":"refused","message":)" + json_text(question.refused);
   } else {
-    text += fmt::format(R"(,"run":{},"outcome":{})", runs.front().run, json_text(done ? "done" : failed->outcome));
-    if (!done) text += R"(,"message":)" + json_text(failed->message);
+    text += fmt::format(R"(,"run":{},"outcome":{})", runs.front().run, json_text(done ? "done" : early->outcome));
+    if (!done) text += R"(,"message":)" + json_text(early->message);
     double simulated = runs.front().simulated;
     for (const Brief& run : runs) simulated = std::min(simulated, run.simulated);
     text += R"(,"simulated":)" + json_number(simulated);
     if (runs.size() == 1) text += R"(,"verdict":)" + json_text(name_of(runs.front().verdict));
   }
   text += R"(,"figures":{)";
-  for (std::size_t k = 0; done && k < head.quantities.size(); ++k)
+  for (std::size_t k = 0; scored && k < head.quantities.size(); ++k)
     text += (k == 0 ? "" : ",") + json_text(head.quantities[k].name) + ":" + of_runs(quantities, k, 0, head.replicates > 1);
   text += R"(},"margins":{)";
-  for (std::size_t k = 0; done && k < guards.size(); ++k) {
+  for (std::size_t k = 0; scored && k < guards.size(); ++k) {
     text += (k == 0 ? "" : ",") + json_text(guards[k].check) + ":" +
             of_runs(quantities, guards[k].column, guards[k].least, head.replicates > 1);
   }
   text += R"(},"objective":[)";
   for (std::size_t k = 0; k < head.objectives.size(); ++k)
-    text += (k == 0 ? "" : ",") + (done ? json_number(point.score.objectives[k]) : "null");
-  text += fmt::format(R"(],"violation":{},"kept":{},"feasible":{})", done ? json_number(point.score.violation) : "null",
-                      done && point.kept(), done && point.feasible());
+    text += (k == 0 ? "" : ",") + (scored ? json_number(point.score.objectives[k]) : "null");
+  text += fmt::format(R"(],"violation":{},"kept":{},"feasible":{})", scored ? json_number(point.score.violation) : "null",
+                      scored && point.kept(), scored && point.feasible());
   if (head.replicates > 1) text += R"(,"feasible_share":)" + (runs.empty() ? "null" : json_number(point.feasible_share()));
   text += "}";
   return text;

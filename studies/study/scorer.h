@@ -19,6 +19,13 @@ struct Quantity {
   std::string name, unit, meaning;
 };
 
+/// The check that decided a verdict, and its part. Both are empty if no check decided it.
+struct Cause {
+  std::string check, part;
+  /// Text such as `dock bending of m5`.
+  [[nodiscard]] std::string text() const;
+};
+
 /// Quantities and checks that the program offers.
 struct QuantityOffer {
   std::vector<Quantity> common;     ///< quantities that every run has
@@ -29,13 +36,8 @@ struct QuantityOffer {
   std::vector<std::string> so_far = {};
   std::function<double(const std::string& name, const std::string& joint, const Scenario& scenario, const Recording& so_far)>
       value_so_far = {};
-};
-
-/// The check that decided a verdict, and its part. Both are empty if no check decided it.
-struct Cause {
-  std::string check, part;
-  /// Text such as `dock bending of m5`.
-  [[nodiscard]] std::string text() const;
+  /// The check that a run has lost before its end, of those that guards require; empty if there is none.
+  std::function<Cause(std::span<const MarginGuard> guards, const Scenario& scenario, const Recording& so_far)> lost_so_far = {};
 };
 
 /// Result of one run: its quantities by column (NaN if not known), the word of its verdict, the reason for that word as a

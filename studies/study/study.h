@@ -60,6 +60,8 @@ struct Replicates {
   Combine combine = Combine::worst;
   double quantile = 0.5;  ///< argument of `quantile`, `share` and `robust`
   [[nodiscard]] bool has_argument() const { return combine >= Combine::quantile; }
+  /// True if a point is kept only if none of its runs breaks a limit.
+  [[nodiscard]] bool every_run_counts() const { return combine <= Combine::worst; }
   [[nodiscard]] std::uint64_t number() const { return count == 0 ? 1 : static_cast<std::uint64_t>(count); }
 };
 
@@ -80,11 +82,13 @@ struct Guard {
   SourceLocation place = {};
 };
 
-/// A rule that ends a hopeless run: `when` is an expression that is tested from `after` seconds on.
+/// A rule that ends a run: `when` is an expression, or kHopeless, that is tested from `after` seconds on.
 struct StopText {
   FormulaText when;
   double after = 0;  ///< s
 };
+/// The rule that ends a run which has lost a guard before its end; the default of searches.
+inline constexpr const char* kHopeless = "hopeless";
 
 }  // namespace studies
 

@@ -100,9 +100,10 @@ void read_constraints(const Node& node, Study& study, Problems& problems) {
   }
 }
 
-/// Reads a list of stop rules, each an expression, optionally followed by ` after SECONDS`.
+/// Reads `none`, or a list of stop rules, each an expression or `hopeless`, optionally followed by ` after SECONDS`.
 void read_stops(const Node& node, Study& study, Problems& problems) {
-  if (node.kind != Node::Kind::list) problems.add(node.place, "stop is " + found(node) + "; expected a list of texts");
+  if (node.kind == Node::Kind::scalar && node.text == "none") return;
+  if (node.kind != Node::Kind::list) problems.add(node.place, "stop is " + found(node) + "; expected a list of texts, or none");
   for (const Node& item : node.items) {
     if (node.kind != Node::Kind::list) return;
     if (item.kind != Node::Kind::scalar) {
@@ -161,9 +162,10 @@ Explainer study_keys() {
   explainer.row("guards", "", "verdict", "verdict, none or {CHECK: LIMIT, CHECK: {margin: M}, CHECK: true or false}",
                 "Checks of the verdict that a point must pass. verdict: the verdict must be `feasible`. A map changes this for "
                 "single checks, by id: another limit, a least margin, true (required) or false (ignored).");
-  explainer.row("stop", "", "[]", "texts: `EXPRESSION` or `EXPRESSION after SECONDS`",
+  explainer.row("stop", "", "[hopeless] in searches", "none or texts: `hopeless`, `EXPRESSION`, `EXPRESSION after SECONDS`",
                 "Rules that end a run early, evaluated once every simulated second on quantities of the run so far: `fell`, or "
-                "quantities of a joint.");
+                "quantities of a joint. `hopeless`: a guard is lost, whatever follows. It is the default of `gaitlab optimize` "
+                "and `evaluate` if every run of a point counts (`combine: worst` or `mean`).");
   explainer.row("start", "", "[]", "[{PARAMETER: VALUE, ...}, ...]",
                 "Points that a search runs first, after the scenario's own values, which it always runs. A parameter "
                 "that is left out has the scenario's value.");
@@ -230,6 +232,13 @@ Replicates in_worlds() {
   return {.count = kMost, .vary = {}, .combine = Combine::robust, .quantile = kShare};
 }
 
+/// Reads the rules that stop runs. Without them, a hopeless run of a search ends early if it decides about its point alone.
+void read_stops(Reader& reader, const Node& root, Purpose purpose, Study& study, Problems& problems) {
+  if (const Node* node = reader.take("stop")) return read_stops(*node, study, problems);
+  if (purpose == Purpose::sweep || !study.replicates.every_run_counts()) return;
+  study.stops.push_back({{kHopeless, Node{Node::Kind::scalar, root.place, kHopeless}}, 0});
+}
+
 /// Reads `scenario` and `scenarios`.
 void read_scenario_keys(Reader& reader, const Node& root, Study& study, Problems& problems) {
   const Node* one = root.find("scenario");
@@ -287,7 +296,7 @@ Study read_study(const std::string& file, Purpose purpose) {
   if (const Node* node = reader.take("objective")) read_objectives(*node, study.objectives, problems);
   if (const Node* node = reader.take("constraints")) read_constraints(*node, study, problems);
   if (const Node* node = reader.take("guards")) read_guards(*node, study, problems);
-  if (const Node* node = reader.take("stop")) read_stops(*node, study, problems);
+  read_stops(reader, root, purpose, study, problems);
   if (const Node* node = reader.take("start")) read_starts(*node, study, problems);
   if (!reader.has("scenarios")) reader.require({"scenario"});
   reader.require({"parameters"});

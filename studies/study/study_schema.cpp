@@ -53,8 +53,8 @@ constexpr const char* kStudyRest = R"json({
     "description": "Conditions that a point must satisfy: a <= b, a >= b or a == b."},
   "guards": {"anyOf": [{"enum": ["verdict", "none", "gait"]}, {"$ref": "#/definitions/guards"}], "default": "verdict",
     "description": "Checks of the verdict that a point must pass. verdict: the verdict must be feasible; checks by id are added to it or change it."},
-  "stop": {"type": "array", "items": {"$ref": "#/definitions/scalar"}, "default": [],
-    "description": "Rules that end a run early: EXPRESSION, or EXPRESSION after SECONDS."},
+  "stop": {"anyOf": [{"const": "none"}, {"type": "array", "items": {"$ref": "#/definitions/scalar"}}],
+    "description": "Rules that end a run early: hopeless (a guard is lost; default of searches), EXPRESSION, or EXPRESSION after SECONDS."},
   "start": {"type": "array", "items": {"type": "object", "additionalProperties": {"$ref": "#/definitions/scalar"}}, "default": [],
     "description": "Points of the first block of a search, by parameter; a parameter that is left out has the scenario's value."}
 })json";

@@ -298,6 +298,8 @@ RIGHT_STUDIES = [
     "combine: quantile(0.9)}\n",
     LAG + "objective: [{maximize: speed}, {minimize: torque.peak}]\nconstraints: [torque.rms <= 1]\n",
     LAG + "guards: none\nstop: [fell, speed > 9 after 0.01]\n",
+    LAG + "stop: none\n",
+    LAG + "stop: [hopeless]\n",
     LAG + "guards: {stops: 0.1, dock_bending: {margin: 0.2}, periodic: true, slip: false}\nmethod: {type: cma, population: 16}\nbudget: {runs: 99}\nverify: {engine: none}\n",
 ]
 WRONG_STUDIES = [

@@ -17,7 +17,8 @@ struct StudyAxis {
 };
 
 /// State of a point. `kept`: the point satisfies all guards and constraints. `infeasible`: the verdict of a run is infeasible.
-/// `broken`: the point does not satisfy a guard or constraint, without such a verdict. `failed`: a run ended early.
+/// `broken`: the point does not satisfy a guard or constraint, without such a verdict. `failed`: a run ended early, without a
+/// score.
 enum class PointState { kept, broken, infeasible, failed };
 
 }  // namespace report

@@ -88,6 +88,9 @@ std::string threshold(const char* key, double value, double preset);
 /// Sets the worst part of a check to a joint.
 void name_joint(Check& made, const CheckedRun& run, std::size_t joint);
 
+/// The check of a kind for a run (verdict.cpp).
+Check judged_check(const CheckKind& kind, const CheckedRun& run);
+
 /// Time interval from the preceding row of Recording::ticks to the row at `time`. A peak stored in the row at `time` was
 /// reached in this interval.
 std::pair<double, double> row_before(const Recording& record, double time);

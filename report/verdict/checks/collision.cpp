@@ -33,7 +33,8 @@ std::vector<CheckKind> checks::collision() {
                        "{:.3g} times their overlap with all hinges at 0; pairs in may_overlap are left out",
                        kTurned),
            "above limits.collision", "above limits.touch", CheckSpan::whole_run, "robot",
-           "smaller amplitudes or offsets, or may_overlap for bodies whose shapes are rougher than the real ones", judge}};
+           "smaller amplitudes or offsets, or may_overlap for bodies whose shapes are rougher than the real ones", judge, false,
+           false, false, Lost::extreme}};
 }
 
 }  // namespace gaitlab::report

@@ -147,7 +147,7 @@ std::vector<CheckKind> checks::docks() {
     rows.push_back({one.id, CheckGroup::structure, one.unit, one.title,
                     fmt::format("largest {} of a dock at control ticks, compared with its rating", one.load),
                     "above the rating", "above limits.warn_share of the rating", CheckSpan::whole_run, "robot", one.gentler,
-                    judge_dock, false, true, true});
+                    judge_dock, false, true, true, Lost::extreme});
   }
   return rows;
 }

@@ -41,7 +41,7 @@ std::vector<CheckKind> checks::fall() {
        "the start pose, lowered onto the ground, and the one in the pose of the set points at that time, upright (mean "
        "orientation of all links as at the start) on its lowest contact elements",
        "below limits.height", "", CheckSpan::whole_run, "limits.height", "a gait with more support, or limits.height", judge,
-       true}};
+       true, false, false, Lost::extreme}};
 }
 
 }  // namespace gaitlab::report

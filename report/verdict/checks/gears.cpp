@@ -68,7 +68,8 @@ std::vector<CheckKind> checks::gears() {
            "largest torque that the gear passes on (the motor's torque minus the torque that turns its rotor), compared with "
            "its rating",
            "above actuator.gear_torque_peak", "above limits.warn_share of the rating", CheckSpan::whole_run,
-           "actuator.gear_torque_peak", "a softer start or landing, or another gear", judge_gear_peak, false, false, true},
+           "actuator.gear_torque_peak", "a softer start or landing, or another gear", judge_gear_peak, false, false, true,
+           Lost::extreme},
           {"gear_continuous", CheckGroup::motor, "N m", "Gears last",
            "RMS torque in the window, over all steps, compared with the gear's rating",
            "above "

@@ -28,7 +28,7 @@ std::vector<CheckKind> checks::in_ground() {
   };
   return {{"in_ground", CheckGroup::ground, "m", "Bodies stay above the ground",
            "largest depth of a body in the ground, at control ticks", "above limits.sink", "", CheckSpan::whole_run,
-           "contact.on", "contact.on: all, or a larger contact.stiffness", judge}};
+           "contact.on", "contact.on: all, or a larger contact.stiffness", judge, false, false, false, Lost::extreme}};
 }
 
 }  // namespace gaitlab::report

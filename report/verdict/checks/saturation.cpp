@@ -210,10 +210,11 @@ constexpr const char* kSaturated =
 std::vector<CheckKind> checks::saturation() {
   return {{"voltage", CheckGroup::motor, "", "Voltage suffices", "share of the window at the voltage limit, over all steps",
            kSaturated, "any", CheckSpan::window, "actuator.u_max", kGentler,
-           judge_saturation<MotorLimit::voltage, kVoltageLimited>},
+           judge_saturation<MotorLimit::voltage, kVoltageLimited>, false, false, false, Lost::share},
           {"current", CheckGroup::motor, "", "Current suffices",
            "share of the window at the current limit (of other actuators: at their limit), over all steps", kSaturated, "any",
-           CheckSpan::window, "actuator.i_max", kGentler, judge_saturation<MotorLimit::current, kCurrentLimited>}};
+           CheckSpan::window, "actuator.i_max", kGentler, judge_saturation<MotorLimit::current, kCurrentLimited>, false, false,
+           false, Lost::share}};
 }
 
 }  // namespace gaitlab::report

@@ -127,7 +127,7 @@ std::vector<CheckKind> checks::stops() {
            "above limits.beyond_range, or for more than limits.beyond_range_share of the time; for a hinge without a motor, "
            "which is meant to touch its stop, above {:g} rad ({:g} N m from the stop), or limits.beyond_range if that is more",
            kRestsBeyond, HingeStop::kStiffness * kRestsBeyond),
-       "any excess of a joint with a motor", CheckSpan::whole_run, "cpg", kSmaller, judge}};
+       "any excess of a joint with a motor", CheckSpan::whole_run, "cpg", kSmaller, judge, false, false, false, Lost::share}};
 }
 
 }  // namespace gaitlab::report

@@ -31,7 +31,8 @@ std::vector<CheckKind> checks::tracking() {
   };
   return {{"tracking", CheckGroup::motion, "rad", "Joints follow their set points",
            "largest |set point - angle| in the window, over all steps", "above twice limits.tracking_error",
-           "above limits.tracking_error", CheckSpan::window, "controller", "larger gains, or a slower gait", judge}};
+           "above limits.tracking_error", CheckSpan::window, "controller", "larger gains, or a slower gait", judge, false,
+           false, false, Lost::peak}};
 }
 
 }  // namespace gaitlab::report

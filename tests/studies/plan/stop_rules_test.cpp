@@ -15,13 +15,15 @@ namespace {
 class RuledRun {
  public:
   explicit RuledRun(const std::vector<std::pair<std::string, double>>& rules)
-      : rules_(study(rules), offer(), kJoints, problems_) {}
+      : rules_(study(rules), offer(), kJoints, std::vector<MarginGuard>{{"voltage", "margin.voltage", 0, 0, true}}, problems_) {
+  }
 
   void set(const std::string& quantity, double value) { values_[quantity] = value; }
-  [[nodiscard]] std::string at(double time) const {
+  void lose(Cause check) { lost_ = std::move(check); }
+  [[nodiscard]] std::string at(double time, bool whole = false) const {
     Recording so_far;
     so_far.simulated = time;
-    return rules_.reason({}, so_far);
+    return rules_.reason({}, so_far, whole);
   }
   [[nodiscard]] const StopRules& rules() const { return rules_; }
   [[nodiscard]] std::vector<std::string> problems() const {
@@ -51,10 +53,16 @@ class RuledRun {
       ++evaluations_;
       return values_.at(joint.empty() ? name : name + "[" + joint + "]");
     };
+    made.lost_so_far = [this](std::span<const MarginGuard> guards, const Scenario&, const Recording&) {
+      EXPECT_EQ(guards.size(), 1U);
+      EXPECT_EQ(guards.front().name, "margin.voltage");
+      return lost_;
+    };
     return made;
   }
 
   Problems problems_;
+  Cause lost_;
   std::map<std::string, double> values_;
   int evaluations_ = 0;
   StopRules rules_;
@@ -125,6 +133,20 @@ TEST(StopRules, SayWhichNamesTheyDoNotKnow) {
   EXPECT_EQ(problem("fel"), Texts{"unknown quantity 'fel'; did you mean 'fell'?"});
   EXPECT_EQ(problem("fell[m0/active]"), Texts{"unknown quantity 'fell'; did you mean 'fell'?"});
   EXPECT_EQ(problem("heat[m0/activ]"), Texts{"no joint is called 'm0/activ'; did you mean 'm0/active'?"});
+}
+
+TEST(StopRules, StopAHopelessRunUnlessItIsToBeWhole) {
+  RuledRun run({{"hopeless", 2}, {"fell", 0}});
+  run.set("fell", 0);
+  EXPECT_EQ(run.at(4), "");
+  run.lose({"voltage", "m0/active"});
+  EXPECT_EQ(run.at(1), "");
+  EXPECT_EQ(run.at(4), "stopped by hopeless after 2 at t = 4 s: voltage of m0/active");
+  EXPECT_EQ(run.at(4, true), "");
+  run.set("fell", 1);
+  EXPECT_EQ(run.at(4, true), "stopped by fell at t = 4 s") << "other rules of the study hold";
+  EXPECT_TRUE(run.problems().empty());
+  EXPECT_EQ(run.rules().texts(), (std::vector<std::string>{"hopeless after 2", "fell"}));
 }
 
 TEST(StopRules, HaveTheirTexts) {

@@ -225,6 +225,30 @@ TEST(AnswersOfAnotherStudy, AreNoneOfAnotherScenario) {
   for (std::uint64_t run = 0; run < 3; ++run) EXPECT_FALSE(answers.find(study.plan->row(run)).has_value());
 }
 
+/// Rows of runs that were stopped as hopeless are taken only if this study would stop them; completed runs always.
+TEST(AnswersOfAnotherStudy, LeaveOutHopelessRunsOfOtherGuards) {
+  const SmallStudy other(kRange + "3}}\nstop: [hopeless]\n");
+  Journal journal = other.journal();
+  std::vector<Row> rows{other.done(other.plan->row(0), "speed", 0.5), other.done(other.plan->row(1), "speed", 0.25)};
+  rows[1].outcome = "stopped";
+  rows[1].message = "stopped by hopeless at t = 4 s: fall";
+  rows[1].verdict = Word::failed;
+  journal.write(rows, {});
+  const auto answer = [&](const std::string& lines, std::uint64_t run) {
+    const SmallStudy study(kRange + "3}}\n" + lines);
+    return Answers(*study.plan, other.folder.path(), "a build", Journal::Build::same).find(study.plan->row(run));
+  };
+  for (const char* lines : {"stop: [hopeless]\n", "", "stop: [hopeless]\nguards: {voltage: false}\n"})
+    EXPECT_TRUE(answer(lines, 0).has_value()) << lines;
+  const std::optional<Row> stopped = answer("stop: [hopeless]\n", 1);
+  ASSERT_TRUE(stopped.has_value());
+  EXPECT_EQ(stopped->message, rows[1].message);
+  EXPECT_EQ(stopped->score->objective(), 0.25);
+  EXPECT_FALSE(stopped->score->kept());
+  EXPECT_FALSE(answer("", 1).has_value());
+  EXPECT_FALSE(answer("stop: [hopeless]\nguards: {voltage: false}\n", 1).has_value());
+}
+
 TEST(AnswersOfAnotherStudy, AreRefusedWhereTheyMayDiffer) {
   const OtherStudy other;
   EXPECT_EQ(other.refused(other.study, Journal::Build::same, "this build"),

@@ -60,13 +60,15 @@ TEST(Parcel, GivesBackWhatWasPutIn) {
   ASSERT_EQ(back.size(), 2U);
   expect_same(back[0], rows[0]);
   expect_same(back[1], rows[1]);
-  const std::vector<Job> jobs{{hostile_row(), {"cpg.type=hopf", "seed=3"}, 2, true}, {Row{}, {}}};
+  const std::vector<Job> jobs{{hostile_row(), {"cpg.type=hopf", "seed=3"}, 2, true, true}, {Row{}, {}}};
   const std::vector<Job> again = jobs_of(packed(jobs));
   ASSERT_EQ(again.size(), 2U);
   expect_same(again[0].row, jobs[0].row);
   EXPECT_EQ(again[0].sets, jobs[0].sets);
   EXPECT_EQ(again[0].scenario, 2U);
   EXPECT_TRUE(again[0].estimate);
+  EXPECT_TRUE(again[0].whole);
+  EXPECT_FALSE(again[1].whole);
   EXPECT_TRUE(again[1].sets.empty());
   EXPECT_FALSE(again[1].estimate);
   EXPECT_TRUE(rows_of(packed(std::span<const Row>())).empty());

@@ -49,6 +49,23 @@ TEST(Told, ReadsWhatAnswerWrites) {
   EXPECT_EQ(failed.simulated, 1.5);
 }
 
+/// The answer for a stopped run has what ran of it; for a search it is a failed point.
+TEST(Told, AnswersOfStoppedRunsHaveTheirFigures) {
+  JournalHead head;
+  head.objectives = {{"speed", true}};
+  head.quantities = {{"speed", "m/s", ""}};
+  head.combine = "worst";
+  const Brief run{12, "stopped", "stopped by hopeless at t = 4 s: fall", 4, Score{{0.1}, 0.75}, Word::failed};
+  const std::vector<std::vector<std::string>> figures{{"0.1"}};
+  const std::string text = answer({"12", {}, ""}, head, {}, {&run, 1}, figures);
+  EXPECT_EQ(text, R"({"id":12,"run":12,"outcome":"stopped","message":"stopped by hopeless at t = 4 s: fall","simulated":4,)"
+                  R"("verdict":"failed","figures":{"speed":0.1},"margins":{},"objective":[0.1],"violation":0.75,"kept":false,)"
+                  R"("feasible":false})");
+  const Told one = told(text);
+  EXPECT_EQ(one.outcome, "stopped");
+  EXPECT_EQ(one.verdict, Word::failed);
+}
+
 TEST(Told, UnknownObjectivesAreViolations) {
   EXPECT_EQ(told(R"({"id": 1, "objective": [null, 1, null]})", 3).score.violation, 2);
   EXPECT_EQ(told(R"({"id": 1, "objective": null, "violation": 0.5})").score.violation, 1);

@@ -68,7 +68,39 @@ TEST_F(StudyFile, ItsRulesForStoppingAreChecked) {
             "s.yaml:4:14: error: the rule begins at 4 s, but the run ends at 0.1 s; expected a smaller number after `after`");
   EXPECT_EQ(with("stop: [fell after 4]\nset: [duration=5]\n"), kNoError);
   EXPECT_EQ(parameters("duration: {values: [1, 5]}", "stop: [fell after 4]\n"), kNoError);
-  EXPECT_EQ(with("stop: fell\n"), "s.yaml:4:7: error: stop is 'fell'; expected a list of texts");
+  EXPECT_EQ(with("stop: fell\n"), "s.yaml:4:7: error: stop is 'fell'; expected a list of texts, or none");
+  EXPECT_EQ(with("stop: none\n"), kNoError);
+  EXPECT_EQ(with("stop: [hopeless, fell, hopeless after 0.05]\n"), kNoError);
+  EXPECT_EQ(with("stop: [hopeless after 4]\n"),
+            "s.yaml:4:8: error: the rule begins at 4 s, but the run ends at 0.1 s; expected a smaller number after `after`");
+}
+
+/// The rule `hopeless` is the default of searches, of points that another program requests, and of no sweep; nor where a point
+/// can be kept although some of its runs break a limit.
+TEST_F(StudyFile, StopsHopelessRunsOfSearches) {
+  using studies::Purpose;
+  const auto stops = [&](const std::string& lines, Purpose purpose = Purpose::optimize) {
+    const std::string head = "gaitlab_study: 1\nscenario: two.yaml\nparameters: {cpg.frequency: {low: 0.5, high: 1}}\n";
+    std::vector<std::string> texts;
+    for (const studies::StopText& stop :
+         studies::read_study(folder_.write("s.yaml", head + "budget: {runs: 640}\n" + lines), purpose).stops)
+      texts.push_back(stop.when.text);
+    return texts;
+  };
+  using Texts = std::vector<std::string>;
+  const Texts usual{"hopeless"};
+  EXPECT_EQ(stops(""), usual);
+  EXPECT_EQ(stops("", Purpose::evaluate), usual);
+  EXPECT_EQ(stops("", Purpose::sweep), Texts{});
+  EXPECT_EQ(stops("stop: none\n"), Texts{});
+  EXPECT_EQ(stops("stop: []\n"), Texts{});
+  EXPECT_EQ(stops("stop: [fell]\n"), Texts{"fell"});
+  EXPECT_EQ(stops("stop: [hopeless, fell]\n", Purpose::sweep), (Texts{"hopeless", "fell"}));
+  EXPECT_EQ(stops("replicates: {count: 2}\n"), usual);
+  EXPECT_EQ(stops("replicates: {count: 2, combine: mean}\n"), usual);
+  for (const char* combine : {"median", "quantile(0.5)", "share(0.5)"})
+    EXPECT_EQ(stops(std::string("replicates: {count: 2, combine: ") + combine + "}\n"), Texts{}) << combine;
+  EXPECT_EQ(stops("robust: true\n"), Texts{});
 }
 
 TEST_F(StudyFile, ItsSensitivityIsChecked) {
