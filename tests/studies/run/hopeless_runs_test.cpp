@@ -17,7 +17,7 @@ using studies::Job;
 using studies::Row;
 
 // With 1 V the motors are at the limit of their voltage nearly all the time.
-const std::string kWeakMotors = "set: [duration=6, physics.estimate=off, actuator.u_max=1, cpg.frequency=1]\n";
+const std::string kWeakMotors = "set: [contact.on=all, duration=6, physics.estimate=off, actuator.u_max=1, cpg.frequency=1]\n";
 const std::string kWeakSearch = "parameters: {cpg.phase_lag: {low: 0.5, high: 1.5}}\nbudget: {runs: 16}\n";
 const std::string kWeakGrid = "parameters: {cpg.phase_lag: {low: 0.5, high: 1.5, count: 3}}\n";
 
@@ -88,7 +88,7 @@ TEST(HopelessRuns, AreThoseOfTheStudysGuards) {
 
 /// The rule changes no bit of a run that it does not stop.
 TEST(HopelessRuns, LeaveOthersAsTheyAre) {
-  const std::string gentle = "set: [duration=4, physics.estimate=off, cpg.frequency=1, cpg.amplitude=0.1]\n";
+  const std::string gentle = "set: [contact.on=all, duration=4, physics.estimate=off, cpg.frequency=1, cpg.amplitude=0.1]\n";
   const Row with = searched_row(gentle);
   const Row without = searched_row(gentle + "stop: none\n");
   ASSERT_EQ(with.outcome, "done") << with.message;
