@@ -10,8 +10,8 @@
 
 namespace gaitlab::golden {
 
-/// Accuracy of the runs of a golden if the scenario states none. The bands of columns at the default accuracy would be wider than
-/// kWidestColumn.
+/// Accuracy of the runs of a golden if the scenario states none. The bands of columns at the default accuracy would be wider
+/// than kWidestColumn.
 inline constexpr double kGoldenAccuracy = 0.001;
 /// Gives kGoldenAccuracy to a scenario whose integrator chooses its steps, unless the scenario states an accuracy. True if the
 /// accuracy has changed.

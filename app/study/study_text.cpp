@@ -299,11 +299,12 @@ std::string broken_text(Journal& journal) {
 std::string study_summary(Journal& journal, const studies::Results& results, const std::filesystem::path& folder,
                           std::size_t most) {
   const JournalHead& head = journal.head();
-  std::uint64_t failed = 0;
-  for (const auto& [outcome, one] : results.failures.by_outcome) failed += one.count;
-  std::string text =
-      fmt::format("{}: {} of {} runs ended, {} kept{}, {} feasible, {} failed\n", clipped(head.name), results.runs, head.runs,
-                  results.kept_runs, share(results.kept_runs, results.runs), results.feasible_runs, failed);
+  std::uint64_t failed = 0, stopped = 0;
+  for (const auto& [outcome, one] : results.failures.by_outcome)
+    (outcome == name_of(Ended::stopped) ? stopped : failed) += one.count;
+  std::string text = fmt::format("{}: {} of {} runs ended, {} kept{}, {} feasible, {}{} failed\n", clipped(head.name),
+                                 results.runs, head.runs, results.kept_runs, share(results.kept_runs, results.runs),
+                                 results.feasible_runs, stopped > 0 ? fmt::format("{} stopped, ", stopped) : "", failed);
   text += estimated_text(journal, results);
   if (head.told) text += "results of another program (--ask): nothing is verified\n";
   if (!head.guarded) text += "without guards: results may exploit the simulation\n";

@@ -172,7 +172,8 @@ TEST(MujocoWalking, WalksWithTheRecordedSetPoints) {
   const auto compare = [](const Scenario& s) {
     const Recording record = run(s);
     const versus::Walk ours = versus::recorded_walk(record, 1);
-    const versus::Walk theirs = versus::walk_in_mujoco(to_mjcf(s, MjcfModel::walking), s, record, 1, versus::BetweenTicks::line);
+    const versus::Walk theirs =
+        versus::walk_in_mujoco(to_mjcf(s, MjcfModel::walking), s, record, 1, versus::BetweenTicks::line);
     EXPECT_GT(ours.travel, 0.05) << s.name;
     // The tolerances are chosen. docs/mujoco.md has the measured ratios.
     EXPECT_NEAR(theirs.travel / ours.travel, 1, 0.2) << s.name;
