@@ -105,9 +105,9 @@ GoldenCase orphan(const fs::path& golden) {
   return c;
 }
 
-// Scenario with another engine. The step is that of the golden, for which the bands were measured, unless that golden has an
-// accuracy instead. The integrator is explicit if the engine has one, because that shares nothing with the golden; otherwise it
-// has order 2, so that its error is far below the bands.
+// Scenario with another engine. The integrator is explicit if the engine has one, because that shares nothing with the golden.
+// Otherwise it is adaptive if that of the golden is, or it has the golden's step, for which the bands were measured, and order
+// 2, so that its error is far below the bands.
 Scenario with_engine(const std::string& file, const Scenario& scenario, const std::string& name, double step,
                      Catalog& catalog) {
   if (scenario.physics.engine->name == name) return scenario;
@@ -119,11 +119,10 @@ Scenario with_engine(const std::string& file, const Scenario& scenario, const st
                                  near.empty() ? fmt::format("there are: {}", fmt::join(catalog.engines(), ", "))
                                               : "did you mean '" + near + "'?"));
   }
-  const Integrator* extrapolated = engine->choose_step != nullptr ? nullptr : engine->integrator("extrapolated");
-  const Integrator& integrator = extrapolated != nullptr ? *extrapolated : engine->fixed();
-  // The step of a golden with an accuracy is the longest of its engine, and too long for an engine with given steps.
-  const bool chooses = scenario.physics.adaptive_step && engine->choose_step != nullptr;
-  return read_scenario(file, engine_settings(scenario, name, integrator, chooses ? "auto" : fmt::format("{}", step)), catalog);
+  const bool adaptive = scenario.physics.adaptive_step;
+  const Integrator* wanted = adaptive ? engine->adaptive() : engine->integrator("extrapolated");
+  const Integrator& integrator = engine->choose_step != nullptr || wanted == nullptr ? engine->fixed() : *wanted;
+  return read_scenario(file, engine_settings(scenario, name, integrator, adaptive ? "auto" : fmt::format("{}", step)), catalog);
 }
 
 void read_case(GoldenCase& c, const std::optional<std::string>& engine, Catalog& catalog) {
