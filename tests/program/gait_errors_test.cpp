@@ -23,12 +23,13 @@ class GaitErrors : public testing::TestWithParam<std::tuple<CompareGait, const c
 /// The error refers to a run at accuracy 1e-5, as RMS over the joint's peak, for the worst joint. The output is a row of the
 /// table of decision 48.
 TEST_P(GaitErrors, AreWithinTheAccuracy) {
-  const auto& [gait, gears] = GetParam();
+  const CompareGait& gait = std::get<0>(GetParam());
+  const std::string gears = std::get<1>(GetParam());
   const auto made = [&](const std::string& accuracy, const std::string& estimate) {
     std::vector<std::string> sets{
         "physics.engine=articulated",   "physics.integrator=adaptive",    "physics.step=auto",
         "physics.accuracy=" + accuracy, "physics.estimate=" + estimate,   fmt::format("duration={}", gait.duration),
-        "trace.period=0.005",           "trace.columns=[joint.*.torque]", std::string("actuator.efficiency_model=") + gears};
+        "trace.period=0.005",           "trace.columns=[joint.*.torque]", "actuator.efficiency_model=" + gears};
     sets.insert(sets.end(), gait.sets.begin(), gait.sets.end());
     return shipped(gait.file, sets);
   };
