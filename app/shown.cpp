@@ -12,7 +12,7 @@
 
 #include "app/shell/commands.h"
 #include "app/shell/progress.h"
-#include "app/study/study_text.h"
+#include "app/shell/shell_word.h"
 #include "core/errors.h"
 #include "core/scenario/resolved.h"
 #include "core/scenario/sections.h"

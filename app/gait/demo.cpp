@@ -7,7 +7,7 @@
 #include <string>
 
 #include "app/shell/commands.h"
-#include "app/study/study_text.h"
+#include "app/shell/shell_word.h"
 #include "core/settings/data_folder.h"
 
 namespace gaitlab::app {

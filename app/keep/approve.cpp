@@ -13,7 +13,7 @@
 
 #include "app/shell/commands.h"
 #include "app/shell/progress.h"
-#include "app/study/study_text.h"
+#include "app/shell/shell_word.h"
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
 #include "core/recording/column_names.h"

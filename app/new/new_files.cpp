@@ -11,7 +11,7 @@
 #include "app/new/scenario_values.h"
 #include "app/new/skeletons.h"
 #include "app/shell/commands.h"
-#include "app/study/study_text.h"
+#include "app/shell/shell_word.h"
 #include "core/robot_files/type_library.h"
 #include "core/scenario/read_scenario.h"
 #include "core/settings/shipped_files.h"

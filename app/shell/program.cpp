@@ -12,7 +12,7 @@
 #include "app/app.h"
 #include "app/shell/command_line.h"
 #include "app/shell/commands.h"
-#include "app/study/study_text.h"
+#include "app/shell/shell_word.h"
 #include "core/errors.h"
 
 namespace gaitlab::app {

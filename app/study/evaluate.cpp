@@ -8,6 +8,7 @@
 #include <set>
 #include <thread>
 
+#include "app/shell/shell_word.h"
 #include "app/study/asking.h"
 #include "app/study/study_quantities.h"
 #include "app/study/study_text.h"

@@ -6,9 +6,11 @@
 #include <csignal>
 
 #include "app/shell/commands.h"
+#include "app/shell/shell_word.h"
 #include "app/study/asking.h"
 #include "app/study/optimize_seeds.h"
 #include "app/study/own_gait.h"
+#include "app/study/quantity_text.h"
 #include "app/study/study_progress.h"
 #include "app/study/study_quantities.h"
 #include "app/study/study_run.h"

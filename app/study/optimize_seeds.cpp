@@ -9,7 +9,7 @@
 
 #include "app/app.h"
 #include "app/shell/stop_on_signal.h"
-#include "app/study/study_text.h"
+#include "app/study/quantity_text.h"
 #include "core/errors.h"
 #include "core/settings/wording.h"
 #include "studies/journal/study_folder.h"

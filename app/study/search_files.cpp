@@ -20,8 +20,7 @@ using studies::JournalHead;
 
 report::StudyAxis objective_axis(const JournalHead& head, std::size_t number) {
   const std::string& expression = head.objectives[number].expression;
-  const auto figure = std::ranges::find(head.quantities, expression, &studies::Quantity::name);
-  return {clipped(expression), figure == head.quantities.end() ? "" : clipped(figure->unit)};
+  return {clipped(expression), clipped(studies::unit_of(head, expression))};
 }
 
 /// Adds the incomplete last generation, whose runs follow those of the complete generations. Only for a single search, because

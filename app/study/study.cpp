@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/shell/commands.h"
+#include "app/shell/shell_word.h"
 #include "app/study/study_quantities.h"
 #include "app/study/study_text.h"
 #include "core/settings/wording.h"
@@ -183,9 +184,7 @@ std::vector<std::string> differences(const std::vector<std::string>& names, cons
                                      const studies::RunColumns& columns, const std::vector<double>& quantities,
                                      const Outcome& outcome, bool told) {
   std::vector<std::string> found;
-  const auto cell = [&](const std::string& name) {
-    return row[static_cast<std::size_t>(std::ranges::find(names, name) - names.begin())];
-  };
+  const auto cell = [&](const std::string& name) { return row[studies::place_in(names, name)]; };
   const bool done = cell("outcome") == "done";
   if (done != outcome.done() || (!done && cell("message") != outcome.message))
     found.push_back(fmt::format("outcome: then {}, now {}", clipped(done ? "done" : cell("message")), clipped(outcome.text())));
@@ -210,7 +209,7 @@ std::vector<std::string> differences(const std::vector<std::string>& names, cons
 std::string scenario_of_row(const studies::JournalHead& head, const std::vector<std::string>& names,
                             const std::vector<std::string>& row) {
   if (head.scenarios.empty()) return head.scenario;
-  const std::string& name = row[static_cast<std::size_t>(std::ranges::find(names, "scenario") - names.begin())];
+  const std::string& name = row[studies::place_in(names, "scenario")];
   for (studies::ScenarioText& one : studies::scenario_texts(head.scenario)) {
     if (one.name == name) return std::move(one.text);
   }
@@ -227,8 +226,7 @@ std::vector<std::string> settings_of_row(const Journal& journal, const std::vect
   std::vector<std::string> drawn;
   for (std::size_t k = 0; k < head.parameters.size(); ++k) {
     const studies::JournalParameter& p = head.parameters[k];
-    const std::string& value =
-        row[static_cast<std::size_t>(std::ranges::find(names, journal.columns().parameters[k]) - names.begin())];
+    const std::string& value = row[studies::place_in(names, journal.columns().parameters[k])];
     if (p.drawn) {
       drawn.push_back(p.key + "=" + value);
       continue;
@@ -308,9 +306,7 @@ int rerun_study(const StudyArguments& a) {
     return 1;  // the error has been reported: the run could not be written
   }
   const StoredRun& again = *written;
-  if (const auto cell =
-          [&](const char* name) { return row[static_cast<std::size_t>(std::ranges::find(names, name) - names.begin())]; };
-      cell("outcome") == "stopped") {
+  if (const auto cell = [&](const char* name) { return row[studies::place_in(names, name)]; }; cell("outcome") == "stopped") {
     fmt::print("the study ended this run early: {}; the repeated run has no such rule\n", one_line(cell("message")));
     return code == 2 ? 2 : 0;
   }

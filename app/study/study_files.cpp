@@ -7,9 +7,10 @@
 #include <numeric>
 
 #include "app/app.h"
+#include "app/study/quantity_text.h"
 #include "app/study/study_sensitivity.h"
 #include "app/study/study_text.h"
-#include "core/files/atomic_file.h"
+#include "core/recording/csv.h"
 #include "core/scenario/manual.h"
 #include "core/settings/wording.h"
 #include "report/figures/study/box_figure.h"
@@ -224,14 +225,14 @@ void write_replicates(const Drawn& drawn, const studies::Quantity& name, const s
   figure.axis = report::StudyAxis{clipped(name.name), clipped(name.unit)}.title();
   figure.below = "first run of the point, the best at the left";
   std::string csv =
-      std::string("point,") + (scenarios.empty() ? "" : "scenario,") + "replicate," + csv_cell(name.name) + ",kept\n";
+      std::string("point,") + (scenarios.empty() ? "" : "scenario,") + "replicate," + csv_quoted(name.name) + ",kept\n";
   for (const std::size_t k : order) {
     const studies::PointResult& point = drawn.results.points[k];
     report::BoxGroup group{fmt::format("run {}", point.first_run), {}, point.kept()};
     for (std::size_t r = 0; r < point.runs; ++r) {
       const double value = drawn.values.figures[drawn.rows[k] + r].front();
       group.values.push_back(value);
-      const std::string scenario = scenarios.empty() ? "" : csv_cell(scenarios[r / each]) + ",";
+      const std::string scenario = scenarios.empty() ? "" : csv_quoted(scenarios[r / each]) + ",";
       csv += fmt::format("{},{}{},{},{}\n", point.first_run, scenario, scenarios.empty() ? r : r % each,
                          std::isfinite(value) ? number_text(value) : "", point.kept() ? 1 : 0);
     }

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <thread>
 
+#include "app/shell/shell_word.h"
 #include "app/study/study_quantities.h"
-#include "app/study/study_text.h"
 #include "core/build_id.h"
 #include "core/errors.h"
 #include "core/files/atomic_file.h"

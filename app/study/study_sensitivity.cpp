@@ -6,8 +6,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "app/study/study_text.h"
+#include "app/study/quantity_text.h"
 #include "core/files/atomic_file.h"
+#include "core/recording/csv.h"
 #include "core/settings/wording.h"
 #include "report/figures/study/bar_figure.h"
 
@@ -74,17 +75,7 @@ std::string table_of(const Sensitivity& s) {
       row.push_back(band_cell(measure.of[k]));
     }
   }
-  std::vector<std::size_t> widths(rows[0].size(), 0);
-  for (const auto& row : rows) {
-    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
-  }
-  std::string text;
-  for (const auto& row : rows) {
-    for (std::size_t c = 0; c < row.size(); ++c)
-      text += c == 0 ? fmt::format("  {:<{}}", row[c], widths[c]) : fmt::format("  {:>{}}", row[c], widths[c]);
-    text += "\n";
-  }
-  return text;
+  return aligned(rows, 2);
 }
 
 std::string csv_of(const std::vector<Sensitivity>& all) {
@@ -94,7 +85,7 @@ std::string csv_of(const std::vector<Sensitivity>& all) {
     for (std::size_t k = 0; k < s.parameters.size(); ++k) {
       for (const studies::Measure95& measure : s.measures) {
         const IndexEstimate& e = measure.of[k];
-        text += csv_cell(s.output) + "," + csv_cell(s.parameters[k]) + "," + measure.name + "," + cell(e.value) + "," +
+        text += csv_quoted(s.output) + "," + csv_quoted(s.parameters[k]) + "," + measure.name + "," + cell(e.value) + "," +
                 cell(e.low) + "," + cell(e.high) + "\n";
       }
     }

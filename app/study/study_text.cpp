@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <cstdio>
 
+#include "app/shell/shell_word.h"
 #include "app/study/importance_text.h"
+#include "app/study/quantity_text.h"
 #include "app/study/study_sensitivity.h"
 #include "app/study/verification_text.h"
-#include "core/files/atomic_file.h"
+#include "core/recording/csv.h"
 #include "core/settings/wording.h"
-#include "studies/plan/definition.h"
 #include "studies/study/number.h"
 
 namespace gaitlab::app {
@@ -51,10 +50,6 @@ std::string laid_out(const std::vector<ColumnOfTable>& columns) {
   return text;
 }
 
-std::size_t place_in(const std::vector<std::string>& names, const std::string& name) {
-  return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
-}
-
 /// First objective of a point in one scenario of the study, or the outcome of a failed run.
 std::string in_one_scenario(Journal& journal, const studies::PointResult& point, std::size_t scenario) {
   const JournalHead& head = journal.head();
@@ -64,10 +59,10 @@ std::string in_one_scenario(Journal& journal, const studies::PointResult& point,
   for (std::uint64_t r = 0; r < runs; ++r) {
     const std::vector<std::string> row = journal.row(point.first_run + scenario * runs + r);
     if (row.size() != names.size()) return "-";
-    const std::string& outcome = row[place_in(names, "outcome")];
+    const std::string& outcome = row[studies::place_in(names, "outcome")];
     if (outcome != "done" && point.failed > 0) return clipped(outcome);
     if (outcome != "done") continue;  // tolerated by `combine: share(Q)`
-    const std::string& value = row[place_in(names, studies::objective_column(0))];
+    const std::string& value = row[studies::place_in(names, studies::objective_column(0))];
     if (value.empty()) return "-";
     bad.push_back((head.objectives.front().maximize ? -1 : 1) * studies::number_of(value));
   }
@@ -109,7 +104,7 @@ std::string limit_text(const std::string& relation) {
 std::string rejected_text(Journal& journal, const studies::Results& results) {
   constexpr std::size_t kMost = 3;
   const std::vector<std::size_t> order = studies::ranked(results.points, journal.head().objectives.front().maximize);
-  const std::size_t message = place_in(journal.columns().all(), "message");
+  const std::size_t message = studies::place_in(journal.columns().all(), "message");
   std::string text;
   for (std::size_t k = 0; k < std::min(kMost, order.size()); ++k) {
     const studies::PointResult& point = results.points[order[k]];
@@ -152,46 +147,6 @@ std::string share(std::uint64_t part, std::uint64_t of) {
   return of == 0 ? "" : fmt::format(" ({:.0f} %)", 100 * static_cast<double>(part) / static_cast<double>(of));
 }
 
-}  // namespace
-
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
-
-std::string file_name(const std::string& figure) {
-  std::string name;
-  for (const char c : figure) {
-    const bool plain =
-        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '_' || c == '-';
-    name += plain ? c : '-';
-  }
-  constexpr std::size_t kLongest = 100;  // longest file name, for quantities that are expressions
-  return name.substr(0, kLongest);
-}
-
-std::string shell_word(const std::string& word) {
-  constexpr std::string_view kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./=:,+-@%";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
-std::string objective_unit(const JournalHead& head) {
-  const auto figure = std::ranges::find(head.quantities, head.objectives.front().expression, &studies::Quantity::name);
-  return figure == head.quantities.end() || figure->unit.empty() ? "" : " " + clipped(figure->unit);
-}
-
-std::string objective_text(const JournalHead& head) {
-  const std::string unit = objective_unit(head);
-  return clipped(head.objectives.front().expression) + (unit.empty() ? "" : "," + unit);
-}
-
-namespace {
-
 /// Columns of a table of points: the run, cells of the journal at `places`, then those of the objectives and the outcome.
 struct PointColumns {
   std::vector<ColumnOfTable> columns;
@@ -206,23 +161,21 @@ PointColumns point_columns(Journal& journal, const std::vector<std::string>& nam
   for (std::size_t k = 0; k < head.parameters.size(); ++k) {
     if (head.parameters[k].drawn) continue;
     columns.push_back({clipped(head.parameters[k].key), "", {}});
-    places.push_back(place_in(names, journal.columns().parameters[k]));
+    places.push_back(studies::place_in(names, journal.columns().parameters[k]));
   }
   constexpr std::size_t kFigures = 5;
   for (std::size_t k = 0; k < head.quantities.size(); ++k) {
     const studies::Quantity& figure = head.quantities[k];
-    const std::size_t rank = place_in(head.shown, figure.name);
+    const std::size_t rank = studies::place_in(head.shown, figure.name);
     const auto is_objective = [&](const studies::JournalObjective& o) { return o.expression == figure.name; };
     if (rank >= std::min(kFigures, head.shown.size()) || std::ranges::any_of(head.objectives, is_objective)) continue;
     columns.push_back({clipped(figure.name), clipped(figure.unit), {}});
-    places.push_back(place_in(names, journal.columns().quantities[k]));
+    places.push_back(studies::place_in(names, journal.columns().quantities[k]));
   }
   const std::size_t objective = columns.size();
   const std::string together = head.replicates > 1 ? " (" + clipped(head.combine) + ")" : "";
-  for (const studies::JournalObjective& o : head.objectives) {
-    const auto unit = std::ranges::find(head.quantities, o.expression, &studies::Quantity::name);
-    columns.push_back({clipped(o.expression) + together, unit == head.quantities.end() ? "" : clipped(unit->unit), {}});
-  }
+  for (const studies::JournalObjective& o : head.objectives)
+    columns.push_back({clipped(o.expression) + together, clipped(studies::unit_of(head, o.expression)), {}});
   for (const std::string& scenario : head.scenarios)
     columns.push_back({"in " + clipped(scenario), columns[objective].under, {}});
   if (head.replicates > 1) columns.push_back({"feasible", "runs", {}});
@@ -238,8 +191,8 @@ std::string points_table(Journal& journal, const studies::Results& results, cons
   const JournalHead& head = journal.head();
   const std::vector<std::string> names = journal.columns().all();
   auto [columns, places, objective] = point_columns(journal, names);
-  const std::size_t verdict = place_in(names, "verdict");
-  const std::size_t outcome = place_in(names, "outcome");
+  const std::size_t verdict = studies::place_in(names, "verdict");
+  const std::size_t outcome = studies::place_in(names, "outcome");
   for (std::size_t k = 0; k < std::min(most, order.size()); ++k) {
     const studies::PointResult& point = results.points[order[k]];
     const std::vector<std::string> row = journal.row(point.first_run);
@@ -327,7 +280,7 @@ void write_table(Journal& journal, const std::filesystem::path& file, Existing e
   AtomicFile out(file, existing);
   std::string text;
   const auto add = [&](const std::vector<std::string>& cells) {
-    for (std::size_t k = 0; k < cells.size(); ++k) text += (k > 0 ? "," : "") + csv_cell(cells[k]);
+    for (std::size_t k = 0; k < cells.size(); ++k) text += (k > 0 ? "," : "") + csv_quoted(cells[k]);
     text += '\n';
     constexpr std::size_t kPiece = 1 << 20;
     if (text.size() < kPiece) return;

@@ -8,11 +8,6 @@
 
 namespace gaitlab::app {
 
-/// First objective with its unit, if it is a single quantity: `speed, m/s`.
-std::string objective_text(const studies::JournalHead& head);
-/// Unit of the first objective after a space: ` m/s`. Empty without a unit.
-std::string objective_unit(const studies::JournalHead& head);
-
 /// Summary of a study: counts of runs, best and worst points, failures, and the command that repeats a run. `folder` is the
 /// path as the user would type it. `most` is the number of best points and of worst points.
 std::string study_summary(studies::Journal& journal, const studies::Results& results, const std::filesystem::path& folder,
@@ -37,14 +32,5 @@ std::vector<std::string> write_search_files(studies::Journal& journal, const stu
 
 /// Text below a figure: number of runs, guards, build.
 std::string study_note(const studies::JournalHead& head, std::uint64_t runs);
-
-/// Text as a cell of a CSV table, in quotes if it contains commas, quotes or line ends.
-std::string csv_cell(const std::string& text);
-
-/// Name of a quantity as a file name: characters other than letters, digits, `.`, `_` and `-` become `-`.
-std::string file_name(const std::string& figure);
-
-/// A word as one argument of a command line, in quotes if the shell requires them.
-std::string shell_word(const std::string& word);
 
 }  // namespace gaitlab::app

@@ -4,7 +4,9 @@
 #include <algorithm>
 
 #include "app/shell/commands.h"
+#include "app/shell/shell_word.h"
 #include "app/study/own_gait.h"
+#include "app/study/quantity_text.h"
 #include "app/study/study_progress.h"
 #include "app/study/study_quantities.h"
 #include "app/study/study_run.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "app/study/study_text.h"
+#include "app/shell/shell_word.h"
 #include "core/files/file_kind.h"
 #include "core/settings/wording.h"
 #include "studies/study/parameter_file.h"

@@ -9,10 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "app/study/study_text.h"
+#include "app/study/quantity_text.h"
 #include "core/settings/node.h"
 #include "core/settings/wording.h"
-#include "studies/search/world_trials.h"
 #include "studies/study/number.h"
 #include "studies/study/scenarios.h"
 
@@ -48,8 +47,7 @@ std::string values_text(studies::Journal& journal, std::uint64_t run) {
   for (std::size_t k = 0; k < journal.head().parameters.size() && !row.empty(); ++k) {
     const studies::JournalParameter& p = journal.head().parameters[k];
     if (p.drawn) continue;
-    const std::string& value =
-        row[static_cast<std::size_t>(std::ranges::find(names, journal.columns().parameters[k]) - names.begin())];
+    const std::string& value = row[studies::place_in(names, journal.columns().parameters[k])];
     text += fmt::format("{}{} {}", text.empty() ? "  " : ", ", clipped(p.key),
                         p.words ? clipped(value) : fmt::format("{:.4g}", studies::number_of(value)));
   }

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "app/gait/run_time.h"
+#include "app/shell/shell_word.h"
 #include "app/shell/stop_on_signal.h"
-#include "app/study/study_text.h"
 #include "app/swap/swapped.h"
 #include "core/errors.h"
 #include "core/files/atomic_file.h"

@@ -12,7 +12,6 @@
 #include <unordered_set>
 
 #include "core/errors.h"
-#include "core/files/atomic_file.h"
 
 namespace gaitlab {
 
@@ -23,10 +22,7 @@ constexpr std::size_t kPiece = std::size_t{1} << 20;  // bytes per system call, 
 std::string header_cell(const std::string& name, const std::filesystem::path& path) {
   if (name.empty() || name.find_first_of("\r\n") != std::string::npos)
     throw RunError(fmt::format("{}: column name \"{}\" cannot be written to a CSV file", path.string(), name));
-  if (name.find_first_of(",\"") == std::string::npos) return name;
-  std::string quoted = "\"";
-  for (const char c : name) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
+  return csv_quoted(name);
 }
 
 // Splits a text into lines and lines into cells, and tracks the position for error messages.
@@ -142,10 +138,6 @@ void read_row(const CsvReader& reader, std::size_t columns, SpilledVector<double
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// Passes pieces of the text to `put`, each larger than `piece` bytes except the last.
 template <class Put>
 void put_csv(const Trace& trace, const std::filesystem::path& path, std::size_t piece, const Put& put) {
@@ -185,6 +177,13 @@ std::string csv_text(const Trace& trace, const std::filesystem::path& path) {
   std::string all;
   put_csv(trace, path, kPiece, [&](std::string_view text) { all += text; });
   return all;
+}
+
+std::string csv_quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
 }
 
 Trace read_csv(const std::filesystem::path& path) {

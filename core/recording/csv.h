@@ -16,6 +16,9 @@ void write_csv(const Trace& trace, const std::filesystem::path& path, Existing e
 /// Returns the content of a CSV file as a string, for small tables. Error messages contain `path`.
 std::string csv_text(const Trace& trace, const std::filesystem::path& path);
 
+/// Text as a cell of a CSV table, in quotes if it contains commas, quotes or line ends (RFC 4180).
+std::string csv_quoted(const std::string& text);
+
 /// Reads a file of write_csv. Units and definitions are not in the file and stay empty. nan and inf are accepted as numbers.
 /// Throws InputError at FILE if the file cannot be read. Throws InputError at FILE:LINE:COL (columns count bytes) if the file
 /// is empty, has no header, or has an empty or repeated column name. The same error results from a row with too few or too many

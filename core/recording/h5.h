@@ -1,53 +1,17 @@
 // HDF5 files of traces: compressed, with units, definitions, the scenario, and the other tables of a recording.
 #pragma once
-#include <cstdint>
 #include <filesystem>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "core/errors.h"
-#include "core/recording/trace.h"
+#include "core/recording/stored_trace.h"
 
 namespace gaitlab {
-
-/// Origin of a trace.
-struct Provenance {
-  std::string scenario;  ///< the resolved scenario, YAML
-  std::int64_t seed = 0;
-  std::string build;    ///< build id
-  std::string outcome;  ///< `done`, or the reason of an early end
-  /// hash() of the trace in the CSV file of the same folder. Used in recording.h5 only.
-  std::string csv_hash = {};
-};
-
-/// A table stored in addition to the trace. Its name is one of kBeside; recording_file.h describes the contents.
-struct Beside {
-  std::string name;
-  Trace table;
-};
-
-/// Space that is reserved for a file, as a share of the bytes of its values. A walking robot's trace needs 0.41 to 0.56.
-inline constexpr double kFileShare = 0.75;
-
-/// A table to be written beside the trace.
-struct BesideOf {
-  const char* name;
-  const Trace* table;
-};
 
 /// Error if there is too little memory for building the HDF5 file. Text files need little memory and can still be written.
 class NoImage : public RunError {
  public:
   using RunError::RunError;
-};
-
-/// Contents of a trace file; a CSV file gives only the trace.
-struct StoredTrace {
-  std::filesystem::path file;
-  Trace trace;
-  Provenance origin;
-  std::vector<Beside> beside;
 };
 
 /// Writes format gaitlab-trace-1. Dataset `/trace` is float64 [rows, columns] (MATLAB shows [columns, rows]), compressed

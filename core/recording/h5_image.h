@@ -1,10 +1,9 @@
 // The HDF5 part of trace.h5, as bytes. Only h5_image.cpp and h5_library.cpp use the HDF5 library.
 #pragma once
-#include <stdexcept>
-#include <string>
+#include <span>
 #include <string_view>
 
-#include "core/recording/h5.h"
+#include "core/recording/stored_trace.h"
 
 namespace gaitlab {
 
@@ -12,12 +11,6 @@ inline constexpr std::string_view kTraceFormat = "gaitlab-trace-1";
 inline constexpr const char* kBeside[] = {"rest",   "ticks", "loads",  "poses",
                                           "spread", "draws", "joints", "run"};  ///< tables of `/recording`
 inline constexpr std::size_t kUserBlock = 512;  ///< bytes before the HDF5 part; the smallest number that HDF5 allows
-
-/// Failure of the HDF5 library, or content that is not a trace.
-class ImageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// Returns the file with an empty user block. Throws ImageError. Only one thread at a time uses HDF5; other threads wait.
 SpilledVector<char> to_image(const Trace& trace, const Provenance& origin, std::span<const BesideOf> beside);

@@ -6,9 +6,8 @@
 #include <mutex>
 #include <utility>
 
-#include "core/files/spill.h"
 #include "core/recording/h5_guard.h"
-#include "core/recording/h5_image.h"
+#include "core/recording/stored_trace.h"
 
 namespace gaitlab {
 

@@ -73,6 +73,8 @@ struct JournalHead {
   double torque_error = Limits().most_torque_error();  ///< least Limits::most_torque_error() of the scenarios
   std::vector<std::string> worlds;  ///< names of the worlds of a robust study, one for each replicate from 1 on
 };
+/// Unit of a quantity of the study. Empty without a unit, and for other names, such as the expression of an objective.
+std::string unit_of(const JournalHead& head, const std::string& name);
 
 /// A generation of a search whose points have all ended.
 struct Generation {
@@ -145,6 +147,8 @@ Enum named_cell(const std::string& text, const char* what, const std::filesystem
 
 /// Name of the column of an objective: `objective.1` for number 0.
 std::string objective_column(std::size_t number);
+/// Index of a name, such as that of a column; the number of names if it is not one of them.
+std::size_t place_in(const std::vector<std::string>& names, const std::string& name);
 
 /// The SQL names of the columns of table `run`, in order.
 struct RunColumns {

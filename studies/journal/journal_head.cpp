@@ -44,7 +44,16 @@ std::vector<std::string> joined_values(const std::string& text) {
 
 }  // namespace
 
+std::string unit_of(const JournalHead& head, const std::string& name) {
+  const auto quantity = std::ranges::find(head.quantities, name, &Quantity::name);
+  return quantity == head.quantities.end() ? "" : quantity->unit;
+}
+
 std::string objective_column(std::size_t number) { return fmt::format("objective.{}", number + 1); }
+
+std::size_t place_in(const std::vector<std::string>& names, const std::string& name) {
+  return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+}
 
 RunColumns::RunColumns(const JournalHead& head) : scenario(!head.scenarios.empty()) {
   std::set<std::string> taken(kBefore.begin(), kBefore.end());

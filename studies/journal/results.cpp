@@ -149,9 +149,8 @@ std::vector<BrokenLimit> broken_limits(Journal& journal) {
   std::vector<std::string> columns{"run"};  // `run` ensures that the query has at least one column
   const Names names = [&](const std::string& name, const std::string& joint) -> Naming {
     const std::string full = joint.empty() ? name : name + "[" + joint + "]";
-    const auto at = std::ranges::find(head.quantities, full, &Quantity::name);
-    if (at == head.quantities.end()) return {{}, "unknown"};
-    const std::string& column = journal.columns().quantities[static_cast<std::size_t>(at - head.quantities.begin())];
+    const std::string column = journal.column_of(full);
+    if (column.empty()) return {{}, "unknown"};
     const auto known = std::ranges::find(columns, column);
     const auto place = static_cast<std::size_t>(known - columns.begin());
     if (known == columns.end()) columns.push_back(column);

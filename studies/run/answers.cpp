@@ -44,10 +44,6 @@ StopLines stop_lines(const std::string& definition) {
   return lines;
 }
 
-std::size_t column(const std::vector<std::string>& names, const std::string& name) {
-  return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
-}
-
 /// Jobs for an executor, with reuse of results.
 class Remembering {
  public:
@@ -165,10 +161,9 @@ Answers::Answers(const Plan& plan, std::filesystem::path file, const std::string
     refuse("is of a study with other rules for stopping runs; its runs may have ended at other times");
   const std::vector<std::string> names = journal_->columns().all();
   for (const Quantity& quantity : plan.columns()) {
-    const auto at = std::ranges::find(head.quantities, quantity.name, &Quantity::name);
-    if (at == head.quantities.end()) refuse("lacks the quantity " + in_quotes(quantity.name) + ", which this study needs");
-    quantities_.push_back(
-        column(names, journal_->columns().quantities[static_cast<std::size_t>(at - head.quantities.begin())]));
+    const std::string column = journal_->column_of(quantity.name);
+    if (column.empty()) refuse("lacks the quantity " + in_quotes(quantity.name) + ", which this study needs");
+    quantities_.push_back(place_in(names, column));
   }
   // Keys of the columns. If the other study has other keys, its points have other names, so that none is found.
   std::vector<std::string> keys;
@@ -177,12 +172,12 @@ Answers::Answers(const Plan& plan, std::filesystem::path file, const std::string
   if (keys.size() != head.parameters.size()) return;
   for (std::size_t k = 0; k < keys.size(); ++k) {
     if (head.parameters[k].key != keys[k]) return;
-    values_.push_back(column(names, journal_->columns().parameters[k]));
+    values_.push_back(place_in(names, journal_->columns().parameters[k]));
   }
-  outcome_ = column(names, "outcome");
-  message_ = column(names, "message");
-  simulated_ = column(names, "simulated");
-  verdict_ = column(names, "verdict");
+  outcome_ = place_in(names, "outcome");
+  message_ = place_in(names, "message");
+  simulated_ = place_in(names, "simulated");
+  verdict_ = place_in(names, "verdict");
   std::vector<std::string> columns{"run", "point", "replicate", "seed"};
   if (journal_->columns().scenario) columns.emplace_back("scenario");
   journal_->each_row(columns, [&](const std::vector<std::string>& row) {

@@ -146,11 +146,6 @@ struct Output {
   std::vector<double> values;
 };
 
-std::string unit_of(const JournalHead& head, const std::string& name) {
-  const auto quantity = std::ranges::find(head.quantities, name, &Quantity::name);
-  return quantity == head.quantities.end() ? "" : quantity->unit;
-}
-
 /// Mean over the replicates of each point. NaN if the value is unknown for any replicate.
 std::vector<double> means(Journal& journal, const std::string& column, std::size_t points) {
   const std::uint64_t replicates = journal.head().replicates;
@@ -226,9 +221,7 @@ std::vector<Sensitivity> sensitivities(Journal& journal, const Results& results)
   }
   for (const std::string& name : head.shown) {
     if (std::ranges::find(outputs, name, &Output::name) != outputs.end()) continue;
-    const auto at = std::ranges::find(head.quantities, name, &Quantity::name) - head.quantities.begin();
-    outputs.push_back(
-        {name, unit_of(head, name), means(journal, journal.columns().quantities[static_cast<std::size_t>(at)], points)});
+    outputs.push_back({name, unit_of(head, name), means(journal, journal.column_of(name), points)});
   }
   std::vector<Sensitivity> found;
   for (const Output& output : outputs) {

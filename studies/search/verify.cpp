@@ -112,9 +112,7 @@ std::string broken_limits(const Plan& plan, const Trial& trial, const PointResul
 Verification as_run(const Plan& plan, Journal& journal, const PointResult& point) {
   Verification own{point.first_run, TrialKind::as_run, "", {}, point.score.violation, Word::failed, ""};
   const std::vector<std::string> names = journal.columns().all();
-  const auto place = [&](const std::string& name) {
-    return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
-  };
+  const auto place = [&](const std::string& name) { return place_in(names, name); };
   for (std::uint64_t run = point.first_run; run < point.first_run + point.runs; ++run) {
     const std::vector<std::string> row = journal.row(run);
     const Word word = named_cell<Word>(row[place("verdict")], "verdict", journal.file());

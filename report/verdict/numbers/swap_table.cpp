@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "core/recording/csv.h"
 #include "core/settings/wording.h"
 #include "report/verdict/numbers/number_texts.h"
 
@@ -39,14 +40,8 @@ std::string in_one_line(std::string text) {
   return text;
 }
 
-/// CSV cell with quotes as in RFC 4180, on one line, because many readers end a row at a line break within quotes.
-std::string quoted(std::string text) {
-  text = in_one_line(std::move(text));
-  if (text.find_first_of(",\"\r") == std::string::npos) return text;
-  std::string all = "\"";
-  for (const char c : text) all += c == '"' ? std::string(2, c) : std::string(1, c);
-  return all + '"';
-}
+/// CSV cell on one line, because many readers end a row at a line break within quotes.
+std::string quoted(std::string text) { return csv_quoted(in_one_line(std::move(text))); }
 
 std::string csv_cell(const Json& value) {
   if (value.is_null()) return "";
