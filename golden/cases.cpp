@@ -105,12 +105,10 @@ GoldenCase orphan(const fs::path& golden) {
   return c;
 }
 
-// Scenario with another engine. The integrator is explicit if the engine has one, because that shares nothing with the golden.
-// Otherwise it is adaptive if that of the golden is, or it has the golden's step, for which the bands were measured, and order
-// 2, so that its error is far below the bands.
+// Scenario with another engine, or with the explicit integrator of the golden's own engine, which shares nothing with the
+// golden. For a golden with given steps: with its step, for which the bands were measured, and its integrator, or order 2.
 Scenario with_engine(const std::string& file, const Scenario& scenario, const std::string& name, double step,
                      Catalog& catalog) {
-  if (scenario.physics.engine->name == name) return scenario;
   const Engine* engine = catalog.engine(name);
   if (engine == nullptr) {
     const std::string near = nearest(name, catalog.engines());
@@ -120,8 +118,13 @@ Scenario with_engine(const std::string& file, const Scenario& scenario, const st
                                               : "did you mean '" + near + "'?"));
   }
   const bool adaptive = scenario.physics.adaptive_step;
-  const Integrator* wanted = adaptive ? engine->adaptive() : engine->integrator("extrapolated");
-  const Integrator& integrator = engine->choose_step != nullptr || wanted == nullptr ? engine->fixed() : *wanted;
+  if (scenario.physics.engine == engine && !(adaptive && engine->choose_step != nullptr)) return scenario;
+  const auto known = [&](const std::string& integrator) { return engine->integrator(integrator); };
+  const Integrator* wanted = engine->choose_step != nullptr ? &engine->fixed() : engine->adaptive();
+  if (!adaptive)
+    wanted =
+        known(scenario.physics.integrator->name) != nullptr ? known(scenario.physics.integrator->name) : known("extrapolated");
+  const Integrator& integrator = wanted != nullptr ? *wanted : engine->fixed();
   return read_scenario(file, engine_settings(scenario, name, integrator, adaptive ? "auto" : fmt::format("{}", step)), catalog);
 }
 
@@ -132,7 +135,8 @@ void read_case(GoldenCase& c, const std::optional<std::string>& engine, Catalog&
     const bool chosen = scenario.physics.adapts();
     if (engine) scenario = with_engine(c.file, scenario, *engine, c.golden->origin.step, catalog);
     take_golden_accuracy(scenario);
-    c.other_engine = scenario.physics.engine->name != c.golden->origin.engine;
+    c.other_engine = scenario.physics.engine->name != c.golden->origin.engine ||
+                     (engine && scenario.physics.integrator->name != c.golden->origin.integrator);
     if (chosen && !scenario.physics.adapts()) {  // the bands contain no error of a given step
       c.halved = scenario;
       c.halved->physics.refine(2);

@@ -51,7 +51,8 @@ constexpr std::array kOffers{
 
 std::vector<Integrator> integrators() {
   std::vector<Integrator> all;
-  for (const Offer& one : kOffers) all.push_back({one.name, one.order, one.order == 0});
+  for (const Offer& one : kOffers)
+    all.push_back({one.name, one.order, one.order == 0, one.method == articulated::StepMethod::rk4});
   return all;
 }
 
@@ -156,7 +157,7 @@ class ArticulatedPlant final : public Plant {
 
 std::vector<Integrator> implicit_integrators() {
   std::vector<Integrator> all = integrators();
-  std::erase_if(all, [](const Integrator& one) { return method_of(one.name) == articulated::StepMethod::rk4; });
+  std::erase_if(all, [](const Integrator& one) { return one.limited; });
   return all;
 }
 
@@ -180,7 +181,7 @@ void register_articulated(Catalog& catalog) {
       "    extrapolated  order 2, steps as given: two half steps and a whole one.\n"
       "    rk4           order 4, explicit; its step must be at most 1 / lambda (docs/equations.md, 7).\n\n"
       "The summary gives an estimate of the torque error of the steps.",
-      integrators(), 5e-4, widths(), true,
+      integrators(), kImplicitStep, widths(), true,
       [](const PlantSettings& s) -> std::unique_ptr<Plant> { return std::make_unique<ArticulatedPlant>(s, nullptr); }, 0});
 }
 

@@ -12,6 +12,8 @@ namespace gaitlab {
 /// Registers the articulated-body algorithm of gaitlab with implicit integration (adaptive, implicit, extrapolated) and rk4.
 void register_articulated(Catalog& catalog);
 
+inline constexpr double kImplicitStep = 5e-4;  ///< default step of implicit integrators with given steps, s
+
 /// Integrators that are implicit in motors, stops and contacts; the first is adaptive.
 std::vector<Integrator> implicit_integrators();
 /// Plant of one lane with one of these integrators, which takes inertia and free acceleration from `dynamics`.

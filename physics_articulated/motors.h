@@ -43,12 +43,11 @@ class StepMotors {
   void take(std::span<const std::size_t> passive, const LaneRange& lanes) {
     if (dc_.empty()) return;
     const DcMotor* from = actuator_->dc_motors() + lanes.first;
+    constexpr auto kTo = BasicDcMotor<T>::constants();
+    constexpr auto kFrom = DcMotor::constants();
     for (BasicDcMotor<T>& to : dc_) {
-      const auto places = to.constants();
       for (std::size_t l = 0; l < math::kLanes<T>; ++l, ++from) {
-        DcMotor one = *from;
-        const auto values = one.constants();
-        for (std::size_t k = 0; k < values.size(); ++k) math::lane(*places[k], l) = *values[k];
+        for (std::size_t k = 0; k < kTo.size(); ++k) math::lane(to.*kTo[k], l) = from->*kFrom[k];
       }
       from += lanes.all - math::kLanes<T>;
     }

@@ -1,7 +1,6 @@
 #include "physics_bullet/bullet_dynamics.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <vector>
 
@@ -17,12 +16,12 @@ class BulletDynamics final : public articulated::OtherDynamics {
   explicit BulletDynamics(const PlantSettings& s)
       : robot_(*s.robot),
         gravity_(s.gravity),
+        base_(s.base),
+        actuator_(s.actuator),
         layout_{robot_.joints.size(), 1},
         body_(robot_, s.base, s.contacts),
         kinematics_(robot_) {
     for (auto* values : {&state_.q, &state_.qd, &acceleration_.joints}) values->resize(layout_.joints);
-    const In inertia = s.actuator == nullptr ? In() : s.actuator->reflected_inertia();
-    if (std::ranges::any_of(inertia, [](double value) { return value > 0; })) rotors_.emplace(robot_, s.base, inertia);
   }
 
   void fall(In state, Out out) override {
@@ -41,7 +40,8 @@ class BulletDynamics final : public articulated::OtherDynamics {
     kinematics_.update(robot_, state);
     body_.load(state, kinematics_, gravity_, torque, wrenches);
     body_.accelerate(state, out);
-    if (!rotors_) return;
+    if (!has_rotors(actuator_)) return;
+    if (!rotors_) rotors_.emplace(robot_, base_, actuator_->reflected_inertia());
     rotors_->update(kinematics_);
     rotors_->add_to(out);
   }
@@ -49,10 +49,12 @@ class BulletDynamics final : public articulated::OtherDynamics {
  private:
   const Robot& robot_;
   Vec3 gravity_;
+  Base base_;
+  const Actuator* actuator_;
   StateLayout layout_;
   bullet::MultiBody body_;
   Kinematics kinematics_;
-  std::optional<RotorInertia> rotors_;
+  std::optional<RotorInertia> rotors_;  ///< matrices of all joints, made by the first accelerate()
   RobotState state_;
   Acceleration acceleration_;
 };

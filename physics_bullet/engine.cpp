@@ -28,11 +28,6 @@ namespace {
 constexpr const char* kRk4 = "rk4";
 constexpr double kLongestBulletStep = 5e-5;  // s; with a longer step, the torque error of a fast gait exceeds 1 %
 
-bool has_rotors(const Actuator* actuator) {
-  const In inertia = actuator == nullptr ? In() : actuator->reflected_inertia();
-  return std::any_of(inertia.begin(), inertia.end(), [](double value) { return value > 0; });
-}
-
 class BulletPlant final : public Plant, private InverseMass {
  public:
   explicit BulletPlant(const PlantSettings& s)
@@ -213,6 +208,8 @@ class BulletPlant final : public Plant, private InverseMass {
   RateMonitor monitor_;
 };
 
+bool is_explicit(const std::string& integrator) { return integrator == "semi_implicit" || integrator == kRk4; }
+
 /// Throws TooManyJoints. Bullet allocates a number for every pair of joints (btMultiBody::finalizeMultiDof) and counts the
 /// pairs in an int. Rotors need three more matrices, and a Cholesky factor at every step.
 void check_joints(const PlantSettings& s) {
@@ -225,24 +222,21 @@ void check_joints(const PlantSettings& s) {
                     "takes at most {} joints; use engine: articulated, whose memory grows with the number of joints",
                     8e-9 * static_cast<double>(joints) * static_cast<double>(joints), joints, kMost));
   }
-  if (joints > kMostWithRotors && has_rotors(s.actuator)) {
+  if (joints > kMostWithRotors && has_rotors(s.actuator) && is_explicit(s.integrator)) {
     throw TooManyJoints(
-        fmt::format("engine bullet solves for all {} joints at once in every step, because actuator.rotor_inertia is "
-                    "not 0, and takes at most {} joints then; use engine: articulated, whose time grows with the number "
-                    "of joints",
+        fmt::format("engine bullet with an explicit integrator solves for all {} joints at once in every step, because "
+                    "actuator.rotor_inertia is not 0, and takes at most {} joints then; use integrator: adaptive, whose "
+                    "time grows with the number of joints",
                     joints, kMostWithRotors));
   }
 }
 
+/// The first integrator is the default, and semi_implicit that for a given step.
 std::vector<Integrator> integrators() {
-  std::vector<Integrator> all = implicit_integrators();
-  all.insert(all.begin() + 1, {{"semi_implicit", 1}, {kRk4, 4}});  // defaults: the first one, and the first for a given step
+  const std::vector<Integrator> implicit = implicit_integrators();
+  std::vector<Integrator> all{implicit.front(), {"semi_implicit", 1, false, true}, {kRk4, 4, false, true}};
+  all.insert(all.end(), implicit.begin() + 1, implicit.end());
   return all;
-}
-
-bool is_implicit(const std::string& integrator) {
-  const std::vector<Integrator> all = implicit_integrators();
-  return integrator.empty() || std::ranges::find(all, integrator, &Integrator::name) != all.end();
 }
 
 /// Allocates memory for Bullet, which does not check the result of malloc.
@@ -280,17 +274,18 @@ void register_bullet(Catalog& catalog) {
       "    contact: {law: bullet, on: all}\n"
       "    ground: {type: boxes, boxes: [{center: [0.5, 0, 0.05], size: [0.1, 0.1, 0.1], mass: 0.2}]}",
       integrators(),
-      kLongestBulletStep,
+      kImplicitStep,
       {1},
       true,
       [](const PlantSettings& s) -> std::unique_ptr<Plant> {
         check_joints(s);
         if (s.contact == ContactLaw::solver) return make_solver_plant(s);
-        if (is_implicit(s.integrator)) return make_implicit_plant(s, make_bullet_dynamics(s));
+        if (!is_explicit(s.integrator)) return make_implicit_plant(s, make_bullet_dynamics(s));
         return std::make_unique<BulletPlant>(s);
       },
       1e-3,
-      [](const Scenario& s) { return stable_step(s, kLongestBulletStep); }});
+      [](const Scenario& s) { return stable_step(s, kLongestBulletStep); },
+      kLongestBulletStep});
 }
 
 std::string bullet_version() {

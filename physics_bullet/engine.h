@@ -6,8 +6,9 @@
 
 namespace gaitlab {
 
-/// Registers the engine: the articulated-body algorithm of btMultiBody, with explicit integration (semi_implicit, rk4) and the
-/// penalty contact law, or with the solver of Bullet (contact.law: bullet).
+/// Registers the engine: the articulated-body algorithm of btMultiBody, with the implicit integrators of
+/// engine articulated or explicit ones (semi_implicit, rk4) and the penalty contact law, or with the solver of Bullet
+/// (contact.law: bullet).
 void register_bullet(Catalog& catalog);
 
 /// Version and precision of the Bullet library, for --version and the build id.

@@ -26,7 +26,7 @@ using ReadAgain = std::function<std::vector<Scenario>(const std::vector<std::str
 using TimeOf = std::function<double(std::span<const Scenario> scenarios)>;
 
 /// Advice to take engine articulated, with the estimated time and the options that select it; empty if the scenarios take less
-/// than 5 s, if none of them has an explicit engine, or if the other engine refuses one or would not be twice as fast.
+/// than 5 s, if none of them has an engine without lanes, or if the other engine refuses one or would not be twice as fast.
 std::string faster_engine(std::span<const Scenario> scenarios, double seconds, const TimeOf& time_of, const ReadAgain& again);
 
 /// Prints on stderr, at `place`, the estimated time of all runs that `again` reads without further settings, and the advice to

@@ -86,7 +86,7 @@ robot:
 
 contact: {on: all}
 cpg: {type: @NAME@, frequency: 0.5, amplitude: 0.5, phase_lag: 1.2}
-physics: {engine: articulated}  # the fast engine; without this line engine bullet, about 15 times slower
+physics: {engine: articulated}  # the fast engine; without this line engine bullet, two to four times slower
 duration: 4                     # s
 )";
 
@@ -161,7 +161,7 @@ ground: {type: none}
 contact: {on: none}
 initial: {angles: {m0/active: 0.2, m0/passive: -0.3}}   # rad; without a cpg these are the set points
 controller: {type: @NAME@}
-physics: {engine: articulated}  # the fast engine; without this line engine bullet, about 15 times slower
+physics: {engine: articulated}  # the fast engine; without this line engine bullet, two to four times slower
 duration: 2                     # s
 )";
 
@@ -270,7 +270,7 @@ contact: {on: none}
 actuator: {type: @NAME@}
 controller: {type: pid, Kp: 100, Kd: 0}
 cpg: {type: sine, frequency: 0.5, amplitude: 0.5, phase_lag: 0}
-physics: {engine: articulated}  # the fast engine; without this line engine bullet, about 15 times slower
+physics: {engine: articulated}  # the fast engine; without this line engine bullet, two to four times slower
 duration: 4                     # s
 )";
 

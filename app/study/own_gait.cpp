@@ -35,7 +35,8 @@ std::vector<Way> ways(const Scenario& own) {
   std::vector<Way> all{{{}}};
   if (own.physics.adapts()) return all;
   all.push_back({{"physics.step=" + number_text(own.physics.step / 2)}});
-  if (const Integrator* adaptive = own.physics.engine->adaptive(); adaptive != nullptr)
+  const Integrator* const adaptive = own.physics.engine->adaptive();
+  if (adaptive != nullptr && !own.contact.model().has_step_of_its_own)
     all.push_back({{"physics.step=auto", std::string("physics.integrator=") + adaptive->name}});
   return all;
 }

@@ -4,6 +4,11 @@
 
 namespace gaitlab {
 
+bool has_rotors(const Actuator* actuator) {
+  const In inertia = actuator == nullptr ? In() : actuator->reflected_inertia();
+  return std::ranges::any_of(inertia, [](double value) { return value > 0; });
+}
+
 RotorInertia::RotorInertia(const Robot& robot, Base base, In inertia)
     : base_(base_entries(base)),
       mass_(robot, base),

@@ -3,9 +3,12 @@
 #include <Eigen/Cholesky>
 
 #include "core/dynamics/mass_matrix.h"
-#include "core/plugin/fields.h"
+#include "core/plugin/actuator.h"
 
 namespace gaitlab {
+
+/// True if the rotor of a motor has an inertia. `actuator` may be null.
+bool has_rotors(const Actuator* actuator);
 
 /// Rotors behind gears add n^2 J to the diagonal of the mass matrix: (M + J) a = f. Their gyroscopic moments and the motion of
 /// their axes are neglected, as usual for n >> 1. Accelerations a_0 = M^-1 f, computed by any algorithm, are corrected to

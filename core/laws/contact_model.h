@@ -18,7 +18,7 @@ struct ContactModel {
   bool rotor_inertia;        ///< joints may have the reflected inertia of rotors
   bool complete_state;       ///< the state determines the forces, so that a copy of the state is a snapshot
   bool converges;            ///< torques converge as the step becomes shorter
-  bool has_step_of_its_own;  ///< the default step is `solver_step` of the engine, for its default integrator
+  bool has_step_of_its_own;  ///< the default step is `solver_step` of the engine, for its default integrator with given steps
 };
 
 template <>

@@ -27,9 +27,21 @@ struct BasicDcMotor {
   V driven = math::exp(-log_efficiency);  ///< 1 / eta, with the rounding of exp(): share of a gear that is driven by its joint
   V driving = math::exp(log_efficiency);  ///< eta, with the same rounding
 
-  [[nodiscard]] std::array<V*, 12> constants() {
-    return {&R,      &Kt,     &Ks, &gear, &efficiency, &u_max, &i_max, &reversal_speed, &back_emf_damping, &log_efficiency,
-            &driven, &driving};
+  /// All members, in their order.
+  static constexpr std::array<V BasicDcMotor::*, 12> constants() {
+    using M = BasicDcMotor;
+    return {&M::R,
+            &M::Kt,
+            &M::Ks,
+            &M::gear,
+            &M::efficiency,
+            &M::u_max,
+            &M::i_max,
+            &M::reversal_speed,
+            &M::back_emf_damping,
+            &M::log_efficiency,
+            &M::driven,
+            &M::driving};
   }
   /// Computes the constants that follow from others, after a change of others.
   void derive() { *this = {R, Kt, Ks, gear, efficiency, u_max, i_max, reversal_speed}; }

@@ -21,21 +21,23 @@ struct Scenario;
 struct Integrator {
   std::string name;
   int order = 0;        ///< order of the error in the step; 0 if unknown or if the method chooses its steps
-  bool adapts = false;  ///< true if the integrator divides its steps according to physics.accuracy
+  bool adapts = false;   ///< true if the integrator divides its steps according to physics.accuracy
+  bool limited = false;  ///< true for an explicit method, whose steps stability limits
 };
 
 /// A physics engine: its possible settings, and a function that makes it.
 struct Engine {
   std::string name, manual;
   std::vector<Integrator> integrators;  ///< the first one is the default; fixed() is the default for a given step
-  double step = 0;                    ///< default step of integrators with a given step, s; with choose_step, the longest step
+  double step = 0;                    ///< default step of integrators with a given step, s
   std::vector<std::size_t> lanes{1};  ///< possible numbers of rollouts side by side, ascending
   bool rotor_inertia = false;         ///< true if the engine can add a joint's reflected rotor inertia
   std::unique_ptr<Plant> (*make)(const PlantSettings&) = nullptr;
   double solver_step = 0;  ///< default step with contact.law `bullet`, s; 0 if the engine lacks that law
-  /// Function that chooses the step, s, for `step: auto`, which is then the default. Null if stability does not limit the steps
-  /// of the engine. The function returns 0 if no stable step divides the scenario's periods.
+  /// Function that chooses the step, s, of explicit integrators for `step: auto`, which is then their default. Null if the
+  /// engine has no such function. It returns 0 if no stable step divides the scenario's periods.
   double (*choose_step)(const Scenario&) = nullptr;
+  double longest_step = 0;  ///< longest step that choose_step returns, s
 
   [[nodiscard]] const Integrator* integrator(std::string_view name) const;  ///< null if the name is unknown
   /// Integrator that chooses its steps and has the default `step: auto`. Null if the engine has none.

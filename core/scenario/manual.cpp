@@ -126,10 +126,12 @@ std::string scenario_page(const Catalog& catalog) {
 }
 
 std::string default_step(const Engine& engine) {
-  const std::string given = engine.choose_step == nullptr
-                                ? number_text(engine.step)
-                                : fmt::format("the longest up to {} s that is stable at the start", number_text(engine.step));
-  if (engine.adaptive() == nullptr) return engine.choose_step == nullptr ? given + " s" : "auto, " + given;
+  std::string given = number_text(engine.step) + " s";
+  if (engine.adaptive() == nullptr) return given;
+  if (engine.choose_step != nullptr) {
+    given += fmt::format(" (an explicit one: auto, the longest up to {} s that is stable at the start)",
+                         number_text(engine.longest_step));
+  }
   return fmt::format("auto (integrator {}); {} with another integrator; {} is the default integrator if a step is given",
                      engine.adaptive()->name, given, engine.fixed().name);
 }

@@ -246,7 +246,7 @@ class ScenarioReader {
   void choose_step() {
     Physics& physics = scenario_.physics;
     if (!physics.chosen_step) return;
-    physics.step = physics.engine->step;
+    physics.step = physics.engine->longest_step;
     try {
       const double chosen = physics.engine->choose_step(scenario_);
       if (chosen > 0) physics.step = chosen;

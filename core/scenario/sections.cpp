@@ -103,7 +103,7 @@ void PhysicsFields::fields(Fields& f) {
     f.one_of("integrator", integrator, integrators.pointers, "Integrator of the engine.");
     physics.integrator = engine.integrator(integrator);
     physics.adaptive_step = step <= 0 && physics.adapts();
-    physics.chosen_step = step <= 0 && chooses && !physics.adapts();
+    physics.chosen_step = step <= 0 && chooses && physics.integrator != nullptr && physics.integrator->limited;
     if (step > 0 || !physics.adapts()) physics.step = step > 0 ? step : engine.step;
     if (physics.adapts() || catalog != nullptr) {  // read always, but written only if it has an effect
       f.number(
@@ -120,7 +120,8 @@ void PhysicsFields::fields(Fields& f) {
   if (catalog == nullptr && physics.estimate == Estimate::full) return;
   f.choice("estimate", physics.estimate, enum_names<Estimate>(),
            "Estimate of the torque error. full: from additional rollouts, with finer and coarser steps and with gravity times "
-           "1 + 1e-9, which add a quarter to the run time (a tenth if the step is given: only windows of a rollout have other "
+           "1 + 1e-9, which add a quarter to the run time in engine articulated and once to twice the run time in engine "
+           "bullet (a tenth if the step is given: only windows of a rollout have other "
            "steps). off: no estimate; the run is bit-identical, but the verdict lacks evidence.");
 }
 

@@ -253,9 +253,7 @@ std::string drop_engine_keys(Node& root, const std::vector<std::string>& sets, c
   if (engine == nullptr) return "";  // the reader of the section reports an unknown engine
   const std::vector<std::string> integrators = engine->integrator_names();
   const std::string dropped = take_out(physics, "", [&](const std::string& key, const Node& value) {
-    if (is_set(value)) return false;
-    if (key == "accuracy") return engine->adaptive() == nullptr;
-    return key == "integrator" && std::ranges::find(integrators, value.text) == integrators.end();
+    return !is_set(value) && key == "integrator" && std::ranges::find(integrators, value.text) == integrators.end();
   });
   return dropped.empty() ? "" : fmt::format("physics: dropped {}, which engine {} does not have", dropped, clipped(name));
 }

@@ -262,16 +262,16 @@ void find_start(const Scenario& s, const Recording& r, double end, double ramp, 
 
 Gait gait(const Scenario& s, const Recording& r) {
   Gait made;
-  const auto [stated, full_size, ramp] = stated_times(s);
-  made.full_size = full_size;
-  if (s.cpg.entry != nullptr) made.period = period_of(s, r, stated, made);
-  find_start(s, r, r.simulated, ramp, made);
+  const StatedTimes stated = stated_times(s);
+  made.full_size = stated.full_size;
+  if (s.cpg.entry != nullptr) made.period = period_of(s, r, stated.period, made);
+  find_start(s, r, r.simulated, stated.ramp, made);
   return made;
 }
 
 Gait gait_so_far(const Scenario& s, const Recording& so_far) {
   const StatedTimes stated = stated_times(s);
-  Gait made{.period = stated.period, .full_size = stated.full_size};
+  Gait made{.period = stated.by_cpg ? stated.period : 0, .full_size = stated.full_size};
   find_start(s, so_far, s.duration, stated.ramp, made);
   return made;
 }

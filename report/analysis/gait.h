@@ -30,7 +30,7 @@ struct Gait {
 
 /// Throws PluginError.
 Gait gait(const Scenario& scenario, const Recording& record);
-/// The gait of a run that has not ended: with the stated period, a start that counts the changes and the ramp that are still to
+/// The gait of a run that has not ended: with the period that the CPG states (0 if it states none), a start that counts the changes and the ramp that are still to
 /// come, and without `ahead`. It simulates no CPG. Throws PluginError.
 Gait gait_so_far(const Scenario& scenario, const Recording& so_far);
 

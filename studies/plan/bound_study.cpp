@@ -17,12 +17,18 @@ namespace gaitlab::studies {
 
 namespace {
 
-/// Settings that replace the engine of a scenario by that of `verify`, with its default step. Empty if `verify` names no
-/// engine, or if the scenario uses that engine already.
+/// True if the engine has no other method for the scenario than its own: explicit integrators differ from adaptive ones.
+bool is_own(const std::string& engine, const Scenario& scenario) {
+  const Physics& physics = scenario.physics;
+  return physics.engine->name == engine && !(physics.adaptive_step && physics.engine->choose_step != nullptr);
+}
+
+/// Settings that replace the engine of a scenario by that of `verify`, with its default step, or by the explicit
+/// integrator of its own engine. Empty if `verify` names no engine, or if there is no other method.
 std::vector<std::string> other_engine_of(const Verify& verify, const Scenario& scenario, const Catalog& catalog,
                                          Problems& problems) {
   const std::string& name = verify.engine;
-  if (name == "none" || name == scenario.physics.engine->name) return {};
+  if (name == "none" || is_own(name, scenario)) return {};
   const Engine* engine = catalog.engine(name);
   if (engine == nullptr) {
     problems.add(verify.place,
@@ -228,7 +234,7 @@ void BoundStudy::check_engines(const Catalog& catalog, std::vector<Problems>& fo
                    "`verify.faults: each` needs a scenario without a section `at`, but this one has one; expected another "
                    "scenario, or `faults: none`");
     }
-    if (scenarios_[s].nominal.physics.engine->name == engine) {
+    if (is_own(engine, scenarios_[s].nominal)) {
       found[s].add(study_.verify.place,
                    fmt::format("verify.engine is {}, the engine of the study itself; expected another, or `none`; engines: {}",
                                engine, fmt::join(catalog.engines(), ", ")));

@@ -208,6 +208,8 @@ std::optional<Row> Answers::find(const Row& wanted) {
   row.simulated = number_of(there[simulated_]);
   row.verdict = named_cell<Word>(there[verdict_], "verdict", journal_->file());
   if (row.outcome != name_of(Ended::done) && !stopped) return row;
+  const bool empty = std::ranges::all_of(quantities_, [&](std::size_t k) { return there[k].empty(); });
+  if (stopped && empty) return {};  // of a version that kept no quantities of stopped runs
   for (const std::size_t k : quantities_) row.quantities.push_back(there[k].empty() ? std::nan("") : number_of(there[k]));
   plan_.score(row);
   return row;

@@ -164,7 +164,7 @@ Explainer study_keys() {
                 "single checks, by id: another limit, a least margin, true (required) or false (ignored).");
   explainer.row("stop", "", "[hopeless] in searches", "none or texts: `hopeless`, `EXPRESSION`, `EXPRESSION after SECONDS`",
                 "Rules that end a run early, evaluated once every simulated second on quantities of the run so far: `fell`, or "
-                "quantities of a joint. `hopeless`: a guard is lost, whatever follows. It is the default of `gaitlab optimize` "
+                "quantities of a joint. `hopeless`: a guard is lost beyond doubt. It is the default of `gaitlab optimize` "
                 "and `evaluate` if every run of a point counts (`combine: worst` or `mean`).");
   explainer.row("start", "", "[]", "[{PARAMETER: VALUE, ...}, ...]",
                 "Points that a search runs first, after the scenario's own values, which it always runs. A parameter "

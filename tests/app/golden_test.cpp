@@ -73,6 +73,13 @@ TEST_F(GoldenCommand, FailsWhatIsInfeasible) {
   const Result other = call("test good.yaml --engine bullet");
   EXPECT_EQ(other.code, 0) << other.out;
   EXPECT_EQ(other.err.find("error"), std::string::npos) << other.err;  // a slow machine prints progress
+  folder.write("good.yaml", kGait);
+  ASSERT_EQ(call("approve good.yaml --reason 'the default engine' --replace").code, 0);
+  const Result explicit_run = call("test good.yaml --engine bullet");  // with its explicit integrator, which shares nothing
+  EXPECT_EQ(explicit_run.code, 0) << explicit_run.out;
+  EXPECT_EQ(explicit_run.out.find("         0  distance                0  passed"), std::string::npos) << explicit_run.out;
+  folder.write("good.yaml", walk);
+  ASSERT_EQ(call("approve good.yaml --reason 'a whole gait' --replace").code, 0);
   folder.write("good.yaml", walk + "actuator: {Kt: 0.004}\n");
   EXPECT_EQ(call("test good.yaml --engine bullet").code, 4);
   folder.write("good.yaml", walk);

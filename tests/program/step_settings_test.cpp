@@ -44,6 +44,8 @@ TEST(StepSettings, ANumberAsksForTheIntegratorOfFirstOrder) {
   EXPECT_EQ(physics("engine: articulated, integrator: implicit").step, 5e-4);
   EXPECT_EQ(physics("engine: bullet, step: 2e-5").integrator->name, "semi_implicit");
   EXPECT_EQ(physics("engine: bullet").integrator->name, "adaptive");
+  EXPECT_EQ(physics("engine: bullet, integrator: implicit").step, 5e-4) << "no limit of stability";
+  EXPECT_EQ(physics("engine: bullet, integrator: semi_implicit").step, 2.5e-5);
 }
 
 TEST(StepSettings, TheAdaptiveIntegratorTakesANumberForItsLongestStep) {

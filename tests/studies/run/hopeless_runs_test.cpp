@@ -86,6 +86,18 @@ TEST(HopelessRuns, AreThoseOfTheStudysGuards) {
   EXPECT_EQ(row.outcome, "done") << row.message;
 }
 
+/// A CPG that states no period may change its set points later: the first 4 s, at the limit of the voltage, decide nothing.
+TEST(HopelessRuns, AreNoneWhereTheGaitMayChange) {
+  const std::string late =
+      "parameters: {controller.Kp: {low: 50, high: 100}}\nbudget: {runs: 16}\n"
+      "set: [contact.on=all, duration=8, physics.estimate=off, actuator.u_max=2, "
+      "'cpg={type: equations, model: {states: {g: 1}, initial: {g: 0}, output: \"if(g < 4, 0.8, 0.1)*sin(6.2831853*g)\"}}']\n";
+  SmallStudy study(late, studies::Purpose::optimize);
+  study.plan->add({"60"});
+  const Row row = executed_row(study, study.job(0));
+  EXPECT_EQ(row.outcome, "done") << row.message;
+}
+
 /// The rule changes no bit of a run that it does not stop.
 TEST(HopelessRuns, LeaveOthersAsTheyAre) {
   const std::string gentle = "set: [contact.on=all, duration=4, physics.estimate=off, cpg.frequency=1, cpg.amplitude=0.1]\n";
