@@ -43,7 +43,7 @@ StatedTimes stated_times(const Scenario& s) {
   const PluginSelection& last = s.changes.empty() ? s.cpg : s.changes.back().cpg;
   const std::unique_ptr<Cpg> cpg = make_cpg(last, plugin_info(s));
   const auto [period, full_size] = cpg->times();
-  StatedTimes made{period, full_size, cpg->states() == 0 ? full_size : 0, period > 0};
+  StatedTimes made{period, full_size, cpg->states() == 0 ? full_size : 0, period > 0 || full_size > 0};
   if (const std::vector<double> all = frequencies(s, last); !(period > 0) && !all.empty())
     made.period = 1 / *std::ranges::min_element(all);
   return made;

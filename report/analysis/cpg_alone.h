@@ -20,7 +20,7 @@ struct StatedTimes {
   /// s, full_size of a CPG without states, whose ramp has an end; 0 for other CPGs, whose states approach their full size for
   /// ever, mostly within the first period.
   double ramp = 0;
-  bool by_cpg = false;  ///< true if the CPG itself states the period, so that its set points cannot change later
+  bool by_cpg = false;  ///< true if the CPG states its period or its full size, so that its set points cannot change later
 };
 StatedTimes stated_times(const Scenario& scenario);
 

@@ -30,8 +30,8 @@ struct Gait {
 
 /// Throws PluginError.
 Gait gait(const Scenario& scenario, const Recording& record);
-/// The gait of a run that has not ended: with the period that the CPG states (0 if it states none), a start that counts the changes and the ramp that are still to
-/// come, and without `ahead`. It simulates no CPG. Throws PluginError.
+/// The gait of a run that has not ended: with the stated period (0 if the CPG states no time), a start that counts the changes
+/// and the ramp that are still to come, and without `ahead`. It simulates no CPG. Throws PluginError.
 Gait gait_so_far(const Scenario& scenario, const Recording& so_far);
 
 /// Sentence on set points that do not yet have, or do not keep, the size that they have in the judged window; empty if they do.

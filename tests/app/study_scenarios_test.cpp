@@ -217,7 +217,7 @@ TEST_F(StudyScenarios, WhatOneLacksIsToldWithItsName) {
 
 TEST_F(StudyScenarios, TheEngineOfOneDoesNotVerify) {
   std::string other = read(folder_ / "two.yaml");
-  folder_.write("bullet.yaml", other.replace(other.find("articulated"), 11, "bullet"));
+  folder_.write("bullet.yaml", other.replace(other.find("articulated"), 11, "bullet, step: 2.5e-5"));
   folder_.write("o.yaml",
                 "gaitlab_study: 1\nscenarios: {short: two.yaml, long: bullet.yaml}\n"
                 "parameters: {cpg.amplitude: {low: 0.05, high: 0.2}}\nbudget: {runs: 48}\nverify: {engine: bullet}\n");
