@@ -43,7 +43,7 @@ TEST_F(LargeRobot, OfTwentyThousandModulesIsRefusedBeforeItCosts) {
       check(limits).err,
       "s.yaml: error: engine bullet keeps a number for every pair of joints, 1.15 GB for the 12000 joints here, and takes at "
       "most 10000 joints; use engine: articulated, whose memory grows with the number of joints\n");
-  chain(1'001, "physics: {integrator: semi_implicit}\nactuator: {rotor_inertia: 1e-7}\n");
+  chain(1'001, "physics: {engine: bullet, integrator: semi_implicit}\nactuator: {rotor_inertia: 1e-7}\n");
   EXPECT_EQ(
       check(limits).err,
       "s.yaml:3:19: error: engine bullet with an explicit integrator solves for all 2002 joints at once in every step, because "
