@@ -76,7 +76,7 @@ TEST_F(GoldenCommand, FailsWhatIsInfeasible) {
   folder.write("good.yaml", kGait);
   ASSERT_EQ(call("approve good.yaml --reason 'the default engine' --replace").code, 0);
   const Result explicit_run = call("test good.yaml --engine bullet");  // with its explicit integrator, which shares nothing
-  EXPECT_NE(explicit_run.code, 2) << explicit_run.err;  // the run is short, so that bands are close
+  EXPECT_NE(explicit_run.code, 2) << explicit_run.err;                 // the run is short, so that bands are close
   EXPECT_EQ(explicit_run.out.find("         0  distance                0  passed"), std::string::npos) << explicit_run.out;
   folder.write("good.yaml", walk);
   ASSERT_EQ(call("approve good.yaml --reason 'a whole gait' --replace").code, 0);
