@@ -20,7 +20,7 @@ struct Scenario;
 /// A method of time integration.
 struct Integrator {
   std::string name;
-  int order = 0;        ///< order of the error in the step; 0 if unknown or if the method chooses its steps
+  int order = 0;         ///< order of the error in the step; 0 if unknown or if the method chooses its steps
   bool adapts = false;   ///< true if the integrator divides its steps according to physics.accuracy
   bool limited = false;  ///< true for an explicit method, whose steps stability limits
 };
@@ -29,9 +29,9 @@ struct Integrator {
 struct Engine {
   std::string name, manual;
   std::vector<Integrator> integrators;  ///< the first one is the default; fixed() is the default for a given step
-  double step = 0;                    ///< default step of integrators with a given step, s
-  std::vector<std::size_t> lanes{1};  ///< possible numbers of rollouts side by side, ascending
-  bool rotor_inertia = false;         ///< true if the engine can add a joint's reflected rotor inertia
+  double step = 0;                      ///< default step of integrators with a given step, s
+  std::vector<std::size_t> lanes{1};    ///< possible numbers of rollouts side by side, ascending
+  bool rotor_inertia = false;           ///< true if the engine can add a joint's reflected rotor inertia
   std::unique_ptr<Plant> (*make)(const PlantSettings&) = nullptr;
   double solver_step = 0;  ///< default step with contact.law `bullet`, s; 0 if the engine lacks that law
   /// Function that chooses the step, s, of explicit integrators for `step: auto`, which is then their default. Null if the
