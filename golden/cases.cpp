@@ -119,11 +119,9 @@ Scenario with_engine(const std::string& file, const Scenario& scenario, const st
   }
   const bool adaptive = scenario.physics.adaptive_step;
   if (scenario.physics.engine == engine && !(adaptive && engine->choose_step != nullptr)) return scenario;
-  const auto known = [&](const std::string& integrator) { return engine->integrator(integrator); };
   const Integrator* wanted = engine->choose_step != nullptr ? &engine->fixed() : engine->adaptive();
-  if (!adaptive)
-    wanted =
-        known(scenario.physics.integrator->name) != nullptr ? known(scenario.physics.integrator->name) : known("extrapolated");
+  if (!adaptive) wanted = engine->integrator(scenario.physics.integrator->name);
+  if (wanted == nullptr) wanted = engine->integrator("extrapolated");
   const Integrator& integrator = wanted != nullptr ? *wanted : engine->fixed();
   return read_scenario(file, engine_settings(scenario, name, integrator, adaptive ? "auto" : fmt::format("{}", step)), catalog);
 }
