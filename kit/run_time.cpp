@@ -26,20 +26,19 @@ struct StepCost {
   ContactLaw law;
   double base, link, contact, joint, box;
   double doubled;  ///< number of links at which the cost of each link has doubled; infinity if that cost is constant
-  bool limited;    ///< an explicit method
 };
 constexpr double kAny = std::numeric_limits<double>::infinity();
 constexpr std::array kStepCosts{
-    StepCost{"bullet", "semi_implicit", ContactLaw::penalty, 0.4, 0.72, 0.05, 0, 0, 4000, true},
-    StepCost{"bullet", "rk4", ContactLaw::penalty, 1.6, 2.9, 0.2, 0, 0, 4000, true},
-    StepCost{"bullet", "implicit", ContactLaw::penalty, 1.5, 0.85, 0.025, 0, 0, kAny, false},
-    StepCost{"bullet", "extrapolated", ContactLaw::penalty, 4, 2.3, 0.06, 0, 0, kAny, false},
-    StepCost{"bullet", "adaptive", ContactLaw::penalty, 1.5, 0.85, 0.025, 0, 0, kAny, false},  // cost of a solve
-    StepCost{"bullet", "semi_implicit", ContactLaw::solver, 0, 4.5, 2, 8, 11, 4000, true},
-    StepCost{"articulated", "implicit", ContactLaw::penalty, 1.1, 0.4, 0.025, 0, 0, kAny, false},
-    StepCost{"articulated", "extrapolated", ContactLaw::penalty, 2.8, 1, 0.06, 0, 0, kAny, false},
-    StepCost{"articulated", "rk4", ContactLaw::penalty, 0, 1.3, 0.05, 0, 0, kAny, true},
-    StepCost{"articulated", "adaptive", ContactLaw::penalty, 1.1, 0.4, 0.025, 0, 0, kAny, false},  // cost of a solve
+    StepCost{"bullet", "semi_implicit", ContactLaw::penalty, 0.4, 0.72, 0.05, 0, 0, 4000},
+    StepCost{"bullet", "rk4", ContactLaw::penalty, 1.6, 2.9, 0.2, 0, 0, 4000},
+    StepCost{"bullet", "implicit", ContactLaw::penalty, 1.5, 0.85, 0.025, 0, 0, kAny},
+    StepCost{"bullet", "extrapolated", ContactLaw::penalty, 4, 2.3, 0.06, 0, 0, kAny},
+    StepCost{"bullet", "adaptive", ContactLaw::penalty, 1.5, 0.85, 0.025, 0, 0, kAny},  // cost of a solve
+    StepCost{"bullet", "semi_implicit", ContactLaw::solver, 0, 4.5, 2, 8, 11, 4000},
+    StepCost{"articulated", "implicit", ContactLaw::penalty, 1.1, 0.4, 0.025, 0, 0, kAny},
+    StepCost{"articulated", "extrapolated", ContactLaw::penalty, 2.8, 1, 0.06, 0, 0, kAny},
+    StepCost{"articulated", "rk4", ContactLaw::penalty, 0, 1.3, 0.05, 0, 0, kAny},
+    StepCost{"articulated", "adaptive", ContactLaw::penalty, 1.1, 0.4, 0.025, 0, 0, kAny},  // cost of a solve
 };
 constexpr double kOnBoxes = 0.1;  // us per contact element and step, on ground with boxes
 constexpr double kUnknown = 1e3;  // us per step of an engine that the table lacks
@@ -94,11 +93,11 @@ double companions(const Scenario& s) {
 }
 
 /// Number of steps of a run with `steps` fixed steps, including those of its twin.
-double steps_with_twin(const StepCost& cost, const Scenario& s, double steps) {
+double steps_with_twin(const Scenario& s, double steps) {
   const Physics& physics = s.physics;
   const bool possible = physics.integrator->order > 0 && s.contact.model().complete_state && !s.robot->joints.empty();
   if (physics.estimate != Estimate::full || !possible || s.actuator.entry == nullptr) return steps;
-  const TwinWindows how = twin_windows(s, cost.limited);
+  const TwinWindows how = twin_windows(s, s.physics.integrator->limited);
   const auto window = static_cast<double>(how.window), cycle = static_cast<double>(how.cycle);
   const double whole = std::floor(steps / cycle);
   const double covered = whole * window + std::min(window, steps - whole * cycle);
@@ -185,7 +184,7 @@ double steps_seconds(const Scenario& s) {
   if (cost == nullptr) return 0;
   const double us = step_us(*cost, s), steps = std::ceil(s.duration / s.physics.step - 1e-9);
   if (s.physics.adapts()) return 1e-6 * us * companions(s) * adaptive_solves(s, us, steps);
-  return 1e-6 * us * steps_with_twin(*cost, s, steps);
+  return 1e-6 * us * steps_with_twin(s, steps);
 }
 
 }  // namespace
