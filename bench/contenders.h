@@ -34,7 +34,7 @@ struct ContenderField {
 /// All contenders that are possible with the engines in the catalog. `left_out` receives sentences about those that are not.
 ContenderField field(const Catalog& catalog, std::vector<std::string>& left_out);
 
-/// Name of a second reference, against which the errors of ContenderGroup::ours are measured too.
+/// Name of a second reference for the errors of ContenderGroup::ours.
 inline constexpr const char* kOther = "bullet";
 
 }  // namespace gaitlab::versus

@@ -48,7 +48,7 @@ inline constexpr double kConstantRange = 1e-6, kConstantBand = 1e-5;
 /// weight with small torques. Start angles that differ by 1e-7 rad change these torques permanently, by 6e-6 of the motors'
 /// torques.
 inline constexpr double kNarrowBand = 1e-4;
-/// Number of starts over which the numbers of a quantised scenario are averaged (starts.h).
+/// Number of starts of a quantised scenario, whose numbers are means (starts.h).
 inline constexpr int kStarts = 16;
 /// Band of a mean over starts, in standard errors of the difference of two such means. Student's t with 15 degrees of freedom
 /// exceeds 6 once in 40 000 numbers.

@@ -106,7 +106,7 @@ GoldenCase orphan(const fs::path& golden) {
 }
 
 // Scenario with another engine, or with the explicit integrator of the golden's own engine, which shares nothing with the
-// golden. For a golden with given steps: with its step, for which the bands were measured, and its integrator, or order 2.
+// golden. A golden with given steps keeps its step, which belongs to its bands, and its integrator; otherwise order 2.
 Scenario with_engine(const std::string& file, const Scenario& scenario, const std::string& name, double step,
                      Catalog& catalog) {
   const Engine* engine = catalog.engine(name);

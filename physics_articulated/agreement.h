@@ -1,4 +1,4 @@
-// Agreement of two results of a step, by which an adaptive step is taken or divided.
+// Agreement of two results of an adaptive step, which is divided if they do not agree.
 #pragma once
 #include <span>
 #include <utility>
@@ -31,8 +31,8 @@ class Agreement {
   /// Time since the last limit or slip, s, at the end of the whole step of `h` seconds.
   [[nodiscard]] T quiet(double h) const { return math::select(event_, T(0.0), quiet_ + T(h)); }
 
-  /// Lanes of `which` in which no speed differs by more than `share` of the accuracy. `difference(e)` is that of entry e of the
-  /// state. `peak` contains the largest torque of each joint so far, N m.
+  /// Lanes of `which` in which no speed differs by more than `share` of the accuracy. `difference(e)`: difference of entry e of
+  /// the state. `peak` contains the largest torque of each joint so far, N m.
   template <class Difference>
   math::Mask<T> within(double share, const math::Mask<T>& which, const StepLimits<T>& limits, const StepMotors<T>& motors,
                        std::span<const T> peak, Difference difference) {
@@ -63,12 +63,12 @@ class Agreement {
   static constexpr double kFloor = 0.01;                       ///< least largest torque, as a share of that at rest
   // An undamped speed error becomes a position error, which changes a torque long after the step that caused the error.
   static constexpr double kAtLimit = 0.25;  ///< factor on the tolerance of a joint whose motor is at its limit
-  static constexpr double kLoose = 0.5;  ///< factor on that of the base if a motor is at its limit or most of the load slides
+  static constexpr double kLoose = 0.5;     ///< factor on the tolerance of the base, for a motor at its limit or a sliding load
   // A motion without limits and slipping is smooth, and its error is a small share of the accuracy, the smaller the less
   // accurate it is.
   static constexpr double kQuiet = 2;         ///< factor on the tolerances in such a motion
-  static constexpr double kQuietAfter = 0.5;  ///< s, time since the last limit or slip at which it is reached, linearly from 1
-  static constexpr double kQuietAt = 0.01;    ///< accuracy at which it is reached, linearly from 1
+  static constexpr double kQuietAfter = 0.5;  ///< s; the factor grows linearly from 1 in this time after a limit or slip
+  static constexpr double kQuietAt = 0.01;    ///< accuracy with the whole factor; smaller accuracies have a smaller one
 
   T accuracy_;
   T quiet_ = 0.0, of_quiet_ = 0.0;  ///< at the start of the whole step: time, s, and accuracy

@@ -24,7 +24,7 @@ namespace gaitlab::articulated {
 template <class T>
 class TreeBody {
  public:
-  /// With `other`, which is for one lane only, weight, centrifugal and gyroscopic forces are those that cause its acceleration.
+  /// `other` is for one lane only. Its acceleration then replaces weight, centrifugal and gyroscopic forces.
   TreeBody(const Tree<T>& tree, const Vec<T>& gravity, OtherDynamics* other = nullptr)
       : tree_(tree), gravity_(gravity), links_(tree.links.size()), other_(other), fall_(6 + tree.lo.size()) {}
 
@@ -206,7 +206,7 @@ class TreeBody {
     l.at_rest.f = cross(l.V.w, momentum) - weight;
   }
 
-  /// Sets the forces at rest to those that cause the acceleration of `other_`: p = -I A.
+  /// Computes the forces at rest from the acceleration of `other_`: p = -I A.
   void take_forces(std::span<const T> state) {
     other_->fall(state, fall_);
     const Vec<T> turning = cross(links_[0].V.w, links_[0].V.v);

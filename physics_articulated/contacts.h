@@ -30,7 +30,7 @@ struct Environment {
   T friction = 0.0;   ///< friction coefficients of the planes
   std::vector<const Ground*> ground;
   Touch<double> (*query)(const Ground&, const Vec<double>& centre, double radius) = nullptr;
-  OtherDynamics* dynamics = nullptr;  ///< forward dynamics in place of the recursion, for one lane
+  OtherDynamics* dynamics = nullptr;  ///< forces at rest in place of those of the recursion, for one lane; may be null
 };
 
 /// An element that touches the ground, or may touch it before the step ends. Its forces depend on the velocity (vn+, vt+) at

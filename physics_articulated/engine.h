@@ -16,7 +16,7 @@ inline constexpr double kImplicitStep = 5e-4;  ///< default step of implicit int
 
 /// Integrators that are implicit in motors, stops and contacts; the first is adaptive.
 std::vector<Integrator> implicit_integrators();
-/// Plant of one lane with one of these integrators, which takes inertia and free acceleration from `dynamics`.
+/// Plant of one lane with one of these integrators, under the weight, centrifugal and gyroscopic forces of `dynamics`.
 std::unique_ptr<Plant> make_implicit_plant(const PlantSettings& settings, std::unique_ptr<articulated::OtherDynamics> dynamics);
 
 }  // namespace gaitlab

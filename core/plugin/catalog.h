@@ -34,8 +34,8 @@ struct Engine {
   bool rotor_inertia = false;           ///< true if the engine can add a joint's reflected rotor inertia
   std::unique_ptr<Plant> (*make)(const PlantSettings&) = nullptr;
   double solver_step = 0;  ///< default step with contact.law `bullet`, s; 0 if the engine lacks that law
-  /// Function that chooses the step, s, of explicit integrators for `step: auto`, which is then their default. Null if the
-  /// engine has no such function. It returns 0 if no stable step divides the scenario's periods.
+  /// Function that chooses the step, s, of explicit integrators for `step: auto`, which is then their default. Null without
+  /// such a function. It returns 0 if no stable step divides the scenario's periods.
   double (*choose_step)(const Scenario&) = nullptr;
   double longest_step = 0;  ///< longest step that choose_step returns, s
 

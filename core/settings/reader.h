@@ -61,7 +61,7 @@ class Reader final : public Fields {
   void require(std::initializer_list<const char*> keys);
   /// Reports every key that was not read.
   void finish();
-  /// Elements of lists and of maps by name, of this map alone, in which a fault was found.
+  /// Faulty elements of the lists and maps by name in this map.
   [[nodiscard]] const std::vector<const Node*>& faulty() const { return faulty_; }
 
  private:

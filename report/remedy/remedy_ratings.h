@@ -9,7 +9,7 @@
 
 namespace gaitlab::report {
 
-/// A rated load, which does not act on the motion, and the rating that suffices.
+/// A rated load without effect on the motion, and a sufficient rating.
 struct RatingNeeded {
   std::string check, part;  ///< the part that exceeds its rating most
   std::string setting;      ///< last part of the key, such as `i_continuous`

@@ -12,7 +12,7 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kPeriodsBefore = 2;   // after the start of the gait, in which no check is lost
+constexpr double kPeriodsBefore = 2;   // after the start of the gait; no check is lost before
 constexpr double kLostPeak = 1.5;      // chosen (decision 49)
 constexpr double kLostShare = 5;       // chosen (decision 49)
 constexpr double kSameInstant = 1e-9;  // s
@@ -67,7 +67,7 @@ LostCheck lost_check(std::span<const NeededMargin> needed, const Scenario& scena
     if (is_lost(kind->lost, margin_quantity(one.quantity, check), one.least, ran)) return {check.id, check.worst};
   }
   return {};
-} catch (const PluginError&) {  // a CPG that fails when it is asked for its times also fails when the whole run is judged
+} catch (const PluginError&) {  // the same failure ends the judgement of the whole run
   return {};
 }
 

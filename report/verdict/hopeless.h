@@ -1,4 +1,4 @@
-// Hopeless runs: those that have not ended, and have already lost a check of the verdict.
+// Hopeless runs, which have lost a check of the verdict before their end.
 #pragma once
 #include <span>
 #include <string>

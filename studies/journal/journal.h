@@ -147,7 +147,7 @@ Enum named_cell(const std::string& text, const char* what, const std::filesystem
 
 /// Name of the column of an objective: `objective.1` for number 0.
 std::string objective_column(std::size_t number);
-/// Index of a name, such as that of a column; the number of names if it is not one of them.
+/// Index of a name, such as a column; the number of names if the list lacks it.
 std::size_t place_in(const std::vector<std::string>& names, const std::string& name);
 
 /// The SQL names of the columns of table `run`, in order.

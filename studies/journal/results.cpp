@@ -33,7 +33,7 @@ class Gather {
 };
 
 /// True if a run counts as failed. A stopped run with a score, which breaks a limit, counts like a completed one if a point
-/// must not break a limit in any of its runs: the point is then not kept, and models learn from what ran.
+/// must not break a limit in any of its runs. The point is then not kept, and models learn from its score.
 bool has_failed(const JournalHead& head, const Brief& run) {
   const bool every = head.combine == name_of(Combine::worst) || head.combine == name_of(Combine::mean);
   return !run.score || (run.outcome != name_of(Ended::done) && (run.outcome != name_of(Ended::stopped) || !every));

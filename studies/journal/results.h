@@ -15,7 +15,7 @@ struct PointResult {
   Score score;                                           ///< objectives and violation, combined over the replicates
   double lived = 0;                                      ///< shortest simulated time of the failed replicates, s
   std::uint64_t feasible_runs = 0, infeasible_runs = 0;  ///< numbers of runs with verdict `feasible` and `infeasible`
-  std::uint64_t stopped = 0;                             ///< number of stopped runs that count by what ran of them
+  std::uint64_t stopped = 0;                             ///< number of stopped runs with a score
   [[nodiscard]] bool kept() const { return failed == 0 && score.kept(); }
   [[nodiscard]] bool feasible() const { return feasible_runs == runs; }
   [[nodiscard]] double feasible_share() const { return static_cast<double>(feasible_runs) / static_cast<double>(runs); }

@@ -24,7 +24,7 @@ bool is_own(const std::string& engine, const Scenario& scenario) {
 }
 
 /// Settings that replace the engine of a scenario by that of `verify`, with its default step, or by the explicit
-/// integrator of its own engine. Empty if `verify` names no engine, or if there is no other method.
+/// integrator of the same engine. Empty without such an engine or integrator.
 std::vector<std::string> other_engine_of(const Verify& verify, const Scenario& scenario, const Catalog& catalog,
                                          Problems& problems) {
   const std::string& name = verify.engine;

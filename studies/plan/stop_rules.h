@@ -12,8 +12,8 @@ namespace gaitlab::studies {
 /// The stop rules of a study, as in `stop: [hopeless, fell, "saturated.voltage > 0.3 after 4"]`.
 class StopRules {
  public:
-  /// Adds a problem at its place for each faulty expression, and for each quantity that is not known during a run. `guards` are
-  /// those that a hopeless run has lost.
+  /// Adds a problem at its place for each faulty expression, and for each quantity that is not known during a run. A hopeless
+  /// run has lost one of `guards`.
   StopRules(const Study& study, const QuantityOffer& offer, const std::vector<std::string>& joints,
             std::span<const MarginGuard> guards, Problems& problems);
 

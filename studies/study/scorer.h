@@ -36,7 +36,7 @@ struct QuantityOffer {
   std::vector<std::string> so_far = {};
   std::function<double(const std::string& name, const std::string& joint, const Scenario& scenario, const Recording& so_far)>
       value_so_far = {};
-  /// The check that a run has lost before its end, of those that guards require; empty if there is none.
+  /// First check of the guards that a run has lost before its end; empty without such a check.
   std::function<Cause(std::span<const MarginGuard> guards, const Scenario& scenario, const Recording& so_far)> lost_so_far = {};
 };
 

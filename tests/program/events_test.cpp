@@ -34,7 +34,7 @@ TEST_P(Events, AreMetByTheSteps) {
   validate_below({"limits.events", "events within a step, torque at rows: worst joint, RMS over its peak",
                   "engine articulated at 50 us, order 2", ""},
                  torque_error(ours, truth), 0.01, "required: 1 %");
-  // At the default accuracy a larger error is possible, but the estimate shows it.
+  // A larger error is possible at the default accuracy, but the estimate shows it.
   const Recording usual = run(made({}));
   EXPECT_LE(torque_error(usual, truth), std::max(0.01, std::ranges::max(report::torque_errors(usual))));
 }

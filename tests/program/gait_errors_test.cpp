@@ -10,7 +10,7 @@ namespace {
 
 const Label kLongGaitErrors("*GaitErrors.*", "long;unsanitized");
 
-/// A gait and the time from which its torques are compared, s.
+/// A gait, its duration, and the start of the comparison of torques, s.
 struct CompareGait {
   const char *name, *file;
   double duration, from;

@@ -1,4 +1,4 @@
-// Tests of hopeless runs: the values and times from which a check of an incomplete recording is lost.
+// Tests of hopeless runs: values and times of lost checks of incomplete recordings.
 #include "report/verdict/hopeless.h"
 
 #include <array>
