@@ -33,6 +33,7 @@ void DcMotorActuator::Settings::fields(Fields& f) {
   f.limit("u_max", u_max, {"V", 0, 1e6, "Supply voltage of the driver: commands are limited to +- this value."});
   f.limit("i_max", i_max, {"A", 0, 1e6, "Absolute rating: the current is limited to +- this value."});
   f.per_joint("rotor_inertia", rotor_inertia, {"kg m^2", 0, 1, "Inertia of the rotor (J); acts on the joint as n^2 J."});
+  FrictionKeys::fields(f);
   RatingKeys::fields(f);
   const auto useless = [](double eta) { return !(eta > 0); };
   if (efficiency_model == EfficiencyModel::directional &&
@@ -44,7 +45,7 @@ DcMotorActuator::DcMotorActuator(const RobotInfo& robot, const std::vector<const
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     for (const Settings* s : lanes) {
       add({s->R[j], s->Kt[j], s->Ks[j], s->gear[j], s->efficiency[j], s->u_max[j], s->i_max[j], s->reversal_speed()},
-          s->gear[j] * s->gear[j] * s->rotor_inertia[j], s->of(j));
+          s->gear[j] * s->gear[j] * s->rotor_inertia[j], s->of(j), s->friction_of(j));
     }
   }
 }

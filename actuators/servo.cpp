@@ -74,6 +74,7 @@ void ServoActuator::Settings::fields(Fields& f) {
   f.limit("i_max", i_max, usual_current,
           {"A", 0, 1e6, "Absolute rating: the current is limited to +- this value; 0: the stall current at `u_max`."});
   f.per_joint("rotor_inertia", rotor_inertia, {"kg m^2", 0, 1e3, "Inertia of rotor and gear, at the joint."});
+  FrictionKeys::fields(f);
   RatingKeys::fields(f);
   std::size_t joints = 0;
   for (const PerJoint* value : {&voltage, &stall_torque, &no_load_speed, &stall_current, &efficiency})
@@ -131,7 +132,7 @@ DcMotor ServoActuator::Settings::motor(std::size_t joint) const {
 
 ServoActuator::ServoActuator(const RobotInfo& robot, const std::vector<const Settings*>& lanes) {
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
-    for (const Settings* s : lanes) add(s->motor(j), s->rotor_inertia[j], s->of(j));
+    for (const Settings* s : lanes) add(s->motor(j), s->rotor_inertia[j], s->of(j), s->friction_of(j));
   }
 }
 

@@ -1,6 +1,7 @@
 // Actuator `servo`, which applies core/laws/dc_motor.h with the numbers of a servo's data sheet.
 #pragma once
 #include "actuators/efficiency_keys.h"
+#include "actuators/friction_keys.h"
 #include "actuators/rating_keys.h"
 #include "core/laws/motor_bank.h"
 #include "core/plugin/registry.h"
@@ -9,7 +10,7 @@ namespace gaitlab::actuators {
 
 class ServoActuator final : public MotorBank {
  public:
-  struct Settings : EfficiencyKeys, RatingKeys {
+  struct Settings : EfficiencyKeys, FrictionKeys, RatingKeys {
     PerJoint voltage, stall_torque, no_load_speed;  ///< V, N m, rad/s; 0 if not given
     PerJoint stall_current, efficiency;             ///< A, 1; 0 if not stated
     PerJoint u_max, i_max;                          ///< V, A; 0 if not stated: motor() then derives the values

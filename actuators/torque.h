@@ -3,19 +3,24 @@
 #include <algorithm>
 #include <limits>
 
+#include "actuators/friction_keys.h"
+#include "core/laws/motor_bank.h"
 #include "core/plugin/registry.h"
 
 namespace gaitlab::actuators {
 
 class TorqueActuator final : public Actuator {
  public:
-  struct Settings {
+  struct Settings : FrictionKeys {
     PerJoint limit{0};
-    void fields(Fields& f) { f.limit("limit", limit, {"N m", 0, 1e9, "Commands are limited to +- this torque; 0: no limit."}); }
+    void fields(Fields& f) {
+      f.limit("limit", limit, {"N m", 0, 1e9, "Commands are limited to +- this torque; 0: no limit."});
+      FrictionKeys::fields(f);
+    }
   };
   static constexpr const char* kManual = R"(An ideal torque source. It draws the power T w.
 
-    T = command, cut to +- limit
+    T = command, cut to +- limit, less the friction of the joint
 
 Source: none; the limit of a motor without resistance. Takes commands in N m; its columns voltage and current are 0, voltage_command holds the command in N m.
 
@@ -24,11 +29,15 @@ Source: none; the limit of a motor without resistance. Takes commands in N m; it
 
   TorqueActuator(const RobotInfo& robot, const std::vector<const Settings*>& lanes) {
     for (std::size_t j = 0; j < robot.joints.size(); ++j) {
-      for (const Settings* s : lanes) limit_.push_back(s->limit[j] > 0 ? s->limit[j] : std::numeric_limits<double>::infinity());
+      for (const Settings* s : lanes) {
+        limit_.push_back(s->limit[j] > 0 ? s->limit[j] : std::numeric_limits<double>::infinity());
+        friction_.add(s->friction_of(j));
+      }
     }
   }
   [[nodiscard]] std::string_view command_unit() const override { return "N m"; }
   [[nodiscard]] In command_limit() const override { return limit_; }
+  [[nodiscard]] std::span<const JointFriction> friction() const override { return friction_.all(); }
 
   void effort(In command, In, Out torque, Out slope) const override {
     for (std::size_t i = 0; i < limit_.size(); ++i) {
@@ -48,6 +57,7 @@ Source: none; the limit of a motor without resistance. Takes commands in N m; it
 
  private:
   std::vector<double> limit_;
+  FrictionList friction_;
 };
 
 }  // namespace gaitlab::actuators

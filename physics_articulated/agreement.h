@@ -28,6 +28,8 @@ class Agreement {
         accuracy_ * (T(1.0) + T(kQuiet - 1) * up_to_one(T(1 / kQuietAfter) * quiet) * up_to_one(T(1 / kQuietAt) * accuracy_));
     event_ = {};
   }
+  /// Adds an event in the lanes `which`.
+  void add_event(const math::Mask<T>& which) { event_ = math::mask_or(event_, which); }
   /// Time since the last limit or slip, s, at the end of the whole step of `h` seconds.
   [[nodiscard]] T quiet(double h) const { return math::select(event_, T(0.0), quiet_ + T(h)); }
 

@@ -12,6 +12,15 @@
 
 namespace gaitlab::articulated {
 
+/// Joints whose acceleration is given, and the torques that they need.
+template <class T>
+struct Locks {
+  explicit Locks(std::size_t joints) : on(joints), acceleration(joints, T(0.0)), torque(joints, T(0.0)) {}
+  std::vector<math::Mask<T>> on;  ///< by joint: lanes in which the joint is locked
+  std::vector<T> acceleration;    ///< rad/s^2
+  std::vector<T> torque;          ///< result of TreeBody::solve: torque in addition to the given one, N m
+};
+
 /// Solves (M + K) v' = f - c in O(links), with the resistance K = diagonal + sum J^T G J. The vector v' contains the
 /// acceleration of the origin of the base frame, the angular acceleration of the base, and the joint accelerations. A
 /// resistance acts on one joint, or on one body against the world, so that it fits into the recursion. The algorithm is from
@@ -63,9 +72,10 @@ class TreeBody {
   };
 
   /// Computes v' in `out` (6 + joints entries). `torque` (N m) and `diagonal` (kg m^2) have one entry per joint. loads(link,
-  /// Load) is called once per link, from the last link to the first.
+  /// Load) is called once per link, from the last link to the first. `locks` may be null. Locked joints belong to the recursion
+  /// and need no equations of their own.
   template <class Loads>
-  void solve(std::span<const T> torque, std::span<const T> diagonal, std::span<T> out, Loads loads) {
+  void solve(std::span<const T> torque, std::span<const T> diagonal, std::span<T> out, Loads loads, Locks<T>* locks = nullptr) {
     for (std::size_t i = links_.size(); i-- > 1;) {
       Link& l = links_[i];
       const TreeLink<T>& constant = tree_.links[i];
@@ -73,11 +83,18 @@ class TreeBody {
       Force<T> p = constant.leaf ? l.at_rest : l.p;
       loads(i, Load(I, p, l.bias));
       l.U = I * l.S;
-      l.inverse = 1.0 / (dot(l.S, l.U) + diagonal[constant.joint]);
+      l.resistance = dot(l.S, l.U) + diagonal[constant.joint];
+      l.inverse = 1.0 / l.resistance;
       l.u = torque[constant.joint] - dot(l.S, p);
+      T own = l.inverse * l.u;  // acceleration of the joint on a parent at rest
+      if (locks != nullptr) {   // the link of a locked joint adds its whole inertia to its parent
+        const auto& on = locks->on[constant.joint];
+        l.inverse = math::select(on, T(0.0), l.inverse);
+        own = math::select(on, locks->acceleration[constant.joint], own);
+      }
       I.add_square(-l.inverse, l.U);
       p += I * l.c;
-      add_scaled(p, l.inverse * l.u, l.U);
+      add_scaled(p, own, l.U);
       Link& parent = links_[constant.parent];
       if (constant.last_child) {  // first child in this pass
         parent.I = rigid(tree_.links[constant.parent].mass, parent.moment, parent.about_origin);
@@ -93,7 +110,7 @@ class TreeBody {
     }
     loads(0, Load(base.I, base.p, base.bias));
     factor_base();
-    spread(base_acceleration(), true, out);
+    spread(base_acceleration(), true, out, locks);
     // Difference between d/dt of the velocity of the origin and the spatial acceleration.
     const Vec<T> turning = cross(links_[0].V.w, links_[0].V.v);
     out[0] = out[0] + turning.x;
@@ -113,7 +130,7 @@ class TreeBody {
       parent += l.p;
       add_scaled(parent, l.inverse * l.u, l.U);
     }
-    spread(base_acceleration(), false, out);
+    spread(base_acceleration(), false, out, nullptr);
   }
 
   [[nodiscard]] Vec<T> com() const {
@@ -156,7 +173,8 @@ class TreeBody {
     Inertia<T> I;           ///< articulated inertia: rigid inertia plus the parts of the children
     Force<T> p;             ///< bias force, including the parts of the children
     Force<T> U;             ///< I S
-    T inverse, u;           ///< 1 / (S^T I S + diagonal); net torque on the joint
+    T resistance;           ///< S^T I S + diagonal
+    T inverse, u;           ///< 1 / resistance, or 0 if the joint is locked; net torque on the joint
     SpatialMotion<T> A;     ///< acceleration
   };
 
@@ -220,7 +238,7 @@ class TreeBody {
   }
 
   /// Computes accelerations from the base outwards. If `moving`, they include velocity-dependent terms.
-  void spread(const SpatialMotion<T>& base, bool moving, std::span<T> out) {
+  void spread(const SpatialMotion<T>& base, bool moving, std::span<T> out, Locks<T>* locks) {
     links_[0].A = base;
     const SpatialMotion<T>& a = base;
     out[0] = a.v.x;
@@ -233,8 +251,14 @@ class TreeBody {
       Link& l = links_[i];
       const SpatialMotion<T>& parent = links_[tree_.links[i].parent].A;
       const SpatialMotion<T> carried = moving ? parent + l.c : parent;
-      const T qdd = l.inverse * (l.u - dot(carried, l.U));
-      out[6 + tree_.links[i].joint] = qdd;
+      const T net = l.u - dot(carried, l.U);
+      const std::size_t j = tree_.links[i].joint;
+      T qdd = l.inverse * net;
+      if (locks != nullptr) {
+        qdd = math::select(locks->on[j], locks->acceleration[j], qdd);
+        locks->torque[j] = l.resistance * qdd - net;
+      }
+      out[6 + j] = qdd;
       l.A = carried + qdd * l.S;
     }
   }

@@ -103,6 +103,10 @@ class ArticulatedPlant final : public Plant {
     for (const auto& solo : own_solos_) solo->change(hold, since);
     for (const auto& model : models_) model->change(hold);
   }
+  bool add_friction(In command, Out torque) override {
+    if (!explicit_) kernel_->add_friction(numbers_, command, torque);
+    return !explicit_;
+  }
   void tally(std::size_t lane, StepTally& out) const override {
     if (explicit_) return;
     const articulated::History at = kernel_->history();

@@ -27,6 +27,12 @@ struct StepResult {
 /// and therefore exists and is unique for any h. Newton's method replaces every law by its tangent at the iterate, and the
 /// recursion solves the resulting linear system (Body). If phi is rising at the end of the Newton step, the step is shortened
 /// to the part along which phi falls (line search, decision 17).
+///
+/// Dry friction of a driven joint is a kink of phi at rest. Such a joint has a mode (StepMotors), and phi is that of the modes:
+/// the law of a side goes on beyond rest, and a joint that sticks ends the step at rest, under the torque that this needs.
+/// Where the iterate contradicts a mode, the mode changes and the step is solved again: a joint that turns against its side
+/// sticks, and one that sticks under more than its friction turns. The modes at the start depend on the speeds alone, without
+/// memory.
 template <class T>
 class Implicit {
  public:
@@ -35,6 +41,8 @@ class Implicit {
   static constexpr double kShareOfAccuracy = 1e-3;  ///< share of the relative accuracy of the torques
   static constexpr double kStopTolerance = 1e-9;    ///< N m
   static constexpr double kRounding = 1e-11;        ///< relative rounding error of the torque of a passive hinge, due to q
+  static constexpr double kStill = 1e-12;           ///< rad/s; rounding error of the speed of a joint that sticks
+  static constexpr int kTogether = 10;              ///< solves after which only one joint at a time changes its mode
 
   Implicit(const Tree<T>& tree, const Environment<T>& environment, const Actuator* actuator,
            const LaneRange& lanes = {0, math::kLanes<T>})
@@ -47,6 +55,7 @@ class Implicit {
         tree_(tree),
         joints_(tree.lo.size()),
         place_(StateLayout::kAngles + 2 * joints_, T(0.0)),
+        locks_(joints_),
         now_(joints_),
         next_(joints_) {
     passive_.assign(tree.passive.size(), T(0.0));
@@ -77,14 +86,16 @@ class Implicit {
         break;
       }
       solves = solves + math::select(open, T(1.0), T(0.0));
-      this->solve(h);
+      this->solve(x, h);
       if (solve == 0) {
         move(open);
       } else {
         move(open, share(open, x, command, h));
       }
       open = math::mask_and(open, misses(x, command, h));
-      if (math::any_lane(open)) touch(open, x, h);
+      if (!math::any_lane(open)) break;
+      if (motors.any_jump && change_modes(open, solve >= kTogether)) motors.linearise(command, end_);
+      touch(open, x, h);
     }
     finish(x, h, which);
   }
@@ -110,13 +121,15 @@ class Implicit {
     solves = T(solo.solves);
     off = T(solo.off);
     unfinished = solo.unfinished ? which : math::Mask<T>{};
+    if (solo.switches) switched = math::mask_or(switched, which);
   }
 
-  /// Evaluates the laws at x and the resulting accelerations, for an explicit method.
+  /// Evaluates the laws at x and the resulting accelerations. Joints at rest stick as far as their friction can hold them.
   void evaluate(std::span<const T> x, In command) {
     body.forward_kinematics(x);
     contacts.find(body, 0, 0);
     contacts.begin(0);
+    motors.begin(command, speeds(x));
     motors.linearise(command, speeds(x));
     motors.torque = motors.law;
     for (std::size_t j = 0; j < joints_; ++j) stop_[j] = stop_law(x, j);
@@ -125,7 +138,31 @@ class Implicit {
       passive_[k] = tree_.hinges[k].spring(x[StateLayout::kAngles + j]) + tree_.hinges[k].loss(speeds(x)[j]).torque;
       stop_[j] = stop_[j] + passive_[k];
     }
-    accelerate(0);
+    if (!motors.any_jump) return accelerate(0);
+    std::ranges::fill(locks_.acceleration, T(0.0));
+    for (bool again = true; again;) {  // at most once per joint, because a joint that leaves does not return
+      accelerate(0);
+      again = false;
+      for (std::size_t j = 0; j < joints_; ++j) again = release(j) || again;
+    }
+  }
+  /// Adds friction at the state x to the motor torques `torque` (index joint * lanes + lane): of a joint at rest what holds it,
+  /// or its dry friction where this cannot hold it.
+  void add_friction(std::span<const T> x, In command, Out torque) {
+    if (!motors.rubs()) return;
+    const auto add = [&](std::size_t j, const T& friction) {
+      for (std::size_t l = 0; l < math::kLanes<T>; ++l) torque[j * math::kLanes<T> + l] += math::lane(friction, l);
+    };
+    for (std::size_t j = 0; j < joints_; ++j) add(j, motors.friction(j, speeds(x)[j]));
+    motors.begin(command, speeds(x));
+    const auto all = motors.sticks;
+    if (std::ranges::none_of(all, [](const auto& sticks) { return math::any_lane(sticks); })) return;
+    evaluate(x, command);
+    for (std::size_t j = 0; j < joints_; ++j) {
+      const T held = math::select(motors.sticks[j], locks_.torque[j], motors.law[j]);
+      const T motor = T(0.5) * (motors.below[j] + motors.above[j]);
+      add(j, math::select(all[j], held - motor, T(0.0)));
+    }
   }
   [[nodiscard]] std::span<const T> accelerations() const { return next_.a; }  ///< result of evaluate()
   /// Power that the robot gives to the ground along its normal, to the ground along its surface, to stops, and to dampers and
@@ -145,14 +182,17 @@ class Implicit {
     return sum;
   }
 
-  /// Computes next_.a from motors, stops and contacts with their tangents for a step h.
+  /// Computes next_.a from motors, stops and contacts with their tangents for a step h. Joints that stick have the
+  /// accelerations of locks_ instead of a motor torque.
   void accelerate(double h) {
     for (std::size_t j = 0; j < joints_; ++j) {
       force_[j] = motors.torque[j] + stop_[j];
       diagonal_[j] = rotor[j] + (h > 0 ? T(h) * (motors.slope[j] + stop_slope_[j]) : T(0.0));
     }
-    body.solve(force_, diagonal_, next_.a,
-               [&](std::size_t link, typename TreeBody<T>::Load load) { contacts.load(link, load, h); });
+    if (motors.any_jump) lock(h);
+    body.solve(
+        force_, diagonal_, next_.a, [&](std::size_t link, typename TreeBody<T>::Load load) { contacts.load(link, load, h); },
+        motors.any_jump ? &locks_ : nullptr);
   }
 
   [[nodiscard]] std::span<T> speeds(std::span<T> x) const { return x.subspan(StateLayout::kAngles + joints_, joints_); }
@@ -176,6 +216,7 @@ class Implicit {
   T solves = 0.0;              ///< number of solves of the last step
   math::Mask<T> unfinished{};  ///< lanes in which Newton's method did not converge
   T off = 0.0;                 ///< number of motors and stops off their law after the last step
+  math::Mask<T> switched{};    ///< lanes in which a joint began or ceased to stick since the mask was cleared
 
  private:
   /// Iterate of Newton's method: accelerations, and the torques in the solve at these accelerations.
@@ -188,6 +229,7 @@ class Implicit {
   /// Sets the tangents at the speeds at the end of the last step, so that every law begins on the branch of that step.
   void start(std::span<const T> x, In command, double h) {
     const math::Mask<T> all = T(0.0) <= T(0.0);
+    motors.begin(command, speeds(x));
     motors.linearise(command, speeds(x));
     for (std::size_t j = 0; j < joints_; ++j) {
       motors.touch(j, all, speeds(x)[j], speeds(x)[j]);
@@ -198,11 +240,21 @@ class Implicit {
     contacts.begin(h);
   }
 
-  void solve(double h) {
+  void lock(double h) {
+    locks_.on = motors.sticks;
+    for (std::size_t j = 0; j < joints_; ++j) {
+      force_[j] = math::select(locks_.on[j], stop_[j], force_[j]);
+      diagonal_[j] = math::select(locks_.on[j], rotor[j] + (h > 0 ? T(h) * stop_slope_[j] : T(0.0)), diagonal_[j]);
+    }
+  }
+
+  void solve(std::span<const T> x, double h) {
+    for (std::size_t j = 0; motors.any_jump && j < joints_; ++j) locks_.acceleration[j] = -speeds(x)[j] / T(h);
     accelerate(h);
     contacts.solved(body, h);
     for (std::size_t j = 0; j < joints_; ++j) {
       next_.torque[j] = motors.torque[j] - T(h) * motors.slope[j] * next_.a[6 + j];
+      if (motors.any_jump) next_.torque[j] = math::select(motors.sticks[j], locks_.torque[j], next_.torque[j]);
       next_.stop[j] = stop_[j] - T(h) * stop_slope_[j] * next_.a[6 + j];
     }
   }
@@ -239,7 +291,8 @@ class Implicit {
     for (std::size_t j = 0; j < joints_; ++j) {
       const T d = T(h) * (next_.a[6 + j] - now_.a[6 + j]);
       const T held = now_.torque[j] + now_.stop[j] + share * (next_.torque[j] + next_.stop[j] - now_.torque[j] - now_.stop[j]);
-      sum = sum + d * (held - motors.law[j] - stopped(x, j, end_[j], h).torque);
+      const T motor = motors.any_jump ? math::select(motors.sticks[j], next_.torque[j], motors.law[j]) : motors.law[j];
+      sum = sum + d * (held - motor - stopped(x, j, end_[j], h).torque);
     }
     return sum;
   }
@@ -274,11 +327,16 @@ class Implicit {
   /// solve. Sets missed_ to the number of joints whose motor or end stop differs.
   math::Mask<T> misses(std::span<const T> x, In command, double h) {
     for (std::size_t j = 0; j < joints_; ++j) end_[j] = speeds(x)[j] + T(h) * now_.a[6 + j];
+    if (motors.any_jump) come_to_rest(x);
     motors.linearise(command, end_);
     math::Mask<T> any = contacts.off(h);
     missed_ = T(0.0);
     for (std::size_t j = 0; j < joints_; ++j) {
-      const auto motor = math::abs(motors.law[j] - now_.torque[j]) > torque_tolerance_ * motors.scale[j];
+      auto motor = math::abs(motors.law[j] - now_.torque[j]) > torque_tolerance_ * motors.scale[j];
+      if (motors.any_jump) {
+        const auto wrong = math::mask_or(math::mask_or(turns_back(j), leaves(j)), moves(j));
+        motor = math::mask_or(math::fresh(motor, motors.sticks[j]), wrong);
+      }
       // The rounding error of the torque of a passive spring may exceed the tolerance of a stop.
       const T allowed = tree_.passive.empty() ? T(kStopTolerance) : T(kStopTolerance) + T(kRounding) * math::abs(now_.stop[j]);
       const auto stop = math::abs(stopped(x, j, end_[j], h).torque - now_.stop[j]) > allowed;
@@ -287,6 +345,58 @@ class Implicit {
       any = math::mask_or(any, joint);
     }
     return any;
+  }
+
+  /// Lets a joint turn in evaluate() if more than its friction would be needed to hold it. Returns true if it did.
+  bool release(std::size_t j) {
+    const T& held = locks_.torque[j];
+    const T most = math::clamp(held, motors.below[j], motors.above[j]);
+    const auto leave = math::mask_and(motors.sticks[j], math::abs(held - most) > T(kTorqueTolerance) * motors.scale[j]);
+    motors.law[j] = math::select(leave, most, motors.law[j]);
+    motors.torque[j] = math::select(leave, most, motors.torque[j]);
+    motors.sticks[j] = math::fresh(motors.sticks[j], leave);
+    return math::any_lane(leave);
+  }
+  /// Removes the rounding error of the end speeds of joints that stick.
+  void come_to_rest(std::span<const T> x) {
+    for (std::size_t j = 0; j < joints_; ++j) {
+      const T still = T(kStill) * (T(1.0) + math::abs(speeds(x)[j]));
+      end_[j] = math::select(math::mask_and(motors.sticks[j], math::abs(end_[j]) <= still), T(0.0), end_[j]);
+    }
+  }
+  /// Lanes in which a joint that sticks is not at rest at the iterate, because a part of the way to the solve was taken.
+  [[nodiscard]] math::Mask<T> moves(std::size_t j) const {
+    return math::mask_and(motors.sticks[j], math::abs(end_[j]) > T(0.0));
+  }
+  /// Lanes in which a joint sticks at the iterate under a torque beyond its bounds.
+  [[nodiscard]] math::Mask<T> leaves(std::size_t j) const {
+    const T slack = T(kTorqueTolerance) * motors.scale[j];
+    const auto beyond = math::mask_or(now_.torque[j] > motors.above[j] + slack, now_.torque[j] < motors.below[j] - slack);
+    return math::fresh(math::mask_and(motors.sticks[j], beyond), moves(j));
+  }
+  /// Lanes in which a joint turns against its side at the iterate.
+  [[nodiscard]] math::Mask<T> turns_back(std::size_t j) const {
+    const auto back = math::mask_and(motors.jumps[j], motors.side[j] * end_[j] < T(0.0));
+    return math::fresh(back, motors.sticks[j]);
+  }
+
+  /// Changes the modes that contradict the iterate in the lanes `which`, after misses(): of all joints of a lane, or, if `one`,
+  /// of the first, which cannot cycle in a linear problem (the least-index rule of Murty, 1974). Returns true if a mode
+  /// changed.
+  bool change_modes(const math::Mask<T>& which, bool one) {
+    math::Mask<T> may = which;
+    math::Mask<T> any{};
+    for (std::size_t j = 0; j < joints_; ++j) {
+      const auto leave = math::mask_and(may, leaves(j));
+      const auto stick = math::mask_and(may, turns_back(j));
+      motors.side[j] = math::select(leave, math::select(now_.torque[j] > motors.above[j], T(-1.0), T(1.0)), motors.side[j]);
+      motors.sticks[j] = math::mask_or(stick, math::fresh(motors.sticks[j], leave));
+      const auto changed = math::mask_or(leave, stick);
+      any = math::mask_or(any, changed);
+      if (one) may = math::fresh(may, changed);
+    }
+    switched = math::mask_or(switched, any);
+    return math::any_lane(any);
   }
 
   /// Sets the tangents of all laws at the iterate in the lanes `which`, after misses(). Laws within their tolerance are
@@ -359,7 +469,13 @@ class Implicit {
       v = math::select(which, v + T(h) * now_.a[i], v);
     }
     const std::span<T> qd = speeds(x);
-    for (std::size_t j = 0; j < joints_; ++j) qd[j] = math::select(which, qd[j] + T(h) * now_.a[6 + j], qd[j]);
+    for (std::size_t j = 0; j < joints_; ++j) {
+      const T end = qd[j] + T(h) * now_.a[6 + j];
+      const T rest = motors.any_jump ? math::select(motors.sticks[j], T(0.0), end) : end;
+      qd[j] = math::select(which, rest, qd[j]);
+      // The law of a joint that sticks is vertical.
+      if (motors.any_jump) motors.slope[j] = math::select(motors.sticks[j], T(kVertical), motors.slope[j]);
+    }
     std::copy(x.begin(), x.end(), place_.begin());
     drift<T>(place_, h);
     for (std::size_t e = 0; e < x.size(); ++e) x[e] = math::select(which, place_[e], x[e]);
@@ -378,10 +494,13 @@ class Implicit {
     now_.stop[j] = stop;
   }
 
+  static constexpr double kVertical = std::numeric_limits<double>::infinity();
+
   const Tree<T>& tree_;
   std::size_t joints_;
   std::vector<T> passive_;  ///< torques of passive hinges, set by evaluate()
   std::vector<T> place_, stop_, stop_slope_, force_, diagonal_, end_;
+  Locks<T> locks_;  ///< joints that stick
   Iterate now_, next_;
   T missed_ = 0.0;
   T torque_tolerance_ = kTorqueTolerance;  ///< share of the largest torque of a motor at rest

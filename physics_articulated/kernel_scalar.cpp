@@ -21,6 +21,7 @@ class ScalarSolo final : public Solo {
 
   void step(Out x, In command, double h, double end) override {
     implicit_.holds.at(end);
+    implicit_.switched = false;
     implicit_.step(x, command, h, true);
     contact = implicit_.done.contact;
     friction = implicit_.done.friction;
@@ -30,6 +31,7 @@ class ScalarSolo final : public Solo {
     off = implicit_.off;
     unfinished = implicit_.unfinished;
     slides = implicit_.contacts.mostly_slide();
+    switches = implicit_.switched;
   }
 
   void change(In hold, In since) override { implicit_.change(hold, since, lanes_); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/laws/joint_friction.h"
 #include "physics_articulated/eigen.h"
 
 namespace gaitlab::articulated {
@@ -73,6 +74,7 @@ void LaneModel::ask(In command, In speed) {
     speed_[j * lanes_ + lane_] = speed[j];
   }
   settings_.actuator->effort(command_, speed_, torque_, slope_);
+  add_creeping(settings_.actuator->friction(), speed_, torque_, slope_);
 }
 
 Stability LaneModel::stability(In x, const RobotState& state, In command, bool standing) {

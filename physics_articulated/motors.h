@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/laws/dc_motor.h"
+#include "core/laws/joint_friction.h"
 #include "core/plugin/actuator.h"
 
 namespace gaitlab::articulated {
@@ -16,8 +17,13 @@ struct LaneRange {
   std::size_t first = 0, all = 0;
 };
 
-/// Evaluates motors. DC motors (Actuator::dc_motors) are evaluated here for all lanes at once, other motors by their plugin.
-/// Commands have the index joint * lanes + lane. Torques are in N m, slopes -dT/dw in N m s/rad.
+/// Evaluates motors with the friction of their joints. DC motors (Actuator::dc_motors) are evaluated here for all lanes at
+/// once, other motors by their plugin. Commands have the index joint * lanes + lane. Torques are in N m, slopes -dT/dw in N m
+/// s/rad.
+///
+/// The torque of a joint with dry friction jumps at rest, from `above` to `below` as its speed rises. In a step such a joint
+/// has a mode: it turns forward (side 1) or backward (side -1), by the law of that side, which is continued past rest, or it
+/// sticks, under any torque from `below` to `above`.
 template <class T>
 class StepMotors {
  public:
@@ -30,11 +36,17 @@ class StepMotors {
         slope(joints),
         scale(joints, T(1.0)),
         per_speed(joints, T(1.0 / kSpeed)),
+        below(joints, T(0.0)),
+        above(joints, T(0.0)),
+        side(joints, T(1.0)),
+        sticks(joints),
+        jumps(joints),
         least_slope_(joints, T(0.0)),
         actuator_(actuator) {
     if (actuator == nullptr) return;
     find_scale(lanes);
     for (const std::size_t j : passive) least_slope_[j] = T(0.0);
+    take_friction(lanes);
     if (actuator->dc_motors() != nullptr) dc_.resize(joints);
     take(passive, lanes);
   }
@@ -56,6 +68,27 @@ class StepMotors {
 
   [[nodiscard]] bool any() const { return actuator_ != nullptr; }
 
+  /// Takes the law of friction for explicit methods, without modes.
+  void creep() {
+    creeps_ = true;
+    any_jump = false;
+  }
+
+  /// Sets the modes at the start of a step: a joint at rest sticks, another one goes on in its direction.
+  void begin(In command, std::span<const T> speed) {
+    if (!any_jump) return;
+    const T zero = 0.0, one = 1.0;
+    std::ranges::fill(side, zero);  // linearise() then has the motors alone
+    std::ranges::fill(rest_, zero);
+    linearise(command, rest_);
+    for (std::size_t j = 0; j < side.size(); ++j) {
+      below[j] = law[j] - friction_[j].dry;
+      above[j] = law[j] + friction_[j].dry;
+      side[j] = math::select(speed[j] < zero, -one, one);
+      sticks[j] = math::mask_and(jumps[j], math::abs(speed[j]) <= zero);
+    }
+  }
+
   /// Computes law and law_slope at the speeds `speed`.
   void linearise(In command, std::span<const T> speed) {
     if (actuator_ != nullptr && dc_.empty()) actuator_->effort(command, math::numbers(speed), numbers(law), numbers(law_slope));
@@ -64,7 +97,27 @@ class StepMotors {
       law[j] = effort.torque;
       law_slope[j] = effort.slope;
     }
+    for (std::size_t j = 0; j < friction_.size(); ++j) {
+      const Friction& own = friction_[j];
+      if (creeps_) {
+        const auto effort = CreepingFriction<T>::at(own.dry, own.viscous, speed[j]);
+        law[j] = law[j] + effort.torque;
+        law_slope[j] = law_slope[j] + effort.slope;
+      } else {
+        law[j] = law[j] + own.torque(side[j], speed[j]);
+        law_slope[j] = law_slope[j] + own.viscous;
+      }
+    }
   }
+
+  /// Torque of friction of a joint that turns, or rests in a lane where it cannot stick, N m.
+  [[nodiscard]] T friction(std::size_t j, const T& speed) const {
+    if (friction_.empty()) return T(0.0);
+    const T zero = 0.0, one = 1.0;
+    return friction_[j].torque(math::select(speed < zero, -one, math::select(speed > zero, one, zero)), speed);
+  }
+  /// True if a joint has friction.
+  [[nodiscard]] bool rubs() const { return !friction_.empty(); }
 
   /// Sets the tangent at the speed `end`, in the lanes `which`, for a solve that starts from the speed `start`. linearise()
   /// must have been called for `end`. A slope below 0, which no actuator should have, counts as 0. The solve then still has a
@@ -107,13 +160,23 @@ class StepMotors {
     return !dc_.empty();
   }
 
-  std::vector<T> law, law_slope;  ///< results of linearise()
-  std::vector<T> torque, slope;   ///< linear torque model of a solve: torque - slope (w - w_start)
-  std::vector<T> scale;           ///< largest torque at rest; 1 without a limit
-  std::vector<T> per_speed;       ///< torque per speed error: the slope at rest; scale / kSpeed if the slope is 0
+  std::vector<T> law, law_slope;             ///< results of linearise()
+  std::vector<T> torque, slope;              ///< linear torque model of a solve: torque - slope (w - w_start)
+  std::vector<T> scale;                      ///< largest torque at rest; 1 without a limit
+  std::vector<T> per_speed;                  ///< torque per speed error: the slope at rest; scale / kSpeed if the slope is 0
+  std::vector<T> below, above;               ///< least and largest torque of a joint that sticks, under the command of begin()
+  std::vector<T> side;                       ///< mode of a joint that does not stick: 1 forward, -1 backward
+  std::vector<math::Mask<T>> sticks, jumps;  ///< lanes in which the joint sticks, and in which its torque jumps at rest
+  bool any_jump = false;
 
  private:
-  static constexpr double kSpeed = 3;  ///< rad/s; typical speed of the motors of modules
+  struct Friction {
+    T dry = 0.0, viscous = 0.0;
+    [[nodiscard]] T torque(const T& side, const T& speed) const { return -(dry * side + viscous * speed); }
+  };
+  static constexpr double kLeastJump = 1e-6;  ///< share of the torque at rest; smaller dry friction is left out, because every
+                                              ///< joint that trembles would stick and leave
+  static constexpr double kSpeed = 3;         ///< rad/s; typical speed of the motors of modules
   static constexpr double kSlope =
       0.1;  ///< share of the slope at rest; a directional gear changes the slope by less, a limit by all of it
 
@@ -137,6 +200,25 @@ class StepMotors {
     });
   }
 
+  /// Takes the friction of the joints from the actuator, after find_scale().
+  void take_friction(const LaneRange& lanes) {
+    const std::span<const JointFriction> all = actuator_->friction();
+    if (all.empty()) return;
+    friction_.resize(law.size());
+    rest_.assign(law.size(), T(0.0));
+    for (std::size_t j = 0; j < friction_.size(); ++j) {
+      for (std::size_t l = 0; l < math::kLanes<T>; ++l) {
+        const JointFriction& from = all[j * lanes.all + lanes.first + l];
+        math::lane(friction_[j].viscous, l) = from.viscous;
+        if (from.dry > kLeastJump * math::lane(scale[j], l)) math::lane(friction_[j].dry, l) = from.dry;
+      }
+      jumps[j] = friction_[j].dry > T(0.0);
+      any_jump = any_jump || math::any_lane(jumps[j]);
+      per_speed[j] = per_speed[j] + friction_[j].viscous;
+      least_slope_[j] = math::select(least_slope_[j] > T(0.0), least_slope_[j] + friction_[j].viscous, least_slope_[j]);
+    }
+  }
+
   static Out numbers(std::span<T> values) { return math::numbers(values); }
   static T of_joint(In command, std::size_t j) {
     T one;
@@ -150,6 +232,9 @@ class StepMotors {
   std::vector<T> least_slope_;  // least slope of a motor that is not at its limit; 0 for a motor without a slope
   const Actuator* actuator_;
   std::vector<BasicDcMotor<T>> dc_;  // empty if the actuator plugin is called
+  std::vector<Friction> friction_;   // empty without friction
+  std::vector<T> rest_;              // speeds 0
+  bool creeps_ = false;
 };
 
 }  // namespace gaitlab::articulated

@@ -25,6 +25,7 @@ class Solo {
   double solves = 0, off = 0;                               ///< number of solves; number of motors and stops off their law
   bool unfinished = false;                                  ///< true if Newton's method did not converge
   bool slides = false;                                      ///< true if most of the load slides
+  bool switches = false;                                    ///< true if a joint began or ceased to stick
 };
 
 /// Solo of one lane. Not a smart pointer, whose functions would be compiled for several processors (kernel_avx2.cpp).

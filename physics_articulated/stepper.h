@@ -45,6 +45,7 @@ class Stepper {
     limits_ = levels_[0].limits;
     halved_.assign(kHalvings, zero);
     if (method == StepMethod::adaptive) implicit.allow(accuracy);
+    if (method == StepMethod::rk4) implicit.motors.creep();
     parts_.assign(method == StepMethod::adaptive ? std::clamp<std::size_t>(kRoom / size_of_part(), 8, kMostParts) : 4,
                   StepPart<T>(joints_));
   }
@@ -63,7 +64,9 @@ class Stepper {
       if (method_ == StepMethod::extrapolated) adapt(x, command, h, all, kLevels);
       if (method_ == StepMethod::adaptive) {
         agreement_.begin(history_[layout.quiet()]);
+        implicit.switched = {};
         adapt(x, command, h, all, 0);
+        agreement_.add_event(implicit.switched);
         history_[layout.quiet()] = agreement_.quiet(h);
       }
     }
@@ -90,9 +93,15 @@ class Stepper {
 
   /// Adds a part for the start of the step under the new command, because the motor torques there may be peaks.
   void take_start(std::span<const T> x, In command) {
-    implicit.motors.linearise(command, implicit.speeds(x));
+    StepMotors<T>& motors = implicit.motors;
+    motors.begin(command, implicit.speeds(x));
+    motors.linearise(command, implicit.speeds(x));
     StepPart<T>& part = add_part();
-    part.torque = implicit.motors.law;
+    part.torque = motors.law;
+    for (std::size_t j = 0; motors.any_jump && j < joints_; ++j) {
+      const T least = math::clamp(T(0.0), motors.below[j], motors.above[j]);
+      part.torque[j] = math::select(motors.sticks[j], least, part.torque[j]);
+    }
     std::ranges::copy(implicit.speeds(x), part.speed.begin());
     std::copy_n(x.begin() + StateLayout::kAngles, joints_, part.angle.begin());
     part.contact = part.friction = part.stops = part.hinges = T(0.0);
@@ -169,6 +178,17 @@ class Stepper {
   void single(std::span<T> x, In command, double h, const math::Mask<T>& which) {
     settle(x, command, h, which, 0);
     weigh({{}, 1, used_}, which, 1, true);
+  }
+
+  /// Lets joints with dry friction keep the mode in which the finest way `finest` ends: an extrapolated speed on its other side
+  /// would mean a torque on the other side of the jump.
+  void keep_modes(std::span<T> x, const std::vector<T>& two, const std::vector<T>& four, const math::Mask<T>& second) const {
+    for (std::size_t j = 0; j < joints_; ++j) {
+      const std::size_t e = StateLayout::kAngles + joints_ + j;
+      const T finest = math::select(second, two[e], four[e]);
+      const auto other = math::mask_and(implicit.motors.jumps[j], x[e] * finest <= T(0.0));
+      x[e] = math::select(other, finest, x[e]);
+    }
   }
 
   /// Lanes whose state is finite. Shorter steps cannot repair the other lanes.
@@ -277,6 +297,7 @@ class Stepper {
       x[e] = select(second, T(2.0) * two[e] - one[e], of_three);
     }
     normalise<T>(x);
+    if (implicit.motors.any_jump) keep_modes(x, two, four, second);
     const auto taken = math::mask_or(second, third);
     for (std::size_t e = 0; e < x.size(); ++e) x[e] = select(taken, x[e], own.start[e]);
     eighths_.keep(x, taken, end, kShortest);

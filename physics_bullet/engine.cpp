@@ -13,6 +13,7 @@
 #include "core/dynamics/rotor_inertia.h"
 #include "core/errors.h"
 #include "core/laws/hinge_stop.h"
+#include "core/laws/joint_friction.h"
 #include "core/laws/passive_hinge.h"
 #include "core/simulation/stability.h"
 #include "core/simulation/step_advice.h"
@@ -113,7 +114,7 @@ class BulletPlant final : public Plant, private InverseMass {
     layout_.read(numbers_, 0, state_);
     evaluate(state_, command);
     accelerate(state_, acceleration_);  // factorises the mass matrix for apply()
-    if (standing && settings_.actuator != nullptr) settings_.actuator->effort(at_rest_, at_rest_, torque_, slope_);
+    if (standing) ask(at_rest_, at_rest_);
     std::copy(slope_.begin(), slope_.end(), monitor_.motor.begin());
     return monitor_.rule(settings_, settings_.base, kinematics_, state_, standing, settings_.step, *this, [&] {
       for_each_contact([&](const Contact& c) {
@@ -175,6 +176,13 @@ class BulletPlant final : public Plant, private InverseMass {
     });
   }
 
+  /// Evaluates actuator and friction.
+  void ask(In command, In speed) {
+    if (settings_.actuator == nullptr) return;
+    settings_.actuator->effort(command, speed, torque_, slope_);
+    add_creeping(settings_.actuator->friction(), speed, torque_, slope_);
+  }
+
   /// Sets the state of the body, adds weight and contact forces, and evaluates the actuator. Joint torques are not added.
   void evaluate(const RobotState& state, In command) {
     kinematics_.update(robot_, state);
@@ -186,7 +194,7 @@ class BulletPlant final : public Plant, private InverseMass {
       power_[1] += c.force.friction_slope * c.slip * c.slip;
       body_.add_force(c.link, c.touch.point - kinematics_.point(c.link, robot_.links[c.link].com), c.world());
     });
-    if (settings_.actuator != nullptr) settings_.actuator->effort(command, state.qd, torque_, slope_);
+    ask(command, state.qd);
   }
 
   PlantSettings settings_;

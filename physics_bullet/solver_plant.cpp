@@ -15,6 +15,7 @@ namespace gaitlab {
 namespace {
 
 constexpr double kUnlimited = 1e30;  // N m; for a row without a limit
+constexpr double kStill = 1e-5;      // rad/s; below this speed, dry friction is viscous
 constexpr double kFast = 1e5;  // rad/s; largest joint speed of a run, at which a motor with a torque limit is at this limit
 
 /// Plant without a rule that limits the step, because all damping is implicit.
@@ -100,9 +101,11 @@ class SolverPlant final : public Plant {
 
   /// Sets motors and stops as rows of the solver. A torque that does not depend on speed is applied directly.
   void drive(In command, double h) {
+    std::span<const JointFriction> friction;
     if (settings_.actuator != nullptr) {
       settings_.actuator->unlimited(command, state_.qd, torque_, slope_);
       settings_.actuator->effort(command, state_.qd, limited_, limited_slope_);
+      friction = settings_.actuator->friction();
     }
     for (std::size_t j = 0; j < torque_.size(); ++j) {
       if (!robot_.joints[j].driven()) {
@@ -122,7 +125,16 @@ class SolverPlant final : public Plant {
       }
       applied_[j] = damps ? 0 : limited_[j];
       stop(j, h);
+      if (!friction.empty()) rub(j, friction[j]);
     }
+  }
+
+  /// Uses a row for friction, which is linear between the speeds 0 and that at the start, and at most the friction at this
+  /// speed. Dry friction stops the joint but never drives it.
+  void rub(std::size_t j, const JointFriction& friction) {
+    const double speed = std::abs(state_.qd[j]);
+    const double most = friction.dry + friction.viscous * speed;
+    world_.friction(j).set(friction.dry / kStill + friction.viscous, 0, -most, most);
   }
 
   /// Uses the row of the missing motor for the torque of a passive hinge at the end of the step. The torque is linearised at
@@ -167,7 +179,7 @@ class SolverPlant final : public Plant {
     work_ = {};
     for (std::size_t j = 0; j < applied_.size(); ++j) {
       if (robot_.joints[j].driven()) {
-        applied_[j] += world_.motor(j).torque(h);
+        applied_[j] += world_.motor(j).torque(h) + world_.friction(j).torque(h);
       } else {
         const double spring = law(*robot_.joints[j].passive).spring(state_.q[j] + h * state_.qd[j]);
         work_[3] -= h * (world_.motor(j).torque(h) - spring) * (start_speed_[j] + state_.qd[j]) / 2;

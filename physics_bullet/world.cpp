@@ -84,7 +84,7 @@ BulletWorld::BulletWorld(const PlantSettings& s, MultiBody& body)
   if (!s.contacts.empty()) add_robot(*s.robot, s.ground.friction);
   add_ground(s.ground);
   for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
-    for (auto* rows : {&motors_, &stops_}) {
+    for (auto* rows : {&motors_, &stops_, &frictions_}) {
       rows->push_back(std::make_unique<JointRow>(body.bullet(), body.index_of_joint(j)));
       world_.addMultiBodyConstraint(rows->back().get());
     }
@@ -93,7 +93,7 @@ BulletWorld::BulletWorld(const PlantSettings& s, MultiBody& body)
 
 BulletWorld::~BulletWorld() {
   // Objects are removed in the opposite order of creation, because pairs of the broadphase refer to them.
-  for (auto* rows : {&motors_, &stops_}) {
+  for (auto* rows : {&motors_, &stops_, &frictions_}) {
     for (const auto& row : *rows) world_.removeMultiBodyConstraint(row.get());
   }
   for (int i = world_.getNumCollisionObjects(); i-- > 0;) world_.removeCollisionObject(world_.getCollisionObjectArray()[i]);

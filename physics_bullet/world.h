@@ -57,6 +57,7 @@ class BulletWorld {
 
   [[nodiscard]] JointRow& motor(std::size_t joint) { return *motors_[joint]; }
   [[nodiscard]] JointRow& stop(std::size_t joint) { return *stops_[joint]; }
+  [[nodiscard]] JointRow& friction(std::size_t joint) { return *frictions_[joint]; }
   /// Advances by h seconds from the state of the MultiBody. `kinematics` must belong to that state.
   void step(const Kinematics& kinematics, double h);
   /// Motion of the boxes that have a mass.
@@ -99,7 +100,7 @@ class BulletWorld {
   std::vector<std::unique_ptr<btRigidBody>> ground_;
   std::vector<std::pair<std::size_t, const btRigidBody*>> moving_;  ///< moving boxes with their indices in Ground::boxes
   OneIslandWorld world_;
-  std::vector<std::unique_ptr<JointRow>> motors_, stops_;
+  std::vector<std::unique_ptr<JointRow>> motors_, stops_, frictions_;
 };
 
 }  // namespace gaitlab::bullet

@@ -2,9 +2,11 @@
 
 namespace gaitlab {
 
-void MotorBank::add(const DcMotor& motor, double reflected_inertia, const DriveRatings& ratings) {
+void MotorBank::add(const DcMotor& motor, double reflected_inertia, const DriveRatings& ratings,
+                    const JointFriction& friction) {
   motors_.push_back(motor);
   ratings_.push_back(ratings);
+  friction_.add(friction);
   limit_.push_back(motor.u_max);
   inertia_.push_back(reflected_inertia);
 }

@@ -12,6 +12,21 @@ void unlimited(std::span<const DcMotor> motors, In command, In speed, Out torque
 void electrical(std::span<const DcMotor> motors, In command, In speed, const Actuator::Electrical& out);
 }  // namespace motors
 
+/// Friction by joint * lanes + lane, for Actuator::friction().
+class FrictionList {
+ public:
+  void add(const JointFriction& friction) {
+    any_ = any_ || !(friction == JointFriction());
+    list_.push_back(friction);
+  }
+  /// Empty if no joint has friction.
+  [[nodiscard]] std::span<const JointFriction> all() const { return any_ ? list_ : std::span<const JointFriction>(); }
+
+ private:
+  std::vector<JointFriction> list_;
+  bool any_ = false;
+};
+
 /// Applies core/laws/dc_motor.h.
 class MotorBank : public Actuator {
  public:
@@ -26,16 +41,18 @@ class MotorBank : public Actuator {
     motors::unlimited(motors_, command, speed, torque, slope);
   }
   [[nodiscard]] std::span<const DriveRatings> ratings() const override { return ratings_; }
+  [[nodiscard]] std::span<const JointFriction> friction() const override { return friction_.all(); }
   [[nodiscard]] const DcMotor* dc_motors() const override { return motors_.data(); }
 
  protected:
   /// Adds the next motor, in the order joint * lanes + lane. `reflected_inertia` is the inertia of the rotor as seen at the
   /// joint, kg m^2.
-  void add(const DcMotor& motor, double reflected_inertia, const DriveRatings& ratings);
+  void add(const DcMotor& motor, double reflected_inertia, const DriveRatings& ratings, const JointFriction& friction);
 
  private:
   std::vector<DcMotor> motors_;
   std::vector<DriveRatings> ratings_;
+  FrictionList friction_;
   std::vector<double> limit_, inertia_;
 };
 

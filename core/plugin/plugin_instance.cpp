@@ -100,10 +100,12 @@ class GuardedActuator final : public Actuator {
     copy(own_limit(), limit_);
     copy(own_inertia(), inertia_);
     copy(own_ratings(), ratings_);
+    copy(own_friction(), friction_);
     for (const std::size_t i : passive_) {
       limit_[i] = 0;
       if (!inertia_.empty()) inertia_[i] = 0;
       if (!ratings_.empty()) ratings_[i] = {};
+      if (!friction_.empty()) friction_[i] = {};
     }
   }
   [[nodiscard]] std::string_view command_unit() const override {
@@ -121,6 +123,9 @@ class GuardedActuator final : public Actuator {
   }
   [[nodiscard]] std::span<const DriveRatings> ratings() const override {
     return passive_.empty() ? own_ratings() : std::span<const DriveRatings>(ratings_);
+  }
+  [[nodiscard]] std::span<const JointFriction> friction() const override {
+    return passive_.empty() ? own_friction() : std::span<const JointFriction>(friction_);
   }
   void unlimited(In command, In speed, Out torque, Out slope) const override {
     guarded(entry_, "unlimited", [&] { actuator_->unlimited(command, speed, torque, slope); });
@@ -142,6 +147,10 @@ class GuardedActuator final : public Actuator {
     const std::span<const DriveRatings> stated = guarded(entry_, "ratings", [&] { return actuator_->ratings(); });
     return stated.empty() ? stated : sized("ratings", stated);
   }
+  [[nodiscard]] std::span<const JointFriction> own_friction() const {
+    const std::span<const JointFriction> stated = guarded(entry_, "friction", [&] { return actuator_->friction(); });
+    return stated.empty() ? stated : sized("friction", stated);
+  }
   void silence(std::initializer_list<Out> values) const {
     for (const Out one : values) {
       for (const std::size_t i : passive_) one[i] = 0;
@@ -161,6 +170,7 @@ class GuardedActuator final : public Actuator {
   std::vector<std::size_t> passive_;
   std::vector<double> limit_, inertia_;
   std::vector<DriveRatings> ratings_;
+  std::vector<JointFriction> friction_;
 };
 
 template <class Guard, class T>

@@ -16,12 +16,15 @@ struct Ledger {
   double stops = 0;       ///< work done on the hinge stops
   double stored = 0;      ///< kinetic and potential energy, including springs of passive hinges, minus the initial value
   double hinges = 0;      ///< loss in dampers and friction of passive hinges
+  double dry = 0;         ///< loss in dry and viscous friction of driven joints
 
-  [[nodiscard]] double residual() const { return electrical - copper - gear - stored - contact - friction - stops - hinges; }
+  [[nodiscard]] double residual() const {
+    return electrical - copper - gear - stored - contact - friction - stops - hinges - dry;
+  }
 
-  static constexpr std::size_t kSums = 7;  ///< number of sums in the state of a simulation, in the order of `of`
+  static constexpr std::size_t kSums = 8;  ///< number of sums in the state of a simulation, in the order of `of`
   [[nodiscard]] static Ledger of(In sums, double stored) {
-    return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], stored, sums[6]};
+    return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], stored, sums[6], sums[7]};
   }
 };
 

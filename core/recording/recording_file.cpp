@@ -56,6 +56,7 @@ void each_number(OfRecording& r, Visit visit) {
   visit("energy.stops", "J", "energy given to the hinge stops", r.ledger.stops);
   visit("energy.stored", "J", "kinetic and potential energy, minus the value at the start", r.ledger.stored);
   visit(kHinges, "J", "energy lost in dampers and friction of passive hinges", r.ledger.hinges);
+  visit("energy.dry", "J", "energy lost in dry and viscous friction of driven joints", r.ledger.dry);
   visit(kCurrent + std::string("peak"), "A", "largest sum of the magnitudes of all motors' currents", r.current_peak);
   visit(kCurrent + std::string("rms"), "A", "RMS of that sum", r.current_rms);
   visit("solves", "", "solves of the equations of motion", r.tally.solves);

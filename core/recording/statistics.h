@@ -23,6 +23,7 @@ struct JointStatistics {
   double range_share = 0, range_worst = 0;                 ///< share of time outside [lo, hi]; worst excess, rad
   double setpoint_outside = 0;                             ///< share of time with the set point outside [lo, hi]
   double electrical = 0, copper = 0, gear = 0, shaft = 0;  ///< J: drawn, lost in winding and gear, given to the joint
+  double dry = 0;                                          ///< J: lost in dry and viscous friction
   double shaft_positive = 0;                               ///< J: positive part of the shaft power
   double created = 0;                                      ///< J: energy that the gear created (eq. 2, back-driven)
   /// Number of control ticks with a change of the command's sign minus those without, in the last stretch of the run in which
@@ -58,6 +59,7 @@ inline constexpr std::array<JointStatistic, sizeof(JointStatistics) / sizeof(dou
     {&JointStatistics::copper, "copper", "J", "heat in the winding"},
     {&JointStatistics::gear, "gear", "J", "loss in the gear, minus the energy that it created"},
     {&JointStatistics::shaft, "shaft", "J", "energy given to the joint"},
+    {&JointStatistics::dry, "dry", "J", "energy lost in dry and viscous friction of the joint"},
     {&JointStatistics::shaft_positive, "shaft_positive", "J", "energy given to the joint while that power is positive"},
     {&JointStatistics::created, "created", "J", "energy that the gear created"},
     {&JointStatistics::reversals, "reversals", "",

@@ -42,7 +42,7 @@ const std::array<Tolerance, 8> kTolerances{{
     {"foot_friction", share("Deviation of the friction coefficient under a module's contact elements, as a share.")},
     {"R", share("Deviation of the winding resistance of a motor, as a share.")},
     {"Kt", share("Deviation of the torque constant of a motor, as a share; its back-EMF constant follows.")},
-    {"gear_friction", share("Deviation of a gear's loss (1 - efficiency), as a share.")},
+    {"gear_friction", share("Deviation of a gear's loss (1 - efficiency) and of a joint's friction, as a share.")},
     {"supply", share("Deviation of the motors' voltage limit, as a share; one draw for the whole robot, as for its battery.")},
 }};
 
@@ -61,7 +61,8 @@ const std::array<BuiltNumber, 10> kBuiltNumbers{{
      factor("Factor on the friction coefficient under a module's contact elements.")},
     {"R", Of::motors, Deviation::R, 1, factor("Factor on the winding resistance of a motor.")},
     {"Kt", Of::motors, Deviation::Kt, 1, factor("Factor on the torque constant and the back-EMF constant of a motor.")},
-    {"gear_friction", Of::motors, Deviation::gear_friction, 1, factor("Factor on a gear's loss (1 - efficiency).")},
+    {"gear_friction", Of::motors, Deviation::gear_friction, 1,
+     factor("Factor on a gear's loss (1 - efficiency) and on the joint's friction.")},
     {"supply", Of::robot, Deviation::supply, 1, factor("Factor on the motors' voltage limits.")},
 }};
 

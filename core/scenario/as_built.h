@@ -77,7 +77,7 @@ std::vector<ModuleBuild> module_builds(const AsBuilt& built, std::size_t modules
 struct MotorBuild {
   double R = 1;              ///< factor on the resistance
   double Kt = 1;             ///< factor on torque constant and back-EMF constant
-  double gear_friction = 1;  ///< factor on the lost share 1 - efficiency
+  double gear_friction = 1;  ///< factor on the lost share 1 - efficiency and on friction
   double supply = 1;         ///< factor on the largest voltage
   bool operator==(const MotorBuild&) const = default;
 };

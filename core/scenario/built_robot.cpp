@@ -32,11 +32,16 @@ DcMotor built(DcMotor motor, const MotorBuild& build, bool limited_at_stall) {
   return motor;
 }
 
+JointFriction built(const JointFriction& friction, const MotorBuild& build) {
+  return {friction.dry * build.gear_friction, friction.viscous * build.gear_friction};
+}
+
 class BuiltMotors final : public MotorBank {
  public:
   BuiltMotors(const Actuator& drawn, std::span<const Scenario* const> lanes) {
     const In inertia = drawn.reflected_inertia();
     const auto ratings = drawn.ratings();
+    const auto friction = drawn.friction();
     std::vector<DerivedLimits> limits(lanes.size());
     for (std::size_t l = 0; l < lanes.size(); ++l)
       visit_settings(*lanes[l]->actuator.entry, lanes[l]->actuator.settings.get(), limits[l]);
@@ -46,7 +51,7 @@ class BuiltMotors final : public MotorBank {
         const MotorBuild build = motor_build(lanes[l]->as_built, j);
         const DcMotor& motor = drawn.dc_motors()[i];
         add(build == MotorBuild() ? motor : built(motor, build, !(limits[l].i_max[j] > 0)), inertia.empty() ? 0 : inertia[i],
-            ratings.empty() ? DriveRatings() : ratings[i]);
+            ratings.empty() ? DriveRatings() : ratings[i], friction.empty() ? JointFriction() : built(friction[i], build));
       }
     }
   }

@@ -130,19 +130,13 @@ void Simulation::begin_window() {
   for (std::size_t l = 0; l < lanes_.size(); ++l) twin.lanes_[l]->closed = lanes_[l]->closed;
 }
 
-/// Present motor torques of all lanes.
-In Simulation::torques_now() {
-  actuator_->effort(command_, plant_state_.subspan(layout_.speeds(), command_.size()), torque_, slope_);
-  return torque_;
-}
-
 /// Advances the companions and compares torques. Called after a step, before the step counter advances.
 void Simulation::estimate() {
   const std::int64_t step = step_number();
   const std::int64_t at = how_.at(step);
   const bool asked = (at + 1) % how_.compare == 0;
   if (asked) {
-    torques_now();
+    evaluate_torques();
     step_error_->see(first_.of(In(torque_), FirstLanes::torque), first_.of(In(slope_), FirstLanes::speed));
   }
   const double t = static_cast<double>(step + 1) * h_;
@@ -150,7 +144,8 @@ void Simulation::estimate() {
   for (const auto& one : apart_) one->step_companion(1);
   In torque;
   for (std::size_t k = 0; asked && k < kDifferences; ++k) {
-    if (k < kCompanions) torque = apart_.empty() ? first_.from(torque_, recorded_ + k) : apart_[k]->torques_now();
+    if (k < kCompanions && !apart_.empty()) apart_[k]->evaluate_torques();
+    if (k < kCompanions) torque = apart_.empty() ? first_.from(torque_, recorded_ + k) : In(apart_[k]->torque_);
     step_error_->compare(static_cast<Companion>(k), torque, kFactors[k], 1, t);
   }
 }
@@ -162,7 +157,8 @@ void Simulation::estimate_in_window(bool asked, double t) {
   apart_.front()->step_companion(std::max(1, -how_.steps));
   if (!asked || !how_.compares(step)) return;
   const double weight = step < how_.cycle ? StepError::kStart : 1;
-  step_error_->compare(Companion::twin, apart_.front()->torques_now(), how_.factor, weight, t);
+  apart_.front()->evaluate_torques();
+  step_error_->compare(Companion::twin, apart_.front()->torque_, how_.factor, weight, t);
 }
 
 /// Advances a companion by `times` steps without recording. A lane that diverges or whose plugin throws stops and stays at its

@@ -11,6 +11,7 @@ namespace gaitlab {
 /// Applies faults to the motors of another actuator:
 ///     weak    torque and slope times a share; current and electrical power unchanged; the gear loses the remaining power
 ///     open    no torque, slope, current and power, and voltage 0
+/// The friction of the joint remains.
 /// The results for a motor without a fault have the same bits as from the other actuator. If that actuator has DC motors, this
 /// one has DC motors with other constants (weak: Kt and the slope at rest times the share; open: Kt = Ks = 0), so that engines
 /// evaluate one law. Only the constructor allocates.
@@ -33,6 +34,7 @@ class FaultyActuator final : public Actuator {
   void effort(In command, In speed, Out torque, Out slope) const override;
   void unlimited(In command, In speed, Out torque, Out slope) const override;
   void electrical(In command, In speed, Electrical out) const override;
+  [[nodiscard]] std::span<const JointFriction> friction() const override { return whole_->friction(); }
   [[nodiscard]] std::span<const DriveRatings> ratings() const override { return whole_->ratings(); }
   [[nodiscard]] const DcMotor* dc_motors() const override { return motors_.empty() ? nullptr : motors_.data(); }
 

@@ -41,8 +41,8 @@ Meter::Meter(std::span<const Scenario> lanes)
     values->assign(lo_.size(), 0.0);
 }
 
-void Meter::add(double time, const StepEffort::Part& part, In setpoint, const Actuator::Electrical& report, In available,
-                In measured) {
+void Meter::add(double time, const StepEffort::Part& part, In setpoint, const Actuator::Electrical& report, In dry,
+                In available, In measured) {
   MeterPass pass{.time = time, .instant = part.instant};
   for (std::size_t l = 0; l < lanes_; ++l) {
     const double sum = part.instant ? 0 : measured[l] * part.sum[l];
@@ -60,10 +60,18 @@ void Meter::add(double time, const StepEffort::Part& part, In setpoint, const Ac
     current_square_[l] += sum * current * current;
     if (seen > 0) current_peak_[l] = std::max(current_peak_[l], current);
   }
-  const std::array<const double*, kInputs> inputs{part.angle.data(),        part.speed.data(),      part.torque.data(),
-                                                  setpoint.data(),          report.voltage.data(),  report.current.data(),
-                                                  report.saturation.data(), report.power_in.data(), report.copper.data(),
-                                                  report.gear.data(),       available.data()};
+  const std::array<const double*, kInputs> inputs{part.angle.data(),
+                                                  part.speed.data(),
+                                                  part.torque.data(),
+                                                  setpoint.data(),
+                                                  report.voltage.data(),
+                                                  report.current.data(),
+                                                  report.saturation.data(),
+                                                  report.power_in.data(),
+                                                  report.copper.data(),
+                                                  report.gear.data(),
+                                                  dry.data(),
+                                                  available.data()};
   const std::size_t whole = entries_ - entries_ % kMeterBlock;
   pass.entries = whole;
   add(pass, inputs, 0);
@@ -79,8 +87,8 @@ void Meter::add(double time, const StepEffort::Part& part, In setpoint, const Ac
 
 /// Runs the pass over the entries that start at `from`. The input arrays start at the same entry.
 void Meter::add(MeterPass pass, const std::array<const double*, kInputs>& inputs, std::size_t from) {
-  const auto [angle, speed, torque, setpoint, voltage, current, saturation, power_in, copper, gear, available] = inputs;
-  pass.in = {angle, speed, torque, setpoint, voltage, current, saturation, power_in, copper, gear, available};
+  const auto [angle, speed, torque, setpoint, voltage, current, saturation, power_in, copper, gear, dry, available] = inputs;
+  pass.in = {angle, speed, torque, setpoint, voltage, current, saturation, power_in, copper, gear, dry, available};
   const auto at = [from](auto& values) { return values.data() + from; };
   pass.lo = at(lo_);
   pass.hi = at(hi_);

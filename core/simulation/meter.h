@@ -16,10 +16,11 @@ class Meter {
  public:
   explicit Meter(std::span<const Scenario> lanes);
 
-  /// Adds one part of the step that starts at `time` (s). `report` contains the quantities of the actuator law in that part.
-  /// `available` is the largest torque of the actuator at the speed of the joint, in the direction of the torque, N m; infinity
-  /// if there is no limit. `measured` has one number per lane: 1 if the part counts, else 0.
-  void add(double time, const StepEffort::Part& part, In setpoint, const Actuator::Electrical& report, In available,
+  /// Adds one part of the step that starts at `time` (s). `report` contains the quantities of the actuator law in that part,
+  /// and `dry` the power lost in friction of each joint, W. `available` is the largest torque of the actuator at the speed of
+  /// the joint, in the direction of the torque, N m; infinity if there is no limit. `measured` has one number per lane: 1 if
+  /// the part counts, else 0.
+  void add(double time, const StepEffort::Part& part, In setpoint, const Actuator::Electrical& report, In dry, In available,
            In measured);
   /// Counts the reversals of the commands of a lane that begin at `time` (s), one per joint.
   void command(double time, std::size_t lane, In command);
@@ -30,7 +31,7 @@ class Meter {
   void tick(std::size_t lane, Out row);
 
  private:
-  static constexpr std::size_t kInputs = 11;  ///< number of input arrays of a pass
+  static constexpr std::size_t kInputs = 12;  ///< number of input arrays of a pass
   void add(MeterPass pass, const std::array<const double*, kInputs>& inputs, std::size_t from);
 
   // The length of all arrays is a multiple of kMeterBlock; elements after the last entry stay 0.

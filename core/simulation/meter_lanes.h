@@ -86,6 +86,7 @@ inline void add_lanes(const MeterPass& p, std::size_t at) {
   add(sum_of(place(&F::copper)), weight * load(p.in.copper + at));
   add(sum_of(place(&F::gear)), weight * gear);
   add(sum_of(place(&F::shaft)), weight * shaft);
+  add(sum_of(place(&F::dry)), weight * load(p.in.dry + at));
   if (!p.some) return;
   const Lanes share = load(p.share + at);
   add(sum_of(place(&F::torque_rms)), share * (torque * torque));

@@ -18,7 +18,7 @@ struct MeterPass {
   bool instant = false, some = false;
   struct {
     const double *angle, *speed, *torque, *setpoint;
-    const double *voltage, *current, *saturation, *power_in, *copper, *gear, *available;
+    const double *voltage, *current, *saturation, *power_in, *copper, *gear, *dry, *available;
   } in = {};
   const double *lo = nullptr, *hi = nullptr, *driven = nullptr;  ///< lo, hi: rad; driven: 1 for a joint with a motor, else 0
   const double *weight = nullptr, *share = nullptr, *seen = nullptr;  ///< weight, share: s; seen: 1 if peaks count, else 0

@@ -47,7 +47,9 @@ void Probes::add_all(const Scenario& scenario, const std::vector<ContactElement>
   add("t", "s", "time", sample_.t);
   if (!scenario.changes.empty()) add("segment", "", "number of changes (section `at`) before t", sample_.segment);
   const auto faults = [](const Change& change) { return !change.faults.empty(); };
-  add_joints(robot, scenario.actuator.entry != nullptr, command_unit, std::ranges::any_of(scenario.changes, faults));
+  const bool motors = scenario.actuator.entry != nullptr;
+  const bool friction = motors && !make_actuator(scenario.actuator, info(robot))->friction().empty();
+  add_joints(robot, motors, command_unit, std::ranges::any_of(scenario.changes, faults), friction);
   add_base();
   add_vector("com", "m", "centre of mass, world axes", [](const Sample& s) { return s.sums.com; });
   add_contacts(contacts);
@@ -57,7 +59,7 @@ void Probes::add_all(const Scenario& scenario, const std::vector<ContactElement>
   for (std::size_t i = 0; cpg != nullptr && i < cpg->states(); ++i) {
     add("cpg." + cpg->state_name(i), "", "state of the CPG", [i](const Sample& s) { return s.cpg[i]; });
   }
-  add_energy(robot);
+  add_energy(robot, friction);
   add_steps(robot);
   add_reactions(robot);
   add_sensors(sensor_readings(scenario));
@@ -96,7 +98,7 @@ void Probes::add_vector(const std::string& name, const std::string& unit, const 
   }
 }
 
-void Probes::add_joints(const Robot& robot, bool motors, std::string_view command_unit, bool faults) {
+void Probes::add_joints(const Robot& robot, bool motors, std::string_view command_unit, bool faults, bool friction) {
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     const std::string of = " of joint " + robot.joints[j].name;
     const bool driven = motors && robot.joints[j].driven();
@@ -112,6 +114,7 @@ void Probes::add_joints(const Robot& robot, bool motors, std::string_view comman
       joint("voltage", "V", "terminal voltage of the motor", &Sample::voltage);
       joint("current", "A", "current of the motor", &Sample::current);
       joint("torque", "N m", "motor torque on the joint, positive along the axis,", &Sample::torque);
+      if (friction) joint("friction", "N m", "part of this torque that friction gives,", &Sample::friction);
     }
     if (!robot.joints[j].driven()) {
       joint("passive_torque", "N m", "torque of spring, damper and friction of the hinge, positive along the axis,",
@@ -200,7 +203,7 @@ void Probes::add_boxes(const Ground& ground) {
   }
 }
 
-void Probes::add_energy(const Robot& robot) {
+void Probes::add_energy(const Robot& robot, bool friction) {
   add("energy.kinetic", "J", "kinetic energy of all links", [](const Sample& s) { return s.sums.kinetic; });
   add("energy.potential", "J", "weight times height of the centre of mass", [](const Sample& s) { return s.sums.potential; });
   const auto ledger = [&](const char* entry, const char* definition, double Ledger::*value) {
@@ -217,6 +220,7 @@ void Probes::add_energy(const Robot& robot) {
   if (!std::ranges::all_of(robot.joints, [](const Joint& joint) { return joint.driven(); })) {
     ledger("hinges", "energy lost in dampers and friction of passive hinges", &Ledger::hinges);
   }
+  if (friction) ledger("dry", "energy lost in dry and viscous friction of driven joints", &Ledger::dry);
   add("energy.residual", "J", "electrical energy minus all other entries, from t = 0: the error of the integration",
       [](const Sample& s) { return s.ledger.residual(); });
   add_vector("momentum", "N s", "linear momentum, world axes", [](const Sample& s) { return s.sums.momentum; });

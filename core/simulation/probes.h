@@ -40,13 +40,13 @@ class Probes {
   void add(std::string name, std::string unit, std::string definition, const double& number);
   void add_vector(const std::string& name, const std::string& unit, const std::string& definition,
                   const std::function<Vec3(const Sample&)>& read);
-  void add_joints(const Robot& robot, bool motors, std::string_view command_unit, bool faults);
+  void add_joints(const Robot& robot, bool motors, std::string_view command_unit, bool faults, bool friction);
   void add_base();
   void add_contacts(const std::vector<ContactElement>& contacts);
   void add_loads(const Robot& robot, const std::vector<ContactElement>& contacts);
   void add_bodies(const Robot& robot, const Sample& first);
   void add_boxes(const Ground& ground);
-  void add_energy(const Robot& robot);
+  void add_energy(const Robot& robot, bool friction);
   void add_steps(const Robot& robot);
   void add_wrench(const std::string& name, const std::string& of, const std::function<const Wrench&(const Sample&)>& read);
   void add_reactions(const Robot& robot);

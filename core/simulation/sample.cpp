@@ -15,8 +15,8 @@ Sample::Sample(const Robot& robot, std::size_t contacts_count, std::size_t cpg_s
       cpg(cpg_states),
       reactions(robot) {
   for (auto* values :
-       {&state.q, &state.qd, &setpoint, &command, &voltage, &current, &saturation, &torque, &stop_torque, &passive_torque,
-        &fault, &stuck_for, &acceleration_.joints, &applied_, &tally.torque_error, &tally.torque_peak}) {
+       {&state.q, &state.qd, &setpoint, &command, &voltage, &current, &saturation, &torque, &friction, &stop_torque,
+        &passive_torque, &fault, &stuck_for, &acceleration_.joints, &applied_, &tally.torque_error, &tally.torque_peak}) {
     values->assign(robot.joints.size(), 0.0);
   }
   hold.assign(robot.joints.size(), NAN);

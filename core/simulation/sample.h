@@ -35,7 +35,7 @@ struct Sample {
   std::vector<Quat> orientation;  ///< link frames; signs continuous in time
   Sums sums;
   Vec3 gravity = Vec3::Zero();
-  std::vector<double> setpoint, command, voltage, current, saturation, torque, stop_torque, passive_torque;
+  std::vector<double> setpoint, command, voltage, current, saturation, torque, friction, stop_torque, passive_torque;
   std::vector<double> fault, hold;  ///< per joint: number of its fault; its angle if it is stuck, rad, else NaN
   std::vector<double> stuck_for;    ///< time that each joint has been stuck, s, as in Plant::change_joints
   double segment = 0;

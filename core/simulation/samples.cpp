@@ -39,6 +39,7 @@ Sample& Simulation::take_sample(Lane& lane, bool places) {
     s.current[j] = current_[i];
     s.saturation[j] = saturation_[i];
     s.torque[j] = torque_[i];
+    s.friction[j] = friction_[i];
   }
   lane.read_changes(s);
   s.compute_hinges(lane.robot, lane.passive);
@@ -53,9 +54,7 @@ Sample& Simulation::take_sample(Lane& lane, bool places) {
 /// Computes motor quantities and contacts as left limits, under the command in force.
 void Simulation::observe() {
   evaluate_motors(plant_state_.subspan(layout_.speeds(), command_.size()));
-  if (actuator_ != nullptr) {
-    actuator_->effort(command_, plant_state_.subspan(layout_.speeds(), command_.size()), torque_, slope_);
-  }
+  evaluate_torques();
   plant_->update_contacts();
 }
 
@@ -134,8 +133,7 @@ void Simulation::record_tick(Lane& lane) {
 void Simulation::record_loads(const std::function<bool(const Lane&)>& wanted) {
   const auto due = [&](const auto& lane) { return lane->recorder != nullptr && lane->recorder->loads_due() && wanted(*lane); };
   if (std::ranges::none_of(lanes_, due)) return;
-  if (actuator_ != nullptr)
-    actuator_->effort(command_, plant_state_.subspan(layout_.speeds(), command_.size()), torque_, slope_);
+  evaluate_torques();
   for (const auto& lane : lanes_) {
     if (due(lane)) record_loads(*lane);
   }
@@ -205,8 +203,7 @@ void Simulation::watch_docks(const std::function<bool(const Lane&)>& wanted) {
   const auto due = [&](const auto& lane) { return wanted(*lane) && fine(*lane); };
   if (std::ranges::none_of(lanes_, due)) return;
   plant_->update_contacts();
-  if (actuator_ != nullptr)
-    actuator_->effort(command_, plant_state_.subspan(layout_.speeds(), command_.size()), torque_, slope_);
+  evaluate_torques();
   for (const auto& lane : lanes_) {
     if (!due(lane)) continue;
     fill_loads(*lane);

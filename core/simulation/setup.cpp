@@ -55,7 +55,8 @@ Simulation::Simulation(std::span<const Scenario> lanes, Records records, Role ro
   if (recorded_ != lanes_.size()) own_actuator_ = make_motors(std::span(all).first(recorded_));
   prepare_faults();
   plant_ = make_plant(first, plant_settings());
-  for (auto* values : {&voltage_, &current_, &saturation_, &power_in_, &copper_, &gear_, &torque_, &slope_}) {
+  for (auto* values :
+       {&voltage_, &current_, &saturation_, &power_in_, &copper_, &gear_, &torque_, &slope_, &friction_, &dry_}) {
     values->assign(layout_.joints * lanes_.size(), 0.0);
   }
   available_.assign(layout_.joints * lanes_.size(), 0.0);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/laws/joint_friction.h"
 #include "core/simulation/cpg_check.h"
 #include "core/simulation/lane.h"
 
@@ -135,34 +136,51 @@ void Simulation::evaluate_motors(In speeds) {
   if (laws == nullptr || !laws->evaluate_motors(command_, speeds, into)) actuator_->electrical(command_, speeds, into);
 }
 
+/// Computes joint torques at the present state under the commands in force: those of the motors, and friction_.
+void Simulation::evaluate_torques() {
+  if (actuator_ == nullptr) return;
+  const In speeds = plant_state_.subspan(layout_.speeds(), command_.size());
+  actuator_->effort(command_, speeds, torque_, slope_);
+  const std::span<const JointFriction> friction = actuator_->friction();
+  if (friction.empty()) return;
+  std::ranges::copy(torque_, friction_.begin());
+  if (!plant_->add_friction(command_, torque_)) add_creeping(friction, speeds, torque_, slope_);
+  for (std::size_t i = 0; i < friction_.size(); ++i) friction_[i] = torque_[i] - friction_[i];
+}
+
 /// Torque available to the recorded lanes in a part of a step, in the direction of their torques, N m. Infinity if the actuator
 /// has no limit.
 In Simulation::evaluate_available(const StepEffort::Part& part) {
-  if (actuator_ == nullptr) return In(available_).first(largest_.size());
-  if (MotorLaws* const laws = plant_->motor_laws();
-      laws != nullptr && laws->evaluate_available(part.speed, part.torque, available_))
-    return first_.of(In(available_), FirstLanes::available);
-  const In torques = first_.of(part.torque, FirstLanes::torque);
-  const Actuator& actuator = own_actuator_ ? *own_actuator_ : *actuator_;
-  const In limit = actuator.command_limit();
-  for (std::size_t i = 0; i < largest_.size(); ++i)
-    largest_[i] = std::isfinite(limit[i]) ? std::copysign(limit[i], torques[i]) : 0;
   const Out available = Out(available_).first(largest_.size());
-  actuator.effort(largest_, first_.of(part.speed, FirstLanes::speed), available, slope_);
-  for (std::size_t i = 0; i < largest_.size(); ++i) {
-    available[i] =
-        std::isfinite(limit[i]) ? std::copysign(1.0, torques[i]) * available[i] : std::numeric_limits<double>::infinity();
+  if (actuator_ == nullptr) return available;
+  const In torques = first_.of(part.torque, FirstLanes::torque);
+  const In speeds = first_.of(part.speed, FirstLanes::speed);
+  const Actuator& actuator = own_actuator_ ? *own_actuator_ : *actuator_;
+  In found = available;
+  if (MotorLaws* const laws = plant_->motor_laws();
+      laws != nullptr && laws->evaluate_available(part.speed, part.torque, available_)) {
+    found = first_.of(In(available_), FirstLanes::available);
+  } else {
+    const In limit = actuator.command_limit();
+    for (std::size_t i = 0; i < largest_.size(); ++i)
+      largest_[i] = std::isfinite(limit[i]) ? std::copysign(limit[i], torques[i]) : 0;
+    actuator.effort(largest_, speeds, available, slope_);
+    for (std::size_t i = 0; i < largest_.size(); ++i) {
+      available[i] =
+          std::isfinite(limit[i]) ? std::copysign(1.0, torques[i]) * available[i] : std::numeric_limits<double>::infinity();
+    }
   }
-  return available;
+  const std::span<const JointFriction> friction = actuator.friction();
+  for (std::size_t i = 0; i < friction.size(); ++i)
+    available[i] = found[i] + friction_along(friction[i], speeds[i], std::copysign(1.0, torques[i]));
+  return friction.empty() ? found : In(available);
 }
 
 void Simulation::sense() {
   const std::size_t lanes = lanes_.size();
   // Left limits, as in a trace row: the sensors depend on the state and the command in force, not on the method of the last
   // step.
-  if (actuator_ != nullptr) {
-    actuator_->effort(command_, plant_state_.subspan(layout_.speeds(), command_.size()), torque_, slope_);
-  }
+  evaluate_torques();
   const auto need_current = [](const auto& lane) { return lane->sensors.need_current(); };
   if (std::ranges::any_of(lanes_, need_current)) evaluate_motors(plant_state_.subspan(layout_.speeds(), command_.size()));
   plant_->update_contacts();
@@ -268,8 +286,11 @@ void Simulation::advance(double h, const std::function<bool(const Lane&)>& measu
         first_.of(Out(voltage_), FirstLanes::voltage),       first_.of(Out(current_), FirstLanes::current),
         first_.of(Out(saturation_), FirstLanes::saturation), first_.of(Out(power_in_), FirstLanes::power_in),
         first_.of(Out(copper_), FirstLanes::copper),         first_.of(Out(gear_), FirstLanes::gear)};
+    const std::span<const JointFriction> friction =
+        actuator_ == nullptr ? std::span<const JointFriction>() : actuator_->friction();
+    for (std::size_t i = 0; i < friction.size(); ++i) dry_[i] = power_lost(friction[i], of_all.speed[i]);
     const bool peaks = part.instant || std::ranges::any_of(part.share, [](double share) { return share > 0; });
-    meter_.add(time(), part, first_.of(setpoint_, FirstLanes::setpoint), electrical,
+    meter_.add(time(), part, first_.of(setpoint_, FirstLanes::setpoint), electrical, first_.of(In(dry_), FirstLanes::dry),
                peaks ? evaluate_available(of_all) : available_, measured_);
     if (part.instant) continue;
     for (std::size_t l = 0; l < recorded_; ++l) {
@@ -278,6 +299,7 @@ void Simulation::advance(double h, const std::function<bool(const Lane&)>& measu
         sums[0] += part.sum[l] * power_in_[i];
         sums[1] += part.sum[l] * copper_[i];
         sums[2] += part.sum[l] * gear_[i];
+        sums[7] += part.sum[l] * dry_[i];
       }
     }
   }

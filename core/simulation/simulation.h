@@ -112,10 +112,10 @@ class Simulation {
   void estimate();
   void estimate_in_window(bool asked, double t);
   void step_companion(int times);
-  In torques_now();
   void ask_watch();
   void watch_stability();
   void evaluate_motors(In speeds);
+  void evaluate_torques();
   In evaluate_available(const StepEffort::Part& part);
   void observe();
   [[nodiscard]] Rotors rotors(const Lane& lane) const;
@@ -162,7 +162,7 @@ class Simulation {
   TwinWindows how_;                                       ///< times at which the twin runs beside this simulation
   std::unique_ptr<StepError> step_error_;                 ///< nullptr without an estimate
   Out plant_state_, plant_history_, setpoint_, command_;  ///< parts of state_; the last two by joint * lanes + lane
-  std::vector<double> voltage_, current_, saturation_, power_in_, copper_, gear_, torque_, slope_, available_,
+  std::vector<double> voltage_, current_, saturation_, power_in_, copper_, gear_, torque_, slope_, friction_, dry_, available_,
       largest_;                               ///< scratch by joint * lanes + lane; largest_ has the recorded lanes only
   FirstLanes first_;                          ///< entries of the recorded lanes
   std::vector<double> saved_;                 ///< scratch: copy of state_ while a row or loads within a step are recorded

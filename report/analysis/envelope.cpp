@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/laws/dc_motor.h"
+#include "core/laws/joint_friction.h"
 #include "core/plugin/robot_info.h"
 #include "core/recording/motor_limit.h"
 #include "core/scenario/built_robot.h"
@@ -90,6 +91,11 @@ void AvailableTorque::at(In speed, Out most, Out least) const {
   std::vector<double> slope(speed.size());
   actuator_->effort(most_, speed, most, slope);
   actuator_->effort(least_, speed, least, slope);
+  const std::span<const JointFriction> friction = actuator_->friction();
+  for (std::size_t j = 0; j < friction.size(); ++j) {
+    most[j] += friction_along(friction[j], speed[j], 1);
+    least[j] -= friction_along(friction[j], speed[j], -1);
+  }
 }
 
 namespace {

@@ -160,7 +160,8 @@ std::vector<std::string> not_finite(const Scenario& s, const Recording& r) {
                                     {"contact", ledger.contact},
                                     {"friction", ledger.friction},
                                     {"stops", ledger.stops},
-                                    {"hinges", ledger.hinges}})
+                                    {"hinges", ledger.hinges},
+                                    {"dry", ledger.dry}})
     look(value, std::string("energy.") + name);
   for (std::size_t j = 0; j < r.joints.size(); ++j) {
     for (const JointStatistic& one : kJointStatistics)

@@ -56,6 +56,23 @@ void check_constants(const Scenario& s, const DcMotor* motors, std::vector<Warni
   }
 }
 
+/// Warns of the first joint that its motor cannot turn.
+void check_friction(const Scenario& s, const Actuator& actuator, std::vector<Warning>& out) {
+  const std::span<const JointFriction> friction = actuator.friction();
+  std::vector<double> most(friction.size());
+  std::vector<double> unused(friction.size());
+  if (!friction.empty()) actuator.effort(actuator.command_limit(), unused, most, unused);
+  for (std::size_t j = 0; j < friction.size(); ++j) {
+    if (!s.robot->joints[j].driven() || !(friction[j].dry >= most[j])) continue;
+    out.push_back(
+        {s.nearest_place("actuator.dry_friction"),
+         fmt::format("the motor of joint {} cannot turn it: dry_friction is {:.4g} N m, the motor's largest torque at "
+                     "rest {:.4g} N m",
+                     s.robot->joints[j].name, friction[j].dry, most[j])});
+    return;
+  }
+}
+
 /// Warns of the loop that is nearest to its bound, or beyond it.
 void check_gain(const Scenario& s, const std::vector<PositionLoop>& loops, std::vector<Warning>& out) {
   const auto nearest = std::ranges::max_element(loops, {}, &PositionLoop::share);
@@ -97,6 +114,7 @@ void check_encoder(const Scenario& s, const std::vector<PositionLoop>& loops, st
 void check_motors(const Scenario& s, bool with_gain, std::vector<Warning>& out) {
   if (s.actuator.entry == nullptr || s.robot->joints.empty()) return;
   const std::unique_ptr<Actuator> actuator = make_motors(s);
+  check_friction(s, *actuator, out);
   const DcMotor* const motors = actuator->dc_motors();
   if (motors == nullptr) return;
   check_constants(s, motors, out);

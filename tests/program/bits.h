@@ -16,7 +16,7 @@ inline std::string bits(const Recording& r) {
   std::string text = fmt::format("{} steps, {:a} s, {:a} solves, {:a} off, {:a} coarse, ledger", r.steps, r.simulated,
                                  r.tally.solves, r.tally.off, r.tally.coarse);
   for (const double x : {r.ledger.electrical, r.ledger.copper, r.ledger.gear, r.ledger.stored, r.ledger.contact,
-                         r.ledger.friction, r.ledger.stops}) {
+                         r.ledger.friction, r.ledger.stops, r.ledger.hinges, r.ledger.dry}) {
     text += fmt::format(" {:a}", x);
   }
   for (const JointStatistics& joint : r.joints) {

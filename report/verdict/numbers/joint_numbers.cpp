@@ -137,6 +137,10 @@ std::vector<SummaryNumber> joint_numbers() {
        .definition = "Energy that the gears create, as a positive number: -sum(min(gear power, 0) h). Eq. 2 "
                      "gives it to back-driven joints; `gear` is the loss minus this energy.",
        .of_joint = of_whole_run(&F::created)},
+      {.key = "per_joint.J.energy.dry",
+       .unit = "J",
+       .definition = "Energy lost in dry and viscous friction of the joint.",
+       .of_joint = of_whole_run(&F::dry)},
       {.key = "per_joint.J.energy.shaft", .unit = "J", .definition = "sum(T w h).", .of_joint = of_whole_run(&F::shaft)},
       {.key = "tracking_error.worst",
        .unit = "rad",

@@ -140,7 +140,7 @@ Lines transport(const RunData& run) {
 bool lossless(const RunData& run) {
   constexpr double kLeastLoss = 0.01, kRails = 0.001;
   const Ledger& e = run.record.ledger;
-  return e.copper + e.gear + e.hinges < kLeastLoss * e.electrical || std::abs(run.summary.cost_electrical) < kRails;
+  return e.copper + e.gear + e.hinges + e.dry < kLeastLoss * e.electrical || std::abs(run.summary.cost_electrical) < kRails;
 }
 
 // Without the energy that gears create by eq. 2, the energy drawn would be larger by this share.
@@ -307,6 +307,7 @@ Lines ledger(const RunData& run) {
   add(l.friction, "friction");
   add(l.stops, "stops");
   add(l.hinges, "hinges");
+  add(l.dry, "joint friction");
   add(l.residual(), "residual");
   return lines;
 }

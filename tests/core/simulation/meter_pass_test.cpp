@@ -20,7 +20,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Arrays of a pass. The inputs are in the order of MeterPass, followed by lo, hi, driven, weight, share and seen; the outputs
 /// are sums and peaks.
 struct Arrays {
-  std::array<std::vector<double>, 17> in;
+  std::array<std::vector<double>, 18> in;
   std::array<std::vector<double>, kJointStatistics.size() + 7> out;
 
   Arrays() {
@@ -33,14 +33,14 @@ struct Arrays {
     p.time = time;
     p.instant = instant;
     p.some = true;
-    p.in = {in[0].data(), in[1].data(), in[2].data(), in[3].data(), in[4].data(), in[5].data(),
-            in[6].data(), in[7].data(), in[8].data(), in[9].data(), in[10].data()};
-    p.lo = in[11].data();
-    p.hi = in[12].data();
-    p.driven = in[13].data();
-    p.weight = in[14].data();
-    p.share = in[15].data();
-    p.seen = in[16].data();
+    p.in = {in[0].data(), in[1].data(), in[2].data(), in[3].data(), in[4].data(),  in[5].data(),
+            in[6].data(), in[7].data(), in[8].data(), in[9].data(), in[10].data(), in[11].data()};
+    p.lo = in[12].data();
+    p.hi = in[13].data();
+    p.driven = in[14].data();
+    p.weight = in[15].data();
+    p.share = in[16].data();
+    p.seen = in[17].data();
     for (std::size_t k = 0; k < kJointStatistics.size(); ++k) p.sums[k] = out[k].data();
     const auto recent = [&](std::size_t k) { return out[kJointStatistics.size() + k].data(); };
     p.recent = {recent(0), recent(1), recent(2), recent(3), recent(4), recent(5), recent(6)};
@@ -62,11 +62,11 @@ void fill(Arrays& arrays, std::mt19937_64& draw) {
     for (double& value : values) value = *(choices.begin() + draw() % choices.size());
   };
   one_of(arrays.in[6], {0, 1, 2});
-  one_of(arrays.in[10], {0, 0.5, 1, kInfinity});
-  one_of(arrays.in[11], {-kInfinity, -1, -0.0});
-  one_of(arrays.in[12], {kInfinity, 1, 0.0});
-  one_of(arrays.in[13], {0, 1});
-  one_of(arrays.in[16], {0, 1});
+  one_of(arrays.in[11], {0, 0.5, 1, kInfinity});
+  one_of(arrays.in[12], {-kInfinity, -1, -0.0});
+  one_of(arrays.in[13], {kInfinity, 1, 0.0});
+  one_of(arrays.in[14], {0, 1});
+  one_of(arrays.in[17], {0, 1});
   arrays.in[2][3] = -0.0;
   arrays.in[0][5] = std::numeric_limits<double>::quiet_NaN();
 }
@@ -90,16 +90,16 @@ TEST(MeterPass, BitsDoNotDependOnTheRegisters) {
 
 TEST(MeterPass, PeaksTimesAndShares) {
   Arrays one;
-  one.in[11].assign(kEntries, -1.0);
-  one.in[12].assign(kEntries, 1.0);
+  one.in[12].assign(kEntries, -1.0);
   one.in[13].assign(kEntries, 1.0);
-  for (const std::size_t k : {14U, 15U}) one.in[k].assign(kEntries, 0.25);
-  one.in[16].assign(kEntries, 1.0);
+  one.in[14].assign(kEntries, 1.0);
+  for (const std::size_t k : {15U, 16U}) one.in[k].assign(kEntries, 0.25);
+  one.in[17].assign(kEntries, 1.0);
   one.in[0][9] = 1.5;  // angle
   one.in[2][9] = -3;   // torque
   one.in[3][9] = 0.5;  // set point
   one.in[6][9] = 2;    // at the current limit
-  one.in[10][9] = 4;   // available torque
+  one.in[11][9] = 4;   // available torque
   add_pass(one.pass(0.5, false));
   one.in[2][9] = 2;
   one.in[6][9] = 1;

@@ -43,14 +43,15 @@ struct MeterInput {
   std::vector<double>& power_in() { return of_joints[7]; }
   std::vector<double>& copper() { return of_joints[8]; }
   std::vector<double>& gear() { return of_joints[9]; }
-  std::vector<double>& available() { return of_joints[10]; }
+  std::vector<double>& dry() { return of_joints[10]; }
+  std::vector<double>& available() { return of_joints[11]; }
 
   void add_to(Meter& meter, double time) {
     meter.add(time, {torque(), speed(), angle(), sum, share, instant}, setpoint(),
-              {voltage(), current(), saturation(), power_in(), copper(), gear()}, available(), measured);
+              {voltage(), current(), saturation(), power_in(), copper(), gear()}, dry(), available(), measured);
   }
 
-  std::array<std::vector<double>, 11> of_joints;
+  std::array<std::vector<double>, 12> of_joints;
   std::vector<double> sum, share, measured;
   bool instant = false;
 };
