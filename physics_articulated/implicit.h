@@ -30,8 +30,8 @@ struct StepResult {
 ///
 /// Dry friction of a driven joint is a kink of phi at rest. Such a joint has a mode (StepMotors), and phi is that of the modes:
 /// the law of a side goes on beyond rest, and a joint that sticks ends the step at rest, under the torque that this needs.
-/// Where the iterate contradicts a mode, the mode changes and the step is solved again: a joint that turns against its side
-/// sticks, and one that sticks under more than its friction turns. The modes at the start depend on the speeds alone, without
+/// A mode that contradicts the iterate changes, and the step is solved again: a joint that turns against its side sticks, and
+/// one that sticks under more than its friction turns. The modes at the start depend on the speeds alone, without
 /// memory.
 template <class T>
 class Implicit {

@@ -15,7 +15,7 @@ namespace {
 constexpr double kInertia = 1.0 / 3;
 constexpr double kWeight = 9.81 / 2;  // moment of the weight of the horizontal rod, N m
 
-/// A rod on a motor; with type torque and without a gain, nothing but friction acts on it.
+/// A rod on a motor. Without a gain, a motor of type torque gives only friction.
 struct Rod {
   std::string engine, motor;
   std::string controller = "{type: pid, unit: N m, Kp: 0, Kd: 0}";
