@@ -17,7 +17,8 @@ motor gains energy; the summary shows how much. efficiency_model: directional ta
 
     T = eta^s Kt i n          s = w sign(i) / turn_speed, within [-1, 1]
 
-The factor is eta while the motor drives and 1 / eta while it is driven; turn_speed smooths its jump as the joint reverses.
+The factor is eta while the motor drives and 1 / eta while it is driven. Implicit integrators have the jump at w = 0, where the
+joint can stick (s = sign(w i)); turn_speed smooths it under explicit ones.
 Source: Chariot, Filippi, Verlinden 2012, eq. 1 and 2. Defaults (chosen): a 6 V, 2 W coreless motor driven at 7.4 V.
 Takes commands in V.
 

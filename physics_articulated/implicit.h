@@ -146,22 +146,23 @@ class Implicit {
       for (std::size_t j = 0; j < joints_; ++j) again = release(j) || again;
     }
   }
-  /// Adds friction at the state x to the motor torques `torque` (index joint * lanes + lane): of a joint at rest what holds it,
-  /// or its dry friction where this cannot hold it.
+  /// Adds friction at the state x to the motor torques `torque` (index joint * lanes + lane). A joint at rest has the torque
+  /// that holds it, or the bound of its torques at rest where this cannot hold it.
   void add_friction(std::span<const T> x, In command, Out torque) {
     if (!motors.rubs()) return;
-    const auto add = [&](std::size_t j, const T& friction) {
+    for (std::size_t j = 0; j < joints_; ++j) {
+      const T friction = motors.friction(j, speeds(x)[j]);
       for (std::size_t l = 0; l < math::kLanes<T>; ++l) torque[j * math::kLanes<T> + l] += math::lane(friction, l);
-    };
-    for (std::size_t j = 0; j < joints_; ++j) add(j, motors.friction(j, speeds(x)[j]));
+    }
     motors.begin(command, speeds(x));
     const auto all = motors.sticks;
     if (std::ranges::none_of(all, [](const auto& sticks) { return math::any_lane(sticks); })) return;
     evaluate(x, command);
     for (std::size_t j = 0; j < joints_; ++j) {
       const T held = math::select(motors.sticks[j], locks_.torque[j], motors.law[j]);
-      const T motor = T(0.5) * (motors.below[j] + motors.above[j]);
-      add(j, math::select(all[j], held - motor, T(0.0)));
+      for (std::size_t l = 0; l < math::kLanes<T>; ++l) {
+        if (math::lane(math::select(all[j], T(1.0), T(0.0)), l) > 0) torque[j * math::kLanes<T> + l] = math::lane(held, l);
+      }
     }
   }
   [[nodiscard]] std::span<const T> accelerations() const { return next_.a; }  ///< result of evaluate()

@@ -41,6 +41,7 @@ class StepMotors {
         side(joints, T(1.0)),
         sticks(joints),
         jumps(joints),
+        rest_(joints, T(0.0)),
         least_slope_(joints, T(0.0)),
         actuator_(actuator) {
     if (actuator == nullptr) return;
@@ -49,6 +50,7 @@ class StepMotors {
     take_friction(lanes);
     if (actuator->dc_motors() != nullptr) dc_.resize(joints);
     take(passive, lanes);
+    find_jumps();
   }
 
   /// Takes the constants of DC motors from the actuator.
@@ -64,6 +66,7 @@ class StepMotors {
       from += lanes.all - math::kLanes<T>;
     }
     for (const std::size_t j : passive) dc_[j] = BasicDcMotor<T>();
+    find_jumps();
   }
 
   [[nodiscard]] bool any() const { return actuator_ != nullptr; }
@@ -77,13 +80,15 @@ class StepMotors {
   /// Sets the modes at the start of a step: a joint at rest sticks, another one goes on in its direction.
   void begin(In command, std::span<const T> speed) {
     if (!any_jump) return;
-    const T zero = 0.0, one = 1.0;
-    std::ranges::fill(side, zero);  // linearise() then has the motors alone
-    std::ranges::fill(rest_, zero);
+    const T zero = 0.0;
+    const T one = 1.0;
+    std::ranges::fill(side, -one);
     linearise(command, rest_);
+    above = law;
+    std::ranges::fill(side, one);
+    linearise(command, rest_);
+    below = law;
     for (std::size_t j = 0; j < side.size(); ++j) {
-      below[j] = law[j] - friction_[j].dry;
-      above[j] = law[j] + friction_[j].dry;
       side[j] = math::select(speed[j] < zero, -one, one);
       sticks[j] = math::mask_and(jumps[j], math::abs(speed[j]) <= zero);
     }
@@ -93,7 +98,7 @@ class StepMotors {
   void linearise(In command, std::span<const T> speed) {
     if (actuator_ != nullptr && dc_.empty()) actuator_->effort(command, math::numbers(speed), numbers(law), numbers(law_slope));
     for (std::size_t j = 0; j < dc_.size(); ++j) {
-      const auto effort = dc_[j](of_joint(command, j), speed[j]);
+      const auto effort = dc_[j].on(side[j], of_joint(command, j), speed[j]);
       law[j] = effort.torque;
       law_slope[j] = effort.slope;
     }
@@ -116,8 +121,8 @@ class StepMotors {
     const T zero = 0.0, one = 1.0;
     return friction_[j].torque(math::select(speed < zero, -one, math::select(speed > zero, one, zero)), speed);
   }
-  /// True if a joint has friction.
-  [[nodiscard]] bool rubs() const { return !friction_.empty(); }
+  /// True if a joint has friction or its torque jumps.
+  [[nodiscard]] bool rubs() const { return any_jump || !friction_.empty(); }
 
   /// Sets the tangent at the speed `end`, in the lanes `which`, for a solve that starts from the speed `start`. linearise()
   /// must have been called for `end`. A slope below 0, which no actuator should have, counts as 0. The solve then still has a
@@ -154,7 +159,10 @@ class StepMotors {
       const auto backward = of_joint(torque_now, j) < T(0.0);
       const auto limited = dc_[j].u_max < infinity;
       const T largest = math::select(limited, dc_[j].u_max, T(0.0));
-      const T there = dc_[j](math::select(backward, -largest, largest), of_joint(speed, j)).torque;
+      const T w = of_joint(speed, j);
+      const T held = math::select(backward, T(1.0), T(-1.0));  // at rest, the loss of the gear helps to hold
+      const T turning = math::select(w < T(0.0), T(-1.0), math::select(w > T(0.0), T(1.0), held));
+      const T there = dc_[j].on(turning, math::select(backward, -largest, largest), w).torque;
       store(math::select(limited, math::select(backward, -there, there), infinity), j, most);
     }
     return !dc_.empty();
@@ -205,17 +213,25 @@ class StepMotors {
     const std::span<const JointFriction> all = actuator_->friction();
     if (all.empty()) return;
     friction_.resize(law.size());
-    rest_.assign(law.size(), T(0.0));
     for (std::size_t j = 0; j < friction_.size(); ++j) {
       for (std::size_t l = 0; l < math::kLanes<T>; ++l) {
         const JointFriction& from = all[j * lanes.all + lanes.first + l];
         math::lane(friction_[j].viscous, l) = from.viscous;
         if (from.dry > kLeastJump * math::lane(scale[j], l)) math::lane(friction_[j].dry, l) = from.dry;
       }
-      jumps[j] = friction_[j].dry > T(0.0);
-      any_jump = any_jump || math::any_lane(jumps[j]);
       per_speed[j] = per_speed[j] + friction_[j].viscous;
       least_slope_[j] = math::select(least_slope_[j] > T(0.0), least_slope_[j] + friction_[j].viscous, least_slope_[j]);
+    }
+  }
+
+  void find_jumps() {
+    any_jump = false;
+    for (std::size_t j = 0; j < jumps.size() && !creeps_; ++j) {
+      const T zero = 0.0;
+      jumps[j] = {};
+      if (!friction_.empty()) jumps[j] = friction_[j].dry > zero;
+      if (!dc_.empty()) jumps[j] = math::mask_or(jumps[j], math::mask_and(dc_[j].jumps > zero, dc_[j].Kt > zero));
+      any_jump = any_jump || math::any_lane(jumps[j]);
     }
   }
 
@@ -229,11 +245,11 @@ class StepMotors {
     std::copy_n(math::numbers(std::span<const T>(&value, 1)).begin(), math::kLanes<T>, to.data() + j * math::kLanes<T>);
   }
 
+  std::vector<T> rest_;         // speeds 0
   std::vector<T> least_slope_;  // least slope of a motor that is not at its limit; 0 for a motor without a slope
   const Actuator* actuator_;
   std::vector<BasicDcMotor<T>> dc_;  // empty if the actuator plugin is called
   std::vector<Friction> friction_;   // empty without friction
-  std::vector<T> rest_;              // speeds 0
   bool creeps_ = false;
 };
 

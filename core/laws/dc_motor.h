@@ -17,18 +17,20 @@ namespace gaitlab {
 ///     T = eta^s Kt i n, s = w sign(i) / reversal_speed within [-1, 1]
 /// The efficiency is then eta while the motor drives and 1 / eta while it is back-driven, and the loss in the gear (1 - eta^s)
 /// Kt i n w is never negative. A torque that jumps at w = 0 would make any explicit method chatter. `reversal_speed` smooths
-/// the jump, as v_lim does for friction.
+/// the jump, as v_lim does for friction. Implicit methods have `jumps` = 1 instead: s is the sign of w i. At w = 0 the torque
+/// is any between those of both sides, and the joint can stick.
 template <class V>
 struct BasicDcMotor {
   V R = 1.0, Kt = 0.0, Ks = 0.0, gear = 1.0, efficiency = 1.0, u_max = 0.0, i_max = 0.0;
-  V reversal_speed = 0.0;  ///< joint speed, rad/s; 0 for eq. 2 as printed
+  V reversal_speed = 0.0;  ///< joint speed, rad/s; 0 for eq. 2 as printed, or if the efficiency jumps
+  V jumps = 0.0;           ///< 1 for a directional efficiency that jumps at rest, otherwise 0
   V back_emf_damping = Kt * Ks * gear * gear / R;
   V log_efficiency = math::log(efficiency);  ///< <= 0
   V driven = math::exp(-log_efficiency);  ///< 1 / eta, with the rounding of exp(): share of a gear that is driven by its joint
   V driving = math::exp(log_efficiency);  ///< eta, with the same rounding
 
   /// All members, in their order.
-  static constexpr std::array<V BasicDcMotor::*, 12> constants() {
+  static constexpr std::array<V BasicDcMotor::*, 13> constants() {
     using M = BasicDcMotor;
     return {&M::R,
             &M::Kt,
@@ -38,13 +40,14 @@ struct BasicDcMotor {
             &M::u_max,
             &M::i_max,
             &M::reversal_speed,
+            &M::jumps,
             &M::back_emf_damping,
             &M::log_efficiency,
             &M::driven,
             &M::driving};
   }
   /// Computes the constants that follow from others, after a change of others.
-  void derive() { *this = {R, Kt, Ks, gear, efficiency, u_max, i_max, reversal_speed}; }
+  void derive() { *this = {R, Kt, Ks, gear, efficiency, u_max, i_max, reversal_speed, jumps}; }
 
   struct Effort {
     V torque;                        ///< N m
@@ -59,21 +62,29 @@ struct BasicDcMotor {
     [[nodiscard]] V saturation() const { return math::select(limited, V(2.0), math::select(clamped, V(1.0), V(0.0))); }
   };
 
-  [[nodiscard]] Effort operator()(const V& command, const V& speed) const { return at(command, speed, i_max); }
+  /// An efficiency that jumps is 1 at rest, between those of both sides.
+  [[nodiscard]] Effort operator()(const V& command, const V& speed) const { return on(sign(speed), command, speed); }
+  /// Effort by the law of one side of a jump, 1 (w >= 0) or -1 (w <= 0), which goes on past rest.
+  [[nodiscard]] Effort on(const V& side, const V& command, const V& speed) const { return at(side, command, speed, i_max); }
   /// Effort without the current limit.
   [[nodiscard]] Effort unlimited(const V& command, const V& speed) const {
-    return at(command, speed, std::numeric_limits<double>::infinity());
+    return at(sign(speed), command, speed, std::numeric_limits<double>::infinity());
   }
 
  private:
-  [[nodiscard]] Effort at(const V& command, const V& speed, const V& largest) const {
+  static V sign(const V& speed) {
+    const V zero = 0.0;
+    const V one = 1.0;
+    return math::select(speed > zero, one, math::select(speed < zero, -one, zero));
+  }
+  [[nodiscard]] Effort at(const V& side, const V& command, const V& speed, const V& largest) const {
     using math::select;
     const V u = math::clamp(command, -u_max, u_max);
     const V emf = Ks * gear * speed;
     const V wanted = (u - emf) / R;
     const V current = math::clamp(wanted, -largest, largest);
     const auto limited = math::abs(wanted) > largest;
-    const Share share = gear_share(current, speed);
+    const Share share = gear_share(side, current, speed);
     const V torque = share.eta * Kt * current * gear;
     const V voltage = select(limited, R * current + emf, u);
     const V drawn = voltage * current;
@@ -93,7 +104,20 @@ struct BasicDcMotor {
     V eta;    ///< T / (Kt i n)
     V slope;  ///< -d eta / d(w sign(i)), s/rad
   };
-  [[nodiscard]] Share gear_share(const V& current, const V& speed) const {
+  [[nodiscard]] Share gear_share(const V& side, const V& current, const V& speed) const {
+    using math::select;
+    const V zero = 0.0;
+    const V one = 1.0;
+    const auto jump = jumps > zero;
+    if (math::any_lane(jump)) {
+      const V along = select(current < zero, -side, side);
+      const V eta = select(along > zero, driving, select(along < zero, driven, one));
+      const Share smooth = smooth_share(current, speed);
+      return {select(jump, eta, smooth.eta), select(jump, zero, smooth.slope)};
+    }
+    return smooth_share(current, speed);
+  }
+  [[nodiscard]] Share smooth_share(const V& current, const V& speed) const {
     using math::select;
     const V zero = 0.0;
     const V one = 1.0;

@@ -21,6 +21,17 @@ struct DerivedLimits final : Fields {
   void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
 };
 
+/// True if the integrator is implicit in the motors, so that the law of a gear may jump.
+bool implicit(const Scenario& scenario) {
+  return scenario.physics.integrator != nullptr && !scenario.physics.integrator->limited;
+}
+
+DcMotor with_jump(DcMotor motor) {
+  motor.jumps = 1;
+  motor.reversal_speed = 0;
+  return motor;
+}
+
 DcMotor built(DcMotor motor, const MotorBuild& build, bool limited_at_stall) {
   motor.R *= build.R;
   motor.Kt *= build.Kt;
@@ -49,7 +60,8 @@ class BuiltMotors final : public MotorBank {
       for (std::size_t l = 0; l < lanes.size(); ++l) {
         const std::size_t i = j * lanes.size() + l;
         const MotorBuild build = motor_build(lanes[l]->as_built, j);
-        const DcMotor& motor = drawn.dc_motors()[i];
+        DcMotor motor = drawn.dc_motors()[i];
+        if (motor.reversal_speed > 0 && implicit(*lanes[l])) motor = with_jump(motor);
         add(build == MotorBuild() ? motor : built(motor, build, !(limits[l].i_max[j] > 0)), inertia.empty() ? 0 : inertia[i],
             ratings.empty() ? DriveRatings() : ratings[i], friction.empty() ? JointFriction() : built(friction[i], build));
       }
@@ -75,7 +87,10 @@ std::unique_ptr<Actuator> make_motors(std::span<const Scenario* const> lanes) {
   for (const Scenario* lane : lanes) selections.push_back(&lane->actuator);
   std::unique_ptr<Actuator> drawn = make_actuator(selections, info(*lanes[0]->robot));
   const bool differ = std::ranges::any_of(lanes, [](const Scenario* lane) { return motors_differ(lane->as_built); });
-  if (drawn == nullptr || !differ || drawn->dc_motors() == nullptr) return drawn;
+  if (drawn == nullptr || drawn->dc_motors() == nullptr) return drawn;
+  const std::span<const DcMotor> motors(drawn->dc_motors(), lanes[0]->robot->joints.size() * lanes.size());
+  const bool jump = implicit(*lanes[0]) && std::ranges::any_of(motors, [](const DcMotor& m) { return m.reversal_speed > 0; });
+  if (!differ && !jump) return drawn;
   return std::make_unique<BuiltMotors>(*drawn, lanes);
 }
 

@@ -99,9 +99,9 @@ class Plant {
   virtual void change_joints(In /*hold*/, In /*since*/) {
     throw std::logic_error("this engine cannot simulate faults of motors and hinges");
   }
-  /// Adds the friction of driven joints at the present state to their motor torques under these commands: of a joint at rest
-  /// what holds it there, as far as friction can. Returns false and adds nothing if the integrator is explicit, with the law
-  /// CreepingFriction.
+  /// Adds the friction of driven joints at the present state to their motor torques under these commands. A joint at rest has
+  /// the torque that holds it there, as far as friction and gear can. Returns false and adds nothing if the integrator is
+  /// explicit, with the law CreepingFriction.
   virtual bool add_friction(In /*command*/, Out /*torque*/) { return false; }
   /// nullptr if the actuator evaluates its laws itself.
   [[nodiscard]] virtual MotorLaws* motor_laws() { return nullptr; }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/laws/dc_motor.h"
 #include "core/scenario/built_robot.h"
 #include "core/simulation/lane.h"
 #include "core/simulation/start.h"
@@ -59,6 +60,9 @@ Simulation::Simulation(std::span<const Scenario> lanes, Records records, Role ro
        {&voltage_, &current_, &saturation_, &power_in_, &copper_, &gear_, &torque_, &slope_, &friction_, &dry_}) {
     values->assign(layout_.joints * lanes_.size(), 0.0);
   }
+  const DcMotor* const motors = actuator_ == nullptr ? nullptr : actuator_->dc_motors();
+  rubs_ = actuator_ != nullptr && !actuator_->friction().empty();
+  for (std::size_t i = 0; motors != nullptr && i < torque_.size(); ++i) rubs_ = rubs_ || motors[i].jumps > 0;
   available_.assign(layout_.joints * lanes_.size(), 0.0);
   largest_.assign(layout_.joints * recorded_, 0.0);
   numbers_.assign(state_size(), 0.0);

@@ -141,10 +141,9 @@ void Simulation::evaluate_torques() {
   if (actuator_ == nullptr) return;
   const In speeds = plant_state_.subspan(layout_.speeds(), command_.size());
   actuator_->effort(command_, speeds, torque_, slope_);
-  const std::span<const JointFriction> friction = actuator_->friction();
-  if (friction.empty()) return;
+  if (!rubs_) return;
   std::ranges::copy(torque_, friction_.begin());
-  if (!plant_->add_friction(command_, torque_)) add_creeping(friction, speeds, torque_, slope_);
+  if (!plant_->add_friction(command_, torque_)) add_creeping(actuator_->friction(), speeds, torque_, slope_);
   for (std::size_t i = 0; i < friction_.size(); ++i) friction_[i] = torque_[i] - friction_[i];
 }
 

@@ -164,6 +164,7 @@ class Simulation {
   Out plant_state_, plant_history_, setpoint_, command_;  ///< parts of state_; the last two by joint * lanes + lane
   std::vector<double> voltage_, current_, saturation_, power_in_, copper_, gear_, torque_, slope_, friction_, dry_, available_,
       largest_;                               ///< scratch by joint * lanes + lane; largest_ has the recorded lanes only
+  bool rubs_ = false;                         ///< true if a joint has friction, or a gear whose torque jumps at rest
   FirstLanes first_;                          ///< entries of the recorded lanes
   std::vector<double> saved_;                 ///< scratch: copy of state_ while a row or loads within a step are recorded
   std::vector<double> end_, history_at_end_;  ///< scratch: plant at the end of a step while the loads within it are measured

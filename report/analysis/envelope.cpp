@@ -91,6 +91,12 @@ void AvailableTorque::at(In speed, Out most, Out least) const {
   std::vector<double> slope(speed.size());
   actuator_->effort(most_, speed, most, slope);
   actuator_->effort(least_, speed, least, slope);
+  const DcMotor* const motors = actuator_->dc_motors();
+  for (std::size_t j = 0; motors != nullptr && j < speed.size(); ++j) {
+    if (speed[j] != 0) continue;  // at rest, the loss of the gear helps to hold
+    most[j] = motors[j].on(-1, most_[j], 0).torque;
+    least[j] = motors[j].on(1, least_[j], 0).torque;
+  }
   const std::span<const JointFriction> friction = actuator_->friction();
   for (std::size_t j = 0; j < friction.size(); ++j) {
     most[j] += friction_along(friction[j], speed[j], 1);

@@ -80,6 +80,8 @@ RUNS = {
     "rubble, adaptive": ("rubble", ["duration=4", "physics.engine=articulated", "ground.boxes.0.friction=0.3"], checks.ALL),
     "pendulum, rk4": ("pendulum", ["duration=3"], checks.ALL),
     "limits, adaptive": (LIMITS, ["physics.engine=articulated"], checks.ALL),
+    "friction, adaptive": (LIMITS.replace("directional", "directional\n  dry_friction: [0.1, 0, 0.2, 0.05, 0.1, 0.3, 0.1, 0.2]\n"
+                                          "  viscous_friction: 0.05"), ["physics.engine=articulated"], checks.ALL),
     "limits, bullet": (LIMITS, ["duration=0.6", "physics.step=5e-6"], checks.ALL),
     "Hertz, adaptive": (LIMITS, ["physics.engine=articulated", "controller.anti_windup=false", "contact.stiffness=4e5",
                                  "contact.exponent=1.5", "contact.damping=3e3", "contact.damping_exponent=0.5",
@@ -124,7 +126,7 @@ RUNS = {
 }
 # Situations that must have occurred. Otherwise a line could pass without samples.
 MUST = (
-    "motors below their limits", "motors at the voltage limit", "motors at the current limit", "directional gears driven backwards",
+    "motors below their limits", "motors at the voltage limit", "motors at the current limit", "directional gears driven backwards", "joints that stick",
     "integrals held by anti-windup", "integrals without anti-windup", "phases off the limit cycle", "stops that push",
     "stops that would pull", "points that stick", "points that slide", "spheres that stick", "spheres that slide",
     "contacts that would pull", "contacts on boxes", "Hertz contacts", "explicit steps", "Runge-Kutta steps", "implicit steps away from corners",
@@ -183,7 +185,10 @@ MUTANTS = (
     ("efficiency 0.7 both ways", "limits, adaptive", checks.motors, "eq. 2", put("actuator", "efficiency_model", value="paper")),
     ("stall_torque + 0.1 %", "servo", checks.motors, "eq. 2", scaled("actuator", "stall_torque", by=1.001)),
     ("no_load_speed + 0.1 %", "servo", checks.motors, "eq. 1", scaled("actuator", "no_load_speed", by=1.001)),
-    ("turn_speed + 1 %", "limits, adaptive", checks.motors, "eq. 2, directional", scaled("actuator", "turn_speed", by=1.01)),
+    ("dry_friction + 0.1 %", "friction, adaptive", checks.motors, "eq. 2, directional", scaled("actuator", "dry_friction", by=1.001)),
+    ("viscous_friction + 0.1 %", "friction, adaptive", checks.motors, "eq. 2, directional", scaled("actuator", "viscous_friction", by=1.001)),
+    ("less dry friction at rest", "friction, adaptive", checks.motors, "torque at rest", scaled("actuator", "dry_friction", by=0.5)),
+    ("turn_speed + 1 %", "limits, bullet", checks.motors, "eq. 2, directional", scaled("actuator", "turn_speed", by=1.01)),
     ("Kp + 0.1 %", "limits, adaptive", checks.controllers, "eq. 3", scaled("controller", "Kp", by=1.001)),
     ("Ki + 0.1 %", "limits, adaptive", checks.controllers, "eq. 4", scaled("controller", "Ki", by=1.001)),
     ("anti-windup looks at this tick's error", "limits, adaptive", checks.controllers, "eq. 4", rule("anti-windup", "this")),

@@ -34,9 +34,9 @@ TEST_P(Events, AreMetByTheSteps) {
   validate_below({"limits.events", "events within a step, torque at rows: worst joint, RMS over its peak",
                   "engine articulated at 50 us, order 2", ""},
                  torque_error(ours, truth), 0.01, "required: 1 %");
-  // A larger error is possible at the default accuracy, but the estimate shows it.
+  // A larger error is possible at the default accuracy, but the estimate shows it, to a factor of 2.
   const Recording usual = run(made({}));
-  EXPECT_LE(torque_error(usual, truth), std::max(0.01, std::ranges::max(report::torque_errors(usual))));
+  EXPECT_LE(torque_error(usual, truth), std::max(0.01, 2 * std::ranges::max(report::torque_errors(usual))));
 }
 
 // The errors were 5.7 %, 4.2 % and 5.1 % before the shortest step became H / 64 and undamped forces got a separate tolerance.

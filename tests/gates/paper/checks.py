@@ -14,7 +14,8 @@ LINES = {
     "eq. 1, terminals": ("voltage = R i + Ks n w", *FEW),
     "eq. 1, limits": ("saturation 0, 1, 2 (samples that differ)", 0, "a choice, no arithmetic"),
     "eq. 2": ("torque = eta Kt i n", *FEW),
-    "eq. 2, directional": ("torque = eta^s Kt i n, s = w sign(i) / w_t", 64 * EPS, "eight operations and a power, good to some units"),
+    "eq. 2, directional": ("torque = eta^s Kt i n, s = w sign(i) / w_t or sign(w i)", 64 * EPS, "eight operations and a power, good to some units"),
+    "torque at rest": ("between eta Kt i n - F and Kt i n / eta + F", 1e-8, "torques of a solve are 1e-9 of the largest at rest"),
     "eq. 3": ("command of joints with Kp alone", *FEW),
     "eq. 4": ("command less Kp e, of joints without Kd: I and anti-windup", 2e-13, "one rounding a tick, up to 800 ticks"),
     "eq. 5": ("command less Kp e, of joints without Ki: D", 2e-13, "as eq. 4"),
@@ -106,7 +107,14 @@ def motors(gate, run, rules):
     i = run.joints("current")
     gate.see("eq. 1, terminals", run, run.joints("voltage") - (motor.R * i + motor.Ks * motor.n * w), motor.R * np.abs(i) + emf)
     torque = motor.torque(i, w)
-    gate.see("eq. 2, directional" if motor.directional else "eq. 2", run, run.joints("torque") - torque, np.abs(torque))
+    jumps = (motor.directional | (motor.dry > 0)) & (not motor.explicit)
+    turns = ~(jumps & (w == 0))
+    size = np.abs(torque - motor.friction(w)) + np.abs(motor.friction(w))
+    gate.see("eq. 2, directional" if motor.directional else "eq. 2", run, run.joints("torque") - torque, size, where=turns)
+    least, most = motor.at_rest(i)
+    beyond = np.maximum(least - run.joints("torque"), run.joints("torque") - most)
+    gate.see("torque at rest", run, np.maximum(beyond, 0), np.abs(least) + np.abs(most), where=~turns)
+    gate.cover("joints that stick", run, (~turns).sum())
     gate.cover("motors below their limits", run, (saturation == 0).sum())
     gate.cover("motors at the voltage limit", run, (saturation == 1).sum())
     gate.cover("motors at the current limit", run, (saturation == 2).sum())
@@ -290,7 +298,8 @@ def bodies(gate, run, rules):
     gate.see("potential energy", run, potential - run["energy.potential"], weight * (1 + size))
     energy = kinetic + potential + (laws.Motor(run).reflected * run.joints("speed") ** 2).sum(1) / 2
     gate.see("stored", run, energy - energy[0] - run["energy.stored"], weight * (1 + size) + mass * speed**2)
-    parts = [run[f"energy.{part}"] for part in ("electrical", "copper", "gear", "stored", "contact", "friction", "stops", "residual")]
+    names = ("electrical", "copper", "gear", "stored", "contact", "friction", "stops", "residual", "dry")
+    parts = [run[f"energy.{part}"] for part in names if f"energy.{part}" in run.index]
     gate.see("ledger", run, parts[0] - sum(parts[1:]), sum(map(np.abs, parts)))
 
 

@@ -3,6 +3,7 @@ import numpy as np
 
 EPS = np.finfo(float).eps
 STOP_STIFFNESS, STOP_DAMPING = 50.0, 0.5  # docs/equations.md, 2
+CREEP = 0.1  # rad/s; docs/equations.md, 3: friction under explicit integrators
 
 
 class Motor:
@@ -29,6 +30,8 @@ class Motor:
         motor = self.type in ("dc_motor", "servo")
         if motor:
             self.directional, self.turn_speed = section["efficiency_model"] == "directional", float(section["turn_speed"])
+        self.explicit = run.scenario["physics"]["integrator"] in ("semi_implicit", "rk4")
+        self.dry, self.viscous = (run.per_joint(section.get(key, 0.0)) for key in ("dry_friction", "viscous_friction"))
         self.reflected = self.n**2 * self.rotor if motor else np.zeros(run.n)  # adds to the joint's inertia
         self.command_limit = self.u_max if motor else self.limit if self.type == "torque" else np.full(run.n, np.inf)
 
@@ -42,11 +45,21 @@ class Motor:
         """Efficiency eta, or eta^s of docs/equations.md, 3."""
         if not self.directional:
             return np.broadcast_to(self.eta, i.shape)
-        return self.eta ** np.clip(w * np.sign(i) / self.turn_speed, -1, 1)
+        return self.eta ** (np.clip(w * np.sign(i) / self.turn_speed, -1, 1) if self.explicit else np.sign(w * i))
 
     def torque(self, i, w):
-        """Torque by eq. 2."""
-        return self.efficiency(i, w) * self.Kt * i * self.n
+        """Torque by eq. 2, less friction."""
+        return self.efficiency(i, w) * self.Kt * i * self.n + self.friction(w)
+
+    def friction(self, w):
+        """Torque of dry and viscous friction of a joint that turns."""
+        return -self.dry * (np.tanh(w / CREEP) if self.explicit else np.sign(w)) - self.viscous * w
+
+    def at_rest(self, i):
+        """Least and largest torque of a joint at rest under an implicit integrator."""
+        shaft = self.Kt * i * self.n
+        sides = (self.eta * shaft, shaft / self.eta) if self.directional else (self.eta * shaft, self.eta * shaft)
+        return np.minimum(*sides) - self.dry, np.maximum(*sides) + self.dry
 
     def damping(self, command, i, w):
         """Slope -dT/dw of the torque; 0 while the current is limited."""
@@ -54,7 +67,8 @@ class Motor:
         if self.directional:
             e = self.efficiency(i, w)
             b = e * (self.Kt * self.Ks * self.n**2 / self.R)
-            b = b + e * self.Kt * np.abs(i) * self.n * np.abs(np.log(self.eta)) / self.turn_speed
+            if self.explicit:
+                b = b + e * self.Kt * np.abs(i) * self.n * np.abs(np.log(self.eta)) / self.turn_speed
         return np.where(self.current(command, w)[1] == 2, 0.0, b)
 
 

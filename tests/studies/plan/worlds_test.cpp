@@ -78,7 +78,7 @@ TEST(Worlds, ChangeOneNumberEach) {
   const std::vector<Scenario> made = in_each(robot_of_two(""));
   const DcMotor drawn = motors_of(own).front();
   constexpr double kRounding = 1e-14;
-  for (const Scenario& one : made) EXPECT_GT(motors_of(one).front().reversal_speed, 0);
+  for (const Scenario& one : made) EXPECT_GT(motors_of(one).front().jumps, 0);
   EXPECT_NEAR(motors_of(made[2]).front().R, 0.95 * drawn.R, kRounding);
   EXPECT_NEAR(motors_of(made[5]).front().Kt, 1.05 * drawn.Kt, kRounding);
   EXPECT_NEAR(motors_of(made[5]).front().Ks, 1.05 * drawn.Ks, kRounding);
@@ -95,7 +95,7 @@ TEST(Worlds, OfAServoAreThoseOfItsMotor) {
   constexpr double kRounding = 1e-14;
   EXPECT_NEAR(motors_of(made[3]).front().R, 1.05 * drawn.R, kRounding * drawn.R);
   EXPECT_NEAR(motors_of(made[8]).front().u_max, 5.4, kRounding);
-  EXPECT_GT(motors_of(made[0]).front().reversal_speed, 0);
+  EXPECT_GT(motors_of(made[0]).front().jumps, 0);
   EXPECT_EQ(world(scenario(text), "supply -10 %").number, "5.4 V") << "voltage, which is u_max";
   EXPECT_EQ(that_apply(scenario(text)).size(), studies::kWorlds);
 }
@@ -119,7 +119,7 @@ TEST(Worlds, OfSeveralModuleTypes) {
     const Scenario made = shipped("library/revolve-spider.yaml", one.sets);
     const std::vector<DcMotor> motors = motors_of(made);
     for (std::size_t j = 0; j < motors.size(); ++j) {
-      EXPECT_TRUE(!made.robot->joints[j].driven() || motors[j].reversal_speed > 0) << one.name;
+      EXPECT_TRUE(!made.robot->joints[j].driven() || motors[j].jumps > 0) << one.name;
     }
   }
 }

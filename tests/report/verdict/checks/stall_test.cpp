@@ -35,7 +35,7 @@ TEST(Stall, AMotorHoldsNoMoreThanItsSheetSays) {
   EXPECT_EQ(fails.status, CheckStatus::fail) << fails.text;
   EXPECT_EQ(made.word, Word::infeasible);
   EXPECT_EQ(made.decided_by, "stall");
-  EXPECT_TRUE(contains(fails.text, "joint m0/shoulder has a stall torque of 0.39 N m and holds 0.477 N m at rest"))
+  EXPECT_TRUE(contains(fails.text, "joint m0/shoulder has a stall torque of 0.39 N m and holds 0.478 N m at rest"))
       << fails.text;
   EXPECT_EQ(fails.first_part, "m0/shoulder");
   EXPECT_EQ(held_by("0.32").status, CheckStatus::warn);
